@@ -353,7 +353,7 @@ static const struct {
     {"KEY=VALUE,...", put_sweep},  {"KEY=VALUE;...", put_variant},
     {"TEMPLATE", put_templates},   {"STAGE", put_stages},
     {"FIGURE", put_files},         {"SUITE", put_suites},
-    {"STREAM", put_events},
+    {"STREAM", put_events},        {"JOBS", put_files},
 };
 
 static void put_meaning(struct value *value, const char *placeholder, size_t length)

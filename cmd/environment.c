@@ -13,6 +13,8 @@ const struct variable variables[] = {
     {"KILN_LIBEXEC_DIR", "The folder of kiln-decode, which reads pictures, videos and meshes, "
                          "where it is not beside the program."},
     {"KILN_SHADER_DIR", "Read shaders from this folder instead of those in the program."},
+    {"KILN_BATCH_PROCESS",
+     "Set by 'kiln render --batch' for its jobs: the process that they end with."},
     {"XDG_CACHE_HOME",
      "What takes long to make (flipbooks, distance fields of meshes) is kept in its folder kiln, "
      "instead of in that of ~/.cache, and serves later jobs; /dev/null: nothing is."},

@@ -129,6 +129,8 @@ static const struct topic topics[] = {
     {"templates", "scenes to begin with, for 'kiln new'", kiln_write_templates},
     {"outputs", "what can be written, by suffix", kiln_write_outputs},
     {"tests", "every key of a test file, and the reports", write_tests},
+    {"jobs", "every key of a file of jobs, for 'kiln render --batch'", kiln_batch_write_reference},
+    {"jobs-schema", "the JSON schema of such files, for editors", kiln_batch_write_schema},
     {"events", "what --events tells other programs", help_write_events},
     {"events-schema", "the JSON schema of events", help_write_events_schema},
     {"exit-codes", "what each exit code means", write_exit_codes},

@@ -1,7 +1,9 @@
 /* The program: picks the subcommand, reads its options, runs it. */
 #include <fcntl.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include "build.h"
@@ -79,6 +81,18 @@ static void occupy_standard_streams(void)
     }
 }
 
+/* A job of --batch ends with the process that began it, also when that is killed. */
+static void follow_batch(void)
+{
+    const char *parent = getenv("KILN_BATCH_PROCESS");
+    uint64_t process;
+    if (!parent || !kiln_text_to_uint64(parent, &process) || process != (uint64_t)getppid())
+        return;
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (process != (uint64_t)getppid()) /* it died before that */
+        raise(SIGTERM);
+}
+
 static int check_operands(const struct command *command, const struct arguments *arguments)
 {
     if (arguments->operand_count < command->least_operands)
@@ -122,9 +136,11 @@ static int run_command(const struct command *command, int argc, char **argv)
         struct limits limits = {.budget = NULL};
         if (code == 0) /* a file of events may lie where a sandbox does not let write */
             code = events_open(command, &arguments);
-        if (code == 0 && has_option(command, "sandbox")) /* before there are threads */
+        /* A batch gives both to its jobs, and must start them. */
+        const bool is_batch = arguments_last(&arguments, "batch") != NULL;
+        if (code == 0 && !is_batch && has_option(command, "sandbox")) /* before there are threads */
             code = sandbox_enter(command, &arguments, &arguments.sandboxed);
-        if (code == 0 && has_option(command, "limits"))
+        if (code == 0 && !is_batch && has_option(command, "limits"))
             code = limits_begin(&limits, command->name, &arguments);
         arguments.budget = limits.budget;
         if (code == 0)
@@ -153,6 +169,7 @@ static int unknown_command(const char *name)
 int main(int argc, char **argv)
 {
     occupy_standard_streams();
+    follow_batch();
     signal(SIGCHLD,
            SIG_DFL); /* ignored by whoever starts kiln, how kiln-decode ends would be lost */
     signal(SIGPIPE, SIG_IGN); /* failed writes are reported as such, */

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "batch.h"
 #include "build.h"
 #include "command.h"
 #include "device.h"
@@ -103,6 +104,8 @@ static const struct option options[] = {
      .kind = OPTION_FLAG,
      .help = "Render the other scenes, too, after one that failed. The exit code is then the "
              "greatest of all."},
+    BATCH_OPTION,
+    JOBS_OPTION,
     LIMITS_OPTION,
     TIMEOUT_OPTION,
     SANDBOX_OPTION,
@@ -430,6 +433,12 @@ static int load(struct render *render, const struct arguments *arguments)
 static int run(const struct arguments *arguments)
 {
     struct render render = {0};
+    if (arguments_last(arguments, "batch"))
+        return batch_run(arguments);
+    if (arguments->operand_count == 0)
+        return report(KILN_USAGE, "render: needs SCENE...");
+    if (arguments_last(arguments, "jobs"))
+        return report(KILN_USAGE, "render: --jobs: there is no --batch to apply it to");
     signals_install_for_job();
     int code = read_options(&render, arguments) ? 0 : report_no_memory();
     if (code == 0)
@@ -470,7 +479,7 @@ const struct command render_command = {
         "Programs follow a job by --events ('kiln help events').",
     .options = options,
     .option_count = sizeof options / sizeof *options,
-    .least_operands = 1,
+    .least_operands = 0, /* with --batch */
     .most_operands = SIZE_MAX,
     .reach = REACH_READ,
     .run = run,

@@ -1,6 +1,5 @@
 /* kiln test: do scenes still give the pictures that were accepted? Finds the tests, runs each in a
  * process of its own, tells what became of them in the order of their names, and writes reports. */
-#include <sched.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -110,9 +109,14 @@ struct test_run {
 
 /* ---- One test ------------------------------------------------------------------------------- */
 
-static struct test_task task_of(void *user, size_t index)
+struct test_task {
+    const char *log;     /* the file that gets what its process prints */
+    double time_limit_s; /* of the wall clock */
+};
+
+/* The log's name lasts until the next call. */
+static struct test_task task_of(struct test_run *run, size_t index)
 {
-    struct test_run *run = user;
     struct kiln_test_info test = kiln_suite_test(run->suite, index);
     snprintf(run->log, sizeof run->log, "%s/log.txt", test.results);
     return (struct test_task){.log = run->log,
@@ -135,8 +139,16 @@ static int run_test(void *user, size_t index)
     return (int)error.code;
 }
 
+static pid_t start_test(void *user, size_t index, struct pool_start *start)
+{
+    struct test_run *run = user;
+    const struct test_task task = task_of(run, index);
+    start->time_limit_s = task.time_limit_s;
+    return test_pool_start(start, task.log, run_test, run, index);
+}
+
 /* Why the process has left no result to believe in; false when it has. */
-static bool describe_failure(const struct test_end *end, double time_limit_s,
+static bool describe_failure(const struct pool_end *end, double time_limit_s,
                              char text[KILN_MESSAGE_SIZE])
 {
     if (end->problem[0])
@@ -159,7 +171,7 @@ static bool describe_failure(const struct test_end *end, double time_limit_s,
 }
 
 /* Takes a test for an error whose process did not say so itself. */
-static void record_failure(struct test_run *run, size_t index, const struct test_end *end,
+static void record_failure(struct test_run *run, size_t index, const struct pool_end *end,
                            const char *cause)
 {
     struct kiln_test_summary *summary = &run->summaries[index];
@@ -186,7 +198,7 @@ static void print_ended(struct test_run *run)
         test_lines_test(&run->lines, run->suite, run->printed, &run->summaries[run->printed]);
 }
 
-static void end_test(void *user, size_t index, const struct test_end *end)
+static void end_test(void *user, size_t index, const struct pool_end *end)
 {
     struct test_run *run = user;
     char cause[KILN_MESSAGE_SIZE];
@@ -245,33 +257,26 @@ static int finish(struct test_run *run, struct test_outputs *outputs, double tot
 
 static int run_tests(struct test_run *run, struct test_outputs *outputs)
 {
-    const struct test_pool pool = {.count = run->count,
-                                   .jobs = run->jobs,
-                                   .task = task_of,
-                                   .run = run_test,
-                                   .ended = end_test,
-                                   .stop = signals_wants_stop,
-                                   .user = run};
+    const struct pool pool = {.count = run->count,
+                              .jobs = run->jobs,
+                              .start = start_test,
+                              .ended = end_test,
+                              .stop = signals_wants_stop,
+                              .user = run};
     struct kiln_error error = {0};
     double started_s = now_s();
     signals_install();
-    if (test_pool_run(&pool, &error))
+    if (pool_run(&pool, &error))
         return finish(run, outputs, now_s() - started_s);
     return error.code == KILN_INTERRUPTED
                ? signals_report("test", " after %zu of %zu tests", run->ended_count, run->count)
                : report_error(&error);
 }
 
-static uint32_t core_count(void)
-{
-    cpu_set_t set;
-    return sched_getaffinity(0, sizeof set, &set) == 0 ? (uint32_t)CPU_COUNT(&set) : 1;
-}
-
 /* How many tests run at a time, and how many threads each has. */
 static void share_cores(struct test_run *run, const struct arguments *arguments)
 {
-    uint32_t cores = core_count();
+    uint32_t cores = pool_cores();
     uint32_t jobs = arguments_integer(arguments, "jobs", cores);
     jobs = jobs > run->count ? (uint32_t)run->count : jobs;
     run->jobs = jobs > 0 ? jobs : 1;

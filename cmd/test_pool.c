@@ -1,69 +1,44 @@
 /* Forks without exec: the parent has neither threads nor a device, so a child can go on from where
- * it stands. Each child leads a process group of its own: Ctrl-C in a terminal reaches the parent
- * alone, which then ends its children. When the parent is killed, the kernel does that.
- *
- * The parent sleeps in sigtimedwait, with SIGCHLD blocked at all other times: the end of a child
- * cannot fall between a look and a sleep. */
+ * it stands. When the parent is killed, the kernel ends its children. */
 #include "test_pool.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/prctl.h>
-#include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "signals.h"
 #include "test_files.h"
-#include "watch.h"
-
-/* A child that was asked to end gets that long before it is killed, and the system that long to
- * find room for a process when nothing else runs. */
-static const double GRACE_S = 2, REFUSAL_S = 5;
-static const double LONGEST_SLEEP_S = 0.25;
 
 struct child {
-    pid_t id; /* 0: none */
+    const struct pool_start *start;
+    pid_t parent;
+    int log;
+    int (*run)(void *user, size_t index);
+    void *user;
     size_t index;
-    double started_s, limit_s;
-    double asked_s; /* when it was asked to end; below 0: not yet */
 };
 
-struct run {
-    const struct test_pool *pool;
-    struct child *children; /* `jobs` of them */
-    size_t running;
-    size_t next;      /* the task to start next */
-    double refused_s; /* since when the system refuses processes; below 0: it does not */
-    bool stopping;
-    sigset_t old_mask; /* the signals that were blocked before */
-};
-
-/* ---- Children ------------------------------------------------------------------------------- */
-
-_Noreturn static void be_child(const struct run *run, size_t index, pid_t parent, int log)
+_Noreturn static void be_child(const struct child *child)
 {
     setpgid(0, 0);
     signals_end_at_once();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) /* it died before that */
+    if (getppid() != child->parent) /* it died before that */
         _exit(128 + SIGTERM);
     int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(log, STDOUT_FILENO) < 0 ||
-        dup2(log, STDERR_FILENO) < 0)
+    if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(child->log, STDOUT_FILENO) < 0 ||
+        dup2(child->log, STDERR_FILENO) < 0)
         _exit(KILN_IO);
-    sigprocmask(SIG_SETMASK, &run->old_mask, NULL);
-    int code = run->pool->run(run->pool->user, index);
+    sigprocmask(SIG_SETMASK, child->start->mask, NULL);
+    int code = child->run(child->user, child->index);
     fflush(stdout);
     _exit(code);
 }
 
 /* Returns the child's id, or below 0 with errno. Until it has its own handlers, a child has the
  * signals blocked that might stop it. */
-static pid_t start_child(const struct run *run, size_t index, int log)
+static pid_t start_child(const struct child *child)
 {
     sigset_t stops, before;
     sigemptyset(&stops);
@@ -72,10 +47,9 @@ static pid_t start_child(const struct run *run, size_t index, int log)
     sigaddset(&stops, SIGHUP);
     fflush(NULL);
     sigprocmask(SIG_BLOCK, &stops, &before);
-    pid_t parent = getpid();
     pid_t id = fork();
     if (id == 0)
-        be_child(run, index, parent, log);
+        be_child(child);
     int failure = errno;
     if (id > 0)
         setpgid(id, id); /* here, too: a signal to the group may come before the child does it */
@@ -84,161 +58,24 @@ static pid_t start_child(const struct run *run, size_t index, int log)
     return id;
 }
 
-static void refuse(struct run *run, enum kiln_code code, const char *what, int failure)
+pid_t test_pool_start(struct pool_start *start, const char *log,
+                      int (*run)(void *user, size_t index), void *user, size_t index)
 {
-    struct test_end end = {.exit_code = (int)code};
-    snprintf(end.problem, sizeof end.problem, "%s: %s", what, strerror(failure));
-    run->pool->ended(run->pool->user, run->next++, &end);
-}
-
-/* Starts the next task in a free place. False when the system has no room for it now. */
-static bool start_next(struct run *run, struct child *place)
-{
-    size_t index = run->next;
-    struct test_task task = run->pool->task(run->pool->user, index);
-    int log = create_log(task.log);
-    if (log < 0) {
-        refuse(run, KILN_IO, "cannot create its log file", errno);
-        return true;
+    const struct child child = {
+        .start = start,
+        .parent = getpid(),
+        .log = create_log(log),
+        .run = run,
+        .user = user,
+        .index = index,
+    };
+    if (child.log < 0) {
+        start->problem = "cannot create its log file";
+        return -1;
     }
-    pid_t id = start_child(run, index, log);
-    int failure = errno;
-    close(log);
-    double now = now_s();
-    if (id < 0) {
-        if (run->refused_s < 0)
-            run->refused_s = now;
-        if (run->running > 0 || now - run->refused_s < REFUSAL_S)
-            return false;
-        refuse(run, KILN_DEVICE_FAILED, "cannot start a process", failure);
-        return true;
-    }
-    run->next++;
-    run->refused_s = -1;
-    run->running++;
-    *place = (struct child){
-        .id = id, .index = index, .started_s = now, .limit_s = task.time_limit_s, .asked_s = -1};
-    return true;
-}
-
-static void ask_to_end(struct child *child)
-{
-    if (child->asked_s >= 0)
-        return;
-    kill(-child->id, SIGTERM);
-    child->asked_s = now_s();
-}
-
-/* Asks a child to end that is beyond its time, and makes one that does not. */
-static void watch_child(struct child *child)
-{
-    double now = now_s();
-    if (now - child->started_s > child->limit_s)
-        ask_to_end(child);
-    if (child->asked_s >= 0 && now - child->asked_s > GRACE_S)
-        kill(-child->id, SIGKILL);
-}
-
-/* Takes note of a child that has ended. */
-static void reap_child(struct run *run, struct child *child)
-{
-    int status = 0;
-    pid_t id;
-    do
-        id = waitpid(child->id, &status, WNOHANG);
-    while (id < 0 && errno == EINTR);
-    if (id == 0)
-        return;
-    /* Below 0: someone else has taken its status, so that nothing is known about it. */
-    struct test_end end = {.total_s = now_s() - child->started_s,
-                           .exit_code = KILN_DEVICE_FAILED,
-                           .timed_out = child->asked_s >= 0};
-    if (id > 0 && WIFSIGNALED(status) && !end.timed_out)
-        end.signal = WTERMSIG(status);
-    if (id > 0 && WIFEXITED(status))
-        end.exit_code = WEXITSTATUS(status);
-    child->id = 0;
-    run->running--;
-    if (!run->stopping)
-        run->pool->ended(run->pool->user, child->index, &end);
-}
-
-/* ---- The pool ------------------------------------------------------------------------------- */
-
-/* Sleeps until a child ends, something is to be done, or a moment has gone by. */
-static void sleep_until_news(const struct run *run)
-{
-    double sleep_s = LONGEST_SLEEP_S, now = now_s();
-    for (uint32_t i = 0; i < run->pool->jobs; i++) {
-        const struct child *child = &run->children[i];
-        double left_s = child->started_s + child->limit_s - now;
-        if (child->id && child->asked_s < 0 && left_s < sleep_s)
-            sleep_s = left_s > 0.001 ? left_s : 0.001;
-    }
-    sigset_t child_signal;
-    sigemptyset(&child_signal);
-    sigaddset(&child_signal, SIGCHLD);
-    sigtimedwait(&child_signal, NULL, &(struct timespec){.tv_nsec = (long)(1e9 * sleep_s)});
-}
-
-/* Fills free places. */
-static void start_children(struct run *run)
-{
-    const struct test_pool *pool = run->pool;
-    for (uint32_t i = 0; i < pool->jobs; i++) {
-        while (!run->children[i].id && run->next < pool->count) {
-            if (!start_next(run, &run->children[i]))
-                return;
-        }
-    }
-}
-
-static void watch_children(struct run *run)
-{
-    for (uint32_t i = 0; i < run->pool->jobs; i++) {
-        struct child *child = &run->children[i];
-        if (child->id)
-            reap_child(run, child);
-        if (child->id && run->stopping)
-            ask_to_end(child);
-        if (child->id)
-            watch_child(child);
-    }
-}
-
-static void work(struct run *run)
-{
-    while (run->running > 0 || (!run->stopping && run->next < run->pool->count)) {
-        run->stopping = run->stopping || run->pool->stop(run->pool->user);
-        if (!run->stopping)
-            start_children(run);
-        watch_children(run);
-        if (run->running > 0 || run->refused_s >= 0)
-            sleep_until_news(run);
-    }
-}
-
-bool test_pool_run(const struct test_pool *pool, struct kiln_error *error)
-{
-    struct run run = {.pool = pool, .refused_s = -1};
-    run.children = calloc(pool->jobs, sizeof *run.children);
-    if (!run.children) {
-        *error = (struct kiln_error){.code = KILN_DEVICE_FAILED, .message = "out of memory"};
-        return false;
-    }
-    /* Where the end of children is ignored, as some callers hand it down, their status is lost. */
-    struct sigaction action = {.sa_handler = SIG_DFL}, old_action;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGCHLD, &action, &old_action);
-    sigset_t child_signal;
-    sigemptyset(&child_signal);
-    sigaddset(&child_signal, SIGCHLD);
-    sigprocmask(SIG_BLOCK, &child_signal, &run.old_mask);
-    work(&run);
-    sigprocmask(SIG_SETMASK, &run.old_mask, NULL);
-    sigaction(SIGCHLD, &old_action, NULL);
-    free(run.children);
-    if (run.stopping)
-        *error = (struct kiln_error){.code = KILN_INTERRUPTED, .message = "stopped"};
-    return !run.stopping;
+    const pid_t id = start_child(&child);
+    const int failure = errno;
+    close(child.log);
+    errno = failure;
+    return id;
 }

@@ -125,6 +125,7 @@ bool kiln_write_shell_word(FILE *out, const char *word);
  * may not be text. Messages of errors and the log are shown already. */
 void kiln_shown(char *out, size_t room, const char *text);
 
+#include "kiln_batch.h"
 #include "kiln_bench.h"
 #include "kiln_figure.h"
 #include "kiln_json.h"

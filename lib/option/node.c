@@ -57,8 +57,8 @@ bool kiln_node_error(const struct kiln_node *node, struct kiln_error *error, con
     va_end(args);
     if (!node->origin->has_lines || node->line == 0)
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %s", node->origin->name, message);
-    return kiln_error_set(error, KILN_INVALID_INPUT, "%s:%u:%u: %s", node->origin->name, node->line,
-                          node->column, message);
+    return kiln_error_set(error, KILN_INVALID_INPUT, "%s:%u:%u: %s", node->origin->name,
+                          node->line + node->origin->lines_before, node->column, message);
 }
 
 void kiln_node_quote(char out[64], const char *text)
@@ -158,7 +158,7 @@ static bool place_node(struct builder *builder, struct kiln_node *node)
     const struct kiln_node *before = kiln_node_entry(parent, node->text);
     if (before && builder->origin->has_lines)
         return kiln_node_error(node, error, "duplicate key '%s' (first in line %u)", quoted,
-                               before->key->line);
+                               before->key->line + builder->origin->lines_before);
     if (before)
         return kiln_node_error(node, error, "duplicate key '%s'", quoted);
     *key = node;

@@ -19,9 +19,10 @@ enum {
 /* Where a text came from: a file, or "--set key". */
 struct kiln_origin {
     const char *name;
-    bool has_lines;      /* false: positions inside it mean nothing to the reader */
-    const char *kind;    /* for messages: "a scene" */
-    const char *version; /* what such a file starts with: "kiln: 1"; NULL: not told */
+    bool has_lines;        /* false: positions inside it mean nothing to the reader */
+    uint32_t lines_before; /* of the file, where the text is a part of it */
+    const char *kind;      /* for messages: "a scene" */
+    const char *version;   /* what such a file starts with: "kiln: 1"; NULL: not told */
 };
 
 enum kiln_node_kind { KILN_NODE_SCALAR, KILN_NODE_LIST, KILN_NODE_MAP };

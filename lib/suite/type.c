@@ -33,8 +33,14 @@ static void describe_override(const struct kiln_option *option, struct kiln_text
     kiln_text_add(out, "key=value, as for --set");
 }
 
-const struct kiln_option_type kiln_type_override = {.read = read_override,
-                                                    .describe = describe_override};
+static void schema_override(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "{\"type\": \"string\", \"pattern\": \"^[^=]+=\"}");
+}
+
+const struct kiln_option_type kiln_type_override = {
+    .read = read_override, .describe = describe_override, .schema = schema_override};
 
 static bool read_technique(struct kiln_reader *reader, const struct kiln_option *option,
                            const struct kiln_node *node, void *field)

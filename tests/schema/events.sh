@@ -20,6 +20,8 @@ run render $tiny -o a_%d.png --frames 0-2 --force --limits output=100
 run bake $tiny -o states --every 10 --device cpu
 run bake $tiny -o states --every 10 --device cpu --resume
 run render $tiny -o none --frames 20 --states states --set seed=9 --device cpu # of another motion: a warning
+printf '{"scene": "%s", "output": "batch_%d.png", "frames": "0"}\n{"scene": "none.yaml", "output": "x.png"}\n' $tiny >jobs.ndjson
+run render --batch jobs.ndjson --keep-going --device cpu
 run plan $tiny --device cpu
 run join b.mp4
 run encode a_%d.png -o c.mp4

@@ -6,7 +6,7 @@ BEGIN {
     rank["sim"] = rank["sort"] = rank["draw"] = rank["post"] = rank["output"] = 6
     rank["compare"] = 7; rank["frame"] = 8; rank["job"] = 9; rank["suite"] = 10
     rank["report"] = 11; rank["figure"] = 12; rank["bench"] = 13
-    rank["start"] = 14
+    rank["start"] = 14; rank["batch"] = 15
 
     # Inside of three of them.
     inner["asset/loader"] = 1; inner["asset/image"] = 2

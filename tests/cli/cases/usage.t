@@ -37,6 +37,8 @@ $ kiln
 2|  templates        scenes to begin with, for 'kiln new'
 2|  outputs          what can be written, by suffix
 2|  tests            every key of a test file, and the reports
+2|  jobs             every key of a file of jobs, for 'kiln render --batch'
+2|  jobs-schema      the JSON schema of such files, for editors
 2|  events           what --events tells other programs
 2|  events-schema    the JSON schema of events
 2|  exit-codes       what each exit code means
@@ -88,6 +90,8 @@ $ kiln --help
 1|  templates        scenes to begin with, for 'kiln new'
 1|  outputs          what can be written, by suffix
 1|  tests            every key of a test file, and the reports
+1|  jobs             every key of a file of jobs, for 'kiln render --batch'
+1|  jobs-schema      the JSON schema of such files, for editors
 1|  events           what --events tells other programs
 1|  events-schema    the JSON schema of events
 1|  exit-codes       what each exit code means
@@ -221,6 +225,12 @@ $ kiln help render
 1|      --force                 Replace files that exist.
 1|      --keep-going            Render the other scenes, too, after one that
 1|                              failed. The exit code is then the greatest of all.
+1|      --batch JOBS            Render the jobs of a file, each in a process of
+1|                              its own, instead of scenes; '-' is standard input
+1|                              (see 'kiln help jobs'). Other options hold for
+1|                              every job, unless it says something else.
+1|      --jobs N                Jobs of --batch at a time. Default: as many as
+1|                              there are cores for the threads of each.
 1|      --limits KEY=VALUE,...  End with exit code 8 before more is taken;
 1|                              'service' stands for a set of them (see 'kiln help
 1|                              limits'). Default: the environment's KILN_LIMITS.

@@ -1,0 +1,358 @@
+/* Each job is a process: kiln itself, started anew (posix_spawn) with the options of the call and
+ * those of the job. This process reads no scene and opens no device, so nothing that a job does can
+ * harm it. What scenes have in common (flipbooks, distance fields) the jobs share by the cache. */
+#include "batch.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "event.h"
+#include "pool.h"
+#include "report.h"
+#include "signals.h"
+#include "watch.h"
+
+extern char **environ;
+
+struct batch {
+    struct kiln_batch *jobs;
+    char program[KILN_PATH_SIZE]; /* this one */
+    char **shared;                /* words of the command line for every job */
+    size_t shared_count;
+    int *logs; /* of each job that runs: what it prints; -1: none */
+    bool keep_going, quiet;
+    int code; /* the greatest so far */
+    size_t failed, ended;
+};
+
+/* ---- the command line of a job --------------------------------------------------------------- */
+
+/* Options that are this process's own, and those that a job has by its file alone. */
+static bool is_own(const char *name)
+{
+    static const char *const own[] = {"batch", "jobs", "keep-going", "events", "progress", "quiet"};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
+        if (strcmp(own[i], name) == 0)
+            return true;
+    }
+    return false;
+}
+
+static int refuse_options(const struct arguments *arguments)
+{
+    static const char *const refused[] = {"output", "manifest", "shard", "pipe"};
+    if (arguments->operand_count > 0)
+        return report(KILN_USAGE, "render: --batch: not with a scene; its file names them");
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        if (arguments_last(arguments, refused[i]))
+            return report(KILN_USAGE,
+                          "render: --%s: not with --batch, whose file says it of each job",
+                          refused[i]);
+    }
+    return 0;
+}
+
+static char *word_of(const struct option_use *use)
+{
+    char *word = NULL;
+    const int length = use->text ? asprintf(&word, "--%s=%s", use->option->name, use->text)
+                                 : asprintf(&word, "--%s", use->option->name);
+    return length < 0 ? NULL : word;
+}
+
+static bool share_options(struct batch *batch, const struct arguments *arguments)
+{
+    batch->shared = calloc(arguments->use_count + 1, sizeof *batch->shared);
+    if (!batch->shared)
+        return false;
+    for (size_t i = 0; i < arguments->use_count; i++) {
+        const struct option_use *use = &arguments->uses[i];
+        if (is_own(use->option->name))
+            continue;
+        char *word = word_of(use);
+        if (!word)
+            return false;
+        batch->shared[batch->shared_count++] = word;
+    }
+    return true;
+}
+
+/* Words that a job adds to those of all; they are freed with it. */
+struct command_line {
+    char **words; /* with a NULL at the end */
+    size_t count, borrowed;
+    bool failed;
+};
+
+static void add(struct command_line *line, const char *name, const char *value)
+{
+    char *word = NULL;
+    if (!value)
+        return;
+    if (asprintf(&word, "%s%s", name, value) < 0) {
+        line->failed = true;
+        return;
+    }
+    line->words[line->count++] = word;
+}
+
+static struct command_line line_of(const struct batch *batch, const struct kiln_batch_job *job)
+{
+    enum { OWN_WORDS = 16 };
+    struct command_line line = {
+        .words = calloc(batch->shared_count + job->override_count + OWN_WORDS, sizeof *line.words)};
+    if (!line.words) {
+        line.failed = true;
+        return line;
+    }
+    line.words[line.count++] = (char *)"kiln";
+    line.words[line.count++] = (char *)"render";
+    for (size_t i = 0; i < batch->shared_count; i++)
+        line.words[line.count++] = batch->shared[i];
+    line.borrowed = line.count;
+    add(&line, "--quiet", "");
+    add(&line, "--output=", job->output);
+    add(&line, "--asset-root=", job->asset_root);
+    add(&line, "--states=", job->states);
+    add(&line, "--manifest=", job->manifest);
+    add(&line, "--frames=", job->frames);
+    add(&line, "--limits=", job->limits);
+    char timeout[32];
+    snprintf(timeout, sizeof timeout, "%.3f", job->timeout_s);
+    add(&line, "--timeout=", job->timeout_s > 0 ? timeout : NULL);
+    for (size_t i = 0; i < job->override_count; i++)
+        add(&line, "--set=", job->overrides[i]);
+    add(&line, "--", "");
+    add(&line, "", job->scene);
+    return line;
+}
+
+static void free_line(struct command_line *line)
+{
+    for (size_t i = line->borrowed; i < line->count; i++)
+        free(line->words[i]);
+    free(line->words);
+}
+
+/* ---- processes ------------------------------------------------------------------------------- */
+
+/* Standard input is empty; what is printed goes into the log. */
+static int spawn(const struct batch *batch, char **words, int log, const sigset_t *mask, pid_t *id)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, log, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, log, STDERR_FILENO);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setsigmask(&attributes, mask);
+    const int failure = posix_spawn(id, batch->program, &files, &attributes, words, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return failure;
+}
+
+static pid_t start_job(void *user, size_t index, struct pool_start *start)
+{
+    struct batch *batch = user;
+    struct command_line line = line_of(batch, kiln_batch_job(batch->jobs, index));
+    pid_t id = -1;
+    const int log = memfd_create("log", MFD_CLOEXEC);
+    int failure = line.failed ? ENOMEM : errno;
+    if (log >= 0 && !line.failed)
+        failure = spawn(batch, line.words, log, start->mask, &id);
+    free_line(&line);
+    if (id < 0 && log >= 0)
+        close(log);
+    batch->logs[index] = id < 0 ? -1 : log;
+    if (id < 0 && failure != EAGAIN) /* else there may be room for a process later */
+        start->problem = "the job cannot be started";
+    errno = failure;
+    return id;
+}
+
+/* Copies what a job printed to standard error. *message gets its last line, which the caller frees:
+ * why it failed. */
+static void show_log(int log, const char *name, char **message)
+{
+    FILE *in = log >= 0 && lseek(log, 0, SEEK_SET) == 0 ? fdopen(log, "r") : NULL;
+    size_t room = 0;
+    char *line = NULL;
+    *message = NULL;
+    while (in && getline(&line, &room, in) > 0) {
+        line[strcspn(line, "\n")] = '\0';
+        fprintf(stderr, "%s: %s\n", name, line);
+        free(*message);
+        *message = strdup(line);
+    }
+    free(line);
+    if (in)
+        fclose(in);
+    else if (log >= 0)
+        close(log);
+}
+
+static void tell(const struct kiln_batch_job *job, const struct pool_end *end, int code,
+                 const char *message)
+{
+    if (!events_are_wanted())
+        return;
+    struct kiln_json json = event_begin("job");
+    kiln_json_string(&json, "name", job->name);
+    kiln_json_string(&json, "scene", job->scene);
+    kiln_json_string(&json, "output", job->output);
+    kiln_json_int(&json, "code", code);
+    kiln_json_string(&json, "again", exit_code_again(code));
+    kiln_json_string(&json, "message", code ? message : NULL);
+    kiln_json_time(&json, "total_s", end->total_s);
+    event_end(&json);
+}
+
+static void end_job(void *user, size_t index, const struct pool_end *end)
+{
+    struct batch *batch = user;
+    const struct kiln_batch_job *job = kiln_batch_job(batch->jobs, index);
+    const int code = end->signal ? 128 + end->signal : end->exit_code;
+    char name[KILN_MESSAGE_SIZE], killed[64], *message;
+    kiln_shown(name, sizeof name, job->name);
+    show_log(batch->logs[index], name, &message);
+    batch->logs[index] = -1;
+    snprintf(killed, sizeof killed, "ended by signal %d", end->signal);
+    const char *why = *end->problem ? end->problem : end->signal ? killed : message;
+    batch->ended++;
+    batch->failed += code != 0;
+    batch->code = code > batch->code ? code : batch->code;
+    tell(job, end, code, why);
+    if (*end->problem || end->signal)
+        fprintf(stderr, "%s: %s\n", name, why);
+    if (!batch->quiet && code)
+        printf("%s: exit code %d after %.3f s\n", name, code, end->total_s);
+    else if (!batch->quiet)
+        printf("%s: done in %.3f s\n", name, end->total_s);
+    fflush(stdout);
+    free(message);
+}
+
+static bool has_enough(void *user)
+{
+    const struct batch *batch = user;
+    return batch->code != 0 && !batch->keep_going;
+}
+
+static bool wants_stop(void *user)
+{
+    (void)user;
+    return signals_received() || events_failed();
+}
+
+/* ---- all of it ------------------------------------------------------------------------------- */
+
+/* All of standard input, with a zero behind it; the caller frees it. NULL when memory is short. */
+static char *read_input(size_t *size)
+{
+    char *text = NULL, block[1 << 14];
+    size_t got = 0, total = 0;
+    FILE *out = open_memstream(&text, size);
+    if (!out)
+        return NULL;
+    do {
+        got = fread(block, 1, sizeof block, stdin);
+        total += fwrite(block, 1, got, out);
+    } while (got > 0 && total < KILN_MAX_BATCH_SIZE);
+    const bool failed = ferror(out) != 0;
+    if (fclose(out) == 0 && !failed)
+        return text;
+    free(text);
+    return NULL;
+}
+
+static struct kiln_batch *read_jobs(const char *path, struct kiln_error *error)
+{
+    if (strcmp(path, "-") != 0)
+        return kiln_batch_read(path, error);
+    size_t size = 0;
+    char *text = read_input(&size);
+    if (!text) {
+        error->code = KILN_DEVICE_FAILED;
+        snprintf(error->message, sizeof error->message, "standard input: out of memory for jobs");
+        return NULL;
+    }
+    struct kiln_batch *batch =
+        kiln_batch_parse(text, size, "standard input", KILN_BATCH_LINES, error);
+    free(text);
+    return batch;
+}
+
+static uint32_t count_jobs_at_a_time(const struct arguments *arguments)
+{
+    const uint32_t cores = pool_cores(), threads = arguments_integer(arguments, "threads", 0);
+    return arguments_integer(arguments, "jobs",
+                             threads > 0 && threads < cores ? cores / threads : 1);
+}
+
+static int run_pool(struct batch *batch, const struct arguments *arguments)
+{
+    const size_t count = kiln_batch_count(batch->jobs);
+    const struct pool pool = {.count = count,
+                              .jobs = count_jobs_at_a_time(arguments),
+                              .start = start_job,
+                              .ended = end_job,
+                              .stop = wants_stop,
+                              .enough = has_enough,
+                              .user = batch};
+    struct kiln_error error = {0};
+    const double began_s = now_s();
+    batch->logs = malloc(count * sizeof *batch->logs);
+    if (!batch->logs)
+        return report_no_memory();
+    for (size_t i = 0; i < count; i++)
+        batch->logs[i] = -1;
+    if (pool_run(&pool, &error)) {
+        if (!batch->quiet)
+            printf("%zu of %zu jobs in %.3f s, %zu failed\n", batch->ended, count,
+                   now_s() - began_s, batch->failed);
+        return batch->code;
+    }
+    if (error.code == KILN_INTERRUPTED && signals_received())
+        return signals_report("batch", " after %zu of %zu jobs", batch->ended, count);
+    return error.code == KILN_INTERRUPTED ? KILN_READER_GONE : report_error(&error);
+}
+
+int batch_run(const struct arguments *arguments)
+{
+    struct batch batch = {.keep_going = arguments_flag(arguments, "keep-going"),
+                          .quiet = arguments_flag(arguments, "quiet") || events_take_stdout()};
+    struct kiln_error error = {0};
+    signals_end_at_once(); /* nobody looks for them while jobs are read */
+    int code = refuse_options(arguments);
+    const ssize_t length = readlink("/proc/self/exe", batch.program, sizeof batch.program - 1);
+    if (code == 0 && length < 0)
+        code = report(KILN_IO, "/proc/self/exe: %s",
+                      strerror(errno)); /* NOLINT(concurrency-mt-unsafe): of one thread */
+    if (code == 0 && !(batch.jobs = read_jobs(arguments_text(arguments, "batch", ""), &error)))
+        code = report_error(&error);
+    if (code == 0 && !share_options(&batch, arguments))
+        code = report_no_memory();
+    char process[32];
+    snprintf(process, sizeof process, "%d", (int)getpid());
+    if (code == 0 &&
+        setenv("KILN_BATCH_PROCESS", process, 1) != 0) /* main.c of the jobs reads it */
+        code = report_no_memory();
+    signals_install();
+    if (code == 0)
+        code = run_pool(&batch, arguments);
+    for (size_t i = 0; i < batch.shared_count; i++)
+        free(batch.shared[i]);
+    free(batch.shared);
+    free(batch.logs);
+    kiln_batch_destroy(&batch.jobs);
+    return code;
+}

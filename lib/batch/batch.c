@@ -1,0 +1,288 @@
+/* Reads files of jobs by an option table, as scenes are read: the same errors, the same reference.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "option/reader.h"
+#include "option/reference.h"
+#include "option/rows.h"
+#include "option/schema.h"
+#include "suite/type.h"
+
+enum { MAX_JOBS = KILN_NODE_MAX_ENTRIES, MAX_OVERRIDES = 64, MAX_TEXT = 4000 };
+
+/* What a row of `jobs` fills. */
+struct entry {
+    const char *name, *scene, *output, *asset_root, *states, *manifest, *frames, *limits;
+    const char *set[MAX_OVERRIDES];
+    uint32_t set_count;
+    double timeout_s;
+};
+
+struct document {
+    uint32_t version;
+    struct entry jobs[MAX_JOBS];
+    uint32_t job_count;
+};
+
+struct kiln_batch {
+    struct kiln_arena *arena;
+    struct kiln_batch_job *jobs;
+    size_t count, room;
+};
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+#define AT(field) offsetof(struct entry, field)
+
+/* name, field, smallest length, default, help */
+#define TEXT(n, f, least, def, h)                                                                  \
+    {                                                                                              \
+        ROW(NO_PART, n, text, AT(f), def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                  \
+    }
+
+static const struct kiln_option override_item = {.type = &kiln_type_override,
+                                                 LIMITS(KILN_PLAIN, 1, MAX_TEXT)};
+
+static const struct kiln_option job_rows[] = {
+    TEXT("name", name, 0, "\"\"", "What results call the job; its number where it has no name."),
+    TEXT("scene", scene, 1, NULL, "The scene's path, from the folder of the file of jobs."),
+    TEXT("output", output, 1, NULL,
+         "Where to write, as --output; from the same folder. 'none' writes nothing."),
+    {ROW(NO_PART, "set", list, AT(set), "[]", "Keys of the scene to change."),
+     .item = &override_item, .kind_offset = KILN_KIND_NONE, .item_size = sizeof(const char *),
+     .count_offset = AT(set_count), .max_count = MAX_OVERRIDES},
+    TEXT("frames", frames, 0, "\"\"", "Frames to draw, as --frames; all where none are named."),
+    TEXT("limits", limits, 0, "\"\"", "What the job may take, as --limits."),
+    {ROW(NO_PART, "timeout", number, AT(timeout_s), "0 s",
+         "The job's deadline, loading and encoding included; 0: none."),
+     LIMITS(KILN_SECONDS, 0, 1e7)},
+    TEXT("asset_root", asset_root, 0, "\"\"",
+         "Files of the scene lie below it; the scene's folder where it is not given."),
+    TEXT("states", states, 0, "\"\"", "A folder of 'kiln bake', as --states."),
+    TEXT("manifest", manifest, 0, "\"\"", "A JSON file that describes the run, as --manifest."),
+    END,
+};
+
+static const struct kiln_option job_item = {.type = &kiln_type_group, .members = job_rows};
+
+#undef AT
+#define AT(field) offsetof(struct document, field)
+
+static const struct kiln_option rows[] = {
+    INTEGER(NO_PART, "kiln_jobs", version, 1, 1, NULL, "Version of the format of files of jobs."),
+    {ROW(NO_PART, "jobs", list, AT(jobs), NULL, "The jobs, which begin in their order."),
+     .item = &job_item, .kind_offset = KILN_KIND_NONE, .item_size = sizeof(struct entry),
+     .count_offset = AT(job_count), .max_count = MAX_JOBS},
+    END,
+};
+
+bool kiln_batch_write_reference(FILE *out)
+{
+    static const char introduction[] =
+        "'kiln render --batch jobs.yaml' renders every job of a file, each in a process of its "
+        "own:\n"
+        "\n"
+        "    kiln_jobs: 1\n"
+        "    jobs:\n"
+        "      - {scene: fire.yaml, output: out/fire.mp4, set: [seed=3], timeout: 600 s}\n"
+        "      - {scene: rain.yaml, output: out/rain_####.png, frames: 0-9}\n"
+        "\n"
+        "A file whose name ends in .ndjson or .jsonl, and '-', standard input, has a job a line:\n"
+        "\n"
+        "    {\"scene\": \"fire.yaml\", \"output\": \"out/fire.mp4\", \"set\": [\"seed=3\"]}\n"
+        "\n";
+    return kiln_reference_write(out, introduction, rows);
+}
+
+bool kiln_batch_write_schema(FILE *out)
+{
+    return kiln_schema_write(out, "kiln jobs", rows);
+}
+
+/* ---- from entries to jobs -------------------------------------------------------------------- */
+
+static bool out_of_memory(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading jobs");
+}
+
+/* A path as the file at `base` means it; NULL for an empty one, or when memory is short. */
+static const char *resolve(struct kiln_batch *batch, const char *base, const char *path)
+{
+    const char *slash = base ? strrchr(base, '/') : NULL;
+    const int folder = slash && *path != '/' ? (int)(slash + 1 - base) : 0;
+    return *path ? kiln_arena_format(batch->arena, "%.*s%s", folder, base ? base : "", path) : NULL;
+}
+
+static bool make_room(struct kiln_batch *batch)
+{
+    if (batch->count < batch->room)
+        return true;
+    const size_t room = batch->room ? 2 * batch->room : 64;
+    struct kiln_batch_job *jobs = realloc(batch->jobs, room * sizeof *jobs);
+    if (!jobs)
+        return false;
+    batch->jobs = jobs;
+    batch->room = room;
+    return true;
+}
+
+/* The entry lies in the batch's arena. */
+static bool add_job(struct kiln_batch *batch, const struct entry *entry, const char *base,
+                    struct kiln_error *error)
+{
+    if (!make_room(batch))
+        return out_of_memory(error);
+    const bool writes = strcmp(entry->output, "none") != 0;
+    const struct kiln_batch_job job = {
+        .name = *entry->name ? entry->name
+                             : kiln_arena_format(batch->arena, "job %zu", batch->count + 1),
+        .scene = resolve(batch, base, entry->scene),
+        .output = writes ? resolve(batch, base, entry->output) : entry->output,
+        .asset_root = resolve(batch, base, entry->asset_root),
+        .states = resolve(batch, base, entry->states),
+        .manifest = resolve(batch, base, entry->manifest),
+        .frames = *entry->frames ? entry->frames : NULL,
+        .limits = *entry->limits ? entry->limits : NULL,
+        .timeout_s = entry->timeout_s,
+        .overrides = entry->set,
+        .override_count = entry->set_count,
+    };
+    batch->jobs[batch->count++] = job;
+    return (job.name && job.scene && job.output) || out_of_memory(error);
+}
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+static struct kiln_batch *create(struct kiln_error *error)
+{
+    struct kiln_batch *batch = calloc(1, sizeof *batch);
+    if (batch)
+        batch->arena = kiln_arena_create();
+    if (!batch || !batch->arena) {
+        out_of_memory(error);
+        kiln_batch_destroy(&batch);
+    }
+    return batch;
+}
+
+static bool read_yaml(struct kiln_batch *batch, const char *text, size_t size, const char *name,
+                      const char *base, struct kiln_error *error)
+{
+    const struct kiln_origin origin = {
+        .name = name, .has_lines = true, .kind = "a file of jobs", .version = "kiln_jobs: 1"};
+    struct kiln_arena *scratch = kiln_arena_create();
+    struct document *document = kiln_arena_alloc(batch->arena, 1, sizeof *document);
+    struct kiln_reader reader = {.origin = &origin,
+                                 .arena = batch->arena,
+                                 .scratch = scratch,
+                                 .error = error,
+                                 .target = document};
+    bool ok =
+        scratch && document ? kiln_read_document(&reader, rows, text, size) : out_of_memory(error);
+    for (uint32_t i = 0; ok && i < document->job_count; i++)
+        ok = add_job(batch, &document->jobs[i], base, error);
+    kiln_arena_destroy(&scratch);
+    return ok;
+}
+
+/* A line of JSON, which YAML has as a flow mapping. */
+static bool read_line(struct kiln_batch *batch, const char *text, size_t size, uint32_t number,
+                      const char *name, const char *base, struct kiln_error *error)
+{
+    const struct kiln_origin origin = {.name = name,
+                                       .has_lines = true,
+                                       .lines_before = number - 1,
+                                       .kind = "a job",
+                                       .version = NULL};
+    struct kiln_arena *scratch = kiln_arena_create();
+    struct entry *entry = kiln_arena_alloc(batch->arena, 1, sizeof *entry);
+    char *line = scratch ? kiln_arena_text(scratch, text, size) : NULL;
+    struct kiln_reader reader = {.origin = &origin,
+                                 .arena = batch->arena,
+                                 .scratch = scratch,
+                                 .error = error,
+                                 .target = entry};
+    const bool ok = entry && line ? kiln_read_document(&reader, job_rows, line, size) &&
+                                        add_job(batch, entry, base, error)
+                                  : out_of_memory(error);
+    kiln_arena_destroy(&scratch);
+    return ok;
+}
+
+/* base: where relative paths start, or NULL. Empty lines are passed over. */
+static bool read_lines(struct kiln_batch *batch, const char *text, size_t size, const char *name,
+                       const char *base, struct kiln_error *error)
+{
+    uint32_t number = 1;
+    for (const char *end = text + size; text < end; number++) {
+        const char *stop = memchr(text, '\n', (size_t)(end - text));
+        const size_t length = (size_t)((stop ? stop : end) - text);
+        if (strspn(text, " \t\r") < length &&
+            !read_line(batch, text, length, number, name, base, error))
+            return false;
+        text += length + 1;
+    }
+    return batch->count > 0 ||
+           kiln_error_set(error, KILN_INVALID_INPUT, "%s: there are no jobs in it", name);
+}
+
+static bool has_suffix(const char *path, const char *suffix)
+{
+    const size_t length = strlen(path), end = strlen(suffix);
+    return length > end && strcmp(path + length - end, suffix) == 0;
+}
+
+/* base: where relative paths start, or NULL. */
+static struct kiln_batch *parse(const char *text, size_t size, const char *name, const char *base,
+                                enum kiln_batch_format format, struct kiln_error *error)
+{
+    struct kiln_batch *batch = create(error);
+    if (!batch)
+        return NULL;
+    if (format == KILN_BATCH_LINES ? !read_lines(batch, text, size, name, base, error)
+                                   : !read_yaml(batch, text, size, name, base, error))
+        kiln_batch_destroy(&batch);
+    return batch;
+}
+
+struct kiln_batch *kiln_batch_parse(const char *text, size_t size, const char *name,
+                                    enum kiln_batch_format format, struct kiln_error *error)
+{
+    return parse(text, size, name, NULL, format, error);
+}
+
+struct kiln_batch *kiln_batch_read(const char *path, struct kiln_error *error)
+{
+    size_t size = 0;
+    const bool lines = has_suffix(path, ".ndjson") || has_suffix(path, ".jsonl");
+    char *text = kiln_text_file_read(path, "a file of jobs", KILN_MAX_BATCH_SIZE, &size, error);
+    struct kiln_batch *batch =
+        text ? parse(text, size, path, path, lines ? KILN_BATCH_LINES : KILN_BATCH_YAML, error)
+             : NULL;
+    free(text);
+    return batch;
+}
+
+void kiln_batch_destroy(struct kiln_batch **batch)
+{
+    if (!*batch)
+        return;
+    kiln_arena_destroy(&(*batch)->arena);
+    free((*batch)->jobs);
+    free(*batch);
+    *batch = NULL;
+}
+
+size_t kiln_batch_count(const struct kiln_batch *batch)
+{
+    return batch->count;
+}
+
+const struct kiln_batch_job *kiln_batch_job(const struct kiln_batch *batch, size_t index)
+{
+    return &batch->jobs[index];
+}
