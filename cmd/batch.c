@@ -17,8 +17,6 @@
 #include "signals.h"
 #include "watch.h"
 
-extern char **environ;
-
 struct batch {
     struct kiln_batch *jobs;
     char program[KILN_PATH_SIZE]; /* this one */
