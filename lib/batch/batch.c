@@ -181,8 +181,11 @@ static bool read_yaml(struct kiln_batch *batch, const char *text, size_t size, c
                                  .scratch = scratch,
                                  .error = error,
                                  .target = document};
-    bool ok =
-        scratch && document ? kiln_read_document(&reader, rows, text, size) : out_of_memory(error);
+    bool ok = false;
+    if (!scratch || !document)
+        out_of_memory(error);
+    else
+        ok = kiln_read_document(&reader, rows, text, size);
     for (uint32_t i = 0; ok && i < document->job_count; i++)
         ok = add_job(batch, &document->jobs[i], base, error);
     kiln_arena_destroy(&scratch);
