@@ -115,4 +115,4 @@ $ export KILN_SIMD=mmx
 1|kiln: KILN_SIMD is 'mmx'; <levels>
 1|2
 1|usage: kiln devices [OPTION...]
-1|    0  all went well
+1| CODE  AGAIN?     MEANING
