@@ -36,8 +36,8 @@ function has_file(path,    stem) {
 BEGIN {
     # What a program may take from the system: the C library, POSIX and what Linux adds to it.
     split("assert ctype errno fcntl float fnmatch inttypes limits locale math poll pthread sched setjmp " \
-          "signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib string strings " \
-          "sys/file sys/ioctl sys/prctl sys/resource sys/stat sys/time sys/types sys/wait termios " \
+          "signal spawn stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib string strings " \
+          "sys/file sys/ioctl sys/mman sys/prctl sys/resource sys/stat sys/time sys/types sys/wait termios " \
           "time unistd", names, " ")
     for (i in names) libc[names[i] ".h"] = 1
     for (i = 1; i < ARGC; i++) {
