@@ -309,6 +309,8 @@ static int open_descriptor(const struct command *command, const char *value, con
         mode = fcntl((int)file, F_GETFL);
     if (mode < 0 || (mode & O_ACCMODE) == O_RDONLY)
         return refuse(command, value);
+    if (file > STDERR_FILENO)
+        fcntl((int)file, F_SETFD, FD_CLOEXEC); /* it is nothing to programs that are started */
     stream.out = file == STDOUT_FILENO   ? stdout
                  : file == STDERR_FILENO ? stderr
                                          : fdopen((int)file, "w");
@@ -340,7 +342,9 @@ int events_open(const struct command *command, const struct arguments *arguments
     }
     if (code)
         return code;
-    setvbuf(stream.out, NULL, _IOFBF, LINE_SIZE); /* a line is written at once */
+    /* A line is written at once; messages on standard error do not wait for one. */
+    if (stream.out != stderr)
+        setvbuf(stream.out, NULL, _IOFBF, LINE_SIZE);
     tell_start(command, arguments);
     return 0;
 }

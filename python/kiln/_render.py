@@ -197,7 +197,8 @@ def _sized(scene: Scene, size: Optional[tuple[int, int]]) -> Scene:
         raise TypeError(f"found {scene!r}, expected a scene, as kiln.load reads it")
     if size is None:
         return scene
-    if isinstance(size, str) or not isinstance(size, Iterable) or len(edges := list(size)) != 2:
+    edges: list[int] = [] if isinstance(size, str) or not isinstance(size, Iterable) else list(size)
+    if len(edges) != 2:
         raise TypeError(f"size: found {size!r}, expected (width, height)")
     return scene.override({"output.size": [operator.index(edge) for edge in edges]})
 
