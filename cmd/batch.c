@@ -20,6 +20,7 @@
 struct batch {
     struct kiln_batch *jobs;
     char program[KILN_PATH_SIZE]; /* this one */
+    const char *limits;           /* of the call, for every job; or NULL */
     char **shared;                /* words of the command line for every job */
     size_t shared_count;
     int *logs; /* of each job that runs: what it prints; -1: none */
@@ -30,10 +31,11 @@ struct batch {
 
 /* ---- the command line of a job --------------------------------------------------------------- */
 
-/* Options that are this process's own, and those that a job has by its file alone. */
+/* Options that are not handed on as they are. */
 static bool is_own(const char *name)
 {
-    static const char *const own[] = {"batch", "jobs", "keep-going", "events", "progress", "quiet"};
+    static const char *const own[] = {"batch",  "jobs",     "keep-going", "limits",
+                                      "events", "progress", "quiet"};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
         if (strcmp(own[i], name) == 0)
             return true;
@@ -99,6 +101,17 @@ static void add(struct command_line *line, const char *name, const char *value)
     line->words[line->count++] = word;
 }
 
+/* What the call limits stays so where the job says nothing else. */
+static void add_limits(struct command_line *line, const char *of_all, const char *own)
+{
+    char *both = NULL;
+    if (of_all && own && asprintf(&both, "%s,%s", of_all, own) < 0)
+        line->failed = true;
+    else
+        add(line, "--limits=", both ? both : own ? own : of_all);
+    free(both);
+}
+
 static struct command_line line_of(const struct batch *batch, const struct kiln_batch_job *job)
 {
     enum { OWN_WORDS = 16 };
@@ -119,7 +132,7 @@ static struct command_line line_of(const struct batch *batch, const struct kiln_
     add(&line, "--states=", job->states);
     add(&line, "--manifest=", job->manifest);
     add(&line, "--frames=", job->frames);
-    add(&line, "--limits=", job->limits);
+    add_limits(&line, batch->limits, job->limits);
     char timeout[32];
     snprintf(timeout, sizeof timeout, "%.3f", job->timeout_s);
     add(&line, "--timeout=", job->timeout_s > 0 ? timeout : NULL);
@@ -245,12 +258,6 @@ static bool has_enough(void *user)
     return batch->code != 0 && !batch->keep_going;
 }
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() || events_failed();
-}
-
 /* ---- all of it ------------------------------------------------------------------------------- */
 
 /* All of standard input, with a zero behind it; the caller frees it. NULL when memory is short. */
@@ -303,7 +310,7 @@ static int run_pool(struct batch *batch, const struct arguments *arguments)
                               .jobs = count_jobs_at_a_time(arguments),
                               .start = start_job,
                               .ended = end_job,
-                              .stop = wants_stop,
+                              .stop = signals_wants_stop,
                               .enough = has_enough,
                               .user = batch};
     struct kiln_error error = {0};
@@ -319,15 +326,16 @@ static int run_pool(struct batch *batch, const struct arguments *arguments)
                    now_s() - began_s, batch->failed);
         return batch->code;
     }
-    if (error.code == KILN_INTERRUPTED && signals_received())
-        return signals_report("batch", " after %zu of %zu jobs", batch->ended, count);
-    return error.code == KILN_INTERRUPTED ? KILN_READER_GONE : report_error(&error);
+    return error.code == KILN_INTERRUPTED
+               ? signals_report("batch", " after %zu of %zu jobs", batch->ended, count)
+               : report_error(&error);
 }
 
 int batch_run(const struct arguments *arguments)
 {
     struct batch batch = {.keep_going = arguments_flag(arguments, "keep-going"),
-                          .quiet = arguments_flag(arguments, "quiet") || events_take_stdout()};
+                          .quiet = arguments_flag(arguments, "quiet") || events_take_stdout(),
+                          .limits = arguments_text(arguments, "limits", NULL)};
     struct kiln_error error = {0};
     signals_end_at_once(); /* nobody looks for them while jobs are read */
     int code = refuse_options(arguments);

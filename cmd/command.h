@@ -72,16 +72,17 @@ bool help_write_completion(FILE *out);
 bool man_print(FILE *out);
 bool man_print_scene(FILE *out);
 
-/* Each exit code; a NULL code ends the list. */
+/* Each exit code; a NULL meaning ends the list. */
 struct exit_code {
-    const char *code;
+    int code;
     const char *again; /* whether to run the command again: "never", "again", "with more" memory or
                           time */
     const char *meaning;
 };
 extern const struct exit_code exit_codes[];
 
-/* `again` of a code: "again" for one that is not listed, such as that of a kill. */
+/* `again` of a code: "again" for one that is not listed, such as that of a kill. A signal's handler
+ * may call it. */
 const char *exit_code_again(int code);
 
 /* Variables of the environment; as above. */

@@ -98,8 +98,7 @@ static void show_frame(void *user, const struct kiln_compare_result *result,
 
 static bool wants_stop(void *user)
 {
-    (void)user;
-    return signals_received() || ferror(stdout);
+    return signals_wants_stop(user) || ferror(stdout);
 }
 
 static struct kiln_compare_params read_params(const struct arguments *arguments)
@@ -136,8 +135,7 @@ static int report_failure(const struct kiln_error *error)
         return report_error(error);
     if (number == 0) /* nobody reads: main says why */
         return KILN_READER_GONE;
-    report(KILN_INTERRUPTED, "compare: %s", error->message);
-    return 128 + number;
+    return report((enum kiln_code)(128 + number), "compare: %s", error->message);
 }
 
 /* The options that repeat. Each has room for every use. */

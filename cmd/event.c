@@ -136,7 +136,8 @@ static void tell_start(const struct command *command, const struct arguments *ar
     event_end(&json);
 }
 
-/* Where a message "FILE:LINE:COLUMN: ..." has its line; 0: it names no place. */
+/* Returns the length of the file's name in a message "FILE:LINE:COLUMN: ..."; 0 for one without a
+ * place. */
 static size_t find_place(const char *message, unsigned long *line, unsigned long *column)
 {
     for (const char *at = message; (at = strchr(at, ':')); at++) {
@@ -374,5 +375,5 @@ int events_close(int code)
     if (fclose(out) == 0 && !failed)
         return code;
     const int reported = report(KILN_IO, "--events: %s cannot be written", stream.name);
-    return code ? code : reported;
+    return code && code != KILN_READER_GONE ? code : reported;
 }

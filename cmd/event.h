@@ -34,8 +34,8 @@ bool events_failed(void);
 struct kiln_json event_begin(const char *name);
 void event_end(struct kiln_json *json);
 
-/* What went wrong, with its place where the message begins with one; what a person is warned of; a
- * scene that was loaded. Nothing without --events. */
+/* These tell what went wrong, with its place where the message begins with one, what a person is
+ * warned of, and that a scene was loaded. They do nothing without --events. */
 void event_error(int code, const char *message);
 void event_warning(const char *message);
 void event_loaded(const char *scene, const struct kiln_scene_info *info);

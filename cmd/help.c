@@ -10,31 +10,28 @@ enum { WIDTH = 80, OPTION_INDENT = 30 };
 static const char NEVER[] = "never", AGAIN[] = "again", MORE[] = "with more";
 
 const struct exit_code exit_codes[] = {
-    {"0", NEVER, "all went well"},
-    {"1", NEVER, "a frame failed, or a picture differs"},
-    {"2", NEVER, "the command line makes no sense"},
-    {"3", NEVER, "a scene or another input file is wrong"},
-    {"4", AGAIN,
-     "no usable device, or for want of one every test was skipped, or nothing measured"},
-    {"5", MORE,
+    {0, NEVER, "all went well"},
+    {1, NEVER, "a frame failed, or a picture differs"},
+    {2, NEVER, "the command line makes no sense"},
+    {3, NEVER, "a scene or another input file is wrong"},
+    {4, AGAIN, "no usable device, or for want of one every test was skipped, or nothing measured"},
+    {5, MORE,
      "the device was lost, memory ran out, a frame or test took longer than its limit, or a "
      "test crashed"},
-    {"6", AGAIN, "reading or writing failed"},
-    {"7", NEVER, "a golden picture is missing, or what was accepted with it"},
-    {"8", MORE, "more than the limits of the job allow, or than --timeout"},
-    {"9", AGAIN, "the reader of standard output went away before the job was done"},
-    {"129", AGAIN, "stopped by SIGHUP; only whole files are left"},
-    {"130", AGAIN, "stopped by SIGINT; only whole files are left"},
-    {"143", AGAIN, "stopped by SIGTERM; only whole files are left"},
-    {NULL, NULL, NULL},
+    {6, AGAIN, "reading or writing failed"},
+    {7, NEVER, "a golden picture is missing, or what was accepted with it"},
+    {8, MORE, "more than the limits of the job allow, or than --timeout"},
+    {9, AGAIN, "the reader of standard output went away before the job was done"},
+    {129, AGAIN, "stopped by SIGHUP; only whole files are left"},
+    {130, AGAIN, "stopped by SIGINT; only whole files are left"},
+    {143, AGAIN, "stopped by SIGTERM; only whole files are left"},
+    {0, NULL, NULL},
 };
 
 const char *exit_code_again(int code)
 {
-    char text[16];
-    snprintf(text, sizeof text, "%d", code);
-    for (const struct exit_code *row = exit_codes; row->code; row++) {
-        if (strcmp(row->code, text) == 0)
+    for (const struct exit_code *row = exit_codes; row->meaning; row++) {
+        if (row->code == code)
             return row->again;
     }
     return AGAIN;
@@ -72,8 +69,8 @@ static bool write_exit_codes(FILE *out)
 {
     enum { MEANING_COLUMN = 18 };
     fputs(" CODE  AGAIN?     MEANING\n", out);
-    for (const struct exit_code *row = exit_codes; row->code; row++) {
-        fprintf(out, "%5s  %-9s  ", row->code, row->again);
+    for (const struct exit_code *row = exit_codes; row->meaning; row++) {
+        fprintf(out, "%5d  %-9s  ", row->code, row->again);
         help_print_wrapped(out, row->meaning, MEANING_COLUMN, MEANING_COLUMN);
     }
     fputs("\nAGAIN? is for schedulers. never: the same call ends the same way. again: it may\n"

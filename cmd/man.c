@@ -199,8 +199,11 @@ bool man_print(FILE *out)
               put_topic(out, "reports", kiln_write_reports) &&
               put_topic(out, "completion", help_write_completion);
     put_heading(out, "exit status");
-    for (const struct exit_code *row = exit_codes; row->code; row++)
-        put_tagged(out, row->code, row->meaning);
+    for (const struct exit_code *row = exit_codes; row->meaning; row++) {
+        char code[16];
+        snprintf(code, sizeof code, "%d", row->code);
+        put_tagged(out, code, row->meaning);
+    }
     put_heading(out, "environment");
     for (const struct variable *row = variables; row->name; row++)
         put_tagged(out, row->name, row->meaning);

@@ -193,7 +193,7 @@ bool pool_run(const struct pool *pool, struct kiln_error *error)
         *error = (struct kiln_error){.code = KILN_DEVICE_FAILED, .message = "out of memory"};
         return false;
     }
-    /* Where the end of children is ignored, as some callers hand it down, their status is lost. */
+    /* Some callers hand down that the end of children is ignored: their status would be lost. */
     struct sigaction action = {.sa_handler = SIG_DFL}, old_action;
     sigemptyset(&action.sa_mask);
     sigaction(SIGCHLD, &action, &old_action);

@@ -8,7 +8,7 @@
 
 #include "kiln_program.h"
 
-/* What became of a task. Of the first three, at most one is set. */
+/* The end of a task. Of the first three members, at most one is set. */
 struct pool_end {
     char problem[256]; /* why it could not be started, or "" */
     bool timed_out;    /* it was ended at its limit */

@@ -227,12 +227,6 @@ static void tell_written(void *user, const struct kiln_written *file)
     event_end(&json);
 }
 
-static bool wants_stop(void *user)
-{
-    (void)user;
-    return signals_received() || events_failed();
-}
-
 /* ---- From options to parameters ------------------------------------------------------------- */
 
 static bool read_options(struct render *render, const struct arguments *arguments)
@@ -265,7 +259,7 @@ static bool read_options(struct render *render, const struct arguments *argument
     params->next = begin_frame;
     params->drawn = end_frame;
     params->progress = show_frame;
-    params->stop = wants_stop;
+    params->stop = signals_wants_stop;
     params->user = render;
     params->log = report_log();
     render->command = calloc(arguments->word_count + 2, sizeof *render->command);
@@ -354,8 +348,6 @@ static int report_failure(const struct render *render, const struct kiln_error *
 {
     if (error->code != KILN_INTERRUPTED)
         return report_error(error);
-    if (signals_received() == 0) /* nobody reads: main says why */
-        return KILN_READER_GONE;
     return render->frames_done > 0 && render->frames_done == render->frames_total
                ? signals_report(render->job->path, " before %s was complete", render->job->output)
                : signals_report(render->job->path, " after %u frames", render->frames_done);

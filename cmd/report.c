@@ -32,7 +32,7 @@ static int report_place(const struct kiln_error *error)
 
 int report_error(const struct kiln_error *error)
 {
-    if (error->code == KILN_INTERRUPTED && signals_received())
+    if (error->code == KILN_INTERRUPTED)
         return signals_report("loading a scene", "%s", "");
     if (error->code != KILN_INVALID_INPUT)
         return report(error->code, "%s", error->message);

@@ -7,7 +7,7 @@
 /* Prints "kiln: " and the message; returns the code, so that a command can return it. */
 int report(enum kiln_code code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The same for an error of the library; a signal that stopped it is named. Invalid input starts
+/* Reports an error of the library; a signal that stopped it is named. Invalid input starts
  * with its own file, line and column, where editors look for them, so nothing is put before it. */
 int report_error(const struct kiln_error *error);
 

@@ -9,7 +9,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include "kiln_program.h"
+#include "event.h"
 #include "last_words.h"
 #include "report.h"
 
@@ -103,7 +103,7 @@ void signals_end_at_once(void)
 bool signals_wants_stop(void *user)
 {
     (void)user;
-    return received != 0;
+    return received != 0 || events_failed();
 }
 
 int signals_received(void)
@@ -113,6 +113,8 @@ int signals_received(void)
 
 int signals_report(const char *what, const char *format, ...)
 {
+    if (!received)
+        return KILN_READER_GONE;
     char how[KILN_MESSAGE_SIZE];
     va_list args;
     va_start(args, format);

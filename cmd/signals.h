@@ -18,11 +18,12 @@ void signals_end_at_once(void);
 /* The signal that asked to stop, or 0. */
 int signals_received(void);
 
-/* Whether one did: the `stop` of the library's functions. */
+/* Whether one did, or nobody takes the events any more: the `stop` of the library's functions. */
 bool signals_wants_stop(void *user);
 
 /* Prints "WHAT: stopped by SIGTERM" and what the format makes (" after 3 frames"); returns the exit
- * code for it. */
+ * code for it. Without a signal the reader of events went away: KILN_READER_GONE, of which main
+ * tells. */
 int signals_report(const char *what, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

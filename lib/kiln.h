@@ -324,7 +324,7 @@ struct kiln_written {
     struct kiln_frame_range frames; /* that it holds, alone or with others in between */
     uint64_t bytes;
     char sha256[65]; /* of the file, in hex */
-    /* Of a frame alone: */
+    /* The rest is known of a frame's file alone. */
     uint32_t done, total; /* frames of this run whose files are whole, of all that it draws */
     struct kiln_state_hash state;
     uint64_t alive;

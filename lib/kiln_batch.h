@@ -21,7 +21,7 @@ struct kiln_batch;
  * or KILN_DEVICE_FAILED when memory is short. */
 struct kiln_batch *kiln_batch_read(const char *path, struct kiln_error *error);
 
-/* The same for a text in memory, with a zero behind it that size does not count; name is for
+/* Reads jobs out of a text in memory, with a zero behind it that size does not count; name is for
  * messages. Relative paths start at the working directory. */
 enum kiln_batch_format { KILN_BATCH_YAML, KILN_BATCH_LINES };
 struct kiln_batch *kiln_batch_parse(const char *text, size_t size, const char *name,

@@ -16,7 +16,8 @@ bool kiln_cache_folder(char folder[KILN_PATH_SIZE]);
  * such file, or it is not whole; then bytes may hold anything. */
 bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, size_t size);
 
-/* The same in memory that the caller frees; NULL also when memory is short. */
+/* Returns what was written under this name in memory that the caller frees. NULL where there is no
+ * such file, or it is not whole, or memory is short. */
 void *kiln_cache_read(const char *folder, const char *name, size_t size);
 
 /* Makes missing folders, and removes what killed processes left. A name is 64 hexadecimal digits

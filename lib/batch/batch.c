@@ -13,7 +13,7 @@
 
 enum { MAX_JOBS = KILN_NODE_MAX_ENTRIES, MAX_OVERRIDES = 64, MAX_TEXT = 4000 };
 
-/* What a row of `jobs` fills. */
+/* An entry of `jobs`, as the table fills it. */
 struct entry {
     const char *name, *scene, *output, *asset_root, *states, *manifest, *frames, *limits;
     const char *set[MAX_OVERRIDES];

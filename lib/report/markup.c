@@ -57,8 +57,8 @@ const char *kiln_markup_entity(char c)
     }
 }
 
-/* What XML has no characters for (controls, U+FFFE and U+FFFF), and what would make a page show
- * another text than there is: overrides of direction, C1. */
+/* Whether a text begins with a character that XML does not have (controls, U+FFFE and U+FFFF), or
+ * with one that makes a page show another text than there is (overrides of direction, C1). */
 static bool is_foreign(const char *text)
 {
     unsigned char c = (unsigned char)*text;

@@ -1,3 +1,5 @@
+/* Makes what tests of `raster=cpu` draw with: atlas, targets, records and light, all on the host.
+ */
 #include "support/raster.h"
 
 #include <stdlib.h>

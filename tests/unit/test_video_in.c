@@ -86,7 +86,7 @@ static void write_bytes(const char *path, const unsigned char *bytes, size_t siz
     assert_int_equal(fclose(file), 0);
 }
 
-/* Where the frames of a clip end in its file. */
+/* Finds where the frames of a clip end in its file; returns how many there are. */
 static size_t find_ends(const char *path, size_t ends[FRAMES])
 {
     AVFormatContext *container = NULL;

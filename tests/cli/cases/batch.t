@@ -149,3 +149,20 @@ $ kiln render --batch - --device cpu --set output.frames=100000 --set systems.sm
 
 $ kiln render --batch - --device cpu --set output.frames=100000 --set systems.smoke.emit.rate=100000 --events ndjson:killed.log -q <<<'{"scene": "scenes/tiny.yaml", "output": "killed.mp4"}' & until ls -A | grep -q '^.killed.mp4'; do sleep 0.05; done; kill -KILL $!; { wait $!; } 2>/dev/null; for i in $(seq 100); do ls -A | grep -q '^.killed.mp4' || break; sleep 0.1; done; ls -A | grep killed
 1|killed.log
+
+What the call limits stays so where a job limits something else; other folders and relative paths are as everywhere.
+
+$ printf '{"scene": "scenes/tiny.yaml", "output": "l.mp4", "limits": "steps=1M"}\n' | kiln render --batch - --device cpu --limits frames=3
+1|job 1: exit code 8 after <s> s
+1|1 of 1 jobs in <s> s, 1 failed
+2|job 1: scenes/tiny.yaml:4:43: output.frames: 24 frames of the clip, and the limit `frames` is 3
+= 8
+$ mkdir -p deep/er && cd deep && kiln render --batch ../jobs.yaml --device cpu --force -q && ls ../out . && cd er && kiln render --batch ../../mixed.yaml --keep-going -q --device cpu --force 2>/dev/null; ls ../../m
+1|.:
+1|er
+1|
+1|../out:
+1|clip.mp4
+1|still_00.png
+1|still_02.png
+1|good.png

@@ -97,7 +97,7 @@ $ kiln check scenes/tiny.yaml -q --events ndjson:none/e.log
 $ kiln check scenes/tiny.yaml -q --events ndjson:/dev/full
 2|kiln: --events: /dev/full cannot be written
 = 6
-$ kiln render scenes/tiny.yaml -o none --device cpu -q --events ndjson | head -n 1 | cut -c 1-20; echo "${PIPESTATUS[0]}"
+$ kiln render scenes/tiny.yaml -o none --set output.frames=100000 --device cpu -q --events ndjson | head -n 1 | cut -c 1-20; echo "${PIPESTATUS[0]}"
 1|{"event": "started",
 1|9
 2|kiln: standard output: the reader went away: stopped
