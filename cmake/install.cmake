@@ -27,6 +27,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kiln.pc DESTINATION ${CMAKE_INSTALL_LI
 file(GLOB kiln_documents CONFIGURE_DEPENDS docs/*.md)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${kiln_documents} DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+install(DIRECTORY docs/ci docs/images DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(DIRECTORY scenes examples DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln)
 install(FILES cmd/completion/kiln.bash
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kiln)

@@ -16,7 +16,9 @@ struct foreign {
 #define FINAL_HINT  "frames are chosen by '--frames', such as --frames -50 up to frame 50"
 #define STEP_HINT   "each tenth frame is drawn by '--frames', such as --frames 0-100/10"
 #define SUFFIX_HINT "the suffix of '--output' chooses the format (see 'kiln help outputs')"
-#define SCENE_HINT  "what is read is an operand and needs no option"
+#define CAMERA_HINT                                                                                \
+    "a scene has one camera, such as '--set camera.position=[0,1,5] --set camera.target=[0,1,0]'"
+#define SCENE_HINT "what is read is an operand and needs no option"
 
 static const struct foreign rows[] = {
     /* ffmpeg; -f, -s and -t mean something else to Blender */
@@ -61,6 +63,7 @@ static const struct foreign rows[] = {
     {"-x", "output", SUFFIX_HINT},
     {"--use-extension", "output", SUFFIX_HINT},
     {"-E", "technique", NULL},
+    {"-S", NULL, SCENE_HINT},
     {"--engine", "technique", NULL},
 
     /* husk and other renderers */
@@ -81,6 +84,13 @@ static const struct foreign rows[] = {
     {"--gpu", "device", NULL},
     {"--framerate", "fps", NULL},
     {"--frame-rate", "fps", NULL},
+    {"-c", "set", CAMERA_HINT},
+    {"--camera", "set", CAMERA_HINT},
+    {"--samples", "set",
+     "how often a frame is drawn within its shutter: '--set camera.shutter.samples=16'"},
+    {"--pixel-samples", "set",
+     "how often a frame is drawn within its shutter: '--set camera.shutter.samples=16'"},
+    {"--snapshot", "resume", "what is whole is kept by '--resume', which goes on from there"},
     {"--make-output-path", "output", "missing folders of '--output' are made"},
 
     /* What many programs call it */
@@ -90,6 +100,7 @@ static const struct foreign rows[] = {
     {"--clobber", "force", NULL},
     {"--out", "output", NULL},
     {"--outfile", "output", NULL},
+    {"--out", NULL, "where it writes is an operand, or said by its other options ('--help')"},
     {"--output-file", "output", NULL},
     {"--output-dir", "output", NULL},
     {"--outdir", "output", NULL},

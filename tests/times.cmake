@@ -74,7 +74,8 @@ endfunction()
 
 # kiln_add_test(name label [TIMES row] [SANITIZED] COMMAND command... [PROPERTIES name value...]): a
 # test that CTest begins the earlier the longer it takes, so that no core is idle at the end. Its
-# limit is for hangs: ten times what it takes, at least two minutes and at most fifteen. One that is
+# limit is for hangs: ten times what it takes, at least two minutes and, but for packages, at most
+# fifteen. One that is
 # cut into parts becomes NAME.1, NAME.2 and so on, which get "1/2" as their last argument. What takes
 # no more than five seconds has the label "quick", too. TIMES: the row of another test. SANITIZED: it
 # takes several times as long as that, whatever the build.
@@ -90,7 +91,7 @@ function(kiln_add_test name label)
     math(EXPR limit "${test_seconds} * 10")
     if(limit LESS 120)
         set(limit 120)
-    elseif(limit GREATER 900)
+    elseif(limit GREATER 900 AND NOT label STREQUAL package)
         set(limit 900)
     endif()
     math(EXPR limit "${limit} * ${KILN_TEST_TIMEOUT_SCALE}")

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -20,6 +21,15 @@ static void drop_cut_character(char *text)
         text[length - 1] = '\0';
 }
 
+/* Bytes that the caller's struct has for a message; one of size 0 is of this version. */
+static size_t message_room(const struct kiln_error *error)
+{
+    const size_t before = offsetof(struct kiln_error, message);
+    if (error->size == 0 || error->size >= sizeof *error)
+        return sizeof error->message;
+    return error->size > before ? error->size - before : 0;
+}
+
 static void format_message(struct kiln_error *error, enum kiln_code code, const char *format,
                            va_list args)
 {
@@ -28,7 +38,8 @@ static void format_message(struct kiln_error *error, enum kiln_code code, const 
     const int length = vsnprintf(text, sizeof text, format, args);
     if (length >= (int)sizeof text)
         drop_cut_character(text);
-    kiln_shown(error->message, sizeof error->message, text);
+    if (message_room(error) > 0)
+        kiln_shown(error->message, message_room(error), text);
 }
 
 bool kiln_error_set(struct kiln_error *error, enum kiln_code code, const char *format, ...)
@@ -49,8 +60,9 @@ bool kiln_error_set_errno(struct kiln_error *error, enum kiln_code code, int err
     va_end(args);
 
     char text[128];
-    size_t length = strlen(error->message);
-    snprintf(error->message + length, sizeof error->message - length, ": %s",
-             strerror_r(errnum, text, sizeof text));
+    const size_t room = message_room(error), length = room > 0 ? strlen(error->message) : 0;
+    if (room > 0)
+        snprintf(error->message + length, room - length, ": %s",
+                 strerror_r(errnum, text, sizeof text));
     return false;
 }

@@ -97,6 +97,7 @@ static void write_block(FILE *out, const struct kiln_result *result)
     write_text(out, "message", result->message);
     write_text(out, "test", result->test);
     write_text(out, "device", result->device);
+    write_text(out, "kiln", result->version);
     if (result->status >= KILN_TEST_WARN) {
         fprintf(out, "  code: %d\n  seed: %u\n", (int)result->code, result->seed);
         write_text(out, "techniques", result->techniques);

@@ -1,8 +1,10 @@
 /* lib/base/sized: callers that were built against an older or a newer version. */
+#include <errno.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/sized.h"
 #include "support/cmocka.h"
 
@@ -53,6 +55,23 @@ static void defaults_fill_what_an_older_caller_lacks(void **state)
     own = defaults;
     assert_true(kiln_sized_take(&own, NULL, "params", &error));
     assert_memory_equal(&own, &defaults, sizeof own);
+}
+
+/* An error of a caller with less room for the message: nothing is written behind it. */
+static void errors_keep_to_their_size(void **state)
+{
+    (void)state;
+    enum { ROOM = 8 };
+    struct kiln_error error;
+    memset(&error, '#', sizeof error);
+    error.size = offsetof(struct kiln_error, message) + ROOM;
+    assert_false(kiln_error_set(&error, KILN_IO, "%s", "longer than that"));
+    assert_int_equal(error.code, KILN_IO);
+    assert_string_equal(error.message, "longer ");
+    assert_false(kiln_error_set_errno(&error, KILN_IO, ENOENT, "x"));
+    assert_string_equal(error.message, "x: No s");
+    for (size_t i = ROOM; i < sizeof error.message; i++)
+        assert_int_equal(error.message[i], '#');
 }
 
 static void what_a_newer_caller_has_beyond_is_passed_over(void **state)
@@ -125,6 +144,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_fill_what_an_older_caller_lacks),
+        cmocka_unit_test(errors_keep_to_their_size),
         cmocka_unit_test(what_a_newer_caller_has_beyond_is_passed_over),
         cmocka_unit_test(results_go_as_far_as_there_is_room),
         cmocka_unit_test(no_version_had_such_a_size),

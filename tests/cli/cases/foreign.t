@@ -90,3 +90,11 @@ $ for color in red '#ff0000' 0xff0000 "'#ff0000'"; do kiln check -q scenes/tiny.
 2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found '0xff0000'
 2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found the text "#ff0000"
 = 3
+
+$ for option in -c --camera --samples --snapshot; do kiln render scenes/tiny.yaml $option; done; kiln compare a b --out
+2|kiln: render: unknown option '-c'; a scene has one camera, such as '--set camera.position=[0,1,5] --set camera.target=[0,1,0]'
+2|kiln: render: unknown option '--camera'; a scene has one camera, such as '--set camera.position=[0,1,5] --set camera.target=[0,1,0]'
+2|kiln: render: unknown option '--samples'; how often a frame is drawn within its shutter: '--set camera.shutter.samples=16'
+2|kiln: render: unknown option '--snapshot'; what is whole is kept by '--resume', which goes on from there
+2|kiln: compare: unknown option '--out'; where it writes is an operand, or said by its other options ('--help')
+= 2
