@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The lists of the packages against what is installed: contents.sh SOURCE BUILD. Each file that
-# `cmake --install` puts anywhere is in one package; each line of a list names something; all places say the
-# same version.
+# `cmake --install` puts anywhere is in one package, but for copies that lie elsewhere in another; each line of
+# a list names something; all places say the same version.
 set -euo pipefail
 source=$1 build=$2
 root=$(mktemp -d)
@@ -17,17 +17,17 @@ mv "$root/usr/multiarch" "$root/usr/lib/"
 failed=0
 cd "$root"
 for list in "$source"/packaging/debian/*.install; do
-    while read -r pattern _; do
+    while read -r pattern folder; do
         found=$(compgen -G "$pattern" || true)
         [[ -n $found ]] || { echo "${list##*/}: nothing is installed as $pattern"; failed=1; continue; }
         while read -r path; do
-            find "$path" \( -type f -o -type l \) >>claimed
+            find "$path" \( -type f -o -type l \) >>"$([[ -z $folder ]] && echo claimed || echo elsewhere)"
         done <<<"$found"
     done <"$list"
 done
 find usr \( -type f -o -type l \) | sort >there
 sort claimed | uniq -d | sed 's/^/in two packages: /' >wrong
-comm -13 <(sort -u claimed) there | sed 's/^/in no package: /' >>wrong
+comm -13 <(sort -u claimed elsewhere) there | sed 's/^/in no package: /' >>wrong
 cat wrong
 [[ ! -s wrong ]] || failed=1
 

@@ -35,7 +35,7 @@ said() { # exit code, what it prints in the end, a command
 
 # A newcomer's way: the program alone, and a first clip.
 list >"$work/before"
-mapfile -t packages < <(files "$version" kiln libkiln0 kiln-examples)
+mapfile -t packages < <(files "$version" kiln kiln-examples)
 apt_install "$root" "${packages[@]}"
 said 0 "^kiln $version \([0-9a-f]{7}\)\$" "kiln --version"
 said 0 "^kiln: 1" "kiln check /usr/share/kiln/scenes/fire_beam.yaml | head -n 1"
@@ -54,7 +54,7 @@ said 0 "sandbox: " "kiln devices --verbose | grep sandbox || kiln devices | grep
 said 0 "^/usr/share/man/man5/kiln-scene.5" "man -w 5 kiln-scene"
 
 # The library from C, C++ and Python.
-mapfile -t packages < <(files "$version" libkiln-dev python3-kiln)
+mapfile -t packages < <(files "$version" libkiln0 libkiln-dev python3-kiln)
 apt_install "$root" "${packages[@]}" gcc g++ cmake ninja-build pkg-config
 said 0 "" "cmake -S /usr/share/kiln/examples -B /tmp/examples -G Ninja"
 said 0 "" "cmake --build /tmp/examples"
