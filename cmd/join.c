@@ -15,7 +15,8 @@ static const struct option options[] = {
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
      .reach = REACH_WRITE,
-     .help = "Also write a JSON file that describes the job: its `result` is that of one run."},
+     .help = "Also write a JSON file that describes the job: its `result` is that of one run, and "
+             "`runs_before` are those of the shards."},
     {.name = "force",
      .kind = OPTION_FLAG,
      .help = "Replace files that exist and are none of the job's."},

@@ -85,8 +85,8 @@ static const struct option options[] = {
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
      .reach = REACH_WRITE,
-     .help = "Also write a JSON file that describes the run: scene, device, techniques, state of "
-             "each frame, times. A folder or '{scene}' as for --output."},
+     .help = "Also write a JSON file that describes the run, also one that fails: scene, device, "
+             "techniques, state of each frame, times. A folder or '{scene}' as for --output."},
     {.name = "states",
      .kind = OPTION_TEXT,
      .placeholder = "STATES",

@@ -31,6 +31,7 @@ struct kiln_job {
     struct kiln_records records;     /* of the frames, where a manifest or a journal needs them */
     char *scene_json;                /* for both, too */
     char made_by[512];               /* device and techniques, for the journal */
+    struct kiln_attempt run;         /* for both as well */
     bool resumes;
     struct kiln_resume resume;
     bool draws;                 /* else all that was asked for is there */
@@ -395,26 +396,30 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
             .overwrite = params->overwrite,
             .again = job->resumes,
             .scene = job->scene_json,
-            .device = &job->device->info,
-            .techniques = job->stats.techniques,
             .output = params->output,
             .files = params->output ? &job->files : NULL,
-            .command = params->command,
-            .command_count = params->command_count,
-            .build = params->build,
+            .run = &job->run,
         },
         error);
     return job->manifest != NULL;
 }
 
-/* Fills the statistics with the techniques that the loop chose. */
-static void describe_loop(struct kiln_job *job)
+/* Fills the statistics with the techniques that the loop chose, and what the run is known by. */
+static void describe_run(struct kiln_job *job)
 {
+    const struct kiln_render_params *params = job->params;
     const struct kiln_techniques *techniques = kiln_loop_techniques(job->loop);
     struct kiln_render_stats *stats = &job->stats;
     kiln_techniques_describe(techniques, stats->techniques, sizeof stats->techniques);
     stats->choice_count = KILN_STAGE_COUNT;
     memcpy(stats->choices, techniques->choices, sizeof techniques->choices);
+    job->run = (struct kiln_attempt){.command = params->command,
+                                     .command_count = params->command_count,
+                                     .build = params->build,
+                                     .device = &job->device->info,
+                                     .techniques = stats->techniques,
+                                     .shard = {params->shard, params->shards},
+                                     .started = time(NULL)};
 }
 
 static bool begin(struct kiln_job *job, struct kiln_error *error)
@@ -432,7 +437,7 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
     job->loop = kiln_loop_create(job->device, job->scene, &loop, error);
     if (!job->loop)
         return false;
-    describe_loop(job);
+    describe_run(job);
     if (!open_output(job, error))
         return false;
     if (!job->draws)
@@ -478,21 +483,42 @@ static bool finish_output(struct kiln_job *job, struct kiln_error *error)
             job->resume.clip_is_whole || kiln_resume_join(&job->resume, error));
 }
 
+static void sum_up(struct kiln_job *job)
+{
+    job->stats.frames = job->progress.done;
+    job->stats.steps = kiln_loop_steps(job->loop);
+    job->stats.total_s = kiln_clock_seconds() - job->started_s;
+    job->run.asked = job->total_frames;
+}
+
+/* Tells of the run where the job is told of: in its journal, and in the manifest. */
+static bool describe(struct kiln_job *job, const struct kiln_error *failure,
+                     struct kiln_error *error)
+{
+    return (!job->resumes ||
+            kiln_resume_end_attempt(&job->resume, &job->run, &job->stats, failure, error)) &&
+           (!job->manifest ||
+            kiln_manifest_finish(job->manifest, &job->records, &job->stats, failure, error));
+}
+
 bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
                      struct kiln_error *error)
 {
-    struct kiln_render_stats *s = &job->stats;
-    if (!find_last_state(job, error))
+    if (!find_last_state(job, error) || !finish_output(job, error))
         return false;
-    s->frames = job->progress.done;
-    s->steps = kiln_loop_steps(job->loop);
-    if (!finish_output(job, error))
+    sum_up(job);
+    if (!describe(job, NULL, error))
         return false;
-    s->total_s = kiln_clock_seconds() - job->started_s;
-    if (job->manifest && !kiln_manifest_finish(job->manifest, &job->records, s, error))
-        return false;
-    *stats = *s;
+    *stats = job->stats;
     return true;
+}
+
+void kiln_job_fail(struct kiln_job *job, const struct kiln_error *failure)
+{
+    struct kiln_error ignored = {0};
+    kiln_output_close(&job->output); /* no more files become whole */
+    sum_up(job);
+    describe(job, failure, &ignored);
 }
 
 void kiln_job_destroy(struct kiln_job **job)
@@ -529,6 +555,8 @@ struct kiln_job *kiln_job_create(struct kiln_device *device, const struct kiln_s
     job->stats.size = sizeof job->stats;
     job->started_s = kiln_clock_seconds();
     if (!begin(job, error)) {
+        if (job->manifest)
+            kiln_job_fail(job, error);
         kiln_resume_undo(&job->resume);
         kiln_job_destroy(&job);
     }

@@ -36,4 +36,7 @@ const struct kiln_progress *kiln_job_progress(const struct kiln_job *job);
 bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
                      struct kiln_error *error);
 
+/* Ends a job that failed: its manifest and its journal tell how far it came and why. */
+void kiln_job_fail(struct kiln_job *job, const struct kiln_error *failure);
+
 #endif

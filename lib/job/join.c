@@ -19,6 +19,7 @@ struct join {
     struct kiln_journal_head head;
     struct kiln_records records;
     struct kiln_resume resume;
+    time_t started;
 };
 
 static bool take_whole(void *user, const struct kiln_whole *whole, struct kiln_error *error)
@@ -64,19 +65,21 @@ static bool write_manifest(const struct join *join, const struct kiln_render_sta
     const struct kiln_join_params *params = join->params;
     if (!params->manifest)
         return true;
+    const struct kiln_attempt run = {.command = params->command,
+                                     .command_count = params->command_count,
+                                     .build = params->build,
+                                     .techniques = "",
+                                     .started = join->started};
     struct kiln_manifest *manifest =
         kiln_manifest_open(&(struct kiln_manifest_params){.path = params->manifest,
                                                           .overwrite = params->overwrite,
                                                           .again = true,
                                                           .scene = join->head.scene,
-                                                          .techniques = "",
                                                           .output = params->output,
                                                           .files = &join->resume.output,
-                                                          .command = params->command,
-                                                          .command_count = params->command_count,
-                                                          .build = params->build},
+                                                          .run = &run},
                            error);
-    const bool ok = manifest && kiln_manifest_finish(manifest, &join->records, stats, error);
+    const bool ok = manifest && kiln_manifest_finish(manifest, &join->records, stats, NULL, error);
     kiln_manifest_close(&manifest);
     return ok;
 }
@@ -153,6 +156,7 @@ bool kiln_join(const struct kiln_join_params *given, struct kiln_join_stats *sta
         !kiln_sized_check(stats, "kiln_join_stats", error))
         return false;
     struct join join = {.params = &params,
+                        .started = time(NULL),
                         .stop = {params.stop, params.user, NULL, params.budget, params.cancel}};
     const bool ok = run(&join, &done, error);
     kiln_resume_end(&join.resume);

@@ -118,6 +118,19 @@ bool kiln_journal_add(struct kiln_journal *journal, const struct kiln_records *r
     return append(journal, &json, &line, whole->is_part || whole->is_clip, error);
 }
 
+bool kiln_journal_add_attempt(struct kiln_journal *journal, const struct kiln_attempt *run,
+                              const struct kiln_render_stats *stats,
+                              const struct kiln_error *failure, struct kiln_error *error)
+{
+    struct kiln_text line = {0};
+    struct kiln_json json = kiln_json_to_text(&line);
+    kiln_json_begin_object(&json, NULL);
+    kiln_json_begin_object(&json, "run");
+    kiln_attempt_describe(&json, run, stats, failure);
+    kiln_json_end(&json);
+    return append(journal, &json, &line, true, error);
+}
+
 /* ---- opening --------------------------------------------------------------------------------- */
 
 /* Whether the file still has its name: who had it locked before may have removed it. */

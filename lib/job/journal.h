@@ -3,9 +3,9 @@
 #ifndef KILN_JOB_JOURNAL_H
 #define KILN_JOB_JOURNAL_H
 
+#include "job/attempt.h"
 #include "job/journal_head.h"
 #include "job/record.h"
-#include "job/shard.h"
 
 struct kiln_journal;
 
@@ -51,6 +51,11 @@ bool kiln_journal_find(const char *output, struct kiln_journal_head *head, struc
  * later. KILN_IO. */
 bool kiln_journal_add(struct kiln_journal *journal, const struct kiln_records *records,
                       const struct kiln_whole *whole, struct kiln_error *error);
+
+/* Appends what a run came to, at its end. KILN_IO. */
+bool kiln_journal_add_attempt(struct kiln_journal *journal, const struct kiln_attempt *run,
+                              const struct kiln_render_stats *stats,
+                              const struct kiln_error *failure, struct kiln_error *error);
 void kiln_journal_close(struct kiln_journal **journal);
 
 /* Closes a journal that was begun for nothing, and removes it. */

@@ -4,7 +4,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/text.h"
+#include "job/attempt.h"
 #include "job/journal_file.h"
 
 enum { MAX_SIZE = 1 << 30 };
@@ -76,6 +78,17 @@ static void read_clip(const struct kiln_journal *journal, const struct kiln_node
     kiln_records_take(records, &whole);
 }
 
+/* Takes down what a line says of a run, as JSON that is known to be whole. */
+static void read_run(const struct kiln_node *run, struct kiln_records *records)
+{
+    struct kiln_text copy = {0};
+    struct kiln_json json = kiln_json_to_text(&copy);
+    kiln_attempt_copy(&json, NULL, run);
+    if (run->kind == KILN_NODE_MAP && !json.failed && !copy.failed)
+        kiln_text_add(&records->runs, "%s%s", records->runs.length > 0 ? ",\n    " : "", copy.data);
+    kiln_text_free(&copy);
+}
+
 bool kiln_journal_parse_line(struct kiln_arena *arena, const char *path, char *line,
                              const struct kiln_node **node, struct kiln_error *error)
 {
@@ -131,6 +144,8 @@ static bool read_line(const struct kiln_journal *journal, const struct kiln_node
         read_frames(line, records);
     else if (line && kiln_node_entry(line, "clip"))
         read_clip(journal, line, records);
+    else if (line && kiln_node_entry(line, "run"))
+        read_run(kiln_node_entry(line, "run"), records);
     else if (line && kiln_node_entry(line, "anew"))
         records->anew = true;
     return true;

@@ -35,14 +35,6 @@ static bool flush(struct kiln_manifest *manifest, struct kiln_error *error)
     return kiln_temporary_fail(&manifest->file, error);
 }
 
-static void add_passes(struct kiln_json *json, const double pass_ms[KILN_PASS_COUNT])
-{
-    kiln_json_begin_object(json, "ms");
-    for (int i = 0; i < KILN_PASS_COUNT; i++)
-        kiln_json_time(json, kiln_pass_name((enum kiln_pass)i), pass_ms[i]);
-    kiln_json_end(json);
-}
-
 static void add_state(struct kiln_json *json, const struct kiln_state_hash *state, uint64_t alive)
 {
     kiln_json_format(json, "state", "%08x%08x", state->lane[0], state->lane[1]);
@@ -84,40 +76,6 @@ char *kiln_manifest_scene(const struct kiln_scene *scene)
         return text.data;
     kiln_text_free(&text);
     return NULL;
-}
-
-static void add_device(struct kiln_json *json, const struct kiln_device_info *device)
-{
-    if (!device) {
-        kiln_json_null(json, "device");
-        return;
-    }
-    kiln_json_begin_object(json, "device");
-    kiln_json_string(json, "name", device->name);
-    kiln_json_string(json, "vendor", device->vendor);
-    kiln_json_string(json, "gl_version", device->gl_version);
-    kiln_json_string(json, "platform", device->platform);
-    kiln_json_bool(json, "software", device->software);
-    kiln_json_bool(json, "exact", device->exact);
-    kiln_json_end(json);
-}
-
-/* "simulate=cpu sort=cpu" as an object. */
-static void add_techniques(struct kiln_json *json, const char *techniques)
-{
-    kiln_json_begin_object(json, "techniques");
-    while (*techniques) {
-        size_t length = strcspn(techniques, " ");
-        const char *equals = memchr(techniques, '=', length);
-        if (equals) {
-            char stage[32];
-            size_t stage_length = (size_t)(equals - techniques);
-            snprintf(stage, sizeof stage, "%.*s", (int)stage_length, techniques);
-            kiln_json_format(json, stage, "%.*s", (int)(length - stage_length - 1), equals + 1);
-        }
-        techniques += length + strspn(techniques + length, " ");
-    }
-    kiln_json_end(json);
 }
 
 /* Whether a file begins as kiln_manifest_finish writes it. */
@@ -178,11 +136,21 @@ static bool add_frame(struct kiln_manifest *manifest, const struct kiln_records 
     return flush(manifest, error);
 }
 
-/* Writes the member that is the same for every run of the job, however often it was killed. */
+/* Whether a frame is there. Of a run that failed, that is so for frames whose files are whole, or
+ * which were drawn where no files are written. */
+static bool is_there(const struct kiln_manifest *manifest, const struct kiln_record *record,
+                     const struct kiln_error *failure)
+{
+    return !failure || (manifest->params.files ? record->whole : record->has_state);
+}
+
+/* Writes the member that is the same for every run that brought the job to its end, however often
+ * it was killed. */
 static bool add_result(struct kiln_manifest *manifest, const struct kiln_records *records,
-                       struct kiln_error *error)
+                       const struct kiln_error *failure, struct kiln_error *error)
 {
     struct kiln_json *json = &manifest->json;
+    uint32_t missing = 0;
     kiln_json_begin_object(json, "result");
     kiln_json_lines(json, 4);
     kiln_json_raw(json, "scene", manifest->params.scene);
@@ -190,11 +158,15 @@ static bool add_result(struct kiln_manifest *manifest, const struct kiln_records
     kiln_json_begin_array(json, "frames");
     kiln_json_lines(json, 6);
     for (uint32_t i = 0; i < records->count; i++) {
-        if (!add_frame(manifest, records, i, error))
+        if (!is_there(manifest, &records->items[i], failure))
+            missing++;
+        else if (!add_frame(manifest, records, i, error))
             return false;
     }
     kiln_json_end_line(json, 4);
+    kiln_json_uint(json, "missing", missing);
     kiln_json_begin_array(json, "files");
+    kiln_json_lines(json, 6);
     for (uint32_t i = 0; i < records->file_count; i++) {
         kiln_json_begin_object(json, NULL);
         kiln_json_string(json, "file", records->files[i].path);
@@ -202,7 +174,7 @@ static bool add_result(struct kiln_manifest *manifest, const struct kiln_records
         kiln_json_string(json, "sha256", records->files[i].sha256);
         kiln_json_end(json);
     }
-    kiln_json_end(json);
+    kiln_json_end_line(json, 4);
     kiln_json_end_line(json, 2);
     return true;
 }
@@ -222,7 +194,7 @@ static bool add_times(struct kiln_manifest *manifest, const struct kiln_records 
             pass_ms[pass] = (double)record->pass_ms[pass];
         kiln_json_begin_object(json, NULL);
         kiln_json_uint(json, "frame", kiln_records_frame(records, i));
-        add_passes(json, pass_ms);
+        kiln_attempt_add_passes(json, pass_ms);
         kiln_json_end(json);
         if (!flush(manifest, error))
             return false;
@@ -231,46 +203,37 @@ static bool add_times(struct kiln_manifest *manifest, const struct kiln_records 
     return true;
 }
 
-/* Writes the member that says where and how this run worked at the job. */
-static bool add_run(struct kiln_manifest *manifest, const struct kiln_records *records,
-                    const struct kiln_render_stats *stats, struct kiln_error *error)
+/* Writes the member that tells of this run, and that of the runs before it that the journals tell
+ * of. */
+static bool add_runs(struct kiln_manifest *manifest, const struct kiln_records *records,
+                     const struct kiln_render_stats *stats, const struct kiln_error *failure,
+                     struct kiln_error *error)
 {
     struct kiln_json *json = &manifest->json;
-    char host[256] = "";
-    if (gethostname(host, sizeof host - 1) != 0)
-        host[0] = '\0';
     kiln_json_begin_object(json, "run");
     kiln_json_lines(json, 4);
-    kiln_json_string(json, "host", host);
-    const char *build = manifest->params.build;
-    kiln_json_string(json, "build", build ? build : KILN_VERSION);
-    kiln_json_strings(json, "command", manifest->params.command, manifest->params.command_count);
-    add_device(json, manifest->params.device);
-    add_techniques(json, manifest->params.techniques);
-    kiln_json_uint(json, "kept", stats->kept);
+    kiln_attempt_describe(json, manifest->params.run, stats, failure);
     if (!add_times(manifest, records, error))
         return false;
-    kiln_json_begin_object(json, "totals");
-    kiln_json_uint(json, "frames", stats->frames);
-    kiln_json_uint(json, "steps", stats->steps);
-    kiln_json_time(json, "setup_s", stats->setup_s);
-    kiln_json_time(json, "total_s", stats->total_s);
-    kiln_json_uint(json, "particle_bytes", stats->particle_bytes);
-    kiln_json_line(json, 6);
-    add_passes(json, stats->pass_ms);
-    kiln_json_end(json);
+    kiln_json_end_line(json, 2);
+    kiln_json_begin_array(json, "runs_before");
+    kiln_json_lines(json, 4);
+    if (records->runs.length > 0)
+        kiln_json_raw(json, NULL, records->runs.data);
     kiln_json_end_line(json, 2);
     return true;
 }
 
 bool kiln_manifest_finish(struct kiln_manifest *manifest, const struct kiln_records *records,
-                          const struct kiln_render_stats *stats, struct kiln_error *error)
+                          const struct kiln_render_stats *stats, const struct kiln_error *failure,
+                          struct kiln_error *error)
 {
     struct kiln_json *json = &manifest->json;
     kiln_json_begin_object(json, NULL);
     kiln_json_lines(json, 2);
     kiln_json_string(json, "kiln", KILN_VERSION);
-    bool ok = add_result(manifest, records, error) && add_run(manifest, records, stats, error);
+    bool ok = add_result(manifest, records, failure, error) &&
+              add_runs(manifest, records, stats, failure, error);
     if (ok) {
         kiln_json_end_line(json, 0);
         kiln_json_finish(json);

@@ -1,9 +1,10 @@
-/* The manifest: a JSON file that says what a job came to (`result`), and with what and how long a
- * run worked at it (`run`), so that it can be repeated and compared. The result is the same for
- * every run of the job, the run is not. */
+/* The manifest: a JSON file that says what a job came to (`result`), and with what and how long
+ * this run and those before worked at it (`run`, `runs_before`), so that it can be repeated and
+ * compared. The result is the same for every run that brings the job to its end; runs differ. */
 #ifndef KILN_JOB_MANIFEST_H
 #define KILN_JOB_MANIFEST_H
 
+#include "job/attempt.h"
 #include "job/record.h"
 
 struct kiln_manifest_params {
@@ -11,13 +12,9 @@ struct kiln_manifest_params {
     bool overwrite;
     bool again;                             /* an older manifest is replaced in any case */
     const char *scene;                      /* of kiln_manifest_scene */
-    const struct kiln_device_info *device;  /* NULL: no device was used */
-    const char *techniques;                 /* "simulate=cpu sort=cpu ..." */
     const char *output;                     /* as the user gave it; NULL: nothing was written */
     const struct kiln_output_params *files; /* complete; NULL: nothing was written */
-    const char *const *command;             /* the words of the command line */
-    size_t command_count;
-    const char *build; /* which kiln, "0.2.0 (254e4dc)"; NULL: its version */
+    const struct kiln_attempt *run;
 };
 
 struct kiln_manifest;
@@ -31,9 +28,11 @@ char *kiln_manifest_scene(const struct kiln_scene *scene);
 struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *params,
                                          struct kiln_error *error);
 
-/* Writes all of it and gives the file its name. KILN_IO, KILN_DEVICE_FAILED. */
+/* Writes all of it and gives the file its name. `failure` is why the run failed, or NULL: then its
+ * result has all frames, else those that are there. KILN_IO, KILN_DEVICE_FAILED. */
 bool kiln_manifest_finish(struct kiln_manifest *manifest, const struct kiln_records *records,
-                          const struct kiln_render_stats *stats, struct kiln_error *error);
+                          const struct kiln_render_stats *stats, const struct kiln_error *failure,
+                          struct kiln_error *error);
 
 /* Without a finish before, nothing is left of the file. */
 void kiln_manifest_close(struct kiln_manifest **manifest);

@@ -18,6 +18,7 @@ bool kiln_records_create(struct kiln_records *records, const struct kiln_frame_r
 void kiln_records_free(struct kiln_records *records)
 {
     free(records->items);
+    kiln_text_free(&records->runs);
     *records = (struct kiln_records){.items = NULL};
 }
 

@@ -3,6 +3,7 @@
 #ifndef KILN_JOB_RECORD_H
 #define KILN_JOB_RECORD_H
 
+#include "base/text.h"
 #include "output/output.h"
 
 struct kiln_record {
@@ -29,7 +30,9 @@ struct kiln_records {
         char sha256[65];
     } files[3];
     uint32_t file_count;
-    bool anew; /* files that were there before the job do not count */
+    struct kiln_text runs; /* objects of JSON with ",\n    " between them: runs of which the
+                              journals tell */
+    bool anew;             /* files that were there before the job do not count */
 };
 
 /* False when memory is short. */

@@ -11,7 +11,8 @@ struct kiln_rendering {
     struct kiln_flipbook flipbook;
     struct kiln_device *device;
     struct kiln_job *job;
-    bool ended; /* no frame is left to draw */
+    bool ended;                /* no frame is left to draw */
+    struct kiln_error failure; /* of a frame; code 0: none */
 };
 
 /* The job's own parameters. */
@@ -51,9 +52,11 @@ bool kiln_rendering_next(struct kiln_rendering *r, bool *drawn, struct kiln_prog
                          struct kiln_error *error)
 {
     *drawn = false;
-    if (!kiln_sized_check(progress, "kiln_progress", error) ||
-        !kiln_device_make_current(r->device, error) || !kiln_job_next(r->job, drawn, error))
+    if (!kiln_sized_check(progress, "kiln_progress", error))
         return false;
+    if (!kiln_device_make_current(r->device, &r->failure) ||
+        !kiln_job_next(r->job, drawn, &r->failure))
+        return kiln_error_set(error, r->failure.code, "%s", r->failure.message);
     r->ended = !*drawn;
     if (*drawn)
         kiln_sized_give(progress, kiln_job_progress(r->job));
@@ -83,6 +86,8 @@ bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_st
     ok = ok && kiln_job_finish(r->job, &done, error);
     if (ok)
         kiln_sized_give(stats, &done);
+    else
+        kiln_job_fail(r->job, r->failure.code ? &r->failure : error);
     kiln_job_destroy(&r->job);
     free(r);
     *rendering = NULL;

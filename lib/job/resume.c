@@ -375,6 +375,14 @@ bool kiln_resume_note(struct kiln_resume *resume, uint32_t frame, struct kiln_er
            kiln_journal_add(resume->journal, resume->records, &whole, error);
 }
 
+bool kiln_resume_end_attempt(struct kiln_resume *resume, const struct kiln_attempt *run,
+                             const struct kiln_render_stats *stats,
+                             const struct kiln_error *failure, struct kiln_error *error)
+{
+    return !resume->journal || stats->frames == 0 ||
+           kiln_journal_add_attempt(resume->journal, run, stats, failure, error);
+}
+
 bool kiln_resume_join(struct kiln_resume *resume, struct kiln_error *error)
 {
     struct kiln_output_params output = resume->output;

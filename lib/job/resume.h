@@ -44,6 +44,11 @@ bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_para
  * for a clip that is not to be overwritten: a job has begun it. */
 bool kiln_resume_clear(const struct kiln_output_params *output, struct kiln_error *error);
 
+/* Says in the journal what this run came to, if it made frames. KILN_IO. */
+bool kiln_resume_end_attempt(struct kiln_resume *resume, const struct kiln_attempt *run,
+                             const struct kiln_render_stats *stats,
+                             const struct kiln_error *failure, struct kiln_error *error);
+
 /* Joins the parts of a clip, which are all there, says so in the journal, and removes them. */
 bool kiln_resume_join(struct kiln_resume *resume, struct kiln_error *error);
 

@@ -62,7 +62,8 @@ static struct fy_document *read_json(const char *path)
     return json;
 }
 
-static void write_manifest(const struct kiln_manifest_params *params, uint32_t frames)
+static void write_manifest(const struct kiln_manifest_params *params, uint32_t frames,
+                           const struct kiln_error *failure)
 {
     struct kiln_error error = {0};
     struct kiln_manifest *manifest = kiln_manifest_open(params, &error);
@@ -85,7 +86,7 @@ static void write_manifest(const struct kiln_manifest_params *params, uint32_t f
                                             .total_s = 61.0625,
                                             .particle_bytes = 4096};
     assert_int_not_equal(access(params->path, F_OK), 0); /* not before it is whole */
-    assert_true(kiln_manifest_finish(manifest, &records, &stats, &error));
+    assert_true(kiln_manifest_finish(manifest, &records, &stats, failure, &error));
     kiln_manifest_close(&manifest);
     assert_null(manifest);
     kiln_records_free(&records);
@@ -96,6 +97,7 @@ struct fixture {
     char folder[32], path[64];
     struct kiln_scene *scene;
     char *scene_json;
+    struct kiln_attempt run;
     struct kiln_manifest_params params;
 };
 
@@ -106,8 +108,8 @@ static int set_up(void **state)
     snprintf(f.path, sizeof f.path, "%s/new/run.json", f.folder);
     f.scene = make_scene();
     f.scene_json = kiln_manifest_scene(f.scene);
-    f.params =
-        (struct kiln_manifest_params){.path = f.path, .scene = f.scene_json, .techniques = ""};
+    f.run = (struct kiln_attempt){.techniques = ""};
+    f.params = (struct kiln_manifest_params){.path = f.path, .scene = f.scene_json, .run = &f.run};
     *state = &f;
     return 0;
 }
@@ -143,19 +145,19 @@ static void everything_is_in_it(void **state)
     struct fixture *f = *state;
     const struct kiln_device_info device = {
         .software = true, .name = "llvm\\pipe", .vendor = "Mesa", .gl_version = "4.5"};
-    f->params.device = &device;
-    f->params.techniques = "simulate=cpu sort=radix";
+    f->run.device = &device;
+    f->run.techniques = "simulate=cpu sort=radix";
     f->params.output = "out/####.png";
     const char *const command[] = {"render", "a b.yaml"};
-    f->params.command = command;
-    f->params.command_count = 2;
-    f->params.build = "0.2.0 (254e4dc)";
+    f->run.command = command;
+    f->run.command_count = 2;
+    f->run.build = "0.2.0 (254e4dc)";
     const struct kiln_frame_range clip = {0, 2};
     struct kiln_output_params files = test_output_params("out/\xff####.png", &clip);
     struct kiln_error none = {0};
     files = kiln_output_complete(&files, &none);
     f->params.files = &files;
-    write_manifest(&f->params, 3);
+    write_manifest(&f->params, 3, NULL);
 
     struct fy_document *json = read_json(f->path);
     check_value(json, "/kiln", KILN_VERSION);
@@ -184,6 +186,8 @@ static void everything_is_in_it(void **state)
     check_value(json, "/run/build", "0.2.0 (254e4dc)");
     check_value(json, "/run/command/1", "a b.yaml");
     check_value(json, "/run/kept", "1");
+    check_value(json, "/run/error", "null");
+    check_value(json, "/result/missing", "0");
     check_value(json, "/run/totals/frames", "3");
     check_value(json, "/run/totals/total_s", "61.063");
     check_value(json, "/run/totals/particle_bytes", "4096");
@@ -195,11 +199,33 @@ static void everything_is_in_it(void **state)
 static void little_is_enough(void **state)
 {
     const struct fixture *f = *state;
-    write_manifest(&f->params, 0);
+    write_manifest(&f->params, 0, NULL);
     struct fy_document *json = read_json(f->path);
     check_value(json, "/run/device", "null");
     check_value(json, "/result/output", "null");
     check_value(json, "/run/totals/frames", "0");
+    fy_document_destroy(json);
+}
+
+/* Of three frames the last one is whole. */
+static void failed_runs_tell_how_far_they_came(void **state)
+{
+    struct fixture *f = *state;
+    const struct kiln_error failure = {.code = KILN_OVER_LIMIT, .message = "too \"much\""};
+    const struct kiln_frame_range clip = {0, 2};
+    struct kiln_output_params files = test_output_params("%d.png", &clip);
+    struct kiln_error error = {0};
+    files = kiln_output_complete(&files, &error);
+    f->params.files = &files;
+    f->run.asked = 3;
+    write_manifest(&f->params, 3, &failure);
+    f->params.files = NULL;
+    struct fy_document *json = read_json(f->path);
+    check_value(json, "/result/frames/0/frame", "2");
+    check_value(json, "/result/missing", "2");
+    check_value(json, "/run/error/code", "8");
+    check_value(json, "/run/error/message", "too \"much\"");
+    check_value(json, "/run/totals/asked", "3");
     fy_document_destroy(json);
 }
 
@@ -215,7 +241,7 @@ static void only_whole_manifests_stay(void **state)
     kiln_manifest_close(&manifest);
     assert_int_equal(test_count_files(parent), 0);
 
-    write_manifest(&f->params, 1);
+    write_manifest(&f->params, 1, NULL);
     assert_null(kiln_manifest_open(&f->params, &error));
     assert_int_equal(error.code, KILN_IO);
     assert_non_null(strstr(error.message, "the file exists"));
@@ -226,6 +252,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(everything_is_in_it, set_up, tear_down),
         cmocka_unit_test_setup_teardown(little_is_enough, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(failed_runs_tell_how_far_they_came, set_up, tear_down),
         cmocka_unit_test_setup_teardown(only_whole_manifests_stay, set_up, tear_down),
     };
     return cmocka_run_group_tests_name("manifest", tests, NULL, NULL);

@@ -12,12 +12,25 @@ $ for i in 0 1 2 3 4 5; do cmp ref_$i.png f_$i.png; done
 $ diff <(jq '.result | del(.output, .frames[].file)' ref.json) <(jq '.result | del(.output, .frames[].file)' m.json)
 $ jq -c '.run | [.kept, (.frames | length), .command[0:2]]' m.json
 1|[3,3,["kiln","render"]]
+$ jq -c '.runs_before[] | [.error, .totals.asked, .totals.frames]' m.json
+1|[null,6,6]
 $ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none --stats=json | jq -c 'select(.event == "result") | [.frames, .kept, .steps]'
 1|[0,6,0]
 
+The manifest of a run that failed says why, how far it came, and which frames are there.
+
+$ kiln render scenes/tiny.yaml -q --frames 0-5 -o l_%d.png --limits output=3000 --manifest l.json 2>&1 | sed 's/l_[01].png: .* of/.../'
+1|kiln: ... output, and the limit `output` is 2.93 KiB
+$ jq -c '.run.error.code, .run.totals.asked, .result.missing + (.result.frames | length), (.result.missing > 3)' l.json
+1|8
+1|6
+1|6
+1|true
+$ diff <(jq -r '.result.frames[].file' l.json) <(ls l_*.png 2>/dev/null)
+
 A journal that a crash has cut off says less; without one, frames say themselves whose they are.
 
-$ truncate -s -30 f_%d.png.journal && kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none
+$ sed -i '/"run"/d' f_%d.png.journal && truncate -s -30 f_%d.png.journal && kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none
 1|device: <device>
 1|f_0.png and 5 more: 0 frames in <s> s, 6 kept
 $ rm f_%d.png.journal f_3.png && kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none
@@ -79,12 +92,13 @@ $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=41 -o c.mp4 --resume
 $ cmp ref.mp4 c.mp4 && ls -d c.mp4*
 1|c.mp4
 1|c.mp4.journal
-$ jq -c 'if .part then .frames else .clip end' c.mp4.journal
+$ jq -c 'if .part then .frames elif .run then .run.totals.frames else .clip end' c.mp4.journal
 1|null
 1|[0,19]
 1|[20,39]
 1|[40,40]
 1|"c.mp4"
+1|41
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=41 -o c.mp4 --resume --progress none
 1|device: <device>
 1|c.mp4: 0 frames in <s> s, 41 kept

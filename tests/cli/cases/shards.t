@@ -26,8 +26,16 @@ $ kiln join c.mp4 --manifest m.json && cmp ref.mp4 c.mp4 && ls -d c.mp4*
 1|c.mp4
 1|c.mp4.journal
 $ diff <(jq '.result | del(.output, .frames[].file, .files[].file)' ref.json) <(jq '.result | del(.output, .frames[].file, .files[].file)' m.json)
-$ kiln join c.mp4
+$ jq -c '.run.command[1], .run.kept, (.runs_before[] | [.shard, .error, .kept, .totals.asked, .totals.frames])' m.json
+1|"join"
+1|61
+1|["1/3",null,0,40,40]
+1|["1/3",null,20,20,20]
+1|["2/3",null,0,20,20]
+1|["3/3",null,0,1,1]
+$ kiln join c.mp4 --manifest m.json && jq -c '[.runs_before[].shard]' m.json
 1|c.mp4: 61 frames in 4 parts, whole already
+1|["1/3","1/3","2/3","3/3"]
 
 Shards of different jobs are not joined.
 

@@ -206,9 +206,10 @@ $ kiln help render
 1|                              FILE_motion.png.
 1|      --flipbook-padding N    Pixels to add on each side of a cell, so that
 1|                              filters see nothing of its neighbours. Default: 0.
-1|      --manifest FILE         Also write a JSON file that describes the run:
-1|                              scene, device, techniques, state of each frame,
-1|                              times. A folder or '{scene}' as for --output.
+1|      --manifest FILE         Also write a JSON file that describes the run,
+1|                              also one that fails: scene, device, techniques,
+1|                              state of each frame, times. A folder or '{scene}'
+1|                              as for --output.
 1|      --states STATES         Start at the nearest state before the frames, out
 1|                              of a folder that 'kiln bake' made, and step on
 1|                              from there. The pictures are the same as without.
