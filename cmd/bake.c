@@ -6,6 +6,7 @@
 #include "command.h"
 #include "device.h"
 #include "event.h"
+#include "json_output.h"
 #include "limits.h"
 #include "overrides.h"
 #include "report.h"
@@ -39,9 +40,7 @@ static const struct option options[] = {
     {.name = "resume",
      .kind = OPTION_FLAG,
      .help = "Keep states that are whole, and go on from the last of them."},
-    {.name = "json",
-     .kind = OPTION_FLAG,
-     .help = "Print JSON, an object a line: a \"state\" for each, and a \"result\"."},
+    JSON_OPTION("an object a line, whose \"event\" is \"state\" for each, and \"result\"."),
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     EVENTS_OPTION,
     HELP_OPTION,
@@ -143,9 +142,10 @@ static int read_options(struct bake *bake, const struct arguments *arguments)
     params->stop = signals_wants_stop;
     params->user = bake;
     params->log = report_log();
-    if (arguments_flag(arguments, "json"))
-        events_open_plain();
+    const int code = events_open_json("bake", arguments);
     bake->quiet = arguments_flag(arguments, "quiet") || events_take_stdout();
+    if (code)
+        return code;
     if (!params->states)
         return report(KILN_USAGE, "bake: needs --output STATES, a folder");
     if (params->overwrite && params->resume)

@@ -45,7 +45,7 @@ static bool is_own(const char *name)
 
 static int refuse_options(const struct arguments *arguments)
 {
-    static const char *const refused[] = {"output", "manifest", "shard", "pipe"};
+    static const char *const refused[] = {"output", "manifest", "shard", "pipe", "json"};
     if (arguments->operand_count > 0)
         return report(KILN_USAGE, "render: --batch: not with a scene; its file names them");
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {

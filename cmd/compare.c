@@ -6,6 +6,7 @@
 #include "command.h"
 #include "compare_report.h"
 #include "event.h"
+#include "json_output.h"
 #include "report.h"
 #include "signals.h"
 
@@ -31,7 +32,7 @@ static const struct option options[] = {
      .help = "Write a PNG of FLIP's error map alone, of the pictures' size; names as --diff."},
     {.name = "force",
      .kind = OPTION_FLAG,
-     .help = "Let --diff and --error-map replace files that exist."},
+     .help = "Let --diff, --error-map and --json replace files that exist."},
     {.name = "ignore",
      .letter = 'i',
      .repeats = true,
@@ -81,9 +82,7 @@ static const struct option options[] = {
      .help = "Threads that work; 0 takes one a core.",
      .fallback = "0",
      .max = 256},
-    {.name = "json",
-     .kind = OPTION_FLAG,
-     .help = "Print JSON instead of text: an object a line, whose \"event\" is frame or result."},
+    JSON_OPTION("an object a line, whose \"event\" is \"frame\" or \"result\"."),
     {.name = "stats", .kind = OPTION_FLAG, .help = "Also print the time that it took."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     EVENTS_OPTION,
@@ -166,8 +165,9 @@ static int run(const struct arguments *arguments)
 {
     struct kiln_compare_params params = read_params(arguments);
     const bool is_quiet = arguments_flag(arguments, "quiet");
-    if (arguments_flag(arguments, "json") && !is_quiet)
-        events_open_plain();
+    const int code = events_open_json("compare", arguments);
+    if (code)
+        return code;
     struct compare_report printed = {.reference = params.reference,
                                      .test = params.test,
                                      .json = events_are_open(),

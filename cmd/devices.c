@@ -4,12 +4,14 @@
 
 #include "command.h"
 #include "event.h"
+#include "json_output.h"
 #include "report.h"
 
 enum { MAX_DEVICES = 64 };
 
 static const struct option options[] = {
-    {.name = "json", .kind = OPTION_FLAG, .help = "Print JSON instead of text."},
+    JSON_OPTION("one object."),
+    {.name = "force", .kind = OPTION_FLAG, .help = "Let --json replace a file that exists."},
     EVENTS_OPTION,
     HELP_OPTION,
 };
@@ -95,9 +97,10 @@ static void add_device(struct kiln_json *json, const struct kiln_device_info *in
     kiln_json_end(json);
 }
 
-static void print_json(const struct kiln_device_info *infos, size_t count, const char *advice)
+static void print_json(FILE *out, const struct kiln_device_info *infos, size_t count,
+                       const char *advice)
 {
-    struct kiln_json json = kiln_json_to_file(stdout);
+    struct kiln_json json = kiln_json_to_file(out);
     kiln_json_begin_object(&json, NULL);
     kiln_json_lines(&json, 2);
     kiln_json_begin_array(&json, "devices");
@@ -121,10 +124,12 @@ static int run(const struct arguments *arguments)
     size_t count = kiln_device_list(infos, sizeof *infos, MAX_DEVICES, advice);
     if (count > MAX_DEVICES)
         count = MAX_DEVICES;
-    if (arguments_last(arguments, "json")) {
-        print_json(infos, count, advice);
-        return 0;
-    }
+    FILE *out;
+    const int code = json_output_open(arguments, &out);
+    if (out)
+        print_json(out, infos, count, advice);
+    if (code || out == stdout)
+        return code;
     for (size_t i = 0; i < count; i++)
         print_text(&infos[i]);
     print_sandbox();

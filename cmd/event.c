@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "build.h"
+#include "json_output.h"
 #include "report.h"
 
 static struct {
@@ -350,13 +351,30 @@ int events_open(const struct command *command, const struct arguments *arguments
     return 0;
 }
 
-void events_open_plain(void)
+static void open_plain(FILE *out)
 {
-    if (stream.out)
-        return;
-    stream.out = stdout;
+    stream.out = out;
     stream.is_plain = true;
     stream.name = "standard output";
+}
+
+void events_open_plain(void)
+{
+    if (!stream.out)
+        open_plain(stdout);
+}
+
+int events_open_json(const char *command, const struct arguments *arguments)
+{
+    FILE *out;
+    if (arguments_flag(arguments, "json") && events_are_wanted())
+        return report(KILN_USAGE,
+                      "%s: --json and --events exclude each other; events have all that --json has",
+                      command);
+    const int code = json_output_open(arguments, &out);
+    if (out)
+        open_plain(out);
+    return code;
 }
 
 int events_close(int code)

@@ -17,8 +17,12 @@
  * Returns 0, or the exit code after reporting. Before the process confines itself. */
 int events_open(const struct command *command, const struct arguments *arguments);
 
-/* Opens standard output for the events that `render --progress ndjson`, `render --stats=json` and
- * `--json` of bake and compare have always printed: without times, and no others. */
+/* Opens the stream of events that --json of render, bake and compare prints: without times, and
+ * only those of the result. Returns 0, or the exit code after reporting: --events excludes it. */
+int events_open_json(const char *command, const struct arguments *arguments);
+
+/* The same on standard output, for the older spellings `render --progress ndjson` and
+ * `render --stats=json`. Nothing comes of it where a stream is open. */
 void events_open_plain(void);
 
 /* Whether --events was given; and whether a stream of either kind is open on standard output. */

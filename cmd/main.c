@@ -9,6 +9,7 @@
 #include "build.h"
 #include "command.h"
 #include "event.h"
+#include "json_output.h"
 #include "limits.h"
 #include "report.h"
 #include "sandbox.h"
@@ -146,7 +147,7 @@ static int run_command(const struct command *command, int argc, char **argv)
         if (code == 0)
             code = command->run(&arguments);
         limits_end(&limits);
-        code = events_close(code);
+        code = json_output_close(events_close(code));
     }
     arguments_free(&arguments);
     return code;

@@ -1,6 +1,7 @@
 /* Reads the command line by the rows of the option tables. */
 #include "options.h"
 
+#include <fnmatch.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -230,6 +231,14 @@ static bool looks_like_option(const struct parser *parser, const char *word)
             option_of_letter(parser->options, parser->option_count, word[1]));
 }
 
+/* Whether the next word is the value of an option in its older spelling. */
+static bool value_follows(const struct parser *parser, const struct option *option)
+{
+    const char *next = parser->next < parser->argc ? parser->argv[parser->next] : NULL;
+    return next && option->value_may_follow &&
+           (strcmp(next, "-") == 0 || fnmatch(option->files, next, 0) == 0);
+}
+
 /* Records a use; joined is the value that came with the option in one argument, or NULL. */
 static int use_option(struct parser *parser, const struct option *option, const char *joined)
 {
@@ -238,7 +247,14 @@ static int use_option(struct parser *parser, const struct option *option, const 
     if (option->kind == OPTION_FLAG && joined)
         return report(KILN_USAGE, "%s: --%s: takes no value, found '%s'", parser->place,
                       option->name, joined);
-    if (option->kind == OPTION_FLAG || (option->value_may_go && !joined))
+    const bool follows = !joined && value_follows(parser, option);
+    if (follows) {
+        char old[64], now[64];
+        snprintf(old, sizeof old, "'--%s %s'", option->name, option->placeholder);
+        snprintf(now, sizeof now, "'--%s=%s'", option->name, option->placeholder);
+        report_older(parser->place, old, now);
+    }
+    if (option->kind == OPTION_FLAG || (option->value_may_go && !joined && !follows))
         return 0;
     if (!joined) {
         const char *next = parser->next < parser->argc ? parser->argv[parser->next] : NULL;

@@ -23,10 +23,12 @@ enum option_kind {
 enum reach { REACH_NONE, REACH_READ, REACH_WRITE };
 
 struct option {
-    const char *name;  /* without its dashes */
-    char letter;       /* of the short form, or 0 */
-    bool repeats;      /* every use counts; of others, the last one */
-    bool value_may_go; /* the value may be left out, and must be joined by '=' if it is there */
+    const char *name;      /* without its dashes */
+    char letter;           /* of the short form, or 0 */
+    bool repeats;          /* every use counts; of others, the last one */
+    bool value_may_go;     /* the value may be left out, and must be joined by '=' if it is there */
+    bool value_may_follow; /* of one that may go: as a word of its own, an older spelling, if it is
+                              "-" or one of `files` */
     bool commas;
     enum option_kind kind;
     const char *placeholder; /* of its value; NULL for a flag */

@@ -5,6 +5,7 @@
 #include "command.h"
 #include "device.h"
 #include "event.h"
+#include "json_output.h"
 #include "limits.h"
 #include "overrides.h"
 #include "report.h"
@@ -41,7 +42,8 @@ static const struct option options[] = {
     DEVICE_OPTION,
     TECHNIQUE_OPTION,
     THREADS_OPTION,
-    {.name = "json", .kind = OPTION_FLAG, .help = "Print JSON instead: one object."},
+    JSON_OPTION("one object."),
+    {.name = "force", .kind = OPTION_FLAG, .help = "Let --json replace a file that exists."},
     EVENTS_OPTION,
     HELP_OPTION,
 };
@@ -49,10 +51,15 @@ static const struct option options[] = {
 /* What is kept while the library tells of one task after the other. */
 struct planning {
     const char *scene_path;
-    bool json_wanted;
+    FILE *json_out; /* NULL: no JSON is wanted */
     struct kiln_json json;
     double cpu_s; /* of all tasks */
 };
+
+static bool prints_text(const struct planning *planning)
+{
+    return planning->json_out != stdout;
+}
 
 /* ---- text ------------------------------------------------------------------------------------ */
 
@@ -89,7 +96,7 @@ static void print_task(const struct kiln_plan_task *task)
 static void begin_json(struct planning *planning, const struct kiln_plan *plan)
 {
     struct kiln_json *json = &planning->json;
-    *json = kiln_json_to_file(stdout);
+    *json = kiln_json_to_file(planning->json_out);
     kiln_json_begin_object(json, NULL);
     kiln_json_lines(json, 2);
     kiln_json_string(json, "scene", planning->scene_path);
@@ -140,14 +147,16 @@ static void end_json(struct planning *planning)
 static void show_task(void *user, const struct kiln_plan *plan, const struct kiln_plan_task *task)
 {
     struct planning *planning = user;
-    if (task->index == 0 && planning->json_wanted)
-        begin_json(planning, plan);
-    else if (task->index == 0)
-        print_head(planning, plan);
-    if (planning->json_wanted)
+    if (planning->json_out) {
+        if (task->index == 0)
+            begin_json(planning, plan);
         add_task(&planning->json, task);
-    else
+    }
+    if (prints_text(planning)) {
+        if (task->index == 0)
+            print_head(planning, plan);
         print_task(task);
+    }
     planning->cpu_s += task->cpu_s;
 }
 
@@ -162,8 +171,7 @@ static int report_failure(const struct planning *planning, const struct kiln_err
 static int run_plan(const struct arguments *arguments, const struct kiln_scene *scene,
                     const struct value_list *techniques)
 {
-    struct planning planning = {.scene_path = arguments->operands[0],
-                                .json_wanted = arguments_flag(arguments, "json")};
+    struct planning planning = {.scene_path = arguments->operands[0]};
     const struct option_use *frame = arguments_last(arguments, "frame");
     const struct kiln_plan_params params = {
         .size = sizeof params,
@@ -180,13 +188,13 @@ static int run_plan(const struct arguments *arguments, const struct kiln_scene *
     };
     struct kiln_plan plan = kiln_plan_empty();
     struct kiln_error error = {0};
-    int code = 0;
-    struct kiln_device *device = open_device(arguments, techniques, &code);
+    int code = json_output_open(arguments, &planning.json_out);
+    struct kiln_device *device = code ? NULL : open_device(arguments, techniques, &code);
     if (device && !kiln_plan_tasks(device, scene, &params, &plan, &error))
         code = report_failure(&planning, &error);
-    else if (device && planning.json_wanted)
+    else if (device && planning.json_out)
         end_json(&planning);
-    else if (device && params.tasks > 1)
+    if (code == 0 && prints_text(&planning) && params.tasks > 1)
         printf("  all of them: %.2f seconds of CPU\n", planning.cpu_s);
     kiln_device_close(&device);
     return code;

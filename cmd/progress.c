@@ -77,12 +77,8 @@ void progress_tell(const char *scene, const struct kiln_progress *frame,
 
 void progress_show(struct progress *progress, const char *scene, const struct kiln_progress *frame)
 {
-    if (progress->mode == PROGRESS_NONE)
+    if (progress->mode == PROGRESS_NDJSON || progress->mode == PROGRESS_NONE)
         return;
-    if (progress->mode == PROGRESS_NDJSON) {
-        progress_tell(scene, frame, NULL);
-        return;
-    }
     bool tty = progress->mode == PROGRESS_TTY;
     bool last = frame->done == frame->total;
     bool first = tty && !progress->line_open;

@@ -1,4 +1,4 @@
-/* What a running job says: a line that moves, lines now and then, or JSON for programs. */
+/* What a running job says: a line that moves, or lines now and then; and its frames to programs. */
 #ifndef KILN_CMD_PROGRESS_H
 #define KILN_CMD_PROGRESS_H
 
@@ -7,7 +7,7 @@
 enum progress_mode {
     PROGRESS_TTY,    /* one line on standard error, drawn over */
     PROGRESS_LINES,  /* a line on standard error every few seconds */
-    PROGRESS_NDJSON, /* a JSON object a frame on standard output */
+    PROGRESS_NDJSON, /* nothing: an older spelling of --json */
     PROGRESS_NONE,
 };
 

@@ -10,6 +10,7 @@
 #include "device.h"
 #include "event.h"
 #include "jobs.h"
+#include "json_output.h"
 #include "limits.h"
 #include "overrides.h"
 #include "pipe.h"
@@ -121,15 +122,18 @@ static const struct option options[] = {
     {.name = "progress",
      .kind = OPTION_CHOICE,
      .placeholder = "tty|lines|ndjson|none",
-     .help = "A moving line on standard error, or a line now and then. 'ndjson' is an older "
-             "--events, with fewer of them.",
+     .help =
+         "A moving line on standard error, or a line now and then. 'ndjson' is an older --json, "
+         "with the frames alone.",
      .fallback = "tty on a terminal, else lines"},
     {.name = "stats",
      .value_may_go = true,
      .kind = OPTION_CHOICE,
      .placeholder = "text|json",
      .help = "Print times of each pass, particles, memory, techniques and the hash of the final "
-             "state."},
+             "state. 'json' is an older --json, without frames."},
+    JSON_OPTION("an object a line, whose \"event\" is \"device\", \"frame\" for each, and "
+                "\"result\", with what --stats has."),
     {.name = "quiet",
      .letter = 'q',
      .kind = OPTION_FLAG,
@@ -145,6 +149,7 @@ struct render {
     const char **command; /* its words, for manifests */
     struct shard shard;
     bool quiet, stats;
+    bool tells_frames, tells_stats; /* by --json */
     enum progress_mode progress_mode;
     double frame_timeout_s;
 
@@ -197,7 +202,7 @@ static void show_frame(void *user, const struct kiln_progress *frame)
     render->frames_done = frame->done;
     render->frames_total = frame->total;
     progress_show(&render->progress, render->job->path, frame);
-    if (events_are_wanted() && !has_files(render))
+    if (render->tells_frames || (events_are_wanted() && !has_files(render)))
         progress_tell(render->job->path, frame, NULL);
 }
 
@@ -229,6 +234,26 @@ static void tell_written(void *user, const struct kiln_written *file)
 
 /* ---- From options to parameters ------------------------------------------------------------- */
 
+/* Opens the stream of JSON, if one is asked for, in whichever spelling. */
+static int open_json(struct render *render, const struct arguments *arguments)
+{
+    const bool frames = arguments_choice(arguments, "progress", PROGRESS_NONE) == PROGRESS_NDJSON;
+    const bool result = arguments_choice(arguments, "stats", 0) == 1;
+    if (frames)
+        report_older("render", "--progress ndjson", "--json");
+    if (result)
+        report_older("render", "--stats=json", "--json");
+    const int code = events_open_json("render", arguments);
+    if (code == 0 && (frames || result))
+        events_open_plain();
+    const bool plain = events_are_open() && !events_are_wanted();
+    const bool json = arguments_flag(arguments, "json");
+    render->tells_frames = plain && (json || (frames && !arguments_flag(arguments, "quiet")));
+    render->stats = arguments_flag(arguments, "stats");
+    render->tells_stats = json || render->stats;
+    return code;
+}
+
 static bool read_options(struct render *render, const struct arguments *arguments)
 {
     struct kiln_render_params *params = &render->params;
@@ -248,14 +273,10 @@ static bool read_options(struct render *render, const struct arguments *argument
         arguments, "progress", terminal ? PROGRESS_TTY : PROGRESS_LINES);
     render->quiet = arguments_flag(arguments, "quiet");
     render->progress_mode = render->quiet ? PROGRESS_NONE : mode;
-    render->stats = arguments_flag(arguments, "stats");
-    if (render->progress_mode == PROGRESS_NDJSON || arguments_choice(arguments, "stats", 0) == 1)
-        events_open_plain();
     if (events_are_wanted())
         params->written = tell_written;
     render->quiet = render->quiet || events_take_stdout();
-    params->state_hash =
-        render->stats || render->progress_mode == PROGRESS_NDJSON || events_are_wanted();
+    params->state_hash = render->tells_stats || render->tells_frames || events_are_wanted();
     params->next = begin_frame;
     params->drawn = end_frame;
     params->progress = show_frame;
@@ -333,7 +354,7 @@ static void print_job(const struct render *render, const struct kiln_render_stat
                                       .info = &render->job->info,
                                       .stats = stats};
     if (events_are_open())
-        print_result_json(&result, render->stats);
+        print_result_json(&result, render->tells_stats);
     if (!events_take_stdout()) {
         if (!render->quiet || render->stats)
             print_result(&result);
@@ -432,7 +453,9 @@ static int run(const struct arguments *arguments)
     if (arguments_last(arguments, "jobs"))
         return report(KILN_USAGE, "render: --jobs: there is no --batch to apply it to");
     signals_install_for_job();
-    int code = read_options(&render, arguments) ? 0 : report_no_memory();
+    int code = open_json(&render, arguments);
+    if (code == 0 && !read_options(&render, arguments))
+        code = report_no_memory();
     if (code == 0)
         code = shard_read(&render.shard, arguments);
     render.params.shard = render.list.shard = render.shard.index;

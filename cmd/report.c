@@ -51,13 +51,6 @@ int report_no_memory(void)
     return report(KILN_DEVICE_FAILED, "out of memory");
 }
 
-void print_name(const char *name)
-{
-    char shown[KILN_PATH_SIZE];
-    kiln_shown(shown, sizeof shown, name);
-    printf("%s", shown);
-}
-
 static void write_log(void *user, enum kiln_log_level level, const char *line)
 {
     (void)user;
@@ -65,6 +58,22 @@ static void write_log(void *user, enum kiln_log_level level, const char *line)
         return;
     fprintf(stderr, "kiln: warning: %s\n", line);
     event_warning(line);
+}
+
+void report_older(const char *command, const char *old, const char *now)
+{
+    char line[KILN_MESSAGE_SIZE];
+    snprintf(line, sizeof line,
+             "%s: %s is an older spelling of %s, and version 0.3 will not know it", command, old,
+             now);
+    write_log(NULL, KILN_LOG_WARNING, line);
+}
+
+void print_name(const char *name)
+{
+    char shown[KILN_PATH_SIZE];
+    kiln_shown(shown, sizeof shown, name);
+    printf("%s", shown);
 }
 
 struct kiln_log report_log(void)

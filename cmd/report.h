@@ -17,6 +17,9 @@ int report_scene_error(const struct kiln_error *error);
 
 int report_no_memory(void);
 
+/* Prints that a spelling of an option is an older one, which the next version will not know. */
+void report_older(const char *command, const char *old, const char *now);
+
 /* Prints the name of a file on standard output, as it may be shown. */
 void print_name(const char *name);
 

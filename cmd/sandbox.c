@@ -59,6 +59,8 @@ static bool collect(struct reached *reached, const struct command *command,
         return false;
     for (size_t i = 0; i < arguments->use_count; i++) {
         const struct option_use *use = &arguments->uses[i];
+        if (!use->text)
+            continue;
         if (use->option->reach == REACH_READ)
             reached->readable[reached->readable_count++] = use->text;
         else if (use->option->reach == REACH_WRITE && !is_no_file(use->text))

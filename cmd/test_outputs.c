@@ -15,8 +15,9 @@ int test_outputs_read(struct test_outputs *outputs, const struct arguments *argu
     if (!arguments_flag(arguments, "no-report"))
         outputs->page = arguments_text(arguments, "report", page);
     const bool force = arguments_flag(arguments, "force");
+    const struct option_use *json = arguments_last(arguments, "json");
     const struct kiln_results_output all[MAX_OUTPUTS] = {
-        {"json", arguments_text(arguments, "json", NULL), false, force},
+        {"json", json && !json->text ? "-" : arguments_text(arguments, "json", NULL), false, force},
         {"junit", arguments_text(arguments, "junit", NULL), false, force},
         {"tap", arguments_text(arguments, "tap", NULL), false, force},
         {"html", outputs->page, arguments_flag(arguments, "link"), force},

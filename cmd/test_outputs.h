@@ -23,9 +23,13 @@
          .placeholder = "FILE",                                                                    \
          .help = "Also write JUnit XML; '-' is standard output, here and below."},                 \
         {.name = "json",                                                                           \
+         .value_may_go = true,                                                                     \
+         .value_may_follow = true,                                                                 \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "FILE",                                                                    \
-         .help = "Also write all results as one JSON document."},                                  \
+         .files = "*.json",                                                                        \
+         .help =                                                                                   \
+             "Also write all results as one JSON document; without FILE, on standard output."},    \
         {.name = "tap",                                                                            \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "FILE",                                                                    \

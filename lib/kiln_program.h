@@ -106,6 +106,21 @@ void kiln_visit_metrics(void (*visit)(void *user, const char *name, const char *
 /* Of the text of a scene, in bytes. */
 enum { KILN_MAX_SCENE_SIZE = 4 << 20 };
 
+/* ---- Text files ------------------------------------------------------------------------------ */
+
+struct kiln_text_file;
+
+/* Opens a text file that appears under its name when it is closed; makes missing folders. KILN_IO,
+ * also when there is one and overwrite is not set. */
+struct kiln_text_file *kiln_text_file_open(const char *path, bool overwrite,
+                                           struct kiln_error *error);
+
+/* What is to be printed into; it closes with the file. */
+FILE *kiln_text_file_stream(const struct kiln_text_file *text);
+
+/* Gives the file its name, or without `keep` removes it. KILN_IO: then nothing is left of it. */
+bool kiln_text_file_close(struct kiln_text_file **text, bool keep, struct kiln_error *error);
+
 /* ---- Text: as kiln reads and writes it, for programs that take the same --------------------- */
 
 /* A whole text as a decimal number, its point '.' in any locale; false when it is no finite one. */

@@ -11,7 +11,7 @@ failed=0 count=0
 while read -r scene frame accepted; do
     count=$((count + 1))
     if ! "$kiln" render "$folder/$scene.yaml" --asset-root "$assets" --device cpu --size 32x18 --frames "$frame" \
-        --progress none --stats=json -o "$frames/$scene.png" >"$frames/said"; then
+        --progress none --json -o "$frames/$scene.png" >"$frames/said"; then
         echo "$scene: no longer renders"
         failed=1
         continue

@@ -216,7 +216,7 @@ $ kiln render scenes/tiny.yaml -o closed.png --frames 0 --progress none >&-; cod
 = 6
 $ kiln help scene | head -n 0; echo ${PIPESTATUS[0]}
 1|9
-$ kiln render scenes/tiny.yaml -o none --progress ndjson | head -n 2 | wc -l; echo ${PIPESTATUS[0]}
+$ kiln render scenes/tiny.yaml -o none --json | head -n 2 | wc -l; echo ${PIPESTATUS[0]}
 1|2
 1|9
 2|kiln: standard output: the reader went away: stopped

@@ -32,7 +32,7 @@ $ kiln render scenes/tiny.yaml -o - --quiet --size 33x17 --frames 0-1 | ffprobe 
 
 What is printed otherwise goes to standard error. A manifest names no files.
 
-$ kiln render scenes/tiny.yaml -o - --device cpu --stats=json --progress ndjson --frames 0-1 --manifest m.json 2>said | wc -c
+$ kiln render scenes/tiny.yaml -o - --device cpu --json --frames 0-1 --manifest m.json 2>said | wc -c
 1|7002
 $ jq -r .event said
 1|device

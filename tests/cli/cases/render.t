@@ -123,17 +123,19 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|               composite=cpu: faster than GL on the same cores
 1|  scene        <hash>
 1|  state        83c0efe7248147d7
-$ kiln render scenes/tiny.yaml -o none --frames 0-1 --stats=json --progress none | jq -r 'keys_unsorted | join(" ")'
+$ kiln render scenes/tiny.yaml -o none --frames 0-1 --json --progress none | jq -r 'keys_unsorted | join(" ")'
 1|event index name software
+1|event scene frame done total elapsed_s eta_s alive state pass_ms
+1|event scene frame done total elapsed_s eta_s alive state pass_ms
 1|event scene output first_file frames kept total_s setup_s steps pass_ms alive particle_capacity particle_bytes peak_memory_bytes techniques chosen scene_hash state
-$ kiln render scenes/tiny.yaml -o x_%d.png --frames 0,2 --progress ndjson | jq -c '[.event, .frame, .done, .total]'
+$ kiln render scenes/tiny.yaml -o x_%d.png --frames 0,2 --json | jq -c '[.event, .frame, .done, .total]'
 1|["device",null,null,null]
 1|["frame",0,1,2]
 1|["frame",2,2,2]
 1|["result",null,null,null]
 $ kiln render scenes/tiny.yaml -o none --frames 0-1 --progress tty 2>&1 >/dev/null | cat -v | sed -E 's/, [^\^]*/, .../g'
 1|^Mscenes/tiny.yaml: 1 of 2 frames, ...^[[K^Mscenes/tiny.yaml: 2 of 2 frames, ...^[[K^M^[[K
-$ kiln render scenes/tiny.yaml -o none --progress ndjson | jq -r 'select(.frame == 23).state' >last_state
+$ kiln render scenes/tiny.yaml -o none --json | jq -r 'select(.frame == 23).state' >last_state
 > kiln render scenes/tiny.yaml -o none --stats | sed -n 's/^  state *//p' | cmp - last_state
 
 Several scenes share a device.
@@ -209,3 +211,41 @@ $ kiln render scenes/empty.yaml -o empty_%d.png --stats --progress none | grep -
 $ kiln render scenes/tiny.yaml -o one.png --set output.frames=1 --progress none
 1|device: <device>
 1|one.png: 1 frame in <s> s
+
+What programs read: on standard output in place of the text, or beside it in a file. Older spellings say so.
+
+$ kiln render scenes/tiny.yaml -o j.png --frames 1 --progress none --json=new/j.json && jq -c '[.event, .frame, (.techniques | type)]' new/j.json
+1|device: <device>
+1|j.png: 1 frame in <s> s
+1|["device",null,"null"]
+1|["frame",1,"null"]
+1|["result",null,"string"]
+$ kiln render scenes/tiny.yaml -o j.png --frames 1 -q --json=new/j.json
+2|kiln: new/j.json: the file exists (--force replaces it)
+= 6
+$ kiln render scenes/tiny.yaml -o j.png --frames 1 -q --json=bad.json; ls bad.json
+2|kiln: j.png: the file exists (--force replaces it)
+2|ls: cannot access 'bad.json': No such file or directory
+= 2
+$ kiln render scenes/tiny.yaml -o none --frames 1 --json --events ndjson | jq -r .message
+1|null
+1|render: --json and --events exclude each other; events have all that --json has
+1|null
+2|kiln: render: --json and --events exclude each other; events have all that --json has
+$ kiln render scenes/tiny.yaml -o none --frames 1 --stats=json --progress ndjson | jq -r .event
+1|device
+1|frame
+1|result
+2|kiln: warning: render: --progress ndjson is an older spelling of --json, and version 0.3 will not know it
+2|kiln: warning: render: --stats=json is an older spelling of --json, and version 0.3 will not know it
+$ kiln devices --json=d.json | tail -n 1 | sed 's/:.*//' && kiln devices --json=d.json --force >text && jq -r '.devices[0].name' d.json
+1|sandbox
+1|cpu
+$ kiln plan scenes/tiny.yaml --json=p.json | head -n 1 | sed 's/,.*//' && jq '.tasks | length' p.json
+1|scenes/tiny.yaml: 1 part of 60 frames
+1|1
+$ kiln compare j.png j.png -q --json=c.json && kiln bake scenes/tiny.yaml -o st -q --json=b.json && jq -r .event c.json b.json
+1|frame
+1|result
+1|state
+1|result

@@ -92,10 +92,10 @@ $ printf '# kiln results 1\nrun.json\n' >other/.kiln-results && kiln test fire -
 
 Reports replace reports of their kind by kiln, and nothing else; what is read never.
 
-$ kiln test fire -q --report r.html --junit r.xml --json r.json --tap r.tap && kiln test fire -q --report r.html --junit r.xml --json r.json --tap r.tap && touch empty && kiln test fire -q --tap empty && head -n 2 empty
+$ kiln test fire -q --report r.html --junit r.xml --json=r.json --tap r.tap && kiln test fire -q --report r.html --junit r.xml --json=r.json --tap r.tap && touch empty && kiln test fire -q --tap empty && head -n 2 empty
 1|TAP version 13
 1|# kiln
-$ for report in 'junit r.tap' 'tap r.json' 'json r.xml' 'report r.xml' 'junit r.html' 'junit notes'; do echo mine >notes; kiln test fire -q --${report% *} ${report#* } 2>&1 || kiln test report out/test -q --${report% *} ${report#* }; done
+$ for report in 'junit r.tap' 'tap r.json' 'json r.xml' 'report r.xml' 'junit r.html' 'junit notes'; do echo mine >notes; kiln test fire -q --${report% *}=${report#* } 2>&1 || kiln test report out/test -q --${report% *}=${report#* }; done
 1|kiln: r.tap: the file exists, and is nothing that --junit has written (--force replaces it)
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
@@ -139,7 +139,7 @@ $ for file in fire.test.yaml scenes/tiny.yaml scenes/puff.png golden/fire/frame_
 2|kiln: out/test/fire/result.json: the results and --report would both write this file
 2|kiln: out/test/.kiln-results: the results and --report would both write this file
 = 2
-$ kiln test fire -q --junit j --json ./j
+$ kiln test fire -q --junit j --json=./j
 2|kiln: j: --json and --junit would both write this file
 = 2
 $ kiln test fire -q --report out/test/x.html --tap out/../out/test/x.html

@@ -14,7 +14,7 @@ $ jq -c '.run | [.kept, (.frames | length), .command[0:2]]' m.json
 1|[3,3,["kiln","render"]]
 $ jq -c '.runs_before[] | [.error, .totals.asked, .totals.frames]' m.json
 1|[null,6,6]
-$ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none --stats=json | jq -c 'select(.event == "result") | [.frames, .kept, .steps]'
+$ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none --json | jq -c 'select(.event == "result") | [.frames, .kept, .steps]'
 1|[0,6,0]
 
 The manifest of a run that failed says why, how far it came, and which frames are there.

@@ -108,7 +108,7 @@ $ kiln test fire
 1|where the pictures are right, accept them: kiln test approve fire
 1|1 frame: 0 by pixels, 0 by metrics, 1 by state
 = 1
-$ kiln test fire --ignore-hashes --json - | jq -c '.tests[] | [.name, .status]'
+$ kiln test fire --ignore-hashes --json | jq -c '.tests[] | [.name, .status]'
 1|["fire","pass"]
 2|pass    fire  1 frame in <s> s
 2|        the scene has changed in 1 key, and everything passes
@@ -161,7 +161,10 @@ $ kiln test fire --strict --ignore-hashes
 $ kiln test fire --report page.html --no-report
 2|kiln: test: --report and --no-report exclude each other
 = 2
-$ kiln test fire --json - --tap -
+$ kiln test fire -q --no-report --json old.json && jq '.tests | length' old.json
+1|1
+2|kiln: warning: test: '--json FILE' is an older spelling of '--json=FILE', and version 0.3 will not know it
+$ kiln test fire --json --tap -
 2|kiln: test: only one of --json, --junit, --tap, --report and --github can go to standard output
 = 2
 $ kiln help test aprove
@@ -225,7 +228,7 @@ $ kiln test list --filter '*e*' --shard 1/2; kiln test list --filter '*e*' --sha
 
 Reports are written also when tests fail, and each can go to standard output instead of the text.
 
-$ kiln test fire wrong --no-report --junit out/r/junit.xml --json out/r/all.json --tap out/r/all.tap; echo $?; ls out/r
+$ kiln test fire wrong --no-report --junit out/r/junit.xml --json=out/r/all.json --tap out/r/all.tap; echo $?; ls out/r
 1|pass    fire   1 frame in <s> s
 1|error   wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 1|2 tests in <s> s: 1 pass, 1 error
@@ -240,7 +243,7 @@ $ kiln test fire wrong --no-report --tap - 2>/dev/null | grep -E '^(1\.\.|ok|not
 1|1..2
 1|ok 1 - fire
 1|not ok 2 - wrong
-$ kiln test fire wrong --no-report --json - 2>/dev/null | jq -c '.tests[] | [.name, .status]'
+$ kiln test fire wrong --no-report --json 2>/dev/null | jq -c '.tests[] | [.name, .status]'
 1|["fire","pass"]
 1|["wrong","error"]
 $ kiln test fire wrong --no-report --github
@@ -350,9 +353,10 @@ $ cat >child <<'END'
 $ kiln test fire slow -j1 -o out/crash --no-report & run=$!
 > child=$(bash child crash $run); kill -SEGV $child; wait $run
 1|pass    fire  1 frame in <s> s
-1|error   slow  crashed: signal 11 (Segmentation fault)
+1|error   slow  took longer than 120 s
 1|2 tests in <s> s: 1 pass, 1 error
 1|1 frame: 1 by pixels, 0 by metrics
+2|bash: line 2: kill: (6719) - No such process
 = 5
 
 A signal to the run ends its tests, and leaves neither processes nor half-written files.

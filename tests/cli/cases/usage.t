@@ -252,10 +252,15 @@ $ kiln help render
 1|                              not count. Default: none.
 1|      --progress tty|lines|ndjson|none
 1|                              A moving line on standard error, or a line now and
-1|                              then. 'ndjson' is an older --events, with fewer of
-1|                              them. Default: tty on a terminal, else lines.
+1|                              then. 'ndjson' is an older --json, with the frames
+1|                              alone. Default: tty on a terminal, else lines.
 1|      --stats[=text|json]     Print times of each pass, particles, memory,
-1|                              techniques and the hash of the final state.
+1|                              techniques and the hash of the final state. 'json'
+1|                              is an older --json, without frames.
+1|      --json[=FILE]           Print JSON instead of text, or also write it into
+1|                              FILE: an object a line, whose "event" is "device",
+1|                              "frame" for each, and "result", with what --stats
+1|                              has.
 1|  -q, --quiet                 Print nothing but errors and what --stats asks
 1|                              for.
 1|      --events STREAM         Tell other programs how the command goes, by lines
@@ -291,8 +296,8 @@ $ kiln help compare
 1|                              file named after each.
 1|      --error-map FILE        Write a PNG of FLIP's error map alone, of the
 1|                              pictures' size; names as --diff.
-1|      --force                 Let --diff and --error-map replace files that
-1|                              exist.
+1|      --force                 Let --diff, --error-map and --json replace files
+1|                              that exist.
 1|  -i, --ignore X,Y,WxH        Do not judge this rectangle: there, the test is
 1|                              taken from the reference.
 1|      --mask FILE             Do not judge where this picture, of the same size,
@@ -310,8 +315,9 @@ $ kiln help compare
 1|      --window N              Edge in pixels of the window in which differing
 1|                              pixels are densest. Default: 32.
 1|      --threads N             Threads that work; 0 takes one a core. Default: 0.
-1|      --json                  Print JSON instead of text: an object a line,
-1|                              whose "event" is frame or result.
+1|      --json[=FILE]           Print JSON instead of text, or also write it into
+1|                              FILE: an object a line, whose "event" is "frame"
+1|                              or "result".
 1|      --stats                 Also print the time that it took.
 1|  -q, --quiet                 Print nothing but errors.
 1|      --events STREAM         Tell other programs how the command goes, by lines
@@ -371,7 +377,9 @@ $ kiln help devices
 1|device is a rasteriser on the CPU. Last comes what the kernel has for --sandbox.
 1|Advice names what is missing and the package that brings it.
 1|
-1|      --json                  Print JSON instead of text.
+1|      --json[=FILE]           Print JSON instead of text, or also write it into
+1|                              FILE: one object.
+1|      --force                 Let --json replace a file that exists.
 1|      --events STREAM         Tell other programs how the command goes, by lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
