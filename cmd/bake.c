@@ -52,6 +52,7 @@ struct bake {
     struct value_list techniques;
     bool quiet;
     uint32_t saved; /* so far */
+    uint64_t steps; /* of the whole clip */
 };
 
 static void show_state(void *user, const struct kiln_baked *state)
@@ -73,6 +74,10 @@ static void show_state(void *user, const struct kiln_baked *state)
         kiln_json_uint(&json, "total", state->frames);
         event_end(&json);
     }
+    char status[64];
+    snprintf(status, sizeof status, "state %" PRIu32 " of %" PRIu32 ", step %" PRIu32, state->done,
+             state->frames, state->step);
+    event_progress(state->step, bake->steps, status);
     if (!bake->quiet && state->kept) {
         printf("frame %" PRIu32 ": kept, %" PRIu64 " bytes\n", state->frame, state->bytes);
     } else if (!bake->quiet) {
@@ -197,6 +202,7 @@ static int run(const struct arguments *arguments)
     if (code == 0) {
         struct kiln_scene_info info = kiln_scene_info_empty();
         kiln_scene_get_info(scene, &info);
+        bake.steps = info.steps;
         code = read_every(&bake, arguments, &info);
     }
     if (code == 0)

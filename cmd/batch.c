@@ -211,11 +211,17 @@ static void show_log(int log, const char *name, char **message)
         close(log);
 }
 
-static void tell(const struct kiln_batch_job *job, const struct pool_end *end, int code,
-                 const char *message)
+static void tell(const struct batch *batch, const struct kiln_batch_job *job,
+                 const struct pool_end *end, int code, const char *message)
 {
     if (!events_are_wanted())
         return;
+    const size_t count = kiln_batch_count(batch->jobs);
+    char status[64];
+    snprintf(status, sizeof status, "%zu of %zu jobs", batch->ended, count);
+    event_progress(batch->ended, count, status);
+    if (code)
+        event_openjd("fail", "%s: %s", job->name, message ? message : "failed");
     struct kiln_json json = event_begin("job");
     kiln_json_string(&json, "name", job->name);
     kiln_json_string(&json, "scene", job->scene);
@@ -241,7 +247,7 @@ static void end_job(void *user, size_t index, const struct pool_end *end)
     batch->ended++;
     batch->failed += code != 0;
     batch->code = code > batch->code ? code : batch->code;
-    tell(job, end, code, why);
+    tell(batch, job, end, code, why);
     if (*end->problem || end->signal)
         fprintf(stderr, "%s: %s\n", name, why);
     if (!batch->quiet && code)

@@ -335,6 +335,7 @@ static void put_topics(struct value *value)
 static void put_events(struct value *value)
 {
     offer(value, "word", "ndjson", "lines of JSON on standard output");
+    offer(value, "word", "openjd", "lines of Open Job Description on standard output");
 }
 
 static const struct {

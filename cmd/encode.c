@@ -70,6 +70,7 @@ static void show(void *user, const struct kiln_progress *frame)
 {
     struct encoding *encoding = user;
     progress_show(&encoding->progress, encoding->output, frame);
+    progress_tell_engine(encoding->output, frame, 0, 1);
 }
 
 static int run(const struct arguments *arguments)

@@ -1,11 +1,13 @@
-/* Writes events, a line each. The stream belongs to the process, as standard output does: a
- * signal's handler and the function that prints messages reach it, too, so it is a variable of this
- * file. */
+/* Writes events, a line each, as JSON or as Open Job Description has them. The stream belongs to
+ * the process, as standard output does: a signal's handler and the function that prints messages
+ * reach it, too, so it is a variable of this file. */
 #include "event.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <poll.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -16,10 +18,19 @@
 #include "json_output.h"
 #include "report.h"
 
+enum form { FORM_NDJSON, FORM_OPENJD, FORM_PLAIN };
+
+/* The forms of --events, and what a file of each begins with. */
+static const struct {
+    const char *name;
+    char first;
+} forms[] = {[FORM_NDJSON] = {"ndjson", '{'}, [FORM_OPENJD] = {"openjd", 'o'}};
+
 static struct {
     FILE *out; /* NULL: none */
-    bool is_plain;
-    const char *name; /* for messages */
+    enum form form;
+    const char *name;  /* for messages */
+    uint64_t progress; /* percents that were told */
 } stream;
 
 enum { LINE_SIZE = 1 << 16, TIME_SIZE = 32 };
@@ -67,6 +78,21 @@ static void format_time(char out[TIME_SIZE])
 
 /* ---- Lines ---------------------------------------------------------------------------------- */
 
+bool events_are_wanted(void)
+{
+    return stream.out && stream.form != FORM_PLAIN;
+}
+
+bool events_are_open(void)
+{
+    return stream.out && stream.form != FORM_OPENJD;
+}
+
+bool events_take_stdout(void)
+{
+    return events_are_open() && stream.out == stdout;
+}
+
 static bool write_nowhere(void *sink, const char *bytes, size_t length)
 {
     (void)sink;
@@ -78,13 +104,13 @@ static bool write_nowhere(void *sink, const char *bytes, size_t length)
 struct kiln_json event_begin(const char *name)
 {
     struct kiln_json json = kiln_json_to_file(stream.out);
-    if (stream.out)
+    if (events_are_open())
         flockfile(stream.out);
     else
         json.write = write_nowhere;
     kiln_json_begin_object(&json, NULL);
     kiln_json_string(&json, "event", name);
-    if (!stream.is_plain) {
+    if (stream.form != FORM_PLAIN) {
         char time[TIME_SIZE];
         format_time(time);
         kiln_json_string(&json, "time", time);
@@ -96,25 +122,10 @@ void event_end(struct kiln_json *json)
 {
     kiln_json_end(json);
     kiln_json_finish(json);
-    if (!stream.out)
+    if (!events_are_open())
         return;
     fflush(stream.out);
     funlockfile(stream.out);
-}
-
-bool events_are_wanted(void)
-{
-    return stream.out && !stream.is_plain;
-}
-
-bool events_are_open(void)
-{
-    return stream.out != NULL;
-}
-
-bool events_take_stdout(void)
-{
-    return stream.out == stdout;
 }
 
 bool events_failed(void)
@@ -122,11 +133,44 @@ bool events_failed(void)
     return stream.out && ferror(stream.out);
 }
 
+/* ---- Lines of Open Job Description ---------------------------------------------------------- */
+
+static bool is_openjd(void)
+{
+    return stream.out && stream.form == FORM_OPENJD;
+}
+
+void event_openjd(const char *what, const char *format, ...)
+{
+    char text[KILN_MESSAGE_SIZE], shown[KILN_MESSAGE_SIZE];
+    if (!is_openjd())
+        return;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    kiln_shown(shown, sizeof shown, text);
+    fprintf(stream.out, "openjd_%s: %s\n", what, shown);
+    fflush(stream.out);
+}
+
+void event_progress(uint64_t done, uint64_t total, const char *status)
+{
+    const uint64_t percent = total > 0 ? done * 100 / total : 0;
+    if (!is_openjd() || percent <= stream.progress || percent >= 100)
+        return;
+    stream.progress = percent;
+    event_openjd("progress", "%" PRIu64, percent);
+    event_openjd("status", "%s", status);
+}
+
 /* ---- Events of every command ---------------------------------------------------------------- */
 
 static void tell_start(const struct command *command, const struct arguments *arguments)
 {
     char host[256] = "";
+    event_openjd("progress", "0");
+    event_openjd("status", "kiln %s: %s", build_name(), command->name);
     gethostname(host, sizeof host - 1);
     struct kiln_json json = event_begin("started");
     kiln_json_string(&json, "kiln", build_name());
@@ -157,6 +201,7 @@ static size_t find_place(const char *message, unsigned long *line, unsigned long
 
 void event_error(int code, const char *message)
 {
+    event_openjd("fail", "%s", message);
     if (!events_are_wanted())
         return;
     unsigned long line, column;
@@ -175,6 +220,7 @@ void event_error(int code, const char *message)
 
 void event_warning(const char *message)
 {
+    event_openjd("status", "warning: %s", message);
     if (!events_are_wanted())
         return;
     struct kiln_json json = event_begin("warning");
@@ -184,6 +230,8 @@ void event_warning(const char *message)
 
 void event_loaded(const char *scene, const struct kiln_scene_info *info)
 {
+    event_openjd("status", "%s: %" PRIu32 " frames of %" PRIu32 "x%" PRIu32, scene, info->frames,
+                 info->width, info->height);
     if (!events_are_wanted())
         return;
     struct kiln_json json = event_begin("loaded");
@@ -211,15 +259,20 @@ static void add(struct line *line, const char *text)
         line->text[line->length++] = *text;
 }
 
-/* A text between quotes. What a message has of controls is shown escaped already. */
-static void add_quoted(struct line *line, const char *text)
+/* A message up to the end of its line. What it has of controls is shown escaped already. */
+static void add_message(struct line *line, const char *text, bool is_quoted)
 {
-    add(line, "\"");
     for (; *text && *text != '\n' && line->length < sizeof line->text - 256; text++) {
-        if (*text == '"' || *text == '\\')
+        if (is_quoted && (*text == '"' || *text == '\\'))
             line->text[line->length++] = '\\';
         line->text[line->length++] = *text;
     }
+}
+
+static void add_quoted(struct line *line, const char *text)
+{
+    add(line, "\"");
+    add_message(line, text, true);
     add(line, "\"");
 }
 
@@ -238,17 +291,28 @@ static void add_event(struct line *line, const char *name, int code)
     add_quoted(line, exit_code_again(code));
 }
 
+static void add_last_events(struct line *line, const char *message, int code)
+{
+    add_event(line, "error", code);
+    add(line, ", \"message\": ");
+    add_quoted(line, message);
+    add(line, "}\n");
+    add_event(line, "ended", code);
+    add(line, "}\n");
+}
+
 void events_last_words(const char *message, int code)
 {
     if (!events_are_wanted())
         return;
     struct line line = {.length = 0};
-    add_event(&line, "error", code);
-    add(&line, ", \"message\": ");
-    add_quoted(&line, message);
-    add(&line, "}\n");
-    add_event(&line, "ended", code);
-    add(&line, "}\n");
+    if (is_openjd()) {
+        add(&line, "openjd_fail: ");
+        add_message(&line, message, false);
+        add(&line, "\n");
+    } else {
+        add_last_events(&line, message, code);
+    }
     const int file = fileno(stream.out);
     if (poll(&(struct pollfd){.fd = file, .events = POLLOUT}, 1, 0) == 1) {
         const ssize_t written = write(file, line.text, line.length);
@@ -263,8 +327,8 @@ static int refuse(const struct command *command, const char *value)
     char shown[256];
     kiln_shown(shown, sizeof shown, value);
     return report(KILN_USAGE,
-                  "%s: --events: found '%s', expected ndjson, ndjson:FILE or ndjson:fd=N, where N "
-                  "is a descriptor that is open for writing",
+                  "%s: --events: found '%s', expected ndjson or openjd, or one of them with :FILE "
+                  "or :fd=N, where N is a descriptor that is open for writing",
                   command->name, shown);
 }
 
@@ -278,10 +342,11 @@ static int fail(const struct command *command, const char *name, const char *why
 /* Whether lines may be added to a file: it is empty, or begins as events do. */
 static bool holds_events(int file)
 {
-    char first = '{';
+    char first = forms[stream.form].first;
     struct stat status;
     return fstat(file, &status) == 0 && !S_ISDIR(status.st_mode) &&
-           (!S_ISREG(status.st_mode) || pread(file, &first, 1, 0) >= 0) && first == '{';
+           (!S_ISREG(status.st_mode) || pread(file, &first, 1, 0) >= 0) &&
+           first == forms[stream.form].first;
 }
 
 static int open_file(const struct command *command, const char *path)
@@ -319,17 +384,28 @@ static int open_descriptor(const struct command *command, const char *value, con
     return stream.out ? 0 : report_no_memory();
 }
 
+/* Sets the form that a value of --events begins with. Returns what follows it; NULL: it is none. */
+static const char *read_form(const char *value)
+{
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+        const char *rest = value + strlen(forms[i].name);
+        stream.form = (enum form)i;
+        if (strncmp(value, forms[i].name, strlen(forms[i].name)) == 0 &&
+            (!*rest || (*rest == ':' && rest[1])))
+            return rest;
+    }
+    return NULL;
+}
+
 int events_open(const struct command *command, const struct arguments *arguments)
 {
-    static const char format[] = "ndjson";
-    const size_t length = sizeof format - 1;
     const struct option_use *use = arguments_last(arguments, "events");
     if (!use)
         return 0;
-    const char *value = use->text, *rest = value + length;
+    const char *value = use->text, *rest = read_form(value);
     int code = 0;
     stream.name = "standard output";
-    if (strncmp(value, format, length) != 0 || (*rest && (*rest != ':' || !rest[1]))) {
+    if (!rest) {
         code = refuse(command, value);
     } else if (!*rest) {
         const struct option_use *output = arguments_last(arguments, "output");
@@ -354,7 +430,7 @@ int events_open(const struct command *command, const struct arguments *arguments
 static void open_plain(FILE *out)
 {
     stream.out = out;
-    stream.is_plain = true;
+    stream.form = FORM_PLAIN;
     stream.name = "standard output";
 }
 
@@ -381,6 +457,10 @@ int events_close(int code)
 {
     if (!events_are_wanted())
         return code;
+    if (code == 0)
+        event_openjd("progress", "100");
+    else
+        event_openjd("status", "exit code %d, again: %s", code, exit_code_again(code));
     struct kiln_json json = event_begin("ended");
     kiln_json_int(&json, "code", code);
     kiln_json_string(&json, "again", exit_code_again(code));

@@ -1,5 +1,6 @@
-/* Events for other programs (--events): one stream of lines of JSON that tells how a command goes,
- * from its start to its exit code. Which events there are, and their members: event_table.c. */
+/* Events for other programs (--events): one stream of lines that tells how a command goes, from its
+ * start to its exit code. Which events of JSON there are, and their members: event_table.c. The
+ * form `openjd` has lines of Open Job Description instead: progress, status and failure. */
 #ifndef KILN_CMD_EVENT_H
 #define KILN_CMD_EVENT_H
 
@@ -10,7 +11,8 @@
         .name = "events", .kind = OPTION_TEXT, .placeholder = "STREAM",                            \
         .help = "Tell other programs how the command goes, by lines of JSON: 'ndjson' on "         \
                 "standard output, 'ndjson:FILE' at the end of a file, 'ndjson:fd=N' to an open "   \
-                "descriptor (see 'kiln help events')."                                             \
+                "descriptor. 'openjd' instead of 'ndjson': by lines of Open Job Description "      \
+                "(see 'kiln help events')."                                                        \
     }
 
 /* Opens the stream that --events asks for, if it does, and tells that the command has started.
@@ -25,10 +27,11 @@ int events_open_json(const char *command, const struct arguments *arguments);
  * `render --stats=json`. Nothing comes of it where a stream is open. */
 void events_open_plain(void);
 
-/* Whether --events was given; and whether a stream of either kind is open on standard output. */
+/* Whether --events was given; whether JSON is told, by --events or by the older options; and
+ * whether that is on standard output, so that nothing else may be printed there. */
 bool events_are_wanted(void);
+bool events_are_open(void);
 bool events_take_stdout(void);
-bool events_are_open(void); /* a stream of either kind */
 
 /* Whether the stream could not be written: nobody reads it any more, or a disk is full. */
 bool events_failed(void);
@@ -37,6 +40,13 @@ bool events_failed(void);
  * hands it over; other threads wait in between. Without a stream nothing comes of it. */
 struct kiln_json event_begin(const char *name);
 void event_end(struct kiln_json *json);
+
+/* Writes the line "openjd_WHAT: ...", where that is the form of the stream; else nothing. */
+void event_openjd(const char *what, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Tells of how much of a command is done, where the form is `openjd`: whole percents, each once.
+ * 100 are told with the exit code, when all files are whole. */
+void event_progress(uint64_t done, uint64_t total, const char *status);
 
 /* These tell what went wrong, with its place where the message begins with one, what a person is
  * warned of, and that a scene was loaded. They do nothing without --events. */

@@ -38,16 +38,26 @@ static const char *duration_text(char out[32], double seconds)
     return out;
 }
 
-static void print_line(const char *scene, const struct kiln_progress *frame)
+/* "fire.yaml: 12 of 24 frames, 3.4 a second, 0:04 left". */
+static void describe(char out[KILN_MESSAGE_SIZE], const char *scene,
+                     const struct kiln_progress *frame)
 {
-    char name[KILN_MESSAGE_SIZE];
+    char name[KILN_MESSAGE_SIZE / 2], time[32], rate[64] = "", left[64] = "";
     kiln_shown(name, sizeof name, scene);
-    fprintf(stderr, "%s: %u of %u frames", name, frame->done, frame->total);
     if (frame->elapsed_s > 0)
-        fprintf(stderr, ", %.1f a second", (double)frame->done / frame->elapsed_s);
-    char left[32];
+        snprintf(rate, sizeof rate, ", %.1f a second", (double)frame->done / frame->elapsed_s);
     if (frame->eta_s >= 0)
-        fprintf(stderr, ", %s left", duration_text(left, frame->eta_s));
+        snprintf(left, sizeof left, ", %s left", duration_text(time, frame->eta_s));
+    snprintf(out, KILN_MESSAGE_SIZE, "%s: %u of %u frames%s%s", name, frame->done, frame->total,
+             rate, left);
+}
+
+void progress_tell_engine(const char *scene, const struct kiln_progress *frame, size_t job,
+                          size_t jobs)
+{
+    char text[KILN_MESSAGE_SIZE];
+    describe(text, scene, frame);
+    event_progress((uint64_t)job * frame->total + frame->done, (uint64_t)jobs * frame->total, text);
 }
 
 void progress_tell(const char *scene, const struct kiln_progress *frame,
@@ -91,7 +101,9 @@ void progress_show(struct progress *progress, const char *scene, const struct ki
     progress->line_open = tty;
     if (tty)
         fputc('\r', stderr);
-    print_line(scene, frame);
+    char text[KILN_MESSAGE_SIZE];
+    describe(text, scene, frame);
+    fputs(text, stderr);
     fputs(tty ? "\033[K" : "\n", stderr);
 }
 

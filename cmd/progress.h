@@ -27,6 +27,11 @@ void progress_show(struct progress *progress, const char *scene, const struct ki
 void progress_tell(const char *scene, const struct kiln_progress *frame,
                    const struct kiln_written *file);
 
+/* Tells an engine of Open Job Description how far a call is: the job-th, from 0, of its jobs is at
+ * that frame. */
+void progress_tell_engine(const char *scene, const struct kiln_progress *frame, size_t job,
+                          size_t jobs);
+
 /* Clears the moving line, before anything else is said. */
 void progress_clear(struct progress *progress);
 

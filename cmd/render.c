@@ -196,6 +196,14 @@ static bool has_files(const struct render *render)
            render->list.flipbook.columns == 0 && kiln_output_is_images(render->job->output);
 }
 
+static void tell_frame(const struct render *render, const struct kiln_progress *frame,
+                       const struct kiln_written *file)
+{
+    progress_tell(render->job->path, frame, file);
+    progress_tell_engine(render->job->path, frame, (size_t)(render->job - render->list.jobs),
+                         render->list.count);
+}
+
 static void show_frame(void *user, const struct kiln_progress *frame)
 {
     struct render *render = user;
@@ -203,7 +211,7 @@ static void show_frame(void *user, const struct kiln_progress *frame)
     render->frames_total = frame->total;
     progress_show(&render->progress, render->job->path, frame);
     if (render->tells_frames || (events_are_wanted() && !has_files(render)))
-        progress_tell(render->job->path, frame, NULL);
+        tell_frame(render, frame, NULL);
 }
 
 /* An event for a file that is whole, on a thread of the output. */
@@ -220,7 +228,7 @@ static void tell_written(void *user, const struct kiln_written *file)
                                       .state = file->state};
         frame.eta_s = elapsed_s / file->done * (file->total - file->done);
         memcpy(frame.pass_ms, file->pass_ms, sizeof frame.pass_ms);
-        progress_tell(render->job->path, &frame, file);
+        tell_frame(render, &frame, file);
         return;
     }
     struct kiln_json json = event_begin(file->kind == KILN_WRITTEN_PART ? "part" : "file");

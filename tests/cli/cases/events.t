@@ -74,19 +74,101 @@ $ kiln bake scenes/tiny.yaml -o baked --every 10 --device cpu --events ndjson | 
 1|["result",null,3,null]
 1|["ended",null,null,0]
 
+The form of Open Job Description: progress, status and failure, a line each. Text for people stays.
+
+$ kiln render scenes/tiny.yaml -o j_%d.png --frames 0-3 --device cpu --progress none --events openjd | sed -E 's/, [0-9.]+ a second.*/, .../'
+1|openjd_progress: 0
+1|openjd_status: kiln 0.2.0: render
+1|openjd_status: scenes/tiny.yaml: 24 frames of 64x36
+1|device: <device>
+1|openjd_progress: 25
+1|openjd_status: scenes/tiny.yaml: 1 of 4 frames, ...
+1|openjd_progress: 50
+1|openjd_status: scenes/tiny.yaml: 2 of 4 frames, ...
+1|openjd_progress: 75
+1|openjd_status: scenes/tiny.yaml: 3 of 4 frames, ...
+1|j_0.png and 3 more: 4 frames in <s> s
+1|openjd_progress: 100
+$ kiln render scenes/tiny.yaml -o j.mp4 --shard 1/2 --device cpu --set output.frames=130 -q --events openjd:j.log; grep -c ^openjd_progress j.log; grep progress j.log | uniq -d; grep progress j.log | sort -c -n -k 2; tail -n 3 j.log | sed -E 's/, [0-9.]+ a second.*/, .../'
+1|101
+1|openjd_progress: 99
+1|openjd_status: scenes/tiny.yaml: 119 of 120 frames, ...
+1|openjd_progress: 100
+$ kiln render scenes/tiny.yaml -o j.mp4 --shard 2/2 --device cpu --set output.frames=130 -q; kiln join j.mp4 --events openjd
+1|openjd_progress: 0
+1|openjd_status: kiln 0.2.0: join
+1|j.mp4: 130 frames in 3 parts
+1|openjd_progress: 100
+$ cp scenes/tiny.yaml scenes/twice.yaml; kiln render scenes/tiny.yaml scenes/twice.yaml -o '{scene}_%d.png' --frames 0-1 --device cpu -q --events openjd | grep -e progress -e of | sed -E 's/, [0-9.]+ a second.*/, .../'
+1|openjd_progress: 0
+1|openjd_status: scenes/tiny.yaml: 24 frames of 64x36
+1|openjd_status: scenes/twice.yaml: 24 frames of 64x36
+1|openjd_progress: 25
+1|openjd_status: scenes/tiny.yaml: 1 of 2 frames, ...
+1|openjd_progress: 50
+1|openjd_status: scenes/tiny.yaml: 2 of 2 frames, ...
+1|openjd_progress: 75
+1|openjd_status: scenes/twice.yaml: 1 of 2 frames, ...
+1|openjd_progress: 100
+$ kiln bake scenes/tiny.yaml -o openjd_states --every 10 --device cpu -q --events openjd
+1|openjd_progress: 0
+1|openjd_status: kiln 0.2.0: bake
+1|openjd_status: scenes/tiny.yaml: 24 frames of 64x36
+1|openjd_progress: 20
+1|openjd_status: state 1 of 3, step 12
+1|openjd_progress: 55
+1|openjd_status: state 2 of 3, step 32
+1|openjd_progress: 89
+1|openjd_status: state 3 of 3, step 52
+1|openjd_progress: 100
+$ printf '{"scene": "scenes/tiny.yaml", "output": "j_batch.png", "frames": "0"}\n{"name": "b\\na", "scene": "none.yaml", "output": "x.png"}\n' | kiln render --batch - --keep-going --device cpu -q --events openjd 2>/dev/null
+1|openjd_progress: 0
+1|openjd_status: kiln 0.2.0: render
+1|openjd_progress: 50
+1|openjd_status: 1 of 2 jobs
+1|openjd_fail: b\na: none.yaml: No such file or directory
+1|openjd_status: exit code 3, again: never
+= 3
+$ kiln encode j_%d.png -o j_encoded.mp4 -q --events openjd | grep progress
+1|openjd_progress: 0
+1|openjd_progress: 25
+1|openjd_progress: 50
+1|openjd_progress: 75
+1|openjd_progress: 100
+$ kiln render scenes/tiny.yaml -o - --frames 0 --device cpu --events openjd -q 2>&1 >/dev/null | grep progress
+1|openjd_progress: 0
+1|openjd_progress: 100
+$ kiln render "$(printf 'a\nopenjd_env: B=C')" -q -o a.png --events openjd 2>/dev/null
+1|openjd_progress: 0
+1|openjd_status: kiln 0.2.0: render
+1|openjd_fail: a\nopenjd_env: B=C: No such file or directory
+1|openjd_status: exit code 3, again: never
+= 3
+$ kiln render scenes/tiny.yaml -q -o j_never.mp4 --set output.frames=3000 --device cpu --events openjd 2>/dev/null >stopped & until grep -qx "openjd_progress: 1" stopped; do sleep 0.05; done; kill -TERM $!; wait $!; tail -n 2 stopped
+1|openjd_fail: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
+1|openjd_status: exit code 143, again: again
+$ kiln render scenes/tiny.yaml -q -o slow.png --frames 0 --size 4096x4096 --set camera.shutter.samples=64 --set simulation.rate=3840 --threads 1 --device cpu --frame-timeout 0.2 --events openjd 2>/dev/null | tail -n 1
+1|openjd_fail: scenes/tiny.yaml: frame 0 took longer than its limit of 0.2 s
+$ kiln check scenes/tiny.yaml -q --events openjd:e.log
+2|kiln: check: --events: e.log: the file exists and holds no events, so nothing is added to it
+= 6
+$ kiln check scenes/tiny.yaml -q --events openjson
+2|kiln: check: --events: found 'openjson', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
+= 2
+
 What is no stream is refused, and nothing is added to other files.
 
 $ kiln check scenes/tiny.yaml -q --events xml
-2|kiln: check: --events: found 'xml', expected ndjson, ndjson:FILE or ndjson:fd=N, where N is a descriptor that is open for writing
+2|kiln: check: --events: found 'xml', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:
-2|kiln: check: --events: found 'ndjson:', expected ndjson, ndjson:FILE or ndjson:fd=N, where N is a descriptor that is open for writing
+2|kiln: check: --events: found 'ndjson:', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:fd=9
-2|kiln: check: --events: found 'ndjson:fd=9', expected ndjson, ndjson:FILE or ndjson:fd=N, where N is a descriptor that is open for writing
+2|kiln: check: --events: found 'ndjson:fd=9', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:fd=0
-2|kiln: check: --events: found 'ndjson:fd=0', expected ndjson, ndjson:FILE or ndjson:fd=N, where N is a descriptor that is open for writing
+2|kiln: check: --events: found 'ndjson:fd=0', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:scenes/tiny.yaml
 2|kiln: check: --events: scenes/tiny.yaml: the file exists and holds no events, so nothing is added to it
@@ -101,12 +183,20 @@ $ kiln render scenes/tiny.yaml -o none --set output.frames=100000 --device cpu -
 1|{"event": "started",
 1|9
 2|kiln: standard output: the reader went away: stopped
-$ kiln help events | head -n 14
+$ kiln help events | head -n 22
 1|--events ndjson          on standard output; with '--output -' on standard error
 1|--events ndjson:FILE     at the end of a file
 1|--events ndjson:fd=N     to a descriptor that is open
 1|
-1|Each line is a JSON object. `event` is its name, `time` is UTC. Events and members may be
+1|`openjd` instead of `ndjson` writes lines for engines of Open Job Description; what a person
+1|reads is printed as well, and the engine passes it on:
+1|
+1|openjd_progress: PERCENT   0, whole percents, and 100 when all is done
+1|openjd_status: MESSAGE     what the command does; warnings; last, where it failed, the exit
+1|                           code and whether to try again
+1|openjd_fail: MESSAGE       why something failed
+1|
+1|A line of `ndjson` is a JSON object. `event` is its name, `time` is UTC. Events and members may be
 1|added by later versions. 'kiln help events-schema' is the JSON schema.
 1|
 1|started (every command): The command line was read.

@@ -266,7 +266,9 @@ $ kiln help render
 1|      --events STREAM         Tell other programs how the command goes, by lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
-1|                              to an open descriptor (see 'kiln help events').
+1|                              to an open descriptor. 'openjd' instead of
+1|                              'ndjson': by lines of Open Job Description (see
+1|                              'kiln help events').
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. Of an
@@ -323,7 +325,9 @@ $ kiln help compare
 1|      --events STREAM         Tell other programs how the command goes, by lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
-1|                              to an open descriptor (see 'kiln help events').
+1|                              to an open descriptor. 'openjd' instead of
+1|                              'ndjson': by lines of Open Job Description (see
+1|                              'kiln help events').
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. Of an
@@ -361,7 +365,9 @@ $ kiln help check
 1|      --events STREAM         Tell other programs how the command goes, by lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
-1|                              to an open descriptor (see 'kiln help events').
+1|                              to an open descriptor. 'openjd' instead of
+1|                              'ndjson': by lines of Open Job Description (see
+1|                              'kiln help events').
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. Of an
@@ -383,7 +389,9 @@ $ kiln help devices
 1|      --events STREAM         Tell other programs how the command goes, by lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
-1|                              to an open descriptor (see 'kiln help events').
+1|                              to an open descriptor. 'openjd' instead of
+1|                              'ndjson': by lines of Open Job Description (see
+1|                              'kiln help events').
 1|  -h, --help                  Print this help.
 $ kiln help help
 1|usage: kiln help [OPTION...] [TOPIC]
