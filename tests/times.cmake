@@ -34,6 +34,7 @@ set(kiln_test_times
     "golden.readers 15"
     "report.page 20"
     "schema.ajv 10"
+    "farm.schemas 10"
     "python.module 10"
     "cli.bench 20"
     "cli.stop 10"
