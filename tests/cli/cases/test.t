@@ -353,10 +353,9 @@ $ cat >child <<'END'
 $ kiln test fire slow -j1 -o out/crash --no-report & run=$!
 > child=$(bash child crash $run); kill -SEGV $child; wait $run
 1|pass    fire  1 frame in <s> s
-1|error   slow  took longer than 120 s
+1|error   slow  crashed: signal 11 (Segmentation fault)
 1|2 tests in <s> s: 1 pass, 1 error
 1|1 frame: 1 by pixels, 0 by metrics
-2|bash: line 2: kill: (6719) - No such process
 = 5
 
 A signal to the run ends its tests, and leaves neither processes nor half-written files.
