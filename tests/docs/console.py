@@ -23,6 +23,7 @@ TREE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 def run(command, folder, environment):
     if command.startswith("tools/"):
         command = os.path.join(TREE, command)
+    command = command.replace("/usr/share/kiln/examples/", f"{TREE}/examples/")
     done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE_S)
     lines = [re.sub(r"\bkiln \d+\.\d+\.\d+( \([0-9a-f]+\+?\))?", "kiln V",
@@ -98,6 +99,7 @@ def main():
                        PATH=os.path.dirname(os.path.abspath(given.kiln)) + ":" +
                        os.environ["PATH"])
     with tempfile.TemporaryDirectory() as scratch:
+        os.chmod(scratch, 0o711)  # for other users that a session runs a program as
         result, sessions = check(path, given.keep or scratch, environment, update)
         if not given.keep:
             compare_pictures(path, result, scratch, environment)

@@ -1,0 +1,219 @@
+"""Renders the jobs of a spool folder, one after the other, for people whom nobody knows (docs/service.md).
+
+Whoever brings a job makes SPOOL/incoming/.NAME of a scene.yaml and its files, which the user of the jobs can
+read, and renames it to NAME. A job's turn comes by its name. What became of it lies in SPOOL/done/NAME
+(clip.mp4) or SPOOL/failed/NAME (job, as it came), and is a line of SPOOL/report.ndjson. The worker may be
+killed at any moment: what is in SPOOL/running when it starts is gone on with.
+"""
+import argparse
+import fcntl
+import hashlib
+import itertools
+import json
+import os
+import pathlib
+import pwd
+import select
+import shutil
+import signal
+import stat
+import subprocess
+import sys
+import time
+import types
+
+TRIES = 3  # of a job that may succeed when it is run again, or during which the worker was killed
+GRACE_S = 10  # from --timeout until SIGTERM, and from there until SIGKILL
+now = types.SimpleNamespace(stopping=False, process=None)
+
+
+def stop(*_):
+    now.stopping = True
+    if now.process:
+        now.process.terminate()
+
+
+def write_durably(path, text, mode):
+    with open(path, mode, encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def run_kiln(place, events, given):
+    """Runs kiln for the job in a folder; returns its exit code, as a shell counts it."""
+    rights = ["setpriv", "--no-new-privs", "--pdeathsig=KILL"]
+    if given.user:
+        rights += [f"--reuid={given.user[0]}", f"--regid={given.user[1]}", "--clear-groups"]
+    for folder in ("output", "tmp"):
+        (place / folder).mkdir(exist_ok=True)
+        if given.user:
+            os.chown(place / folder, *given.user)
+    with open(events, "wb") as told, open(place / "messages", "wb") as messages:
+        # The job holds the lock, too: a worker that starts after this one was killed waits for its end.
+        now.process = process = subprocess.Popen(
+            [*rights, "--", given.kiln, "render", "job/scene.yaml", "--asset-root", "job", "--device", "cpu",
+             "--sandbox=require", "--limits", given.limits, "--timeout", str(given.timeout), "--resume",
+             "--events", "ndjson", "--quiet", "-o", "output/clip.mp4"],
+            env={"PATH": os.defpath, "HOME": place / "tmp", "TMPDIR": place / "tmp",
+                 "XDG_CACHE_HOME": given.spool / "cache"},
+            cwd=place, stdin=subprocess.DEVNULL, stdout=told, stderr=messages, start_new_session=True,
+            pass_fds=[given.lock])
+    if now.stopping:
+        process.terminate()
+    end = os.pidfd_open(process.pid)
+    for patience_s, then in ((given.timeout + GRACE_S, signal.SIGTERM), (GRACE_S, signal.SIGKILL), (None, 0)):
+        if select.select([end], [], [], patience_s)[0]:
+            break
+        os.killpg(process.pid, then)
+    os.close(end)
+    now.process = None
+    code = process.wait()
+    return code if code >= 0 else 128 - code
+
+
+def what_kiln_told(place, events):
+    """The first error, whether to run the job again, and whether kiln came so far as to tell anything."""
+    message, again, started = "", True, False
+    with open(events, encoding="utf-8", errors="replace") as lines:
+        for line in lines:
+            try:
+                event = json.loads(line)
+                started = started or event["event"] == "started"
+                if event["event"] == "error":
+                    message = message or str(event["message"])
+                if event["event"] == "ended":
+                    # Memory that is short now may be there later. The limits (exit code 8) stay.
+                    again = event["again"] == "again" or event["code"] == 5
+            except (ValueError, LookupError, TypeError):  # half a line, of a full disk
+                continue
+    with open(place / "messages", encoding="utf-8", errors="replace") as said:
+        return message or said.read(1000).strip() or "kiln does not say why", again, started
+
+
+def look_at_clip(place, given):
+    """Its size and SHA-256. It lies in the job's own folder, and so may be anything; from now on it is
+    the worker's."""
+    clip = os.open(place / "output/clip.mp4", os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    with open(clip, "rb") as file:
+        if not stat.S_ISREG(os.fstat(clip).st_mode):
+            raise OSError("output/clip.mp4 is not a file")
+        if given.user:
+            os.fchown(clip, 0, 0)
+        return {"bytes": os.fstat(clip).st_size, "sha256": hashlib.file_digest(file, "sha256").hexdigest()}
+
+
+def render(place, given):
+    """Runs a job once; returns what became of it, or None where the worker was told to stop."""
+    tries = len(list(place.glob("events.*"))) + 1
+    if not stat.S_ISDIR(os.lstat(place / "job").st_mode):
+        return {"outcome": "failed", "code": 3, "message": "job: is not a folder"}
+    if tries > TRIES:
+        return {"outcome": "failed", "code": 137, "message": f"the worker was killed {TRIES} times at this job"}
+    events = place / f"events.{tries}.ndjson"
+    code = run_kiln(place, events, given)
+    message, again, started = what_kiln_told(place, events)
+    if code == 0:
+        try:
+            return {"outcome": "done", "code": 0, **look_at_clip(place, given)}
+        except OSError as error:
+            return {"outcome": "failed", "code": 0, "message": f"kiln ended well, and yet: {error}"}
+    if now.stopping or (code < 128 and not started):
+        events.unlink()  # it was no try
+        return None if now.stopping else sys.exit(f"worker: kiln does not start: {message}")
+    return {"outcome": "again" if again and tries < TRIES else "failed", "code": code, "message": message}
+
+
+def settle(place, spool):
+    """Moves a job with a result out of the way. Each step can be done again, if the machine goes down."""
+    outcome = json.loads((place / "result.json").read_text())["outcome"]
+    if outcome == "done" and not (place / "clip.mp4").exists():
+        (place / "output/clip.mp4").rename(place / "clip.mp4")
+    for folder in ("output", "tmp", *(["job"] if outcome == "done" else [])):
+        shutil.rmtree(place / folder, ignore_errors=True)
+    names = (place.name + (f".{i}" if i > 1 else "") for i in itertools.count(1))
+    place.rename(next(target for name in names if not (target := spool / outcome / name).exists()))
+
+
+def work_on(name, given):
+    """Takes a job, or goes on with it."""
+    place = given.spool / "running" / name
+    place.mkdir(exist_ok=True)
+    if not os.path.lexists(place / "job"):
+        (given.spool / "incoming" / name).rename(place / "job")
+    start = time.monotonic()
+    if not (result := render(place, given)):
+        return
+    line = json.dumps({"job": name, **result, "seconds": round(time.monotonic() - start, 2),
+                       "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}) + "\n"
+    if result["outcome"] != "again":
+        write_durably(place / "result.tmp", line, "w")
+        (place / "result.tmp").rename(place / "result.json")
+    write_durably(given.spool / "report.ndjson", line, "a")
+    if result["outcome"] != "again":
+        settle(place, given.spool)
+
+
+def recover(spool):
+    """Completes the report and the jobs whose results are known, after a worker that was killed."""
+    report = spool / "report.ndjson"
+    lines = report.read_text().splitlines() if report.exists() else []
+    if lines and not report.read_text().endswith("\n"):
+        write_durably(report, "\n", "a")
+    for place in (spool / "running").iterdir():
+        if (place / "result.json").exists():
+            if (line := (place / "result.json").read_text()).rstrip("\n") not in lines:
+                write_durably(report, line, "a")
+            settle(place, spool)
+        elif not os.path.lexists(place / "job") and not os.path.lexists(spool / "incoming" / place.name):
+            shutil.rmtree(place)
+
+
+def user_of_jobs(name):
+    """The numbers of the user and the group, or None where jobs have those of the worker."""
+    if os.geteuid() != 0:
+        return None
+    try:
+        user = (int(name), int(name)) if name.isdigit() else pwd.getpwnam(name)[2:4]
+    except KeyError:
+        sys.exit(f"worker: --user: there is no '{name}'")
+    if 0 in user:
+        sys.exit(f"worker: jobs do not run as root: --user NAME, of a user without rights, instead of '{name}'")
+    return user
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Renders the jobs of a spool folder.")
+    parser.add_argument("--once", action="store_true", help="end when no job is left")
+    parser.add_argument("--user", default="root", help="whose rights jobs have, where root starts the worker")
+    parser.add_argument("--kiln", default="kiln", help="the program")
+    parser.add_argument("--limits", default="service", help="of kiln, for each job")
+    parser.add_argument("--timeout", type=int, default=3600, help="seconds for each job")
+    parser.add_argument("spool", type=pathlib.Path)
+    given = parser.parse_args()
+    given.user = user_of_jobs(given.user)
+    given.kiln = os.path.abspath(shutil.which(given.kiln) or sys.exit(f"worker: no program '{given.kiln}'"))
+    spool = given.spool = given.spool.absolute()
+    for folder, mode in {"incoming": 0o700, "running": 0o711, "done": 0o700, "failed": 0o700, "cache": 0o711}.items():
+        (spool / folder).mkdir(mode=mode, parents=True, exist_ok=True)
+    if given.user:
+        os.chown(spool / "cache", *given.user)
+    given.lock = os.open(spool / "lock", os.O_RDWR | os.O_CREAT, 0o600)
+    fcntl.flock(given.lock, fcntl.LOCK_EX)
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, stop)
+    recover(spool)
+    while not now.stopping:
+        running, incoming = (sorted(p.name for p in (spool / folder).iterdir() if p.name[0] != ".")
+                             for folder in ("running", "incoming"))
+        for name in [*running, *(name for name in incoming if name not in running)]:
+            if not now.stopping:
+                work_on(name, given)
+        if not incoming:
+            if given.once and not running:
+                break
+            time.sleep(1)
+
+
+if __name__ == "__main__":
+    main()
