@@ -126,7 +126,7 @@ class Queue:
         name = next(iter(self.jobs))
         journal = self.spool / "running" / name / "output/clip.mp4.journal"
         worker = self.start()
-        wait_for("a whole part", lambda: journal.exists() and journal.read_text().count("\n") >= 2)
+        wait_for("a whole part", lambda: journal.exists() and '{"part"' in journal.read_text())
         running = [path.read_text() for number in processes(self.user, self.programs)
                    if (path := pathlib.Path(f"/proc/{number}/status")).exists()]
         for status in running:
