@@ -29,6 +29,7 @@ static const struct {
 static struct {
     FILE *out; /* NULL: none */
     enum form form;
+    bool on_stdout, stdout_failed;
     const char *name;  /* for messages */
     uint64_t progress; /* percents that were told */
 } stream;
@@ -90,7 +91,7 @@ bool events_are_open(void)
 
 bool events_take_stdout(void)
 {
-    return events_are_open() && stream.out == stdout;
+    return events_are_open() && stream.on_stdout;
 }
 
 static bool write_nowhere(void *sink, const char *bytes, size_t length)
@@ -131,6 +132,11 @@ void event_end(struct kiln_json *json)
 bool events_failed(void)
 {
     return stream.out && ferror(stream.out);
+}
+
+bool events_failed_on_stdout(void)
+{
+    return stream.stdout_failed;
 }
 
 /* ---- Lines of Open Job Description ---------------------------------------------------------- */
@@ -397,6 +403,20 @@ static const char *read_form(const char *value)
     return NULL;
 }
 
+/* Keeps standard output for lines of JSON: what is printed for people goes to standard error. */
+static int take_stdout(void)
+{
+    const int events = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    fflush(stdout);
+    FILE *out = events >= 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0 ? fdopen(events, "w") : NULL;
+    if (!out)
+        return report(KILN_IO, "--events: standard output: %s",
+                      strerror(errno)); /* NOLINT(concurrency-mt-unsafe) */
+    stream.out = out;
+    stream.on_stdout = true;
+    return 0;
+}
+
 int events_open(const struct command *command, const struct arguments *arguments)
 {
     const struct option_use *use = arguments_last(arguments, "events");
@@ -418,6 +438,8 @@ int events_open(const struct command *command, const struct arguments *arguments
         stream.name = rest + 1;
         code = open_file(command, rest + 1);
     }
+    if (code == 0 && stream.out == stdout && stream.form == FORM_NDJSON)
+        code = take_stdout();
     if (code)
         return code;
     /* A line is written at once; messages on standard error do not wait for one. */
@@ -431,6 +453,7 @@ static void open_plain(FILE *out)
 {
     stream.out = out;
     stream.form = FORM_PLAIN;
+    stream.on_stdout = out == stdout;
     stream.name = "standard output";
 }
 
@@ -470,7 +493,13 @@ int events_close(int code)
     stream.out = NULL;
     if (out == stdout || out == stderr) /* report_finish looks at the one */
         return code;
-    if (fclose(out) == 0 && !failed)
+    if (stream.on_stdout) { /* report_finish finds out why it failed */
+        fflush(stdout);
+        dup2(fileno(out), STDOUT_FILENO);
+    }
+    const bool is_whole = fclose(out) == 0 && !failed;
+    stream.stdout_failed = stream.on_stdout && !is_whole;
+    if (stream.on_stdout || is_whole)
         return code;
     const int reported = report(KILN_IO, "--events: %s cannot be written", stream.name);
     return code && code != KILN_READER_GONE ? code : reported;

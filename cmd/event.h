@@ -35,6 +35,7 @@ bool events_take_stdout(void);
 
 /* Whether the stream could not be written: nobody reads it any more, or a disk is full. */
 bool events_failed(void);
+bool events_failed_on_stdout(void); /* after it was closed */
 
 /* Begins an event of that name. More members may be added until its end, which ends the line and
  * hands it over; other threads wait in between. Without a stream nothing comes of it. */

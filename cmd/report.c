@@ -83,7 +83,7 @@ struct kiln_log report_log(void)
 
 int report_finish(int code)
 {
-    bool failed = ferror(stdout) != 0;
+    bool failed = ferror(stdout) != 0 || events_failed_on_stdout();
     if (fflush(stdout) == 0 && !failed)
         return code;
     /* The reason may be long gone: a stream remembers only that it failed. Writing finds it again.

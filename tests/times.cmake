@@ -35,6 +35,8 @@ set(kiln_test_times
     "report.page 20"
     "schema.ajv 10"
     "farm.schemas 10"
+    "queue.smoke 10"
+    "farm.schemas 10"
     "python.module 10"
     "cli.bench 20"
     "cli.stop 10"

@@ -53,7 +53,7 @@ $ printf 'kiln: 1\nsystems: {a: {emit: {raet: 1}}}\n' >wrong.yaml; kiln check wr
 $ kiln render scenes/tiny.yaml -q -o e.mp4 --events ndjson:fd=2 2>&1 | grep -v '^kiln' | tail -n 2
 1|{"event": "error", "time": <time>, "code": 6, "again": "again", "message": "e.mp4.journal: a job with --resume or --shard has begun this output (--force replaces it)"}
 1|{"event": "ended", "time": <time>, "code": 6, "again": "again"}
-$ kiln render scenes/tiny.yaml -q -o never.mp4 --set output.frames=100000 --set systems.smoke.emit.rate=100000 --device cpu --events ndjson 2>/dev/null >stopped & until grep -q '"frame"' stopped; do sleep 0.05; done; kill -TERM $!; wait $!; echo "exit code $?"; jq -c 'select(.event == "error" or .event == "ended") | [.event, .code, .again]' stopped
+$ kiln render scenes/tiny.yaml -q -o never.mp4 --set output.frames=100000 --set systems.smoke.emit.rate=100000 --device cpu --events ndjson 2>/dev/null >stopped & until grep -qs '"frame"' stopped; do sleep 0.05; done; kill -TERM $!; wait $!; echo "exit code $?"; jq -c 'select(.event == "error" or .event == "ended") | [.event, .code, .again]' stopped
 1|exit code 143
 1|["error",143,"again"]
 1|["ended",143,"again"]
@@ -144,7 +144,7 @@ $ kiln render "$(printf 'a\nopenjd_env: B=C')" -q -o a.png --events openjd 2>/de
 1|openjd_fail: a\nopenjd_env: B=C: No such file or directory
 1|openjd_status: exit code 3, again: never
 = 3
-$ kiln render scenes/tiny.yaml -q -o j_never.mp4 --set output.frames=3000 --device cpu --events openjd 2>/dev/null >stopped & until grep -qx "openjd_progress: 1" stopped; do sleep 0.05; done; kill -TERM $!; wait $!; tail -n 2 stopped
+$ kiln render scenes/tiny.yaml -q -o j_never.mp4 --set output.frames=3000 --device cpu --events openjd 2>/dev/null >stopped & until grep -qsx "openjd_progress: 1" stopped; do sleep 0.05; done; kill -TERM $!; wait $!; tail -n 2 stopped
 1|openjd_fail: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
 1|openjd_status: exit code 143, again: again
 $ kiln render scenes/tiny.yaml -q -o slow.png --frames 0 --size 4096x4096 --set camera.shutter.samples=64 --set simulation.rate=3840 --threads 1 --device cpu --frame-timeout 0.2 --events openjd 2>/dev/null | tail -n 1
@@ -179,12 +179,23 @@ $ kiln check scenes/tiny.yaml -q --events ndjson:none/e.log
 $ kiln check scenes/tiny.yaml -q --events ndjson:/dev/full
 2|kiln: --events: /dev/full cannot be written
 = 6
+$ kiln plan scenes/tiny.yaml --events ndjson 2>text | jq -r .event; kiln devices --events ndjson 2>>text | jq -r .event; grep -Ec '^scenes/tiny.yaml: |^sandbox:' text
+1|started
+1|loaded
+1|ended
+1|started
+1|ended
+1|2
+$ kiln plan scenes/tiny.yaml --events ndjson 2>text >/dev/full; echo $?; tail -n 1 text
+1|6
+1|kiln: standard output: No space left on device
 $ kiln render scenes/tiny.yaml -o none --set output.frames=100000 --device cpu -q --events ndjson | head -n 1 | cut -c 1-20; echo "${PIPESTATUS[0]}"
 1|{"event": "started",
 1|9
 2|kiln: standard output: the reader went away: stopped
 $ kiln help events | head -n 22
-1|--events ndjson          on standard output; with '--output -' on standard error
+1|--events ndjson          on standard output, and what is printed for people on standard error;
+1|                         with '--output -' on standard error
 1|--events ndjson:FILE     at the end of a file
 1|--events ndjson:fd=N     to a descriptor that is open
 1|
@@ -205,7 +216,6 @@ $ kiln help events | head -n 22
 1|    arguments          Its options and operands.
 1|    host               The machine's name.
 1|    process            The number of the process.
-1|
 
 Several scenes: --keep-going renders the others, too.
 
