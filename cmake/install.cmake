@@ -28,7 +28,7 @@ file(GLOB kiln_documents CONFIGURE_DEPENDS docs/*.md)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${kiln_documents} DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(DIRECTORY docs/ci docs/images DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
-install(DIRECTORY scenes examples DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln)
+install(DIRECTORY scenes examples DESTINATION ${CMAKE_INSTALL_DATADIR}/kiln USE_SOURCE_PERMISSIONS)
 install(FILES cmd/completion/kiln.bash
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kiln)
 install(FILES cmd/completion/_kiln DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""console.py [--update] [--keep FOLDER] KILN DOCUMENT: a document's examples do what it says.
+"""console.py [--update] [--keep FOLDER] [--only SECTION]... KILN DOCUMENT: a document's examples do what it says.
 
 In an empty folder, in the order of the document: a block "```yaml PATH" is a file (python, latex, makefile,
 html, c, cpp or cmake, too), "```yaml more of PATH" is written to its end, and a block "```console" is a session: each line
@@ -7,7 +7,8 @@ html, c, cpp or cmake, too), "```yaml more of PATH" is written to its end, and a
 it prints, then "exit code N" where that is not 0. Times are written as "N s", and which
 kiln it is as "kiln V"; all else is compared to the last digit. A picture that the document shows as NAME.jpg must look like the NAME.png
 that a session drew, if one did. With --update, what is printed is written into the document; with
---keep, the files are left in that folder, which should be empty, and pictures are not looked at.
+--keep, the files are left in that folder, which should be empty, and pictures are not looked at. With --only,
+it is what stands before the first "## ", and below each "## SECTION".
 """
 import argparse
 import os
@@ -21,8 +22,7 @@ TREE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 
 def run(command, folder, environment):
-    if command.startswith("tools/"):
-        command = os.path.join(TREE, command)
+    command = re.sub(r"(?<!\S)(?=(tools|examples)/)", lambda _: TREE + "/", command)
     command = command.replace("/usr/share/kiln/examples/", f"{TREE}/examples/")
     done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE_S)
@@ -47,14 +47,18 @@ def write_file(folder, name, block):
         file.write("\n".join(block) + "\n")
 
 
-def check(path, folder, environment, update):
+def check(path, folder, environment, update, only):
     """Returns the lines of the document, and how many sessions were played."""
     with open(path, encoding="utf-8") as file:
         lines = file.read().splitlines()
-    result, sessions = [], 0
+    result, sessions, section = [], 0, None
     while lines:
         line = lines.pop(0)
         result.append(line)
+        if line.startswith("## "):
+            section = line[3:]
+        if only and section not in (None, *only):
+            continue
         start = re.fullmatch(r"```((?:yaml|python|latex|makefile|html|c|cpp|cmake) (\S.*)|console)", line)
         if not start:
             continue
@@ -91,6 +95,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--update", action="store_true")
     parser.add_argument("--keep", metavar="FOLDER")
+    parser.add_argument("--only", metavar="SECTION", action="append")
     parser.add_argument("kiln")
     parser.add_argument("document")
     given = parser.parse_args()
@@ -100,7 +105,7 @@ def main():
                        os.environ["PATH"])
     with tempfile.TemporaryDirectory() as scratch:
         os.chmod(scratch, 0o711)  # for other users that a session runs a program as
-        result, sessions = check(path, given.keep or scratch, environment, update)
+        result, sessions = check(path, given.keep or scratch, environment, update, given.only)
         if not given.keep:
             compare_pictures(path, result, scratch, environment)
     if update:

@@ -1,0 +1,136 @@
+#!/usr/bin/env bash
+# The scripts for Slurm do what they say, with stand-ins for Slurm that run each job at once: tasks.sh KILN SOURCE.
+# farm.slurm has a real cluster.
+set -euo pipefail
+KILN=$(realpath "$1") source=$(realpath "$2")
+submit=$source/examples/farm/slurm/submit
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/bin" "$work/jobs" "$work/clips"
+export work KILN PATH=$work/bin:$PATH
+echo 0 >"$work/jobs/last"
+cd "$work/clips"
+fail() {
+    echo "$*"
+    tail -n 5 -- *.tasks/*.log
+    exit 1
+}
+stub() { cat >"$work/bin/$1" && chmod 755 "$work/bin/$1"; }
+
+# Runs the job, or each task of the array, and again while it asks for that. A job that waits for one that failed is
+# cancelled. jobs/N has the exit code of job N.
+stub sbatch <<'END'
+#!/usr/bin/env bash
+id=$(($(<"$work/jobs/last") + 1)) tasks=("") result=0
+while [[ $1 == --* ]]; do
+    case $1 in
+    --array=1-*) mapfile -t tasks < <(seq "${1#--array=1-}") ;;
+    --dependency=afterok:*) [[ $(<"$work/jobs/${1##*:}") == 0 ]] || result=cancelled ;;
+    --output=*) log=${1#*=} ;;
+    --parsable | --job-name=* | --kill-on-invalid-dep=yes) ;;
+    *) echo "sbatch: unknown option $1" >&2; exit 1 ;;
+    esac
+    shift
+done
+echo "$id" >"$work/jobs/last"
+export SLURM_JOB_ID=$id SLURM_CPUS_PER_TASK=1
+for task in "${tasks[@]}"; do
+    [[ $result != cancelled ]] || break
+    unset SLURM_RESTART_COUNT
+    [[ ! $task ]] || export SLURM_ARRAY_JOB_ID=$id SLURM_ARRAY_TASK_ID=$task SLURM_ARRAY_TASK_COUNT=${#tasks[@]} \
+        SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_STEP=1
+    one=${log//%%/$'\1'} code=0
+    one=${one//%a/$task}
+    [[ $one != *%* ]] || { echo "sbatch: unknown pattern in $log" >&2; exit 1; }
+    one=${one//$'\1'/%}
+    bash "$@" >>"$one" 2>&1 || code=$?
+    for ((times = 1; times < 20; times++)); do
+        [[ -e $work/requeued.$id${task:+_$task} ]] || break
+        rm "$work/requeued.$id${task:+_$task}"
+        code=0
+        SLURM_RESTART_COUNT=$times bash "$@" >>"$one" 2>&1 || code=$?
+    done
+    ((code == 0)) || result=$code
+done
+echo "$result" >"$work/jobs/$id"
+echo "$id;cluster"
+END
+stub scontrol <<'END'
+#!/usr/bin/env bash
+[[ $1 == requeue ]] && touch "$work/requeued.$2"
+END
+stub squeue <<'END'
+#!/usr/bin/env bash
+echo "${STATE:-RUNNING}"
+END
+# The first kilns of some commands meet with an accident, which a file stands for.
+stub kiln <<'END'
+#!/usr/bin/env bash
+meet() { [[ $task == "$2" && -e $work/accidents/$1 ]]; }
+task="$1 ${SLURM_ARRAY_TASK_ID:-}"
+if meet always "bake "; then
+    kill -KILL $$
+elif meet killed "render 1"; then
+    rm "$work/accidents/killed"
+    kill -KILL $$
+elif meet stopped "render 2"; then
+    rm "$work/accidents/stopped"
+    kill -TERM $PPID
+    exec sleep 20
+elif meet disk "join "; then
+    rm "$work/accidents/disk"
+    exit 6
+fi
+exec "$KILN" "$@"
+END
+
+# expect JOB CODE NUMBER: the exit code of a job, and how often its log says that it was requeued; its log files follow.
+expect() {
+    local requeues
+    requeues=$(cat "${@:4}" | grep -c ': requeued$' || true)
+    [[ $(<"$work/jobs/$1") == "$2" && $requeues == "$3" ]] ||
+        fail "job $1: ended with $(<"$work/jobs/$1") after $requeues requeues; expected $2 after $3"
+}
+
+cp "$source"/tests/cli/scenes/{tiny.yaml,puff.png} .
+long=(tiny.yaml --device cpu --fps 2 --set output.frames=17)
+mkdir "$work/accidents"
+touch "$work/accidents"/{killed,stopped,disk}
+
+# Every kind of task is disturbed, and the clip has the bytes of a single run.
+said=$("$submit" tiny.yaml 'a clip.mp4' 3 "${long[@]:1}" -- --quality 90)
+[[ $said == "jobs: bake 1, parts 2, join 3" ]] || fail "submit said: $said"
+tasks='a clip.mp4.tasks'
+expect 1 0 0 "$tasks/bake.log"
+expect 2 0 2 "$tasks"/part-[123].log
+expect 3 0 1 "$tasks/join.log"
+kiln render "${long[@]}" --quality 90 --quiet -o single.mp4
+cmp 'a clip.mp4' single.mp4
+[[ -z $(ls "$work/accidents") ]] || fail "no accident: $(ls "$work/accidents")"
+[[ $(jq -s 'map(select(.event == "started")) | length' "$tasks/part-2.ndjson") == 1 ]] ||
+    fail "the events of task 2 are not its own"
+
+# Images; %02d in the name of a log is no pattern of sbatch. The same call again goes on.
+for parts in 5 8; do
+    "$submit" tiny.yaml f_%02d.png 1 --device cpu -- --frames 0-1 >/dev/null
+    expect $((parts - 1)) 0 0 f_%02d.png.tasks/bake.log
+    expect $parts 0 0 f_%02d.png.tasks/{part-1,join}.log
+    [[ $(echo f_*.png) == "f_00.png f_01.png" ]] || fail "images: $(echo f_*.png)"
+done
+
+# What never succeeds is not repeated, and what waits for it does not begin.
+"$submit" tiny.yaml wrong.mp4 1 --set seed=none >/dev/null
+expect 10 3 0 wrong.mp4.tasks/bake.log
+expect 11 cancelled 0 /dev/null
+expect 12 cancelled 0 /dev/null
+"$submit" tiny.yaml large.mp4 1 "${long[@]:1}" -- --limits output=1kB >/dev/null
+expect 14 8 0 large.mp4.tasks/part-1.log
+expect 15 cancelled 0 /dev/null
+grep -q 'more memory' large.mp4.tasks/part-1.log || fail "the log does not say that more is needed"
+
+# What fails again and again is given up, and what was cancelled is not requeued.
+touch "$work/accidents/always"
+FARM_REQUEUES=1 "$submit" tiny.yaml fails.mp4 1 >/dev/null
+expect 16 137 1 fails.mp4.tasks/bake.log
+STATE=COMPLETING "$submit" tiny.yaml gone.mp4 1 >/dev/null
+expect 19 137 0 gone.mp4.tasks/bake.log
