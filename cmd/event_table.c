@@ -191,7 +191,8 @@ enum { EVENT_COUNT = sizeof events / sizeof *events };
 
 bool help_write_events(FILE *out)
 {
-    fputs("--events ndjson          on standard output, and what is printed for people on standard error;\n"
+    fputs("--events ndjson          on standard output, and what is printed for people on standard "
+          "error;\n"
           "                         with '--output -' on standard error\n"
           "--events ndjson:FILE     at the end of a file\n"
           "--events ndjson:fd=N     to a descriptor that is open\n"
