@@ -285,6 +285,7 @@ static struct kiln_output_params output_params(struct kiln_job *job)
         .range_count = job->range_count,
         .clip = job->ranges,
         .clip_count = job->range_count,
+        .parts_alone = params->shards > 0,
         .threads = kiln_threads_count(kiln_loop_threads(job->loop)),
         .overwrite = params->overwrite,
         .png_bits = params->png_bits,

@@ -86,6 +86,7 @@ struct kiln_output_params {
     /* Of one file for all frames: the folder where its parts wait, each in a file, until they are
      * joined by kiln_parts_join. Ranges consist of whole parts then. NULL: no parts wait. */
     const char *parts;
+    bool parts_alone; /* another process joins them: what a container needs is not opened here */
     uint32_t threads; /* encoders; at least 1 */
     bool overwrite;
     uint32_t png_bits, exr_bits, quality;

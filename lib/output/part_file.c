@@ -40,7 +40,7 @@ bool kiln_clip_hash(const struct kiln_output_params *params, char hash[65])
 
 void kiln_part_made_by(char text[128])
 {
-    const bool is_open = kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, NULL);
+    const bool is_open = kiln_ffmpeg_open(KILN_FFMPEG_PICTURES, NULL);
     snprintf(text, 128, "kiln %s, FFmpeg %s", KILN_VERSION,
              is_open ? kiln_ff.av_version_info() : "none");
 }
