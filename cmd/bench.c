@@ -60,8 +60,16 @@ static const struct option options[] = {
     {.name = "size",
      .kind = OPTION_SIZE,
      .placeholder = "WxH",
-     .help = "Of scenes: size of the picture in pixels, --set output.size=[W, H].",
+     .help = "Of scenes and of jobs: size of the picture in pixels, --set output.size=[W, H].",
      .sets = "output.size"},
+    {.name = "parts",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "Of the suite jobs: parts that the clip is rendered in, of two seconds each, at most "
+             "600 frames; the clip gets as many frames as they have together.",
+     .fallback = "64",
+     .min = 2,
+     .max = KILN_BENCH_MAX_PARTS},
     SET_OPTION,
     ASSET_ROOT_OPTION,
     {.name = "device",
@@ -146,6 +154,7 @@ static struct kiln_bench_params make_params(const struct arguments *arguments, s
         params.frame = arguments_integer(arguments, "frame", 0);
     params.stages = lists->stages.items;
     params.stage_count = lists->stages.count;
+    params.parts = arguments_integer(arguments, "parts", 0);
     params.device = arguments_text(arguments, "device", NULL);
     params.techniques = lists->techniques.items;
     params.technique_count = lists->techniques.count;
@@ -164,14 +173,23 @@ static struct kiln_bench_params make_params(const struct arguments *arguments, s
     return params;
 }
 
-/* What is for scenes alone, and of no use to suites. */
+/* Refuses options that are of no use to what is measured. */
 static int check_options(const struct arguments *arguments, const struct kiln_bench_params *params)
 {
-    static const char *const names[] = {"stage", "frame", "size", "set", "asset-root"};
-    for (size_t i = 0; i < sizeof names / sizeof *names && params->scene_count == 0; i++) {
-        if (arguments_flag(arguments, names[i]))
-            return report(KILN_USAGE, "bench: --%s is for scenes, and none is given", names[i]);
+    static const struct {
+        const char *name;
+        bool of_jobs; /* the suite jobs takes it, too */
+    } options_of_scenes[] = {
+        {"stage", false}, {"frame", false}, {"size", true}, {"set", true}, {"asset-root", true}};
+    const bool jobs = kiln_bench_renders_scene(params), scenes = params->scene_count > 0 && !jobs;
+    for (size_t i = 0; i < sizeof options_of_scenes / sizeof *options_of_scenes; i++) {
+        const char *name = options_of_scenes[i].name;
+        if (arguments_flag(arguments, name) && !scenes && !(jobs && options_of_scenes[i].of_jobs))
+            return report(KILN_USAGE, "bench: --%s is for scenes, and none is %s", name,
+                          params->scene_count > 0 ? "measured by itself" : "given");
     }
+    if (arguments_flag(arguments, "parts") && !jobs)
+        return report(KILN_USAGE, "bench: --parts is for the suite jobs, which is not named");
     return 0;
 }
 
@@ -254,6 +272,11 @@ const struct command bench_command = {
         "slows the machine down for a while slows all of them down; printed are medians, "
         "quartiles, "
         "and the ratios of neighbours.\n\n"
+        "The suite jobs takes a scene: it renders a clip of it by one run and in parts that start "
+        "from saved states, each a process, and prints the processor time of both. 'jobs_ratio' "
+        "has parts and join as a multiple of single run and bake, which is to be at most 1.05; "
+        "with the bake on both sides; and as a multiple of the single run alone. 'jobs_elapsed' "
+        "is the time on 1 to 1,000 workers, simulated from the parts.\n\n"
         "Values that a paper published stand beside those that are measured. Tables go to standard "
         "output, what is being measured to standard error. Nothing chosen by a time here changes a "
         "picture.",

@@ -15,7 +15,11 @@ struct kiln_bench_suite {
 void kiln_visit_benches(void (*visit)(void *user, const struct kiln_bench_suite *suite),
                         void *user);
 
-enum { KILN_BENCH_MIN_REPETITIONS = 3, KILN_BENCH_MAX_REPETITIONS = 101 };
+enum {
+    KILN_BENCH_MIN_REPETITIONS = 3,
+    KILN_BENCH_MAX_REPETITIONS = 101,
+    KILN_BENCH_MAX_PARTS = 1000
+};
 
 struct kiln_bench_params {
     const char *const *suites; /* by their names; none of them and no scenes: every suite */
@@ -26,7 +30,8 @@ struct kiln_bench_params {
     int64_t frame;                  /* of these, the first that is drawn; -1: the middle one */
     const char *const *stages;      /* of these, whose techniques are compared; none: all */
     size_t stage_count;
-    const char *device;            /* as in kiln_device_params */
+    uint32_t parts;     /* of the clip that the suite `jobs` renders; 0: as many as it has itself */
+    const char *device; /* as in kiln_device_params */
     const char *const *techniques; /* "stage=name", where a suite does not say another one */
     size_t technique_count;
     uint32_t threads;     /* 0 takes one a core */
@@ -46,6 +51,10 @@ static inline struct kiln_bench_params kiln_bench_defaults(void)
 }
 
 struct kiln_bench;
+
+/* Whether a suite is asked for that renders a scene of the caller, `jobs`: where a scene is given,
+ * it is not measured by itself then. */
+bool kiln_bench_renders_scene(const struct kiln_bench_params *params);
 
 /* Measures, and returns what came out, which the caller destroys. What cannot run on the device is
  * a line of the result and no error. NULL with KILN_USAGE (a suite or stage of another name,

@@ -7,6 +7,8 @@
 #include "base/thread.h"
 #include "bench/suite.h"
 
+#define JOBS "jobs"
+
 static const struct kiln_suite_row SUITES[] = {
     {{"seed", "the first techniques against auto: whole frames with PNG, and stages", 2},
      kiln_suite_seed},
@@ -37,6 +39,8 @@ static const struct kiln_suite_row SUITES[] = {
     {{"bytes", "memory and communication of techniques (Heinz 2019, 4.2)", 0.2}, kiln_suite_bytes},
     {{"states", "size of saved states, and time to save one and to take it up", 1.5},
      kiln_suite_states},
+    {{JOBS, "64 parts of a clip with states against one run, and many workers", 5},
+     kiln_suite_jobs},
     {{"output", "end to end to PNG, EXR and mp4, against what the stages take", 1},
      kiln_suite_output},
 };
@@ -46,6 +50,15 @@ void kiln_visit_benches(void (*visit)(void *user, const struct kiln_bench_suite 
 {
     for (size_t i = 0; i < SUITE_COUNT; i++)
         visit(user, &SUITES[i].info);
+}
+
+bool kiln_bench_renders_scene(const struct kiln_bench_params *params)
+{
+    for (size_t i = 0; i < params->suite_count; i++) {
+        if (strcmp(params->suites[i], JOBS) == 0)
+            return true;
+    }
+    return false;
 }
 
 static const struct kiln_suite_row *find_suite(const char *name, struct kiln_error *error)
@@ -88,6 +101,9 @@ static bool check(const struct kiln_bench_params *params, struct kiln_error *err
         if (!find_suite(params->suites[i], error))
             return false;
     }
+    if (params->scene_count > 1 && kiln_bench_renders_scene(params))
+        return kiln_error_set(error, KILN_USAGE, "the suite " JOBS " takes one scene; found %zu",
+                              params->scene_count);
     for (size_t i = 0; i < params->stage_count; i++) {
         if (!check_stage(params->stages[i], error))
             return false;
@@ -114,7 +130,7 @@ static bool run_all(struct kiln_bench_run *run, struct kiln_error *error)
         if (!suite->run(run, error))
             return false;
     }
-    for (size_t i = 0; i < params->scene_count; i++) {
+    for (size_t i = 0; i < params->scene_count && !kiln_bench_renders_scene(params); i++) {
         run->suite = params->scenes[i];
         if (!kiln_bench_scene(run, params->scenes[i], error))
             return false;

@@ -29,6 +29,7 @@ bool kiln_suite_gravity(const struct kiln_bench_run *run, struct kiln_error *err
 bool kiln_suite_paint(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_states(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_jobs(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
 
 /* The part of `gravity` that says how well energy is kept. */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "bench/result.h"
+#include "bench/schedule.h"
 #include "support/cmocka.h"
 #include "support/folders.h"
 #include "support/pictures.h"
@@ -74,6 +75,38 @@ static void numbers_have_four_digits(void **state)
         char text[32];
         kiln_bench_number(text, cases[i].value);
         assert_string_equal(text, cases[i].text);
+    }
+}
+
+static void expect_schedule(const double *tasks_s, size_t count, uint32_t workers,
+                            double expected_s)
+{
+    assert_true(fabs(kiln_schedule_s(tasks_s, count, workers) - expected_s) < 1e-12);
+}
+
+/* One worker takes the sum, as many as there are tasks take as long as the longest. In between, the
+ * order counts: a long task that comes last is waited for. */
+static void tasks_go_to_the_worker_that_is_free_first(void **state)
+{
+    (void)state;
+    static const double rising[] = {1, 2, 3, 4}, falling[] = {4, 3, 2, 1}, one[] = {7};
+    expect_schedule(rising, 4, 1, 10);
+    expect_schedule(rising, 4, 2, 6);  /* 1 + 3, 2 + 4 */
+    expect_schedule(falling, 4, 2, 5); /* 4 + 1, 3 + 2 */
+    expect_schedule(rising, 4, 3, 5);  /* 1 + 4, 2, 3 */
+    expect_schedule(rising, 4, 4, 4);
+    expect_schedule(rising, 4, KILN_MAX_WORKERS, 4);
+    expect_schedule(one, 1, 2, 7);
+    expect_schedule(one, 0, 2, 0);
+    double many[64], sum = 0;
+    for (size_t i = 0; i < 64; i++)
+        sum += many[i] = 1.0 + (double)(i * 37 % 64) / 64;
+    expect_schedule(many, 64, 1, sum);
+    expect_schedule(many, 64, 64, 1 + 63.0 / 64);
+    /* Never shorter than the work for each, nor longer than that and the longest task. */
+    for (uint32_t workers = 2; workers < 64; workers++) {
+        const double found = kiln_schedule_s(many, 64, workers);
+        assert_true(found >= sum / workers && found < sum / workers + 1 + 63.0 / 64);
     }
 }
 
@@ -322,6 +355,7 @@ int main(void)
         cmocka_unit_test(ratios_are_of_neighbours),
         cmocka_unit_test(growth_is_a_power),
         cmocka_unit_test(numbers_have_four_digits),
+        cmocka_unit_test(tasks_go_to_the_worker_that_is_free_first),
         cmocka_unit_test(text_has_a_row_a_measurement),
         cmocka_unit_test(markdown_puts_medians_side_by_side),
         cmocka_unit_test(csv_quotes_what_must_be),

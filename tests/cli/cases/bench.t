@@ -18,6 +18,7 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  paint       <time>  painting with particles by its gather (Drone 2007, 7.6.1)
 1|  bytes       <time>  memory and communication of techniques (Heinz 2019, 4.2)
 1|  states      <time>  size of saved states, and time to save one and to take it up
+1|  jobs        <time>  64 parts of a clip with states against one run, and many workers
 1|  output      <time>  end to end to PNG, EXR and mp4, against what the stages take
 1|All together <time>, on two cores without a GPU.
 
@@ -106,6 +107,59 @@ $ for suite in figure4.4 groups bytes; do kiln bench $suite --quick --quiet --de
 1|true
 1|11
 
+Of a clip in parts, each a process: what they cost, and how long many workers would take. `jobs` takes
+a scene, which then is not measured itself.
+
+$ kiln bench jobs --quick --quiet --device cpu -o jobs --format json >jobs.json; jq -r '.parts[] | .name, .unit, (.rows[] | select(.x | IN(1, 2, 1000)) | "\(.x) \(.measure), \(.technique): \(.value.turns)")' jobs.json
+1|jobs
+1|s
+1|2 all, single run: 3
+1|2 all, bake: 3
+1|2 all, parts: 3
+1|2 all, join: 3
+1|2 start, parts: 3
+1|2 first frame, parts: 3
+1|2 state, parts: 3
+1|2 other frames, parts: 3
+1|2 end, parts: 3
+1|jobs_ratio
+1|times
+1|2 parts + join, single run + bake: 3
+1|2 bake + parts + join, single run + bake: 3
+1|2 parts + join, single run: 3
+1|jobs_elapsed
+1|s
+1|1 elapsed, single run: 3
+1|1 elapsed, parts: 3
+1|1 elapsed, bound: 3
+1|2 elapsed, parts: 3
+1|2 elapsed, bound: 3
+1|1000 elapsed, parts: 3
+1|1000 elapsed, bound: 3
+1|jobs_speedup
+1|times; %
+1|1 speed-up, times: 3
+1|1 efficiency, %: 3
+1|2 speed-up, times: 3
+1|2 efficiency, %: 3
+1|1000 speed-up, times: 3
+1|1000 efficiency, %: 3
+$ jq -c '[.parts[].rows[].value.median > 0] | all' jobs.json
+1|true
+$ jq -r '.parts[0].notes[0]' jobs.json; jq -r '.parts[2].notes[0]' jobs.json | sed -E 's/[0-9]+\.[0-9]+/<s>/g; s/part [12], frames [0-9]+-[0-9]+/<part>/'
+1|fire_beam.yaml, 40 x 22 pixels, 20 frames, 10 a part. The joined clip had the bytes of the single run's in all 3 turns.
+1|Simulated from measured times: the bake first, then the parts in their order, each on the worker that is free first, then the join. A worker is a machine like this one. The bound is the bake (<s> s), the longest part and the join (<s> s). The longest part is <part>: <s> s.
+$ ls jobs | grep -v '\.svg$'
+1|bench.csv
+1|bench.json
+1|bench.md
+1|bench.txt
+1|jobs_elapsed.dat
+1|jobs_elapsed.gp
+$ kiln bench jobs scenes/tiny.yaml --quick --quiet --device cpu --parts 3 --size 32x32 --set output.fps=2 | grep -e ' bytes ' -e ' all  *join' | sed -E 's/[0-9]+\.[0-9]+/<n>/g; s/ +/ /g'
+1| 3 all join <n> <n> - <n> 3
+1| scenes/tiny.yaml, 32 x 32 pixels, 12 frames, 4 a part. The joined clip had the bytes of the single run's in all 3 turns.
+
 What cannot be.
 
 $ kiln bench tabel1
@@ -125,6 +179,22 @@ $ kiln bench --repetitions 2 seed
 = 2
 $ kiln bench --technique sort=quick scenes/tiny.yaml --quick 2>&1 | sed 's/; there is.*//'
 1|kiln: bench: technique: sort 'quick' is not known
+
+$ kiln bench bytes --parts 4
+2|kiln: bench: --parts is for the suite jobs, which is not named
+= 2
+$ kiln bench jobs scenes/tiny.yaml scenes/empty.yaml
+2|kiln: bench: the suite jobs takes one scene; found 2
+= 2
+$ kiln bench jobs scenes/tiny.yaml --stage sort
+2|kiln: bench: --stage is for scenes, and none is measured by itself
+= 2
+$ mkdir kept; TMPDIR=kept kiln bench jobs --set systems.fire.emit.raet=1 --device cpu --quiet; code=$?; ls -A kept; exit $code
+2|--set systems.fire.emit.raet: unknown key (did you mean 'rate'?)
+= 3
+$ TMPDIR=kept kiln bench jobs --size 33x33 --device cpu --quiet 2>&1 | sed 's/kiln-bench-[^/]*/<folder>/'; code=${PIPESTATUS[0]}; ls -A kept; exit $code
+2|kiln: bench: kiln render has exit code 2: kiln: kept/kiln-bench-JefeDs/turn/single.mp4: a video of 33 x 33 pixels; H.264 needs even sizes, the nearest is 34x34
+= 2
 
 A folder that takes no files is found before anything is measured.
 
@@ -152,3 +222,7 @@ $ ls -A scratch stopped
 1|scratch:
 1|
 1|stopped:
+$ (TMPDIR=$PWD/scratch exec env --default-signal timeout --foreground --preserve-status -s INT 2 kiln bench jobs --device cpu --quiet)
+2|kiln: bench: stopped by SIGINT; nothing is written
+= 130
+$ ls -A scratch

@@ -1,0 +1,505 @@
+/* A clip in parts, each a job of its own that starts from a saved state, against one run of the
+ * whole clip: what the parts cost beyond the run, where that goes, and how long the clip takes on
+ * many machines. Every job is a process of kiln, since starting one is part of its price; they run
+ * one after the other. How many machines work at a time is simulated. */
+#include <errno.h>
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/embedded.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/temporary.h"
+#include "bench/process.h"
+#include "bench/schedule.h"
+#include "bench/suite.h"
+#include "job/shard.h"
+#include "job/states.h"
+#include "scene/work.h"
+
+enum { PARTS = 64, QUICK_PARTS = 2, OWN_WORDS = 16 };
+
+static const char SCENE[] = "fire_beam.yaml"; /* in the library */
+
+/* What is measured of a turn: the ways to do something, and the stages of all parts together. */
+enum value {
+    SINGLE,
+    BAKE,
+    ALL_PARTS,
+    JOIN,
+    START,  /* until a device is open: the program, its libraries, the scene */
+    SET_UP, /* then until the first frame is drawn: pictures of particles, the state, the frame */
+    LOAD,   /* of that, taking up the state */
+    FRAMES, /* the other frames, with what is encoded beside them */
+    END,    /* the rest: the encoder's last frames, the file */
+    VALUES
+};
+
+struct farm {
+    const struct kiln_bench_run *run;
+    struct kiln_scene *scene; /* with as many frames as the parts have */
+    const char *name, *path;  /* of the scene: for people, and its file */
+    const char **options;     /* of all jobs that read it */
+    size_t option_count;
+    uint32_t parts, part_frames, turns;
+    char folder[KILN_PATH_SIZE];
+    const char *work, *single, *clip, *states; /* below it; the folder of a turn comes first */
+    double cpu_s[VALUES][KILN_BENCH_MAX_REPETITIONS];
+    double elapsed_s[START][KILN_BENCH_MAX_REPETITIONS]; /* of the parts, the longest one */
+    double *part_s;                                      /* elapsed: [turn * parts + part] */
+};
+
+static bool no_memory(struct kiln_error *error)
+{
+    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+}
+
+/* ---- Jobs ------------------------------------------------------------------------------------ */
+
+/* kiln COMMAND --quiet OWN... [OPTIONS...] -- OPERAND. Options are those of jobs that read the
+ * scene. */
+static bool run_kiln(const struct farm *f, const char *command, const char *const *own,
+                     const char *operand, struct kiln_process *process, struct kiln_error *error)
+{
+    const char **words = calloc(f->option_count + OWN_WORDS, sizeof *words);
+    size_t count = 0;
+    if (!words)
+        return no_memory(error);
+    words[count++] = command;
+    words[count++] = "--quiet";
+    while (*own)
+        words[count++] = *own++;
+    for (size_t i = 0; i < f->option_count && operand == f->path; i++)
+        words[count++] = f->options[i];
+    words[count++] = "--";
+    words[count] = operand;
+    const bool ok = kiln_process_run(f->run, words, process, error);
+    free(words);
+    return ok;
+}
+
+static bool run_whole(struct farm *f, enum value value, uint32_t turn, const char *command,
+                      const char *const *own, const char *operand, struct kiln_error *error)
+{
+    struct kiln_process process = {.told = false};
+    if (!run_kiln(f, command, own, operand, &process, error))
+        return false;
+    f->cpu_s[value][turn] = process.cpu_s[KILN_PROCESS_END];
+    f->elapsed_s[value][turn] = process.elapsed_s;
+    return true;
+}
+
+static bool run_part(struct farm *f, uint32_t part, uint32_t turn, struct kiln_error *error)
+{
+    char shard[64];
+    snprintf(shard, sizeof shard, "--shard=%u/%u", part + 1, f->parts);
+    struct kiln_process process = {.told = true};
+    if (!run_kiln(f, "render",
+                  (const char *const[]){"-o", f->clip, "--states", f->states, shard, NULL}, f->path,
+                  &process, error))
+        return false;
+    const double *cpu_s = process.cpu_s;
+    f->cpu_s[ALL_PARTS][turn] += cpu_s[KILN_PROCESS_END];
+    f->cpu_s[START][turn] += cpu_s[KILN_PROCESS_DEVICE];
+    f->cpu_s[SET_UP][turn] += cpu_s[KILN_PROCESS_FIRST] - cpu_s[KILN_PROCESS_DEVICE];
+    f->cpu_s[FRAMES][turn] += cpu_s[KILN_PROCESS_LAST] - cpu_s[KILN_PROCESS_FIRST];
+    f->cpu_s[END][turn] += cpu_s[KILN_PROCESS_END] - cpu_s[KILN_PROCESS_LAST];
+    f->part_s[turn * f->parts + part] = process.elapsed_s;
+    if (f->elapsed_s[ALL_PARTS][turn] < process.elapsed_s)
+        f->elapsed_s[ALL_PARTS][turn] = process.elapsed_s;
+    return true;
+}
+
+/* Takes up all states in this process, as a part takes up its own. */
+static bool load_states(struct farm *f, uint32_t turn, struct kiln_error *error)
+{
+    const struct kiln_bench_params *params = f->run->params;
+    const struct kiln_loop_params settings = {.techniques = params->techniques,
+                                              .technique_count = params->technique_count,
+                                              .threads = params->threads,
+                                              .log = params->log};
+    const struct kiln_output_needs needs = {.bits = 8};
+    struct kiln_loop *loop = kiln_loop_create(f->run->device, f->scene, &settings, error);
+    struct kiln_states *states =
+        loop
+            ? kiln_states_open(f->states, f->scene, kiln_loop_techniques(loop), &params->log, error)
+            : NULL;
+    bool ok = states && kiln_loop_set_up(loop, needs, error);
+    const double start_s = kiln_clock_cpu_seconds();
+    for (uint32_t part = 0; part < f->parts && ok; part++)
+        ok = kiln_states_take_up(states, loop, part * f->part_frames, error);
+    f->cpu_s[LOAD][turn] = kiln_clock_cpu_seconds() - start_s;
+    kiln_states_close(&states);
+    kiln_loop_destroy(&loop);
+    return ok;
+}
+
+/* The joined clip must have the bytes of the single run's. */
+static bool compare_clips(const struct farm *f, struct kiln_error *error)
+{
+    char single[65], clip[65];
+    if (!kiln_hash_sha256_file(f->single, single) || !kiln_hash_sha256_file(f->clip, clip))
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: a clip cannot be read", f->work);
+    return strcmp(single, clip) == 0 ||
+           kiln_error_set(error, KILN_FRAME_FAILED,
+                          "%s: the clip of %u parts has other bytes than the clip of one run",
+                          f->name, f->parts);
+}
+
+/* ---- Turns ----------------------------------------------------------------------------------- */
+
+static int remove_entry(const char *path, const struct stat *status, int kind, struct FTW *place)
+{
+    (void)status;
+    (void)kind;
+    (void)place;
+    return remove(path);
+}
+
+static void remove_folder(const char *path)
+{
+    /* NOLINTNEXTLINE(concurrency-mt-unsafe): it changes no working folder */
+    nftw(path, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+}
+
+static bool take_turn(struct farm *f, uint32_t turn, struct kiln_error *error)
+{
+    kiln_bench_say(f->run, "turn %u: single run", turn + 1);
+    if (!run_whole(f, SINGLE, turn, "render", (const char *const[]){"-o", f->single, NULL}, f->path,
+                   error))
+        return false;
+    kiln_bench_say(f->run, "turn %u: bake, and %u parts", turn + 1, f->parts);
+    if (!run_whole(f, BAKE, turn, "bake", (const char *const[]){"-o", f->states, NULL}, f->path,
+                   error))
+        return false;
+    for (uint32_t part = 0; part < f->parts; part++) {
+        if (!run_part(f, part, turn, error))
+            return false;
+    }
+    return run_whole(f, JOIN, turn, "join", (const char *const[]){NULL}, f->clip, error) &&
+           compare_clips(f, error) && load_states(f, turn, error);
+}
+
+/* Pictures of particles are in the cache then, and programs in memory. */
+static bool warm_up(struct farm *f, struct kiln_error *error)
+{
+    struct kiln_process process = {.told = false};
+    kiln_bench_say(f->run, "warming up");
+    return run_kiln(f, "render",
+                    (const char *const[]){"-o", f->single, "--force", "--frames=0", NULL}, f->path,
+                    &process, error);
+}
+
+static bool take_turns(struct farm *f, struct kiln_error *error)
+{
+    const double start_s = kiln_clock_seconds();
+    bool ok = warm_up(f, error);
+    remove_folder(f->work);
+    for (uint32_t turn = 0; turn < f->run->bench->repetitions && ok; turn++) {
+        if (turn >= KILN_BENCH_MIN_REPETITIONS &&
+            kiln_clock_seconds() - start_s > f->run->params->seconds)
+            break;
+        ok = take_turn(f, turn, error);
+        remove_folder(f->work);
+        f->turns = turn + 1;
+    }
+    return ok;
+}
+
+/* ---- Results --------------------------------------------------------------------------------- */
+
+static bool add_row(const struct farm *f, double x, const char *measure, const char *technique,
+                    const double *values, struct kiln_error *error)
+{
+    const struct kiln_bench_row row = {.x = x,
+                                       .measure = measure,
+                                       .technique = technique,
+                                       .spread = kiln_spread_of(values, f->turns)};
+    return kiln_bench_add_row(f->run->bench, &row, error);
+}
+
+static bool add_costs(const struct farm *f, struct kiln_error *error)
+{
+    static const struct {
+        const char *measure, *technique;
+    } names[VALUES] = {
+        [SINGLE] = {"all", "single run"}, [BAKE] = {"all", "bake"},
+        [ALL_PARTS] = {"all", "parts"},   [JOIN] = {"all", "join"},
+        [START] = {"start", "parts"},     [SET_UP] = {"first frame", "parts"},
+        [LOAD] = {"state", "parts"},      [FRAMES] = {"other frames", "parts"},
+        [END] = {"end", "parts"},
+    };
+    const struct kiln_scene_info info = kiln_scene_facts(f->scene);
+    const struct kiln_bench_part part = {
+        .name = "jobs",
+        .title = "A clip by one run, and by parts that start from saved states: processor time",
+        .sweep = "parts",
+        .unit = "s",
+    };
+    if (!kiln_bench_begin(f->run, &part, error))
+        return false;
+    for (int i = 0; i < VALUES; i++) {
+        if (!add_row(f, f->parts, names[i].measure, names[i].technique, f->cpu_s[i], error))
+            return false;
+    }
+    return kiln_bench_add_note(f->run->bench, error,
+                               "%s, %u x %u pixels, %u frames, %u a part. The joined clip had the "
+                               "bytes of the single run's in all %u turns.",
+                               f->name, info.width, info.height, info.frames, f->part_frames,
+                               f->turns) &&
+           kiln_bench_add_note(
+               f->run->bench, error,
+               "Of all parts: start is until a device is open; first frame is from there until it "
+               "is drawn, and state is the part of that which checks and takes up the saved "
+               "state; end is all behind the last frame.");
+}
+
+static bool add_ratios(const struct farm *f, struct kiln_error *error)
+{
+    double asked[KILN_BENCH_MAX_REPETITIONS], with_bake[KILN_BENCH_MAX_REPETITIONS],
+        alone[KILN_BENCH_MAX_REPETITIONS];
+    const struct kiln_bench_part part = {
+        .name = "jobs_ratio",
+        .title = "Processor time by parts, as a multiple of that without",
+        .sweep = "parts",
+        .unit = "times",
+    };
+    for (uint32_t i = 0; i < f->turns; i++) {
+        const double parts_s = f->cpu_s[ALL_PARTS][i] + f->cpu_s[JOIN][i];
+        const double single_s = f->cpu_s[SINGLE][i], bake_s = f->cpu_s[BAKE][i];
+        asked[i] = parts_s / (single_s + bake_s);
+        with_bake[i] = (bake_s + parts_s) / (single_s + bake_s);
+        alone[i] = parts_s / single_s;
+    }
+    return kiln_bench_begin(f->run, &part, error) &&
+           add_row(f, f->parts, "parts + join", "single run + bake", asked, error) &&
+           add_row(f, f->parts, "bake + parts + join", "single run + bake", with_bake, error) &&
+           add_row(f, f->parts, "parts + join", "single run", alone, error);
+}
+
+/* ---- Many workers ---------------------------------------------------------------------------- */
+
+/* Of so many workers, for each turn. */
+struct outlook {
+    double elapsed_s[KILN_BENCH_MAX_REPETITIONS], bound_s[KILN_BENCH_MAX_REPETITIONS];
+    double speed_up[KILN_BENCH_MAX_REPETITIONS], efficiency[KILN_BENCH_MAX_REPETITIONS];
+};
+
+static struct outlook look_ahead(const struct farm *f, uint32_t workers)
+{
+    struct outlook o;
+    for (uint32_t i = 0; i < f->turns; i++) {
+        const double around_s = f->elapsed_s[BAKE][i] + f->elapsed_s[JOIN][i];
+        o.elapsed_s[i] =
+            around_s + kiln_schedule_s(f->part_s + (size_t)i * f->parts, f->parts, workers);
+        o.bound_s[i] = around_s + f->elapsed_s[ALL_PARTS][i];
+        o.speed_up[i] = f->elapsed_s[SINGLE][i] / o.elapsed_s[i];
+        o.efficiency[i] = 100.0 * o.speed_up[i] / workers;
+    }
+    return o;
+}
+
+/* 1, 2, 4, ..., 512, 1000. */
+static uint32_t next_workers(uint32_t workers)
+{
+    return workers < KILN_MAX_WORKERS / 2 ? 2 * workers
+           : workers < KILN_MAX_WORKERS   ? KILN_MAX_WORKERS
+                                          : UINT32_MAX;
+}
+
+/* By the medians of the turns. */
+static bool name_longest(const struct farm *f, struct kiln_error *error)
+{
+    uint32_t longest = 0;
+    double most_s = 0.0;
+    for (uint32_t part = 0; part < f->parts; part++) {
+        double values[KILN_BENCH_MAX_REPETITIONS];
+        for (uint32_t i = 0; i < f->turns; i++)
+            values[i] = f->part_s[i * f->parts + part];
+        const double median_s = kiln_spread_of(values, f->turns).median;
+        longest = median_s > most_s ? part : longest;
+        most_s = median_s > most_s ? median_s : most_s;
+    }
+    const struct kiln_frame_range frames =
+        kiln_parts_frames(longest, longest + 1, f->part_frames, f->parts * f->part_frames);
+    return kiln_bench_add_note(
+        f->run->bench, error,
+        "Simulated from measured times: the bake first, then the parts in their order, each on the "
+        "worker that is free first, then the join. A worker is a machine like this one. The bound "
+        "is the bake (%.3f s), the longest part and the join (%.3f s). The longest part is part "
+        "%u, frames %u-%u: %.3f s.",
+        kiln_spread_of(f->elapsed_s[BAKE], f->turns).median,
+        kiln_spread_of(f->elapsed_s[JOIN], f->turns).median, longest + 1, frames.first, frames.last,
+        most_s);
+}
+
+static bool add_outlook(const struct farm *f, struct kiln_error *error)
+{
+    const struct kiln_bench_part elapsed = {
+        .name = "jobs_elapsed",
+        .title = "The same clip on many workers: elapsed time, simulated from measured parts",
+        .sweep = "workers",
+        .unit = "s",
+        .plotted = true,
+    };
+    const struct kiln_bench_part gain = {
+        .name = "jobs_speedup",
+        .title = "How many times as fast as the single run, and that for each worker",
+        .sweep = "workers",
+        .unit = "times; %",
+    };
+    if (!kiln_bench_begin(f->run, &elapsed, error) ||
+        !add_row(f, 1, "elapsed", "single run", f->elapsed_s[SINGLE], error))
+        return false;
+    for (uint32_t n = 1; n <= KILN_MAX_WORKERS; n = next_workers(n)) {
+        const struct outlook o = look_ahead(f, n);
+        if (!add_row(f, n, "elapsed", "parts", o.elapsed_s, error) ||
+            !add_row(f, n, "elapsed", "bound", o.bound_s, error))
+            return false;
+    }
+    if (!name_longest(f, error) || !kiln_bench_begin(f->run, &gain, error))
+        return false;
+    for (uint32_t n = 1; n <= KILN_MAX_WORKERS; n = next_workers(n)) {
+        const struct outlook o = look_ahead(f, n);
+        if (!add_row(f, n, "speed-up", "times", o.speed_up, error) ||
+            !add_row(f, n, "efficiency", "%", o.efficiency, error))
+            return false;
+    }
+    return true;
+}
+
+/* ---- The clip -------------------------------------------------------------------------------- */
+
+static struct kiln_settings default_settings(const struct kiln_bench_run *run)
+{
+    struct kiln_settings settings = {.count = 0};
+    kiln_set_picture(run, &settings, 320, 180);
+    if (run->params->quick) {
+        kiln_set(run, &settings, "systems.*.look.atlas=builtin:spark");
+        kiln_set(run, &settings, "output.fps=5");
+    }
+    return settings;
+}
+
+static struct kiln_scene *load(const struct farm *f, const char *const *overrides, size_t count,
+                               struct kiln_error *error)
+{
+    struct kiln_scene_params params = f->run->params->scene;
+    params.overrides = overrides;
+    params.override_count = count;
+    return kiln_scene_load(f->path, &params, error);
+}
+
+/* Finds out how many frames a part has, and loads the clip of all parts. overrides has room for one
+ * more. */
+static bool load_clip(struct farm *f, const char **overrides, size_t *count,
+                      struct kiln_error *error)
+{
+    f->scene = load(f, overrides, *count, error);
+    if (!f->scene)
+        return false;
+    const struct kiln_scene_info info = kiln_scene_facts(f->scene);
+    f->part_frames = kiln_part_frames(info.fps_num, info.fps_den);
+    overrides[*count] = kiln_arena_format(f->run->bench->arena, "output.frames=%llu",
+                                          (unsigned long long)f->parts * f->part_frames);
+    if (!overrides[(*count)++])
+        return no_memory(error);
+    kiln_scene_destroy(&f->scene);
+    f->scene = load(f, overrides, *count, error);
+    return f->scene != NULL;
+}
+
+/* An option of jobs, "--set=KEY=VALUE". */
+static bool add_option(struct farm *f, const char *name, const char *value,
+                       struct kiln_error *error)
+{
+    const char *option = kiln_arena_format(f->run->bench->arena, "--%s=%s", name, value);
+    f->options[f->option_count++] = option;
+    return option || no_memory(error);
+}
+
+static bool make_options(struct farm *f, const char **overrides, size_t count,
+                         struct kiln_error *error)
+{
+    const struct kiln_bench_params *params = f->run->params;
+    char threads[16];
+    snprintf(threads, sizeof threads, "%u", params->threads);
+    f->options = calloc(count + params->technique_count + 3, sizeof *f->options);
+    if (!f->options)
+        return no_memory(error);
+    bool ok = add_option(f, "threads", threads, error);
+    if (params->device)
+        ok = ok && add_option(f, "device", params->device, error);
+    if (params->scene.asset_root)
+        ok = ok && add_option(f, "asset-root", params->scene.asset_root, error);
+    for (size_t i = 0; i < params->technique_count; i++)
+        ok = ok && add_option(f, "technique", params->techniques[i], error);
+    for (size_t i = 0; i < count; i++)
+        ok = ok && add_option(f, "set", overrides[i], error);
+    return ok;
+}
+
+/* The scene of the caller as it is; or the library's, small. What the caller overrides comes
+ * last. */
+static bool open_clip(struct farm *f, struct kiln_error *error)
+{
+    const struct kiln_bench_params *params = f->run->params;
+    const struct kiln_settings settings = default_settings(f->run);
+    const bool given = params->scene_count > 0;
+    const size_t own = given ? 0 : settings.count;
+    const char **overrides = calloc(own + params->scene.override_count + 1, sizeof *overrides);
+    if (!overrides)
+        return no_memory(error);
+    size_t count = 0;
+    for (size_t i = 0; i < own; i++)
+        overrides[count++] = settings.items[i];
+    for (size_t i = 0; i < params->scene.override_count; i++)
+        overrides[count++] = params->scene.overrides[i];
+    f->path = given ? params->scenes[0]
+                    : kiln_arena_format(f->run->bench->arena, "%s/%s", f->folder, SCENE);
+    f->name = given ? params->scenes[0] : SCENE;
+    const char *text = kiln_embedded_find(kiln_embedded_scenes, SCENE);
+    bool ok = f->path || no_memory(error);
+    if (ok && !given)
+        ok = kiln_temporary_write_file(f->path, text, strlen(text), error);
+    ok = ok && load_clip(f, overrides, &count, error) && make_options(f, overrides, count, error);
+    free(overrides);
+    return ok;
+}
+
+static bool name_files(struct farm *f, struct kiln_error *error)
+{
+    struct kiln_arena *arena = f->run->bench->arena;
+    f->work = kiln_arena_format(arena, "%s/turn", f->folder);
+    f->single = kiln_arena_format(arena, "%s/turn/single.mp4", f->folder);
+    f->clip = kiln_arena_format(arena, "%s/turn/parts.mp4", f->folder);
+    f->states = kiln_arena_format(arena, "%s/turn/states", f->folder);
+    f->part_s = calloc((size_t)KILN_BENCH_MAX_REPETITIONS * f->parts, sizeof *f->part_s);
+    return (f->work && f->single && f->clip && f->states && f->part_s) || no_memory(error);
+}
+
+bool kiln_suite_jobs(const struct kiln_bench_run *run, struct kiln_error *error)
+{
+    const struct kiln_bench_params *params = run->params;
+    struct farm f = {.run = run,
+                     .parts = params->parts   ? params->parts
+                              : params->quick ? QUICK_PARTS
+                                              : PARTS};
+    if (!kiln_path_join(f.folder, params->scratch, "kiln-bench-XXXXXX", error))
+        return false;
+    if (!mkdtemp(f.folder))
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: no folder can be made there",
+                                    params->scratch);
+    const bool ok = name_files(&f, error) && open_clip(&f, error) && take_turns(&f, error) &&
+                    add_costs(&f, error) && add_ratios(&f, error) && add_outlook(&f, error);
+    remove_folder(f.folder);
+    kiln_scene_destroy(&f.scene);
+    free(f.options);
+    free(f.part_s);
+    return ok;
+}

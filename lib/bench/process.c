@@ -1,0 +1,190 @@
+/* A process tells its events into a pipe. At each line that names a point the parent reads the
+ * clock of the process, which counts the work of all its threads; it may be late by as long as the
+ * parent takes to wake up. The pipe's end says that the process has ended. */
+#include "bench/process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+
+enum { EVENTS = 3, /* the descriptor of the events in the process */ HEAD = 32, WAKE_MS = 200 };
+
+struct child {
+    const struct kiln_bench_run *run;
+    struct kiln_process *process;
+    pid_t id;
+    char head[HEAD]; /* the start of the line at hand */
+    size_t length;   /* of that line */
+    bool stopped;
+};
+
+/* Standard input is empty. 0 or an errno value. */
+static int spawn(struct child *child, const char **words, int log, int events)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDWR, 0);
+    posix_spawn_file_actions_adddup2(&files, STDIN_FILENO, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, log, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&files, events, EVENTS);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); /* Ctrl-C is for the parent */
+    posix_spawnattr_setpgroup(&attributes, 0);
+    const int failure =
+        posix_spawn(&child->id, "/proc/self/exe", &files, &attributes, (char **)words, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return failure;
+}
+
+/* ---- Events ---------------------------------------------------------------------------------- */
+
+static void take_point(struct child *child, enum kiln_process_point point)
+{
+    clockid_t clock;
+    struct timespec now;
+    if (clock_getcpuclockid(child->id, &clock) == 0 && clock_gettime(clock, &now) == 0)
+        child->process->cpu_s[point] = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void take_line(struct child *child)
+{
+    double *cpu_s = child->process->cpu_s;
+    if (strncmp(child->head, "{\"event\": \"device\"", 18) == 0)
+        take_point(child, KILN_PROCESS_DEVICE);
+    if (strncmp(child->head, "{\"event\": \"frame\"", 17) != 0)
+        return;
+    take_point(child, KILN_PROCESS_LAST);
+    if (cpu_s[KILN_PROCESS_FIRST] <= 0.0)
+        cpu_s[KILN_PROCESS_FIRST] = cpu_s[KILN_PROCESS_LAST];
+}
+
+static void take_bytes(struct child *child, const char *bytes, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (child->length < HEAD)
+            child->head[child->length] = bytes[i];
+        child->length++;
+        if (bytes[i] != '\n')
+            continue;
+        if (child->length >= HEAD)
+            take_line(child);
+        child->length = 0;
+    }
+}
+
+/* Until nobody has the pipe open any more. */
+static void listen_to(struct child *child, int events)
+{
+    const struct kiln_bench_params *params = child->run->params;
+    char bytes[4096];
+    for (;;) {
+        struct pollfd look = {.fd = events, .events = POLLIN};
+        if (!child->stopped && params->stop && params->stop(params->user)) {
+            child->stopped = true;
+            kill(-child->id, SIGTERM);
+        }
+        if (poll(&look, 1, WAKE_MS) <= 0)
+            continue;
+        const ssize_t got = read(events, bytes, sizeof bytes);
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return;
+        take_bytes(child, bytes, got > 0 ? (size_t)got : 0);
+    }
+}
+
+/* ---- The end --------------------------------------------------------------------------------- */
+
+/* The last line of what was printed, without its end. */
+static void read_last_line(int log, char line[KILN_MESSAGE_SIZE])
+{
+    char text[KILN_MESSAGE_SIZE];
+    const off_t size = lseek(log, 0, SEEK_END), room = (off_t)sizeof text - 1;
+    const ssize_t got = pread(log, text, sizeof text - 1, size > room ? size - room : 0);
+    size_t length = got > 0 ? (size_t)got : 0;
+    while (length > 0 && text[length - 1] == '\n')
+        length--;
+    text[length] = '\0';
+    const char *last = strrchr(text, '\n');
+    snprintf(line, KILN_MESSAGE_SIZE, "%s", last ? last + 1 : text);
+}
+
+static bool finish(struct child *child, const char **words, int log, double start_s,
+                   struct kiln_error *error)
+{
+    struct rusage usage = {0};
+    int status = 0;
+    while (wait4(child->id, &status, 0, &usage) < 0 && errno == EINTR)
+        ;
+    child->process->elapsed_s = kiln_clock_seconds() - start_s;
+    child->process->cpu_s[KILN_PROCESS_END] =
+        (double)usage.ru_utime.tv_sec + 1e-6 * (double)usage.ru_utime.tv_usec +
+        (double)usage.ru_stime.tv_sec + 1e-6 * (double)usage.ru_stime.tv_usec;
+    if (child->stopped)
+        return kiln_error_set(error, KILN_INTERRUPTED, "stopped");
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        return true;
+    if (!WIFEXITED(status))
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "kiln %s was ended by signal %d", words[0],
+                              WTERMSIG(status));
+    char line[KILN_MESSAGE_SIZE];
+    read_last_line(log, line);
+    return kiln_error_set(error, (enum kiln_code)WEXITSTATUS(status),
+                          "kiln %s has exit code %d: %.700s", words[0], WEXITSTATUS(status), line);
+}
+
+/* "kiln", the command, where its events go, and its words. NULL when memory is short. */
+static const char **make_words(const char **words, bool told)
+{
+    size_t count = 0, used = 0;
+    while (words[count])
+        count++;
+    const char **all = calloc(count + 3, sizeof *all);
+    if (!all)
+        return NULL;
+    all[used++] = "kiln";
+    all[used++] = words[0];
+    if (told)
+        all[used++] = "--events=ndjson:fd=3";
+    memcpy(all + used, words + 1, (count - 1) * sizeof *all);
+    return all;
+}
+
+bool kiln_process_run(const struct kiln_bench_run *run, const char **words,
+                      struct kiln_process *process, struct kiln_error *error)
+{
+    struct child child = {.run = run, .process = process};
+    const double start_s = kiln_clock_seconds();
+    const char **all = make_words(words, process->told);
+    const int log = memfd_create("log", MFD_CLOEXEC);
+    int ends[2] = {-1, -1};
+    int failure = log < 0 || pipe2(ends, O_CLOEXEC) != 0 ? errno : all ? 0 : ENOMEM;
+    failure = failure ? failure : spawn(&child, all, log, ends[1]);
+    free(all);
+    if (ends[1] >= 0)
+        close(ends[1]);
+    if (failure == 0)
+        listen_to(&child, ends[0]);
+    const bool ok = failure == 0 ? finish(&child, words, log, start_s, error)
+                                 : kiln_error_set_errno(error, KILN_DEVICE_FAILED, failure,
+                                                        "kiln %s cannot be started", words[0]);
+    if (ends[0] >= 0)
+        close(ends[0]);
+    if (log >= 0)
+        close(log);
+    return ok;
+}
