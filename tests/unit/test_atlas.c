@@ -22,17 +22,19 @@ static void hot_things_have_the_right_hue(void **state)
 {
     (void)state;
     float rgb[3];
-    kiln_blackbody_color(6500.0f, rgb);
+    struct kiln_observer observer;
+    kiln_observer_fill(&observer);
+    kiln_blackbody_color(&observer, 6500.0f, rgb);
     assert_true(fabsf(rgb[1] / rgb[0] - 0.95f) < 0.06f);
     assert_true(fabsf(rgb[2] / rgb[0] - 0.97f) < 0.10f);
 
-    kiln_blackbody_color(1850.0f, rgb);
+    kiln_blackbody_color(&observer, 1850.0f, rgb);
     assert_true(rgb[1] / rgb[0] > 0.22f && rgb[1] / rgb[0] < 0.36f);
     assert_true(rgb[2] / rgb[0] < 0.01f);
 
     float before = 0.0f;
     for (float kelvin = 800.0f; kelvin < 10000.0f; kelvin += 100.0f) {
-        kiln_blackbody_color(kelvin, rgb);
+        kiln_blackbody_color(&observer, kelvin, rgb);
         float green = rgb[1] / rgb[0];
         assert_true(green >= before);
         before = green;
@@ -43,13 +45,15 @@ static void hot_things_shine_with_the_fourth_power(void **state)
 {
     (void)state;
     float low[3], high[3], none[3];
-    kiln_blackbody_color(1900.0f, low);
+    struct kiln_observer observer;
+    kiln_observer_fill(&observer);
+    kiln_blackbody_color(&observer, 1900.0f, low);
     assert_true(fabsf(luminance(low) - 1.0f) < 0.02f);
-    kiln_blackbody_color(3800.0f, high);
+    kiln_blackbody_color(&observer, 3800.0f, high);
     assert_true(fabsf(luminance(high) / luminance(low) - 16.0f) < 0.4f);
-    kiln_blackbody_color(399.0f, none);
+    kiln_blackbody_color(&observer, 399.0f, none);
     assert_true(none[0] == 0.0f && none[1] == 0.0f && none[2] == 0.0f);
-    kiln_blackbody_color(NAN, none);
+    kiln_blackbody_color(&observer, NAN, none);
     assert_true(none[0] == 0.0f);
 }
 

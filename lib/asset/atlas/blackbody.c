@@ -25,7 +25,12 @@ static float planck(float nm, float kelvin)
     return 1.0f / (um * um * um * um * um * (exact_exp(exponent) - 1.0f));
 }
 
-void kiln_blackbody_color(float kelvin, float rgb[3])
+static float wavelength(int sample)
+{
+    return (float)(380 + 5 * sample);
+}
+
+void kiln_observer_fill(struct kiln_observer *observer)
 {
     static const struct lobe X[] = {{0.362f, 442.0f, 0.0624f, 0.0374f},
                                     {1.056f, 599.8f, 0.0264f, 0.0323f},
@@ -34,17 +39,26 @@ void kiln_blackbody_color(float kelvin, float rgb[3])
                                     {0.286f, 530.9f, 0.0613f, 0.0322f}};
     static const struct lobe Z[] = {{1.217f, 437.0f, 0.0845f, 0.0278f},
                                     {0.681f, 459.0f, 0.0385f, 0.0725f}};
+    for (int i = 0; i < KILN_OBSERVER_SAMPLES; i++) {
+        const float nm = wavelength(i);
+        observer->xyz[i][0] = lobe_at(&X[0], nm) + lobe_at(&X[1], nm) + lobe_at(&X[2], nm);
+        observer->xyz[i][1] = lobe_at(&Y[0], nm) + lobe_at(&Y[1], nm);
+        observer->xyz[i][2] = lobe_at(&Z[0], nm) + lobe_at(&Z[1], nm);
+    }
+}
+
+void kiln_blackbody_color(const struct kiln_observer *observer, float kelvin, float rgb[3])
+{
     rgb[0] = rgb[1] = rgb[2] = 0.0f;
     if (!(kelvin >= 400.0f))
         return;
 
     float x = 0.0f, y = 0.0f, z = 0.0f;
-    for (int wavelength = 380; wavelength <= 780; wavelength += 5) {
-        float nm = (float)wavelength;
-        float power = planck(nm, kelvin);
-        x += power * (lobe_at(&X[0], nm) + lobe_at(&X[1], nm) + lobe_at(&X[2], nm));
-        y += power * (lobe_at(&Y[0], nm) + lobe_at(&Y[1], nm));
-        z += power * (lobe_at(&Z[0], nm) + lobe_at(&Z[1], nm));
+    for (int i = 0; i < KILN_OBSERVER_SAMPLES; i++) {
+        float power = planck(wavelength(i), kelvin);
+        x += power * observer->xyz[i][0];
+        y += power * observer->xyz[i][1];
+        z += power * observer->xyz[i][2];
     }
     if (!(y > 0.0f))
         return;

@@ -20,6 +20,7 @@ static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING
 
 struct sampler {
     const struct kiln_scene *scene;
+    const struct kiln_observer *observer;
     float time_s, life;
 };
 
@@ -56,10 +57,10 @@ static float fade(const struct sampler *s, const struct kiln_look *look)
     return risen * left;
 }
 
-static float4 emitted(float3 tint, float kelvin, float w)
+static float4 emitted(const struct sampler *s, float3 tint, float kelvin, float w)
 {
     float rgb[3];
-    kiln_blackbody_color(kelvin, rgb);
+    kiln_blackbody_color(s->observer, kelvin, rgb);
     return (float4){tint.x * rgb[0], tint.y * rgb[1], tint.z * rgb[2], w};
 }
 
@@ -82,8 +83,8 @@ static void sample_light(const struct sampler *s, const struct kiln_look *look,
     row[KILN_LOOK_COVER] = additive ? covers_none : cover;
     row[KILN_LOOK_OTHER] = additive ? covers_none : (float4){other.x, other.y, other.z, cover.w};
     if (kelvin > 0.0f) {
-        row[KILN_LOOK_HOT] = emitted(tint, kelvin, near_fade);
-        row[KILN_LOOK_COOL] = emitted(tint, COOL_SHARE * kelvin, cycles);
+        row[KILN_LOOK_HOT] = emitted(s, tint, kelvin, near_fade);
+        row[KILN_LOOK_COOL] = emitted(s, tint, COOL_SHARE * kelvin, cycles);
     } else {
         float3 glow = additive ? tint : (float3){0.0f, 0.0f, 0.0f};
         row[KILN_LOOK_HOT] = (float4){glow.x, glow.y, glow.z, near_fade};
@@ -118,11 +119,14 @@ static void sample_look(const struct sampler *s, const struct kiln_look *look,
 
 void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *table)
 {
+    struct kiln_observer observer;
+    kiln_observer_fill(&observer);
     for (uint32_t i = 0; i < scene->system_count; i++) {
         float4 *rows = table + (size_t)i * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES;
         for (uint32_t k = 0; k < KILN_LOOK_SAMPLES; k++) {
             const struct sampler sampler = {
                 .scene = scene,
+                .observer = &observer,
                 .time_s = time_s,
                 .life = (float)k / (float)(KILN_LOOK_SAMPLES - 1),
             };

@@ -81,9 +81,31 @@ struct extent {
     int least[4], most[4];
 };
 
-static bool shows(const uint8_t *texel, uint32_t kind)
+/* RGBA as it lies in memory: its bits where a texel that shows anything has one. */
+static uint32_t shown_bits(uint32_t kind)
 {
-    return texel[3] > 0 || (kind == KILN_CELL_COLOR && (texel[0] || texel[1] || texel[2]));
+    const uint8_t any = kind == KILN_CELL_COLOR ? 0xff : 0, bytes[4] = {any, any, any, 0xff};
+    uint32_t bits;
+    memcpy(&bits, bytes, sizeof bits);
+    return bits;
+}
+
+static bool shows(const uint8_t *texel, uint32_t bits)
+{
+    uint32_t rgba;
+    memcpy(&rgba, texel, sizeof rgba);
+    return (rgba & bits) != 0;
+}
+
+static bool row_shows(const uint8_t *texels, int edge, uint32_t bits)
+{
+    uint32_t any = 0;
+    for (int x = 0; x < edge; x++) {
+        uint32_t rgba;
+        memcpy(&rgba, texels + 4 * (size_t)x, sizeof rgba);
+        any |= rgba;
+    }
+    return (any & bits) != 0;
 }
 
 static void extend_to(struct extent *extent, int x, int y)
@@ -96,48 +118,76 @@ static void extend_to(struct extent *extent, int x, int y)
 }
 
 /* The outermost texels of a row decide: what lies between them extends nothing. */
-static void extend(struct extent *extent, const uint8_t *texels, int edge, uint32_t kind)
+static struct extent measure(const uint8_t *texels, int edge, uint32_t kind)
 {
+    struct extent extent = {{INT_MAX, INT_MAX, INT_MAX, INT_MAX},
+                            {INT_MIN, INT_MIN, INT_MIN, INT_MIN}};
+    const uint32_t bits = shown_bits(kind);
     for (int y = 0; y < edge; y++, texels += 4 * (size_t)edge) {
         int first = 0, last = edge - 1;
-        while (first < edge && !shows(texels + 4 * (size_t)first, kind))
-            first++;
-        if (first == edge)
+        if (!row_shows(texels, edge, bits))
             continue;
-        while (!shows(texels + 4 * (size_t)last, kind))
+        while (!shows(texels + 4 * (size_t)first, bits))
+            first++;
+        while (!shows(texels + 4 * (size_t)last, bits))
             last--;
-        extend_to(extent, first, y);
-        extend_to(extent, last, y);
+        extend_to(&extent, first, y);
+        extend_to(&extent, last, y);
     }
+    return extent;
+}
+
+static struct extent around_both(const struct extent *a, const struct extent *b)
+{
+    struct extent both = *a;
+    for (int i = 0; i < 4; i++) {
+        both.least[i] = b->least[i] < a->least[i] ? b->least[i] : a->least[i];
+        both.most[i] = b->most[i] > a->most[i] ? b->most[i] : a->most[i];
+    }
+    return both;
 }
 
 /* A texel shows up to one texel from its centre, one that is mixed up to one more; and as far as it
  * moves. */
-static void make_hull(struct kiln_cells *cells, const struct kiln_atlas_range *range, uint32_t cell,
-                      uint32_t level)
+static struct kiln_cell_hull hull_of(const struct extent *extent, float motion, int edge)
 {
-    const struct kiln_atlas *atlas = cells->atlas;
-    uint32_t layer = range->first_layer + cell;
-    uint32_t next = range->first_layer + (cell + 1) % range->cells;
-    int edge = KILN_ATLAS_CELL >> level;
-    struct extent extent = {{INT_MAX, INT_MAX, INT_MAX, INT_MAX},
-                            {INT_MIN, INT_MIN, INT_MIN, INT_MIN}};
-    extend(&extent, kiln_atlas_level(atlas, layer, level), edge, range->kind);
-    extend(&extent, kiln_atlas_level(atlas, next, level), edge, range->kind);
-    struct kiln_cell_hull *hull = &cells->hulls[layer * KILN_ATLAS_LEVELS + level];
-    *hull = (struct kiln_cell_hull){{0}, {0}};
-    if (extent.least[0] > extent.most[0])
-        return;
     static const float middle[4] = {0.5f, 0.5f, 1.0f, 0.0f};
-    float reach = 2.0f + range->motion * (float)edge;
+    struct kiln_cell_hull hull = {{0}, {0}};
+    if (extent->least[0] > extent->most[0])
+        return hull;
+    float reach = 2.0f + motion * (float)edge;
     for (int i = 0; i < 4; i++) {
         float around = i < 2 ? reach : 2.0f * reach;
-        hull->from[i] = ((float)extent.least[i] + middle[i] - around) / (float)edge;
-        hull->to[i] = ((float)extent.most[i] + middle[i] + around) / (float)edge;
+        hull.from[i] = ((float)extent->least[i] + middle[i] - around) / (float)edge;
+        hull.to[i] = ((float)extent->most[i] + middle[i] + around) / (float)edge;
     }
     for (int i = 0; i < 2; i++) {
-        hull->from[i] = hull->from[i] > 0.0f ? hull->from[i] : 0.0f;
-        hull->to[i] = hull->to[i] < 1.0f ? hull->to[i] : 1.0f;
+        hull.from[i] = hull.from[i] > 0.0f ? hull.from[i] : 0.0f;
+        hull.to[i] = hull.to[i] < 1.0f ? hull.to[i] : 1.0f;
+    }
+    return hull;
+}
+
+/* The hulls of a texture's cells at a level. Each is shown together with the next one. */
+static void make_hulls_of(struct kiln_cells *cells, const struct kiln_atlas_range *range,
+                          uint32_t level)
+{
+    const int edge = KILN_ATLAS_CELL >> level;
+    struct kiln_cell_hull *hulls =
+        cells->hulls + (size_t)range->first_layer * KILN_ATLAS_LEVELS + level;
+    struct extent first = {{0}, {0}}, cell = first;
+    for (uint32_t i = 0; i <= range->cells; i++) {
+        const struct extent next =
+            i < range->cells
+                ? measure(kiln_atlas_level(cells->atlas, range->first_layer + i, level), edge,
+                          range->kind)
+                : first;
+        const struct extent both = around_both(&cell, &next);
+        if (i == 0)
+            first = next;
+        else
+            hulls[(i - 1) * KILN_ATLAS_LEVELS] = hull_of(&both, range->motion, edge);
+        cell = next;
     }
 }
 
@@ -145,11 +195,8 @@ static void make_hulls(struct kiln_cells *cells)
 {
     for (uint32_t i = 0; i < KILN_MAX_SYSTEMS; i++) {
         const struct kiln_atlas_textures *textures = &cells->atlas->systems[i];
-        for (uint32_t t = 0; t < textures->count; t++) {
-            const struct kiln_atlas_range *range = &textures->textures[t];
-            for (uint32_t k = 0; k < range->cells * KILN_ATLAS_LEVELS; k++)
-                make_hull(cells, range, k / KILN_ATLAS_LEVELS, k % KILN_ATLAS_LEVELS);
-        }
+        for (uint32_t t = 0; t < textures->count * KILN_ATLAS_LEVELS; t++)
+            make_hulls_of(cells, &textures->textures[t / KILN_ATLAS_LEVELS], t % KILN_ATLAS_LEVELS);
     }
 }
 
