@@ -337,6 +337,19 @@ static int run_pool(struct batch *batch, const struct arguments *arguments)
                : report_error(&error);
 }
 
+/* What jobs find in their environment: the process that they end with, which main.c reads, and,
+ * unless it is set, how glibc shall give memory out: of a job of one small frame, half the time
+ * were page faults (docs/measurements.md, "Jobs of a batch"). */
+static bool set_environment(void)
+{
+    static const char memory[] = "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=33554432:"
+                                 "glibc.malloc.top_pad=67108864";
+    char process[32];
+    snprintf(process, sizeof process, "%d", (int)getpid());
+    return setenv("KILN_BATCH_PROCESS", process, 1) == 0 &&
+           setenv("GLIBC_TUNABLES", memory, 0) == 0;
+}
+
 int batch_run(const struct arguments *arguments)
 {
     struct batch batch = {.keep_going = arguments_flag(arguments, "keep-going"),
@@ -353,10 +366,7 @@ int batch_run(const struct arguments *arguments)
         code = report_error(&error);
     if (code == 0 && !share_options(&batch, arguments))
         code = report_no_memory();
-    char process[32];
-    snprintf(process, sizeof process, "%d", (int)getpid());
-    if (code == 0 &&
-        setenv("KILN_BATCH_PROCESS", process, 1) != 0) /* main.c of the jobs reads it */
+    if (code == 0 && !set_environment())
         code = report_no_memory();
     signals_install();
     if (code == 0)
