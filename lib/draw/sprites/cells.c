@@ -186,7 +186,7 @@ static void make_hulls_of(struct kiln_cells *cells, const struct kiln_atlas_rang
         if (i == 0)
             first = next;
         else
-            hulls[(i - 1) * KILN_ATLAS_LEVELS] = hull_of(&both, range->motion, edge);
+            hulls[(size_t)(i - 1) * KILN_ATLAS_LEVELS] = hull_of(&both, range->motion, edge);
         cell = next;
     }
 }
