@@ -337,9 +337,9 @@ static int run_pool(struct batch *batch, const struct arguments *arguments)
                : report_error(&error);
 }
 
-/* What jobs find in their environment: the process that they end with, which main.c reads, and,
- * unless it is set, how glibc shall give memory out: of a job of one small frame, half the time
- * were page faults (docs/measurements.md, "Jobs of a batch"). */
+/* Sets two variables for the jobs. KILN_BATCH_PROCESS is the process whose end ends them; main.c
+ * reads it. GLIBC_TUNABLES, unless it is set already, makes malloc use large pages: half the time
+ * of a job of one small frame went into page faults (docs/measurements.md, "Jobs of a batch"). */
 static bool set_environment(void)
 {
     static const char memory[] = "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=33554432:"

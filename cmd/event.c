@@ -478,8 +478,10 @@ int events_open_json(const char *command, const struct arguments *arguments)
 
 int events_close(int code)
 {
-    if (!events_are_wanted())
+    if (!events_are_wanted()) {
+        stream.out = NULL;
         return code;
+    }
     if (code == 0)
         event_openjd("progress", "100");
     else

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "json_output.h"
 #include "overrides.h"
 #include "report.h"
 #include "scene_in.h"
@@ -112,10 +113,14 @@ static int claim_files_of(const struct job_list *list, const struct job *job,
 }
 
 /* The files of all jobs together. */
-static int claim_files(struct job_list *list)
+static int claim_files(struct job_list *list, const struct arguments *arguments)
 {
     struct kiln_claims *claims = kiln_claims_create();
+    const char *json = json_output_path(arguments);
+    struct kiln_error error = {0};
     int code = claims ? 0 : report_no_memory();
+    if (code == 0 && json && !kiln_claims_write(claims, json, "--json", &error))
+        code = report_error(&error);
     for (size_t i = 0; i < list->count && code == 0; i++) {
         struct job *job = &list->jobs[i];
         if (job->code)
@@ -284,7 +289,7 @@ int job_list_create(struct job_list *list, const struct arguments *arguments)
     code = code ? code : read_flipbook(list, arguments);
     code = code ? code : name_files(list, arguments);
     code = code ? code : load_scenes(list, arguments);
-    return code ? code : claim_files(list);
+    return code ? code : claim_files(list, arguments);
 }
 
 void job_list_free(struct job_list *list)

@@ -3,9 +3,16 @@
 
 #include <string.h>
 
+#include "event.h"
 #include "report.h"
 
 static struct kiln_text_file *file;
+
+const char *json_output_path(const struct arguments *arguments)
+{
+    const char *path = arguments_text(arguments, "json", NULL);
+    return path && strcmp(path, "-") != 0 ? path : NULL;
+}
 
 int json_output_open(const struct arguments *arguments, FILE **out)
 {
@@ -14,7 +21,10 @@ int json_output_open(const struct arguments *arguments, FILE **out)
     *out = NULL;
     if (!use)
         return 0;
-    if (!use->text || strcmp(use->text, "-") == 0) {
+    if (!json_output_path(arguments)) {
+        if (events_take_stdout())
+            return report(KILN_USAGE, "--json and --events exclude each other on standard output; "
+                                      "give one of them a file");
         *out = stdout;
         return 0;
     }

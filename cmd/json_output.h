@@ -1,5 +1,5 @@
-/* What a command tells other programs of its result (--json[=FILE]): on standard output in place of
- * the text for people, or beside it in a file. */
+/* Opens and closes where a command writes its result for other programs (--json[=FILE]): standard
+ * output, in place of the text for people, or a file. */
 #ifndef KILN_CMD_JSON_OUTPUT_H
 #define KILN_CMD_JSON_OUTPUT_H
 
@@ -13,12 +13,15 @@
         .help = "Print JSON instead of text, or also write it into FILE: " what                    \
     }
 
+/* The file of --json; NULL where there is none. */
+const char *json_output_path(const struct arguments *arguments);
+
 /* Opens what --json asks for; a file that exists is replaced where the command has --force and that
  * is given. *out is NULL where nothing is asked for. Returns 0, or the exit code after reporting.
  */
 int json_output_open(const struct arguments *arguments, FILE **out);
 
-/* Gives the file its name, if the command came to a result; of one that failed nothing is left.
+/* Gives the file its name if the command has a result, and removes it if the command failed.
  * Returns the exit code. */
 int json_output_close(int code);
 

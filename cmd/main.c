@@ -147,7 +147,7 @@ static int run_command(const struct command *command, int argc, char **argv)
         if (code == 0)
             code = command->run(&arguments);
         limits_end(&limits);
-        code = json_output_close(events_close(code));
+        code = events_close(json_output_close(code));
     }
     arguments_free(&arguments);
     return code;

@@ -7,7 +7,7 @@
 enum progress_mode {
     PROGRESS_TTY,    /* one line on standard error, drawn over */
     PROGRESS_LINES,  /* a line on standard error every few seconds */
-    PROGRESS_NDJSON, /* nothing: an older spelling of --json */
+    PROGRESS_NDJSON, /* prints nothing: an older spelling of --json */
     PROGRESS_NONE,
 };
 

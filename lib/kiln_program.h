@@ -115,7 +115,7 @@ struct kiln_text_file;
 struct kiln_text_file *kiln_text_file_open(const char *path, bool overwrite,
                                            struct kiln_error *error);
 
-/* What is to be printed into; it closes with the file. */
+/* Returns the stream to print into, which kiln_text_file_close closes. */
 FILE *kiln_text_file_stream(const struct kiln_text_file *text);
 
 /* Gives the file its name, or without `keep` removes it. KILN_IO: then nothing is left of it. */

@@ -1,6 +1,6 @@
-/* A file of the cache is a line with a checksum of what follows, and that. The checksum is of
- * accidents: whoever may write into the folder may write what he likes. SHA-256 took a sixth of a
- * small frame. */
+/* A file of the cache begins with a line that has a checksum of the bytes behind it. The checksum
+ * finds accidental damage only: a user who may write into the folder can forge any file. SHA-256
+ * took a sixth of the time of a small frame. */
 #include "base/cache.h"
 
 #include <dirent.h>

@@ -269,7 +269,7 @@ static void end(struct kiln_temporary *temporary)
 {
     release_slot(temporary->slot);
     free(temporary->target);
-    *temporary = (struct kiln_temporary){0};
+    *temporary = (struct kiln_temporary){.file = -1, .slot = -1, .failure = EBADF};
 }
 
 /* Renames; without overwrite, fails where a file has appeared meanwhile. File systems that cannot

@@ -152,13 +152,6 @@ void kiln_text_free(struct kiln_text *text)
     *text = (struct kiln_text){0};
 }
 
-void kiln_text_cut(struct kiln_text *text, size_t length)
-{
-    if (text->data)
-        text->data[length] = '\0';
-    text->length = length;
-}
-
 size_t kiln_text_utf8_length(const char *text)
 {
     const unsigned char *s = (const unsigned char *)text;

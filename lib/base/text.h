@@ -22,9 +22,6 @@ void kiln_text_add(struct kiln_text *text, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void kiln_text_free(struct kiln_text *text);
 
-/* Takes the end of a text away, down to a length that it had before. */
-void kiln_text_cut(struct kiln_text *text, size_t length);
-
 /* The length of the valid UTF-8 sequence that starts a zero-terminated text, or 0. */
 size_t kiln_text_utf8_length(const char *text);
 

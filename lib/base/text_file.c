@@ -23,11 +23,11 @@ struct kiln_text_file *kiln_text_file_open(const char *path, bool overwrite,
     }
     text->overwrite = overwrite;
     if (!kiln_target_check(path, overwrite, error) || !kiln_make_parent_folders(path, error) ||
-        !kiln_temporary_open(&text->file, path, error)) {
+        (kiln_temporary_sweep(path), !kiln_temporary_open(&text->file, path, error))) {
         free(text);
         return NULL;
     }
-    const int copy = dup(text->file.file); /* which fclose may close */
+    const int copy = dup(text->file.file); /* fclose closes it; the temporary file keeps its own */
     text->out = copy >= 0 ? fdopen(copy, "w") : NULL;
     if (text->out)
         return text;

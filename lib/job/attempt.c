@@ -93,6 +93,33 @@ void kiln_attempt_describe(struct kiln_json *json, const struct kiln_attempt *ru
     add_totals(json, run, stats);
 }
 
+/* Takes digits; false where there is none. */
+static bool take_digits(const char **text)
+{
+    const size_t count = strspn(*text, "0123456789");
+    *text += count;
+    return count > 0;
+}
+
+/* Whether a text is a number by the grammar of JSON, which knows no "+1", ".5" or "01". */
+static bool is_number(const char *text)
+{
+    text += *text == '-';
+    const bool is_zero = *text == '0';
+    const char *start = text;
+    if (!take_digits(&text) || (is_zero && text > start + 1))
+        return false;
+    if (*text == '.' && (text++, !take_digits(&text)))
+        return false;
+    if (*text == 'e' || *text == 'E') {
+        text++;
+        text += *text == '+' || *text == '-';
+        if (!take_digits(&text))
+            return false;
+    }
+    return *text == '\0';
+}
+
 /* Whether a scalar stands in JSON as it is. */
 static bool is_literal(const struct kiln_node *value)
 {
@@ -101,7 +128,7 @@ static bool is_literal(const struct kiln_node *value)
     if (value->quoted)
         return false;
     return strcmp(text, "true") == 0 || strcmp(text, "false") == 0 || strcmp(text, "null") == 0 ||
-           (strspn(text, "-0123456789.eE+") == strlen(text) && kiln_text_to_double(text, &number));
+           (is_number(text) && kiln_text_to_double(text, &number));
 }
 
 void kiln_attempt_copy(struct kiln_json *json, const char *key, const struct kiln_node *value)

@@ -32,7 +32,7 @@ struct kiln_job {
     char *scene_json;                /* for both, too */
     char made_by[512];               /* device and techniques, for the journal */
     struct kiln_attempt run;         /* for both as well */
-    bool resumes;
+    bool resumes, is_described;
     struct kiln_resume resume;
     bool draws;                 /* else all that was asked for is there */
     size_t range_at;            /* of the next frame, */
@@ -492,14 +492,24 @@ static void sum_up(struct kiln_job *job)
     job->run.asked = job->total_frames;
 }
 
-/* Tells of the run where the job is told of: in its journal, and in the manifest. */
+/* Writes the manifest, and appends the run to the journal; once, however the job ends after that.
+ */
 static bool describe(struct kiln_job *job, const struct kiln_error *failure,
                      struct kiln_error *error)
 {
-    return (!job->resumes ||
-            kiln_resume_end_attempt(&job->resume, &job->run, &job->stats, failure, error)) &&
-           (!job->manifest ||
-            kiln_manifest_finish(job->manifest, &job->records, &job->stats, failure, error));
+    struct kiln_error reason = {0};
+    if (job->is_described)
+        return true;
+    job->is_described = true;
+    const bool made = !job->manifest || kiln_manifest_finish(job->manifest, &job->records,
+                                                             &job->stats, failure, &reason);
+    if (!made && !failure) {
+        kiln_error_set(error, reason.code, "%s", reason.message);
+        failure = &reason;
+    }
+    return (!job->resumes || kiln_resume_end_attempt(&job->resume, &job->run, &job->stats, failure,
+                                                     made ? error : &reason)) &&
+           made;
 }
 
 bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,

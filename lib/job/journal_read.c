@@ -78,13 +78,15 @@ static void read_clip(const struct kiln_journal *journal, const struct kiln_node
     kiln_records_take(records, &whole);
 }
 
-/* Takes down what a line says of a run, as JSON that is known to be whole. */
+/* Copies the description of a run into the records, unless they have it from a journal that was
+ * taken over. */
 static void read_run(const struct kiln_node *run, struct kiln_records *records)
 {
     struct kiln_text copy = {0};
     struct kiln_json json = kiln_json_to_text(&copy);
     kiln_attempt_copy(&json, NULL, run);
-    if (run->kind == KILN_NODE_MAP && !json.failed && !copy.failed)
+    const bool is_known = records->runs.data && copy.data && strstr(records->runs.data, copy.data);
+    if (run->kind == KILN_NODE_MAP && !is_known && !json.failed && !copy.failed)
         kiln_text_add(&records->runs, "%s%s", records->runs.length > 0 ? ",\n    " : "", copy.data);
     kiln_text_free(&copy);
 }

@@ -90,14 +90,11 @@ static bool take_over(void *user, const char *path, bool is_shard, struct kiln_e
     merging->found = true;
     char *text = open_beside(&shard, path, LOCK_EX, error);
     size_t first, length;
-    const size_t runs = merging->records->runs.length;
     const bool ok = text &&
                     kiln_journal_read_lines(&shard, text, merging->head, merging->records, &first,
                                             &length, error) &&
                     (!merging->into ||
                      kiln_journal_append(merging->into, text + first, length - first, true, error));
-    if (merging->into) /* what it says of runs was read before */
-        kiln_text_cut(&merging->records->runs, runs);
     if (ok && merging->into)
         unlink(path);
     close_beside(&shard, text);

@@ -78,22 +78,24 @@ char *kiln_manifest_scene(const struct kiln_scene *scene)
     return NULL;
 }
 
-/* Whether a file begins as kiln_manifest_finish writes it. */
-static bool is_manifest(const char *path)
+/* Whether a file begins as kiln_manifest_finish writes it; of a run that failed, or of any. */
+static bool is_manifest(const char *path, bool failed)
 {
-    static const char start[] = "{\n  \"kiln\": \"";
-    char found[sizeof start - 1];
+    static const char start[] = "{\n  \"kiln\": \"" KILN_VERSION "\",\n  \"failed\": true";
+    static const char any[] = "{\n  \"kiln\": \"";
+    const size_t length = failed ? sizeof start - 1 : sizeof any - 1;
+    char found[sizeof start];
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
-    const ssize_t count = file >= 0 ? read(file, found, sizeof found) : -1;
+    const ssize_t count = file >= 0 ? read(file, found, length) : -1;
     if (file >= 0)
         close(file);
-    return count == (ssize_t)sizeof found && memcmp(found, start, sizeof found) == 0;
+    return count == (ssize_t)length && memcmp(found, start, length) == 0;
 }
 
 struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *params,
                                          struct kiln_error *error)
 {
-    const bool replaces = params->overwrite || (params->again && is_manifest(params->path));
+    const bool replaces = params->overwrite || is_manifest(params->path, !params->again);
     if (!kiln_target_check(params->path, replaces, error) ||
         !kiln_make_parent_folders(params->path, error))
         return NULL;
@@ -232,6 +234,7 @@ bool kiln_manifest_finish(struct kiln_manifest *manifest, const struct kiln_reco
     kiln_json_begin_object(json, NULL);
     kiln_json_lines(json, 2);
     kiln_json_string(json, "kiln", KILN_VERSION);
+    kiln_json_bool(json, "failed", failure != NULL);
     bool ok = add_result(manifest, records, failure, error) &&
               add_runs(manifest, records, stats, failure, error);
     if (ok) {

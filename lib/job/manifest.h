@@ -10,9 +10,9 @@
 struct kiln_manifest_params {
     const char *path;
     bool overwrite;
-    bool again;                             /* an older manifest is replaced in any case */
-    const char *scene;                      /* of kiln_manifest_scene */
-    const char *output;                     /* as the user gave it; NULL: nothing was written */
+    bool again;         /* any older manifest is replaced; else that of a run that failed */
+    const char *scene;  /* of kiln_manifest_scene */
+    const char *output; /* as the user gave it; NULL: nothing was written */
     const struct kiln_output_params *files; /* complete; NULL: nothing was written */
     const struct kiln_attempt *run;
 };

@@ -166,6 +166,8 @@ void kiln_video_close(void *opaque)
 void *kiln_video_open(const struct kiln_output_params *params, struct kiln_temporary *file,
                       struct kiln_error *error)
 {
+    if (!kiln_video_find(params->format->video, error)) /* a run that only joins has not asked */
+        return NULL;
     struct video_encoder *encoder = calloc(1, sizeof *encoder);
     if (!encoder) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the video", params->path);

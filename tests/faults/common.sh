@@ -115,8 +115,10 @@ results() {
     find "$1" -type f ! -name '*.journal' ! -name '*.part' ! -name '.*.tmp' ! -name m.json -printf '%P\n' | sort
 }
 
+# Whether a manifest is whole: that of a run that failed says so, and which frames are missing.
 has_same_result() {
-    cmp -s <(jq -S .result "$work/calm/out/m.json") <(jq -S .result "$work/$1/out/m.json" 2>&1)
+    jq -e '.failed and .run.error and .result.missing >= 0' "$work/$1/out/m.json" >/dev/null 2>&1 ||
+        cmp -s <(jq -S .result "$work/calm/out/m.json") <(jq -S .result "$work/$1/out/m.json" 2>&1)
 }
 
 # check_wholes FOLDER: what stands under a final name is what the undisturbed job made.

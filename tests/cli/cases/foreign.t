@@ -43,7 +43,7 @@ $ for option in -b -s -e -f -a -j -F -x -t -E --background --frame-start --frame
 A row counts only where the command has what it names, and its own options come first.
 
 $ kiln devices --overwrite; kiln plan scenes/tiny.yaml --frame x; kiln check scenes/tiny.yaml -t 4; kiln compare a b -y; kiln check --version
-2|kiln: devices: unknown option '--overwrite'
+2|kiln: devices: unknown option '--overwrite' (did you mean '--force'?)
 2|kiln: plan: --frame: found 'x', expected a whole number from 0 to 4294967295
 2|kiln: check: unknown option '-t'
 2|kiln: compare: unknown option '-y' (did you mean '--force'?)
