@@ -1,5 +1,6 @@
-/* This file checks whether a mesh is closed, so that it has an inside: it counts the triangles at
- * each edge. Vertices at one place may differ in their normals, so places are numbered first. */
+/* This file checks whether a mesh is closed, so that it has an inside: at each edge, as many
+ * triangles must run one way as the other. Vertices at one place may differ in their normals, so
+ * places are numbered first. */
 #include "asset/geometry/closed.h"
 
 #include <stdlib.h>
