@@ -1,4 +1,5 @@
-/* Integer frames go through swscale, float ones are only put in order. */
+/* This file converts decoded frames of FFmpeg to pictures. Integer frames go through swscale; float
+ * frames are only reordered. */
 #include "avframe.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@ static const float *float_row(const AVFrame *frame, int plane, uint32_t y)
                                          (ptrdiff_t)y * frame->linesize[plane]);
 }
 
-/* The planes of FFmpeg's float formats come as green, blue, red, alpha. */
+/* Interleaves the planes of a float frame, which FFmpeg orders green, blue, red, alpha. */
 static enum kiln_code interleave_float(struct conversion *conversion)
 {
     static const int planes[2][3] = {{0, 0, 0}, {2, 0, 1}};
@@ -45,7 +46,7 @@ static enum kiln_code interleave_float(struct conversion *conversion)
                          "the EXR image is cut short or has pixels that are not finite numbers");
 }
 
-/* The matrix and range of a frame that is not RGB. */
+/* Sets the colour matrix and range of a frame that is not RGB. */
 static void set_colors(struct SwsContext *scaler, const AVFrame *frame)
 {
     const AVPixFmtDescriptor *layout = kiln_ff.av_pix_fmt_desc_get(frame->format);

@@ -1,4 +1,4 @@
-/* From FFmpeg's frames to pictures. */
+/* Converts FFmpeg's frames to pictures. */
 #ifndef KILN_DECODE_AVFRAME_H
 #define KILN_DECODE_AVFRAME_H
 

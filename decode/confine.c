@@ -1,6 +1,6 @@
-/* Locks the process in before it reads a byte of a stranger's file: limits of memory, files and
- * processor time, no files by name, no new descriptors but those that kiln sends, no other
- * processes, no code that was not there. The decoders are trusted with nothing; what a layer lets
+/* This file locks the process in before it reads a byte of an untrusted file. It limits memory,
+ * files and processor time, and allows no files by name, no new descriptors but those that kiln
+ * sends, no other processes and no new code. The decoders are not trusted; what one layer lets
  * through, the next one stops. */
 #include "base/confine.h"
 
@@ -46,7 +46,7 @@ bool decode_out_of_memory(struct kiln_error *error)
                           (unsigned long long)(own_limit >> 20));
 }
 
-/* The sixth number of statm: pages of data. */
+/* Returns the bytes of data in use, by the sixth number of statm. */
 static uint64_t bytes_in_use(void)
 {
     char text[256] = "";

@@ -1,5 +1,5 @@
-/* Layers of OpenEXR files, by OpenEXR's C core. The file lies in memory, and each chunk is decoded
- * straight into the picture. */
+/* This file decodes layers of OpenEXR files by OpenEXR's C core. The file lies in memory, and each
+ * chunk is decoded straight into the picture. */
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,8 @@ struct reading {
     struct kiln_asset_image *image;
 };
 
-/* The code that comes back says enough, and without a handler the library would print. */
+/* Ignores messages: the code that is returned says enough, and without a handler the library would
+ * print. */
 static void on_failure(exr_const_context_t context, exr_result_t code, const char *message)
 {
     (void)context;
@@ -67,7 +68,8 @@ static bool fail(const struct reading *reading, exr_result_t code)
 
 /* ---- The layer ---------------------------------------------------------------------------- */
 
-/* Which component of the layer a channel is, or -1; Y and Z are all of a grey one. */
+/* Returns the component of the layer that a channel is, or -1. Y and Z stand for all colours of a
+ * grey layer. */
 static int component_of(const char *channel, const char *layer)
 {
     static const char names[] = "RGBAYZ";
@@ -99,7 +101,7 @@ static bool find_channels(struct reading *reading, const exr_attr_chlist_t *list
     return reading->channels[0] && colour == any;
 }
 
-/* "R, G, B, fire.R, ..." */
+/* Lists the channels of the file for an error: "R, G, B, fire.R, ..." */
 static void list_channels(const struct reading *reading, int parts, char *text, size_t size)
 {
     size_t length = 0;
@@ -206,7 +208,7 @@ static exr_result_t read_chunk(const struct reading *reading, uint32_t y,
                                    : code;
 }
 
-/* Grey spreads over the colours; what has no alpha is opaque. */
+/* Fills the missing components: grey is copied to all colours, and missing alpha is opaque. */
 static void fill_components(const struct reading *reading)
 {
     float *pixel = reading->image->pixels;

@@ -1,6 +1,6 @@
-/* The process of kiln-decode: opens the libraries of one kind of files, locks itself in, and then
- * decodes what kiln sends, file by file, until kiln's end of the socket closes. Pictures of all
- * kinds and meshes are read whole; of a video, frame after frame is sent. */
+/* This file is the program kiln-decode: it opens the libraries of one kind of files, locks itself
+ * in, and then decodes what kiln sends, file by file, until kiln's end of the socket closes.
+ * Pictures of all kinds and meshes are read whole; of a video, frame after frame is sent. */
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -18,7 +18,7 @@
 
 /* ---- the socket ------------------------------------------------------------------------------ */
 
-/* A process that nobody listens to any more ends, whatever it does. */
+/* Ends the process when kiln has closed its end of the socket. */
 static void on_socket(int signal)
 {
     (void)signal;

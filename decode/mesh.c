@@ -1,5 +1,5 @@
-/* Meshes by assimp, which is opened here and nowhere else. It reads through callbacks that know the
- * file itself and, for glTF, the buffers that kiln opens. */
+/* This file imports meshes by assimp, which is opened here and nowhere else. Assimp reads through
+ * callbacks, which serve the file itself and, for glTF, the buffers that kiln opens. */
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -44,7 +44,8 @@ bool decode_mesh_begin(struct kiln_error *error)
 
 enum { GLB_HEADER = 12, CHUNK_HEADER = 8 };
 
-/* Chunks are filled up with spaces, by some programs with zeros. */
+/* Returns the JSON text of a glTF or GLB file. GLB chunks are padded with spaces, or by some
+ * programs with zeros. */
 const char *decode_mesh_json(const struct decode_mesh *mesh, size_t *size)
 {
     const unsigned char *bytes = mesh->bytes;
@@ -311,7 +312,7 @@ static struct aiPropertyStore *make_properties(const struct decode_mesh *wanted)
     return properties;
 }
 
-/* Puts what assimp says of a file into words for whoever made the file. */
+/* Turns assimp's message into one that the author of the file understands. */
 static bool explain(const char *said, struct kiln_error *error)
 {
     if (strstr(said, "bad_alloc"))

@@ -1,6 +1,6 @@
-/* Texture images by FFmpeg's decoders. The whole file is one packet: the format names the decoder,
- * so nothing is probed by name and no demuxer runs. A decoder asks for memory through get_buffer,
- * which is where the size is judged, before a pixel of it exists. */
+/* This file decodes pictures by FFmpeg's decoders. The whole file is one packet: the format names
+ * the decoder, so nothing is probed by name and no demuxer runs. A decoder asks for memory through
+ * get_buffer, where the size is checked before a pixel of it exists. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -115,8 +115,8 @@ static bool open_decoder(struct decoding *decoding)
     return true;
 }
 
-/* The JPEG decoder makes up what is missing at the end. Scan data holds neither marker, and an
- * embedded thumbnail comes before the scan. */
+/* Checks that a JPEG file is whole, since the decoder makes up what is missing at the end. Scan
+ * data holds neither marker, and an embedded thumbnail comes before the scan. */
 static bool jpeg_ends(const unsigned char *bytes, size_t size)
 {
     for (size_t i = size; i >= 2; i--) {

@@ -1,5 +1,5 @@
-/* PNG by libpng, row by row into the picture. Chunks that do not change a pixel are passed over:
- * compressed texts and profiles can unpack to a thousand times their size. */
+/* This file decodes PNG pictures by libpng, row by row into the picture. Chunks that do not change
+ * a pixel are skipped: compressed texts and profiles can unpack to a thousand times their size. */
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -106,7 +106,7 @@ static bool make_image(struct reading *reading)
     return image->pixels || decode_out_of_memory(reading->picture->error);
 }
 
-/* Whatever the file has becomes red, green, blue and alpha of 8 or 16 bits. */
+/* Makes libpng convert all formats to red, green, blue and alpha of 8 or 16 bits. */
 static void set_transforms(struct reading *reading)
 {
     png_structp png = reading->png;
@@ -144,7 +144,7 @@ static void look_for_alpha(const struct reading *reading)
         image->channels = pixel[4 * i + 3] != 255 ? 4 : 3;
 }
 
-/* longjmp leads back here, and nowhere else: locals do not change after setjmp. */
+/* Reads the picture. All of libpng's errors longjmp to here; locals do not change after setjmp. */
 static bool read_file(struct reading *reading)
 {
     if (setjmp(png_jmpbuf(reading->png))) {

@@ -1,5 +1,6 @@
-/* What assimp knows of nodes, bones and clips. It drops how keys are interpolated and which of them
- * the file has, so the file itself is asked for that. */
+/* This file converts the nodes, bones and clips of a mesh that moves from assimp's scene. Assimp
+ * drops how keys are interpolated and which of them the file has, so these are read from the glTF
+ * file itself. */
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
 #include <libfyaml.h>
@@ -26,7 +27,7 @@ struct skinning {
 
 /* ---- the file itself ------------------------------------------------------------------------- */
 
-/* The first of that name, as assimp takes it. */
+/* Returns the first member of that name, as assimp does. */
 static struct fy_node *member(struct fy_node *node, const char *key)
 {
     void *at = NULL;
@@ -152,7 +153,8 @@ static bool put_matrix(const struct skinning *s, const struct aiMatrix4x4 *m, ma
                (double)m->d2, (double)m->d3, (double)m->d4);
 }
 
-/* Parents before their children, without recursion: a file may be as deep as it likes. */
+/* Stores the nodes, parents before their children, without recursion, since a file's tree may be of
+ * any depth. */
 static bool put_nodes(struct skinning *s)
 {
     struct kiln_skin_result *out = &s->result->skin;
@@ -219,7 +221,7 @@ static bool add_weight(struct skinning *s, uint32_t vertex, uint16_t bone, float
     return SET(s, "more than %d bones move vertex %u", KILN_SKIN_INFLUENCES, vertex);
 }
 
-/* As its bones say; without them, as the node does that it hangs on. */
+/* Stores the weights of a mesh's vertices by its bones; a mesh without bones follows its node. */
 static bool put_weights(struct skinning *s, const struct aiMesh *mesh, uint32_t node,
                         uint32_t first)
 {

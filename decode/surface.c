@@ -1,6 +1,7 @@
-/* A mesh that stands still, in one piece: the parts of a file where its nodes have them, normals
- * where the file has none, equal vertices joined. Assimp could do that, but its sums are rounded
- * otherwise on other processors. Here they are of doubles, and nothing is fused. */
+/* This file makes one surface of a mesh file that does not move: it places the parts where the
+ * file's nodes put them, adds normals where the file has none, and joins equal vertices. Assimp
+ * could do that, but its sums are rounded differently on different processors. Here sums are of
+ * doubles, and nothing is fused. */
 #include <assimp/scene.h>
 #include <math.h>
 #include <stdlib.h>
@@ -47,7 +48,7 @@ struct placed {
     double rows[3][4];
 };
 
-/* A node in its parent. */
+/* Places a node by its parent's placement. */
 static struct placed place(const struct aiNode *node, const double parent[3][4])
 {
     const struct aiMatrix4x4 *m = &node->mTransformation;
@@ -75,7 +76,7 @@ static size_t count_triangles(const struct aiMesh *mesh)
     return count;
 }
 
-/* A part without a triangle is none. */
+/* Adds a part; one without a triangle is left out. */
 static bool add_part(struct surface *s, const struct aiMesh *mesh, const double rows[3][4])
 {
     const size_t triangles = count_triangles(mesh);
@@ -98,7 +99,7 @@ static bool add_part(struct surface *s, const struct aiMesh *mesh, const double 
     return true;
 }
 
-/* Grows a stack by so many, and returns where they go; NULL: no memory. */
+/* Grows a stack by `more` entries and returns the first of them; NULL: no memory. */
 static struct placed *push(struct placed **stack, size_t *count, size_t *capacity, size_t more)
 {
     if (*count + more > *capacity) {
@@ -112,8 +113,8 @@ static struct placed *push(struct placed **stack, size_t *count, size_t *capacit
     return *stack + *count - more;
 }
 
-/* Through the tree of nodes, each before its children. Without recursion: a stranger says how deep
- * it is. */
+/* Walks the tree of nodes, each before its children, without recursion, since an untrusted file
+ * decides its depth. */
 static bool find_parts(struct surface *s, const struct aiScene *scene)
 {
     static const double world[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
@@ -137,7 +138,7 @@ static bool find_parts(struct surface *s, const struct aiScene *scene)
     return ok;
 }
 
-/* By material, then as they stand in the file. */
+/* Orders parts by material, then as they stand in the file. */
 static int by_material(const void *a, const void *b)
 {
     const struct part *x = a, *y = b;
@@ -148,7 +149,8 @@ static int by_material(const void *a, const void *b)
 
 /* ---- corners --------------------------------------------------------------------------------- */
 
-/* What normals are taken by: the cofactors, so that they stay upright on a scaled surface. */
+/* Finds the cofactors of a matrix, which transform normals so that they stay upright on a scaled
+ * surface. */
 static void find_cofactors(const double rows[3][4], double out[3][3])
 {
     for (int row = 0; row < 3; row++) {
@@ -158,7 +160,7 @@ static void find_cofactors(const double rows[3][4], double out[3][3])
     }
 }
 
-/* Of length 1, or 0 where there is no direction. */
+/* Scales a vector to length 1, or to 0 where it has no direction. */
 static void normalize(double v[3])
 {
     const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -167,7 +169,7 @@ static void normalize(double v[3])
         v[c] = good ? v[c] / length : 0;
 }
 
-/* One that has no direction points upwards. */
+/* Stores a corner's normal; one without a direction points upwards. */
 static void keep_normal(struct corner *corner, double normal[3])
 {
     normalize(normal);

@@ -1,5 +1,6 @@
-/* Demuxing and decoding of videos by FFmpeg. What it passes over silently (a file that ends too
- * early, a damaged frame) is an error here: a comparison must not pass by looking away. */
+/* This file demuxes and decodes videos by FFmpeg. What FFmpeg passes over silently (a file that
+ * ends too early, a damaged frame) is an error here, since a comparison must not pass on missing
+ * frames. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -133,8 +134,9 @@ static bool ends_with(const struct decode_video *video, const char *end, size_t 
            memcmp(found, end, size) == 0;
 }
 
-/* MP4 and MOV are a row of boxes, each with its size; AVI is one chunk with its size; GIF and APNG
- * have a last block. FFmpeg takes what is there. Matroska's demuxer tells by itself. */
+/* Checks that a file is whole, since FFmpeg takes what is there. MP4 and MOV are a row of boxes,
+ * each with its size; AVI is one chunk with its size; GIF and APNG have a last block. Matroska's
+ * demuxer reports a missing end itself. */
 static bool is_whole(const struct decode_video *video)
 {
     unsigned char b[16];
@@ -261,7 +263,7 @@ void decode_video_close(struct decode_video **video)
 
 /* ---- Reading ------------------------------------------------------------------------------ */
 
-/* MP4 and MOV say at their start how many packets there are. */
+/* Checks that all packets came, whose number MP4 and MOV state. */
 static bool check_end(struct decode_video *video)
 {
     const AVStream *stream = video->container->streams[video->stream];

@@ -1,4 +1,5 @@
-/* Texels and waiting splats are memory of the host: whoever paints is there. */
+/* This file creates, copies and hashes the paint on a mesh: its texels, and the splats that wait
+ * for their turn. Both are memory of the host, since paint is applied there. */
 #include "particles/canvas.h"
 
 #include <assert.h>
@@ -46,7 +47,7 @@ bool kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from,
     if (copy.waiting)
         memcpy(copy.waiting, from->waiting, copy.slot_count * sizeof *copy.waiting);
     copy.next = from->next;
-    /* Who has drawn either of them must not take this one for it. */
+    /* A copy is a new version, so that it is not taken for a canvas that was drawn before. */
     copy.changes = 1 + (to->changes > from->changes ? to->changes : from->changes);
     if (!fits)
         kiln_canvas_finish(to);
@@ -54,7 +55,7 @@ bool kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from,
     return true;
 }
 
-/* Adds the hash of some words. */
+/* Adds the hash of a texel or a splat to the state hash. */
 static void add(uint32_t kind, uint32_t index, const float *words, uint32_t count,
                 struct kiln_state_hash *hash)
 {

@@ -1,7 +1,6 @@
-/* Particles in blocks, for loops that compilers make into vectors: the words of their records each
- * in an array of its own, and what follows from them. For files *_simd.c; every function gives the
- * bits of the one of shaders/shared that it names.
- */
+/* Holds particles in blocks for loops that compilers vectorise: each word of the records is in an
+ * array of its own. It is for files *_simd.c. Every function gives the bits of the function of
+ * shaders/shared that it names. */
 #ifndef KILN_PARTICLES_LANES_H
 #define KILN_PARTICLES_LANES_H
 

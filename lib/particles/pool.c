@@ -1,4 +1,5 @@
-/* The slots of every system. */
+/* This file creates and copies the pool: the records of all particles, and the range of slots that
+ * each system owns. */
 #include "particles/pool.h"
 
 #include <assert.h>

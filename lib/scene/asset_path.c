@@ -1,5 +1,6 @@
-/* A scene may come from anyone: its paths are refused by their text when they leave the folder,
- * before the file system is asked, and by their real path when a link does. */
+/* This file resolves the paths of assets that a scene names, and refuses those outside the asset
+ * root. A scene may be hostile: a path that leaves the folder by its text is refused before the
+ * file system is asked, and one that leaves it by a link is refused by its real path. */
 #include "scene/asset_path.h"
 
 #include <errno.h>
@@ -59,8 +60,8 @@ static bool climbs_out(const char *path)
     return false;
 }
 
-/* What an error says without the whole path that it begins with, which messages have as it is
- * shown: the scene has a name of its own for the file. */
+/* Returns an error's message without the absolute path that it begins with; the caller's message
+ * names the file as the scene does. */
 static const char *reason_of(const struct kiln_error *error, const char *path)
 {
     char shown[KILN_PATH_SIZE];

@@ -1,4 +1,5 @@
-/* The files of a scene, for whoever writes others. */
+/* This file lists the files that a scene reads as claims, so that a program does not overwrite them
+ * with its output. It does so for a loaded scene, and for a scene file that is not loaded. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -48,7 +49,8 @@ static bool claim_text(const struct search *s, const char *text)
     return kiln_claims_read(s->claims, path, "a file of a scene", s->error);
 }
 
-/* A node, and what is in it; a tree is not deep (KILN_NODE_MAX_DEPTH). */
+/* Claims the files named in a node and below it. The recursion is limited by KILN_NODE_MAX_DEPTH.
+ */
 static bool claim_node(const struct search *s, const struct kiln_node *node)
 {
     if (node->kind == KILN_NODE_SCALAR)
@@ -62,7 +64,7 @@ static bool claim_node(const struct search *s, const struct kiln_node *node)
 
 static bool claim_yaml(const struct search *s, struct kiln_arena *arena, const char *text)
 {
-    struct kiln_error ignored = {0}; /* whoever loads the scene says it */
+    struct kiln_error ignored = {0}; /* loading the scene reports it */
     const struct kiln_origin origin = {.name = "a scene"};
     const struct kiln_node *root = kiln_node_parse(arena, text, strlen(text), &origin, &ignored);
     return !root || claim_node(s, root);

@@ -1,4 +1,5 @@
-/* What is said of the keys of a scene: the reference for people, the JSON schema for editors. */
+/* This file describes the keys of a scene: it writes the reference for people and the JSON schema
+ * for editors. */
 #include "option/reference.h"
 #include "option/schema.h"
 #include "scene/options.h"

@@ -1,4 +1,5 @@
-/* Parents by name, and the slots and the time that their descendants need. */
+/* This file settles systems whose particles are born of others: it finds parents by name, and the
+ * slots and the time that descendants need. */
 #include "scene/family.h"
 
 #include <inttypes.h>
@@ -18,7 +19,7 @@ bool kiln_family_has_children(const struct kiln_scene *scene, uint32_t system)
     return false;
 }
 
-/* Systems from the first parent to this one. */
+/* Returns a system's generation: 1 without a parent, else that of the parent + 1. */
 static uint32_t generation(const struct kiln_scene *scene, uint32_t system)
 {
     uint32_t count = 1;
@@ -41,7 +42,8 @@ void kiln_family_order(const struct kiln_scene *scene, uint32_t order[KILN_MAX_S
     }
 }
 
-/* Interpolating and drawing a life may round to a little above the largest key. */
+/* Returns the longest life, with a margin: interpolating and drawing a life may round to a little
+ * above the largest key. */
 static float longest_life_s(const struct kiln_scene *scene, uint32_t system)
 {
     return kiln_scene_value_max(scene, &scene->systems[system].emit.life.max) * (1 + 0x1p-20f);
@@ -73,7 +75,7 @@ uint32_t kiln_family_lifespan(const struct kiln_scene *scene, uint32_t system, u
 
 /* ---- settling ------------------------------------------------------------------------------- */
 
-/* Which system the option at a path names. */
+/* Finds the system that the option at a path names. */
 static bool find_system(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                         const char *name, uint32_t *system)
 {
@@ -133,7 +135,7 @@ static bool check_generations(struct kiln_reader *reader, const struct kiln_node
                                 generations, KILN_MAX_GENERATIONS);
 }
 
-/* What a system with a parent must not say, or must. */
+/* Checks the options that a system with a parent must not have, or must. */
 static bool check_births(struct kiln_reader *reader, const struct kiln_node *root,
                          const struct kiln_system *system)
 {

@@ -1,4 +1,5 @@
-/* From a file to a scene: bytes, tree, overrides, options, what follows from them, hash. */
+/* This file loads a scene from a file or a text: it parses the text, applies overrides, reads the
+ * options, validates them, and takes the scene's hash. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,7 @@
 #include "scene/asset_path.h"
 #include "scene/validate.h"
 
-/* What is counted anew for each scene of a job. */
+/* The limits whose counts start anew with each scene of a job. */
 static const enum kiln_limit OF_A_SCENE[] = {KILN_LIMIT_asset_pixels, KILN_LIMIT_asset_bytes,
                                              KILN_LIMIT_triangles};
 
@@ -50,8 +51,8 @@ static bool add_backdrop_hashes(const struct kiln_scene *scene, struct kiln_text
     return true;
 }
 
-/* Of the printed scene and of what its textures, meshes and grids contain, so that a changed file
- * is another scene. */
+/* Hashes the printed scene and the contents of its textures, meshes and grids, so that a changed
+ * file makes another scene. */
 static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
 {
     struct kiln_text text;
@@ -142,8 +143,8 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
     return ok ? scene : NULL;
 }
 
-/* A scene that lies in the asset root is no link out of it: whoever filled the folder made that,
- * too. */
+/* Checks that a scene file in the asset root is no link out of it, since such a link would come
+ * from the same source as the folder. */
 static bool check_place(const char *path, const char *asset_root, struct kiln_error *error)
 {
     if (!asset_root)

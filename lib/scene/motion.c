@@ -1,12 +1,12 @@
-/* The motion hash: a state that was saved serves every scene that moves its particles alike,
- * however they look. */
+/* This file hashes the parts of a scene that saved states depend on. A state serves every scene
+ * that moves its particles alike, however they look. */
 #include "scene/motion.h"
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "scene/asset_path.h"
 
-/* Winds, and what particles meet. */
+/* Adds the hashes of wind files and of the meshes and terrain that particles meet. */
 static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
                       struct kiln_error *error)
 {

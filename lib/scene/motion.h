@@ -1,4 +1,4 @@
-/* Hashes of the parts of a scene, by which saved states are known. */
+/* Hashes the parts of a scene; saved states are known by these hashes. */
 #ifndef KILN_SCENE_MOTION_H
 #define KILN_SCENE_MOTION_H
 

@@ -1,4 +1,4 @@
-/* Meshes of the backdrop: what follows from their files. */
+/* Loads the meshes of the backdrop and fills in what follows from their files. */
 #ifndef KILN_SCENE_OBJECT_MESH_H
 #define KILN_SCENE_OBJECT_MESH_H
 

@@ -1,4 +1,4 @@
-/* Sky, floor, sun, objects and lights. */
+/* This file has the option tables of the backdrop: sky, floor, sun, objects and lights. */
 #include "asset/geometry/chart.h"
 #include "asset/geometry/depth_maps.h"
 #include "asset/geometry/field.h"

@@ -1,4 +1,5 @@
-/* A system, and how its particles are born (Heinz 2019, 2.1.2). */
+/* This file has the option tables of a system and of how its particles are born (Heinz
+ * 2019, 2.1.2). */
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_emitter, field)

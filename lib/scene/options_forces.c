@@ -1,4 +1,5 @@
-/* Forces: a row in kiln_force_kinds and a table of members for each kind. */
+/* This file has the option tables of forces. Each kind of force has a row in kiln_force_kinds and a
+ * table of members. */
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_force, field)

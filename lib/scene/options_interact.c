@@ -1,5 +1,5 @@
-/* What particles of a system do to each other: a row in kiln_interaction_kinds and a table of
- * members for each kind. */
+/* This file has the option tables of what particles of a system do to each other. Each kind has a
+ * row in kiln_interaction_kinds and a table of members. */
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_interaction, field)

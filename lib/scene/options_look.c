@@ -1,4 +1,4 @@
-/* What the particles of a system look like. */
+/* This file has the option tables of what the particles of a system look like. */
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_look, field)

@@ -1,4 +1,5 @@
-/* From light to picture. */
+/* This file has the option tables of the way from light to the picture: the resolution of
+ * particles, composition, bloom, exposure, tone mapping and dither. */
 #include <string.h>
 
 #include "scene/rows.h"

@@ -1,4 +1,4 @@
-/* The top of a scene, its output, its clock, its camera and its systems. */
+/* This file has the option tables of the top of a scene: its output, clock, camera and systems. */
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_camera, field)

@@ -1,4 +1,4 @@
-/* Meshes that particles look like: what follows from their files. */
+/* Loads the meshes that particles look like and fills in what follows from their files. */
 #ifndef KILN_SCENE_PARTICLE_MESH_H
 #define KILN_SCENE_PARTICLE_MESH_H
 

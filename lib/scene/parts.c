@@ -1,4 +1,5 @@
-/* Which rows of a scene decide how particles move, and which only how they look. */
+/* This file says which rows of a scene's option tables decide how particles move, and which only
+ * how they look. */
 #include "scene/parts.h"
 
 enum { NEITHER = 0, BOTH = KILN_PART_MOTION | KILN_PART_ORDER };
@@ -24,7 +25,7 @@ unsigned kiln_row_motion(const void *scene, const void *base)
     return BOTH;
 }
 
-/* The system of a look. */
+/* Returns the number of the system that a look belongs to. */
 static uint32_t system_of(const struct kiln_scene *scene, const struct kiln_look *look)
 {
     uint32_t system = 0;

@@ -1,4 +1,4 @@
-/* What the spheres of a look show on their surface. */
+/* Lists the patterns that the spheres of a look show on their surface. */
 #ifndef KILN_SCENE_PATTERN_H
 #define KILN_SCENE_PATTERN_H
 

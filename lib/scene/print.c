@@ -1,5 +1,6 @@
-/* The scene as a scene file, with nothing left to defaults: what `kiln check` prints, and what the
- * scene's hash is taken of. It names no path but those of assets, below their root. */
+/* This file prints a scene as a scene file, with no option left to its default. `kiln check` prints
+ * it, and the scene's hash is taken of it. It names no path but those of assets, below their root.
+ */
 #include "scene/options.h"
 
 bool kiln_print_scene(const struct kiln_scene *scene, unsigned parts, struct kiln_text *text)

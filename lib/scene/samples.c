@@ -1,4 +1,5 @@
-/* Counts the samples of each grid of a scene from what it follows from, without making it. */
+/* This file counts the samples of each grid of a scene without making the grid, from what its size
+ * follows from. */
 #include "scene/samples.h"
 
 #include <inttypes.h>
@@ -10,7 +11,7 @@
 #include "asset/geometry/grid_in.h"
 #include "scene/asset_path.h"
 
-/* While grids are counted: the largest is where one would look first. */
+/* The state while grids are counted. Errors point at the largest grid. */
 struct count {
     uint64_t samples, largest;
     char path[128]; /* of the largest's key */

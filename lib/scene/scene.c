@@ -1,4 +1,5 @@
-/* Questions to a scene that is loaded. */
+/* This file answers questions about a loaded scene: times, values at a time, and what follows from
+ * its options. */
 #include "scene/scene.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* Types that name textures: assets (one, or a list of which each particle gets one) and motion. */
+/* This file reads, prints and describes the types of options that name textures: assets (one, or a
+ * list from which each particle gets one) and motion. */
 #include <string.h>
 
 #include "asset/atlas/builtin.h"

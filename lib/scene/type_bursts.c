@@ -1,4 +1,5 @@
-/* The type of births at once: {1 s: 100, 2.5 s: 40}. */
+/* This file reads, prints and describes the option type of bursts, births at one time: {1 s:
+ * 100, 2.5 s: 40}. */
 #include "option/animated.h"
 #include "option/schema.h"
 #include "scene/options.h"

@@ -1,4 +1,5 @@
-/* Files that a scene names: picture, mesh, grid. */
+/* This file reads, prints and describes the types of options that name a file: picture, mesh, grid.
+ */
 #include "asset/image/image.h"
 #include "scene/asset_path.h"
 
@@ -65,8 +66,8 @@ const struct kiln_option_type kiln_type_picture = {
 
 /* ---- mesh ------------------------------------------------------------------------------------ */
 
-/* What is in it is read when all is known that is wanted of it. "none" is a default that some rows
- * have. */
+/* Reads the name of a mesh file; the file is imported once all options of the mesh are known.
+ * "none" is the default of some rows. */
 static bool read_mesh(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
 {
@@ -92,7 +93,8 @@ const struct kiln_option_type kiln_type_mesh = {
 
 /* ---- grid ------------------------------------------------------------------------------------ */
 
-/* What is in it is read when all are counted (scene/samples.h). */
+/* Reads the name of a grid file; the file is loaded once all grids are counted (scene/samples.h).
+ */
 static bool read_grid(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
 {

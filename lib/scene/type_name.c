@@ -1,4 +1,5 @@
-/* Types that name what a scene or a file of it has: a system, a clip. */
+/* This file reads and describes the types of options that name a part of the scene or of a file of
+ * it: a system, a clip. */
 #include "scene/options.h"
 
 /* ---- name: which systems there are is known when all are read ----------------------------------

@@ -1,4 +1,5 @@
-/* Checks across options, and what follows from them: steps, capacities, bounds. */
+/* This file checks options against each other and fills in what follows from them: steps,
+ * capacities, bounds. */
 #include "scene/validate.h"
 
 #include <inttypes.h>
@@ -42,7 +43,7 @@ static bool refuse_rate(struct kiln_reader *reader, const struct kiln_node *root
                                 lower, upper);
 }
 
-/* Each moment of the shutter is after a step of its own. */
+/* Returns the least number of steps a frame, since each moment of the shutter needs its own. */
 static uint32_t least_steps_a_frame(const struct kiln_scene *scene)
 {
     const struct kiln_camera *camera = &scene->camera;
@@ -199,7 +200,7 @@ static bool check_shape(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
-/* Of an image that is to be cut into a system's cells. */
+/* Checks the division of an image into a system's cells. */
 static bool check_division(struct kiln_reader *reader, const struct kiln_node *root,
                            const struct kiln_system *system, const char *file)
 {
@@ -251,7 +252,8 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
-/* Two of a kind would each gather from the state before the other. */
+/* Checks a system's interactions. Two of a kind are refused, since each would gather from the state
+ * before the other. */
 static bool check_interactions(struct kiln_reader *reader, const struct kiln_node *root,
                                const struct kiln_system *system)
 {
@@ -357,7 +359,7 @@ static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root
            check_depth_maps(reader, root, path, mesh);
 }
 
-/* Of a mesh that is to take paint. */
+/* Checks a mesh that is to take paint. */
 static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);

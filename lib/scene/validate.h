@@ -1,4 +1,4 @@
-/* What no single option can check: options that must agree, and what a run would need. */
+/* Checks what no single option can: options that must agree, and what a run would need. */
 #ifndef KILN_SCENE_VALIDATE_H
 #define KILN_SCENE_VALIDATE_H
 

@@ -1,5 +1,6 @@
-/* The expected memory is a sum over what a scene has many of. What one of each takes was measured
- * (docs/measurements.md, "Memory of a clip"). */
+/* This file estimates the work and the memory that a scene takes, and refuses a scene over its
+ * budget. The expected memory is a sum over what a scene has many of, by measured sizes of one of
+ * each (docs/measurements.md, "Memory of a clip"). */
 #include "scene/work.h"
 
 #include <string.h>
@@ -9,7 +10,7 @@
 #include "base/budget.h"
 #include "base/sized.h"
 
-/* What one of each takes, and what there is in any case. */
+/* The bytes that one of each takes, and those that every scene takes. */
 enum {
     PROGRAM_BYTES = 26 << 20,
     ANY_MESH_BYTES = 6 << 20,
@@ -66,7 +67,7 @@ static uint64_t count_cells(const struct kiln_scene *scene)
     return cells;
 }
 
-/* Triangles of meshes: of each object, since each has a tree of its own. */
+/* Counts the triangles of all meshes, once for each object, since each has a tree of its own. */
 static uint64_t count_triangles(const struct kiln_scene *scene)
 {
     uint64_t triangles = 0;
@@ -105,7 +106,7 @@ static uint64_t count_ground(const struct kiln_scene *scene)
     return samples;
 }
 
-/* Pixels of a picture that was looked at; 0 for what is built in, or a video. */
+/* Returns the pixels of a picture whose size is known; 0 for a built-in one or a video. */
 static uint64_t count_pixels(const struct kiln_scene *scene, const char *picture)
 {
     uint32_t size[2];
@@ -114,7 +115,7 @@ static uint64_t count_pixels(const struct kiln_scene *scene, const char *picture
                : 0;
 }
 
-/* The most pixels that a picture of an atlas has; *system gets whose that is. */
+/* Returns the most pixels of a picture of an atlas; *system gets the name of its system. */
 static uint64_t find_largest_atlas(const struct kiln_scene *scene, const char **system)
 {
     uint64_t most = 0;
@@ -130,7 +131,7 @@ static uint64_t find_largest_atlas(const struct kiln_scene *scene, const char **
     return most;
 }
 
-/* What memory is taken for, and the key that says how much of it; NULL: the particles'. */
+/* Lists the terms of memory and the key that decides each; NULL: the key of the particles. */
 struct term {
     uint64_t bytes;
     const char *path;
@@ -171,7 +172,7 @@ uint64_t kiln_work_memory(const struct kiln_scene *scene)
     return bytes;
 }
 
-/* The key that most memory is taken for; those of a system are written into `path`. */
+/* Returns the key that takes most memory; a system's key is written into `path`. */
 static const char *find_largest(const struct kiln_scene *scene, const char *particles,
                                 char path[128])
 {
@@ -216,7 +217,7 @@ void kiln_scene_get_info(const struct kiln_scene *scene, struct kiln_scene_info 
 
 /* ---- limits ---------------------------------------------------------------------------------- */
 
-/* The system with the most particles: where one would look first. */
+/* Returns the system with the most particles, which errors point at. */
 static const struct kiln_system *largest_system(const struct kiln_scene *scene)
 {
     const struct kiln_system *largest = &scene->systems[0];

@@ -1,4 +1,4 @@
-/* What a run of a whole clip takes, as far as it follows from the scene. */
+/* Estimates what a run of a whole clip takes, as far as it follows from the scene. */
 #ifndef KILN_SCENE_WORK_H
 #define KILN_SCENE_WORK_H
 

@@ -1,7 +1,7 @@
-/* Cells are prepared in float on the host, one flipbook at a time: generated, or read from a file,
- * then shrunk level by level and stored in 8 bits. How they move is a second texture with the same
- * layers, much coarser, since gas moves together.
- */
+/* This file makes the textures of particles. It prepares cells in float on the host, one flipbook
+ * at a time: generated or read from a file, then shrunk level by level and stored in 8 bits. The
+ * motion of the cells is a second texture with the same layers, much coarser, since gas moves
+ * together. */
 #include "asset/atlas/atlas.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/pages.h"
 
-/* One flipbook of all that are asked for, once each. */
+/* One of the different flipbooks that are asked for. */
 struct flipbook {
     struct kiln_cells_source source;
     const char *name; /* of a built-in one, or NULL */
@@ -97,7 +97,7 @@ static void encode_motion(const float *motion, size_t pixels, float largest, int
     }
 }
 
-/* The motion of all cells of a flipbook, in edges of a cell that `scale` multiplies. */
+/* Stores the motion of all cells of a flipbook; motion times `scale` is in edges of a cell. */
 static void store_motion(struct kiln_atlas *atlas, const struct flipbook *book, const float *motion,
                          float scale)
 {
@@ -141,7 +141,7 @@ static bool make_motion(struct kiln_atlas *atlas, const struct flipbook *book,
 
 /* ---- textures -------------------------------------------------------------------------------- */
 
-/* Of the bound texture. */
+/* Sets the filters of the bound texture. */
 static void set_filters(GLint levels, GLint shrinking)
 {
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, levels - 1);
@@ -151,8 +151,8 @@ static void set_filters(GLint levels, GLint shrinking)
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-/* llvmpipe filters 8-bit textures in 8 bits, which is off by 1 % where a layer is faint; of more
- * bits, in floats, and hardly slower. */
+/* Chooses the format of cells. llvmpipe filters 8-bit textures in 8 bits, which is off by 1 % where
+ * a layer is faint. It filters textures of more bits in floats, hardly slower. */
 static GLenum cell_format(const struct kiln_device *device)
 {
     return device->info.software ? GL_RGBA16 : GL_RGBA8;
@@ -174,7 +174,7 @@ static void upload_cells(struct kiln_atlas *atlas)
     set_filters(KILN_ATLAS_LEVELS, GL_LINEAR_MIPMAP_NEAREST);
 }
 
-/* One texel where nothing moves. */
+/* Uploads the motion; the texture has one texel if nothing moves. */
 static void upload_moves(struct kiln_atlas *atlas)
 {
     static const int8_t still[2] = {0};
@@ -356,7 +356,8 @@ static void read_cached(const struct kiln_atlas *atlas, struct flipbooks *all, c
     }
 }
 
-/* A file that was changed while it was decoded has another name now, and is not kept. */
+/* Writes new flipbooks to the cache. A file that was changed while it was decoded has another name
+ * now, and is not kept. */
 static void write_cached(const struct kiln_atlas *atlas, const struct flipbooks *all,
                          const char *cache)
 {

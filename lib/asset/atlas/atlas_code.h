@@ -1,4 +1,4 @@
-/* The inner loops of atlas.c. */
+/* Declares the inner loops of atlas.c for each width of vectors. */
 #ifndef KILN_ASSET_ATLAS_ATLAS_CODE_H
 #define KILN_ASSET_ATLAS_ATLAS_CODE_H
 

@@ -1,11 +1,11 @@
-/* Levels of detail of a cell, and their 8 bits. */
+/* This file makes the mip levels of a cell and stores them in 8 bits. */
 #include <math.h>
 
 #include "asset/atlas/atlas_code.h"
 #include "asset/atlas/quad.h"
 #include "shared/draw_layout.h"
 
-/* Halves a level in place of the next; normals and heat count as much as their density. */
+/* Halves a level; normals and heat are weighted by their density. */
 static void shrink(const float *from, size_t edge, uint32_t kind, float *to)
 {
     const size_t half = edge / 2;

@@ -1,6 +1,7 @@
-/* Planck's spectrum times the CIE 1931 colour matching functions, in the multi-lobe fit of Wyman,
- * Sloan and Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions" (JCGT
- * 2013), summed every 5 nm; XYZ to Rec. 709 by the matrix of IEC 61966-2-1. */
+/* This file computes the colour of a black body. It sums, every 5 nm, Planck's spectrum times the
+ * CIE 1931 colour matching functions, in the multi-lobe fit of Wyman, Sloan and Shirley, "Simple
+ * Analytic Approximations to the CIE XYZ Color Matching Functions" (JCGT 2013). XYZ becomes Rec.
+ * 709 by the matrix of IEC 61966-2-1. */
 #include "asset/atlas/blackbody.h"
 
 #include "shared/exact.h"

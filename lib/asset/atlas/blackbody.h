@@ -1,4 +1,4 @@
-/* The colour of hot things. */
+/* Computes the colour of a black body. */
 #ifndef KILN_ASSET_ATLAS_BLACKBODY_H
 #define KILN_ASSET_ATLAS_BLACKBODY_H
 

@@ -1,4 +1,4 @@
-/* The procedural flipbooks: their names, and from texels to cells. */
+/* This file finds the procedural flipbooks by their names and makes their cells and motion. */
 #include "asset/atlas/builtin.h"
 
 #include <stdlib.h>

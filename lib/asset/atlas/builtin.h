@@ -1,4 +1,5 @@
-/* Procedural flipbooks, made by the program itself and the same on every machine. */
+/* Makes the procedural flipbooks, which are built into the program and the same on every machine.
+ */
 #ifndef KILN_ASSET_ATLAS_BUILTIN_H
 #define KILN_ASSET_ATLAS_BUILTIN_H
 

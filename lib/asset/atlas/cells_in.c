@@ -1,7 +1,8 @@
-/* An image is resized cell by cell, so that neighbours do not bleed into each other: each of its
- * rows becomes linear light, is filtered along and then added to the rows of the cell that it
- * touches. The filter is Mitchell and Netravali's cubic ("Reconstruction Filters in Computer
- * Graphics", 1988), widened where a cell shrinks. */
+/* This file reads the cells of flipbooks from images and videos and resizes them. An image is
+ * resized cell by cell, so that neighbours do not bleed into each other: each row becomes linear
+ * light, is filtered along, and is added to the rows of the cell that it touches. The filter is
+ * Mitchell and Netravali's cubic ("Reconstruction Filters in Computer Graphics", 1988), widened
+ * where a cell shrinks. */
 #include "asset/atlas/cells_in.h"
 
 #include <math.h>
@@ -27,7 +28,7 @@ static void read_raw(const struct kiln_asset_image *image, size_t pixel, float r
     }
 }
 
-/* As premultiplied linear light. */
+/* Reads a pixel as premultiplied linear light. */
 static void read_light(const struct kiln_asset_image *image, size_t pixel, float rgba[4])
 {
     read_raw(image, pixel, rgba);
@@ -39,7 +40,8 @@ static void read_light(const struct kiln_asset_image *image, size_t pixel, float
     }
 }
 
-/* As motion, in red and green. Half of the full value of 8 bits is no whole number: 128 is 0. */
+/* Reads a pixel as motion, in red and green. In 8 bits 128 is 0, since half of 255 is no whole
+ * number. */
 static void read_motion(const struct kiln_asset_image *image, size_t pixel, float rgba[4])
 {
     read_raw(image, pixel, rgba);
@@ -53,7 +55,7 @@ static void read_motion(const struct kiln_asset_image *image, size_t pixel, floa
 
 /* ---- filter ---------------------------------------------------------------------------------- */
 
-/* Of one axis: what the samples of a cell give to those of the resized one. */
+/* The filter along one axis: the weight of a cell's samples in those of the resized cell. */
 struct filter {
     uint32_t taps;   /* of each resized sample */
     uint32_t *first; /* sample of the cell */
@@ -165,7 +167,7 @@ static bool check_division(uint32_t width, uint32_t height, const struct kiln_ce
                           source->path, width, height, source->columns, source->rows);
 }
 
-/* Adds to cells, which are zero. */
+/* Resizes all cells of an image and adds them to cells, which are zero at first. */
 static bool resize_image(const struct kiln_asset_image *image,
                          const struct kiln_cells_source *source, bool motion, float *cells,
                          struct kiln_threads *threads, struct kiln_error *error)

@@ -1,4 +1,5 @@
-/* Cells of flipbooks out of files: images cut into columns and rows, and the frames of videos. */
+/* Reads the cells of flipbooks from files: images cut into columns and rows, and the frames of
+ * videos. */
 #ifndef KILN_ASSET_ATLAS_CELLS_IN_H
 #define KILN_ASSET_ATLAS_CELLS_IN_H
 

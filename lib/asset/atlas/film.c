@@ -1,5 +1,6 @@
-/* The gas takes the same steps whatever the number of cells, which lie between two of them: a film
- * of few cells is the film of many with cells left out. */
+/* This file runs the gas of a procedural flipbook and records it at the times of its cells. The gas
+ * takes the same steps for any number of cells, which lie between two steps, so a film of few cells
+ * is the film of many with cells left out. */
 #include "asset/atlas/film.h"
 
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 
 enum { STEPS = 126 };
 
-/* What a cell shows of the gas, before a step. */
+/* The fields of the gas that a cell shows, before a step. */
 struct moment {
     float heat[KILN_FLUID_SIZE];
     float place_x[KILN_FLUID_SIZE], place_y[KILN_FLUID_SIZE];
@@ -38,14 +39,14 @@ static void weigh(struct kiln_film_cell *cell)
     }
 }
 
-/* Where a cell lies, in steps. */
+/* Returns the time of a cell, in steps. */
 static float step_of(const struct kiln_film *film, uint32_t cell)
 {
     uint32_t gaps = film->cell_count > 1 ? film->cell_count - 1 : 1;
     return (float)(cell * STEPS) / (float)gaps;
 }
 
-/* The cells between the step that begins at `start` and its end, from `next` on. */
+/* Records the cells within the step that begins at `start`, from cell `next` on. */
 static uint32_t record(const struct kiln_fluid *fluid, const struct moment *before, float start,
                        struct kiln_film *film, uint32_t next)
 {

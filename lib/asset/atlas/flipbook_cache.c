@@ -1,5 +1,6 @@
-/* A flipbook is one file of the cache, or two where it moves. Their names have the build's
- * identifier, so a change of the code that makes flipbooks never meets what older code made. */
+/* This file reads and writes flipbooks in the cache. A flipbook is one file there, or two if it
+ * moves. The names contain the build's identifier, so that a changed program never reads what an
+ * older one made. */
 #include "asset/atlas/flipbook_cache.h"
 
 #include <math.h>

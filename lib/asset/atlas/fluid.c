@@ -1,4 +1,4 @@
-/* How a fluid starts. */
+/* This file initialises a fluid: all at rest, with each sample at its own place. */
 #include "asset/atlas/fluid.h"
 
 #include <string.h>

@@ -1,6 +1,7 @@
-/* The vorticity form of an ideal fluid: vorticity moves with the flow and is made by buoyancy; the
- * flow is the curl of a stream function whose Laplacian is minus the vorticity. Backward tracing as
- * in Stam, "Stable Fluids" (1999), with cubic interpolation, which hardly blurs. */
+/* This file steps a two-dimensional ideal fluid in its vorticity form, and samples it between its
+ * lattice points. Vorticity moves with the flow and is made by buoyancy. The flow is the curl of a
+ * stream function whose Laplacian is minus the vorticity. Fields are traced backwards as in Stam,
+ * "Stable Fluids" (1999), with cubic interpolation, which hardly blurs. */
 #include <string.h>
 
 #include "asset/atlas/fluid.h"
@@ -23,8 +24,8 @@ static inline int held(int index)
 
 /* ---- from vorticity to velocity -------------------------------------------------------------- */
 
-/* One diagonal, x + y = a, of a sweep of Gauss and Seidel, over-relaxed. The lowest and the highest
- * row are their own neighbours below and above. */
+/* Relaxes one diagonal, x + y = a, of an over-relaxed Gauss-Seidel sweep. The lowest and the
+ * highest row are their own neighbours below and above. */
 static inline void relax(struct kiln_fluid *fluid, int a)
 {
     float *at = fluid->stream[a + 1] + KILN_FLUID_MARGIN, *before = at - KILN_FLUID_PITCH;
@@ -45,9 +46,9 @@ static inline void relax(struct kiln_fluid *fluid, int a)
     }
 }
 
-/* Sweeps from the last step's solution. A sample waits for those to its left and below in its own
- * sweep, and for those to its right and above in the one before: diagonals wait for nothing within
- * them, and a sweep may follow two diagonals behind the one before. */
+/* Solves for the stream function by sweeps from the last step's solution. A sample needs those to
+ * its left and below of its own sweep, and those to its right and above of the sweep before. So the
+ * samples of a diagonal are independent, and a sweep may follow two diagonals behind another. */
 static void solve_stream(struct kiln_fluid *fluid)
 {
     for (int y = 0; y < EDGE; y++) {
@@ -88,7 +89,7 @@ static void take_velocity(struct kiln_fluid *fluid)
     }
 }
 
-/* Hot gas pushes up: what is hotter on its right side turns to the left. */
+/* Adds the vorticity of buoyancy: hot gas rises, so gas that is hotter on its right turns left. */
 static void turn(struct kiln_fluid *fluid, float dt)
 {
     const float scale = 0.5f / SPACING * fluid->buoyancy * dt;
@@ -142,7 +143,7 @@ static void trace(const struct kiln_fluid *fluid, int y, float dt, struct origin
     }
 }
 
-/* Between the four samples around it, so that no new extremes arise. */
+/* Interpolates a field, clamped to the four samples around, so that no new extremes arise. */
 static inline asset_quad carried(const asset_quad *from, const struct origins *origins, int x)
 {
     asset_quad sum = {0};
@@ -195,7 +196,7 @@ static void step(struct kiln_fluid *fluid, float dt)
 
 /* ---- between the samples --------------------------------------------------------------------- */
 
-/* Of a quadratic B-spline: the middle one of three samples, and their weights. */
+/* The taps of a quadratic B-spline: the middle one of three samples, and their weights. */
 struct taps {
     int middle;
     float weights[3];

@@ -1,10 +1,10 @@
-/* From the gas of one cell of a procedural flipbook to its texels. */
+/* This file makes the texels of one cell of a procedural flipbook from its gas. */
 #include <math.h>
 #include <string.h>
 
 #include "asset/atlas/texel_cell.h"
 
-/* The gas at every texel. */
+/* Samples the gas at every texel. */
 static void find_gas(const struct texel_job *job, struct kiln_builtin_room *room)
 {
     const size_t texels = (size_t)job->edge * job->edge;
@@ -26,7 +26,7 @@ static void find_gas(const struct texel_job *job, struct kiln_builtin_room *room
     }
 }
 
-/* Puts together those of a row that may show something, and says where they are from. */
+/* Gathers the texels of a row that may be visible, and notes their columns in `from`. */
 static uint32_t gather(const struct texel_job *job, const struct kiln_builtin_room *room,
                        uint32_t row, struct texel_sites *sites, uint8_t from[TEXEL_ROW])
 {
@@ -51,7 +51,8 @@ static uint32_t gather(const struct texel_job *job, const struct kiln_builtin_ro
     return count;
 }
 
-/* Leaves heights in x, heat in heat and density in y. */
+/* Runs the flipbook's function for every texel. It leaves heights in x, heat in heat, density in y.
+ */
 static void make_texels(const struct texel_job *job, struct kiln_builtin_room *room)
 {
     struct texel_sites sites = {.time = job->time, .lobes = job->lobes};
@@ -74,7 +75,7 @@ static void make_texels(const struct texel_job *job, struct kiln_builtin_room *r
     }
 }
 
-/* Normals from slopes of the height. */
+/* Finds normals from the slopes of the height. */
 static void tilt(const struct texel_job *job, const struct kiln_builtin_room *room, float *pixels)
 {
     const uint32_t edge = job->edge;

@@ -1,6 +1,7 @@
-/* Flames, smoke and steam. The large shapes are those of a gas that flows; torn sheets and wisps
- * are noise over the places where the gas came from, so that they are stretched and folded with it;
- * and a threshold that rises with age eats the thin parts first (erosion). */
+/* This file makes the procedural flipbooks of gas: flames, smoke and steam. The large shapes are
+ * those of a fluid. Torn sheets and wisps are noise over the places where the gas came from, so
+ * they are stretched and folded with it. A threshold that rises with age erodes the thin parts
+ * first. */
 #include <math.h>
 
 #include "asset/atlas/texel.h"
@@ -9,7 +10,7 @@
 
 enum { EDGE = KILN_FLUID_EDGE };
 
-/* Along one axis, 1 inside of the cell and 0 before its border. */
+/* Returns a mask along one axis: 1 inside of the cell, 0 before its border. */
 static inline float inside(float u)
 {
     return texel_smooth(0.97f, 0.80f, fabsf(u));
@@ -104,7 +105,7 @@ struct flame {
     uint32_t seed;
 };
 
-/* The same at a time. */
+/* The values of a flame's feed at one moment. */
 struct flame_feed {
     float time, strength, width, sway;
     float x[EDGE], flicker[EDGE]; /* of the columns */

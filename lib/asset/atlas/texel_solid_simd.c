@@ -1,4 +1,5 @@
-/* Things with a shape of their own: grains, drops, splinters, glints. */
+/* This file makes the procedural flipbooks of things with a shape of their own: grains, drops,
+ * splinters and glints. */
 #include <math.h>
 
 #include "asset/atlas/texel.h"

@@ -1,5 +1,6 @@
-/* Corners are rounded to 256ths of a texel; from there on, which triangle a texel's centre lies in
- * is a question to integers, and where it is on that triangle one to their quotients in double. An
+/* This file rasterises the triangles of a mesh in texture space, to find where each texel lies on
+ * the mesh. Corners are rounded to 256ths of a texel. From there on integers decide which triangle
+ * a texel's centre lies in, and quotients of integers in double where it is on that triangle. An
  * edge that two triangles share belongs to exactly one of them. */
 #include "asset/geometry/chart.h"
 
@@ -14,7 +15,7 @@ enum {
     MOST_ROWS = 1 << 24, /* of all triangles: where none overlap, they have about as many texels */
 };
 
-/* Of coordinates that a program wrote as 0 or 1. */
+/* The rounding of texture coordinates that a program wrote as 0 or 1. */
 static const float SLACK = 1e-5f;
 
 static const float NOWHERE = 1e15f;
@@ -82,7 +83,7 @@ static int64_t floor_of(int64_t a, int64_t b) /* a / b, b > 0 */
     return a >= 0 ? a / b : -((b - 1 - a) / b);
 }
 
-/* The rows from .. to that it may have texels in. */
+/* Finds the rows from .. to in which the triangle may have texels. */
 static void find_rows(const struct making *m, const struct flat *flat, int64_t *from, int64_t *to)
 {
     int64_t low = flat->y[0], high = flat->y[0];
@@ -105,7 +106,7 @@ static int64_t part_of(const struct flat *flat, int corner, int64_t x, int64_t y
            (flat->y[b] - flat->y[a]) * (x - flat->x[a]);
 }
 
-/* The columns from .. to of a row whose centres lie inside. */
+/* Finds the columns from .. to of a row whose centres lie inside the triangle. */
 static void find_span(const struct flat *flat, int64_t y, int64_t *from, int64_t *to)
 {
     for (int k = 0; k < 3; k++) {
@@ -206,7 +207,7 @@ static bool add_triangle(struct making *m, uint32_t number, struct kiln_error *e
 
 /* ---- the border ------------------------------------------------------------------------------ */
 
-/* A neighbour that has an owner in an earlier ring, those across an edge first. */
+/* Finds a neighbour that has an owner in an earlier ring; neighbours across an edge come first. */
 static bool find_neighbour(const struct making *m, const uint8_t *on, uint32_t x, uint32_t y,
                            size_t *neighbour)
 {
@@ -224,8 +225,8 @@ static bool find_neighbour(const struct making *m, const uint8_t *on, uint32_t x
     return false;
 }
 
-/* Texels beside a triangle are where their neighbours in it are, so that filtering finds nothing
- * else across a seam. */
+/* Gives texels beside a triangle the places of their neighbours in it, so that filtering across a
+ * seam finds the same paint. */
 static void add_border(struct making *m, uint8_t *on, uint8_t *ring)
 {
     const size_t count = (size_t)m->edge * m->edge;
@@ -250,7 +251,7 @@ static void add_border(struct making *m, uint8_t *on, uint8_t *ring)
 
 /* ---- blocks ---------------------------------------------------------------------------------- */
 
-/* Floats in the order of their values. */
+/* Maps floats to integers that sort as their values do. */
 static uint32_t ordered(float x)
 {
     uint32_t bits;

@@ -1,4 +1,6 @@
-/* Vertices are told apart by their normals, too, so that their places are compared first. */
+/* This file checks whether a mesh is closed, so that it has an inside: at each edge, as many
+ * triangles must run one way as the other. Vertices at one place may differ in their normals, so
+ * places are numbered first. */
 #include "asset/geometry/closed.h"
 
 #include <stdlib.h>
@@ -35,7 +37,7 @@ static int by_ends(const void *left, const void *right)
     return 0;
 }
 
-/* The number of each vertex's place, and a vertex of each place. */
+/* Numbers the places of vertices: finds the place of each vertex, and a vertex of each place. */
 static bool number_places(const struct kiln_mesh *mesh, uint32_t *place_of, uint32_t *vertex_of)
 {
     struct place *places = malloc(mesh->vertex_count * sizeof *places);

@@ -1,4 +1,4 @@
-/* Whether a mesh has an inside. */
+/* Checks whether a mesh is closed, so that it has an inside. */
 #ifndef KILN_ASSET_GEOMETRY_CLOSED_H
 #define KILN_ASSET_GEOMETRY_CLOSED_H
 

@@ -1,6 +1,8 @@
-/* Places are rounded to 1/256 of a sample and heights to 2^-24 of the mesh's; all that follows is
- * in 64-bit integers, so that no triangle is missed between two of its neighbours, and the order in
- * which triangles come does not matter but among equals, of which the first counts. */
+/* This file makes depth maps of a mesh: for each sample of a map, the front and the back of the
+ * surface along a direction, and their normals. Places are rounded to 1/256 of a sample, and
+ * heights to 2^-24 of the mesh's extent along the direction. All that follows is in 64-bit
+ * integers, so no sample is missed between two neighbouring triangles. The order of triangles
+ * matters only among equals, of which the first counts. */
 #include "asset/geometry/depth_maps.h"
 
 #include <math.h>
@@ -18,7 +20,8 @@ enum {
     MOST_VISITS = 1 << 28, /* of samples by triangles, for a map */
 };
 
-/* The least way from front to back, in parts of the mesh's size: a sheet has a back, too. */
+/* The least distance from front to back, in parts of the mesh's size, so that a sheet has a back.
+ */
 static const double HAIR = 1.0 / 8192;
 
 /* A corner in the frame of a map. */
@@ -81,7 +84,7 @@ static void position_of(const struct kiln_mesh *mesh, uint32_t vertex, double p[
         p[c] = (double)mesh->vertices[vertex][c];
 }
 
-/* Unit normals. A mesh whose inside is out, by the sign of its volume, is turned. */
+/* Finds unit normals. They are flipped if the mesh is inside out, by the sign of its volume. */
 static void find_normals(const struct kiln_mesh *mesh, double (*normals)[3])
 {
     static const double nowhere[3] = {0, 0, 0};
@@ -106,7 +109,8 @@ static void find_normals(const struct kiln_mesh *mesh, double (*normals)[3])
     }
 }
 
-/* Twice the area to the left of the way from a to b, of a place. */
+/* Returns twice the signed area of the triangle a, b, (x, y); above 0: left of the way from a to b.
+ */
 static int64_t left_of(const struct corner *a, const struct corner *b, int64_t x, int64_t y)
 {
     return (b->x - a->x) * (y - a->y) - (b->y - a->y) * (x - a->x);
@@ -155,8 +159,8 @@ static void cover(struct sample *sample, int64_t height, int32_t triangle)
     }
 }
 
-/* Of those nearby, a triangle that the sample is outside of gives the normal, the steepest first:
- * that is the one at whose edge the mesh ends. */
+/* Notes a triangle near a sample that no triangle covers. The steepest triangle gives the normal,
+ * since the mesh ends at its edge. */
 static void come_near(const struct making *making, struct sample *sample, int64_t low, int64_t high,
                       int32_t triangle, double aside)
 {
@@ -184,8 +188,8 @@ static double aside_of(const struct making *making, const struct facet *facet, i
            dot3(n, making->axes[1]) * (double)(y - facet->corners[0].y) * making->step[1];
 }
 
-/* The weights of the corners at a place. False: the square around it that reaches `slack` to all
- * sides is outside of an edge. */
+/* Finds the weights of the corners at a place. False: the square around it that reaches `slack` to
+ * all sides is outside of an edge. */
 static bool weigh(const struct facet *facet, int64_t x, int64_t y, int64_t slack,
                   int64_t weights[3])
 {
@@ -230,7 +234,7 @@ struct range {
     int64_t x0, x1, y0, y1;
 };
 
-/* Those that are at most one away from a triangle. */
+/* Returns the range of samples that are at most one away from a triangle. */
 static struct range range_of(const struct making *making, const struct corner corners[3])
 {
     const struct corner *c = corners;
@@ -243,7 +247,7 @@ static struct range range_of(const struct making *making, const struct corner co
     };
 }
 
-/* The samples of a triangle and around it, from one row on and up to another. */
+/* Adds a triangle to the samples in and around it, in the given rows. */
 static void meet_samples(const struct making *making, uint32_t triangle, int64_t first_row,
                          int64_t end_row)
 {
@@ -276,7 +280,7 @@ static void set_word(float word[4], const double normal[3], double height)
     word[3] = exact_canon((float)height);
 }
 
-/* Of a sample that something covers, or is near. */
+/* Writes a sample that a triangle covers or is near to. */
 static bool write_sample(const struct making *making, size_t index)
 {
     const struct sample *sample = &making->samples[index];
@@ -305,7 +309,7 @@ static bool write_sample(const struct making *making, size_t index)
     return true;
 }
 
-/* Of a sample without anything: front and back are one, where those around it have their middle. */
+/* Writes a sample without a triangle: front and back are both at the middle of those around it. */
 static void write_empty(const struct making *making, uint32_t x, uint32_t y)
 {
     double normals[2][3] = {{0, 0, 0}, {0, 0, 0}}, height = 0;
@@ -349,7 +353,8 @@ static void write_map(const struct making *making)
 
 /* ---- maps ------------------------------------------------------------------------------------ */
 
-/* Along columns and rows: across the axis of the world that is least along the direction. */
+/* Finds the axes of a map's columns and rows, from the axis of the world that is least along the
+ * direction. */
 static void find_axes(const float direction[3], double axes[3][3])
 {
     int across = 0;
@@ -364,7 +369,7 @@ static void find_axes(const float direction[3], double axes[3][3])
     cross3(axes[2], axes[0], axes[1]);
 }
 
-/* Where the samples lie, by all that the mesh spans. */
+/* Places the samples of a map over the extent of the mesh. */
 static void place_map(struct making *making, double size)
 {
     double high[3];

@@ -1,6 +1,7 @@
-/* Distances by a tree of the triangles; the sign by how often the surface winds around a sample,
- * counted along rows: where planes between samples cut the triangles there are closed curves, whose
- * ends meet exactly because both triangles at an edge compute them alike. */
+/* This file makes the signed distance field of a closed mesh. Distances come from a tree of the
+ * triangles. The sign of a sample comes from its winding number, counted along rows: planes between
+ * samples cut the triangles in closed curves. The ends of the curves' pieces meet exactly, since
+ * both triangles at an edge compute them alike. */
 #include "asset/geometry/field.h"
 
 #include <stdio.h>
@@ -38,7 +39,8 @@ struct cut {
     double x, y;
 };
 
-/* Where an edge passes the plane z: the same for both of its directions. */
+/* Finds where an edge passes the plane z; the result is the same for both directions of the edge.
+ */
 static struct cut cut_edge(const float *a, const float *b, double z)
 {
     bool swap = a[2] != b[2] ? a[2] > b[2] : a[1] != b[1] ? a[1] > b[1] : a[0] > b[0];
@@ -106,7 +108,8 @@ static bool reaches_inside(const struct kiln_field *field, const struct kiln_mes
     return false;
 }
 
-/* From the layer in the middle outwards: nearly always that one has some. */
+/* Checks that some sample is inside. Layers are tried from the middle outwards, since the middle
+ * one nearly always has some. */
 static bool check_inside(const struct kiln_field *field, const struct kiln_mesh *mesh,
                          const char *name, uint32_t cells, struct kiln_error *error)
 {
@@ -169,7 +172,7 @@ static void make_layers(void *context, size_t begin, size_t end, uint32_t worker
     }
 }
 
-/* Between the neighbours, or at the edges to the one. */
+/* Finds the gradient: between both neighbours, or at the edges to the only one. */
 static void find_growth(struct kiln_field *field)
 {
     const size_t steps[3] = {1, field->size[0], (size_t)field->size[0] * field->size[1]};
@@ -212,7 +215,7 @@ static bool make(struct kiln_field *field, const struct kiln_mesh *mesh, const c
 
 /* ---- cache ----------------------------------------------------------------------------------- */
 
-/* The name for this mesh, number of cells and margin: by the places and the triangles. */
+/* Names the field in the cache by the mesh's vertices and triangles, the cells and the margin. */
 static bool find_name(char name[NAME_SIZE], const struct kiln_mesh *mesh, uint32_t cells,
                       const struct kiln_field *field)
 {
@@ -239,7 +242,7 @@ static bool find_name(char name[NAME_SIZE], const struct kiln_mesh *mesh, uint32
 
 /* ---- all of it ------------------------------------------------------------------------------- */
 
-/* Cells around the box. */
+/* Returns the number of cells around the mesh's bounding box. */
 static uint32_t find_margin(float spacing, uint32_t cells, float reach, const char *name,
                             struct kiln_error *error)
 {
@@ -255,7 +258,7 @@ static uint32_t find_margin(float spacing, uint32_t cells, float reach, const ch
     return MARGIN + whole + ((float)whole < along ? 1 : 0);
 }
 
-/* All of a field but its samples. */
+/* Fills in all of a field but its samples. */
 static bool place(struct kiln_field *field, const struct kiln_mesh *mesh, const char *name,
                   uint32_t cells, float reach, struct kiln_error *error)
 {

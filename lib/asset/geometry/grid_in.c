@@ -1,4 +1,4 @@
-/* Reads kiln-grid files: a few lines of text, then floats. */
+/* This file reads kiln-grid files: a few lines of text, then floats. */
 #include "asset/geometry/grid_in.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ static bool take_line(struct cursor *c, char line[LINE_SIZE])
     return true;
 }
 
-/* A line of a word alone, or "kiln-grid 1". */
+/* Takes a line that is exactly this text. */
 static bool take_word(struct cursor *c, const char *word)
 {
     char line[LINE_SIZE];
@@ -48,7 +48,7 @@ static bool take_word(struct cursor *c, const char *word)
                           c->line, word, line);
 }
 
-/* "word x y z", each from least to most. */
+/* Takes a line "word x y z", with each number from least to most. */
 static bool take_numbers(struct cursor *c, const char *word, double least, double most, bool whole,
                          double numbers[3])
 {

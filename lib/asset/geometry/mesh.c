@@ -1,4 +1,5 @@
-/* Meshes on the host: bounds, orientation, copies. They are imported in mesh_in.c. */
+/* This file finds the bounds of meshes on the host, turns their faces outwards, copies and destroys
+ * them. They are imported in mesh_in.c. */
 #include "asset/geometry/mesh.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Which arrays of a mesh cross the socket, said once for the side that sends and the one that
- * receives. */
+/* This file lists the arrays of a mesh that cross the socket between kiln-decode and kiln. The
+ * sender and the receiver both use this list, so they agree. */
 #include "asset/geometry/mesh_in.h"
 
 bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result, bool uvs, bool moving,

@@ -1,5 +1,6 @@
-/* Has meshes imported by a process of kiln-decode: opens the files that it asks for, takes the
- * arrays that it sends, and checks what is in them. A mesh has a process of its own. */
+/* This file imports meshes through a process of kiln-decode: it opens the files that the process
+ * asks for, takes the arrays that it sends, and checks their contents. Each mesh has a process of
+ * its own. */
 #include "asset/geometry/mesh_in.h"
 
 #include <math.h>
@@ -45,7 +46,7 @@ static bool note_contents(struct request *request, int file, struct kiln_error *
     return true;
 }
 
-/* A path of plain steps downwards, by its text. */
+/* Does a path lead only downwards, by its text? */
 static bool stays_below(const char *path)
 {
     if (path[0] == '/' || strchr(path, ':') || strchr(path, '\\'))
@@ -59,7 +60,7 @@ static bool stays_below(const char *path)
     return true;
 }
 
-/* The descriptor of a file that this one names, or -1. */
+/* Opens a file that the mesh file names. Returns the descriptor or -1. */
 static int open_named(struct request *request, const char *name, struct kiln_error *error)
 {
     const char *slash = strrchr(request->name, '/');
@@ -93,7 +94,8 @@ static int open_named(struct request *request, const char *name, struct kiln_err
     return opened;
 }
 
-/* A file that may not be opened is no reason for assimp to give up: it looks for others. */
+/* Sends the process a file that it asked for. A file that may not be opened is answered, too, since
+ * assimp then looks for others. */
 static bool hand_over(struct request *request, const char *name, struct kiln_error *error)
 {
     const int file =
@@ -175,7 +177,7 @@ static bool receive_array(void *user, void *array, size_t bytes)
                                receiving->reason);
 }
 
-/* Before a byte of an array is taken. */
+/* Checks the counts before a byte of an array is taken. */
 static bool are_counts_sound(const struct kiln_mesh_result *result, bool moving)
 {
     const struct kiln_skin_result *skin = &result->skin;
@@ -199,7 +201,7 @@ static void take_counts(const struct kiln_decode_answer *answer, struct kiln_mes
     result->skin.key_count = answer->keys;
 }
 
-/* The answer, after all files that are asked for before it. */
+/* Waits for the answer, and sends the files that are asked for before it. */
 static bool await(struct request *request, struct kiln_decode_answer *answer,
                   struct kiln_error *error)
 {

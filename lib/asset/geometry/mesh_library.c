@@ -1,4 +1,5 @@
-/* A list: scenes name few files. A file is imported once for each way of it that is asked for. */
+/* This file keeps the meshes of a scene in a list, since scenes name few files. A file is imported
+ * once for each way that is asked for: plain, with texture coordinates, or moving. */
 #include "asset/geometry/mesh_library.h"
 
 #include <stdlib.h>
@@ -66,7 +67,7 @@ static bool import(const struct kiln_mesh_library *library, struct entry *entry,
                                     mesh->triangle_count, path, error);
 }
 
-/* NULL: it can not be imported. */
+/* Returns the entry of a file, which it imports first if need be; NULL: it cannot be imported. */
 static const struct entry *get(struct kiln_mesh_library *library, const char *path, enum way way,
                                struct kiln_error *error)
 {

@@ -1,9 +1,10 @@
-/* Sums over vertices and triangles, in double. */
+/* This file measures the size of a mesh: the middle and longest edge of its bounding box, its
+ * farthest vertex from there, and the radius of its mean shadow. Sums are in double. */
 #include "asset/geometry/mesh_measure.h"
 
 #include <math.h>
 
-/* A triangle's area times its normal, twice. */
+/* Finds a triangle's normal, twice as long as its area. */
 static void double_area(const struct kiln_mesh *mesh, const uint32_t corners[3], double out[3])
 {
     double a[3], b[3];
@@ -23,8 +24,9 @@ static double length(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Cauchy: the mean shadow of a convex body is a quarter of its surface. That of an open one lacks a
- * lid, whose area is that of the others' sum as vectors, which is 0 for a closed one. */
+/* Returns the area of the mean shadow. For a convex body it is a quarter of the surface (Cauchy).
+ * An open mesh is closed by a lid, whose area is the length of the sum of all area vectors; that
+ * sum is 0 for a closed mesh. */
 static double mean_shadow(const struct kiln_mesh *mesh)
 {
     double area = 0.0, sum[3] = {0.0, 0.0, 0.0};

@@ -1,4 +1,4 @@
-/* How large a mesh is, for those who show it at a size of their own. */
+/* Measures how large a mesh is, for drawing it at a given size. */
 #ifndef KILN_ASSET_GEOMETRY_MESH_MEASURE_H
 #define KILN_ASSET_GEOMETRY_MESH_MEASURE_H
 

@@ -1,4 +1,5 @@
-/* The tree is made by halving boxes at the middle of their longest edge. */
+/* This file finds how far a point is from the triangles of a mesh, by a tree of bounding boxes. The
+ * tree is built by halving boxes at the middle of their longest edge. */
 #include "asset/geometry/nearest.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* How far a point is from the triangles of a mesh: a tree of boxes around them. */
+/* Finds how far a point is from the triangles of a mesh, by a tree of boxes around them. */
 #ifndef KILN_ASSET_GEOMETRY_NEAREST_H
 #define KILN_ASSET_GEOMETRY_NEAREST_H
 

@@ -1,4 +1,6 @@
-/* The pose of nodes from keys, then matrices, then vertices: + - * / and square roots alone. */
+/* This file poses meshes that move: it finds the pose of the nodes from keys, then matrices, then
+ * vertices. It uses + - * / and square roots alone, so that every machine gives the same bits. It
+ * also checks the animation that kiln-decode sends. */
 #include "asset/geometry/skin.h"
 
 #include <ctype.h>
@@ -43,7 +45,7 @@ static float part_of_turn(float t, float cosine)
     return sum;
 }
 
-/* Along the shorter way, at constant speed. */
+/* Interpolates two quaternions along the shorter way, at constant speed. */
 static void turn_between(versor a, versor b, float t, versor out)
 {
     const float cosine = glm_quat_dot(a, b), sign = cosine < 0.0f ? -1.0f : 1.0f;
@@ -54,7 +56,7 @@ static void turn_between(versor a, versor b, float t, versor out)
     glm_quat_normalize(out); /* its length was 1 but for rounding */
 }
 
-/* At a moment; what is there without keys stays. */
+/* Reads a track at a moment; a track without keys leaves the value as it is. */
 static void read_track(const struct kiln_skin *skin, const struct kiln_skin_track *track,
                        bool turns, float seconds, vec4 out)
 {
@@ -78,7 +80,7 @@ static void read_track(const struct kiln_skin *skin, const struct kiln_skin_trac
 
 /* ---- matrices -------------------------------------------------------------------------------- */
 
-/* Turned, after being scaled, and then moved. */
+/* Composes a matrix that scales, then turns, then moves. */
 static void compose(vec4 move, versor turn, vec4 scale, mat4 out)
 {
     glm_quat_mat4(turn, out);
@@ -86,7 +88,7 @@ static void compose(vec4 move, versor turn, vec4 scale, mat4 out)
     glm_vec3_copy(move, out[3]);
 }
 
-/* From vertices to the file's space, for each bone. A clip moves its nodes, if there is one. */
+/* Finds each bone's matrix from vertices to the file's space. A clip, if any, moves its nodes. */
 static void place_bones(const struct kiln_skin *skin, const struct kiln_skin_clip *clip,
                         float seconds, mat4 *bones)
 {
@@ -114,7 +116,7 @@ static void place_bones(const struct kiln_skin *skin, const struct kiln_skin_cli
 
 /* ---- vertices -------------------------------------------------------------------------------- */
 
-/* What no sound file leads to, but some may. */
+/* Bounds a coordinate that only a faulty file makes too large. */
 static float bounded(float x)
 {
     return x >= -FARTHEST ? (x <= FARTHEST ? x : FARTHEST) : -FARTHEST;
@@ -154,7 +156,7 @@ static void blend(const struct kiln_skin_weights *weights, mat4 *bones, mat4 out
     }
 }
 
-/* What is mirrored at rest would show its inside: its triangles go around the other way. */
+/* Turns the triangles of mirrored parts the other way around; else they would show their inside. */
 static void turn_mirrored(struct kiln_skin *skin)
 {
     mat4 bones[KILN_MAX_SKIN_BONES], m;
@@ -317,7 +319,7 @@ static bool check_weights(const struct check *check)
 
 /* ---- making ---------------------------------------------------------------------------------- */
 
-/* Sums of the triangles' areas, where a file has no normals. */
+/* Adds normals where a file has none, as sums of the triangles' area vectors. */
 static void add_normals(struct kiln_skin *skin)
 {
     const struct kiln_mesh *mesh = skin->mesh;

@@ -1,4 +1,5 @@
-/* Heights are computed with the arithmetic of the simulation, which they are part of. */
+/* This file makes terrain from a picture or from noise: its heights, slopes and ceilings, and a
+ * mesh to draw. Heights use the arithmetic of the simulation, since particles collide with them. */
 #include "asset/geometry/terrain.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static float channel(const struct kiln_asset_image *image, size_t at)
     return (float)((const uint8_t *)image->pixels)[at] / 255.0f;
 }
 
-/* Heights are data: encoded values are not decoded to light. */
+/* Returns the height of a pixel. Heights are data, so values are not decoded to linear light. */
 static float pixel_height(const struct kiln_asset_image *image, uint32_t x, uint32_t y)
 {
     const size_t at = ((size_t)y * image->width + x) * 4;
@@ -101,8 +102,8 @@ static float noise_flat(float x, float z, uint32_t seed)
     return sum * 0.45f;
 }
 
-/* Octaves of half the size each. With ridges, what is low stays smooth: the height so far weighs
- * the next octave. */
+/* Sums octaves of noise, each of half the size. With ridges, the height so far weighs the next
+ * octave, so that low ground stays smooth. */
 static float noise_height(const struct kiln_terrain_params *params, float x, float z)
 {
     float sum = 0.0f, amplitude = 1.0f, frequency = 1.0f / params->hills, weight = 1.0f;
@@ -121,7 +122,7 @@ static float noise_height(const struct kiln_terrain_params *params, float x, flo
     return sum;
 }
 
-/* From 0 to 1; flat noise is 0. */
+/* Makes heights of noise, scaled to 0 to 1; if all are equal they are 0. */
 static void make_noise(struct kiln_terrain *terrain, const struct kiln_terrain_params *params)
 {
     float least = 0.0f, most = 0.0f;
@@ -153,7 +154,8 @@ static void place_heights(struct kiln_terrain *terrain, const struct kiln_terrai
     }
 }
 
-/* Along one axis, from `before` to `after`: fewer points than two cells at the edges. */
+/* Returns the slope along one axis from `before` to `after`, which are two cells apart, and one at
+ * the edges. */
 static float slope_between(const struct kiln_terrain_point *before,
                            const struct kiln_terrain_point *after, uint32_t cells, float spacing)
 {
@@ -176,7 +178,7 @@ static void find_slopes(struct kiln_terrain *terrain)
     }
 }
 
-/* With room for what interpolation rounds. */
+/* Finds the ceilings, with a margin for the rounding of interpolation. */
 static void find_ceilings(struct kiln_terrain *terrain)
 {
     for (uint32_t z = 0; z < terrain->samples[1]; z++) {
@@ -249,7 +251,7 @@ static void add_triangle(struct kiln_mesh *mesh, uint32_t a, uint32_t b, uint32_
     memcpy(mesh->triangles[mesh->triangle_count++], corners, sizeof corners);
 }
 
-/* From the origin, as the mesh is placed. */
+/* Returns the place of a point relative to the origin, where the mesh is placed. */
 static float3 place_of(const struct kiln_terrain *terrain, uint32_t x, uint32_t z)
 {
     return FLOAT3((float)x * terrain->spacing[0],

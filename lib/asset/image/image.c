@@ -1,5 +1,6 @@
-/* Pictures in: the first bytes tell the format, and with it the process that decodes it. What comes
- * back is checked before memory is taken for it. */
+/* This file loads pictures. The first bytes of a file tell its format, which chooses the
+ * kiln-decode process that decodes it. The process's answer is checked before memory is taken for
+ * it. */
 #include "asset/image/image.h"
 
 #include <stdlib.h>
@@ -62,15 +63,15 @@ static bool refuse_unknown(const struct head *head, const char *name, struct kil
         "%s: not an image: it starts with the bytes%s; allowed are " ALLOWED " files", name, found);
 }
 
-/* FFmpeg has no decoder for WebP's animations: the extended header says that one follows. */
+/* Is it an animated WebP, by its extended header? FFmpeg has no decoder for these. */
 static bool is_animated_webp(const struct head *head)
 {
     return head->size > 20 && memcmp(head->bytes + 12, "VP8X", 4) == 0 &&
            (head->bytes[20] & 2) != 0;
 }
 
-/* OpenEXR's core reads layers, FFmpeg files in tiles: signature, then version and flags, of which
- * bit 9 is for one part in tiles. */
+/* Is it an OpenEXR file of one part in tiles? These go to FFmpeg, layers to OpenEXR's core. After
+ * the signature come version and flags, of which bit 9 is for tiles. */
 static bool is_tiled_exr(const struct head *head)
 {
     return head->size >= 8 && (head->bytes[5] & 0x02) != 0;
@@ -105,7 +106,7 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
 
 /* ---- asking for it --------------------------------------------------------------------------- */
 
-/* The picture in an open file of that name. */
+/* Decodes the picture in an open file of that name. */
 static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, const char *name,
                                        const char *layer, struct kiln_error *error)
 {

@@ -1,4 +1,5 @@
-/* A row at a time, so that no second picture lies in memory. */
+/* This file decodes the pixels of a picture to linear light, one row at a time, so that no second
+ * picture lies in memory. */
 #include "asset/image/linear.h"
 
 #include "shared/exact.h"

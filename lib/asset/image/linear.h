@@ -1,4 +1,4 @@
-/* The pixels of an image file as linear light. */
+/* Gives the pixels of an image file as linear light. */
 #ifndef KILN_ASSET_IMAGE_LINEAR_H
 #define KILN_ASSET_IMAGE_LINEAR_H
 

@@ -1,5 +1,6 @@
-/* Levels by linear filtering, like those of GL drivers: the mean of four texels where a level has
- * an even size, and a little wider where it has not. */
+/* This file makes a picture with mip levels on the host, in half floats. Each level is filtered
+ * linearly from the finer one, like the levels of GL drivers: a texel is the mean of four where the
+ * size is even, and of a slightly wider area where it is odd. */
 #include "asset/image/pyramid.h"
 
 #include <stdlib.h>
@@ -10,8 +11,8 @@
 #include "base/error.h"
 #include "shared/exact.h"
 
-/* 0 to 65504, rounded to the nearest. Floats whose exponent is that of a half float: added to a
- * number of the unit's size, those below lose the bits that they have not. */
+/* Converts 0 to 65504 to a half float, rounded to the nearest. Numbers below the least normal half
+ * float are rounded by adding a number whose last bit is that of a subnormal half float. */
 static uint16_t to_half(float x)
 {
     uint bits = FLOAT_BITS(x);
@@ -61,8 +62,7 @@ static bool fill_finest(struct kiln_pyramid *p, const struct kiln_asset_image *i
     return row != NULL;
 }
 
-/* Where a texel of a level lies in the finer one: two of its rows or columns, and the way between.
- */
+/* The two rows or columns of the finer level that a texel lies between, and its part of the way. */
 struct between {
     uint32_t a, b;
     float part;

@@ -1,6 +1,5 @@
-/* A picture on the host with mip levels: what asset/image/texture.h is in GL, for those who draw
- * without.
- */
+/* Holds a picture on the host with mip levels, for drawing without GL; asset/image/texture.h is its
+ * like in GL. */
 #ifndef KILN_ASSET_IMAGE_PYRAMID_H
 #define KILN_ASSET_IMAGE_PYRAMID_H
 

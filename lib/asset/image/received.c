@@ -1,5 +1,6 @@
-/* Takes a picture out of a helper's answer. The helper may have been taken over by the file that it
- * decoded: sizes are held to the limits before they are multiplied, floats to what is a number. */
+/* This file takes a picture out of a helper's answer. A malicious file may have taken over the
+ * helper that decoded it, so sizes are held to the limits before they are multiplied, and floats
+ * must be finite. */
 #include "asset/image/received.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Pictures as they come from kiln-decode: checked, then taken. */
+/* Checks and takes the pictures that kiln-decode sends. */
 #ifndef KILN_ASSET_IMAGE_RECEIVED_H
 #define KILN_ASSET_IMAGE_RECEIVED_H
 

@@ -1,4 +1,5 @@
-/* Pixels go to GL a row at a time. */
+/* This file loads a picture into a GL texture of linear light, one row at a time. It also measures
+ * the light of a sky picture from above and from the horizon. */
 #include "asset/image/texture.h"
 
 #include <math.h>
@@ -66,7 +67,8 @@ void kiln_texture_finish(struct kiln_texture *texture)
     *texture = (struct kiln_texture){.gl = 0};
 }
 
-/* Rows of the sky: what each counts for. */
+/* Weighted sums over the rows of a sky: light that falls on a horizontal plane, and light near the
+ * horizon. */
 struct sky_sums {
     double up[3], horizon[3];
     double up_weight, horizon_weight;

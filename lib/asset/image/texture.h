@@ -1,4 +1,4 @@
-/* A picture as a texture of linear light: of the floor, of the sky. */
+/* Loads a picture as a GL texture of linear light, for the floor or the sky. */
 #ifndef KILN_ASSET_IMAGE_TEXTURE_H
 #define KILN_ASSET_IMAGE_TEXTURE_H
 

@@ -1,6 +1,6 @@
-/* A process of kiln-decode for each video sends one frame after the other; the socket holds it back
- * while nobody takes them. What FFmpeg passes over silently (a file that ends too early, a damaged
- * frame) is an error there: a comparison must not pass by looking away. */
+/* This file reads a video frame by frame from a kiln-decode process of its own. The socket holds
+ * the process back while no frame is taken. What FFmpeg passes over silently (a file that ends too
+ * early, a damaged frame) is an error, since a comparison must not pass on missing frames. */
 #include "asset/image/video_in.h"
 
 #include <stdlib.h>
@@ -32,7 +32,7 @@ bool kiln_video_in_has_suffix(const char *path)
     return false;
 }
 
-/* Hands the file over; how the video begins is the first answer. */
+/* Hands the file over and takes the first answer, which describes the video. */
 static bool begin(struct kiln_video_in *video, int file, struct kiln_error *error)
 {
     struct kiln_received *received = &video->received;

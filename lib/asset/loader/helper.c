@@ -1,6 +1,7 @@
-/* kiln's end of the socket. The process gets no descriptors but the socket, ignores the terminal's
- * signals (it ends when kiln does), and is believed nothing: kiln waits with limits of time, reads
- * as many bytes as it asked for, and checks what they say. */
+/* This file starts, talks to and ends the processes of kiln-decode: it is kiln's end of the socket.
+ * A process gets no descriptors but the socket, and ignores the terminal's signals, since it ends
+ * when kiln does. Nothing that it says is trusted: kiln waits with time limits, reads only as many
+ * bytes as it asked for, and checks them. */
 #include "asset/loader/helper.h"
 
 #include <dlfcn.h>
@@ -22,7 +23,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 
-/* One that sleeps takes no processor time, and must not be waited for for ever. */
+/* A process that sleeps takes no processor time, so waiting is limited in real time, too. */
 enum { WAIT_MS = 20, WALL_SECONDS = 10 * KILN_DECODE_SECONDS };
 
 struct kiln_helper {
@@ -42,7 +43,7 @@ static bool is_program(const char *path)
     return access(path, X_OK) == 0;
 }
 
-/* The folder of the program or shared library that this code is in. */
+/* Finds the folder of the program or shared library that holds this code. */
 static bool find_own_folder(char folder[KILN_PATH_SIZE])
 {
     static const char here = 0;
@@ -192,7 +193,8 @@ static bool open_pair(int pair[2])
     return true;
 }
 
-/* Whether the caller wanted no more: then it is neither of the file nor of the process. */
+/* Did the caller cancel, or is its limit exceeded? Then neither the file nor the process is at
+ * fault. */
 static bool is_of_caller(const struct kiln_error *reason)
 {
     return reason->code == KILN_INTERRUPTED || reason->code == KILN_OVER_LIMIT;
@@ -300,7 +302,7 @@ bool kiln_helper_is_broken(const struct kiln_helper *helper)
     return helper->is_broken;
 }
 
-/* One that waits says nothing. */
+/* A process that waits for a request sends nothing. */
 bool kiln_helper_is_waiting(const struct kiln_helper *helper)
 {
     struct pollfd socket = {.fd = helper->socket, .events = POLLIN};
@@ -420,8 +422,7 @@ bool kiln_helper_receive(struct kiln_helper *helper, const struct kiln_caller *c
     return true;
 }
 
-/* Codes that a decoder may end with; over a limit only where it was given one. Others are nonsense.
- */
+/* Accepts the codes that a decoder may send; "over limit" only where it was given a limit. */
 static enum kiln_code code_of(const struct kiln_helper *helper, int32_t code)
 {
     const bool known = code == KILN_IO || code == KILN_DEVICE_FAILED ||

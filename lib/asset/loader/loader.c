@@ -1,5 +1,6 @@
-/* Opens files by openat2, which the kernel resolves below the root whatever links lead to and
- * whoever swaps them meanwhile. */
+/* This file opens the files that a scene names, below the asset root and nowhere else, and lends
+ * out the processes that decode them. It opens by openat2, which the kernel resolves below the root
+ * even if links are swapped meanwhile. */
 #include "asset/loader/loader.h"
 
 #include <errno.h>
@@ -103,8 +104,8 @@ struct kiln_budget *kiln_loader_budget(const struct kiln_loader *loader)
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
-/* The same as openat2 for an older kernel, or a container that forbids the call: step by step,
- * through no link at all. */
+/* Opens a path step by step, through no link at all. It stands in for openat2 on an older kernel or
+ * in a container that forbids the call. */
 static int open_steps(int folder, const char *relative)
 {
     char path[KILN_PATH_SIZE];
@@ -272,7 +273,7 @@ bool kiln_loader_knows(struct kiln_loader *loader, const char *path, uint32_t si
     return one != NULL;
 }
 
-/* What is forgotten for want of memory is decoded once more. */
+/* If memory is short the size is forgotten, and the picture is decoded once more. */
 void kiln_loader_remember(struct kiln_loader *loader, const char *path, const uint32_t size[2])
 {
     const size_t length = strlen(path) + 1;

@@ -1,4 +1,4 @@
-/* Flocks on the host: the loop over neighbours. */
+/* Declares the loop that sums up, on the host, what a bird of a flock sees of its neighbours. */
 #ifndef KILN_SIM_CROWD_FLOCK_H
 #define KILN_SIM_CROWD_FLOCK_H
 

@@ -1,11 +1,12 @@
-/* flock_look in vectors: those in the cells around a bird are tried block by block, and the few
- * that it sees gathered into blocks of their own, whose parts are added up lane by lane. Sums of
- * integers do not ask how they are cut up. */
+/* This file runs flock_look in vectors: it sums up what one bird of a flock sees of the others. The
+ * bodies in the cells around the bird are tested block by block. The few that it sees are gathered
+ * into blocks of their own, whose parts are added up lane by lane. All sums are of integers, so
+ * their order changes no bit. */
 #include "sim/crowd/flock.h"
 
 enum { LANES = 16, BLOCK = 64 };
 
-/* Those that are seen, up to a multiple of LANES. */
+/* The bodies that the bird sees, padded to a multiple of LANES. */
 struct seen {
     uint32_t count;
     uint32_t others[BLOCK]; /* slots */
@@ -37,7 +38,8 @@ static inline void add_parts(struct look *look, uint32_t lane, struct flock_sums
     look->parts[11][lane] += parts.aside.z;
 }
 
-/* One that adds nothing: far off, and as fast. */
+/* Pads the block with a body that adds nothing to the sums: it is far away and moves as the bird.
+ */
 static inline void add_nobody(struct seen *seen)
 {
     const uint32_t i = seen->count++;
@@ -94,7 +96,7 @@ static inline void gather(struct look *look, const struct block *block, uint32_t
         add_seen(look);
 }
 
-/* Of all lanes from i on; behind the last body, there is room for them. */
+/* Tests LANES bodies from begin + first on. The rows may be read behind the last body. */
 static inline void try_lanes(const struct look *look, struct block *block, uint32_t begin,
                              uint32_t first, int y, int z)
 {
@@ -116,7 +118,7 @@ static inline void try_lanes(const struct look *look, struct block *block, uint3
     }
 }
 
-/* Bodies from begin on, at most BLOCK. */
+/* Tests count bodies from begin on, at most BLOCK, and gathers those that the bird sees. */
 static inline void try_block(struct look *look, uint32_t begin, uint32_t count, int y, int z)
 {
     struct block block;

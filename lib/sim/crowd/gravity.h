@@ -1,4 +1,4 @@
-/* Gravity on the host: the loop over all pairs. */
+/* Declares the loop over all pairs that sums up gravity between particles on the host. */
 #ifndef KILN_SIM_CROWD_GRAVITY_H
 #define KILN_SIM_CROWD_GRAVITY_H
 

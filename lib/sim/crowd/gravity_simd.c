@@ -1,5 +1,6 @@
-/* gravity_add for vectors of particles: each lane adds up all sources in their order, so no width
- * changes a bit. Two vectors at a time share a source's four loads. */
+/* This file sums up the gravity between particles in vectors, as gravity_add does for one particle.
+ * Each lane adds up all sources in their order, so the width of a vector changes no bit. Two
+ * vectors at a time share the loads of a source. */
 #include "sim/crowd/gravity.h"
 
 #if KILN_SIMD_LEVEL == 3

@@ -1,5 +1,6 @@
-/* Gathers the pushes of all systems that interact: finds out what each wants, and how far ahead
- * collisions are looked for, and lets the host or GL gather it. */
+/* This file gathers the pushes of all systems whose particles interact. It works out what each
+ * system needs and how far ahead its collisions are looked for, then calls the host's code or the
+ * GL kernels. */
 #include "sim/crowd/interact.h"
 
 #include <assert.h>
@@ -19,19 +20,19 @@ static_assert(offsetof(struct kiln_interact_params, flock) == 176, "std140");
 static_assert(sizeof(struct kiln_flock_params) == 80, "std140");
 static_assert(sizeof(struct kiln_body) == 32, "std430");
 
-/* So much wider than two radii are the cells: positions up to 2^18 cells out are rounded by less
- * when their cell is found. */
+/* Cells are wider than two radii by this factor. It covers the rounding of positions up to 2^18
+ * cells from the origin when their cell is found. */
 static const float CELL_SLACK = 1.0f + 1.0f / 64.0f;
 
-/* Widths of a particle that `fastest: auto` looks ahead in a step, and the part of one that two may
- * go into each other unseen without a warning. */
+/* MOST_AHEAD: the most that `fastest: auto` looks ahead in a step, in widths of a particle. UNSEEN:
+ * the part of a width that two particles may overlap unnoticed without a warning. */
 static const float MOST_AHEAD = 2.0f, UNSEEN = 0.1f;
 
-/* Of struct kiln_interact_entry on the host, which sorts to and fro, and of a uvec4 in GL. */
+/* The size of struct kiln_interact_entry on the host, and of a uvec4 in GL. */
 enum { ENTRY_BYTES = 16 };
 
-/* Of the table: so sparse that few of them hold particles of other places; but no more than 64 MiB.
- */
+/* The hash table of cells is sparse, so that few entries hold particles of different places, and
+ * takes no more than 64 MiB. */
 enum { CELLS_A_PARTICLE = 2, MAX_CELLS = 1 << 24 };
 
 uint32_t kiln_interact_entries(uint32_t count)
@@ -72,7 +73,7 @@ static void add_collisions(struct kiln_interact_work *work, const struct kiln_sc
     params->friction = kiln_scene_value(scene, &collide->friction, params->time_s);
 }
 
-/* What holds for all that is gathered of a system. */
+/* Fills in the parameters that all kinds of interaction of a system share. */
 static struct kiln_interact_params params_of(const struct kiln_step_params *step)
 {
     return (struct kiln_interact_params){.derived = step->derived,
@@ -100,7 +101,8 @@ static void add_gravity(struct kiln_interact_work *work, const struct kiln_scene
     work->sources.strength = gravity->strength;
 }
 
-/* The square of the cosine of half an angle, with its sign; all around whatever rounds. */
+/* Returns the square of the cosine of half an angle, with the cosine's sign. A full turn gives -2,
+ * which no rounding reaches. */
 static float view_of(float angle)
 {
     const float cosine = exact_sincos(0.5f * angle).cosine;
@@ -154,7 +156,8 @@ static void add_flock(struct kiln_interact_work *work, const struct kiln_scene *
     params->cells_per_metre = 1.0f / (params->flock.radius * CELL_SLACK);
 }
 
-/* Cells of a flock are not those of collisions: it is a work of its own, after the others. */
+/* Fills in the work of a system: its flock, or its collisions and gravity. A flock's cells have
+ * another size than those of collisions, so it is a work of its own, after the other. */
 static struct kiln_interact_work work_of(const struct kiln_scene *scene,
                                          const struct kiln_sim_params *params, uint32_t system,
                                          bool flock)
@@ -181,7 +184,7 @@ static bool choose_loops(struct kiln_interact *interact, struct kiln_error *erro
     return true;
 }
 
-/* Slots of the largest that interacts, or that others do something with. */
+/* Returns the capacity of the largest system that interacts or whose particles pull another's. */
 static uint32_t largest_system(const struct kiln_scene *scene, const struct kiln_sim_params *params)
 {
     uint32_t largest = 0;
@@ -199,7 +202,8 @@ static uint32_t largest_system(const struct kiln_scene *scene, const struct kiln
     return largest;
 }
 
-/* Balls that spin take two each: shared/interact_layout.h. */
+/* Returns the number of bodies to allocate. Balls that spin take two each
+ * (shared/interact_layout.h). */
 static size_t count_bodies(const struct kiln_scene *scene, const struct kiln_sim_params *params,
                            uint32_t largest)
 {
@@ -268,8 +272,8 @@ void kiln_interact_finish(struct kiln_interact *interact)
     *interact = (struct kiln_interact){.device = NULL};
 }
 
-/* How far ahead collisions are looked for: as the scene says, or as far as the velocities ask for,
- * which differ by up to `spread` m/s. Cells grow by as much, so that there are limits to this. */
+/* Sets how far ahead collisions are looked for: as the scene says, or as the velocities need, which
+ * differ by up to `spread` m/s. Cells grow by as much, so this distance is limited. */
 static void foresee(struct kiln_interact *interact, struct kiln_interact_work *work, float spread)
 {
     struct kiln_interact_params *params = &work->params;
@@ -300,8 +304,9 @@ static void foresee(struct kiln_interact *interact, struct kiln_interact_work *w
                  spread < most ? "auto or " : "", wanted);
 }
 
-/* By how much velocities of living particles differ at most, m/s: no two approach each other by
- * more than the diagonal of the box around all velocities. A hair more, whatever rounds. */
+/* Returns the most by which velocities of living particles differ, m/s. It is the diagonal of the
+ * box around all velocities, since no two particles approach each other faster; it is rounded up.
+ */
 static float spread_of(const uint32_t bounds[SPEEDS_BOUNDS])
 {
     double square = 0;
@@ -312,14 +317,14 @@ static float spread_of(const uint32_t bounds[SPEEDS_BOUNDS])
     return (float)(sqrt(square) * (1 + 1e-6));
 }
 
-/* Finds how far ahead collisions are looked for, which a scene need not say. */
+/* Finds how far ahead collisions are looked for, if the system has any. */
 static bool find_ahead(struct kiln_interact *interact, struct kiln_interact_work *work,
                        struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
 {
     if (!work->collides)
         return true;
     uint32_t bounds[SPEEDS_BOUNDS] = {0};
-    if (work->mode == KILN_CONTACT_STAGGERED) { /* which looks at what there is now */
+    if (work->mode == KILN_CONTACT_STAGGERED) { /* it looks at present positions alone */
         foresee(interact, work, 0.0f);
         return true;
     }

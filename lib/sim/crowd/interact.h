@@ -1,6 +1,6 @@
-/* Gathering, before a step, what the particles of a system do to each other: pushes
- * (shared/push.h), by the technique that steps them, where their records lie, so that none are
- * moved; all give the same bits. */
+/* Gathers, before a step, what the particles of a system do to each other: pushes (shared/push.h).
+ * The technique that steps the particles gathers them where their records lie, so that no record is
+ * copied. All techniques give the same bits. */
 #ifndef KILN_SIM_CROWD_INTERACT_H
 #define KILN_SIM_CROWD_INTERACT_H
 

@@ -1,5 +1,6 @@
-/* Pushes on the host: each thread answers for some of the bodies. Nobody but the round that is
- * computed is written, so how they are shared out among threads cannot matter. */
+/* This file gathers pushes on the host: collisions between particles, and their gravity. Each
+ * thread computes some of the bodies. A round reads the state before it and writes only its own
+ * result, so the division among threads changes no bit. */
 #include <string.h>
 
 #include "shared/interact_gravity.h"
@@ -187,7 +188,8 @@ static bool collide(struct kiln_interact *interact, const struct kiln_interact_w
 
 enum { TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK };
 
-/* Of each slot, and zeros up to a whole block: there is room for a power of two, at least 64. */
+/* Fills in a source for each slot, and sources of no mass up to a whole block. The buffer has room
+ * for a power of two of them, at least 64. */
 static void fill_sources(const struct kiln_crowd *view, const struct kiln_particle *records,
                          float4 *sources)
 {

@@ -1,5 +1,5 @@
-/* The bodies of a system while their pushes are gathered on the host, and how they are put in
- * order. */
+/* Holds the bodies of a system while their pushes are gathered on the host, and declares how the
+ * bodies are sorted. */
 #ifndef KILN_SIM_CROWD_INTERACT_CROWD_H
 #define KILN_SIM_CROWD_INTERACT_CROWD_H
 

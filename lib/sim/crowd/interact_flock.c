@@ -1,5 +1,6 @@
-/* Flocks on the host: bodies in cells, each thread looks around for a stretch of them. What each
- * sees is a sum of integers, so it cannot matter in which order it comes. */
+/* This file steers flocks on the host. It sorts the bodies into cells; then each thread computes
+ * the steering of a stretch of them. What a bird sees is a sum of integers, so the order of the
+ * others changes no bit. */
 #include <string.h>
 
 #include "sim/crowd/flock.h"
@@ -36,7 +37,7 @@ static void steer(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* For loops that become vectors. */
+/* Copies positions and velocities into one row a component, which vector loops read. */
 static void fill_rows(struct kiln_flock_birds *birds, float *rows, uint32_t count)
 {
     const struct kiln_body *bodies = birds->view.bodies;

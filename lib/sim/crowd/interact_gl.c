@@ -1,4 +1,5 @@
-/* Pushes in compute: the kernels of shaders/sim/interact_*.comp, one after the other. */
+/* This file gathers pushes in compute shaders: it runs the kernels of
+ * shaders/sim/crowd/interact_*.comp that the scene's interactions need, one after the other. */
 #include <stdio.h>
 
 #include "base/error.h"
@@ -7,7 +8,7 @@
 #include "shared/limits.h"
 #include "sim/crowd/interact.h"
 
-/* What a kernel is for. */
+/* Bits of used_for: the kinds of interaction that a kernel serves. */
 enum { EXACT_MODE = 1, STAGGERED_MODE = 2, GRAVITY = 4, FLOCK = 8 };
 
 static const struct {
@@ -52,8 +53,8 @@ static int uses(const struct kiln_scene *scene)
     return all;
 }
 
-/* Bodies that one may look at on software GL, whose loops end silently; the rest is for the loops
- * over rows of cells. */
+/* The most bodies that one body looks at on software GL, which silently ends loops after
+ * KILN_SOFTWARE_ITERATIONS. The rest of these is for the loops over rows of cells. */
 enum { MOST_AROUND = KILN_SOFTWARE_ITERATIONS - 535 };
 
 bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *error)
@@ -88,7 +89,7 @@ bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *er
     return true;
 }
 
-/* For so many slots, bodies or pairs. */
+/* Dispatches a kernel for count slots, bodies or pairs. */
 static void run(const struct kiln_interact *interact, enum kiln_interact_kernel kernel,
                 uint32_t count)
 {
@@ -174,7 +175,7 @@ static void sort_into_cells(const struct kiln_interact *interact,
     run(interact, KILN_INTERACT_PLACE, params->used);
 }
 
-/* A power of two of entries. */
+/* Sorts the entries by a bitonic network; count is a power of two. */
 static void sort_entries(const struct kiln_interact *interact, uint32_t count)
 {
     glUseProgram(interact->programs[KILN_INTERACT_BITONIC]);
@@ -201,7 +202,7 @@ static void sort_into_grids(const struct kiln_interact *interact,
     run(interact, KILN_INTERACT_ORDER_SECOND, params->used);
 }
 
-/* Whether all of them were looked at. */
+/* Returns whether each body looked at all others near it; on software GL it may not have. */
 static bool saw_all(const struct kiln_interact *interact, const struct kiln_interact_work *work,
                     struct kiln_error *error)
 {
@@ -251,7 +252,8 @@ static bool collide(const struct kiln_interact *interact, const struct kiln_inte
     return true;
 }
 
-/* So many sources in a dispatch that llvmpipe's loops run to their end with any size of groups. */
+/* The number of sources in a dispatch. It is so low that llvmpipe does not end a loop early,
+ * whatever the size of work groups. */
 enum { SOURCES_AT_A_TIME = 1 << 14 };
 
 static bool pull(struct kiln_interact *interact, const struct kiln_interact_work *work,

@@ -1,9 +1,10 @@
-/* Bodies in order, by all threads.
+/* This file sorts the bodies of a system into cells or into the two staggered grids of UberFlow
+ * (2004, 4.3), with all threads.
  *
- * In cells the order of those that share one is up to chance, and nothing asks for it: the pair
- * that a body chooses follows from what they are alone (contact_choose). The paper's grids have it
- * otherwise: who is within a window depends on the order, so bodies of one cell keep that of their
- * slots.
+ * In cells, the order of bodies that share one is up to chance. It changes no result, since the
+ * partner that a body chooses depends on the two bodies alone (contact_choose). In the staggered
+ * grids a body looks at its neighbours in the sorted order, so the order matters, and bodies of one
+ * cell keep that of their slots.
  */
 #include <assert.h>
 #include <string.h>
@@ -37,7 +38,7 @@ static void clear_cells(void *context, size_t begin, size_t end, uint32_t worker
     memset(crowd->cell_ends + begin, 0, (end - begin) * sizeof *crowd->cell_ends);
 }
 
-/* Each living slot notes its cell, and how many came to it before. */
+/* Notes the cell of each living slot, and how many bodies were counted in that cell before. */
 static void count_in_cells(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
@@ -82,7 +83,8 @@ void kiln_interact_into_cells(struct kiln_interact_crowd *crowd)
 /* ---- the paper's grids ------------------------------------------------------------------------
  */
 
-/* Of some of the living: how many they are, and the cells that they are in, along each axis. */
+/* The number of living particles in a stretch of slots, and the range of their cells along each
+ * axis. */
 struct extent {
     uint32_t count;
     uint32_t low[3], high[3];
@@ -107,7 +109,7 @@ static struct cell stagger_cell(const struct kiln_interact_crowd *crowd, float3 
                           stagger_along(&crowd->view, p.z, aside)}};
 }
 
-/* Sorts as the key of the cell (stagger_key_of) does, in no more bits than the crowd takes up. */
+/* Returns a key that sorts as stagger_key_of does, in no more bits than the occupied cells need. */
 static uint64_t short_key(const struct grids *grids, float3 p, float aside)
 {
     const struct cell cell = stagger_cell(grids->crowd, p, aside);
@@ -142,7 +144,8 @@ static void measure(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* Of all of them: in the second grid a cell's number may be one higher. */
+/* Combines the extents of all stretches into counts, and into the shifts of a short key. In the
+ * second grid a cell's number may be one higher. */
 static void add_up(struct grids *grids)
 {
     uint32_t high[3] = {0};

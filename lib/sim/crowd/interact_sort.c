@@ -1,6 +1,6 @@
-/* Radix sort from the lowest digit. Each stretch of the entries counts its own digits and then has
- * its own places for each, behind those of the stretches before it, so the order is the same
- * however many there are. */
+/* This file sorts the entries of a grid by their cells: a radix sort from the lowest digit, in
+ * threads. Each stretch of the entries counts its digits, and puts each digit behind those of the
+ * stretches before it. The order is therefore the same for any number of stretches. */
 #include "sim/crowd/interact_sort.h"
 
 #include <assert.h>
@@ -17,7 +17,7 @@ size_t kiln_sort_stretch(size_t count, uint32_t stretch, uint32_t stretches)
 
 uint32_t kiln_sort_stretches(const struct kiln_threads *threads)
 {
-    const uint32_t count = 2 * kiln_threads_count(threads); /* some begin late */
+    const uint32_t count = 2 * kiln_threads_count(threads); /* since some threads begin late */
     return count < KILN_SORT_STRETCHES ? count : KILN_SORT_STRETCHES;
 }
 
@@ -47,7 +47,7 @@ static void count_digits(void *context, size_t begin, size_t end, uint32_t worke
     }
 }
 
-/* Makes of counts where each stretch puts its first of each digit. */
+/* Turns the counts into the place where each stretch puts its first entry of each digit. */
 static void find_places(const struct pass *pass)
 {
     uint32_t before = 0;

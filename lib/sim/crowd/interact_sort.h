@@ -1,4 +1,4 @@
-/* The order of bodies in a grid (shared/interact_staggered.h), on the host. */
+/* Sorts the bodies of a staggered grid (shared/interact_staggered.h) on the host. */
 #ifndef KILN_SIM_CROWD_INTERACT_SORT_H
 #define KILN_SIM_CROWD_INTERACT_SORT_H
 
@@ -11,7 +11,7 @@ struct kiln_interact_entry {
 };
 
 enum {
-    /* Into so many stretches loops are cut at most; each has counts of its own. */
+    /* The most stretches that loops are cut into; each has counts of its own. */
     KILN_SORT_STRETCHES = 16,
     KILN_SORT_DIGITS = 2048,
 };
@@ -30,7 +30,7 @@ void kiln_interact_sort(const struct kiln_interact_sorting *sorting);
 /* Where stretch number `stretch` of so many begins in [0, count). */
 size_t kiln_sort_stretch(size_t count, uint32_t stretch, uint32_t stretches);
 
-/* As many as threads have work for. */
+/* Returns the number of stretches that suits the threads. */
 uint32_t kiln_sort_stretches(const struct kiln_threads *threads);
 
 #endif

@@ -1,6 +1,7 @@
-/* Splats are made of the traces of each slot, in the mesh's own space at the moment of the impact,
- * and gathered by its texels in the order of systems and slots. Where only some have their turn in
- * a step (7.6.1.3), each slot keeps its last splat until then. */
+/* This file paints the meshes of a scene with the particles that hit them in a step. It makes a
+ * splat of each slot's trace, in the mesh's own space at the moment of the impact, and has the
+ * texels of the mesh gather the splats in the order of systems and slots. Where only some particles
+ * have their turn in a step (Drone 2007, 7.6.1.3), each slot keeps its last splat until then. */
 #include "sim/paint/paint.h"
 
 #include <stdlib.h>
@@ -30,7 +31,7 @@ static bool load(struct kiln_paint *paint, uint32_t object, struct kiln_error *e
     return mesh->chart && kiln_paint_grid_init(&mesh->grid, mesh->chart, error);
 }
 
-/* Of the systems that paint. */
+/* Returns the number of slots of all systems that paint. */
 static uint32_t count_slots(const struct kiln_scene *scene)
 {
     uint32_t count = 0;
@@ -78,7 +79,7 @@ void kiln_paint_finish(struct kiln_paint *paint)
 
 /* ---- splats ---------------------------------------------------------------------------------- */
 
-/* Where a mesh is at a time: from the world to its frame, and metres for a unit of it. */
+/* The pose of a mesh at a time, from the world to the mesh's frame, and its metres a unit. */
 struct pose {
     mat4 to_local;
     float metres;
@@ -102,7 +103,7 @@ static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_obj
     return pose;
 }
 
-/* Making the splats of a system on a mesh. */
+/* The state while the splats of a system on a mesh are made. */
 struct making {
     const struct kiln_scene *scene;
     const struct kiln_system *system;
@@ -113,7 +114,7 @@ struct making {
     struct kiln_splat *out;
 };
 
-/* In the mesh's frame, the part `since` of the step after its start. */
+/* Transforms a vector to the mesh's frame at the part `since` of the step. */
 static float3 to_mesh(const struct making *m, float3 v, float w, float since)
 {
     struct pose start = m->start, end = m->end;
@@ -124,7 +125,7 @@ static float3 to_mesh(const struct making *m, float3 v, float w, float since)
     return FLOAT3(at[0], at[1], at[2]);
 }
 
-/* What a particle's trace says of its mark. */
+/* Finds the mark that a particle leaves, from its trace. */
 struct mark {
     float3 at, normal; /* in the world */
     float since;       /* part of the step */
@@ -153,7 +154,7 @@ static bool find_mark(const struct making *m, const struct kiln_trace *trace, st
     return true;
 }
 
-/* May it reach the mesh? */
+/* May a splat of this radius reach the mesh? */
 static bool is_near(const struct kiln_chart *chart, float3 at, float radius)
 {
     const float place[3] = {at.x, at.y, at.z};
@@ -206,7 +207,7 @@ static void make_splats(void *context, size_t begin, size_t end, uint32_t worker
         m->out[slot] = make_splat(m, &m->traces[slot]);
 }
 
-/* Of all systems that paint, in the order of their slots. */
+/* Makes the splats of all systems that paint, in the order of their slots. */
 static void make_all(const struct kiln_paint *paint, const struct kiln_sim_params *params,
                      const struct kiln_paint_mesh *mesh, const struct kiln_trace *traces)
 {
@@ -235,7 +236,7 @@ static void make_all(const struct kiln_paint *paint, const struct kiln_sim_param
     }
 }
 
-/* Those that paint now; returns how many. */
+/* Takes the splats whose turn it is in this step; returns how many. */
 static uint32_t take_turns(const struct kiln_paint *paint, struct kiln_canvas *canvas,
                            uint32_t per_step)
 {
@@ -260,7 +261,7 @@ static uint32_t take_turns(const struct kiln_paint *paint, struct kiln_canvas *c
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 
-/* Slots of the particles that paint on an object, where not all are painted in a step; else 0. */
+/* Returns how many slots keep a waiting splat; 0 where all splats are painted in their step. */
 static uint32_t waiting_slots(const struct kiln_object *object, uint32_t slot_count)
 {
     const uint32_t per_step = object->paint.per_step;

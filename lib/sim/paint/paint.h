@@ -1,6 +1,6 @@
-/* Painting with particles (Drone 2007, 7.6.1): what those of a step leave on the meshes that take
- * paint, out of their traces (shared/trace.h), by threads of the host whatever stepped them, so
- * that it is the same bits everywhere. */
+/* Paints with particles (Drone 2007, 7.6.1): what the particles of a step leave on the meshes that
+ * take paint, found from their traces (shared/trace.h). Threads of the host do it whatever
+ * technique stepped the particles, so the bits are the same everywhere. */
 #ifndef KILN_SIM_PAINT_PAINT_H
 #define KILN_SIM_PAINT_PAINT_H
 

@@ -1,6 +1,7 @@
-/* A grid has the blocks by the cells that their middles lie in. Each splat goes to the blocks that
- * it may reach: counted first, then written, by chunks of the splats, so that the list of a block
- * has them in their order whichever thread does it. Then each block is painted by one thread. */
+/* This file paints splats onto the texels of a mesh in threads. A grid holds the blocks of texels
+ * by the cells that their middles lie in, and gives each splat to the blocks that it may reach. The
+ * lists of splats are counted first and then written, by chunks of the splats, so that a block's
+ * list keeps their order for any number of threads. Then each block is painted by one thread. */
 #include "sim/paint/paint_gather.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static size_t cell_of(const struct kiln_paint_grid *grid, const float at[3])
     return (z * grid->size[1] + y) * grid->size[0] + cell_along(grid, 0, at[0]);
 }
 
-/* Cells are as large as blocks, so that a small splat looks at few. */
+/* Chooses cells as large as blocks, so that a small splat looks at few of them. */
 static void measure(struct kiln_paint_grid *grid, const struct kiln_chart *chart)
 {
     float longest = 1e-6f;

@@ -1,4 +1,4 @@
-/* Splats onto the texels of a mesh, for each width of vectors and in threads. */
+/* Paints splats onto the texels of a mesh, in threads and for each width of vectors. */
 #ifndef KILN_SIM_PAINT_PAINT_GATHER_H
 #define KILN_SIM_PAINT_PAINT_GATHER_H
 

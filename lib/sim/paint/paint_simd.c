@@ -1,6 +1,6 @@
-/* A block of texels at once. A splat covers what is painted as one layer of paint does another, by
- * an opacity that falls from its middle to its rim; of none, nothing changes, not a bit. So texels
- * may be passed over, and a splat by all of them, without a trace. */
+/* This file paints one block of texels with splats, in vectors. A splat is a layer over the paint
+ * before it, with an opacity that falls from its middle to its rim. At opacity 0 no bit of a texel
+ * changes, so texels or whole splats that are out of reach may be skipped. */
 #include <string.h>
 
 #include "sim/paint/paint_gather.h"
@@ -28,8 +28,8 @@ static void put(const uint32_t *texels, const struct layer *layer, float (*to)[4
     }
 }
 
-/* The squares of the distances from the splat to the texels, less that of its radius; whether any
- * is below 0. */
+/* Finds the squared distances from the splat to the texels, less the squared radius. Returns
+ * whether any is below 0. */
 static bool measure(const struct kiln_chart *chart, size_t first, const struct kiln_splat *splat,
                     float out[KILN_CHART_BLOCK])
 {

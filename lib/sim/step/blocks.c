@@ -1,4 +1,6 @@
-/* The host uploads a few kilobytes a step and reads nothing back. */
+/* This file uploads the parameters of a step into uniform blocks, and creates the programs of each
+ * GL technique with only the code that the scene needs. The host uploads a few kilobytes a step and
+ * reads nothing back. */
 #include "sim/step/blocks.h"
 
 #include <stdio.h>
@@ -200,7 +202,7 @@ static bool has_depth_maps(const struct kiln_scene *scene)
     return any;
 }
 
-/* What a scene needs of the kernels. */
+/* The defines of a kernel: the parts of its code that the scene needs. */
 struct defines {
     char text[512];
 };

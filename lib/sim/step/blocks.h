@@ -1,4 +1,5 @@
-/* What every technique in GL tells its kernels: the uniform blocks of shaders/sim/step/blocks.h. */
+/* Gives the kernels of every GL technique their parameters: the uniform blocks of
+ * shaders/sim/step/blocks.h. */
 #ifndef KILN_SIM_STEP_BLOCKS_H
 #define KILN_SIM_STEP_BLOCKS_H
 

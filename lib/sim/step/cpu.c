@@ -1,4 +1,5 @@
-/* Slots are stepped independently, so how they are shared out among threads cannot matter. */
+/* This file steps and hashes the particles of all systems on the host, in threads. Slots are
+ * stepped independently, so the division among threads changes no bit. */
 #include "sim/step/cpu.h"
 
 #include <stdatomic.h>

@@ -1,7 +1,8 @@
-/* The thesis keeps its particles in the stream and asks a query for their number before the next
- * step (Heinz 2019, 3.3.3). Here the number stays in GL, and after each step the state is in the
- * slots, as with every technique: so it can be hashed, sorted, drawn and saved alike. A child reads
- * its parent's trace, and a parent leaves one, in storage blocks as in compute. */
+/* This file steps particles in geometry shaders and captures the living ones by transform feedback.
+ * The thesis keeps its particles in the captured stream and asks a query for their number before
+ * the next step (Heinz 2019, 3.3.3). Here the number stays in GL, and each step ends with the state
+ * in the pool's slots, as with every technique, where it is hashed, sorted, drawn and saved.
+ * Children read their parents' traces from storage blocks, as in compute. */
 #include "sim/step/feedback.h"
 
 bool kiln_feedback_init(struct kiln_feedback *feedback, struct kiln_device *device,
@@ -47,7 +48,7 @@ void kiln_feedback_finish(struct kiln_feedback *feedback)
 
 static const size_t RECORD = sizeof(struct kiln_particle);
 
-/* Records of one system, in a buffer. */
+/* A range of records of one system in a buffer. */
 struct range {
     GLuint buffer;
     uint32_t first, count;
@@ -58,7 +59,7 @@ static void read_vertices(struct range from)
     glBindVertexBuffer(0, from.buffer, (GLintptr)(from.first * RECORD), (GLsizei)RECORD);
 }
 
-/* Runs the program for so many vertices; what it emits goes to the range, which has room for it. */
+/* Runs the program for a number of vertices and captures what it emits in a range. */
 static void stream(GLuint object, GLuint program, uint32_t vertices, struct range to)
 {
     if (to.count == 0)
@@ -73,7 +74,7 @@ static void stream(GLuint object, GLuint program, uint32_t vertices, struct rang
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);
 }
 
-/* Puts what was streamed into its slots. */
+/* Writes the captured particles into their slots. */
 static void place(GLuint object, struct range from)
 {
     if (from.count == 0)
@@ -91,8 +92,8 @@ static void empty(struct range slots)
                          &zero);
 }
 
-/* Births take the last places of the stream. What is moved finds room before them, since it comes
- * from slots that nothing is born into. */
+/* Steps one system. Births take the last places of the stream; the particles that move fit before
+ * them, since they come from slots that nothing is born into. */
 static void step_system(const struct kiln_feedback *feedback, const struct kiln_step_params *step,
                         GLuint records, GLuint second)
 {

@@ -1,4 +1,5 @@
-/* Three sums come back to the host; the records stay. */
+/* This file hashes the state of all particles in a compute shader. Only three sums come back to the
+ * host; the records stay in GL. */
 #include "sim/step/hash.h"
 
 #include "gpu/program.h"

@@ -1,4 +1,4 @@
-/* The state hash where the state lies in GL; every technique there shares it. */
+/* Computes the state hash in GL, for every technique that keeps the state there. */
 #ifndef KILN_SIM_STEP_HASH_H
 #define KILN_SIM_STEP_HASH_H
 

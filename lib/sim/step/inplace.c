@@ -1,4 +1,5 @@
-/* Each slot is read and written by one invocation. */
+/* This file steps particles in place, in one compute dispatch a system. One invocation reads and
+ * writes each slot, so no second buffer is needed. */
 #include "sim/step/inplace.h"
 
 bool kiln_inplace_init(struct kiln_sim_programs *programs, struct kiln_device *device,

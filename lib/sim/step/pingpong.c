@@ -1,4 +1,5 @@
-/* Nothing is copied: the pool takes the buffer that was written, and leaves its own. */
+/* This file steps particles in compute from the pool's buffer into a second one. Then the two
+ * buffers change places, so no record is copied. */
 #include "sim/step/pingpong.h"
 
 bool kiln_pingpong_init(struct kiln_pingpong *pingpong, struct kiln_device *device,

@@ -1,4 +1,5 @@
-/* The stage: counts births on the host, then lets the technique move the particles. */
+/* This file runs the simulation stage. In each step it counts births on the host, gathers pushes,
+ * has the chosen technique move the particles, and paints meshes. */
 #include "sim/step/simulate.h"
 
 #include <stdlib.h>

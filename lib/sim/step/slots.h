@@ -1,4 +1,4 @@
-/* The loops of simulate=cpu over slots. */
+/* Declares the loops that simulate=cpu runs over slots. */
 #ifndef KILN_SIM_STEP_SLOTS_H
 #define KILN_SIM_STEP_SLOTS_H
 

@@ -1,4 +1,4 @@
-/* A block of slots while it is stepped, for slots_simd.c. */
+/* Holds a block of slots while slots_simd.c steps it. */
 #ifndef KILN_SIM_STEP_SLOTS_BLOCK_H
 #define KILN_SIM_STEP_SLOTS_BLOCK_H
 

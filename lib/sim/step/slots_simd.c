@@ -1,8 +1,7 @@
-/* Steps blocks of slots: what most particles do in most steps (fly, and touch nothing) stage by
- * stage for all of a block, in loops over arrays that compilers make into vectors. The stages are
- * the functions of shaders/shared, so the bits are those of step_slot, which steps the others:
- * births, and particles that may have met a collider.
- */
+/* This file steps slots on the host in blocks of vectors. Most particles fly and touch nothing in a
+ * step; they are stepped stage by stage for a whole block, in loops over arrays that compilers
+ * vectorise. The stages are the functions of shaders/shared, so the bits are those of step_slot.
+ * Births, and particles that may have met a collider, are stepped alone. */
 #include "sim/step/slots.h"
 #include "sim/step/slots_touching.h"
 
@@ -63,7 +62,7 @@ static inline void add_effect(struct block *b, uint32_t i, struct force_effect e
     b->quadratic[i] = sum.quadratic;
 }
 
-/* force_curl, an octave of all lanes after the other. */
+/* Computes force_curl of all lanes, one octave after the other. */
 static inline void add_curl(const struct kiln_sim *sim, struct block *b,
                             const struct kiln_force_params *force)
 {
@@ -83,7 +82,7 @@ static inline void add_curl(const struct kiln_sim *sim, struct block *b,
         add_effect(b, i, force_air(force_input_at(b, i, force, time_s), kiln_get3(&b->curl, i)));
 }
 
-/* Of each lane i. */
+/* Adds the effect of one force to each lane. */
 #define ADD_EFFECT(effect)                                                                         \
     for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
     add_effect(b, i, effect)
@@ -150,7 +149,7 @@ static inline void limit_speed(const struct kiln_sim *sim, struct block *b,
     }
 }
 
-/* Slots from first_slot on, as far as there are any. */
+/* Returns the number of slots in the block that begins at first_slot. */
 static inline uint32_t slots_left(const struct kiln_sim *sim, uint32_t first_slot)
 {
     const uint32_t left = sim->step->used - first_slot;
@@ -180,7 +179,7 @@ static inline void push_on(const struct kiln_sim *sim, struct block *b, uint32_t
                   push_farther(push_of(sim, first_slot + i), kiln_get3(&b->position, i)));
 }
 
-/* integrate, over the whole step. */
+/* Integrates all lanes over the whole step, as integrate does. */
 static inline void fly(const struct kiln_sim *sim, struct block *b)
 {
     const float time_s = sim->step->derived.dt_s;
@@ -243,7 +242,7 @@ static inline void stages_set(struct stages_lanes *to, uint32_t i, struct stages
     to->trust[i] = s.trust;
 }
 
-/* A stage of all lanes; in each loop it is known which. */
+/* Takes one stage of all lanes. `stage` is a constant in each loop. */
 #define TAKE_STAGE(stage, count)                                                                   \
     for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
     stages_set(s, i, stages_take(stages_get(s, i), effect_at(b, i), stage, count, time_s))
@@ -266,7 +265,7 @@ static inline void take_stage(struct block *b, uint32_t stage, uint32_t count, f
     }
 }
 
-/* integrate_stages, over the whole step. */
+/* Integrates all lanes over the whole step, as integrate_stages does. */
 static inline void fly_in_stages(const struct kiln_sim *sim, struct block *b)
 {
     const float time_s = sim->step->derived.dt_s;
@@ -304,7 +303,7 @@ static inline void find_lost(const struct kiln_sim *sim, struct block *b)
     }
 }
 
-/* Living particles that may touch something, and births. */
+/* Finds the slots to step alone: living particles that may touch something, and births. */
 static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
 {
     memset(b->alone, 0, sizeof b->alone);
@@ -320,7 +319,7 @@ static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint3
     }
 }
 
-/* step_particle of what is not stepped alone. */
+/* Does step_particle for the slots that are not stepped alone. */
 static inline void move(struct block *b)
 {
     for (uint32_t i = 0; i < KILN_LANES; i++) {
@@ -342,7 +341,7 @@ static inline void move(struct block *b)
     }
 }
 
-/* step_turn of what is not stepped alone. */
+/* Does step_turn for the slots that are not stepped alone. */
 static inline void turn(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
 {
     const uint32_t slots = slots_left(sim, first_slot);
@@ -397,7 +396,7 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     kiln_lanes_store(&b->lanes, records);
 }
 
-/* step_particle from where it has flown. */
+/* Continues step_particle for a particle that has flown and may touch something. */
 static struct kiln_particle step_touching(const struct kiln_sim *sim, const struct block *b,
                                           uint32_t i, uint32_t slot, struct kiln_particle p)
 {

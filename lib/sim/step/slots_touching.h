@@ -1,5 +1,6 @@
-/* Which of a block's ways may touch a collider: bounds of ways and colliders in vectors, for
- * slots_simd.c. Nothing that touches may be left out; what does not, costs only time. */
+/* Finds which particles of a block may touch a collider on their way, by bounding boxes of ways and
+ * colliders, in vectors, for slots_simd.c. No particle that touches may be left out; one too many
+ * costs only time. */
 #ifndef KILN_SIM_STEP_SLOTS_TOUCHING_H
 #define KILN_SIM_STEP_SLOTS_TOUCHING_H
 

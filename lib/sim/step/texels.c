@@ -1,6 +1,6 @@
-/* The textures are the state. After each step it is copied into the pool's records, where the other
- * stages and the hash look, whatever the technique. It is taken from there when the step before was
- * another technique's. */
+/* This file steps particles in fragment shaders, with the state in textures. After each step the
+ * state is copied into the pool's records, where the other stages and the hash look whatever the
+ * technique. It is copied back from there when another technique did the step before. */
 #include "sim/step/texels.h"
 
 bool kiln_texels_init(struct kiln_texels *texels, struct kiln_device *device,
@@ -47,7 +47,7 @@ static bool make_textures(struct kiln_texels *texels, struct kiln_device *device
            kiln_words_init(&texels->next, device, 2, SIM_TEXEL_ROW, rows, KILN_SIM_SECOND, error);
 }
 
-/* The state, to or from the bound records. */
+/* Copies the state to or from the bound records. */
 static void copy(const struct kiln_texels *texels, struct kiln_device *device, GLuint program,
                  uint32_t slots)
 {

@@ -1,4 +1,5 @@
-/* From the scene's objects to what particles meet in a step. */
+/* This file makes a step's colliders from the scene's objects and the floor. Each collider has its
+ * place at the start and at the end of the step. */
 #include "sim/world/colliders.h"
 
 #include <string.h>
@@ -29,7 +30,8 @@ static float4 canon4(float3 v, float w)
     return FLOAT4(exact_canon(v.x), exact_canon(v.y), exact_canon(v.z), exact_canon(w));
 }
 
-/* A round shape at a time: its centre and radius, half of its height, and what bounds it. */
+/* A sphere or cylinder at a time: its centre and radius, half of its height, and its bounding box.
+ */
 struct round_values {
     float4 center;
     float half_height;
@@ -96,7 +98,8 @@ static struct kiln_collider floor_collider(float before_m, float after_m)
     };
 }
 
-/* Without end downwards; what is above it is not even looked up. */
+/* Terrain reaches down without end. Its box ends just above its highest point, so that particles
+ * higher up need no look-up. */
 static struct kiln_collider terrain_collider(const struct kiln_sim_grids *grids, uint32_t number)
 {
     const struct kiln_grid *grid = &grids->table[number];
@@ -115,7 +118,7 @@ static struct kiln_collider terrain_collider(const struct kiln_sim_grids *grids,
     return terrain;
 }
 
-/* A mesh at a time: from its frame to the world, and the number of metres for a unit. */
+/* The pose of a mesh at a time, from its frame to the world; scale: metres a unit. */
 struct pose {
     mat3 rotation;
     vec3 position;
@@ -132,7 +135,7 @@ static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_obj
     return pose;
 }
 
-/* The vector of the rotation from one to the other: along its axis, as long as its angle. */
+/* Returns the rotation from pose a to pose b as a vector along its axis, as long as its angle. */
 static float3 turn_between(struct pose a, struct pose b)
 {
     mat3 turn; /* b a^T */
@@ -150,7 +153,7 @@ static float3 turn_between(struct pose a, struct pose b)
     return float3_scale(float3_normalize(skew, FLOAT3(0.0f, 0.0f, 0.0f)), angle);
 }
 
-/* The transposed rotation, shrunk, less the position. */
+/* Inverts a pose: the rotation is transposed and divided by the scale. */
 static void invert(struct pose pose, float4 to_local[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -183,7 +186,7 @@ static struct extent extent_of_field(const struct kiln_grid *g)
     return extent;
 }
 
-/* The box in the world around that one, larger by a factor. */
+/* Finds the bounding box in the world of a posed extent, larger by a factor. */
 static void bound(struct pose pose, const struct extent *extent, float factor, float4 *min,
                   float4 *max)
 {
@@ -203,8 +206,9 @@ static void bound(struct pose pose, const struct extent *extent, float factor, f
     *max = to_float4(high);
 }
 
-/* While a mesh turns, its frame goes straight from one place to the next, and what is in it is
- * larger on the way: by less than half for less than 96 degrees a step. */
+/* Makes the collider and the pose of a mesh. While a mesh turns, its frame is interpolated linearly
+ * between both poses, so the mesh is larger on the way: by less than half for turns of less than 96
+ * degrees a step. */
 static struct kiln_collider mesh_collider(const struct kiln_scene *scene,
                                           const struct kiln_sim_grids *grids, uint32_t index,
                                           float start_s, float end_s, float steps_per_s,

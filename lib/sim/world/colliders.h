@@ -1,11 +1,11 @@
-/* The colliders of a step, in the layout of the shaders. */
+/* Fills in the colliders of a step, in the layout of the shaders. */
 #ifndef KILN_SIM_WORLD_COLLIDERS_H
 #define KILN_SIM_WORLD_COLLIDERS_H
 
 #include "sim/world/grids.h"
 
-/* Fills in those of a step between two clip times, their poses, and how many steps a second has;
- * what does not change during a run stays. */
+/* Fills in the colliders of a step between two clip times, their poses, and the steps a second.
+ * What does not change during a run stays. */
 void kiln_sim_colliders_fill(struct kiln_surroundings *around, const struct kiln_scene *scene,
                              const struct kiln_sim_grids *grids, float start_s, float end_s);
 

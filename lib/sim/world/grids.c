@@ -1,4 +1,5 @@
-/* Puts winds, terrain, distance fields and depth maps into one buffer, on the host or in GL. */
+/* This file loads or makes the grids of a scene (wind, terrain, distance fields and depth maps),
+ * and puts them all into one buffer, on the host or in GL. */
 #include "sim/world/grids.h"
 
 #include <string.h>
@@ -11,7 +12,8 @@
 #include "scene/samples.h"
 #include "shared/exact.h"
 
-/* What the grids are made of, in their order: wind, then objects, of each one of the three. */
+/* The sources of the grids in their order: winds, then objects. An object has a terrain, a field or
+ * depth maps. */
 struct sources {
     struct kiln_grid_file *winds[KILN_MAX_WINDS];
     struct kiln_terrain *terrains[KILN_MAX_MESHES];
@@ -177,10 +179,10 @@ static float find_steepest(const struct kiln_terrain *terrain)
         const struct kiln_terrain_point *p = &terrain->points[i];
         most = exact_max(most, p->slope_x * p->slope_x + p->slope_z * p->slope_z);
     }
-    return 1.0001f * exact_sqrt(1.0f + most); /* no rounding is above it */
+    return 1.0001f * exact_sqrt(1.0f + most); /* the factor covers rounding */
 }
 
-/* One after the other. Returns the words of all. */
+/* Places the grids one after the other in the buffer. Returns the number of words of all. */
 static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
 {
     size_t total = 0;

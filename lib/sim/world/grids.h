@@ -1,5 +1,5 @@
-/* The grids that a scene's forces and colliders look up: in one buffer, and a table of where each
- * lies. */
+/* Loads the grids that a scene's forces and colliders look up. They lie in one buffer; a table says
+ * where each begins. */
 #ifndef KILN_SIM_WORLD_GRIDS_H
 #define KILN_SIM_WORLD_GRIDS_H
 
@@ -21,14 +21,14 @@ struct kiln_sim_grids {
 };
 
 /* Loads what the scene names, each file once, and makes its terrain, distance fields and depth
- * maps, on the threads. device NULL: for the host. KILN_INVALID_INPUT and the rest as those who
- * load and make them; after a failure, too, kiln_sim_grids_finish frees what there is. */
+ * maps, on the threads. device NULL: for the host. Errors are those of loading and making them.
+ * After a failure, too, kiln_sim_grids_finish frees what there is. */
 bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *device,
                          const struct kiln_scene *scene, struct kiln_threads *threads,
                          struct kiln_error *error);
 void kiln_sim_grids_finish(struct kiln_sim_grids *grids);
 
-/* Does the object need a grid of those that stay as they are? */
+/* Does the object need a grid that does not change during a run? */
 bool kiln_sim_grids_needs(const struct kiln_object *object);
 
 /* The number of the grid of a file of wind that the scene names. */

@@ -1,4 +1,5 @@
-/* From the scene to struct kiln_step_params. */
+/* This file turns a scene at one time into struct kiln_step_params, the parameters of a step. It
+ * also counts the births of the step on the host. */
 #include "sim/world/params.h"
 
 #include <assert.h>
@@ -69,7 +70,7 @@ static_assert(ALIGN_WORLD == (uint)KILN_ALIGN_WORLD &&
                   ALIGN_NORMAL == (uint)KILN_ALIGN_NORMAL,
               "the shaders' names of enum kiln_align");
 
-/* The key of the noise that all systems share: of no system. */
+/* The random key of the noise that all systems share; it is no system's number. */
 enum { NOISE_SYSTEM = KILN_MAX_SYSTEMS };
 
 static float4 to_float4(const float v[3])
@@ -107,7 +108,8 @@ static bool is_one(const struct kiln_value *value)
     return value->count == 0 && value->constant == 1.0f;
 }
 
-/* Whether impacts do more than mirror. */
+/* Returns whether impacts do more than mirror a velocity: with friction or a restitution below 1.
+ */
 static bool rubs(const struct kiln_scene *scene, const struct kiln_collide *collide)
 {
     const struct kiln_backdrop *backdrop = &scene->backdrop;
@@ -166,7 +168,8 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
     }
 }
 
-/* Parents come first, so that their traces have places when their children ask. */
+/* Fills in the family parameters. Parents come first, so that their traces have places before their
+ * children's are filled in. */
 static void fill_families(struct kiln_sim_params *params, const struct kiln_scene *scene)
 {
     params->trace_count = 0;
@@ -254,7 +257,7 @@ void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scen
     fill_spins(params, scene);
 }
 
-/* The value with its course over time taken at time_s; a curve over life stays one. */
+/* Evaluates a value that varies over time at time_s; a curve over life stays as it is. */
 static struct kiln_value at_time(const struct kiln_scene *scene, struct kiln_value value,
                                  float time_s)
 {
@@ -296,7 +299,8 @@ static struct kiln_force_params force_at_time(const struct kiln_scene *scene,
     return params;
 }
 
-/* Children have their serials from their parents': there is nothing to count. */
+/* Sets the next serial of a system of children. It follows from the parents' serials, so no births
+ * are counted. */
 static bool count_children(struct kiln_step_params *params, const struct kiln_scene *scene,
                            uint32_t index, struct kiln_pool *pool, struct kiln_error *error)
 {

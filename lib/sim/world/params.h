@@ -1,6 +1,5 @@
-/* What a step is told: the scene at one time, in the layout of the shaders. Births are counted
- * here, on the host, so that no technique decides an order.
- */
+/* Holds what a step is told: the scene at one time, in the layout of the shaders. Births are
+ * counted here, on the host, so that they have the same order in all techniques. */
 #ifndef KILN_SIM_WORLD_PARAMS_H
 #define KILN_SIM_WORLD_PARAMS_H
 

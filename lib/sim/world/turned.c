@@ -1,11 +1,12 @@
-/* Places and poses at both ends of a step, and the one turn between them: about a fixed axis, the
- * shorter way. All of it is in arithmetic that every host rounds alike. */
+/* This file makes the colliders that may turn: it finds their poses at both ends of a step and the
+ * one rotation between them, about a fixed axis, the shorter way. All arithmetic is rounded alike
+ * on every host. */
 #include "sim/world/turned.h"
 
 #include "base/matrix.h"
 #include "shared/exact.h"
 
-/* Less is no turn: the rounding of the poses, rad. */
+/* Smaller angles count as no turn, since the poses are rounded by as much, rad. */
 static const float LEAST_TURN = 4e-6f;
 
 bool kiln_turned_is(const struct kiln_object *object)
@@ -33,7 +34,7 @@ static float4 with_w(float3 v, float w)
 
 /* ---- quaternions ----------------------------------------------------------------------------- */
 
-/* Scales it to length 1 by the root of exact.h, and leaves no denormals. */
+/* Scales a quaternion to length 1 by the root of exact.h, and leaves no denormals. */
 static void make_unit(versor q)
 {
     glm_vec4_scale(q, exact_rsqrt(glm_vec4_norm2(q)), q);
@@ -41,7 +42,7 @@ static void make_unit(versor q)
         q[i] = exact_canon(q[i]);
 }
 
-/* About x, then about y, then about z. */
+/* Makes the pose that turns about x, then about y, then about z. */
 static void pose_of_angles(float3 angles, versor pose)
 {
     const struct exact_angle x = exact_sincos(0.5f * angles.x), y = exact_sincos(0.5f * angles.y);
@@ -54,8 +55,8 @@ static void pose_of_angles(float3 angles, versor pose)
     make_unit(pose);
 }
 
-/* Takes y to a unit vector, the shortest way; what points down comes by way of -y, where that is
- * well defined. */
+/* Makes the pose that takes y to a unit vector, the shortest way. A vector that points down is
+ * reached from -y, since the shortest way from y is ill defined there. */
 static void pose_of_axis(float3 axis, versor pose)
 {
     const float sign = axis.y >= 0.0f ? 1.0f : -1.0f;
@@ -82,7 +83,7 @@ static float angle_of(float sine, float cosine)
     return steep ? 2.0f * eighth - angle : angle;
 }
 
-/* A turn as an axis and an angle. */
+/* Returns a rotation as an axis and an angle. */
 static float4 spin_of(versor turn)
 {
     const float3 v = FLOAT3(turn[0], turn[1], turn[2]);
@@ -93,7 +94,7 @@ static float4 spin_of(versor turn)
     return with_w(axis, turn[3] < 0.0f ? -angle : angle);
 }
 
-/* From one unit vector to another. */
+/* Returns the rotation from one unit vector to another, as an axis and an angle. */
 static float4 spin_between(float3 from, float3 to)
 {
     float3 across = float3_cross(from, to);
@@ -102,7 +103,7 @@ static float4 spin_between(float3 from, float3 to)
     return spin_of(turn);
 }
 
-/* From one pose to another. */
+/* Returns the rotation from one pose to another, as an axis and an angle. */
 static float4 spin_from(versor from, versor to)
 {
     versor back, turn;
@@ -141,7 +142,7 @@ static struct place place_at(const struct kiln_scene *scene, const struct kiln_o
     return place;
 }
 
-/* Half of what bounds a shape: in all poses, if it turns. */
+/* Returns half the size of a shape's bounding box; if it turns, the box holds it in all poses. */
 static float3 reach_of(const struct kiln_object *object, struct place place, bool turns)
 {
     const float3 e = place.extent;

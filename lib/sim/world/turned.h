@@ -1,17 +1,18 @@
-/* Colliders in frames of their own, which may turn (shared/collide_turned.h). */
+/* Makes the colliders that are given in frames of their own, which may turn
+ * (shared/collide_turned.h). */
 #ifndef KILN_SIM_WORLD_TURNED_H
 #define KILN_SIM_WORLD_TURNED_H
 
 #include "scene/scene.h"
 #include "shared/layout.h"
 
-/* Farther out, particles are lost: what has no end reaches as far. */
+/* m: half the edge of the world. Particles farther out are lost; planes and floors end here. */
 #define KILN_WORLD 2097152.0f
 
 /* Whether an object collides in a frame of its own. */
 bool kiln_turned_is(const struct kiln_object *object);
 
-/* Of a step between two clip times; the object is one of those. */
+/* Makes the collider of a step between two clip times; kiln_turned_is(object) holds. */
 struct kiln_collider kiln_turned_collider(const struct kiln_scene *scene,
                                           const struct kiln_object *object, float start_s,
                                           float end_s);

@@ -1,5 +1,6 @@
-/* Vertices are placed on the host, at the start and at the end of a step; the rest is voxels.c's.
- */
+/* This file makes the volumes of a step: it places the vertices of each mesh on the host, at the
+ * start and at the end of the step, has voxels.c put the triangles into a lattice, and stores all
+ * lattices in one buffer. */
 #include "sim/world/volumes.h"
 
 #include <stdlib.h>
@@ -15,14 +16,14 @@
 struct kiln_volume {
     uint32_t object;
     struct kiln_mesh *mesh;
-    const struct kiln_skin *skin; /* of one with an animation, and its mesh is posed: else NULL */
-    float (*before)[3], (*after)[3]; /* m: its vertices */
-    float before_s, after_s;         /* when they are there */
+    const struct kiln_skin *skin;    /* poses the mesh; NULL: it has no animation */
+    float (*before)[3], (*after)[3]; /* m: vertices at the start and end of the step */
+    float before_s, after_s;         /* the times of both, s */
     bool placed, made;
     bool jumps; /* from the end of its clip to the start */
     struct kiln_voxels voxels;
     bool two_sided;
-    size_t first; /* word of its marks; planes follow */
+    size_t first; /* first word of its marks in the buffer; planes follow */
 };
 
 bool kiln_volumes_needs(const struct kiln_object *object)
@@ -137,8 +138,8 @@ static void place_vertices(const struct kiln_scene *scene, const struct kiln_vol
     }
 }
 
-/* A clip whose end is not its start does not sweep from one to the other: the step ends with its
- * last pose, and the next begins with another. */
+/* Places the vertices of a step. Where a clip's end differs from its start, the mesh does not sweep
+ * from one to the other: the step ends with the last pose, and the next begins with another. */
 static void place(const struct kiln_scene *scene, struct kiln_volume *volume, float start_s,
                   float end_s)
 {
@@ -160,7 +161,7 @@ static void place(const struct kiln_scene *scene, struct kiln_volume *volume, fl
     volume->placed = !jumps;
 }
 
-/* m: an edge of a cell; of what moves, by how it stands while no clip plays. */
+/* Returns the edge of a cell, m. The size of an animated mesh is that of its rest pose. */
 static float spacing_of(const struct kiln_scene *scene, const struct kiln_volume *volume)
 {
     const struct kiln_object *object = &scene->backdrop.objects[volume->object];
@@ -172,7 +173,7 @@ static float spacing_of(const struct kiln_scene *scene, const struct kiln_volume
     return exact_max(longest * scale / (float)object->cells, 1e-4f);
 }
 
-/* Voxels of a mesh that has stood still for two steps are those of the last. */
+/* Makes the voxels of a mesh. A mesh that has not moved for two steps keeps its voxels. */
 static bool make(const struct kiln_scene *scene, struct kiln_volume *volume, bool still,
                  struct kiln_threads *threads, bool *changed, struct kiln_error *error)
 {
@@ -255,7 +256,7 @@ bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *sc
                        struct kiln_threads *threads, struct kiln_error *error)
 {
     if (volumes->count == 0 || step == 0)
-        return true; /* the step itself refuses what is no step */
+        return true; /* kiln_sim_params_step refuses step 0 */
     const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
     bool changed = false;
     for (uint32_t i = 0; i < volumes->count; i++) {
@@ -272,7 +273,7 @@ bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *sc
 
 /* ---- what the step is told ------------------------------------------------------------------- */
 
-/* The box around the vertices at a time, and a cell more. */
+/* Finds the bounding box of the vertices at a time, a cell larger on each side. */
 static void bound(const struct kiln_volume *volume, float (*vertices)[3], float4 *min, float4 *max)
 {
     float low[3], high[3];
@@ -295,7 +296,7 @@ struct kiln_collider kiln_volumes_collider(const struct kiln_volumes *volumes, u
     const uint32_t number = volumes->of_object[object];
     const struct kiln_volume *volume = volumes->items[number];
     const struct kiln_voxels *v = &volume->voxels;
-    /* From the end of the table, where those of other meshes do not get to. */
+    /* Volumes fill the table from its end; the grids of other meshes fill it from its start. */
     const uint32_t place = KILN_MAX_MESHES - 1 - number;
     table[place] = (struct kiln_grid){
         .origin = FLOAT4(v->origin[0], v->origin[1], v->origin[2], 0.0f),

@@ -1,5 +1,5 @@
-/* Render-to-volume (Drone 2007, 7.5.2): the meshes that particles meet as planes in the cells of a
- * lattice, which are found anew in each step. */
+/* Makes the volumes of meshes (render-to-volume; Drone 2007, 7.5.2). Particles collide with such a
+ * mesh as planes in the cells of a lattice, which are found anew in each step. */
 #ifndef KILN_SIM_WORLD_VOLUMES_H
 #define KILN_SIM_WORLD_VOLUMES_H
 
@@ -26,16 +26,16 @@ bool kiln_volumes_init(struct kiln_volumes *volumes, struct kiln_device *device,
                        const struct kiln_scene *scene, struct kiln_error *error);
 void kiln_volumes_finish(struct kiln_volumes *volumes);
 
-/* Makes those of a step, for any number of threads the same; what stands still stays.
- * KILN_DEVICE_FAILED when memory is short. */
+/* Makes the volumes of a step, the same for any number of threads. Meshes that do not move keep
+ * theirs. KILN_DEVICE_FAILED when memory is short. */
 bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *scene, uint32_t step,
                        struct kiln_threads *threads, struct kiln_error *error);
 
-/* What an object is in that step; its lattice goes into the table of grids of meshes. */
+/* Returns an object's collider in the last step made. Its lattice goes into the table of grids. */
 struct kiln_collider kiln_volumes_collider(const struct kiln_volumes *volumes, uint32_t object,
                                            struct kiln_grid table[KILN_MAX_MESHES]);
 
-/* How many cells of all have planes in that step, and how many there are. */
+/* Returns how many cells have planes in the last step made; *cells: how many cells there are. */
 uint32_t kiln_volumes_planes(const struct kiln_volumes *volumes, uint32_t *cells);
 
 #endif

@@ -1,3 +1,6 @@
+/* This file makes the plane that a cell of a volume keeps of a triangle: a place on the triangle
+ * near the middle of the cell, and the normal, both at the start and at the end of a step. Normals
+ * and weights are computed in double precision. */
 #include "sim/world/voxel_plane.h"
 
 #include <math.h>
@@ -21,7 +24,8 @@ static bool plane_normal(const float *const p[3], float3 *normal)
     return true;
 }
 
-/* What the corners weigh at the foot of a point, or at a place on an edge near it. */
+/* Finds the barycentric weights of a point's foot on the triangle's plane; outside of the triangle,
+ * those of a place on an edge nearby. */
 static void find_weights(const float *const p[3], float3 unit, const double at[3],
                          double weights[3])
 {
@@ -62,7 +66,7 @@ struct kiln_voxel kiln_voxel_plane(const struct kiln_voxels_input *in, uint32_t 
     }
     struct kiln_voxel plane = {.triangle = triangle};
     double weights[3];
-    if (!plane_normal(after, &plane.normal_end)) /* its corners are apart only after rounding */
+    if (!plane_normal(after, &plane.normal_end)) /* it has an area only after rounding */
         plane.normal_end = FLOAT3(0.0f, 1.0f, 0.0f);
     if (!plane_normal(before, &plane.normal))
         plane.normal = plane.normal_end;

@@ -1,10 +1,13 @@
-/* A triangle and what it sweeps are kept away from a cell by any axis along which they do not
- * overlap. The axes are those for a triangle and a box: the box's edges, the normal, and the
- * products of both's edges; of a triangle that moves, at both ends of the step, with all six
- * corners on one side. In a row of cells along x each axis leaves an interval of numbers.
+/* This file puts triangles that move during a step into a lattice of cells, and keeps in each cell
+ * the most important triangle that touches it (Drone 2007, 7.5.2.3).
  *
- * Layers are shared out among threads in slabs. Each looks at all triangles, and the order of what
- * is kept in a cell is total, so that nothing depends on who works when. */
+ * A triangle touches a cell unless they do not overlap along some axis (the separating axis test).
+ * The axes are the box's edges, the triangle's normal, and the cross products of their edges. For a
+ * triangle that moves they are taken at both ends of the step, and all six corners must lie on one
+ * side. In a row of cells along x each axis leaves an interval of cells.
+ *
+ * Threads share out the layers in slabs. Each looks at all triangles, and the order of triangles in
+ * a cell is total, so the result does not depend on the threads. */
 #include "sim/world/voxels.h"
 
 #include <math.h>
@@ -25,7 +28,7 @@ enum {
     MOST_CLEARANCE = 7, /* cells */
 };
 
-/* How near the front a triangle is in a cell; of two, the smaller is kept. */
+/* A triangle that touches a cell, and its rank there; a cell keeps the triangle of lowest order. */
 struct claim {
     uint32_t order;
     uint32_t triangle;
@@ -34,12 +37,12 @@ static const uint32_t NOBODY = UINT32_MAX;
 
 struct kiln_voxels_scratch {
     int32_t (*before)[3], (*after)[3]; /* vertices in units from the origin */
-    uint8_t (*layers)[2];              /* of each triangle, first and last; none: 1, 0 */
+    uint8_t (*layers)[2];              /* first and last of each triangle; 1, 0: in none */
     size_t vertex_capacity, triangle_capacity, cell_capacity, plane_capacity;
     struct claim *claims; /* of the cells */
     uint8_t *near;        /* of the cells: 1 where a plane is not far */
     uint8_t *nearer;
-    uint32_t slab_planes[KILN_MAX_VOXEL_EDGE / SLAB_LAYERS + 1]; /* in the slabs before */
+    uint32_t slab_planes[KILN_MAX_VOXEL_EDGE / SLAB_LAYERS + 1]; /* planes before each */
 };
 
 struct work {
@@ -64,8 +67,8 @@ static void bound(const struct kiln_voxels_input *in, double low[3], double high
     }
 }
 
-/* Whole numbers of cells from the world's origin, so that a lattice stays where it is while a mesh
- * moves over it. */
+/* Places the lattice around the triangles. It starts a whole number of cells from the world's
+ * origin, so that the cells stay in place while a mesh moves through them. */
 static void place_lattice(struct kiln_voxels *v, const struct kiln_voxels_input *in)
 {
     double low[3], high[3];
@@ -189,7 +192,7 @@ static void round_corners(void *context, size_t begin, size_t end, uint32_t work
 
 struct axis {
     int64_t x, y, z;   /* x is not below 0 */
-    int64_t low, high; /* between them are the corners, those of a cell's middle included */
+    int64_t low, high; /* a cell overlaps if its middle is between these */
 };
 
 struct sweep {
@@ -222,7 +225,7 @@ static void find_corners(struct sweep *t, const struct work *work, uint32_t tria
     t->corner_count = moves ? 6 : 3;
 }
 
-/* The cells around it. */
+/* Finds the range of cells around the triangle and its way. */
 static void find_range(struct sweep *t, const uint32_t size[3])
 {
     for (int c = 0; c < 3; c++) {
@@ -277,7 +280,8 @@ static int64_t floor_div(int64_t a, int64_t b)
     return q * b > a ? q - 1 : q;
 }
 
-/* Of the cells first to last in a row along x, those that no axis keeps away. False: none. */
+/* Narrows the cells first to last, in a row along x, to those that no axis separates from the
+ * triangle. False: none is left. */
 static bool find_row(const struct sweep *t, int32_t y, int32_t z, int32_t *first, int32_t *last)
 {
     const int64_t middle_y = (int64_t)y * UNITS + UNITS / 2;
@@ -326,11 +330,11 @@ static void find_layers(void *context, size_t begin, size_t end, uint32_t worker
 
 /* ---- the most important (Drone 2007, 7.5.2.3) ------------------------------------------------ */
 
-/* Of a triangle, in the units of its normal. */
+/* What ranks a triangle, in the units of its normal. */
 struct rank {
     int64_t facing;  /* how it meets the heading */
     int64_t at;      /* where its plane is */
-    uint32_t before; /* its class, above all else */
+    uint32_t before; /* its class, which counts first; lower is better */
 };
 
 enum { RANK_BITS = 24 };
@@ -347,8 +351,8 @@ static struct rank find_rank(const struct sweep *t, const struct work *work)
     return rank;
 }
 
-/* Does the line along the heading through the middle of a cell meet the triangle in the cell, so
- * many units on? It does so inside of the triangle if it is on one side of all of its edges. */
+/* Does the line along the heading through the middle of a cell meet the triangle, depth units on
+ * and within the cell? It meets the triangle if it is on the same side of all edges. */
 static bool meets_line(const struct sweep *t, const int32_t heading[3], const int64_t middle[3],
                        int64_t depth)
 {
@@ -370,7 +374,8 @@ static bool meets_line(const struct sweep *t, const int32_t heading[3], const in
     return (left || right) && within;
 }
 
-/* How far along the heading its plane is from the middle of a cell, in units. */
+/* Returns the order of a triangle in a cell: its class, whether the line along the heading meets it
+ * there, then how far along the heading its plane is from the middle of the cell, in units. */
 static uint32_t order_in(const struct sweep *t, const struct rank *rank, const int32_t heading[3],
                          int32_t x, int32_t y, int32_t z)
 {
@@ -401,7 +406,7 @@ static void claim_cells(const struct work *work, const struct sweep *t, uint32_t
                 v->scratch->claims + ((size_t)z * v->size[1] + (size_t)y) * v->size[0];
             for (int32_t x = first; x <= last; x++) {
                 const uint32_t order = order_in(t, &rank, work->heading, x, y, z);
-                /* Triangles come in the order of their numbers: the first stays. */
+                /* Triangles come in the order of their numbers: of equal ones, the first stays. */
                 if (row[x].triangle == NOBODY || order < row[x].order)
                     row[x] = (struct claim){order, triangle};
             }
@@ -476,7 +481,8 @@ static void fill_slabs(void *context, size_t begin, size_t end, uint32_t worker)
 
 /* ---- how far planes are ---------------------------------------------------------------------- */
 
-/* to = from or either neighbour, so many elements apart, in rows of so many. */
+/* Sets each element of `to` to that of `from` or of its neighbours, `apart` elements before and
+ * after it, in rows of `row` elements. */
 static void spread(uint8_t *restrict to, const uint8_t *restrict from, size_t count, size_t apart,
                    size_t row)
 {

@@ -1,5 +1,5 @@
-/* Triangles put into a lattice of cells (Drone 2007, 7.5.2.1 and 7.5.2.3): each cell that some
- * touch on their way through a step keeps one of them, its plane and how it moves. */
+/* Puts triangles into a lattice of cells (Drone 2007, 7.5.2.1 and 7.5.2.3). A cell that triangles
+ * touch on their way through a step keeps the plane of one of them, and how it moves. */
 #ifndef KILN_SIM_WORLD_VOXELS_H
 #define KILN_SIM_WORLD_VOXELS_H
 
@@ -36,16 +36,17 @@ struct kiln_voxels {
     float spacing;    /* m */
     float per_metre;  /* cells */
     uint32_t size[3]; /* cells */
-    /* By z, y, x. Above 0: 1 + the number of the cell's plane. Else it has none, and nor has any
-     * within as many cells as this is below 0, diagonals counted as sides; 7 are the most. */
+    /* One a cell, by z, y, x. Above 0: 1 + the number of the cell's plane. Else the cell has no
+     * plane, and -mark cells around it have none either (diagonals count as sides), at most 7. */
     float *marks;
     struct kiln_voxel *planes; /* in the order of their cells */
     uint32_t plane_count;
     struct kiln_voxels_scratch *scratch;
 };
 
-/* From zeros. False: KILN_DEVICE_FAILED, memory is short; KILN_INVALID_INPUT, it would take too
- * long, with what to do. kiln_voxels_finish frees what there is.
+/* Builds the lattice; voxels starts as zeros and may be built again. False with KILN_DEVICE_FAILED:
+ * memory is short; with KILN_INVALID_INPUT: it would take too long, and the message says what to
+ * do. kiln_voxels_finish frees what there is.
  *
  * In a cell, triangles that face against the heading come before those that are seen edge-on, and
  * these before those that face along it; then those that the line along the heading through the
