@@ -1,4 +1,5 @@
-/* The suites, and a run of some of them. */
+/* Holds the table of suites, and runs those that the caller asks for, or all of them. Parameters
+ * are checked before a device is opened. Scenes of the caller are measured after the suites. */
 #include <string.h>
 
 #include "base/clock.h"
@@ -89,7 +90,7 @@ static bool check_stage(const char *stage, struct kiln_error *error)
                           nearest ? "'?)" : "");
 }
 
-/* All that can be known before a device is opened. */
+/* Checks all that can be known before a device is opened. */
 static bool check(const struct kiln_bench_params *params, struct kiln_error *error)
 {
     if (params->repetitions < KILN_BENCH_MIN_REPETITIONS ||
@@ -138,7 +139,8 @@ static bool run_all(struct kiln_bench_run *run, struct kiln_error *error)
     return true;
 }
 
-/* What is asked for must be possible; what a suite adds may turn out not to be. */
+/* Checks that the device allows the techniques that the caller asks for. Techniques that a suite
+ * adds may turn out to be impossible, and are then not measured. */
 static bool check_techniques(const struct kiln_bench_run *run, struct kiln_error *error)
 {
     struct kiln_techniques unused;
@@ -162,7 +164,7 @@ struct kiln_bench *kiln_bench_run(const struct kiln_bench_params *params, struct
         return NULL;
     struct kiln_device_params wanted = kiln_device_defaults();
     wanted.wanted = params->device;
-    wanted.gl = true; /* what techniques are compared with runs there */
+    wanted.gl = true; /* suites compare techniques that run in GL */
     wanted.log = params->log;
     struct kiln_bench_run run = {.params = params};
     run.device = kiln_device_open(&wanted, error);

@@ -1,4 +1,6 @@
-/* Since each element is written by itself, a pass reads one buffer and writes another. */
+/* Runs the bitonic sorts of UberFlow in GL, pass by pass. Each element is written by its own
+ * invocation, so a pass reads one buffer and writes another; then the two change places. Where
+ * constants are passed in, a table has a word for each column and each row of each pass. */
 #include "bench/bitonic_field.h"
 
 #include <stdlib.h>
@@ -14,10 +16,10 @@ struct kiln_bitonic_field {
     struct kiln_network network;
     enum kiln_field_constants constants;
     GLuint program;
-    uint32_t rows;                      /* sorted together; 0: all */
+    uint32_t rows;                      /* rows that are sorted together; 0: all */
     struct kiln_buffer other;           /* pairs */
     struct kiln_buffer table;           /* by pass: a word a column, then one a row */
-    uint32_t table_count, table_sorted; /* what it was made for */
+    uint32_t table_count, table_sorted; /* pairs that the table was made for */
 };
 
 static uint32_t width_bits(uint32_t padded)
@@ -33,12 +35,13 @@ uint32_t kiln_bitonic_field_width(uint32_t padded)
     return 1u << width_bits(padded);
 }
 
-/* A pass: partners `distance` apart, in bunches of `size` that are ordered in one direction. */
+/* A pass compares partners that are `distance` apart, in blocks of `size` that are ordered in one
+ * direction. */
 struct pass {
     uint32_t distance, size;
 };
 
-/* What the bits of an index that lie in a column, or in a row, add to the comparator. */
+/* Returns what the bits of an index that lie in a column, or in a row, add to the comparator. */
 static uint32_t word_of(struct pass pass, uint32_t index, uint32_t sorted)
 {
     uint32_t before = (index & pass.distance) != 0;
@@ -77,7 +80,7 @@ static bool fill_table(struct kiln_bitonic_field *field, uint32_t count, uint32_
     return true;
 }
 
-/* The table of the field's passes; none where constants are computed. */
+/* Binds the table of the field's passes; there is none where constants are computed. */
 static bool bind_table(struct kiln_bitonic_field *field, uint32_t count, uint32_t sorted,
                        struct kiln_error *error)
 {

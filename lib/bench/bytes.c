@@ -1,16 +1,17 @@
-/* What techniques cost besides time (Heinz 2019, 4.2): memory, and bytes between host and device.
- */
+/* Measures what techniques cost besides time (Heinz 2019, 4.2): memory, and bytes between host and
+ * device. */
 #include <stdlib.h>
 
 #include "base/error.h"
 #include "bench/suite.h"
 
-/* Each simulates, sorts and draws in one way; the thesis compares the first three. */
+/* Each entry simulates, sorts and draws in one way; the thesis compares those that have a name
+ * there. */
 static const struct {
     const char *techniques;
     const char *published; /* its name in the thesis, or NULL */
-    double memory;         /* bytes a particle, from the MiB of 160,000 */
-    double upload;         /* and from the floats of one */
+    double memory;         /* published bytes a particle, from the MiB of 160,000 */
+    double upload;         /* published bytes a particle to the device, from its floats */
 } WAYS[] = {
     {"simulate=cpu sort=cpu backdrop=gl raster=geometry composite=gl", "CPU (2019)", 43.9, 32},
     {"simulate=feedback sort=bitonic backdrop=gl raster=geometry composite=gl",
@@ -35,7 +36,7 @@ static bool add_value(const struct kiln_bench_run *run, double particles, const 
     return kiln_bench_add_row(run->bench, &row, error);
 }
 
-/* Of the lane's techniques: records, pairs and entries. */
+/* Adds the memory of the lane's techniques: the records of particles, and what sorting needs. */
 static bool add_memory(const struct kiln_bench_run *run, size_t way, double particles,
                        const struct kiln_lane *lane, struct kiln_error *error)
 {
@@ -46,7 +47,7 @@ static bool add_memory(const struct kiln_bench_run *run, size_t way, double part
                                 params.technique_count, &techniques, error))
         return false;
     double records = (double)kiln_simulate_slot_bytes(techniques.simulate);
-    enum { SLOTS = 1 << 20 }; /* where no padding counts */
+    enum { SLOTS = 1 << 20 }; /* so many that padding does not count */
     const uint64_t sorted = kiln_sort_bytes(techniques.sort, techniques.sort_spread > 0, SLOTS);
     double sorting = (double)sorted / SLOTS;
     return add_value(run, particles, "memory, records", WAYS[way].techniques, records, error) &&

@@ -1,4 +1,6 @@
-/* All lanes are set up before the first turn, so that a turn is nothing but frames. */
+/* Runs lanes in turn: makes a job for each, brings all jobs to the same first frame, and draws a
+ * frame of each job in every turn. All lanes are set up before the first turn, so that a turn is
+ * nothing but frames. */
 #include "bench/contest.h"
 
 #include <stdlib.h>
@@ -77,7 +79,7 @@ static bool enter(struct contest *contest, struct entrant *entrant, struct kiln_
     return entrant->job || kiln_lane_is_refused(contest->run, error, &entrant->samples->problem);
 }
 
-/* One steps to the first frame, the others take over its particles. */
+/* Steps one job to the first frame; the others take over its particles. */
 static bool line_up(struct contest *contest, struct kiln_error *error)
 {
     struct kiln_job *first = NULL;

@@ -1,5 +1,6 @@
-/* Ways to render the same frames, in turn: A, B, A, B... Each has a job of its own, with its own
- * particles; they start from one state, and every turn draws a frame of each. */
+/* Compares lanes, which are ways to render the same frames. Lanes draw in turn: A, B, A, B... Each
+ * lane has a job of its own, with its own particles. All lanes start from one state, and every turn
+ * draws a frame of each. */
 #ifndef KILN_BENCH_CONTEST_H
 #define KILN_BENCH_CONTEST_H
 
@@ -8,7 +9,7 @@
 #include "kiln_program.h"
 #include "scene/scene.h"
 
-/* A run of kiln_bench_run. */
+/* What the functions of one run of kiln_bench_run share. */
 struct kiln_bench_run {
     const struct kiln_bench_params *params;
     struct kiln_device *device;
@@ -42,17 +43,18 @@ struct kiln_samples {
 /* "sort", ..., "frame" */
 const char *kiln_measure_name(int measure);
 
-/* Frames that warm up: code is made at its first use, and the first one draws what later ones keep.
- */
+/* The number of frames that warm up: code is made at its first use, and the first frame draws what
+ * later ones keep. */
 enum { KILN_BENCH_WARM_UP = 2 };
 
-/* Runs the lanes from a frame on: some to warm up, then as many turns as there is time for.
- * samples[lane_count] are the caller's. A lane that the device does not allow has a problem. */
+/* Draws frames of all lanes in turn, from `frame` on: some to warm up, then as many turns as there
+ * is time for. samples[lane_count] are the caller's. A lane that the device does not allow has a
+ * problem. */
 bool kiln_contest_run(const struct kiln_bench_run *run, const struct kiln_scene *scene,
                       uint32_t frame, const struct kiln_lane *lanes, size_t lane_count,
                       struct kiln_samples *samples, struct kiln_error *error);
 
-/* Frames on their way to files. */
+/* What the frames of a lane took until their files were whole, a value for each turn. */
 struct kiln_delivery {
     const char *problem;
     uint32_t count;
@@ -61,13 +63,13 @@ struct kiln_delivery {
     double slowest[KILN_BENCH_MAX_REPETITIONS]; /* ms a frame of the slowest pass */
 };
 
-/* The same for whole jobs that write files of this name into the scratch folder, "f_%04d.png" or
- * "clip.mp4", which are removed. */
+/* Runs whole jobs of all lanes in turn, which write files of this name into the scratch folder,
+ * "f_%04d.png" or "clip.mp4". The files are removed. */
 bool kiln_delivery_run(const struct kiln_bench_run *run, const struct kiln_scene *scene,
                        const char *name, const struct kiln_lane *lanes, size_t lane_count,
                        struct kiln_delivery *deliveries, struct kiln_error *error);
 
-/* Flags of a lane, behind those of the run. */
+/* The technique flags of a lane, which follow those of the run. */
 enum { KILN_MAX_FLAGS = 32 };
 struct kiln_lane_flags {
     char text[256]; /* the lane's, cut */
@@ -80,7 +82,7 @@ struct kiln_render_params kiln_lane_params(const struct kiln_bench_run *run,
                                            struct kiln_lane_flags *flags,
                                            const struct kiln_frame_range *range);
 
-/* Whether a job could not be made for reasons of the device; *problem gets them. */
+/* Whether a job could not be made for reasons of the device, which *problem then names. */
 bool kiln_lane_is_refused(const struct kiln_bench_run *run, const struct kiln_error *error,
                           const char **problem);
 

@@ -1,8 +1,8 @@
-/* How cost grows: with particles, with the pixels that they cover, and with the work group
- * (Anderdahl and Darner 2014, by Heinz 2019, 2.2.5). */
+/* Measures how cost grows with the number of particles, with the pixels that they cover, and with
+ * the size of the work group (Anderdahl and Darner 2014, by Heinz 2019, 2.2.5). */
 #include "bench/suite.h"
 
-#define PIXELS_PER_METRE 123.6 /* of bench/cloud.yaml */
+#define PIXELS_PER_METRE 123.6 /* in a picture of bench/cloud.yaml that is 720 pixels high */
 
 static const char SCENE[] = "bench/cloud.yaml";
 static const struct kiln_lane AUTOMATIC = {.name = "auto", .techniques = ""};
@@ -73,7 +73,7 @@ bool kiln_suite_curves(const struct kiln_bench_run *run, struct kiln_error *erro
 
 /* ---- Work groups ----------------------------------------------------------------------------- */
 
-/* Of a GPU, or of a software device. */
+/* The sizes of work groups that are tried on one kind of device, a GPU or a software device. */
 struct sizes {
     uint32_t least, most;
 };
@@ -94,7 +94,7 @@ static const struct kernel {
     {"raster=tiled", KILN_MEASURE(particles), {16, 256}, {8, 64}, 50000, 16},
 };
 
-/* Lanes of one technique, the smallest work groups first. */
+/* Makes lanes of one technique, the smallest work groups first. */
 static size_t add_sizes(const struct kiln_bench_run *run, const struct kernel *kernel,
                         struct kiln_lane lanes[KILN_MAX_LANES])
 {
@@ -109,7 +109,7 @@ static size_t add_sizes(const struct kiln_bench_run *run, const struct kernel *k
     return count;
 }
 
-/* One technique by the size of its work groups, in turn. */
+/* Measures one technique with each size of its work groups, in turn. */
 static bool sweep_kernel(const struct kiln_bench_run *run, const struct kernel *kernel,
                          struct kiln_error *error)
 {

@@ -1,6 +1,7 @@
-/* Whole jobs, since encoders work beside the drawing: whatever is under way when a job's last frame
- * is drawn belongs to its time, and must not run on in another's. The clock starts behind two
- * frames that warm up, one of which may still be encoded. */
+/* Times whole jobs that write files, until the files are whole. Encoders work beside the drawing:
+ * what is under way when a job's last frame is drawn belongs to its time, and must not run on in
+ * another job's. The clock starts behind two frames that warm up, one of which may still be
+ * encoded. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -27,7 +28,8 @@ struct delivery {
     uint32_t frames[KILN_MAX_LANES]; /* of a lane's jobs, as many as take a second or so */
 };
 
-/* Draws frames that count; returns the time of the slowest pass, ms a frame, or less than 0. */
+/* Draws the frames that are timed. Returns the time of the slowest pass, ms a frame, or less than 0
+ * with an error. */
 static double draw_frames(struct kiln_job *job, uint32_t first, uint32_t count,
                           struct kiln_error *error)
 {
@@ -39,7 +41,7 @@ static double draw_frames(struct kiln_job *job, uint32_t first, uint32_t count,
             sums[pass] += kiln_job_progress(job)->pass_ms[pass] / count;
     }
     double slowest = 0.0;
-    for (int pass = 0; pass < KILN_PASS_output; pass++) /* which waits for the encoders */
+    for (int pass = 0; pass < KILN_PASS_output; pass++) /* `output` waits for the encoders */
         slowest = sums[pass] > slowest ? sums[pass] : slowest;
     return slowest;
 }
@@ -94,7 +96,7 @@ static uint32_t choose_frames(const struct delivery *d, double frame_s)
                                   : (uint32_t)frames;
 }
 
-/* How many frames a lane's jobs have: found by one that writes nothing. */
+/* Finds how many frames a lane's jobs have, by a job that writes nothing. */
 static bool look_ahead(struct delivery *d, size_t index, const struct kiln_lane *lane,
                        struct kiln_delivery *delivery, struct kiln_error *error)
 {

@@ -1,6 +1,6 @@
-/* How well long runs of bodies that attract each other keep their energy. A step kicks, then
- * drifts: that is the leapfrog, whose velocities are half a step behind; energies are taken where
- * both are known. */
+/* Measures how well bodies that attract each other keep their energy in long runs. A step kicks,
+ * then drifts: that is the leapfrog, whose velocities are half a step behind the positions.
+ * Energies are taken where both are known, so velocities are moved on by half a step first. */
 #include <math.h>
 #include <stdio.h>
 
@@ -29,7 +29,7 @@ static const struct kiln_particle *records_of(struct flight *flight, struct kiln
     return kiln_buffer_host(&flight->pool.records, KILN_READ, error);
 }
 
-/* The pull on a body, and half of the energy of its pairs. */
+/* Adds up the pull on a body, and returns half of the energy of its pairs. */
 static double add_pairs(const struct flight *flight, const struct kiln_particle *records,
                         uint32_t self, double pull[3])
 {
@@ -52,7 +52,7 @@ static double add_pairs(const struct flight *flight, const struct kiln_particle 
     return potential;
 }
 
-/* Of unit masses. */
+/* Returns the energy of all bodies, each of unit mass. */
 static double energy_of(const struct flight *flight, const struct kiln_particle *records)
 {
     const double half_step_s = 0.5 / 60.0;
@@ -69,7 +69,8 @@ static double energy_of(const struct flight *flight, const struct kiln_particle 
     return sum;
 }
 
-/* Two, a metre apart, a tenth too slow for circles; or a ball of them in balance. */
+/* Places two bodies a metre apart, a tenth too slow for circles, or more bodies in a ball in
+ * balance. */
 static void place(const struct flight *flight, struct kiln_particle *records)
 {
     for (uint32_t i = 0; i < flight->bodies; i++) {
@@ -125,8 +126,8 @@ static void land(struct flight *flight)
     kiln_scene_destroy(&flight->scene);
 }
 
-/* The most that the energy is off on the way to each stop, in millionths of what it was at first.
- */
+/* Adds a row for each stop: the most that the energy is off on the way to it, in millionths of what
+ * it was at first. */
 static bool fly(struct flight *flight, struct kiln_error *error)
 {
     const struct kiln_bench_params *params = flight->run->params;

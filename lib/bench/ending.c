@@ -1,5 +1,5 @@
-/* From the scene to whole files, against what the stages alone would take: the larger of the
- * slowest stage and the time of all cores together divided by their number. */
+/* Measures frames from the scene to whole files, against what the stages alone would take: the
+ * larger of the slowest stage and the time of all cores together divided by their number. */
 #include <stdlib.h>
 
 #include "base/error.h"

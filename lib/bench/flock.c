@@ -1,4 +1,5 @@
-/* What a flock costs, by how many fly in it and by whom they look at. */
+/* Measures what a flock costs by the number of its birds, and by what a bird follows: the birds
+ * around it, averages of the flock, or both. */
 #include <stdio.h>
 
 #include "bench/suite.h"

@@ -1,4 +1,4 @@
-/* What each force and each integrator costs. */
+/* Measures what each force and each integrator costs in simulation. */
 #include <stdio.h>
 
 #include "bench/suite.h"

@@ -1,5 +1,6 @@
-/* N-body gravity (Drone 2007, 7.4.3): pairs a second by width of vectors, beside the paper's way to
- * add up forces, which is to splat them; whole frames; and how well energy is kept. */
+/* Measures N-body gravity (Drone 2007, 7.4.3): pairs a second by width of vectors, and by the
+ * paper's way to add up forces, which is to splat them; then whole frames, and how well energy is
+ * kept. */
 #include "sim/crowd/gravity.h"
 
 #include <stdio.h>
@@ -17,10 +18,10 @@ static const char SCENE[] = "bench/stars.yaml";
 /* ---- Pairs ----------------------------------------------------------------------------------- */
 
 enum {
-    SPLATS = 2, /* behind the widths */
+    SPLATS = 2, /* these ways follow the widths of vectors */
     WAYS = KILN_SIMD_COUNT + SPLATS,
     TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK,
-    /* llvmpipe blends for seconds beyond */
+    /* of bodies: llvmpipe blends for seconds beyond */
     MOST_SPLATTED_IN_SOFTWARE = 4096,
 };
 
@@ -126,7 +127,8 @@ static bool take_turns(struct pull *pull, struct kiln_error *error)
     return true;
 }
 
-/* Times become thousands of millions of pairs a second; a body and itself are one. */
+/* Adds a row of one way, whose times become thousands of millions of pairs a second. A body and
+ * itself count as a pair. */
 static bool add_row(const struct pull *pull, size_t way, const char *name, struct kiln_error *error)
 {
     const double pairs = (double)pull->count * (double)pull->count;

@@ -1,7 +1,8 @@
-/* A clip in parts, each a job of its own that starts from a saved state, against one run of the
- * whole clip: what the parts cost beyond the run, where that goes, and how long the clip takes on
- * many machines. Every job is a process of kiln, since starting one is part of its price; they run
- * one after the other. How many machines work at a time is simulated. */
+/* Measures a clip rendered in parts, each by a job of its own that starts from a saved state,
+ * against one run of the whole clip. It tells what the parts cost beyond the run, where that goes,
+ * and how long the clip takes on many machines. Every job is a process of kiln, since starting one
+ * is part of its price. Jobs run one after the other; how many machines work at a time is
+ * simulated. */
 #include <errno.h>
 #include <ftw.h>
 #include <stdio.h>
@@ -33,8 +34,9 @@ enum value {
     ALL_PARTS,
     JOIN,
     START,  /* until a device is open: the program, its libraries, the scene */
-    SET_UP, /* then until the first frame is drawn: pictures of particles, the state, the frame */
-    LOAD,   /* of that, taking up the state */
+    SET_UP, /* from there until the first frame is drawn: pictures of particles, the state, the
+               frame */
+    LOAD,   /* the part of SET_UP that takes up the state */
     FRAMES, /* the other frames, with what is encoded beside them */
     END,    /* the rest: the encoder's last frames, the file */
     VALUES
@@ -43,14 +45,14 @@ enum value {
 struct farm {
     const struct kiln_bench_run *run;
     struct kiln_scene *scene; /* with as many frames as the parts have */
-    const char *name, *path;  /* of the scene: for people, and its file */
+    const char *name, *path;  /* the scene's name in messages, and its file */
     const char **options;     /* of all jobs that read it */
     size_t option_count;
     uint32_t parts, part_frames, turns;
     char folder[KILN_PATH_SIZE];
-    const char *work, *single, *clip, *states; /* below it; the folder of a turn comes first */
+    const char *work, *single, *clip, *states; /* paths below `folder`; `work` is that of a turn */
     double cpu_s[VALUES][KILN_BENCH_MAX_REPETITIONS];
-    double elapsed_s[START][KILN_BENCH_MAX_REPETITIONS]; /* of the parts, the longest one */
+    double elapsed_s[START][KILN_BENCH_MAX_REPETITIONS]; /* ALL_PARTS: of the longest part */
     double *part_s;                                      /* elapsed: [turn * parts + part] */
 };
 
@@ -61,8 +63,8 @@ static bool no_memory(struct kiln_error *error)
 
 /* ---- Jobs ------------------------------------------------------------------------------------ */
 
-/* kiln COMMAND --quiet OWN... [OPTIONS...] -- OPERAND. Options are those of jobs that read the
- * scene. */
+/* Runs kiln COMMAND --quiet OWN... [OPTIONS...] -- OPERAND. Only jobs that read the scene get the
+ * options. */
 static bool run_kiln(const struct farm *f, const char *command, const char *const *own,
                      const char *operand, struct kiln_process *process, struct kiln_error *error)
 {
@@ -139,7 +141,7 @@ static bool load_states(struct farm *f, uint32_t turn, struct kiln_error *error)
     return ok;
 }
 
-/* The joined clip must have the bytes of the single run's. */
+/* Fails unless the joined clip has the bytes of the single run's. */
 static bool compare_clips(const struct farm *f, struct kiln_error *error)
 {
     char single[65], clip[65];
@@ -185,7 +187,7 @@ static bool take_turn(struct farm *f, uint32_t turn, struct kiln_error *error)
            compare_clips(f, error) && load_states(f, turn, error);
 }
 
-/* Pictures of particles are in the cache then, and programs in memory. */
+/* Draws a frame, so that pictures of particles are in the cache, and programs in memory. */
 static bool warm_up(struct farm *f, struct kiln_error *error)
 {
     struct kiln_process process = {.told = false};
@@ -284,7 +286,7 @@ static bool add_ratios(const struct farm *f, struct kiln_error *error)
 
 /* ---- Many workers ---------------------------------------------------------------------------- */
 
-/* Of so many workers, for each turn. */
+/* How long a clip takes with a number of workers, for each turn. */
 struct outlook {
     double elapsed_s[KILN_BENCH_MAX_REPETITIONS], bound_s[KILN_BENCH_MAX_REPETITIONS];
     double speed_up[KILN_BENCH_MAX_REPETITIONS], efficiency[KILN_BENCH_MAX_REPETITIONS];
@@ -304,7 +306,7 @@ static struct outlook look_ahead(const struct farm *f, uint32_t workers)
     return o;
 }
 
-/* 1, 2, 4, ..., 512, 1000. */
+/* Returns the next number of workers: 1, 2, 4, ..., 512, 1000. */
 static uint32_t next_workers(uint32_t workers)
 {
     return workers < KILN_MAX_WORKERS / 2 ? 2 * workers
@@ -312,7 +314,7 @@ static uint32_t next_workers(uint32_t workers)
                                           : UINT32_MAX;
 }
 
-/* By the medians of the turns. */
+/* Notes which part is the longest, by the medians of the turns. */
 static bool name_longest(const struct farm *f, struct kiln_error *error)
 {
     uint32_t longest = 0;
@@ -414,7 +416,7 @@ static bool load_clip(struct farm *f, const char **overrides, size_t *count,
     return f->scene != NULL;
 }
 
-/* An option of jobs, "--set=KEY=VALUE". */
+/* Adds an option of all jobs that read the scene, such as "--set=KEY=VALUE". */
 static bool add_option(struct farm *f, const char *name, const char *value,
                        struct kiln_error *error)
 {
@@ -444,8 +446,8 @@ static bool make_options(struct farm *f, const char **overrides, size_t count,
     return ok;
 }
 
-/* The scene of the caller as it is; or the library's, small. What the caller overrides comes
- * last. */
+/* Opens the scene of the caller as it is, or a small one of the library. What the caller overrides
+ * comes last. */
 static bool open_clip(struct farm *f, struct kiln_error *error)
 {
     const struct kiln_bench_params *params = f->run->params;

@@ -1,5 +1,5 @@
-/* What it costs to paint a mesh (Drone 2007, 7.6.1): a ball, on which splats lie evenly, by each
- * gather, and by groups of particles. */
+/* Measures what it costs to paint a mesh (Drone 2007, 7.6.1). The mesh is a ball on which splats
+ * lie evenly. It is painted by each gather, and with a hundredth of the splats in a frame. */
 #include "sim/paint/paint.h"
 
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 
 enum { RINGS = 48, AROUND = 2 * RINGS, MEASURE = KILN_PASS_simulate };
 
-/* Ways to paint: in a frame, so many of the splats. */
+/* The ways to paint: a gather, and how many of the splats it takes in a frame. */
 static const struct kiln_lane LANES[] = {
     {.name = "gather=near"}, {.name = "gather=all"}, {.name = "gather=all, a hundredth a frame"}};
 enum { LANE_COUNT = sizeof LANES / sizeof *LANES };
@@ -29,7 +29,7 @@ struct bout {
     struct kiln_samples *samples; /* [LANE_COUNT] */
 };
 
-/* Of radius 1; longitude goes along u, latitude along v. */
+/* Makes a ball of radius 1; longitude goes along u, latitude along v. */
 static struct kiln_mesh *make_ball(void)
 {
     struct kiln_mesh *mesh = calloc(1, sizeof *mesh);
@@ -68,7 +68,7 @@ static struct kiln_mesh *make_ball(void)
     return mesh;
 }
 
-/* Of a hundredth of the ball's radius, all over it. */
+/* Spreads splats of a hundredth of the ball's radius evenly over the ball. */
 static void make_splats(struct bout *bout)
 {
     for (uint32_t i = 0; i < bout->count; i++) {

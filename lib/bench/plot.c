@@ -1,4 +1,5 @@
-/* Curves: the data, a script for gnuplot, and gnuplot itself, which may not be there. */
+/* Writes the data of curves and a script for gnuplot, and draws the curves by gnuplot, which may
+ * not be installed. */
 #include <errno.h>
 #include <math.h>
 #include <spawn.h>
@@ -22,7 +23,7 @@ static void put_point(const struct kiln_bench_row *row, FILE *out)
     fputc('\n', out);
 }
 
-/* Logarithms take nothing but positive values. */
+/* Whether a row can be drawn: the axes are logarithmic and take positive values only. */
 static bool is_point(const struct kiln_bench_row *row)
 {
     return row->x > 0.0 && row->spread.first_quartile > 0.0;
@@ -49,7 +50,7 @@ bool kiln_bench_has_points(const struct kiln_bench_part *part)
     return false;
 }
 
-/* A block a curve, as gnuplot's `index` counts them. */
+/* Writes a block of lines for each curve, as gnuplot's `index` counts them. */
 void kiln_bench_write_curves(const struct kiln_bench_part *part, FILE *out)
 {
     fprintf(out, "# %s: %s, median, first and third quartile (%s)\n", part->name, part->sweep,
@@ -69,7 +70,7 @@ void kiln_bench_write_curves(const struct kiln_bench_part *part, FILE *out)
     }
 }
 
-/* A text of gnuplot. */
+/* Writes a text in gnuplot's quotes. */
 static void put_quoted(const char *text, FILE *out)
 {
     fputc('\'', out);
@@ -81,7 +82,8 @@ static void put_quoted(const char *text, FILE *out)
     fputc('\'', out);
 }
 
-/* With room at both ends, which logarithms need where there is a single point. */
+/* Writes the range of x with room at both ends, which a logarithmic axis needs where there is a
+ * single point. */
 static void put_range(const struct kiln_bench_part *part, FILE *out)
 {
     double least = INFINITY, most = 0.0;
@@ -97,7 +99,8 @@ static void put_range(const struct kiln_bench_part *part, FILE *out)
     fprintf(out, "set xrange [%s:%s]\n", from, to);
 }
 
-/* Labels where there are points: what is swept are no powers of ten. */
+/* Writes labels of the x axis where there are points, since the values of x are not powers of ten.
+ */
 static void put_ticks(const struct kiln_bench_part *part, FILE *out)
 {
     const char *between = "set xtics (";
@@ -151,7 +154,7 @@ void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out)
 
 /* ---- gnuplot --------------------------------------------------------------------------------- */
 
-/* Starts it in the folder; what it prints goes into the pipe. 0 or an errno value. */
+/* Starts gnuplot in the folder; what it prints goes into the pipe. Returns 0 or an errno value. */
 static int start(const char *folder, const char *script, const int pipe_ends[2], pid_t *process)
 {
     char name[] = "gnuplot", copy[KILN_PATH_SIZE];
@@ -170,7 +173,7 @@ static int start(const char *folder, const char *script, const int pipe_ends[2],
     return failure;
 }
 
-/* All that comes, or NULL. */
+/* Reads a file to its end. Returns NULL when that fails. */
 static char *read_all(int file, size_t *size)
 {
     size_t room = 1 << 16;

@@ -1,6 +1,7 @@
-/* A process tells its events into a pipe. At each line that names a point the parent reads the
- * clock of the process, which counts the work of all its threads; it may be late by as long as the
- * parent takes to wake up. The pipe's end says that the process has ended. */
+/* Runs kiln as a process that writes its events into a pipe. At each line that names a point, the
+ * parent reads the clock of the process, which counts the work of all its threads. The reading may
+ * be late by as long as the parent takes to wake up. The pipe's end says that the process has
+ * ended. */
 #include "bench/process.h"
 
 #include <errno.h>
@@ -31,7 +32,7 @@ struct child {
     bool stopped;
 };
 
-/* Standard input is empty. 0 or an errno value. */
+/* Starts the process with empty standard input. Returns 0 or an errno value. */
 static int spawn(struct child *child, const char **words, int log, int events)
 {
     posix_spawn_file_actions_t files;
@@ -87,7 +88,7 @@ static void take_bytes(struct child *child, const char *bytes, size_t count)
     }
 }
 
-/* Until nobody has the pipe open any more. */
+/* Reads events until the other end of the pipe is closed. */
 static void listen_to(struct child *child, int events)
 {
     const struct kiln_bench_params *params = child->run->params;
@@ -109,7 +110,7 @@ static void listen_to(struct child *child, int events)
 
 /* ---- The end --------------------------------------------------------------------------------- */
 
-/* The last line of what was printed, without its end. */
+/* Reads the last line that the process printed, without its newline. */
 static void read_last_line(int log, char line[KILN_MESSAGE_SIZE])
 {
     char text[KILN_MESSAGE_SIZE];
@@ -147,7 +148,8 @@ static bool finish(struct child *child, const char **words, int log, double star
                           "kiln %s has exit code %d: %.700s", words[0], WEXITSTATUS(status), line);
 }
 
-/* "kiln", the command, where its events go, and its words. NULL when memory is short. */
+/* Makes the arguments: "kiln", the command, where its events go, and its other words. Returns NULL
+ * when memory is short. */
 static const char **make_words(const char **words, bool told)
 {
     size_t count = 0, used = 0;

@@ -1,4 +1,5 @@
-/* kiln as a process, and what processors worked for it until it came to certain points. */
+/* Runs kiln as a process, and measures the processor time that it has used when it comes to certain
+ * points. */
 #ifndef KILN_BENCH_PROCESS_H
 #define KILN_BENCH_PROCESS_H
 
@@ -15,15 +16,15 @@ enum kiln_process_point {
 };
 
 struct kiln_process {
-    bool told; /* to be set: the process tells of all points, by events; else the end is known */
+    bool told; /* set by the caller: events report all points; else only the end is known */
     double cpu_s[KILN_PROCESS_POINTS]; /* of all its threads since it was started */
     double elapsed_s;                  /* until its end */
 };
 
-/* Runs the program that is running, with these words behind its name, of which the first is the
- * command and NULL ends them, and waits for it. What it prints is dropped. A process that fails is
- * an error with its exit code and its last line; KILN_INTERRUPTED comes after a stop, when the
- * process has ended. */
+/* Starts the running program anew with `words` as its arguments, and waits for it. The first word
+ * is the command, and NULL ends the words. What the process prints is dropped. A process that fails
+ * is an error with its exit code and its last line. A stop is the error KILN_INTERRUPTED, which
+ * comes when the process has ended. */
 bool kiln_process_run(const struct kiln_bench_run *run, const char **words,
                       struct kiln_process *process, struct kiln_error *error);
 

@@ -1,4 +1,4 @@
-/* Records for programs: JSON and CSV. */
+/* Writes the records of a benchmark for other programs, as JSON and as CSV. */
 #include <string.h>
 
 #include "base/text.h"

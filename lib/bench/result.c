@@ -1,4 +1,4 @@
-/* Parts and rows in arrays that grow. */
+/* Keeps the parts of a benchmark, with their rows and notes, in arrays that grow. */
 #include "bench/result.h"
 
 #include <math.h>
@@ -106,7 +106,7 @@ bool kiln_bench_add_note(struct kiln_bench *bench, struct kiln_error *error, con
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     for (size_t i = 0; i < part->note_count; i++) {
-        if (strcmp(part->notes[i], text) == 0) /* what cannot run says so at each point */
+        if (strcmp(part->notes[i], text) == 0) /* a refused lane adds its note at each point */
             return true;
     }
     const char **notes = realloc(part->notes, (part->note_count + 1) * sizeof *notes);

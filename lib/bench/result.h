@@ -1,4 +1,5 @@
-/* What was measured: parts, which are tables and often curves, of rows. Texts lie in the arena. */
+/* Holds what was measured. A benchmark has parts, and a part has rows, which make a table and often
+ * curves. Texts lie in the arena. */
 #ifndef KILN_BENCH_RESULT_H
 #define KILN_BENCH_RESULT_H
 
@@ -36,19 +37,20 @@ struct kiln_bench {
     uint32_t cores;
     uint32_t repetitions;
     bool quick;
-    double seconds; /* that all of it took */
+    double seconds; /* that the whole run took */
     struct kiln_bench_part *parts;
     size_t part_count;
 };
 
 struct kiln_bench *kiln_bench_create(struct kiln_error *error);
 
-/* Starts a part, a copy of what is given; rows and notes are none. NULL when memory is short. */
+/* Starts a part, a copy of the one that is given but without rows and notes. Returns NULL when
+ * memory is short. */
 struct kiln_bench_part *kiln_bench_add_part(struct kiln_bench *bench,
                                             const struct kiln_bench_part *part,
                                             struct kiln_error *error);
 
-/* Adds to the last part. */
+/* Add a row, or a note, to the last part. */
 bool kiln_bench_add_row(struct kiln_bench *bench, const struct kiln_bench_row *row,
                         struct kiln_error *error);
 bool kiln_bench_add_note(struct kiln_bench *bench, struct kiln_error *error, const char *format,
@@ -57,7 +59,8 @@ bool kiln_bench_add_note(struct kiln_bench *bench, struct kiln_error *error, con
 /* A number as tables print it: four digits that count, and no exponent. */
 void kiln_bench_number(char text[32], double value);
 
-/* The formats of kiln_bench_write, and the data and the script of a part's curves. */
+/* Write a benchmark in each format of kiln_bench_write, and the data and the gnuplot script of a
+ * part's curves. */
 void kiln_bench_write_text(const struct kiln_bench *bench, FILE *out);
 void kiln_bench_write_json(const struct kiln_bench *bench, FILE *out);
 void kiln_bench_write_csv(const struct kiln_bench *bench, FILE *out);
@@ -65,18 +68,19 @@ void kiln_bench_write_markdown(const struct kiln_bench *bench, FILE *out);
 void kiln_bench_write_curves(const struct kiln_bench_part *part, FILE *out);
 void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out);
 
-/* A curve is the rows of one measure and technique. Which one a row belongs to, by the number of
- * its first row. */
+/* A curve is the rows of one measure and technique. Returns the number of the first row of the
+ * curve that `row` belongs to. */
 size_t kiln_bench_curve_of(const struct kiln_bench_part *part, size_t row);
 
 /* Whether any curve of the part has a point that can be drawn. */
 bool kiln_bench_has_points(const struct kiln_bench_part *part);
 
-/* "sort, sort=cpu", without what all rows of the part have in common. */
+/* Names the curve of a row, such as "sort, sort=cpu", without what all rows of the part have in
+ * common. */
 void kiln_bench_curve_name(const struct kiln_bench_part *part, size_t row, char name[160]);
 
-/* Draws the curves of a script in a folder by gnuplot. The picture, which the caller frees, or NULL
- * with why not. */
+/* Draws the curves of a script in a folder by gnuplot. Returns the picture, which the caller frees,
+ * or NULL with the problem. */
 char *kiln_bench_plot(const char *folder, const char *script, size_t *size,
                       char problem[KILN_MESSAGE_SIZE]);
 

@@ -1,4 +1,5 @@
-/* Files of a benchmark: made in memory, and put in place when they are whole. */
+/* Writes the files of a benchmark into a folder. Each file is made in memory, and put in place when
+ * it is whole. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -35,7 +36,7 @@ static bool put_file(const struct saving *saving, const char *name, const void *
            kiln_temporary_write_file(path, bytes, size, saving->error);
 }
 
-/* Ends a stream into memory and writes what came into a file. */
+/* Ends a stream into memory, and writes its bytes into a file. */
 static bool put_stream(const struct saving *saving, const char *name, FILE *stream, char **bytes,
                        const size_t *size)
 {
@@ -69,7 +70,8 @@ static bool put_part(const struct saving *saving, const struct kiln_bench_part *
     return put_stream(saving, name, stream, &bytes, &size);
 }
 
-/* An older picture would show other data. */
+/* Draws the curves of a part. Where that fails, it removes an older picture, which would show other
+ * data. */
 static bool put_picture(const struct saving *saving, const struct kiln_bench_part *part,
                         char problem[KILN_MESSAGE_SIZE])
 {

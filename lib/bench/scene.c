@@ -1,5 +1,6 @@
-/* A scene of the caller: whole frames first, pass by pass, then a stage after the other, its
- * techniques in turn and all others as `auto` has them. */
+/* Measures a scene of the caller. It draws whole frames first, and measures them pass by pass. Then
+ * it takes one stage after the other and compares the techniques of that stage, while all other
+ * stages are as `auto` has them. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +17,7 @@ struct subject {
     struct kiln_samples *samples; /* [KILN_MAX_LANES] */
 };
 
-/* Counts the particles, too. */
+/* Measures whole frames pass by pass, and counts the particles. */
 static bool measure_frames(struct subject *s, struct kiln_error *error)
 {
     static const struct kiln_lane automatic = {.name = "auto", .techniques = ""};
@@ -84,7 +85,8 @@ static bool measure_stage(struct subject *s, size_t stage, struct kiln_error *er
            kiln_bench_add_samples(s->run, &comparison, s->samples, error);
 }
 
-/* With enough frames for all turns, which change nothing of those that were there. */
+/* Loads the scene with enough frames for all turns. Added frames change nothing of those that were
+ * there. */
 static struct kiln_scene *load(const struct kiln_bench_run *run, const char *path, uint32_t *frame,
                                struct kiln_error *error)
 {

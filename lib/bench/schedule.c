@@ -1,4 +1,4 @@
-/* A list scheduler, simulated: the time at which each worker is free is all that it has to know. */
+/* Simulates a list scheduler. The time at which each worker is free is all that it has to know. */
 #include "bench/schedule.h"
 
 double kiln_schedule_s(const double *tasks_s, size_t count, uint32_t workers)

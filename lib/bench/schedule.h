@@ -1,4 +1,4 @@
-/* How long tasks take on several machines, by arithmetic. */
+/* Computes how long tasks take on several machines. */
 #ifndef KILN_BENCH_SCHEDULE_H
 #define KILN_BENCH_SCHEDULE_H
 

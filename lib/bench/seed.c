@@ -1,10 +1,11 @@
-/* kiln as it was at first, every stage in GL, against what `auto` takes now: the same pictures. */
+/* Measures kiln as it was at first, with every stage in GL, against the techniques that `auto`
+ * takes now. Both draw the same pictures. */
 #include <stdlib.h>
 
 #include "base/error.h"
 #include "bench/suite.h"
 
-/* Of a picture 720 pixels high, in the middle of the cloud. */
+/* Pixels of a metre in the middle of the cloud, in a picture 720 pixels high. */
 #define PIXELS_PER_METRE 123.6
 
 static const struct kiln_lane LANES[] = {
@@ -40,7 +41,7 @@ static bool add_delivery(const struct kiln_bench_run *run, const struct kiln_del
     return true;
 }
 
-/* The whole frame, its picture written, and then its passes. */
+/* Compares whole frames whose pictures are written, and then their passes. */
 static bool compare_scene(const struct kiln_bench_run *run, const struct kiln_settings *settings,
                           double particles, struct kiln_error *error)
 {

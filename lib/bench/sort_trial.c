@@ -1,4 +1,5 @@
-/* Pairs and list are written and made resident before the clock runs. */
+/* Times one sort of given keys by one technique. Pairs and list are written and made resident
+ * before the clock starts. */
 #include "bench/sort_trial.h"
 
 #include <stdlib.h>
@@ -15,7 +16,7 @@ struct kiln_sort_trial {
     enum kiln_sort_trial_kind kind;
     struct kiln_threads *threads;
     struct kiln_buffer pairs, list, sorted;
-    struct kiln_buffer counts; /* `cpu` */
+    struct kiln_buffer counts; /* of kind `cpu` */
     struct kiln_radix *radix;
     struct kiln_bitonic *bitonic;
     struct kiln_oddeven *oddeven;

@@ -1,5 +1,5 @@
-/* Sorts of given keys that are timed, for benchmarks: the techniques of the stage, and the variants
- * of bitonic sorting that UberFlow's table 1 compares. */
+/* Times sorts of given keys for benchmarks: by the techniques of the stage, and by the variants of
+ * bitonic sorting that UberFlow's table 1 compares. */
 #ifndef KILN_BENCH_SORT_TRIAL_H
 #define KILN_BENCH_SORT_TRIAL_H
 
@@ -22,8 +22,9 @@ const char *kiln_sort_trial_name(enum kiln_sort_trial_kind kind);
 
 struct kiln_sort_trial;
 
-/* For up to `most` keys. device may be NULL for `cpu`, threads, borrowed, for all others. NULL with
- * an error: KILN_USAGE without a device that is needed, KILN_DEVICE_FAILED. */
+/* Creates a trial for up to `most` keys. device may be NULL for `cpu`; threads, which are borrowed,
+ * may be NULL for all other kinds. Returns NULL with an error: KILN_USAGE without a device that is
+ * needed, or KILN_DEVICE_FAILED. */
 struct kiln_sort_trial *kiln_sort_trial_create(struct kiln_device *device,
                                                struct kiln_threads *threads,
                                                enum kiln_sort_trial_kind kind, uint32_t most,
@@ -39,7 +40,7 @@ void kiln_sort_trial_restrict(struct kiln_sort_trial *trial, uint32_t rows);
 bool kiln_sort_trial_run(struct kiln_sort_trial *trial, const uint32_t *keys, uint32_t count,
                          double *ms, struct kiln_error *error);
 
-/* The places of the keys of the last run in their order; NULL with an error. */
+/* Returns the places of the keys of the last run in sorted order; NULL with an error. */
 const uint32_t *kiln_sort_trial_places(struct kiln_sort_trial *trial, struct kiln_error *error);
 
 #endif

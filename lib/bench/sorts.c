@@ -1,6 +1,6 @@
-/* Table 1 of UberFlow (Kipfer, Segal and Westermann 2004): a field of n x n keys sorted by every
- * technique, and by bitonic sort as it is there, whose comparator's constants are computed (FP),
- * passed in (GP/FP) or passed in for packed pairs. */
+/* Measures table 1 of UberFlow (Kipfer, Segal and Westermann 2004). A field of n x n keys is sorted
+ * by every technique, and by the paper's bitonic sort, whose comparator's constants are computed
+ * (FP), passed in (GP/FP) or passed in for packed pairs. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +9,8 @@
 #include "bench/suite.h"
 #include "shared/random.h"
 
-/* Behind the kinds: packed pairs sorted within sets of so many rows (UberFlow, 5). */
+/* Entrants that follow the kinds of trials: packed pairs sorted within sets of so many rows
+ * (UberFlow, 5). */
 static const uint32_t ROWS[] = {1, 16};
 
 enum {
@@ -27,7 +28,7 @@ struct race {
     struct kiln_samples *samples; /* [ENTRANTS] */
 };
 
-/* Whether the device may sort at all. */
+/* Whether the device allows this kind of sort at all. */
 static bool may_sort(const struct race *race, enum kiln_sort_trial_kind kind,
                      struct kiln_error *error)
 {

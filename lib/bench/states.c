@@ -1,4 +1,5 @@
-/* Saved states: how large they are, and how long it takes to save one and to take it up. */
+/* Measures saved states: how large they are, and how long it takes to save one and to take it up.
+ */
 #include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,7 +11,7 @@
 #include "job/state.h"
 #include "sim/step/simulate.h"
 
-enum { STEPS = 62, MAX_TURNS = 5 }; /* in 60 steps the scene has filled */
+enum { STEPS = 62, MAX_TURNS = 5 }; /* after 60 steps the scene has all its particles */
 
 /* A state of so many particles, and what was measured of it. */
 struct keeping {
@@ -19,7 +20,7 @@ struct keeping {
     struct kiln_scene *scene;
     struct kiln_threads *threads;
     struct kiln_simulate *simulate;
-    struct kiln_pool pool, other; /* the one that is saved, and one that takes it up */
+    struct kiln_pool pool, other; /* `pool` is saved, and `other` takes it up */
     struct kiln_state state;
     double save_ms[MAX_TURNS], load_ms[MAX_TURNS];
     uint32_t turns;
@@ -65,7 +66,7 @@ static bool fill(struct keeping *k, struct kiln_error *error)
                               error);
 }
 
-/* A job takes a state up the same way: it checks the file, reads it, and hashes what it got. */
+/* Takes up a state as a job does: it checks the file, reads it, and hashes what it read. */
 static bool load(struct keeping *k, const char *path, struct kiln_error *error)
 {
     struct kiln_state_info info;

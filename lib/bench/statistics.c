@@ -1,3 +1,4 @@
+/* Computes medians, quartiles, ratios and powers of growth from measured values. */
 #include "bench/statistics.h"
 
 #include <math.h>
@@ -12,7 +13,8 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Of ascending values, at a part of the way from the first to the last. */
+/* Returns the value at a part of the way from the first to the last of ascending values; it
+ * interpolates between neighbours. */
 static double value_at(const double *values, size_t count, double part)
 {
     double place = part * (double)(count - 1);

@@ -1,4 +1,4 @@
-/* Times in short: medians and quartiles, which a few disturbed turns do not move. */
+/* Summarizes measured times by medians and quartiles, which a few disturbed turns do not move. */
 #ifndef KILN_BENCH_STATISTICS_H
 #define KILN_BENCH_STATISTICS_H
 
@@ -14,12 +14,13 @@ struct kiln_spread {
  * KILN_BENCH_MAX_REPETITIONS values. */
 struct kiln_spread kiln_spread_of(const double *values, size_t count);
 
-/* Of over[i] / under[i]: what was measured in the same turn. Pairs without a positive divisor do
- * not count. */
+/* The spread of the ratios over[i] / under[i], whose two values were measured in the same turn.
+ * Pairs whose divisor is not positive do not count. */
 struct kiln_spread kiln_spread_of_ratios(const double *over, const double *under, size_t count);
 
-/* The p of y ~ x^p by least squares over logarithms; 1 is linear. Points that have none do not
- * count; NaN with fewer than two. */
+/* Fits y ~ x^p by least squares over logarithms and returns p; 1 is linear growth. Points with a
+ * value that is not positive do not count. Returns NaN where the points have fewer than two values
+ * of x. */
 double kiln_growth(const double *x, const double *y, size_t count);
 
 #endif

@@ -1,3 +1,5 @@
+/* Holds what suites share: messages of progress, settings and scenes, lanes of a stage, rows of a
+ * comparison, and the growth of curves. */
 #include "bench/suite.h"
 
 #include <math.h>
@@ -73,7 +75,7 @@ struct kiln_scene *kiln_bench_load_scene(const struct kiln_bench_run *run, const
         return NULL;
     }
     struct kiln_settings all = *settings;
-    if (run->params->quick) /* their atlases take longer to make than they are looked at */
+    if (run->params->quick) /* the scenes' own atlases take longer to make than a quick run */
         kiln_set(run, &all, "systems.*.look.atlas=builtin:spark");
     struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = all.items;
@@ -98,7 +100,7 @@ size_t kiln_lanes_of_stage(const struct kiln_bench_run *run, const char *stage,
             for (size_t i = 0; i < found && count < KILN_MAX_LANES; i++) {
                 bool chosen = strcmp(names[i], automatic.choices[s].name) == 0;
                 char text[KILN_TECHNIQUE_SIZE];
-                if (chosen) /* by a flag, with what that says besides: "oddeven:8" */
+                if (chosen) /* a flag may say more than the name: "oddeven:8" */
                     kiln_technique_describe(&automatic, s, text, sizeof text);
                 else
                     snprintf(text, sizeof text, "%s=%s", stage, names[i]);
@@ -135,7 +137,7 @@ bool kiln_bench_publish(const struct kiln_bench_run *run, double x, const char *
     return kiln_bench_add_row(run->bench, &row, error);
 }
 
-/* In the unit of the part. */
+/* Gives the values of a measure in the unit of the part: ms, or frames a second. */
 static void take_values(const struct kiln_samples *samples, int measure, bool rates,
                         double values[KILN_BENCH_MAX_REPETITIONS])
 {
@@ -220,7 +222,8 @@ static bool same_curve(const struct kiln_bench_row *a, const struct kiln_bench_r
     return strcmp(a->measure, b->measure) == 0 && strcmp(a->technique, b->technique) == 0;
 }
 
-/* Over the larger half of the points: in the other one, costs that do not grow count too much. */
+/* Fits growth over the larger half of the points; in the other half, costs that do not grow count
+ * too much. */
 static double growth_of(const struct kiln_bench_part *part, size_t first)
 {
     enum { MOST = 64 };

@@ -1,5 +1,5 @@
-/* What suites are made of: a comparison is a scene with settings and the ways to render it; what
- * comes out are rows of the part at hand. */
+/* Declares the suites of benchmarks and what they share: settings of a scene, the lanes of a stage,
+ * comparisons of lanes, and rows of the part that a suite has begun. */
 #ifndef KILN_BENCH_SUITE_H
 #define KILN_BENCH_SUITE_H
 
@@ -32,12 +32,12 @@ bool kiln_suite_states(const struct kiln_bench_run *run, struct kiln_error *erro
 bool kiln_suite_jobs(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
 
-/* The part of `gravity` that says how well energy is kept. */
+/* Adds the part of the suite `gravity` that says how well bodies keep their energy. */
 bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error);
 
 #define KILN_UBERFLOW_SOURCE "UberFlow 2004, ATI 9800 Pro"
 
-/* A scene of the caller, a technique at a time. */
+/* Measures a scene of the caller: whole frames, then the techniques of each stage. */
 bool kiln_bench_scene(const struct kiln_bench_run *run, const char *path, struct kiln_error *error);
 
 /* Overrides of a scene. */
@@ -48,30 +48,31 @@ struct kiln_settings {
     const char *asset_root; /* where files lie that they name, an absolute path; NULL: none */
 };
 
-/* Add "key=value"; the text lives as long as the run. What finds no room, or no memory, is missing
- * for kiln_bench_load_scene to see. */
+/* Add the override "key=value"; its text lives as long as the run. A setting for which there is no
+ * room or no memory makes kiln_bench_load_scene fail. */
 void kiln_set(const struct kiln_bench_run *run, struct kiln_settings *settings, const char *text);
 void kiln_set_number(const struct kiln_bench_run *run, struct kiln_settings *settings,
                      const char *key, double value);
 
-/* The size of the picture, smaller in a quick run. */
+/* Sets the size of the picture, which is smaller in a quick run. */
 void kiln_set_picture(const struct kiln_bench_run *run, struct kiln_settings *settings,
                       uint32_t width, uint32_t height);
 
-/* So small a picture, without lights, that a frame is little more than simulation and sort. */
+/* Sets a small picture without bloom and lights, so that a frame takes little more time than
+ * simulation and sort. */
 void kiln_set_unseen(const struct kiln_bench_run *run, struct kiln_settings *settings);
 
-/* One of the scenes in the library, "fire_beam.yaml". */
+/* Loads one of the scenes in the library, such as "fire_beam.yaml". */
 struct kiln_scene *kiln_bench_load_scene(const struct kiln_bench_run *run, const char *name,
                                          const struct kiln_settings *settings,
                                          struct kiln_error *error);
 
-/* The techniques of a stage as lanes, that which `auto` takes first. names live as long as the run.
- * 0 with an error. */
+/* Makes a lane of each technique of a stage, first the one that `auto` takes. The names of the
+ * lanes live as long as the run. Returns the number of lanes; 0 with an error. */
 size_t kiln_lanes_of_stage(const struct kiln_bench_run *run, const char *stage,
                            struct kiln_lane lanes[KILN_MAX_LANES], struct kiln_error *error);
 
-/* Of the comparisons that rows are taken from. */
+/* Bits of kiln_comparison.measures: a pass, or the whole frame. */
 #define KILN_MEASURE(pass) (1u << KILN_PASS_##pass)
 #define KILN_MEASURE_WHOLE (1u << KILN_MEASURE_FRAME)
 
@@ -80,22 +81,23 @@ struct kiln_comparison {
     const struct kiln_settings *settings;
     const struct kiln_lane *lanes; /* the first is what the others are compared with */
     size_t lane_count;
-    uint32_t measures; /* of passes */
+    uint32_t measures; /* bits of KILN_MEASURE and KILN_MEASURE_WHOLE */
     const char *as;    /* the measure's name in the table; NULL: that of the pass */
     double x;
     bool rates; /* frames a second, not milliseconds */
 };
 
-/* How long a step of the library's cloud takes, of so many particles, on threads: a row that is
- * called `as`. Adds to the settings. */
+/* Measures how long a step of the library's cloud takes with so many particles, simulated on the
+ * processor, and adds a row that is called `as`. Adds to the settings. */
 bool kiln_compare_cloud(const struct kiln_bench_run *run, struct kiln_settings *settings,
                         double particles, const char *as, double x, struct kiln_error *error);
 
-/* Runs it, and adds a row for each measure and lane. */
+/* Runs the comparison, and adds a row for each measure and lane. */
 bool kiln_compare_lanes(const struct kiln_bench_run *run, const struct kiln_comparison *comparison,
                         struct kiln_error *error);
 
-/* The same of samples that are there; of what the first lane took, *samples[0]. */
+/* Adds a row for each measure and lane of a comparison from samples that were taken before;
+ * samples[0] is what the first lane took. */
 bool kiln_bench_add_samples(const struct kiln_bench_run *run,
                             const struct kiln_comparison *comparison,
                             const struct kiln_samples *samples, struct kiln_error *error);

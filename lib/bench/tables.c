@@ -1,4 +1,5 @@
-/* Tables for people: a row a measurement, and medians side by side. */
+/* Writes a benchmark as tables: in text a row for each measurement, in Markdown medians side by
+ * side. */
 #include <string.h>
 
 #include "bench/result.h"
@@ -37,7 +38,8 @@ static void put_head(const struct kiln_bench *bench, FILE *out)
             bench->quick ? ", a quick run: its numbers say nothing" : "", bench->seconds);
 }
 
-/* "2.00", or four digits behind the point where two would say nothing. */
+/* Writes a ratio and its quartiles as "2.00", or with four digits behind the point where two would
+ * say nothing. */
 static void put_ratios_of(const struct kiln_spread *faster, const char *before, const char *between,
                           const char *after, FILE *out)
 {

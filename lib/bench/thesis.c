@@ -1,14 +1,15 @@
-/* The measurements of Heinz 2019, chapter 4, on this machine. The figures were not kept as numbers:
- * what its text says of them is printed beside. */
+/* Repeats the measurements of Heinz 2019, chapter 4, on this machine. The numbers behind the
+ * figures of the thesis are not known, so what its text says of them is printed beside. */
 #include <math.h>
 
 #include "bench/suite.h"
 
 static const char SCENE[] = "fire_beam.yaml";
 
-/* Fire and smoke of four seconds of life each, as many as table 4.1 has in all (a half each). One
- * step a frame. Sprites shrink so that they cover as much together as 1,600 of full size do, which
- * is what the table's factors come to: 1 there, 0.1 of 160,000. */
+/* Sets a beam of as many particles as table 4.1 has in all, half of them fire and half smoke, with
+ * four seconds of life each and one step a frame. Sprites shrink so that together they cover as
+ * much as 1,600 of full size do. The table's factors come to the same: 1 of 1,600 particles, 0.1 of
+ * 160,000. */
 static void set_beam(const struct kiln_bench_run *run, struct kiln_settings *settings,
                      double particles)
 {
@@ -32,7 +33,7 @@ static size_t size_count(const struct kiln_bench_run *run)
     return run->params->quick ? 1 : SIZE_COUNT;
 }
 
-/* The lanes with beams of all sizes that nothing draws. */
+/* Compares the lanes with beams of all sizes, in a picture so small that drawing does not count. */
 static bool compare_unseen(const struct kiln_bench_run *run, const struct kiln_lane *lanes,
                            size_t lane_count, uint32_t measures, struct kiln_error *error)
 {
@@ -81,7 +82,7 @@ bool kiln_suite_figure_4_4(const struct kiln_bench_run *run, struct kiln_error *
 
 /* ---- Figure 4.5 ------------------------------------------------------------------------------ */
 
-/* Parts of a frame, each drawn alone, near before the beam. */
+/* Parts of a frame, each drawn alone with the camera close to the beam. */
 static const struct {
     const char *as;
     const char *without; /* settings that leave the other part out, or NULL */
@@ -152,7 +153,7 @@ bool kiln_suite_figure_4_6(const struct kiln_bench_run *run, struct kiln_error *
     size_t count = kiln_lanes_of_stage(run, "sort", lanes, error);
     if (count == 0)
         return false;
-    if (count < KILN_MAX_LANES) /* those above sort what `auto` simulates */
+    if (count < KILN_MAX_LANES) /* the lanes above sort what `auto` simulates */
         lanes[count++] = (struct kiln_lane){.name = "sort=bitonic after simulate=feedback",
                                             .techniques = "simulate=feedback sort=bitonic"};
     if (count < KILN_MAX_LANES)

@@ -1,17 +1,17 @@
-/* Table 2 of UberFlow (Kipfer, Segal and Westermann 2004), in today's terms: a texture of n^2
- * particles is so many particles, and frames a second stay frames a second. */
+/* Measures table 2 of UberFlow (Kipfer, Segal and Westermann 2004). The paper's texture of n x n
+ * particles is n^2 particles here; frames a second are frames a second in both. */
 #include "bench/suite.h"
 
 static const char SCENE[] = "bench/cloud.yaml";
 
-/* n^2 particles of each kind, of which one is left out. */
+/* Sets n^2 particles of each kind, fire and smoke, of which an experiment leaves one out. */
 static void set_field(const struct kiln_bench_run *run, struct kiln_settings *settings, double side)
 {
     kiln_set_number(run, settings, "systems.*.emit.rate", side * side);
     kiln_set_number(run, settings, "systems.*.look.size", 0.03);
 }
 
-/* What experiments set besides; each ends in NULL. */
+/* Further settings of the experiments; each list ends in NULL. */
 static const char *const FREE[] = {"systems.*.collide=none", NULL};
 static const char *const HEIGHT_FIELD[] = {
     "backdrop.objects=[terrain: {size: [12, 1.2, 8], samples: [257, 257], hills: 3 m}]",
@@ -31,8 +31,8 @@ static const char *const EXACT_CELLS[] = {
 
 #define ON_DEVICE "backdrop=gl raster=geometry composite=gl"
 
-/* An experiment: what it is on the device, and what `auto` makes of it. Fire alone is summed and
- * needs no order; smoke alone is sorted. */
+/* An experiment, which runs with techniques of the device, with those of `auto`, or with both. Fire
+ * alone is summed and needs no order; smoke alone is sorted. */
 static const struct experiment {
     const char *name;
     const char *techniques; /* of the device's lane; NULL: there is none */

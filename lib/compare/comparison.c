@@ -1,5 +1,5 @@
-/* Comparing pictures: frames of both sides are paired, decoded, measured and judged one after the
- * other, so that memory holds one pair at a time. */
+/* Compares pictures, folders, numbered pictures and videos. Frames of both sides are paired,
+ * decoded, measured and judged one after the other, so that memory holds one pair at a time. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,7 @@ struct comparison {
     struct kiln_metric_set set;
     struct kiln_difference_plan diff, error_map;
     struct kiln_claims *claims; /* of all that is read and written */
-    struct kiln_mask mask;      /* of the size of the frame before */
+    struct kiln_mask mask;      /* made for the size of the frame before */
     struct kiln_threads *threads;
     struct kiln_compare_result result;
     double sums[KILN_MAX_COLUMNS];
@@ -73,7 +73,8 @@ static void note_places(const struct kiln_measurement *measurement,
     frame->flip_s = measurement->flip_s;
 }
 
-/* Measures and judges, and draws the difference. A mismatch is a verdict, no error. */
+/* Measures and judges a pair of pictures, and draws the difference. Pictures that do not match are
+ * a verdict, no error. */
 static bool compare_subjects(struct comparison *comparison,
                              const struct kiln_subject *const subjects[2],
                              struct kiln_compare_frame *frame, uint32_t number,
@@ -121,7 +122,8 @@ static bool load_images(struct comparison *comparison, struct kiln_asset_image *
     return images[0] && images[1];
 }
 
-/* The mask for a pair of pictures; none for those of two sizes, which differ anyway. */
+/* Makes the mask for a pair of pictures; there is none for pictures of two sizes, which differ
+ * anyway. */
 static bool make_mask(struct comparison *comparison, struct kiln_asset_image *const images[2],
                       const struct kiln_mask **mask, struct kiln_error *error)
 {
@@ -189,9 +191,9 @@ static bool compare_frame(struct comparison *comparison, struct kiln_compare_fra
     return ok;
 }
 
-/* ---- All of them -------------------------------------------------------------------------- */
+/* ---- All frames ---------------------------------------------------------------------------- */
 
-/* Names of files may be anybody's: nothing but what can be shown goes on. */
+/* Copies a name with only those characters that can be shown: it may be the name of any file. */
 static void note_name(char out[256], const char *name)
 {
     kiln_shown(out, 256, name);
@@ -241,7 +243,7 @@ static int order(const struct comparison *comparison, const struct kiln_footage_
     return (next[0].number > next[1].number) - (next[0].number < next[1].number);
 }
 
-/* The next frame of either side; false at the end or with the error. */
+/* Compares the next frame of either side; false at the end or with the error. */
 static bool compare_next(struct comparison *comparison, struct kiln_error *error)
 {
     struct kiln_footage_frame next[2];
@@ -252,7 +254,7 @@ static bool compare_next(struct comparison *comparison, struct kiln_error *error
         return false;
     int first = order(comparison, next, has);
     const struct kiln_footage_frame *taken = &next[first > 0];
-    char name[256]; /* the entry's own goes with the next peek */
+    char name[256]; /* the frame's own name is lost with the next peek */
     note_name(name, taken->name);
     struct kiln_compare_frame frame = {.size = sizeof frame, .name = name, .message = ""};
     if (first == 0) {
@@ -304,7 +306,8 @@ static bool check_params(const struct kiln_compare_params *params, struct kiln_e
     return true;
 }
 
-/* Names pair with names, numbers with numbers, one picture with one. */
+/* Checks that the two sides can be paired: folders by names, patterns and videos by numbers, a
+ * picture with a picture. */
 static bool check_kinds(const struct comparison *comparison, struct kiln_error *error)
 {
     static const char *const names[] = {
@@ -322,7 +325,8 @@ static bool check_kinds(const struct comparison *comparison, struct kiln_error *
                           kiln_footage_path(comparison->footage[1]), names[b]);
 }
 
-/* No picture that is compared, and no mask, is replaced. */
+/* Declares what is read and written, so that no picture that is compared, and no mask, is replaced.
+ */
 static bool claim_files(struct comparison *comparison, struct kiln_error *error)
 {
     static const char *const names[2] = {"a picture of the reference", "a picture of the test"};
@@ -378,7 +382,7 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
            kiln_error_set(error, KILN_DEVICE_FAILED, "the system refuses to start threads");
 }
 
-/* What the caller gave, its masks one beside the other; they are to be freed. */
+/* Takes the caller's parameters, with the masks in an array of its own, which is to be freed. */
 static bool take(struct kiln_compare_params *taken, const struct kiln_compare_params *given,
                  struct kiln_compare_mask **masks, struct kiln_error *error)
 {

@@ -1,4 +1,5 @@
-/* What goes beyond white or below black is shown as that; alpha is shown on black. */
+/* Draws pictures of differences and writes them to the files that a plan names. Light beyond white
+ * is shown as white and light below black as black; alpha is shown on black. */
 #include "compare/difference.h"
 
 #include <string.h>

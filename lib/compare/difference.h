@@ -1,4 +1,4 @@
-/* Pictures of differences: the error map, alone or beside reference and test, as PNG. */
+/* Writes pictures of differences as PNG: the error map, alone or beside reference and test. */
 #ifndef KILN_COMPARE_DIFFERENCE_H
 #define KILN_COMPARE_DIFFERENCE_H
 
@@ -7,33 +7,33 @@
 #include "compare/measure.h"
 #include "kiln_program.h"
 
-/* Where they go, and what they show. */
+/* Where the pictures of differences go, and what they show. */
 struct kiln_difference_plan {
-    const char *path; /* as it was given */
+    const char *path; /* the path as it was given */
     bool map_alone;   /* the error map; else reference, test and error map side by side */
     bool overwrite;
-    bool folder; /* NAME.png of each frame's name in it */
+    bool folder; /* path is a folder, which gets NAME.png for each frame of that name */
     struct kiln_path_pattern pattern;
     const char *option;
     struct kiln_claims *claims; /* of pictures that have not been declared; else NULL */
 };
 
-/* A single picture goes to path; those of a sequence need a pattern with a number, or get one
- * ("_0000"); with a path that is a folder or ends in a slash, each is named after its frame.
- * KILN_USAGE when the path makes no sense or is no PNG, KILN_IO when a single one may not be put
- * there. */
+/* Plans where pictures of differences go. A single picture goes to path; those of a sequence need a
+ * pattern with a number, or get one ("_0000"). With a path that is a folder or ends in a slash,
+ * each picture is named after its frame. KILN_USAGE when the path makes no sense or is no PNG,
+ * KILN_IO when a single picture may not be put there. */
 bool kiln_difference_plan_make(struct kiln_difference_plan *plan, const char *path, bool map_alone,
                                bool sequence, bool overwrite, struct kiln_error *error);
 
-/* Declares the pictures of the frames of a reference, which the call writes for `option`: all, but
- * only the first of a video, whose others are declared when they are written. The claims outlive
+/* Declares the pictures that are written for `option`, one for each frame of the reference. Of a
+ * video only the first is declared here, and the others when they are written. The claims outlive
  * the plan. */
 bool kiln_difference_plan_claim(struct kiln_difference_plan *plan, const char *option,
                                 const struct kiln_footage *reference, struct kiln_claims *claims,
                                 struct kiln_error *error);
 
-/* Writes one picture, which appears whole or not at all. name is the frame's, number that for the
- * pattern. KILN_IO, KILN_DEVICE_FAILED. */
+/* Writes one picture, which appears whole or not at all. name is the frame's, and number is put
+ * into the pattern. Fails with KILN_IO or KILN_DEVICE_FAILED. */
 bool kiln_difference_write(const struct kiln_difference_plan *plan, const char *name,
                            uint32_t number, const struct kiln_subject *reference,
                            const struct kiln_subject *test, const float *errors,

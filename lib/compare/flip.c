@@ -1,8 +1,7 @@
-/* LDR-FLIP in tiles: colours are brought to the opponent space of the contrast sensitivity filters
- * once; each tile is then filtered across and down and judged while it lies in the cache. Inner
- * loops run over plain arrays, which the compiler turns into vector code. Constants and steps: HPG
- * 2020, sections 4 and 5.
- */
+/* Computes LDR-FLIP tile by tile. Colours are brought to the opponent space of the contrast
+ * sensitivity filters once; each tile is then filtered across and down and judged while it lies in
+ * the cache. Inner loops run over plain arrays, which the compiler turns into vector code.
+ * Constants and steps are those of HPG 2020, sections 4 and 5. */
 #include "compare/flip.h"
 
 #include <assert.h>
@@ -108,7 +107,7 @@ static void make_contrast_filters(struct filters *f, double ppd)
     scale(f->weights[CSF_Z2], radius, 1.0 / both);
 }
 
-/* The lobes of a derivative each sum to 1 or -1. */
+/* Scales a derivative so that its lobes sum to 1 and -1. */
 static void normalize_lobes(float *weights, int radius)
 {
     double above = 0, below = 0;
@@ -141,8 +140,8 @@ static void make_feature_filters(struct filters *f, double ppd)
 
 /* ---- colours --------------------------------------------------------------------------------- */
 
-/* x^p for 0 < x: 2^(p log2 x), each by a polynomial; relative error below 2e-6 for |p log2 x| < 20.
- * libm's is as exact as a double but does not vectorise. */
+/* Computes x^p for 0 < x as 2^(p log2 x), each by a polynomial; the relative error is below 2e-6
+ * for |p log2 x| < 20. libm's pow is as exact as a double, but does not vectorise. */
 static inline float power(float x, float p)
 {
     uint32_t bits;
@@ -176,7 +175,7 @@ static inline float clamp01(float x)
     return x > 1.0f ? 1.0f : x;
 }
 
-/* A row of linear colours to the opponent space of the filters (HPG 2020, 4.1). */
+/* Converts a row of linear colours to the opponent space of the filters (HPG 2020, 4.1). */
 KILN_WIDE_VECTORS
 static void to_opponent(const float *rgb, size_t count, float *y, float *x, float *z)
 {
@@ -210,7 +209,7 @@ struct lab {
     float l, a, b;
 };
 
-/* Linear RGB to CIELab with the Hunt effect: colours are weaker in the dark. */
+/* Converts linear RGB to CIELab with the Hunt effect: colours are weaker in the dark. */
 static inline struct lab hunt_lab(float r, float g, float b)
 {
     float x = (float)TO_XYZ[0][0] * r + (float)TO_XYZ[0][1] * g + (float)TO_XYZ[0][2] * b;
@@ -224,7 +223,7 @@ static inline struct lab hunt_lab(float r, float g, float b)
     return lab;
 }
 
-/* HyAB distance to the power 0.7 (HPG 2020, 4.1.3). */
+/* Returns the HyAB distance to the power 0.7 (HPG 2020, 4.1.3). */
 static inline float color_distance(struct lab p, struct lab q)
 {
     float da = p.a - q.a, db = p.b - q.b;
@@ -244,8 +243,8 @@ static inline struct lab filtered_lab(const float from_xyz[3][3], float y, float
 
 /* ---- filters --------------------------------------------------------------------------------- */
 
-/* to[i] = sum of weights[k] * from[i + k], k up to 2 radius: count is a multiple of LANES, and from
- * has 2 radius more. */
+/* Sets to[i] to the sum of weights[k] * from[i + k], k up to 2 radius. count is a multiple of
+ * LANES, and from has 2 radius more. */
 KILN_WIDE_VECTORS
 static void filter_across(const float *from, const float *weights, int radius, float *to, int count)
 {
@@ -259,7 +258,8 @@ static void filter_across(const float *from, const float *weights, int radius, f
     }
 }
 
-/* The same down the rows of a tile, `stride` floats apart. */
+/* Filters down the rows of a tile, which are `stride` floats apart, as filter_across does along a
+ * row. */
 KILN_WIDE_VECTORS
 static void filter_down(const float *from, size_t stride, const float *weights, int radius,
                         float *to, int count)
@@ -274,14 +274,14 @@ static void filter_down(const float *from, size_t stride, const float *weights, 
     }
 }
 
-/* What the filters across leave of a tile: one image. */
+/* A tile holds what the filters across make of both images. */
 enum { TILE_ROWS = TILE_HEIGHT + 2 * MAX_RADIUS };
 
 struct tile {
     float across[2][FILTER_COUNT][TILE_ROWS][TILE_WIDTH];
 };
 
-/* One row of a plane with `radius` more on each side, clamped to the edge. */
+/* Copies one row of a plane with `radius` more values on each side, clamped to the edge. */
 static void pad_row(const float *row, uint32_t width, int64_t left, int radius, float *padded)
 {
     for (int i = 0; i < TILE_WIDTH + 2 * radius; i++) {
@@ -326,7 +326,7 @@ static void filter_row_down(const struct flip *flip, const struct tile *tile, in
                             struct row *out)
 {
     const struct filters *f = &flip->filters;
-    /* What was filtered across by `first` is filtered down by `second`. */
+    /* What was filtered across by FIRST is filtered down by SECOND. */
     static const int FIRST[FEATURE_COUNT] = {GAUSS_1, GAUSS, GAUSS_2, GAUSS};
     static const int SECOND[FEATURE_COUNT] = {GAUSS, GAUSS_1, GAUSS, GAUSS_2};
     for (int image = 0; image < 2; image++) {
@@ -342,13 +342,15 @@ static void filter_row_down(const struct flip *flip, const struct tile *tile, in
     }
 }
 
-/* Features were filtered in units of Y; (Y + 16) / 116 has slopes 116 times smaller. */
+/* Returns the size of a feature. Features were filtered in units of Y; (Y + 16) / 116 has slopes
+ * 116 times smaller. */
 static inline float feature_size(float across, float down)
 {
     return sqrtf(across * across + down * down) * (1.0f / 116.0f);
 }
 
-/* HPG 2020, 4.1.3, 4.2 and 4.3: colour error, remapped at the knee, raised by the feature error. */
+/* Computes the errors of a row: the colour error, remapped at the knee, is raised by the feature
+ * error (HPG 2020, 4.1.3, 4.2 and 4.3). */
 KILN_WIDE_VECTORS
 static void judge_row(const struct row *row, const float from_xyz[3][3], float largest,
                       float *errors, int count)

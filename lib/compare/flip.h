@@ -1,8 +1,7 @@
-/* FLIP: how different two pictures look when one flips between them (Andersson et al., "FLIP: A
- * Difference Evaluator for Alternating Images", HPG 2020; "Visualizing Errors in Rendered High
- * Dynamic Range Images", EG 2021). Pictures are linear Rec. 709, three floats a pixel, rows from
- * the top.
- */
+/* Computes FLIP: how different two pictures look when one flips between them (Andersson et al.,
+ * "FLIP: A Difference Evaluator for Alternating Images", HPG 2020; "Visualizing Errors in Rendered
+ * High Dynamic Range Images", EG 2021). Pictures are linear Rec. 709, three floats a pixel, rows
+ * from the top. */
 #ifndef KILN_COMPARE_FLIP_H
 #define KILN_COMPARE_FLIP_H
 
@@ -26,9 +25,9 @@ struct kiln_flip_pair {
 bool kiln_flip_check_finite(const float *picture, const struct kiln_flip_pair *pair,
                             struct kiln_error *error);
 
-/* The error of each pixel, 0 (none) to 1; values are clamped to 0..1 first. errors has room for
- * width * height. False with KILN_INVALID_INPUT when a value is not finite (the message says
- * where), with KILN_DEVICE_FAILED when memory is short. */
+/* Computes the LDR error of each pixel, 0 (none) to 1; values are clamped to 0..1 first. errors has
+ * room for width * height. False with KILN_INVALID_INPUT when a value is not finite (the message
+ * says where), with KILN_DEVICE_FAILED when memory is short. */
 bool kiln_flip_ldr(const struct kiln_flip_pair *pair, const struct kiln_flip_params *params,
                    struct kiln_threads *threads, float *errors, struct kiln_error *error);
 
@@ -39,15 +38,17 @@ struct kiln_flip_exposures {
 };
 enum { KILN_FLIP_MAX_EXPOSURES = 64 };
 
-/* From the reference alone: its brightest pixel just not burnt out, to its median as bright as
- * that. A reference whose median is black (fire on black) gets the darkest exposure that its light
- * bears, never an empty range, in which any two pictures would be equal. The test picture may be
- * NULL. Errors as above. */
+/* Chooses the exposures from the reference alone: from the one at which its brightest pixel is just
+ * not burnt out, to the one at which its median is as bright as that. A reference whose median is
+ * black (fire on black) gets the darkest exposure that its light bears, never an empty range, in
+ * which any two pictures would be equal. The test picture may be NULL. False with
+ * KILN_INVALID_INPUT when a value of the reference is not finite, with KILN_DEVICE_FAILED when
+ * memory is short. */
 bool kiln_flip_choose_exposures(const struct kiln_flip_pair *pair,
                                 struct kiln_flip_exposures *exposures, struct kiln_error *error);
 
-/* The largest LDR error of each pixel over the exposures, tone-mapped with ACES. Negative values
- * count as 0. Errors as above. */
+/* Computes the largest LDR error of each pixel over the exposures, tone-mapped with ACES. Negative
+ * values count as 0. Fails as kiln_flip_ldr does. */
 bool kiln_flip_hdr(const struct kiln_flip_pair *pair, const struct kiln_flip_params *params,
                    const struct kiln_flip_exposures *exposures, struct kiln_threads *threads,
                    float *errors, struct kiln_error *error);

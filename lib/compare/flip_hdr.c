@@ -1,5 +1,5 @@
-/* HDR-FLIP (EG 2021): LDR-FLIP at every exposure at which something of the reference can be seen;
- * the worst counts. */
+/* Computes HDR-FLIP (EG 2021): LDR-FLIP at every exposure at which something of the reference can
+ * be seen. The worst error of each pixel counts. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static float luminance(const float rgb[3])
     return y > 0.0f ? y : 0.0f;
 }
 
-/* The larger root of T(x) = 0.85. */
+/* Returns the larger root of T(x) = 0.85, where T is the ACES curve. */
 static double bright_enough(void)
 {
     const double t = 0.85;
@@ -53,7 +53,7 @@ bool kiln_flip_choose_exposures(const struct kiln_flip_pair *pair,
     double median = (double)values[pixels / 2];
     free(values);
 
-    /* A black reference: any light of the test picture shows at the picture's own exposure. */
+    /* With a black reference, any light of the test picture shows at the picture's own exposure. */
     if (!(brightest > 0.0)) {
         *exposures = (struct kiln_flip_exposures){.start = 0.0f, .stop = 1.0f, .count = 2};
         return true;
@@ -85,7 +85,7 @@ static void expose_rows(void *context, size_t begin, size_t end, uint32_t worker
     for (size_t i = begin; i < end; i++) {
         float x = job->from[i] * job->factor;
         x = x > 0.0f ? x : 0.0f;
-        x = x < 1e15f ? x : 1e15f; /* its square is finite */
+        x = x < 1e15f ? x : 1e15f; /* keeps its square finite */
         job->to[i] = x * (a * x + b) / (x * (c * x + d) + e);
     }
 }
@@ -98,7 +98,7 @@ bool kiln_flip_hdr(const struct kiln_flip_pair *pair, const struct kiln_flip_par
     if (exposures->count < 2 || exposures->count > KILN_FLIP_MAX_EXPOSURES)
         return kiln_error_set(error, KILN_USAGE, "%u exposures: expected 2 to %d", exposures->count,
                               KILN_FLIP_MAX_EXPOSURES);
-    /* Here, since tone mapping would make a number of anything. */
+    /* Values are checked here, since tone mapping would turn any value into a finite number. */
     if (!kiln_flip_check_finite(pair->reference, pair, error) ||
         !kiln_flip_check_finite(pair->test, pair, error))
         return false;

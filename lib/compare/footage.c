@@ -1,5 +1,6 @@
-/* Folders and patterns are listed at once, so that what is missing or too much on either side
- * shows; of a video, the frame after the last is known only by decoding. */
+/* Lists the frames of a picture, a folder, a numbered pattern or a video, and decodes them in
+ * order. Folders and patterns are listed at once, so that frames that are missing or too many on
+ * either side show. Of a video, kiln knows only by decoding whether there is a next frame. */
 #include "compare/footage.h"
 
 #include <dirent.h>
@@ -33,7 +34,7 @@ struct kiln_footage {
     struct kiln_video_in *video;
     struct kiln_asset_image *image; /* decoded ahead */
     struct kiln_error video_error;
-    bool ahead, ended; /* a frame, or an error, was decoded ahead; there is none */
+    bool ahead, ended; /* ahead: a frame or an error was decoded ahead; ended: no frame is left */
     char number_text[16];
 };
 
@@ -71,7 +72,7 @@ static bool is_picture(const char *name)
     return false;
 }
 
-/* Whether the name is what the pattern makes of a number. */
+/* Whether the name is what the pattern makes of a number, which goes to *number. */
 static bool has_number(const struct kiln_path_pattern *pattern, const char *folder,
                        const char *name, uint32_t *number)
 {
@@ -99,7 +100,7 @@ static int compare_entries(const void *a, const void *b)
                                   : strcmp(p->name, q->name);
 }
 
-/* Lists the folder: names that fit the pattern or, without one, pictures. */
+/* Lists the folder's names that fit the pattern or, without a pattern, its pictures. */
 static bool list_entries(struct kiln_footage *footage, const struct kiln_path_pattern *pattern,
                          struct kiln_error *error)
 {
@@ -133,7 +134,7 @@ static bool list_entries(struct kiln_footage *footage, const struct kiln_path_pa
 
 /* ---- Opening ------------------------------------------------------------------------------ */
 
-/* The folder with its slash, and the name behind it. */
+/* Splits the path of a picture into its folder, with the slash, and the name behind it. */
 static bool open_still(struct kiln_footage *footage, struct kiln_error *error)
 {
     const char *slash = strrchr(footage->path, '/');
@@ -321,7 +322,7 @@ void kiln_footage_skip(struct kiln_footage *footage)
     footage->next++;
 }
 
-/* ---- All of it ------------------------------------------------------------------------------ */
+/* ---- All frames ------------------------------------------------------------------------------ */
 
 bool kiln_footage_visit(const struct kiln_footage *footage,
                         bool (*visit)(void *user, const struct kiln_footage_frame *frame),

@@ -1,5 +1,5 @@
-/* What a path to compare stands for: a picture, a folder of pictures, a numbered pattern, a video;
- * read frame by frame. */
+/* Reads what a path to compare stands for, frame by frame: a picture, a folder of pictures, a
+ * numbered pattern, or a video. */
 #ifndef KILN_COMPARE_FOOTAGE_H
 #define KILN_COMPARE_FOOTAGE_H
 
@@ -8,16 +8,17 @@
 
 enum kiln_footage_kind {
     KILN_FOOTAGE_STILL,
-    KILN_FOOTAGE_FOLDER,   /* ordered and paired by file name; numbered in that order from 0 */
-    KILN_FOOTAGE_NUMBERED, /* by number */
-    KILN_FOOTAGE_VIDEO,    /* by number, counted from 0 */
+    KILN_FOOTAGE_FOLDER,   /* frames are ordered and paired by file name, and numbered in that order
+                              from 0 */
+    KILN_FOOTAGE_NUMBERED, /* frames are paired by number */
+    KILN_FOOTAGE_VIDEO,    /* frames are paired by number, counted from 0 */
 };
 
 struct kiln_footage;
 
-/* Lists what there is. layer (see image.h) must outlive it. NULL with KILN_INVALID_INPUT when there
- * is nothing that can be read, KILN_USAGE for a pattern that makes no sense, KILN_DEVICE_FAILED
- * when memory is short. */
+/* Opens a path and lists its frames. layer (see image.h) must outlive it. NULL with
+ * KILN_INVALID_INPUT when there is nothing that can be read, KILN_USAGE for a pattern that makes no
+ * sense, KILN_DEVICE_FAILED when memory is short. */
 struct kiln_footage *kiln_footage_open(const char *path, const char *layer,
                                        struct kiln_error *error);
 void kiln_footage_close(struct kiln_footage **footage);
@@ -27,29 +28,31 @@ const char *kiln_footage_path(const struct kiln_footage *footage);
 
 /* The next frame. */
 struct kiln_footage_frame {
-    const char *name; /* of its file, or its number; until the next call */
+    const char *name; /* the name of its file, or its number; until the next call */
     uint32_t number;
 };
 
-/* False at the end. What cannot be decoded is found by take. */
+/* Tells of the next frame; false at the end. A frame that cannot be decoded is found by
+ * kiln_footage_take. */
 bool kiln_footage_peek(struct kiln_footage *footage, struct kiln_footage_frame *frame);
 
-/* The file of the frame that peek told of. KILN_INVALID_INPUT when its path is too long. */
+/* Gives the file of the frame that kiln_footage_peek told of. KILN_INVALID_INPUT when its path is
+ * too long. */
 bool kiln_footage_file(const struct kiln_footage *footage, char path[KILN_PATH_SIZE],
                        struct kiln_error *error);
 
-/* Visits the frames that are known to be there, wherever reading has come to: all, but only the
- * first of a video. False as soon as a visit is. */
+/* Visits the frames that are known to be there, wherever reading has come to: all of them, but only
+ * the first of a video. Stops and returns false when a visit does. */
 bool kiln_footage_visit(const struct kiln_footage *footage,
                         bool (*visit)(void *user, const struct kiln_footage_frame *frame),
                         void *user);
 
-/* Declares its files as read; `what` as in kiln_claims_read. */
+/* Declares the files of the footage as read; `what` as in kiln_claims_read. */
 bool kiln_footage_claim(const struct kiln_footage *footage, const char *what,
                         struct kiln_claims *claims, struct kiln_error *error);
 
-/* Decodes the frame that peek told of, which the caller destroys, and goes on to the next; NULL
- * with the error. A video ends at its first error. */
+/* Decodes the frame that kiln_footage_peek told of, which the caller destroys, and goes on to the
+ * next frame; NULL with the error. A video ends at its first error. */
 struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct kiln_error *error);
 void kiln_footage_skip(struct kiln_footage *footage);
 

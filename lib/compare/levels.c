@@ -1,5 +1,6 @@
-/* One pass over the pixels leaves, for each, how many differing ones lie above and left of it (a
- * summed-area table); the count in any window is then four of these numbers. */
+/* Measures differences in levels, and finds the window with most differing pixels. One pass over
+ * the pixels fills a summed-area table: for each pixel, how many differing ones lie above and left
+ * of it. The count in any window then follows from four of these numbers. */
 #include "compare/levels.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* What differs by how many levels, and where most of it lies close together. */
+/* Measures by how many levels two pictures differ, and where pixels that differ lie most densely.
+ */
 #ifndef KILN_COMPARE_LEVELS_H
 #define KILN_COMPARE_LEVELS_H
 
@@ -8,7 +9,7 @@
 struct kiln_level_difference {
     double maximum;     /* levels */
     double mean;        /* over all pixels and channels */
-    double mean_square; /* the same, of squares */
+    double mean_square; /* mean of the squares, over all pixels and channels */
     uint64_t differing; /* pixels beyond the threshold */
     uint32_t x, y;      /* the first of the worst pixels */
     uint32_t window_width,
@@ -17,9 +18,9 @@ struct kiln_level_difference {
     uint64_t window_differing;   /* pixels beyond the threshold in it */
 };
 
-/* Pixels that differ by more than threshold levels (0 or more) are differing; the densest window
- * is that of window x window pixels (1 or more) with most of them. The two must match. False with
- * KILN_DEVICE_FAILED when memory is short. */
+/* Measures the difference. Pixels that differ by more than threshold levels (0 or more) are
+ * differing. The densest window is the one of window x window pixels (1 or more) with most of them.
+ * The two pictures must match. False with KILN_DEVICE_FAILED when memory is short. */
 bool kiln_level_difference_measure(const struct kiln_subject *reference,
                                    const struct kiln_subject *test, double threshold,
                                    uint32_t window, struct kiln_level_difference *difference,

@@ -1,5 +1,6 @@
-/* Every fifth entry of magma, by Nathaniel J. Smith and Stefan van der Walt (published under CC0
- * with matplotlib 1.5, as 256 colours of six digits), with straight lines between them. */
+/* Computes colours of the map magma, by Nathaniel J. Smith and Stefan van der Walt (published under
+ * CC0 with matplotlib 1.5, as 256 colours of six digits). The table has every fifth entry; colours
+ * between them are interpolated linearly. */
 #include "compare/magma.h"
 
 enum { STEP = 5, POINTS = 52 };

@@ -1,11 +1,12 @@
-/* Magma, the colour map of error maps: black, purple, orange, pale yellow. */
+/* Gives the colours of magma, the colour map of error maps: black, purple, orange, pale yellow. */
 #ifndef KILN_COMPARE_MAGMA_H
 #define KILN_COMPARE_MAGMA_H
 
 #include <stdint.h>
 
-/* The sRGB colour of an error of 0 to 1 (beyond: the end's), which is entry int(255 error + 0.5) of
- * the map's 256; each channel is within 1 of the published table. */
+/* Gives the sRGB colour of an error of 0 to 1; errors beyond get the colour of that end. The colour
+ * is entry int(255 error + 0.5) of the map's 256; each channel is within 1 of the published table.
+ */
 void kiln_magma_color(float error, uint8_t rgb[3]);
 
 #endif

@@ -1,5 +1,6 @@
-/* Masked pixels are made equal before anything is measured, so that no metric needs to know of
- * masks, and a filter that reaches over a mask's edge finds no step there. */
+/* Makes masks from rectangles and pictures, and applies them to pairs of pictures. Masked pixels
+ * are made equal before anything is measured. So no metric needs to know of masks, and a filter
+ * that reaches over a mask's edge finds no step there. */
 #include "compare/mask.h"
 
 #include <stdlib.h>
@@ -30,7 +31,7 @@ static bool is_black(const struct kiln_asset_image *image, size_t pixel)
             if (((const uint16_t *)image->pixels)[i] != 0)
                 return false;
             break;
-        case KILN_IMAGE_F32: /* what is no number judges */
+        case KILN_IMAGE_F32: /* NaN is judged */
             if (!(((const float *)image->pixels)[i] <= 0.0f))
                 return false;
             break;

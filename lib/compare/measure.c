@@ -1,4 +1,5 @@
-/* Takes every measure of a pair of pictures. */
+/* Takes every measure of a pair of pictures: FLIP, SSIM, and differences in levels. Pictures with
+ * alpha are put on black and on white for FLIP and SSIM, and the worse of the two counts. */
 #include "compare/measure.h"
 
 #include <stdlib.h>
@@ -16,7 +17,7 @@ struct taking {
     struct kiln_error *error;
     size_t pixels;
     float *white[2]; /* linear light on white, where there is alpha */
-    float *errors;   /* of FLIP on white */
+    float *errors;   /* errors of FLIP on white */
     float *luma[2];
 };
 
@@ -76,7 +77,8 @@ static bool take_flip(const struct taking *taking)
     return ok && kiln_pool_errors(m->errors, taking->pixels, &m->flip, taking->error);
 }
 
-/* Rec. 709 luma of the levels, with black at 0 and white at 1; `ground` is what lies behind. */
+/* Makes Rec. 709 luma of the levels, with black at 0 and white at 1; `ground` is the luma behind
+ * the picture. */
 static void make_luma(const struct kiln_subject *subject, size_t pixels, float ground, float *out)
 {
     const float *level = subject->levels;

@@ -1,5 +1,5 @@
-/* Everything that is measured of a pair of pictures; the table in metric.h makes numbers with names
- * of it. */
+/* Takes all measures of the difference of two pictures. The table of metric.c makes numbers with
+ * names of them. */
 #ifndef KILN_COMPARE_MEASURE_H
 #define KILN_COMPARE_MEASURE_H
 
@@ -22,9 +22,9 @@ struct kiln_measurement {
     double flip_s; /* wall-clock time of FLIP */
 };
 
-/* Measures two pictures. With alpha, what an eye would see is measured on black and on white, and
- * the worse of the two counts. False when they do not match (KILN_FRAME_FAILED), or as the parts
- * say; the measurement must be finished in either case. */
+/* Measures two pictures. FLIP and SSIM of pictures with alpha are taken on black and on white, and
+ * the worse of the two counts. Returns false when the pictures do not match (KILN_FRAME_FAILED), or
+ * when a part of the measurement fails. The measurement must be finished in either case. */
 bool kiln_measurement_take(struct kiln_measurement *measurement,
                            const struct kiln_subject *reference, const struct kiln_subject *test,
                            const struct kiln_measure_params *params, struct kiln_threads *threads,

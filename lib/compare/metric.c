@@ -1,4 +1,4 @@
-/* The table of metrics, their limits and the verdict. */
+/* Holds the table of metrics, parses the limits of metrics, and judges a measured frame by them. */
 #include "compare/metric.h"
 
 #include <math.h>
@@ -15,8 +15,8 @@ struct metric_value {
 };
 
 struct kiln_metric {
-    const char *name; /* ending in N: any number from 0 to 100 in its place, which is in no report
-                         unless a limit asks for it */
+    const char *name; /* ending in N: N stands for any number from 0 to 100; such a metric is in a
+                         report only if a limit asks for it */
     const char *unit;
     const char *help;
     bool higher_is_better;
@@ -185,7 +185,7 @@ static bool unknown_metric(const char *limit, const char *name, struct kiln_erro
                           nearest ? nearest : "", nearest ? "'?)" : "");
 }
 
-/* The column of that name, made for a percentile that has none yet. */
+/* Returns the column of that name, which is made for a percentile that has none yet. */
 static struct kiln_compare_column *find_column(struct kiln_metric_set *set, const char *limit,
                                                const char *name, struct kiln_error *error)
 {
@@ -266,7 +266,7 @@ bool kiln_metric_set_make(struct kiln_metric_set *set, const char *const *limits
     return true;
 }
 
-/* How much of its limit a value takes up; 1 is all of it. */
+/* Returns how much of its limit a value takes up; 1 is all of it. */
 static double score_of(const struct kiln_compare_column *column, double value)
 {
     double over = column->higher_is_better ? column->limit : value;
@@ -321,7 +321,7 @@ bool kiln_write_metrics(FILE *out)
 void kiln_visit_metrics(void (*visit)(void *user, const char *name, const char *help), void *user)
 {
     for (size_t i = 0; i < METRIC_COUNT; i++) {
-        if (!strchr(metrics[i].name, 'N')) /* of any percentile */
+        if (!strchr(metrics[i].name, 'N')) /* N stands for any percentile */
             visit(user, metrics[i].name, metrics[i].help);
     }
 }

@@ -1,4 +1,5 @@
-/* The metrics: one table makes the columns of reports, the names of limits and the help. */
+/* Declares the metrics of comparisons: one table makes the columns of reports, the names of limits
+ * and the help. */
 #ifndef KILN_COMPARE_METRIC_H
 #define KILN_COMPARE_METRIC_H
 
@@ -14,13 +15,13 @@ struct kiln_metric_set {
     double percentiles[KILN_MAX_COLUMNS]; /* 0 to 100 */
 };
 
-/* All metrics, with limits such as "flip.mean=0.01,flip.p99.5=0.3"; a percentile that is not in
- * the table gets a column of its own, and of two limits of one metric the last counts. KILN_USAGE
- * for anything else, with the nearest name. */
+/* Makes a set of all metrics, with limits such as "flip.mean=0.01,flip.p99.5=0.3". A percentile
+ * that is not in the table gets a column of its own, and of two limits of one metric the last
+ * counts. KILN_USAGE for anything else, with the nearest name. */
 bool kiln_metric_set_make(struct kiln_metric_set *set, const char *const *limits,
                           size_t limit_count, struct kiln_error *error);
 
-/* Fills values, beyond and score of the frame. */
+/* Fills the values of a frame, which of them are beyond their limits, its score and its verdict. */
 bool kiln_metric_set_judge(const struct kiln_metric_set *set,
                            const struct kiln_measurement *measurement,
                            struct kiln_compare_frame *frame, struct kiln_error *error);

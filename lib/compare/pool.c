@@ -1,5 +1,6 @@
-/* Error maps to numbers. Errors are not negative, so their bits order as they do: a percentile is
- * found by two counts over 16 bits each, without sorting. */
+/* Pools error maps into mean, extremes and weighted percentiles. Errors are not negative, so the
+ * bits of floats have the order of their values: a percentile is found by two counts over 16 bits
+ * each, without sorting. */
 #include "compare/pool.h"
 
 #include <stdlib.h>
@@ -48,8 +49,8 @@ static void fill_buckets(const float *errors, size_t count, bool lower, uint32_t
     }
 }
 
-/* The first bucket at which *sum, grown by those before, exceeds limit; the last one with something
- * in it if none does. */
+/* Returns the first bucket at which *sum, grown by the buckets before, exceeds limit; if none does,
+ * the last one with something in it. */
 static uint32_t find_bucket(const double *buckets, double limit, double *sum)
 {
     uint32_t last = 0;

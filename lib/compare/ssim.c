@@ -1,6 +1,6 @@
-/* Bands of rows: the five moments are filtered across into a buffer, then down, in loops along the
- * row that the compiler turns into vector code. Each row has its own sum, so that the result does
- * not depend on the threads. */
+/* Computes SSIM in bands of rows. The five moments are filtered across into a buffer, then down, in
+ * loops along the row that the compiler turns into vector code. Each row has its own sum, so that
+ * the result does not depend on the threads. */
 #include "compare/ssim.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ struct ssim {
     const float *planes[2];
     size_t width, height;
     float weights[TAPS];
-    float *buffers; /* of each worker: see struct work */
+    float *buffers; /* one for each worker, as struct work divides it */
     size_t buffer_size;
     double *row_sums;
 };
@@ -34,7 +34,8 @@ static struct work work_of(const struct ssim *ssim, uint32_t worker)
     return (struct work){start, start + (BAND_ROWS + 1) * row, start + BAND_ROWS * row};
 }
 
-/* What the weights of a window around `at` sum to, once cut off at the ends. */
+/* Returns what the weights of a window around `at` sum to, when the window is cut off at the ends.
+ */
 static float total_weight(const struct ssim *ssim, size_t at, size_t count)
 {
     float total = 0;
@@ -43,7 +44,7 @@ static float total_weight(const struct ssim *ssim, size_t at, size_t count)
     return total;
 }
 
-/* a times b, or a alone, filtered across. */
+/* Filters the products of a and b across, or a alone where b is NULL. */
 static void filter_across(const struct ssim *ssim, const float *a, const float *b, float *padded,
                           float *out)
 {
@@ -80,7 +81,7 @@ static double similarity_at(const float *moments, size_t stride)
     return (2 * a * b + c1) * (2 * ab + c2) / ((a * a + b * b + c1) * (aa + bb + c2));
 }
 
-/* Row `row`; work->rows start at row `top` of the picture. */
+/* Returns the sum of similarities in row `row`; work->rows start at row `top` of the picture. */
 static double sum_row(const struct ssim *ssim, size_t row, size_t top, const struct work *work)
 {
     size_t count = MOMENTS * ssim->width;

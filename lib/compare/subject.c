@@ -1,5 +1,5 @@
-/* Eight-bit pictures, the most frequent, go by tables and keep their levels exactly; the rest is
- * computed. */
+/* Converts pictures of any type to linear light and levels. Eight-bit pictures, the most frequent,
+ * are converted by tables and keep their levels exactly; all others are computed. */
 #include "compare/subject.h"
 
 #include <math.h>

@@ -1,31 +1,32 @@
-/* One side of a comparison: a decoded picture, as linear light for FLIP and as levels for the
- * metrics that count. */
+/* Converts a decoded picture into one side of a comparison: linear light for FLIP, and levels for
+ * the metrics that count them. */
 #ifndef KILN_COMPARE_SUBJECT_H
 #define KILN_COMPARE_SUBJECT_H
 
 #include "asset/image/image.h"
 #include "base/thread.h"
 
-/* Rows from the top. A level is 1/255 of the way from black to white in sRGB's encoding, which goes
- * on as it is beyond white and is mirrored below black, so that light of any strength has one. */
+/* One side of a comparison, with rows from the top. A level is 1/255 of the way from black to white
+ * in sRGB's encoding. The encoding goes on as it is beyond white and is mirrored below black, so
+ * that light of any strength has a level. */
 struct kiln_subject {
     uint32_t width, height;
     uint32_t channels; /* of the file: 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha */
-    bool hdr;          /* from floats: may go beyond white */
+    bool hdr;          /* made from floats: may go beyond white */
     float *linear;     /* three a pixel, multiplied by alpha */
     float *levels;     /* three a pixel, of what is in linear */
     float *alpha;      /* 0..1; NULL without alpha */
 };
 
-/* masked, a byte a pixel or NULL, is 1 where values need not be finite: those become black. name
- * stands for the picture in messages. NULL with KILN_INVALID_INPUT when another value is not finite
- * (the message says where), KILN_DEVICE_FAILED when memory is short. */
+/* Converts a picture. masked, a byte a pixel or NULL, is 1 where values need not be finite: those
+ * pixels become black. name stands for the picture in messages. NULL with KILN_INVALID_INPUT when
+ * another value is not finite (the message says where), KILN_DEVICE_FAILED when memory is short. */
 struct kiln_subject *kiln_subject_create(const struct kiln_asset_image *image,
                                          const uint8_t *masked, const char *name,
                                          struct kiln_threads *threads, struct kiln_error *error);
 void kiln_subject_destroy(struct kiln_subject **subject);
 
-/* False with KILN_FRAME_FAILED, saying what they are, when sizes or channels differ. */
+/* False with KILN_FRAME_FAILED when sizes or channels differ; the message says what they are. */
 bool kiln_subject_match(const struct kiln_subject *reference, const struct kiln_subject *test,
                         struct kiln_error *error);
 

@@ -1,4 +1,4 @@
-/* Lists of marks. */
+/* Adds marks to a drawing, and tells the sizes of its lettering. */
 #include "figure/drawing.h"
 
 #include <math.h>

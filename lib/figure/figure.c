@@ -1,5 +1,6 @@
-/* A figure from request to file: panels, layout, pixels, then the file and its sidecar, or a check
- * of those that are there. */
+/* Makes a figure from a request: panels, layout, pixels, then the file, its sidecar and its
+ * depfile. Instead it may check a figure that exists: it draws the figure again, and judges whether
+ * the file is what its sidecar says. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +28,7 @@ struct job {
     struct kiln_panels panels;
     struct kiln_drawing drawing;
     struct kiln_pixels pixels;
-    char hash[65]; /* of them */
+    char hash[65]; /* of the pixels */
     struct kiln_error *error;
 };
 
@@ -51,7 +52,8 @@ static bool is_same_file(const char *path, const struct stat *other)
            status.st_ino == other->st_ino;
 }
 
-/* A sidecar may be a stranger's: what is redrawn by one replaces no file but the figure's own. */
+/* Whether to write the depfile. A sidecar may come from anywhere: a figure that is redrawn by its
+ * command replaces no file but the figure's own, so the depfile must be the figure's. */
 static bool wants_depfile(const struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
@@ -59,8 +61,8 @@ static bool wants_depfile(const struct job *job)
            (!params->update || kiln_depfile_is_of(params->depfile, params->output));
 }
 
-/* Whether the figure may lie where it is wanted. What it is made of is declared as it is read,
- * which is before anything is written. */
+/* Checks that the figure and its other files may be written. What the figure is made of is declared
+ * as it is read, which is before anything is written. */
 static bool check_target(const struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
@@ -104,7 +106,7 @@ static bool check_sizes(const struct kiln_figure_params *params, struct kiln_err
     return true;
 }
 
-/* What can be refused before anything is rendered. */
+/* Refuses what can be refused before anything is rendered. */
 static bool check_request(struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
@@ -149,7 +151,8 @@ static bool draw(struct job *job)
 
 /* ---- Writing -------------------------------------------------------------------------------- */
 
-/* The path from one folder to another that it lies in, or else the other's own. */
+/* Returns the path from one folder up to another that it lies in; if it does not lie there, the
+ * path of the other one. */
 static const char *way_up(struct kiln_arena *arena, const char *from, const char *to)
 {
     size_t length = strlen(to);
@@ -163,7 +166,7 @@ static const char *way_up(struct kiln_arena *arena, const char *from, const char
     return way && !*way ? "." : way;
 }
 
-/* The path from the folder of the figure to the working directory. */
+/* Finds the path from the folder of the figure to the working directory. */
 static bool find_folder(const struct job *job, const char **folder)
 {
     const char *output = job->params->output, *slash = strrchr(output, '/');
@@ -208,7 +211,7 @@ static bool make_sidecar(struct job *job, const uint8_t *bytes, size_t size, str
     return find_folder(job, &record.folder) && kiln_record_write(&record, text, job->error);
 }
 
-/* A file without its name yet. */
+/* Writes a temporary file, which has not got its name yet. */
 static bool begin_file(struct kiln_temporary *file, const char *path, const void *bytes,
                        size_t size, struct kiln_error *error)
 {
@@ -216,8 +219,8 @@ static bool begin_file(struct kiln_temporary *file, const char *path, const void
            (kiln_temporary_write(file, bytes, size) || kiln_temporary_fail(file, error));
 }
 
-/* All files get their names or none does, the figure last: with it, make and readers have the
- * others. */
+/* Writes all files: all get their names or none does, the figure last. So a figure that is there
+ * has its sidecar and depfile, for make and for readers. */
 static bool write_files(struct job *job, const uint8_t *bytes, size_t size)
 {
     const struct kiln_figure_params *params = job->params;
@@ -262,8 +265,8 @@ static void say_stale(struct kiln_figure_result *result, const char *reason)
     snprintf(result->reason, sizeof result->reason, "%s", reason);
 }
 
-/* Whether the command of a sidecar makes the figure that lies beside it: what was copied or renamed
- * does not. */
+/* Whether the command of a sidecar makes the figure that lies beside it. That of a sidecar that was
+ * copied or renamed does not. */
 static bool is_own_sidecar(const struct job *job)
 {
     char sidecar[KILN_PATH_SIZE];
@@ -272,7 +275,8 @@ static bool is_own_sidecar(const struct job *job)
            is_same_file(sidecar, &given);
 }
 
-/* Whether the file is there and the one that its sidecar describes; stale if not. */
+/* Says that the figure is stale if its file is missing, or is not the one that its sidecar
+ * describes. */
 static bool check_file(struct job *job, const struct kiln_record *record,
                        struct kiln_figure_result *result)
 {

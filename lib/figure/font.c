@@ -1,4 +1,4 @@
-/* From a text to strokes: decodes UTF-8, looks up glyphs, puts marks onto letters, and walks the
+/* Turns texts into strokes: decodes UTF-8, looks up glyphs, puts marks onto letters, and walks the
  * paths. */
 #include "figure/font.h"
 
@@ -11,7 +11,7 @@
 #include "figure/font_glyphs.h"
 
 enum {
-    SPACING = 4, /* between glyphs, beside the room that each has: lettering in figures is small */
+    SPACING = 4, /* more room between glyphs than each has, since lettering in figures is small */
     RISE = 30,   /* of marks over tall letters */
     DOTLESS_I = 0x131,
     DOTLESS_J = 0x237,
@@ -25,7 +25,8 @@ static const double ROUND = 0.58;
 
 static const struct kiln_glyph missing = {0, 72, "M12 0 L12 100 L60 100 L60 0 L12 0"};
 
-/* The row of a table that is ascending by its rows' first member, their code; or NULL. */
+/* Returns the row with a code, or NULL, from a table that is ascending by its rows' member `code`.
+ */
 #define FIND(table, count, key)                                                                    \
     do {                                                                                           \
         uint32_t low = 0, high = (count);                                                          \
@@ -185,7 +186,7 @@ static void quarter_to(struct walk *walk, bool leaves_horizontally, double x, do
         curve_to(walk, walk->x, walk->y + ROUND * dy, x - ROUND * dx, y, x, y);
 }
 
-/* Its strokes cover it, whatever the pen. */
+/* Draws a dot, which its strokes cover with any pen. */
 static void dot(struct walk *walk, double x, double y)
 {
     move_to(walk, x - 2, y);
@@ -228,7 +229,7 @@ static const char *walk_strokes(struct walk *walk, const char *path)
     return path;
 }
 
-/* The glyphs that a path uses are strokes alone. */
+/* Follows a whole path. Glyphs that it uses by U consist of strokes alone. */
 static void walk_path(struct walk *walk, const char *path)
 {
     while (*(path = walk_strokes(walk, path))) {

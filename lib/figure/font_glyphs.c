@@ -1,4 +1,4 @@
-/* The glyphs, by their codes. */
+/* Holds the glyphs of the stroke font, ascending by their codes. */
 #include "figure/font_glyphs.h"
 
 const struct kiln_glyph kiln_font_glyphs[] = {

@@ -1,4 +1,4 @@
-/* The tables of the lettering, each ascending by code. */
+/* Declares the tables of the lettering, each ascending by code. */
 #ifndef KILN_FIGURE_FONT_GLYPHS_H
 #define KILN_FIGURE_FONT_GLYPHS_H
 
@@ -17,22 +17,22 @@ struct kiln_glyph {
 extern const struct kiln_glyph kiln_font_glyphs[];
 extern const uint32_t kiln_font_glyph_count;
 
-/* What is drawn over or under a letter, around x = 0. */
+/* A mark that is drawn over or under a letter, around x = 0. */
 struct kiln_font_mark {
     uint32_t code; /* of Unicode's combining character */
-    bool rises;    /* over tall letters */
-    uint8_t half;  /* of the width that it needs */
+    bool rises;    /* is drawn higher over tall letters */
+    uint8_t half;  /* half of the width that the mark needs */
     const char *path;
 };
 extern const struct kiln_font_mark kiln_font_marks[];
 extern const uint32_t kiln_font_mark_count;
 
-/* A glyph with a mark. */
+/* A letter that is drawn as the glyph of another one, with a mark or without. */
 struct kiln_font_letter {
     uint16_t code, base;
     uint16_t mark; /* 0: none */
     int8_t x;      /* of the mark, from the middle of the base */
-    int8_t room;   /* more of it: before the base if negative, else behind it */
+    int8_t room;   /* more room: before the base if negative, else behind it */
 };
 extern const struct kiln_font_letter kiln_font_letters[];
 extern const uint32_t kiln_font_letter_count;

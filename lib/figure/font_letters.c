@@ -1,6 +1,6 @@
-/* Letters that are another one with a mark, and signs that look like another one: a row each. A
- * mark stands over the middle of its letter unless the row says otherwise, and higher on a tall
- * letter. */
+/* Holds the marks of the stroke font, and a row for each letter that is another one with a mark and
+ * for each sign that looks like another one. A mark stands over the middle of its letter unless the
+ * row says otherwise, and higher on a tall letter. */
 #include "figure/font_glyphs.h"
 
 enum {
@@ -23,7 +23,7 @@ enum {
     CEDILLA = 0x327,
     OGONEK = 0x328,
     TONOS = 0x384,           /* beside a Greek capital */
-    DIALYTIKA_TONOS = 0x385, /* both */
+    DIALYTIKA_TONOS = 0x385, /* dialytika and tonos together */
 };
 
 const struct kiln_font_mark kiln_font_marks[] = {

@@ -1,4 +1,5 @@
-/* A row a suffix. */
+/* Holds the table of formats of figures, which has a row for each suffix, and finds a format in it.
+ */
 #include "figure/format.h"
 
 #include <string.h>

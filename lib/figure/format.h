@@ -1,10 +1,10 @@
-/* The formats of figures, by the ends of their names. */
+/* Finds the format of a figure by the end of its name. */
 #ifndef KILN_FIGURE_FORMAT_H
 #define KILN_FIGURE_FORMAT_H
 
 #include "figure/drawing.h"
 
-/* One of the two is set. */
+/* A format, which is made either of pixels or of a drawing: one of the two functions is set. */
 struct kiln_figure_format {
     const char *suffix;
     bool (*of_pixels)(const struct kiln_pixels *pixels, const struct kiln_imprint *imprint,
@@ -13,7 +13,7 @@ struct kiln_figure_format {
                        struct kiln_error *error);
 };
 
-/* The format of a file by its name; NULL with KILN_USAGE, naming those that there are. */
+/* Returns the format of a file by its name; NULL with KILN_USAGE, which names all formats. */
 const struct kiln_figure_format *kiln_figure_format_find(const char *path,
                                                          struct kiln_error *error);
 

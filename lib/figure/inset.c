@@ -1,4 +1,5 @@
-/* Insets, from what was asked for to pixels of a picture. */
+/* Converts insets from what was asked for to pixels of a picture, and checks that they lie in it.
+ */
 #include "figure/inset.h"
 
 #include "base/error.h"
@@ -12,7 +13,8 @@ struct kiln_rect kiln_inset_rect(const struct kiln_figure_inset *inset, uint32_t
                               (uint32_t)(inset->height * sy + 0.5)};
 }
 
-/* So that its pixels can be counted; false also for what is not a number. */
+/* Whether an inset's numbers are in a range in which its pixels can be counted; false also for NaN.
+ */
 static bool is_sane(const struct kiln_figure_inset *inset)
 {
     double most = inset->parts ? 1 : 65535;

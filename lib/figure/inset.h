@@ -1,4 +1,4 @@
-/* Parts of pictures that a figure shows enlarged. */
+/* Places insets: parts of pictures that a figure shows enlarged. */
 #ifndef KILN_FIGURE_INSET_H
 #define KILN_FIGURE_INSET_H
 
@@ -10,7 +10,7 @@ struct kiln_rect {
     uint32_t x, y, width, height; /* pixels */
 };
 
-/* The pixels of an inset that kiln_insets_check has passed. */
+/* Returns the pixels of an inset that kiln_insets_check has passed. */
 struct kiln_rect kiln_inset_rect(const struct kiln_figure_inset *inset, uint32_t width,
                                  uint32_t height);
 

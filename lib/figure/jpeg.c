@@ -1,9 +1,10 @@
-/* The JPEG of a figure, for photographs of fire in documents: of one quality. */
+/* Encodes the pixels of a figure as JPEG of one fixed quality, for photographs of fire in
+ * documents. */
 #include "output/jpeg.h"
 
 #include "figure/drawing.h"
 
-/* As of --quality 84 to 90. */
+/* The quantiser of --quality 84 to 90. */
 enum { QUANTISER = 2 };
 
 bool kiln_pixels_jpeg(const struct kiln_pixels *pixels, const struct kiln_imprint *imprint,

@@ -1,4 +1,5 @@
-/* A grid: below each picture its insets and its label; a title above all. */
+/* Lays out a figure as a grid: below each picture are its insets and its label, and above all is a
+ * title. It measures text and cells first, then adds marks to the drawing. */
 #include "figure/layout.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@ struct theme {
 static const struct theme light_theme = {0xffffff, 0x24272b, 0x6c7278, 0xd8dbde};
 static const struct theme dark_theme = {0x15171a, 0xe4e6e8, 0x9aa0a6, 0x3a3e43};
 
-/* Told apart by eyes of every kind (after Okabe and Ito), and on fire. */
+/* Colours that can be told apart with any colour vision (after Okabe and Ito), and on fire. */
 static const uint32_t inset_colors[KILN_MAX_INSETS] = {0x56b4e9, 0xe69f00, 0x00b97f, 0xe07bb5};
 
 struct layout {
@@ -28,7 +29,7 @@ struct layout {
     double letter;    /* the height of labels' capitals */
     uint32_t capital; /* the same in whole pixels */
     uint32_t size;    /* of the lettering, in pixels */
-    uint32_t line;    /* how wide thin lines are */
+    uint32_t line;    /* the width of thin lines */
     uint32_t margin, gap, row_gap;
     uint32_t head;   /* from the upper edge to the title's capitals, or to the pictures */
     uint32_t foot;   /* from the last baseline to the lower edge */
@@ -57,7 +58,7 @@ static void add_text(const struct layout *l, int64_t x, int64_t baseline, double
                                                      .text = text});
 }
 
-/* So many bytes of a text, less those of a character that would be cut. */
+/* Returns `length`, less the bytes of a character that would be cut there. */
 static size_t whole_characters(const char *text, size_t length)
 {
     while (length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80)
@@ -65,7 +66,8 @@ static size_t whole_characters(const char *text, size_t length)
     return length;
 }
 
-/* The text, or its start with an ellipsis where it is too wide; NULL when memory is short. */
+/* Returns the text, or its start with an ellipsis where it is too wide; NULL when memory is short.
+ */
 static const char *fit_text(const struct layout *l, const char *text, double capital,
                             uint32_t width)
 {
@@ -89,7 +91,7 @@ static const char *fit_text(const struct layout *l, const char *text, double cap
     return start;
 }
 
-/* At least a pixel. */
+/* Scales a length by to / from; the result is at least a pixel. */
 static uint32_t scaled(uint32_t length, uint32_t to, uint32_t from)
 {
     uint64_t result = ((uint64_t)length * to + from / 2) / from;
@@ -98,8 +100,8 @@ static uint32_t scaled(uint32_t length, uint32_t to, uint32_t from)
 
 /* ---- Insets --------------------------------------------------------------------------------- */
 
-/* Insets of one height that fill the width of the panel together, or less where that would make
- * them larger than half of it. */
+/* Returns the height of the insets of a picture. All have one height and together fill the width of
+ * the panel, or less where they would get too high for the picture. */
 static uint32_t inset_height(const struct layout *l, const struct kiln_pixels *pixels,
                              uint32_t width, uint32_t height)
 {
@@ -131,8 +133,8 @@ static bool crop(const struct layout *l, const struct kiln_pixels *pixels, struc
     return true;
 }
 
-/* Vectors carry a picture as it is; where they know how many pixels an inch has, not more of them.
- */
+/* Reduces the picture of a mark to the pixels that it has on paper, where the pixels of an inch are
+ * known. Otherwise vectors carry the picture as it is. */
 static void reduce(const struct layout *l, struct kiln_mark *mark)
 {
     bool larger = mark->pixels.width > mark->width || mark->pixels.height > mark->height;
@@ -145,7 +147,8 @@ static void reduce(const struct layout *l, struct kiln_mark *mark)
         l->drawing->failed = true;
 }
 
-/* A frame in the picture, which lies at (x, y) with that size, and the part in a row below it. */
+/* Adds for each inset a frame in the picture, which lies at (x, y) with that size, and the enlarged
+ * part in a row below it. */
 static void add_insets(const struct layout *l, const struct kiln_pixels *pixels, uint32_t x,
                        uint32_t y, uint32_t width, uint32_t height)
 {
@@ -162,7 +165,7 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
         kiln_drawing_add(l->drawing, &mark);
         bool last = i + 1 == l->params->inset_count;
         uint32_t shown = scaled(rect.width, row, rect.height);
-        if (last && shown + 4 >= x + width - at) /* what rounding has left over */
+        if (last && shown + 4 >= x + width - at) /* fills what rounding has left over */
             shown = x + width - at;
         mark = (struct kiln_mark){.kind = KILN_MARK_PICTURE, .x = (int32_t)at};
         mark.y = (int32_t)(y + l->picture_height + l->gap / 2);
@@ -174,7 +177,8 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
         }
         reduce(l, &mark);
         kiln_drawing_add(l->drawing, &mark);
-        /* It covers the edge of the picture, which readers of vectors round to whole pixels. */
+        /* This frame covers the edge of the inset, which readers of vectors round to whole pixels.
+         */
         mark.kind = KILN_MARK_FRAME;
         mark.x -= (int32_t)l->line;
         mark.y -= (int32_t)l->line;
@@ -203,7 +207,8 @@ static void picture_size(const struct layout *l, const struct kiln_pixels *pixel
     }
 }
 
-/* From black to pale yellow: no error to the largest one. It ends at `right`. */
+/* Adds a scale of colours from black, no error, to pale yellow, the largest one. It ends at
+ * `right`. */
 static void add_scale(const struct layout *l, uint32_t right, uint32_t baseline)
 {
     enum { LENGTH = 64, GAP = 4 };
@@ -240,7 +245,7 @@ static void add_label(const struct layout *l, size_t index, uint32_t x, uint32_t
         l->drawing->failed = true;
 }
 
-/* What a width on paper leaves over is spread over the gaps. */
+/* Returns where a column starts. What a width on paper leaves over is spread over the gaps. */
 static uint32_t column_left(const struct layout *l, uint32_t column)
 {
     if (l->params->paper_width_mm > 0)
@@ -288,8 +293,8 @@ static bool any_label(const struct layout *l)
     return l->params->label_count > 0;
 }
 
-/* The lettering, and what goes with its size. On paper that has a width the document around the
- * figure has margins already. */
+/* Measures the lettering and what depends on its size. A figure of a given width on paper has no
+ * margins, since the document around it has margins already. */
 static void measure_text(struct layout *l)
 {
     const struct kiln_figure_params *params = l->params;
@@ -317,7 +322,8 @@ static void measure_text(struct layout *l)
     l->foot = labels && below > l->margin ? below : l->margin;
 }
 
-/* Repeated pixels look coarse in print, and scenes can be rendered larger. */
+/* Warns of pictures and insets that are enlarged: repeated pixels look coarse in print, and scenes
+ * can be rendered larger. */
 static void warn_of_enlarging(const struct layout *l)
 {
     if (l->widest < l->cell_width && !l->params->check)
@@ -333,7 +339,7 @@ static void warn_of_enlarging(const struct layout *l)
                        l->params->output, l->inset_own, l->inset_shown, l->params->dpi);
 }
 
-/* Where a width on paper has to hold so many pictures. */
+/* Measures the cells of a figure of a given width on paper. */
 static bool measure_cells_on_paper(struct layout *l)
 {
     enum { LEAST = 16 };
@@ -399,7 +405,7 @@ static bool measure(struct layout *l)
     return true;
 }
 
-/* The title, with a thin line below it. */
+/* Adds the title, with a thin line below it. */
 static void add_title(struct layout *l)
 {
     uint32_t capital = l->capital * 7 / 5, width = l->drawing->width - 2 * l->margin;

@@ -1,4 +1,4 @@
-/* Where the panels of a figure lie. */
+/* Lays out the panels of a figure, with their labels and insets, as a drawing. */
 #ifndef KILN_FIGURE_LAYOUT_H
 #define KILN_FIGURE_LAYOUT_H
 
@@ -8,8 +8,8 @@
 /* The colour of the paper. */
 uint32_t kiln_layout_paper(bool dark);
 
-/* Fills a drawing whose arena is set. KILN_USAGE for an inset outside of a picture, for labels that
- * are not as many as the panels, for a figure that is too large. */
+/* Fills a drawing whose arena is set. KILN_USAGE for an inset outside of a picture, for a number of
+ * labels that is not that of the panels, for a figure that is too large. */
 bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *panels,
                       const struct kiln_figure_params *params, struct kiln_error *error);
 

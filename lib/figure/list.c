@@ -1,4 +1,4 @@
-/* Finds the sidecars of figures, below folders and beside figures. */
+/* Lists figures by their sidecars, which it finds below folders and beside figures. */
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -33,7 +33,7 @@ static struct kiln_figure_entry *new_entry(struct kiln_figure_list *list)
     return &list->entries[list->count++];
 }
 
-/* What is known of a sidecar without its text; false when memory is short. */
+/* Fills in what is known of a sidecar without its text; false when memory is short. */
 static bool start_entry(struct kiln_arena *arena, struct kiln_figure_entry *entry, const char *path)
 {
     size_t length = strlen(path) - (sizeof KILN_RECORD_SUFFIX - 1);
@@ -66,7 +66,7 @@ static bool add_entry(struct kiln_figure_list *list, const char *path, struct ki
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
 }
 
-/* A path that leads to no figure. The others are looked at all the same. */
+/* Adds a path that leads to no figure, with its problem. Other paths are searched all the same. */
 static bool add_problem(struct kiln_figure_list *list, const char *path,
                         const struct kiln_error *problem, struct kiln_error *error)
 {
@@ -115,7 +115,7 @@ static bool search(struct kiln_figure_list *list, const char *folder, int depth,
     return ok;
 }
 
-/* A figure, which may be gone, by its sidecar. */
+/* Adds a figure, whose file may be gone, by its sidecar. */
 static bool add_figure(struct kiln_figure_list *list, const char *path, bool is_there,
                        struct kiln_error *error)
 {

@@ -1,5 +1,6 @@
-/* Panels of scenes. Those that differ by their frame alone are rendered in one run. As in tests,
- * what can run on the processor does: a figure is the same on every machine if it can be. */
+/* Renders the panels of figures of scenes. Panels that differ by their frame alone are rendered in
+ * one run. As in tests, stages that can run on the processor do: a figure is the same on every
+ * machine if it can be. */
 #include "figure/panels.h"
 
 #include <math.h>
@@ -51,9 +52,9 @@ struct rendering {
     const struct kiln_choices *choices;
     struct kiln_device *device;
     struct kiln_scene *scene; /* of the run at hand */
-    bool *in_run;             /* which panels it is for */
+    bool *in_run;             /* for each panel, whether the run is for it */
     struct kiln_error *error;
-    struct kiln_error failure; /* of a callback */
+    struct kiln_error failure; /* an error of a callback */
 };
 
 static bool no_memory(const struct rendering *r)
@@ -151,7 +152,7 @@ static int compare_ranges(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The frames of the run, ascending, each once. */
+/* Lists the frames of the run in ascending order, each once. */
 static struct kiln_frame_range *list_frames(const struct rendering *r, size_t *count)
 {
     struct kiln_frame_range *list =
@@ -202,7 +203,7 @@ static bool render_run(struct rendering *r)
     return ok && r->failure.code == KILN_OK;
 }
 
-/* Renders all panels that the first of them, which has no pixels yet, shares a run with. */
+/* Renders the panel `first`, which has no pixels yet, and all panels that share a run with it. */
 static bool make_run(struct rendering *r, size_t first)
 {
     const struct kiln_choice *choices = r->choices->items;
@@ -216,7 +217,7 @@ static bool make_run(struct rendering *r, size_t first)
     return render_run(r);
 }
 
-/* Whether the labels that panels have of themselves can be lettered. */
+/* Checks that the font has the labels that panels have of themselves. */
 static bool check_labels(const struct rendering *r)
 {
     bool own = r->params->label_count == 0 && !r->params->unlabelled && !r->params->plain;
@@ -227,7 +228,7 @@ static bool check_labels(const struct rendering *r)
     return true;
 }
 
-/* Every scene is loaded once before the device is opened: a wrong one should not cost minutes, nor
+/* Loads every scene once before the device is opened: a wrong scene should not cost minutes, nor
  * should an inset outside of its pictures. */
 static bool check_runs(struct rendering *r)
 {

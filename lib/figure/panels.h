@@ -1,4 +1,4 @@
-/* The pictures of a figure, with what they were made from. */
+/* Makes the pictures of a figure, its panels, and keeps what they were made from. */
 #ifndef KILN_FIGURE_PANELS_H
 #define KILN_FIGURE_PANELS_H
 
@@ -15,26 +15,27 @@ struct kiln_panel {
     double time_s;  /* of the frame; below 0: not known */
     char state[17]; /* the state hash; "" without a scene */
     char hash[65];  /* SHA-256 of the pixels */
-    bool is_map;    /* of errors: gets a scale */
+    bool is_map;    /* an error map, which gets a scale */
     struct kiln_pixels pixels;
 };
 
-/* What rendered, each "" if nothing did. Where all three are the same, so are the pixels. */
+/* What rendered the panels, each "" if nothing did. Where all three are the same, so are the
+ * pixels. */
 struct kiln_maker {
     char device[128], driver[272], cpu[128];
 };
 
 struct kiln_panels {
-    struct kiln_arena *arena; /* of all that follows */
+    struct kiln_arena *arena; /* holds all that follows */
     struct kiln_panel *items;
     size_t count;
-    size_t columns; /* that look right */
+    size_t columns; /* the number that looks right */
     struct kiln_maker maker;
     uint32_t paper;             /* 0xRRGGBB: below pictures with holes */
     struct kiln_claims *claims; /* borrowed: the figure's files, and all that panels are made of */
 };
 
-/* Makes the panels of a figure of its kind. False as kiln_figure_make says. */
+/* Make the panels of a figure of one kind. False as kiln_figure_make says. */
 bool kiln_panels_of_sheet(struct kiln_panels *panels, const struct kiln_figure_params *params,
                           struct kiln_error *error);
 bool kiln_panels_of_triptych(struct kiln_panels *panels, const struct kiln_figure_params *params,
@@ -42,7 +43,7 @@ bool kiln_panels_of_triptych(struct kiln_panels *panels, const struct kiln_figur
 bool kiln_panels_of_strip(struct kiln_panels *panels, const struct kiln_figure_params *params,
                           struct kiln_error *error);
 
-/* Lays 8-bit RGBA over the paper. */
+/* Lays a picture of 8-bit RGBA over the paper, which gives the panel its pixels. */
 bool kiln_panel_take_pixels(struct kiln_panels *panels, struct kiln_panel *panel, uint32_t width,
                             uint32_t height, const uint8_t *rgba, struct kiln_error *error);
 

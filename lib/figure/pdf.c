@@ -1,6 +1,7 @@
-/* PDF 1.4, one page: pictures as deflated RGB, lettering as strokes, and over it the same text
- * without ink, which readers select and search. A figure with a text for those who do not see is a
- * tagged document of one element. Nothing in it tells of the time or the machine. */
+/* Writes a drawing as PDF 1.4 of one page. Pictures are deflated RGB; lettering is strokes, and
+ * over it the same text without ink, which readers select and search. A figure with a text for
+ * screen readers is a tagged document of one element. Nothing in the file tells of the time or the
+ * machine. */
 #include "figure/pdf.h"
 
 #include <inttypes.h>
@@ -32,7 +33,7 @@ bool kiln_pdf_stream(struct kiln_pdf *pdf, const char *entries, const void *byte
     return ok;
 }
 
-/* The next character of a text as UTF-16 in hexadecimal digits; false at its end. */
+/* Writes the next character of a text as UTF-16 in hexadecimal digits; false at its end. */
 static bool put_utf16(FILE *out, const char **text)
 {
     uint32_t code = kiln_font_next(text);
@@ -43,7 +44,7 @@ static bool put_utf16(FILE *out, const char **text)
     return code != 0;
 }
 
-/* A text of the document, which is not shown on the page. */
+/* Writes a text of the document, which is not shown on the page. */
 static void put_string(FILE *out, const char *text)
 {
     fputs("<FEFF", out);
@@ -98,8 +99,8 @@ static void pen_curve(void *user, const double p[6])
     fputs("c\n", pen->out);
 }
 
-/* The second text is in a font without outlines, and in the mode of rendering that shows nothing.
- */
+/* Draws a text as strokes, and then as text in a font without outlines, in the mode of rendering
+ * that shows nothing. */
 static void put_text(FILE *out, const struct kiln_mark *mark, double baseline)
 {
     double scale = mark->capital / KILN_FONT_CAPITAL;
@@ -141,8 +142,8 @@ static void put_mark(FILE *out, const struct kiln_mark *mark, uint32_t page, siz
 
 /* ---- Objects -------------------------------------------------------------------------------- */
 
-/* Their numbers: the catalogue, the pages, the page and what is on it, pictures, the font, then
- * what not every figure has. 0: it does not have it. */
+/* Numbers of objects: the catalogue, the pages, the page and what is on it, pictures, the font,
+ * then objects that only some figures have. 0: the figure does not have the object. */
 enum { CATALOGUE = 1, PAGES, PAGE, CONTENT, PICTURES };
 struct numbers {
     size_t pictures; /* how many */
@@ -246,7 +247,7 @@ static void put_page(struct kiln_pdf *pdf, const struct numbers *numbers)
     fputs(" >> >>\nendobj\n", out);
 }
 
-/* The figure as the one element of the document. */
+/* Writes the figure as the one element of the document. */
 static void put_structure(struct kiln_pdf *pdf, const struct numbers *numbers)
 {
     const struct kiln_drawing *drawing = pdf->drawing;

@@ -1,4 +1,4 @@
-/* What the writers of a PDF share: the file and where its objects start. */
+/* Declares what the writers of a PDF share: the file and where its objects start. */
 #ifndef KILN_FIGURE_PDF_H
 #define KILN_FIGURE_PDF_H
 
@@ -18,9 +18,9 @@ void kiln_pdf_begin(struct kiln_pdf *pdf);
  * length and the filter. False when memory is short. */
 bool kiln_pdf_stream(struct kiln_pdf *pdf, const char *entries, const void *bytes, size_t size);
 
-/* A font without outlines, for text that is selected and searched and not seen: every character of
- * the drawing has its width and its code. It is embedded, as printers and publishers want all
- * fonts. */
+/* The number of objects of a font without outlines, for text that is selected and searched and not
+ * seen: every character of the drawing has its width and its code. The font is embedded, as
+ * printers and publishers want all fonts. */
 enum { KILN_PDF_FONT_OBJECTS = 6 };
 
 /* Writes the font's objects, of which the first is the font. False when memory is short. */

@@ -10,7 +10,7 @@
 enum {
     CODES = 0x10000,
     UNITS_PER_EM = 10 * KILN_FONT_EM, /* a unit of the lettering is ten of the font */
-    MOST_IN_BLOCK = 100,              /* of a mapping to Unicode */
+    MOST_IN_BLOCK = 100,              /* entries in a block of a mapping to Unicode */
 };
 
 /* The characters of a drawing, ascending. */
@@ -62,7 +62,7 @@ static void put_zeros(FILE *out, int count)
 static void put_head(FILE *out)
 {
     put32(out, 0x00010000); /* version */
-    put32(out, 0x00010000); /* of the font */
+    put32(out, 0x00010000); /* revision of the font */
     put32(out, 0);          /* a sum over the file, which no reader of a PDF looks at */
     put32(out, 0x5F0F3CF5);
     put16(out, 0);
@@ -95,7 +95,7 @@ static void put_maxp(FILE *out, size_t glyphs)
     put_zeros(out, 16);
 }
 
-/* Glyph 0 stands for what is missing. */
+/* Writes the widths of glyphs. Glyph 0 stands for missing ones. */
 static void put_hmtx(FILE *out, const struct characters *characters)
 {
     put32(out, 0);
@@ -133,7 +133,7 @@ static void put_table(FILE *out, int table, const struct characters *characters)
 {
     size_t glyphs = characters->count + 1;
     if (table == GLYF)
-        put32(out, 0); /* nothing, of which readers want at least a little */
+        put32(out, 0); /* an empty table, for which readers want at least some bytes */
     else if (table == HEAD)
         put_head(out);
     else if (table == HHEA)
@@ -146,7 +146,7 @@ static void put_table(FILE *out, int table, const struct characters *characters)
         put_maxp(out, glyphs);
 }
 
-/* The bytes of the font, which the caller frees. */
+/* Makes the bytes of the font, which the caller frees. */
 static bool make_font(const struct characters *characters, char **bytes, size_t *size)
 {
     static const char *const tags[TABLES] = {"glyf", "head", "hhea", "hmtx", "loca", "maxp"};
@@ -158,7 +158,7 @@ static bool make_font(const struct characters *characters, char **bytes, size_t 
     if (ok) {
         put32(out, 0x00010000);
         put16(out, TABLES);
-        put16(out, 64); /* for a search by halves: 4 * 16, its logarithm, the rest */
+        put16(out, 64); /* for a binary search: 4 * 16, its logarithm, the rest */
         put16(out, 2);
         put16(out, TABLES * 16 - 64);
     }
@@ -183,7 +183,7 @@ static bool make_font(const struct characters *characters, char **bytes, size_t 
 
 /* ---- Objects -------------------------------------------------------------------------------- */
 
-/* Which glyph a character has: two bytes for each code up to the largest one. */
+/* Writes which glyph a character has: two bytes for each code up to the largest one. */
 static bool put_glyph_map(struct kiln_pdf *pdf, const struct characters *characters)
 {
     size_t size =
@@ -225,7 +225,7 @@ static bool put_unicode_map(struct kiln_pdf *pdf, const struct characters *chara
     return ok;
 }
 
-/* In thousandths of the em. */
+/* Writes the widths of characters in thousandths of the em. */
 static void put_widths(FILE *out, const struct characters *characters)
 {
     fputs("/W [", out);

@@ -1,4 +1,5 @@
-/* PNG in memory: made for size, unlike frames, since figures are read often and made once. */
+/* Encodes the pixels of a figure as PNG in memory. Unlike frames, figures are read often and made
+ * once, so the PNG is made for size. */
 #include <png.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,10 +7,11 @@
 #include "base/error.h"
 #include "figure/drawing.h"
 
-/* libpng must not return from this; it hands over to the setjmp in encode. */
+/* Leaves libpng after a failure: it must not return from here, and goes on at the setjmp in encode.
+ */
 static void on_failure(png_structp png, png_const_charp message)
 {
-    (void)message; /* memory, of which it has no more to say */
+    (void)message; /* the failure is lack of memory, of which the message says no more */
     png_longjmp(png, 1);
 }
 
@@ -30,7 +32,7 @@ static void on_flush(png_structp png)
     (void)png;
 }
 
-/* Pixels a metre, and "Description", a keyword of the standard. */
+/* Adds the pixels of a metre, and the text under "Description", a keyword of the standard. */
 static void add_imprint(png_structp png, png_infop info, uint32_t dpi, char *alt)
 {
     if (dpi > 0) {

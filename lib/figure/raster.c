@@ -1,4 +1,5 @@
-/* Marks to pixels, in arithmetic that rounds alike everywhere: no function of libm but roots. */
+/* Paints the marks of a drawing in pixels, in arithmetic that rounds alike on every machine. Of
+ * libm it uses functions that are exact, such as roots; powers are rounded to whole numbers. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +10,8 @@
 
 /* ---- Pictures ------------------------------------------------------------------------------- */
 
-/* Light of a level of sRGB's encoding, 0 to 65535; what a table of rounded whole numbers says is
- * the same with any libm. */
+/* Makes a table of the light of each level of sRGB's encoding, 0 to 65535. Rounded whole numbers
+ * are the same with any libm. */
 static void make_light(uint32_t light[256])
 {
     for (int i = 0; i < 256; i++) {
@@ -35,7 +36,7 @@ static uint8_t level_of(const uint32_t light[256], uint64_t value)
 
 struct span {
     uint32_t first, last;           /* source pixels, both included */
-    uint32_t first_part, last_part; /* of 256 */
+    uint32_t first_part, last_part; /* how much of the pixel, of 256 */
 };
 
 static struct span span_of(uint32_t i, uint32_t from, uint32_t to)
@@ -110,7 +111,7 @@ struct stencil {
     double px, py; /* where the pen is, in pixels */
 };
 
-/* How much of the pixel around a point a stroke from (0, 0) to (dx, dy) covers. */
+/* Returns how much of the pixel around a point (x, y) a stroke from (0, 0) to (dx, dy) covers. */
 static double cover_at(double x, double y, double dx, double dy, double half_pen)
 {
     double length = dx * dx + dy * dy, t = length > 0 ? (x * dx + y * dy) / length : 0;
@@ -120,7 +121,7 @@ static double cover_at(double x, double y, double dx, double dy, double half_pen
     return cover < 0 ? 0 : cover > 1 ? 1 : cover;
 }
 
-/* The pixels of a range that the stencil has, from its start. */
+/* Finds the pixels of a range that the stencil has, counted from its start. */
 static void clip(double low, double high, int32_t start, uint32_t size, uint32_t range[2])
 {
     double first = floor(low) - start, last = ceil(high) - start;
@@ -231,7 +232,7 @@ static void paint_frame(const struct kiln_mark *mark, const struct kiln_pixels *
     fill(out, x1 - s, y0 + s, x1, y1 - s, mark->color);
 }
 
-/* The layout keeps pictures on the paper. */
+/* Paints a picture, which the layout keeps on the paper. */
 static bool paint_picture(const struct kiln_mark *mark, const struct kiln_pixels *out)
 {
     uint8_t *resized = malloc((size_t)mark->width * mark->height * 4);

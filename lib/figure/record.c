@@ -1,4 +1,5 @@
-/* One table of what a sidecar says would be longer than its writer and its reader. */
+/* Writes and reads the sidecars of figures as JSON. Writer and reader are code of their own: one
+ * table for both would be longer than the two. */
 #include "figure/record.h"
 
 #include <stdlib.h>

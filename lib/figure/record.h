@@ -1,5 +1,5 @@
-/* The sidecar of a figure, FILE.png.figure.json: what it was made by, from what, and what came out.
- */
+/* Writes and reads the sidecar of a figure, FILE.png.figure.json. It says by what the figure was
+ * made, from what, and what came out. */
 #ifndef KILN_FIGURE_RECORD_H
 #define KILN_FIGURE_RECORD_H
 
@@ -15,23 +15,23 @@ struct kiln_record {
     size_t command_count;
     const char *device, *driver, *cpu; /* as in kiln_maker */
     uint32_t width, height;
-    const char *alt;    /* what it shows, in words; NULL: not said */
+    const char *alt;    /* what the figure shows, in words; NULL: not said */
     const char *pixels; /* SHA-256 of the figure's pixels, also of what is written as vectors */
     const char *file;   /* SHA-256 of the figure's file */
     struct kiln_panel *panels; /* without their pixels */
     size_t panel_count;
 };
 
-/* The text of a sidecar, which the caller frees. */
+/* Makes the text of a sidecar, which the caller frees. */
 bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
                        struct kiln_error *error);
 
 /* Reads the text of a sidecar, which must end in a zero byte that size does not count, into the
- * arena. name stands for it in messages. NULL with KILN_INVALID_INPUT when it is none. */
+ * arena. name stands for it in messages. NULL with KILN_INVALID_INPUT when it is no sidecar. */
 struct kiln_record *kiln_record_parse(struct kiln_arena *arena, const char *text, size_t size,
                                       const char *name, struct kiln_error *error);
 
-/* The same of a file. */
+/* Reads the file of a sidecar, as kiln_record_parse reads its text. */
 struct kiln_record *kiln_record_read(struct kiln_arena *arena, const char *path,
                                      struct kiln_error *error);
 

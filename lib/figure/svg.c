@@ -1,5 +1,6 @@
-/* SVG: pictures as embedded PNG at their own size, lettering as strokes, so that no reader needs a
- * font, and over it the same text without ink, which readers select and search. */
+/* Writes a drawing as SVG. Pictures are embedded as PNG at their own size. Lettering is strokes, so
+ * that no reader needs a font, and over it the same text without ink, which readers select and
+ * search. */
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -12,7 +13,7 @@ struct pen {
     double x, y, scale;
 };
 
-/* Two digits after the point, which is a hundredth of a pixel. */
+/* Writes a point with two digits after the decimal point, which is a hundredth of a pixel. */
 static void put_point(const struct pen *pen, char command, double x, double y)
 {
     fprintf(pen->out, "%c%.2f %.2f", command, pen->x + x * pen->scale, pen->y - y * pen->scale);
@@ -100,7 +101,7 @@ static bool put_mark(FILE *out, const struct kiln_mark *mark, struct kiln_error 
     return true;
 }
 
-/* The size is one of paper if that is known. */
+/* Writes the start of the document. Its size is one of paper if that is known. */
 static void put_start(FILE *out, const struct kiln_drawing *drawing)
 {
     double edge = drawing->pixel_mm > 0 ? drawing->pixel_mm : 1;

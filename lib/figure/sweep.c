@@ -1,4 +1,5 @@
-/* An axis is a list of settings; a panel takes one of each axis. */
+/* Expands the axes of a figure into panels. An axis is a list of settings, and a panel takes one
+ * setting of each axis. */
 #include "figure/sweep.h"
 
 #include <math.h>
@@ -20,7 +21,7 @@ struct setting {
 struct axis {
     struct setting *settings;
     size_t count;
-    bool variants; /* may still grow */
+    bool variants; /* an axis of variants, which may still grow */
     const char *key;
 };
 
@@ -56,7 +57,7 @@ static struct axis *add_axis(struct expansion *e, size_t count)
 
 /* ---- Texts ---------------------------------------------------------------------------------- */
 
-/* The length of a value up to a separator outside of brackets and quotes. */
+/* Returns the length of a value up to a separator outside of brackets and quotes. */
 static size_t value_length(const char *text, char separator)
 {
     int depth = 0;
@@ -87,7 +88,8 @@ static size_t count_values(const char *text, char separator)
     return count;
 }
 
-/* The key's last word, which is what a reader looks for; the last two where one says too little. */
+/* Returns the key's last word, by which a reader knows it; the last two words where the last one
+ * says too little. */
 static const char *tail_of(const char *key, size_t length)
 {
     size_t start = length;
@@ -262,7 +264,7 @@ static bool add_scenes(struct expansion *e)
     return axis != NULL;
 }
 
-/* One frame is no axis, and needs no label. */
+/* Adds the frames as an axis. A single frame gets no label. */
 static bool add_frames(struct expansion *e)
 {
     const struct kiln_figure_params *params = e->params;

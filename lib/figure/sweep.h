@@ -1,4 +1,4 @@
-/* Which panels a figure of scenes has: the product of its axes. */
+/* Finds which panels a figure of scenes has: the product of its axes. */
 #ifndef KILN_FIGURE_SWEEP_H
 #define KILN_FIGURE_SWEEP_H
 
@@ -26,8 +26,8 @@ struct kiln_choices {
     size_t last_axis; /* how many values it has */
 };
 
-/* Expands the inputs, sweeps and frames of the parameters. All lies in the arena. KILN_USAGE names
- * what is wrong with a sweep. */
+/* Expands the inputs, sweeps and frames of the parameters into choices, which lie in the arena.
+ * KILN_USAGE names what is wrong with a sweep. */
 bool kiln_choices_make(struct kiln_arena *arena, const struct kiln_figure_params *params,
                        struct kiln_choices *choices, struct kiln_error *error);
 

@@ -1,4 +1,5 @@
-/* From a sidecar and a fresh drawing to a verdict, and the words for it. */
+/* Judges a figure from its sidecar and a fresh drawing: first by hashes, then, where something else
+ * drew it, by the metrics of kiln compare. It also words the reason. */
 #include "figure/verdict.h"
 
 #include <stdlib.h>
@@ -16,7 +17,7 @@ static void say_stale(struct kiln_figure_result *result, const char *reason)
 
 /* ---- By hashes ------------------------------------------------------------------------------ */
 
-/* What a panel has of each thing that can change, from the scene to the pixels. */
+/* The things of a panel that can change and have a hash, from the scene to the pixels. */
 enum thing { SCENE, SIMULATION, PICTURE };
 
 static const char *hash_of(const struct kiln_panel *panel, enum thing thing)
@@ -24,7 +25,7 @@ static const char *hash_of(const struct kiln_panel *panel, enum thing thing)
     return thing == SCENE ? panel->scene_hash : thing == SIMULATION ? panel->state : panel->hash;
 }
 
-/* Names the first panel whose thing is another one; false when there is none. */
+/* Names the first panel whose hash of the thing is another one; false when there is none. */
 static bool explain_thing(const struct kiln_record *record, const struct kiln_panels *panels,
                           enum thing thing, struct kiln_figure_result *result)
 {
@@ -42,7 +43,7 @@ static bool explain_thing(const struct kiln_record *record, const struct kiln_pa
     return false;
 }
 
-/* What does not depend on who drew it; false when that is all the same. */
+/* Explains changes that do not depend on what drew the figure; false when there are none. */
 static bool explain_cause(const struct kiln_record *record, const struct kiln_panels *panels,
                           struct kiln_figure_result *result)
 {
@@ -54,9 +55,9 @@ static bool explain_cause(const struct kiln_record *record, const struct kiln_pa
            explain_thing(record, panels, SIMULATION, result);
 }
 
-/* ---- By eye --------------------------------------------------------------------------------- */
+/* ---- By metrics ------------------------------------------------------------------------------ */
 
-/* Which part of what drew it is another one, or NULL. */
+/* Returns which part of what drew the figure is another one now, or NULL. */
 static const char *other_maker(const struct kiln_record *record, const struct kiln_maker *maker)
 {
     if (strcmp(record->device, maker->device) != 0)
@@ -67,7 +68,7 @@ static const char *other_maker(const struct kiln_record *record, const struct ki
     return !same_everywhere && strcmp(record->cpu, maker->cpu) != 0 ? record->cpu : NULL;
 }
 
-/* The file, and what would be in its place now, with the losses of its format. */
+/* Loads the file, and what would be in its place now, with the losses of its format. */
 static bool load_both(const struct kiln_figure_now *now, struct kiln_subject *subjects[2],
                       struct kiln_threads *threads, struct kiln_error *error)
 {
@@ -101,7 +102,8 @@ static void say_worst(const struct kiln_metric_set *set, const struct kiln_compa
              result->stale ? "beyond the" : "within the", found);
 }
 
-/* The limits are those of kiln compare without options. */
+/* Compares the figure as it was and as it is drawn now, by the limits of kiln compare without
+ * options. */
 static bool judge_by_eye(const struct kiln_figure_now *now, const char *maker,
                          struct kiln_figure_result *result, struct kiln_error *error)
 {

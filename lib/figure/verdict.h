@@ -1,4 +1,4 @@
-/* Whether a figure that was drawn again is what its sidecar says. */
+/* Judges whether a figure that was drawn again is what its sidecar says. */
 #ifndef KILN_FIGURE_VERDICT_H
 #define KILN_FIGURE_VERDICT_H
 
@@ -16,8 +16,9 @@ struct kiln_figure_now {
     uint32_t threads;
 };
 
-/* Fills in whether it is stale and why. By its pixels' hash where the same device, driver and
- * processor drew it; else, if scene and simulation are the same, by the limits of kiln compare. */
+/* Fills in whether the figure is stale and why. Its pixels' hash decides where the same device,
+ * driver and processor drew it; else, if scene and simulation are the same, the limits of kiln
+ * compare do. */
 bool kiln_figure_judge(const struct kiln_record *record, const struct kiln_figure_now *now,
                        struct kiln_figure_result *result, struct kiln_error *error);
 

@@ -1,12 +1,12 @@
-/* The pictures of a report page: inside of it, or linked. */
+/* Plans and writes the pictures of a report page, which are inside the page or linked. */
 #ifndef KILN_REPORT_GALLERY_H
 #define KILN_REPORT_GALLERY_H
 
 #include "kiln_program.h"
 #include "report/report.h"
 
-/* A page that holds more than this of pictures takes a browser seconds and gigabytes: those of the
- * least concern are linked then. */
+/* The most bytes of pictures inside a page. A page with more takes a browser seconds and gigabytes,
+ * so the pictures of least concern are linked then. */
 enum { KILN_GALLERY_BYTES = 160 << 20 };
 
 enum kiln_gallery_role {
@@ -30,24 +30,25 @@ struct kiln_gallery_place {
 
 struct kiln_gallery;
 
-/* Decides for every picture, in the given order of tests (count indices) and the worst frame of
- * each first. Pictures that a browser cannot show get a preview beside them when they are linked.
- * Equal pictures of one frame are in the page once. The gallery lives in results->arena. NULL with
- * KILN_DEVICE_FAILED when memory is short. */
+/* Decides for every picture whether it is inside or linked, in the given order of tests (count
+ * indices) and the worst frame of each first. Pictures that a browser cannot show get a preview
+ * beside them when they are linked. Equal pictures of one frame are in the page once. The gallery
+ * lives in results->arena. NULL with KILN_DEVICE_FAILED when memory is short. */
 struct kiln_gallery *kiln_gallery_plan(const struct kiln_results *results, const size_t *order,
                                        const struct kiln_results_output *output,
                                        struct kiln_error *error);
 
-/* Of a frame: KILN_GALLERY_ROLE_COUNT places. */
+/* Returns the places of a frame's pictures, KILN_GALLERY_ROLE_COUNT of them. */
 const struct kiln_gallery_place *kiln_gallery_places(const struct kiln_gallery *gallery,
                                                      size_t test, size_t frame);
 
-/* How many are inside, and how many linked for want of space. */
+/* The number of pictures inside, and of those that are linked for want of space. */
 uint32_t kiln_gallery_inside(const struct kiln_gallery *gallery);
 uint32_t kiln_gallery_crowded_out(const struct kiln_gallery *gallery);
 
-/* Writes those inside, one <script type="text/plain" id="pN"> each, in base64. One that cannot be
- * read is an empty one with the reason as its data-problem. One picture is in memory at a time. */
+/* Writes the pictures inside, each as a <script type="text/plain" id="pN"> in base64. The element
+ * of a picture that cannot be read is empty and has the reason as its data-problem. One picture is
+ * in memory at a time. */
 void kiln_gallery_write(const struct kiln_gallery *gallery, FILE *out);
 
 #endif

@@ -1,11 +1,13 @@
-/* Workflow commands of GitHub's runners: lines on standard output that become annotations. Only so
- * many are shown of a step, so what is broken comes first. */
+/* Writes reports as workflow commands of GitHub's runners: lines on standard output that become
+ * annotations. GitHub shows only so many annotations of a step, so tests that did not pass come
+ * first. */
 #include <string.h>
 
 #include "base/shown.h"
 #include "report/words.h"
 
-/* What is special in a message; in a property, these and what ends one. */
+/* Writes a text with its special characters escaped. Those of a message are special in a property,
+ * too, which has also characters that end it. */
 static void write_escaped(FILE *out, const char *text, const char *special)
 {
     uint32_t character;
@@ -33,7 +35,7 @@ static void write_property(FILE *out, const char *text)
     write_escaped(out, text, "%\r\n:,");
 }
 
-/* The command up to its message; file "" for none. */
+/* Writes the command up to its message; file "" for none. */
 static void open_command(FILE *out, const char *command, const char *file, const char *title,
                          const char *name)
 {

@@ -1,7 +1,7 @@
-/* The report page: one file that needs nothing else. The list of tests is plain HTML, which is
- * there before any script; what is known of each test is JSON that is read when it is opened, and
- * pictures come last, the most urgent first, so that they need not have arrived for the rest to
- * work. A content security policy names the page's own style and script by their hashes: nothing
+/* Writes the report page: one file that needs nothing else. The list of tests is plain HTML, which
+ * is there before any script. What is known of each test is JSON that is read when the test is
+ * opened. Pictures come last, the most urgent first, so that all else works before they have
+ * arrived. A content security policy names the page's own style and script by their hashes: nothing
  * else runs, and nothing is fetched. */
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +21,7 @@ struct page {
     size_t *order; /* of the tests: the worst first */
     struct kiln_gallery *gallery;
     struct kiln_text style, script;
-    char hashes[2][65]; /* of those, in hex */
+    char hashes[2][65]; /* of style and script, in hex */
     bool link;
 };
 
@@ -118,7 +118,7 @@ static void write_facts(FILE *out, const void *user)
     const struct page *page = user;
     const char *started = page->results->started;
     if (page->results->count > 0 && strlen(started) == strlen("2026-01-31T12:00:00Z")) {
-        char text[32]; /* as people write it */
+        char text[32]; /* date and time with a blank between */
         snprintf(text, sizeof text, "%.10s %.8s UTC", started, started + strlen("2026-01-31T"));
         fputs("<time>", out);
         kiln_markup_write_text(out, text);
@@ -137,7 +137,7 @@ static void write_facts(FILE *out, const void *user)
                 crowded_out == 1 ? " is" : "s are", KILN_GALLERY_BYTES >> 20);
 }
 
-/* The folder that all results lie in; NULL: in several. */
+/* Returns the folder that all results lie in, or NULL when they lie in several. */
 static const char *common_folder(const struct kiln_results *results)
 {
     const char *folder = NULL;
@@ -153,7 +153,7 @@ static const char *common_folder(const struct kiln_results *results)
     return folder;
 }
 
-/* One command for many pictures, with a button that copies it. */
+/* Writes one command that approves many pictures, with a button that copies it. */
 static void write_approval(FILE *out, const void *user)
 {
     const struct page *page = user;
@@ -179,7 +179,7 @@ static void write_approval(FILE *out, const void *user)
     kiln_text_free(&command);
 }
 
-/* A button for each status that there is, the worst first. */
+/* Writes a button for each status that some test has, the worst first. */
 static void write_counts(FILE *out, const void *user)
 {
     const struct page *page = user;
@@ -210,7 +210,7 @@ static void write_score(FILE *out, const struct kiln_result *result)
         fprintf(out, score < 10 ? "%.2f" : "%.0f", score);
 }
 
-/* A name as folder and last part, of which the last part is what tells tests apart. */
+/* Writes a name as its folder and its last part, by which tests are told apart. */
 static void write_name(FILE *out, const char *name)
 {
     const char *slash = strrchr(name, '/');
@@ -226,7 +226,7 @@ static void write_name(FILE *out, const char *name)
     fputs("</span>", out);
 }
 
-/* For the script, which sorts by it. */
+/* Writes a data attribute, by which the script sorts. */
 static void write_data(FILE *out, const char *name, double value)
 {
     char text[32];
@@ -279,7 +279,8 @@ static void write_pictures(FILE *out, const void *user)
     kiln_gallery_write(((const struct page *)user)->gallery, out);
 }
 
-/* Worse statuses first, then higher scores; equal ones stay in the order of their names. */
+/* Orders tests: worse statuses first, then higher scores; equal ones stay in the order of their
+ * names. */
 static int compare_tests(const void *a, const void *b, void *user)
 {
     const struct kiln_results *results = user;

@@ -1,5 +1,5 @@
-/* One document with everything: the head of the run, and of each test its folder, its score and all
- * that its result.json says. */
+/* Writes a report as one JSON document with everything: the head of the run, and of each test its
+ * folder, its score and all that its result.json says. */
 #include "report/words.h"
 
 enum { VERSION = 1 };

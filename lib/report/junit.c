@@ -1,6 +1,7 @@
-/* JUnit XML as Jenkins and GitLab read it. A test of kiln is a suite with one case: what describes
- * it are properties, which only a suite may have in every dialect. The pictures of frames that are
- * not right are attachments, named by "[[ATTACHMENT|path]]" in the output of the case. */
+/* Writes a report as JUnit XML that Jenkins and GitLab read. A test of kiln is a suite with one
+ * case. What describes the test are properties, which only a suite may have in every dialect. The
+ * pictures of frames that are not right are attachments, named by "[[ATTACHMENT|path]]" in the
+ * output of the case. */
 #include <string.h>
 
 #include "base/text.h"
@@ -10,8 +11,8 @@
 
 /* ---- XML ---------------------------------------------------------------------------------- */
 
-/* Whether XML 1.0 has this character, which is valid UTF-8. The controls from U+007F, which it has,
- * are left out with the others. */
+/* Whether a character of valid UTF-8 may stand in the document. XML 1.0 does not have all controls;
+ * those from U+007F, which it has, are left out with the others. */
 static bool is_allowed(const unsigned char *s)
 {
     if (s[0] < 0x20)
@@ -21,7 +22,8 @@ static bool is_allowed(const unsigned char *s)
     return !control && !no_character;
 }
 
-/* What would be markup, or a blank that readers change. */
+/* Returns the entity of a character that would be markup, or a blank that readers change; or NULL.
+ */
 static const char *entity_of(char c)
 {
     switch (c) {
@@ -36,7 +38,8 @@ static const char *entity_of(char c)
     }
 }
 
-/* As an attribute's value or as text; in the latter, lines stay lines. */
+/* Writes a text as an attribute's value or as content; in content, line feeds and tabs stay as they
+ * are. */
 static void write_xml(FILE *out, const char *text, bool attribute)
 {
     while (*text) {
@@ -77,7 +80,8 @@ static void write_property(FILE *out, const char *name, const char *value)
     fputs("/>\n", out);
 }
 
-/* Every text and number of the result, but for those that are said elsewhere. */
+/* Writes every text and number of the result as a property, but for those that the report says
+ * elsewhere. */
 static void write_facts(FILE *out, const struct kiln_result *result)
 {
     static const char *const elsewhere[] = {"name", "message", "started"};
@@ -96,7 +100,7 @@ static void write_facts(FILE *out, const struct kiln_result *result)
     }
 }
 
-/* "0.0153 (at most 0.01)" */
+/* Writes the worst value of each metric with its limit: "0.0153 (at most 0.01)". */
 static void write_metrics(FILE *out, const struct kiln_result *result)
 {
     for (size_t i = 0; i < result->column_count; i++) {
@@ -150,7 +154,7 @@ static void write_properties(FILE *out, const struct kiln_result *result)
     fputs("    </properties>\n", out);
 }
 
-/* ---- What became of it -------------------------------------------------------------------- */
+/* ---- Problems and output -------------------------------------------------------------------- */
 
 static const char *failure_type(const struct kiln_result *result)
 {
@@ -189,7 +193,8 @@ static const char *error_type(enum kiln_code code)
     }
 }
 
-/* Calls tell for frames that are not right, and returns how many more of these there are. */
+/* Calls `tell` for each of the first frames that are not right, and returns how many such frames
+ * are left out. */
 static uint32_t tell_frames(FILE *out, const struct kiln_result *result, const char *folder,
                             void (*tell)(FILE *out, const struct kiln_result_frame *frame,
                                          const char *folder))
@@ -216,7 +221,7 @@ static void tell_cause(FILE *out, const struct kiln_result_frame *frame, const c
     fputs("\n", out);
 }
 
-/* The causes of the frames, and what to do. */
+/* Writes what is wrong with each frame, and what to do. */
 static void write_causes(FILE *out, const struct kiln_result *result)
 {
     write_text(out, result->message);
@@ -276,7 +281,7 @@ static void tell_pictures(FILE *out, const struct kiln_result_frame *frame, cons
     write_attachment(out, folder, frame->error_map);
 }
 
-/* Of a case that says nothing, there is none. */
+/* Writes the output of a case; a case with nothing to say gets none. */
 static void write_output(FILE *out, const struct kiln_result *result, const char *folder)
 {
     bool quiet = result->status <= KILN_TEST_SKIP ||
@@ -299,7 +304,7 @@ static void write_output(FILE *out, const struct kiln_result *result, const char
 
 /* ---- The document ------------------------------------------------------------------------- */
 
-/* Of "effects/fire" the class "kiln.effects" and the name "fire". */
+/* Writes the name of a case: "effects/fire" has the class "kiln.effects" and the name "fire". */
 static void write_case_name(FILE *out, const char *name)
 {
     const char *slash = strrchr(name, '/');

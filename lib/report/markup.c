@@ -1,5 +1,5 @@
-/* Text is written character by character to the stream, which has a buffer: pages are large, and
- * no copy of them is held. */
+/* Writes templates, text, URLs and base64 into pages. Text goes character by character to the
+ * stream, which has a buffer: pages are large, and no copy of them is held. */
 #include "report/markup.h"
 
 #include <string.h>
@@ -86,7 +86,7 @@ void kiln_markup_write_text(FILE *out, const char *text)
 
 void kiln_markup_write_url(FILE *out, const char *path)
 {
-    /* A colon in the first part would make it a scheme. */
+    /* A colon is encoded, since in the first part of a path it would make a scheme. */
     static const char plain[] = "-._~/";
     for (; *path; path++) {
         unsigned char c = (unsigned char)*path;

@@ -1,11 +1,12 @@
-/* Templates, and text from anywhere on its way into an HTML page: nothing in it can end the place
- * it was put to. Failed writes are left to whoever asks the stream for them. */
+/* Writes templates, and text of any origin into an HTML page: nothing in the text can end the place
+ * where it stands. These functions do not report failed writes; the caller asks the stream for
+ * them. */
 #ifndef KILN_REPORT_MARKUP_H
 #define KILN_REPORT_MARKUP_H
 
 #include "kiln.h"
 
-/* What stands for {{name}} in a template; name NULL ends a list. */
+/* A field writes what stands for {{name}} in a template; name NULL ends a list. */
 struct kiln_markup_field {
     const char *name;
     void (*write)(FILE *out, const void *user);
@@ -16,14 +17,14 @@ struct kiln_markup_field {
 bool kiln_markup_write_template(FILE *out, const char *text, const struct kiln_markup_field *fields,
                                 struct kiln_error *error);
 
-/* What stands for a character that is markup, in HTML and XML; or NULL. */
+/* Returns the entity of a character that is markup in HTML and XML, or NULL. */
 const char *kiln_markup_entity(char c);
 
-/* HTML text or an attribute's value (in double quotes). Invalid UTF-8 and control characters other
- * than line feed and tab become U+FFFD. */
+/* Writes HTML text or an attribute's value (in double quotes). Invalid UTF-8 and control characters
+ * other than line feed and tab become U+FFFD. */
 void kiln_markup_write_text(FILE *out, const char *text);
 
-/* A path as a relative URL: what is special in URLs or in HTML is percent-encoded. */
+/* Writes a path as a relative URL: what is special in URLs or in HTML is percent-encoded. */
 void kiln_markup_write_url(FILE *out, const char *path);
 
 void kiln_markup_write_base64(FILE *out, const void *bytes, size_t size);

@@ -1,5 +1,6 @@
-/* The curve is a fit of ACES (Narkowicz 2015) as HDR-FLIP takes it, which maps 0.6 x: black stays
- * black, and what is far beyond white bends into it instead of being cut off. */
+/* Converts pictures to 8-bit PNG for browsers. Linear light goes through a fit of the ACES curve
+ * (Narkowicz 2015), which as in HDR-FLIP maps 0.6 x. Black stays black, and light far beyond white
+ * is compressed towards it instead of being cut off. */
 #include "report/preview.h"
 
 #include <math.h>
@@ -46,7 +47,7 @@ static float encode_srgb(float x)
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1.0f / 2.4f) - 0.055f;
 }
 
-/* NaN, too, becomes black. */
+/* Converts 0..1 to a byte. NaN, too, becomes black. */
 static uint8_t to_byte(float x)
 {
     return (uint8_t)(x > 0.0f ? (x < 1.0f ? x * 255.0f + 0.5f : 255.0f) : 0.0f);
@@ -54,7 +55,7 @@ static uint8_t to_byte(float x)
 
 static void convert(const struct kiln_asset_image *image, uint8_t *out)
 {
-    enum { BRIGHTEST = 65504 }; /* of half floats; the curve is flat long before */
+    enum { BRIGHTEST = 65504 }; /* the largest half float; the curve is flat long before */
     size_t pixels = (size_t)image->width * image->height;
     for (size_t i = 0; i < pixels; i++) {
         float alpha = value_at(image, 4 * i + 3);

@@ -1,4 +1,5 @@
-/* The formats of reports, and where they go. */
+/* Holds the table of formats of reports, and writes reports to files or to standard output. A file
+ * that kiln has not written as a report of that format is replaced only by --force. */
 #include "report/report.h"
 
 #include <errno.h>
@@ -28,7 +29,7 @@ static const struct kiln_report_format *find_format(const char *name, struct kil
     return NULL;
 }
 
-/* Writes to a stream that may fail at any place; whether it has is asked once. */
+/* Writes a report to a stream. Any write may fail; the stream is asked once at the end. */
 static bool write_to(const struct kiln_report_format *format, const struct kiln_results *results,
                      const struct kiln_results_output *output, FILE *out, struct kiln_error *error)
 {
@@ -42,7 +43,7 @@ static bool write_to(const struct kiln_report_format *format, const struct kiln_
                                 "%s: the report cannot be written", name);
 }
 
-/* A stream of its own on the file, to be closed before that is committed. */
+/* Opens another stream on the file, which is to be closed before the file is committed. */
 static FILE *open_stream(const struct kiln_temporary *file)
 {
     int copy = dup(file->file);
@@ -52,7 +53,7 @@ static FILE *open_stream(const struct kiln_temporary *file)
     return out;
 }
 
-/* Whether the file is a report of that format, by kiln: what cannot be read is none. */
+/* Whether the file is a report of that format by kiln; false when it cannot be read. */
 static bool is_own(const struct kiln_report_format *format, const char *path)
 {
     char start[256] = "";
@@ -65,7 +66,7 @@ static bool is_own(const struct kiln_report_format *format, const char *path)
     return own;
 }
 
-/* An empty file is nobody's loss. */
+/* Checks that the file may be replaced. An empty file may always be, since nothing is lost. */
 static bool check_target(const struct kiln_report_format *format,
                          const struct kiln_results_output *output, struct kiln_error *error)
 {

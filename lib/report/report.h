@@ -1,4 +1,5 @@
-/* Reports of a run: one file a format, one row of the table in report.c. */
+/* Declares the formats of reports of a run. Each format is a file of its own and a row of the table
+ * in report.c. */
 #ifndef KILN_REPORT_REPORT_H
 #define KILN_REPORT_REPORT_H
 
@@ -9,7 +10,7 @@
 struct kiln_results {
     struct kiln_arena *arena;
     struct kiln_result **tests; /* ordered by name */
-    const char **folders;       /* of each test's result: its pictures are in there */
+    const char **folders;       /* of each test's result, with its pictures */
     size_t count;
     double total_s;
     const char *started;            /* of the earliest test */

@@ -1,5 +1,6 @@
-/* A run is a list of tests in RESULTS/run.json, and a result of each in RESULTS/NAME. Shards of one
- * run, each from another machine, are put together here. */
+/* Writes the list of a run, RESULTS/run.json, and loads the results of runs: that list, and a
+ * result of each test in RESULTS/NAME. It puts together the shards of one run, each from another
+ * machine, and finds shards that are missing. */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,14 +71,14 @@ bool kiln_suite_write_run(const struct kiln_suite *suite, double total_s, struct
 
 /* ---- Reading run.json --------------------------------------------------------------------- */
 
-/* A test of a run, which a thousand others may surround. */
+/* A test of a run that was loaded. */
 struct entry {
     struct kiln_result *result;
     const char *folder; /* of the result */
     const char *run;    /* the folder of the run */
 };
 
-/* A run that was one of several, which have the same tests between them. */
+/* A run that was one of several shards, which share the same tests between them. */
 struct shard {
     uint64_t number, count, tests;
 };
@@ -93,7 +94,8 @@ struct loading {
     double total_s;
 };
 
-/* A name becomes a folder below the run's: it must not lead anywhere else. */
+/* Whether a text may be a test's name. A name becomes a folder below the run's, so it must not lead
+ * anywhere else. */
 static bool is_test_name(const char *name)
 {
     for (const char *part = name;; part++) {
@@ -106,7 +108,7 @@ static bool is_test_name(const char *name)
     }
 }
 
-/* The text under a key of an object. */
+/* Returns the text under a key of an object; NULL with an error. */
 static const char *text_of(const struct loading *loading, const struct kiln_node *node,
                            const char *key)
 {
@@ -117,7 +119,7 @@ static const char *text_of(const struct loading *loading, const struct kiln_node
     return NULL;
 }
 
-/* What stands for the result of a test that left none. */
+/* Makes a result for a test that left none. */
 static struct kiln_result *missing_result(const struct loading *loading, const char *name,
                                           const char *test)
 {
@@ -270,7 +272,7 @@ static int compare_counts(uint64_t a, uint64_t b)
     return (a > b) - (a < b);
 }
 
-/* Those of one run lie side by side. */
+/* Orders shards so that those of one run lie side by side. */
 static int by_run(const void *a, const void *b)
 {
     const struct shard *x = a, *y = b;
@@ -281,7 +283,7 @@ static int by_run(const void *a, const void *b)
     return compare_counts(x->number, y->number);
 }
 
-/* What stands for the tests of the shards `first` to `last`, which were judged nowhere. */
+/* Adds a result for the tests of the shards `first` to `last`, which were judged nowhere. */
 static bool add_missing(struct loading *loading, uint64_t first, uint64_t last, uint64_t count)
 {
     char name[64], message[128], range[32] = "";
@@ -439,7 +441,7 @@ void kiln_results_destroy(struct kiln_results **results)
 {
     if (!*results)
         return;
-    struct kiln_arena *arena = (*results)->arena; /* which holds the results, too */
+    struct kiln_arena *arena = (*results)->arena; /* the arena holds the results, too */
     kiln_arena_destroy(&arena);
     *results = NULL;
 }

@@ -1,12 +1,12 @@
-/* The Test Anything Protocol with a block of YAML under each test. All that is used of it is in
- * version 13 and means the same in version 14; the head says 13, because the prove of Debian 12
- * fails whatever says 14. */
+/* Writes a report in the Test Anything Protocol, with a block of YAML under each test. All that is
+ * used of the protocol is in version 13 and means the same in version 14. The head says 13, because
+ * the prove of Debian 12 fails on any report that says 14. */
 #include <math.h>
 
 #include "base/text.h"
 #include "report/words.h"
 
-/* A description ends at '#', and is one line. */
+/* Writes a description, which must be one line and would end at '#'. */
 static void write_description(FILE *out, const char *text)
 {
     for (; *text; text++) {
@@ -17,14 +17,14 @@ static void write_description(FILE *out, const char *text)
     }
 }
 
-/* A JSON string, which is a YAML scalar, too. */
+/* Writes a JSON string, which is a YAML scalar, too. */
 static void write_string(FILE *out, const char *text)
 {
     struct kiln_json json = kiln_json_to_file(out);
     kiln_json_string(&json, NULL, text);
 }
 
-/* A member of the block. */
+/* Writes a member of the YAML block. */
 static void write_text(FILE *out, const char *key, const char *text)
 {
     if (!*text)
@@ -42,7 +42,7 @@ static void write_number(FILE *out, double value)
     fputs(number, out);
 }
 
-/* The metrics that have limits, and those that are beyond them. */
+/* Writes the metrics that have limits, and whether they are beyond them. */
 static void write_metrics(FILE *out, const struct kiln_result *result,
                           const struct kiln_result_frame *frame)
 {

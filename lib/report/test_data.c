@@ -1,5 +1,6 @@
-/* What the page's scripts read: the members of result.json by their names there, as scripts write
- * names ("device_name" is "deviceName"), and what is made for the page. */
+/* Writes what the page's scripts read of a test: the members of result.json, whose names are
+ * written as scripts write names ("device_name" is "deviceName"), and data that are made for the
+ * page. */
 #include "report/test_data.h"
 
 #include <ctype.h>
@@ -12,7 +13,7 @@
 
 enum { KEY_SIZE = 64 };
 
-/* "device_name" as "deviceName". */
+/* Converts a member's name to a script's: "device_name" to "deviceName". */
 static const char *script_name(char key[KEY_SIZE], const char *name)
 {
     size_t length = 0;

@@ -1,4 +1,4 @@
-/* A test as the report page's script wants it. */
+/* Writes what the report page's script reads of a test. */
 #ifndef KILN_REPORT_TEST_DATA_H
 #define KILN_REPORT_TEST_DATA_H
 

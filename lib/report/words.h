@@ -1,23 +1,23 @@
-/* What the text formats of reports say alike. */
+/* Words what several text formats of reports say in the same way. */
 #ifndef KILN_REPORT_WORDS_H
 #define KILN_REPORT_WORDS_H
 
 #include "kiln_program.h"
 #include "report/report.h"
 
-/* Of the frames that are not right, so many are told of one by one. */
+/* The most frames of a test that are not right and are told of one by one. */
 enum { KILN_REPORT_MAX_FRAMES = 20 };
 
-/* A value for people, of few digits: "0.0153", "inf". The point is '.' in any locale. */
+/* Writes a value with few digits, "0.0153" or "inf". The point is '.' in any locale. */
 void kiln_words_number(char out[32], double value);
 
-/* Seconds to the millisecond: "12.345". */
+/* Writes seconds to the millisecond: "12.345". */
 void kiln_words_seconds(char out[32], double seconds);
 
-/* "7 tests: 3 pass, 1 fail, 3 error; in 12.345 s". */
+/* Writes a summary: "7 tests: 3 pass, 1 fail, 3 error; in 12.345 s". */
 void kiln_words_summary(char out[256], const struct kiln_results *results);
 
-/* The value of a column that is the worst over the frames that were measured; false without any. */
+/* Finds the worst value of a column over the frames that were measured; false without any. */
 bool kiln_words_worst(const struct kiln_result *result, size_t column, double *value);
 
 #endif

@@ -1,6 +1,7 @@
-/* Scenes to begin with, which are files of scenes/templates in the program. Each is written with a
- * first line that tells editors where the JSON schema of scenes is: they complete and check keys by
- * it. The schema is looked for from where the program lies, since an installation may be moved. */
+/* Writes scenes to begin with, which are files of scenes/templates in the program. Each is written
+ * with a first line that tells editors where the JSON schema of scenes is: by the schema they
+ * complete and check keys. The schema is searched for from where the program lies, since an
+ * installation may be moved. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,7 +73,7 @@ static const char *find(const char *name, struct kiln_error *error)
     return NULL;
 }
 
-/* Where the schema is: beside the program as built, below the prefix of an installed one, or where
+/* Finds the schema: beside the program as built, below the prefix of an installed program, or where
  * the build was going to install it. False when it is nowhere. */
 static bool find_schema(char path[KILN_PATH_SIZE])
 {
@@ -95,7 +96,8 @@ static bool find_schema(char path[KILN_PATH_SIZE])
     return found || access(path, R_OK) == 0;
 }
 
-/* Editors end the place at a blank: with one in it, it is written as a URL. */
+/* Adds the line that names the schema to editors. They end the path at a blank, so a path with a
+ * blank is written as a URL. */
 static void add_modeline(struct kiln_text *text)
 {
     char path[KILN_PATH_SIZE];

@@ -1,6 +1,6 @@
-/* The accepted side of a frame, drawn by another kiln: only a renderer whose pixels are the same
- * everywhere can do that. What it drew is believed where its pixels hash to what was accepted.
- */
+/* Draws the accepted side of a frame with another kiln. Only a renderer whose pixels are the same
+ * everywhere can do that: a note says where the pixels of its picture do not hash to what was
+ * accepted. */
 #include "suite/against.h"
 
 #include <errno.h>
@@ -34,7 +34,7 @@ static void add_option(struct words *words, const char *option, const char *valu
     add(words, value);
 }
 
-/* "simulate=cpu sort=cpu" as it was drawn with. */
+/* Adds the techniques of the result, "simulate=cpu sort=cpu", as options. */
 static void add_techniques(struct words *words)
 {
     const char *rest = words->trial->result->techniques;
@@ -47,7 +47,8 @@ static void add_techniques(struct words *words)
     }
 }
 
-/* PROGRAM render SCENE, with what the test changes of it, into a picture. */
+/* Makes the command PROGRAM render SCENE, with what the test changes of the scene, into a picture.
+ */
 static const char **command_of(struct kiln_trial *trial, uint32_t frame, const char *picture)
 {
     const struct kiln_test *test = trial->test;
@@ -72,8 +73,8 @@ static const char **command_of(struct kiln_trial *trial, uint32_t frame, const c
     return words.items;
 }
 
-/* Runs it; what it prints goes to a file. Its exit code, below 0 when it cannot be run, with errno;
- * or 128 and the number of a signal. */
+/* Runs a command; what it prints goes to a file. Returns its exit code; below 0, with errno, when
+ * it cannot be run; 128 and the number of the signal that ended it. */
 static int run(const char **command, const char *log)
 {
     posix_spawn_file_actions_t actions;
@@ -96,7 +97,7 @@ static int run(const char **command, const char *log)
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/* The last line of what it printed, or "". */
+/* Returns the last line of a log, or "". */
 static const char *last_line(struct kiln_trial *trial, const char *log)
 {
     enum { MOST = 1 << 20 };

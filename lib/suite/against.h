@@ -1,4 +1,4 @@
-/* The accepted side of a frame, drawn by another kiln. */
+/* Draws the accepted side of a frame with another kiln. */
 #ifndef KILN_SUITE_AGAINST_H
 #define KILN_SUITE_AGAINST_H
 

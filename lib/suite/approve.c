@@ -1,6 +1,6 @@
-/* Accepting what a run left behind. Nothing is rendered, so everything that the pictures depend on
- * is checked: the scene is loaded again and must be the one that was rendered, and the pictures
- * must be those that were judged. Only then is the first file written. */
+/* Accepts pictures that a run left behind. Nothing is rendered, so everything that the pictures
+ * depend on is checked: the scene is loaded again and must be the one that was rendered, and the
+ * pictures must be those that were judged. Only then is the first file written. */
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ struct approval {
     struct kiln_expect *expect;
     char *scene_text;
     char scene_hash[65];
-    size_t frame_count; /* to accept */
+    size_t frame_count; /* frames to accept */
 };
 
 static bool out_of_memory(struct approval *a)
@@ -35,7 +35,7 @@ static bool out_of_memory(struct approval *a)
     return kiln_error_set(a->error, KILN_DEVICE_FAILED, "out of memory while approving");
 }
 
-/* Refuses, for a reason that another run mends. */
+/* Refuses to approve for a reason that another run mends. */
 static bool run_again(struct approval *a, const char *what)
 {
     return kiln_error_set(a->error, KILN_INVALID_INPUT, "%s: %s; run it again%s%s", a->params->name,
@@ -68,8 +68,8 @@ static void add_name(struct names *names, const char *name)
     names->failed |= names->items[names->count++] == NULL;
 }
 
-/* The folders that hold a result.json, by their paths below the first. What cannot be read holds
- * none that could be approved. */
+/* Lists the folders that hold a result.json, by their paths below the first. A folder that cannot
+ * be read holds no result that could be approved. */
 static void list_results(struct names *names, const char *folder, const char *name)
 {
     struct dirent **entries = NULL;
@@ -110,9 +110,9 @@ static bool find_result(struct approval *a)
                           nearest ? nearest : "", nearest ? "'?)" : "");
 }
 
-/* ---- is it fresh? --------------------------------------------------------------------------- */
+/* ---- whether the result is current ----------------------------------------------------------- */
 
-/* The folder is that of the test's goldens and no other. */
+/* Whether a folder is that of the test's goldens and no other. */
 static bool is_golden_of(const char *golden, const char *name)
 {
     size_t length = strcspn(name, "@"), folder = strlen(golden);
@@ -120,7 +120,8 @@ static bool is_golden_of(const char *golden, const char *name)
            strncmp(golden + folder - length, name, length) == 0;
 }
 
-/* It is of another device than is wanted, or one of many that has nothing to accept. */
+/* Whether a result is passed over: it is of another device than is wanted, or was skipped and is
+ * one of many to approve. */
 static bool is_passed_over(const struct approval *a)
 {
     const char *wanted = a->params->device;
@@ -181,8 +182,8 @@ static bool print_scene(struct approval *a, const struct kiln_scene *scene)
     return ok || out_of_memory(a);
 }
 
-/* A frame that the test judges no more would leave a golden that nothing uses; one that it judges
- * now would have none. */
+/* Checks that the test's frames are those of the result. A frame that the test no longer judges
+ * would leave a golden that nothing uses; a frame that it judges now would have none. */
 static bool check_numbers(struct approval *a, uint32_t scene_frames)
 {
     uint32_t usual[2];
@@ -226,7 +227,7 @@ static bool has_suffix(const struct kiln_test *test, const char *picture)
     return suffix && strcmp(suffix, kiln_test_suffix(test)) == 0;
 }
 
-/* The hashes that the frame was judged by are as they were, or accepted before. */
+/* Checks that the hashes that the frame was judged by are as they were, or were accepted before. */
 static bool check_hashes(struct approval *a, const struct kiln_result_frame *frame,
                          const char *changed)
 {
@@ -240,8 +241,8 @@ static bool check_hashes(struct approval *a, const struct kiln_result_frame *fra
            run_again(a, changed);
 }
 
-/* The golden that the picture was judged by is as it was, or none is there still. One that is the
- * picture itself was approved before. */
+/* Checks that the golden that the picture was judged by is as it was, or that there is still none.
+ * A golden that is the picture itself was approved before. */
 static bool check_golden(struct approval *a, const struct kiln_result_frame *frame)
 {
     static const char changed[] = "its goldens have changed since the run";
@@ -273,7 +274,7 @@ static bool check_golden(struct approval *a, const struct kiln_result_frame *fra
 static bool check_frame(struct approval *a, const struct kiln_result_frame *frame)
 {
     char picture[KILN_PATH_SIZE], pixels[65];
-    /* Nothing decides about a frame that fails only when its renders differ from each other. */
+    /* A frame that fails without a judge fails because its renders differ from each other. */
     if (frame->status == KILN_TEST_FAIL && frame->judged_by == KILN_JUDGED_BY_NOTHING)
         return kiln_error_set(a->error, KILN_INVALID_INPUT, "%s: cannot be accepted: %s",
                               a->params->name, frame->message);
@@ -343,7 +344,8 @@ static bool accept_frame(struct approval *a, const struct kiln_result_frame *fra
     return true;
 }
 
-/* The scene goes with all of the test's pictures: none is left that was not accepted. */
+/* Writes all that is accepted. The scene goes with it, since no picture is left that was not
+ * accepted. */
 static bool write_all(struct approval *a)
 {
     const struct kiln_test *test = &a->file.test;
@@ -366,7 +368,8 @@ static bool write_all(struct approval *a)
     return true;
 }
 
-/* What is checked and what is written must be the same goldens: all of it is under the lock. */
+/* Checks and writes under the lock, so that what is checked and what is written are the same
+ * goldens. */
 static bool approve_locked(struct approval *a)
 {
     a->expect = kiln_expect_read(a->arena, a->file.test.golden, a->error);

@@ -1,6 +1,7 @@
-/* Limits from measurements: the same frames with other threads, techniques and devices, which
- * nobody means to see, against the goldens. What is proposed leaves a margin above the worst that
- * was measured, and never goes below what another driver's rounding would give. */
+/* Proposes limits from measurements. It renders the same frames with other threads, techniques and
+ * devices, whose differences should not matter, and compares them with the goldens. A proposal
+ * leaves a margin above the worst that was measured, and never goes below what another driver's
+ * rounding would give. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,10 +18,11 @@
 #include "suite/summary.h"
 #include "suite/trial.h"
 
-/* About three times what another code path of a driver changes (docs/measurements.md, "How much
- * changes show"), or a few pixels where that is nothing: a limit of 0 would fail by chance. */
+/* The strictest limits that are proposed: about three times what another code path of a driver
+ * changes (docs/measurements.md, "How much changes show"), or a few pixels where nothing changes. A
+ * limit of 0 would fail by chance. */
 static const struct {
-    const char *metric; /* or the start of its name */
+    const char *metric; /* the metric, or the start of its name */
     double value;
 } floors[] = {
     {"flip.mean", 0.001},
@@ -42,13 +44,13 @@ struct calibrating {
     struct kiln_test_params test_params;
     const struct kiln_calibrate_params *params;
     struct kiln_calibration *calibration;
-    const char *folder; /* of the pictures, as long as they are needed */
+    const char *folder; /* of the pictures, which are kept as long as they are needed */
     uint32_t threads[MAX_THREAD_COUNTS];
     size_t thread_counts, combinations, devices;
     struct kiln_rendering first;
     char device_names[256]; /* of all that rendered, for the reason */
     double worst[KILN_MAX_COLUMNS];
-    uint32_t measured; /* frames */
+    uint32_t measured; /* frames that were measured */
 };
 
 struct variant {
@@ -75,8 +77,9 @@ static void list_variants(struct calibrating *c)
     c->devices = c->params->device_count ? c->params->device_count : 1;
 }
 
-/* Devices change fastest, then techniques; threads change with every round of the devices, and one
- * step more with every round of the techniques, so that all pairs come up. */
+/* Chooses what render `index` varies. Devices change fastest, then techniques; threads change with
+ * every round of the devices, and one step more with every round of the techniques, so that all
+ * pairs come up. */
 static struct variant choose_variant(const struct calibrating *c, size_t index)
 {
     const struct kiln_test *test = c->trial.test;
@@ -89,7 +92,8 @@ static struct variant choose_variant(const struct calibrating *c, size_t index)
     return variant;
 }
 
-/* "threads=2 simulate=inplace sort=cpu backdrop=cpu raster=geometry device=llvmpipe" */
+/* Tells the caller what is rendered: "threads=2 simulate=inplace sort=cpu backdrop=cpu
+ * raster=geometry device=llvmpipe". */
 static void tell(const struct calibrating *c, const struct variant *variant)
 {
     struct kiln_text text = {0};
@@ -103,7 +107,7 @@ static void tell(const struct calibrating *c, const struct variant *variant)
     kiln_text_free(&text);
 }
 
-/* False with the error; *refused when the device cannot run these techniques. */
+/* Renders a variant. False with the error; *refused when the device cannot run these techniques. */
 static bool render(struct calibrating *c, const struct variant *variant,
                    struct kiln_rendering *rendering, bool *refused, struct kiln_error *error)
 {
@@ -151,8 +155,8 @@ static void take_values(struct calibrating *c, const struct kiln_compare_frame *
     c->measured++;
 }
 
-/* States are the same everywhere, or there is nothing to measure: the pictures show two different
- * simulations. */
+/* Checks that states are the same everywhere. Otherwise there is nothing to measure: the pictures
+ * show two different simulations. */
 static bool check_state(const struct calibrating *c, const struct kiln_rendered_frame *frame,
                         const struct kiln_rendered_frame *first, bool has_golden,
                         struct kiln_error *error)
@@ -265,7 +269,7 @@ static bool measure_all(struct calibrating *c, struct kiln_error *error)
 
 /* ---- What is proposed --------------------------------------------------------------------- */
 
-/* Two digits, never below the value. */
+/* Rounds to two digits, never below the value. */
 static double round_up(double value)
 {
     if (!(value > 0))
@@ -314,7 +318,7 @@ static void propose_all(struct calibrating *c)
     }
 }
 
-/* Names those that are looser than the default ones in the reason, and to the caller. */
+/* Names limits that are looser than the default ones in the reason, and to the caller. */
 static void note_looser(const struct calibrating *c, struct kiln_text *reason)
 {
     static const char *const default_limits[] = {KILN_COMPARE_DEFAULT_LIMITS};
@@ -341,7 +345,8 @@ static void note_looser(const struct calibrating *c, struct kiln_text *reason)
     }
 }
 
-/* "calibrated 2026-01-31: 8 renders on llvmpipe-..., 1 to 4 threads, all techniques; margin 3" */
+/* Makes the reason of the limits: "calibrated 2026-01-31: 8 renders on llvmpipe-..., 1 to 4
+ * threads; margin 3". */
 static const char *make_reason(struct calibrating *c)
 {
     char day[16] = "";
@@ -375,7 +380,7 @@ static bool write_expect(struct calibrating *c, const char *reason, struct kiln_
         const struct kiln_calibrated *proposal = &c->calibration->metrics[i];
         expect->limits[expect->limit_count++] =
             (struct kiln_expect_value){proposal->metric, proposal->proposed};
-        if (isfinite(proposal->worst)) /* psnr of equal pictures is not */
+        if (isfinite(proposal->worst)) /* the psnr of equal pictures is infinite */
             expect->measured[expect->measured_count++] =
                 (struct kiln_expect_value){proposal->metric, proposal->worst};
     }
@@ -412,7 +417,8 @@ static bool check_params(const struct kiln_calibrate_params *params, struct kiln
     return params->renders >= 2 && margin;
 }
 
-/* A folder of its own: the results of a run stay as they are. */
+/* Makes a folder for the pictures of a calibration, so that the results of a run stay as they are.
+ */
 static bool make_folder(struct calibrating *c, struct kiln_error *error)
 {
     char *folder = kiln_arena_format(c->trial.arena, "%s/kiln-XXXXXX", c->params->scratch);

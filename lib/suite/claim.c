@@ -1,4 +1,4 @@
-/* The files of a run of tests. */
+/* Declares the files that a run of tests reads and writes. */
 #include <dirent.h>
 #include <stdlib.h>
 
@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 #include "suite/results_folder.h"
 
-/* Whatever lies in the folder of a test's goldens; there need be none. */
+/* Declares what lies in the folder of a test's goldens as read; there need be no folder. */
 static bool claim_goldens(const struct kiln_test *test, struct kiln_claims *claims,
                           struct kiln_error *error)
 {

@@ -1,4 +1,5 @@
-/* Commands that a person can type in the folder from which the run was started. */
+/* Makes the commands that run a test again and approve its pictures. A person can type them in the
+ * folder from which the run was started. */
 #include <string.h>
 
 #include "base/text.h"
@@ -16,7 +17,8 @@ static void add_option(struct kiln_text *text, const char *option, const char *v
     add_word(text, value);
 }
 
-/* The golden folder of the run, of which test->golden is GOLDEN/NAME. */
+/* Adds the folders of the run where they are not the default ones. The golden folder follows from
+ * test->golden, which is GOLDEN/NAME. */
 static void add_folders(const struct kiln_trial *trial, struct kiln_text *text, bool golden)
 {
     const struct kiln_test *test = trial->test;

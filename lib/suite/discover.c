@@ -1,5 +1,5 @@
-/* A file that may be a test and cannot be read is an error, not passed over: a run must not be
- * green because it did not see a test. */
+/* Finds the files that are tests, in folders and among operands. A file that may be a test and
+ * cannot be read is an error: a run must not be green because it did not see a test. */
 #include "suite/discover.h"
 
 #include <dirent.h>
@@ -25,7 +25,7 @@ struct search {
     const char *root;       /* real path of the folder that the goldens lie in; NULL: not known */
     struct stat skipped[2]; /* the folders of goldens and of results */
     size_t skipped_count;
-    size_t seen; /* files of tests, those that were known included */
+    size_t seen; /* files of tests that were seen, those that were known included */
 };
 
 static bool out_of_memory(struct search *search)
@@ -37,9 +37,9 @@ static bool out_of_memory(struct search *search)
 
 static const char marker[] = ".kiln-tests";
 
-/* How much of a real path of a file is the folder that names begin from, '/' included: the nearest
- * one with a marker; or that of the goldens; or the file's own. So a test has one name, however it
- * is found. */
+/* Returns the length of the part of a file's real path that is the folder from which names begin,
+ * '/' included: the nearest folder with a marker, or that of the goldens, or the file's own. So a
+ * test has one name, however it is found. */
 static size_t root_length(const struct search *search, const char *path)
 {
     const size_t own = (size_t)(strrchr(path, '/') - path) + 1;
@@ -57,7 +57,8 @@ static size_t root_length(const struct search *search, const char *path)
     return root > 0 && strncmp(path, search->root, root) == 0 && path[root] == '/' ? root + 1 : own;
 }
 
-/* The real path of the folder that a folder lies in; where it does not exist yet, by its name. */
+/* Returns the real path of the folder that a folder lies in; where the folder does not exist yet,
+ * by its name. */
 static const char *find_parent(struct kiln_arena *arena, const char *folder)
 {
     char *there = realpath(folder, NULL);
@@ -74,7 +75,7 @@ static const char *find_parent(struct kiln_arena *arena, const char *folder)
 
 /* ---- one file ------------------------------------------------------------------------------- */
 
-/* "effects/fire.test.yaml" without its end. */
+/* Returns a path without its end: "effects/fire.test.yaml" gives "effects/fire". */
 static const char *name_of(struct kiln_arena *arena, const char *path)
 {
     static const char *const ends[] = {".test.yaml", ".test.yml", ".yaml", ".yml"};
@@ -87,7 +88,7 @@ static const char *name_of(struct kiln_arena *arena, const char *path)
     return kiln_arena_text(arena, path, length);
 }
 
-/* The folder's real path and the file's own name: two links to one file are two tests. */
+/* Returns the folder's real path and the file's own name: two links to one file are two tests. */
 static const char *identity_of(struct kiln_arena *arena, const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -138,9 +139,10 @@ static bool add_file(struct search *search, const char *path, bool in_folder)
     return true;
 }
 
-/* ---- is it a test? -------------------------------------------------------------------------- */
+/* ---- whether a file is a test ---------------------------------------------------------------- */
 
-/* Where no tree can be had, the text must do: a scene with a fault is a test that fails. */
+/* Whether a line of a text has a key. This decides where the text cannot be parsed: a scene with a
+ * fault is a test that fails. */
 static bool has_line_with_key(const char *text, const char *key)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
@@ -176,7 +178,7 @@ static bool find_keys(const char *text, size_t size, const char *path, struct ke
     return ok;
 }
 
-/* A YAML file of a folder: of another kind, it is passed over. */
+/* Adds a YAML file of a folder if it is a scene; files of another kind are passed over. */
 static bool add_if_scene(struct search *search, const char *path)
 {
     struct kiln_error error = {0};
@@ -212,7 +214,7 @@ static bool is_skipped(const struct search *search, const struct stat *status)
     return false;
 }
 
-/* The scene beside what was accepted of a test is no test: goldens of another run may be here. */
+/* Whether the folder has goldens, perhaps of another run. The scene beside goldens is no test. */
 static bool has_expect_file(struct dirent *const *entries, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -256,7 +258,7 @@ static int by_bytes(const struct dirent **a, const struct dirent **b)
     return strcmp((*a)->d_name, (*b)->d_name);
 }
 
-/* folder "" is the working directory. */
+/* Searches a folder; "" is the working directory. */
 static bool search_folder(struct search *search, const char *folder)
 {
     struct dirent **entries = NULL;
@@ -285,7 +287,7 @@ static bool search_folder(struct search *search, const char *folder)
 
 /* ---- operands ------------------------------------------------------------------------------- */
 
-/* How names of tests in a folder start, unless a folder below it is marked. */
+/* Adds how names of tests in a folder start, unless a folder below it is marked. */
 static bool add_start(struct search *search, const char *folder)
 {
     struct kiln_findings *findings = search->findings;
@@ -298,7 +300,7 @@ static bool add_start(struct search *search, const char *folder)
     return true;
 }
 
-/* "scenes//" as "scenes", "." as "". */
+/* Searches a folder that is an operand; "scenes//" is searched as "scenes", and "." as "". */
 static bool search_operand_folder(struct search *search)
 {
     const char *operand = search->operand;

@@ -1,4 +1,4 @@
-/* Finding the files that are tests. */
+/* Finds the files that are tests. */
 #ifndef KILN_SUITE_DISCOVER_H
 #define KILN_SUITE_DISCOVER_H
 
@@ -12,18 +12,19 @@ struct kiln_found {
     bool in_folder;       /* not an operand itself */
 };
 
-/* In the order of the operands and, in a folder, of names. */
+/* What was found, in the order of the operands and, in a folder, of names. */
 struct kiln_findings {
     struct kiln_found *items; /* in the arena */
     size_t count, capacity;
-    const char **starts; /* of folders: how names of tests in them start, "effects/" or "" */
+    const char **starts; /* for each folder that was searched, how names of tests in it start,
+                            "effects/" or "" */
     size_t start_count;
 };
 
-/* Looks at the operands. In folders, a file of tests or a YAML file with the key kiln is taken;
- * those folders that are hidden, hold goldens or results, or are links, are not looked into. A file
- * that two operands reach is taken once. KILN_USAGE for an operand that is nothing of all that or a
- * folder without any test, KILN_IO, KILN_DEVICE_FAILED. */
+/* Looks at the operands. In folders, a file of tests or a YAML file with the key kiln is taken.
+ * Folders that are hidden, hold goldens or results, or are links, are not searched. A file that two
+ * operands reach is taken once. KILN_USAGE for an operand that is no test and no folder, or is a
+ * folder without any test; KILN_IO, KILN_DEVICE_FAILED. */
 bool kiln_discover(struct kiln_arena *arena, const struct kiln_suite_params *params,
                    struct kiln_findings *findings, struct kiln_error *error);
 

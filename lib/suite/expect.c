@@ -1,5 +1,6 @@
-/* expect.yaml is read by an option table, as scenes are. It is written by hand here: it names only
- * what is known, and its frames are one line a device. */
+/* Reads and writes expect.yaml, what was accepted of a test. It is read by an option table, as
+ * scenes are. It is written by code of its own, which names only what is known, with frames in one
+ * line a device. */
 #include "suite/expect.h"
 
 #include <errno.h>
@@ -18,7 +19,7 @@
 
 enum { MAX_FILE_SIZE = 16 << 20, MAX_DEVICES = 64, MAX_TEXT = 4000 };
 
-/* What the table below fills. */
+/* What the option table of this file fills. */
 struct document {
     uint32_t version;
     const char *scene_hash, *reason;
@@ -42,7 +43,7 @@ static bool out_of_memory(struct kiln_error *error)
 
 /* ---- types ---------------------------------------------------------------------------------- */
 
-/* A hash of `max` digits; "" is read as NULL where `min` is 0. */
+/* Reads a hash of `max` digits; "" is read as NULL where `min` is 0. */
 static bool read_hex(struct kiln_reader *reader, const struct kiln_option *option,
                      const struct kiln_node *node, void *field)
 {
@@ -77,7 +78,7 @@ static const struct kiln_option pixels_rows[] = {
     END,
 };
 
-/* Devices to their hashes; the field is the whole frame. */
+/* Reads a map of devices to their hashes; the field is the whole frame. */
 static bool read_pixels(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
@@ -141,7 +142,7 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The field is the whole document. */
+/* Reads a map of frames; the field is the whole document. */
 static bool read_frames(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
@@ -212,7 +213,7 @@ static const struct kiln_option rows[] = {
     END,
 };
 
-/* Mask pictures are named from the folder of goldens. */
+/* Makes paths of mask pictures, which are named from the folder of goldens. */
 static bool resolve_masks(struct kiln_arena *arena, struct document *document, const char *golden)
 {
     for (uint32_t i = 0; i < document->mask_count; i++) {
@@ -226,7 +227,8 @@ static bool resolve_masks(struct kiln_arena *arena, struct document *document, c
     return true;
 }
 
-/* The document lies in the arena, too: its arrays are those of what is expected. */
+/* Makes what is expected of a document. The document lies in the arena, too, so its arrays are
+ * taken over. */
 static struct kiln_expect *take_document(struct document *document)
 {
     document->expect = (struct kiln_expect){
@@ -323,7 +325,7 @@ static void print_values(struct kiln_text *text, const char *name,
 {
     bool any = false;
     for (size_t i = 0; i < count; i++) {
-        if (!isfinite(values[i].value)) /* psnr of pictures that are equal */
+        if (!isfinite(values[i].value)) /* the psnr of equal pictures is infinite */
             continue;
         char number[32];
         kiln_text_from_double(number, values[i].value);
@@ -414,7 +416,8 @@ bool kiln_expect_print(const struct kiln_expect *expect, const char *golden, str
     return !text->failed;
 }
 
-/* A file that could not be read again must not take the place of one that can. */
+/* Checks that the text can be read again: a file that cannot be read must not take the place of one
+ * that can. */
 static bool check_text(const struct kiln_text *text, const char *golden, struct kiln_error *error)
 {
     struct kiln_arena *arena = kiln_arena_create();

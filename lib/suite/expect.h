@@ -1,4 +1,4 @@
-/* What was accepted of a test: GOLDEN/TEST/expect.yaml, and the pictures beside it.
+/* Reads and writes what was accepted of a test: GOLDEN/TEST/expect.yaml, beside its pictures.
  *
  *     kiln_expect: 1
  *     scene_hash: 3f...          of the scene that was accepted, which is beside it as scene.yaml
@@ -27,8 +27,8 @@
 struct kiln_expect_pixels {
     const char *device; /* a device's name, see kiln_device_name */
     const char *hash;   /* SHA-256 of the decoded pixels */
-    const char *golden; /* the same of the golden it was accepted with; NULL: without a picture */
-    const char *kiln;   /* that was accepted: its version and commit, or NULL */
+    const char *golden; /* that hash of the golden it was accepted with; NULL: without a picture */
+    const char *kiln;   /* the kiln that was accepted, by version and commit, or NULL */
 };
 
 struct kiln_expect_frame {
@@ -45,7 +45,7 @@ struct kiln_expect_value {
 
 struct kiln_expect {
     bool missing;           /* there is no such file */
-    bool bare;              /* of a test that keeps hashes: hashes are all that is written */
+    bool bare;              /* the test keeps hashes: hashes are all that is written */
     const char *scene_hash; /* NULL: not known */
     const char **techniques;
     size_t technique_count;
@@ -64,24 +64,24 @@ struct kiln_expect {
 struct kiln_expect *kiln_expect_read(struct kiln_arena *arena, const char *golden,
                                      struct kiln_error *error);
 
-/* Reads such a file's text, which must end in a zero byte that size does not count. */
+/* Reads the text of an expect.yaml, which must end in a zero byte that size does not count. */
 struct kiln_expect *kiln_expect_parse(struct kiln_arena *arena, const char *text, size_t size,
                                       const char *golden, struct kiln_error *error);
 
-/* The text of the file; false when memory is short. */
+/* Makes the text of the file; false when memory is short. */
 bool kiln_expect_print(const struct kiln_expect *expect, const char *golden,
                        struct kiln_text *text);
 
-/* Writes it, whole or not at all; makes missing folders. Comments that someone wrote into the
- * file are lost. KILN_IO; KILN_INVALID_INPUT when it could not be read again (too many entries). */
+/* Writes GOLDEN/expect.yaml, whole or not at all; makes missing folders. Comments in the file are
+ * lost. KILN_IO; KILN_INVALID_INPUT when it could not be read again (too many entries). */
 bool kiln_expect_write(const struct kiln_expect *expect, const char *golden,
                        struct kiln_error *error);
 
-/* The entry of a frame, or NULL. */
+/* Returns the entry of a frame, or NULL. */
 struct kiln_expect_frame *kiln_expect_find(const struct kiln_expect *expect, uint32_t number);
 
-/* Notes what was accepted of a frame on a device (an entry more, or in place of that device's);
- * other devices' entries stay. The texts are copied; state NULL leaves what is there, pixels NULL
+/* Notes what was accepted of a frame on a device: adds an entry, or replaces that device's. The
+ * entries of other devices stay. The texts are copied; state NULL leaves what is there, pixels NULL
  * adds none. False when memory is short. */
 bool kiln_expect_accept(struct kiln_arena *arena, struct kiln_expect *expect, uint32_t number,
                         const char *state, const struct kiln_expect_pixels *pixels);

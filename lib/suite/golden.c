@@ -1,5 +1,6 @@
-/* A golden is found by the names in its folder, never by trying to open what may be there: one that
- * cannot be read must not look as if it were missing. */
+/* Finds, hashes, locks and accepts the golden pictures of tests. A golden is found by the names in
+ * its folder, never by trying to open what may be there: a golden that cannot be read must not look
+ * as if it were missing. */
 #include "suite/golden.h"
 
 #include <dirent.h>
@@ -40,7 +41,7 @@ void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE])
 
 /* ---- names ---------------------------------------------------------------------------------- */
 
-/* What a golden's name says. number 1 has no "~1". */
+/* What a golden's name says. A golden of number 1 has no "~1" in its name. */
 struct golden_name {
     char device[KILN_DEVICE_NAME_SIZE]; /* "" without one */
     unsigned number;
@@ -65,7 +66,7 @@ static bool write_path(const struct kiln_test *test, uint32_t frame, const char 
 
 enum match { OTHER_FILE, GOLDEN, MALFORMED };
 
-/* "@llvmpipe~2", what is between the frame's number and the suffix. */
+/* Parses "@llvmpipe~2", the part of a name between the frame's number and the suffix. */
 static enum match parse_middle(const char *middle, size_t length, struct golden_name *name)
 {
     const char *tilde = memchr(middle, '~', length);
@@ -132,7 +133,7 @@ static bool add_number(struct numbers *numbers, unsigned number)
     return true;
 }
 
-/* One entry of the folder: those of a more specific device take the place of the others. */
+/* Takes one entry of the folder. Entries of a more specific device take the place of the others. */
 static bool take_entry(const char *entry, const struct kiln_test *test, uint32_t frame,
                        const char *device_name, char device[KILN_DEVICE_NAME_SIZE],
                        struct numbers *numbers, struct kiln_error *error)
@@ -207,7 +208,7 @@ bool kiln_goldens_find(const struct kiln_test *test, uint32_t frame, const char 
     return true;
 }
 
-/* The first number from 1 that is not taken. */
+/* Returns the first number from 1 that is not taken. */
 static unsigned free_number(const struct numbers *numbers)
 {
     unsigned number = 1;
@@ -243,7 +244,7 @@ int kiln_goldens_lock(const struct kiln_test *test, struct kiln_error *error)
     if (!kiln_path_join(inside, test->golden, "", error) ||
         !kiln_make_parent_folders(inside, error))
         return -1;
-    /* The folder itself: no file of ours is left in it. */
+    /* The folder itself is locked, so that no lock file is left in it. */
     int lock = open(test->golden, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     int result = lock < 0 ? -1 : flock(lock, LOCK_EX);
     while (lock >= 0 && result != 0 && errno == EINTR)
@@ -275,7 +276,7 @@ static bool copy_bytes(int from, const char *name, struct kiln_temporary *to,
         if (count < 0 && errno != EINTR)
             return kiln_error_set_errno(error, KILN_IO, errno, "%s", name);
         if (count > 0 && !kiln_temporary_write(to, buffer, (size_t)count))
-            return true; /* committing will tell */
+            return true; /* the commit will report the failure */
     }
 }
 
@@ -326,7 +327,7 @@ static bool put_picture(const struct kiln_acceptance *acceptance, const char *pa
                         const char *pixels, struct kiln_error *error)
 {
     char there[65];
-    struct kiln_error ignored = {0}; /* what is there may be missing or broken: it is replaced */
+    struct kiln_error ignored = {0}; /* a file that is missing or broken is replaced */
     if (kiln_pixel_hash(path, there, &ignored) && strcmp(there, pixels) == 0)
         return true;
     return kiln_file_copy(acceptance->picture, path, error);
@@ -340,7 +341,8 @@ bool kiln_goldens_write_scene(const struct kiln_test *test, const char *text,
            kiln_temporary_write_file(path, text, strlen(text), error);
 }
 
-/* Where the picture goes. As one more, it goes where its pixels already are, if they are. */
+/* Chooses where the picture goes. As one more, it goes where its pixels already are, if they are
+ * anywhere. */
 static bool choose_place(const struct kiln_test *test, const struct kiln_acceptance *acceptance,
                          const char *pixels, char path[KILN_PATH_SIZE], struct kiln_error *error)
 {

@@ -1,12 +1,12 @@
-/* The golden pictures of a test, by their names:
+/* Finds, hashes, locks and accepts the golden pictures of a test, which are found by their names:
  *
  *     frame_0024.png              the default
  *     frame_0024@llvmpipe.png     for devices whose name is or starts with that, "llvmpipe-..."
  *     frame_0024~2.png            another picture that is right, of the default
- *     frame_0024@llvmpipe~2.png   the same, of the device's
+ *     frame_0024@llvmpipe~2.png   another picture that is right, of the device's
  *
- * Of a device's pictures the most specific name counts, and its default and alternatives are looked
- * at together; where a device has none, those without a device are.
+ * The pictures of the most specific name of a device count, its default and alternatives together.
+ * Where a device has none, the pictures without a device count.
  */
 #ifndef KILN_SUITE_GOLDEN_H
 #define KILN_SUITE_GOLDEN_H
@@ -16,35 +16,35 @@
 
 enum { KILN_MAX_GOLDENS = 16, KILN_DEVICE_NAME_SIZE = 128 };
 
-/* A device's name for files and expect.yaml: its GL renderer in lower case, with runs of anything
- * but letters, digits and dots as one '-': "llvmpipe-llvm-15.0.6-256-bits",
+/* Makes a device's name for files and expect.yaml: its GL renderer in lower case, with runs of
+ * anything but letters, digits and dots as one '-': "llvmpipe-llvm-15.0.6-256-bits",
  * "nvidia-h200-pcie-sse2". */
 void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE]);
 
-/* The suffix of a test's pictures, ".png" or ".exr". */
+/* Returns the suffix of a test's pictures, ".png" or ".exr". */
 const char *kiln_test_suffix(const struct kiln_test *test);
 
 struct kiln_goldens {
     size_t count;
     char paths[KILN_MAX_GOLDENS][KILN_PATH_SIZE]; /* the main one first */
-    char device[KILN_DEVICE_NAME_SIZE];           /* in their names; "": the default's */
+    char device[KILN_DEVICE_NAME_SIZE];           /* the device in their names; "": the default's */
 };
 
-/* Finds the accepted pictures of a frame; none is no error: paths[0] then is the name it would
- * have. What has a golden's name counts, whatever it is: reading it will tell. KILN_IO when the
- * folder cannot be read, KILN_INVALID_INPUT for more than there may be, and for names that are
- * nearly those above. */
+/* Finds the accepted pictures of a frame. It is no error if there is none: paths[0] is then the
+ * name that a golden would have. A file with a golden's name counts, whatever it is: reading it
+ * will tell. KILN_IO when the folder cannot be read, KILN_INVALID_INPUT for more than
+ * KILN_MAX_GOLDENS, and for names that are nearly those of goldens. */
 bool kiln_goldens_find(const struct kiln_test *test, uint32_t frame, const char *device_name,
                        struct kiln_goldens *goldens, struct kiln_error *error);
 
-/* Where a picture would be accepted: in place of the first golden, for the device alone, or as one
- * more. */
+/* Finds where a picture would be accepted: in place of the first golden, for the device alone, or
+ * as one more. */
 bool kiln_goldens_place(const struct kiln_test *test, uint32_t frame, const char *device_name,
                         enum kiln_approve_as as, char path[KILN_PATH_SIZE],
                         struct kiln_error *error);
 
-/* A lock on a test's goldens, so that processes that accept pictures wait for each other. Makes the
- * folder. Below 0 with KILN_IO. */
+/* Locks a test's goldens, so that processes that accept pictures wait for each other. Makes the
+ * folder. Returns a value below 0 with KILN_IO. */
 int kiln_goldens_lock(const struct kiln_test *test, struct kiln_error *error);
 void kiln_goldens_unlock(int lock);
 
@@ -52,22 +52,21 @@ void kiln_goldens_unlock(int lock);
  * KILN_INVALID_INPUT when `from` is no regular file. */
 bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error);
 
-/* SHA-256 of a picture as it is decoded: size, channels, type, how light is encoded, and pixels.
- * Errors as kiln_asset_image_load. */
+/* Computes SHA-256 of a picture as it is decoded: size, channels, type, how light is encoded, and
+ * pixels. Fails as kiln_asset_image_load does. */
 bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error);
 
-/* One accepted picture and what goes with it: the picture to its place, unless one of the same
- * pixels is there (as one more, anywhere among the frame's) or the test keeps hashes alone; state
- * and pixels into expect; the scene beside it. The caller holds the lock, and writes expect. path
- * gets the place. KILN_INVALID_INPUT when the picture cannot be decoded, KILN_IO,
- * KILN_DEVICE_FAILED. */
+/* Accepts one picture. The picture goes to its place, unless a picture of the same pixels is there
+ * (as one more: anywhere among the frame's) or the test keeps hashes alone. State and pixels go
+ * into expect. The caller holds the lock, and writes expect and the scene. path gets the place.
+ * KILN_INVALID_INPUT when the picture cannot be decoded, KILN_IO, KILN_DEVICE_FAILED. */
 struct kiln_acceptance {
     uint32_t frame;
     const char *picture; /* a file */
     const char *state;   /* NULL leaves what is there */
     const char *device_name;
     enum kiln_approve_as as;
-    const char *golden; /* replace: that one; NULL: the first of the frame's */
+    const char *golden; /* the golden to replace; NULL: the first of the frame's */
     const char *build;  /* of kiln, or NULL */
 };
 bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,

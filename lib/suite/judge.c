@@ -1,6 +1,6 @@
-/* One frame: the state first, which is the same everywhere; then pixels that are known to be right
- * on this device; then how different it looks. Of a test that keeps hashes alone, pixels that are
- * not known to be right fail. */
+/* Judges one frame of a test. The state comes first, which is the same everywhere; then pixels that
+ * are known to be right on this device; then how different the picture looks. A test that keeps
+ * hashes alone fails with pixels that are not known to be right. */
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -31,14 +31,15 @@ static bool decide(struct judging *j, enum kiln_test_status status, enum kiln_ju
 
 /* ---- What is accepted --------------------------------------------------------------------- */
 
-/* Numbers that are none must not become a golden. */
+/* Checks that the picture can be compared: one with NaN must not become a golden. */
 static bool check_picture(struct judging *j, struct kiln_error *error)
 {
     struct kiln_trial_comparison comparison;
     return kiln_trial_compare(j->trial, j->picture, j->picture, NULL, &comparison, error);
 }
 
-/* A golden that cannot be decoded is the frame's error, but one that an update can mend. */
+/* Hashes a golden. A golden that cannot be decoded is the frame's error, but an update can mend it.
+ */
 static bool hash_golden(struct judging *j, size_t index)
 {
     struct kiln_error ignored = {0};
@@ -82,7 +83,8 @@ static void take_expected(struct judging *j, const struct kiln_expect_pixels *pi
     j->frame->kiln_expected = pixels->kiln ? pixels->kiln : "";
 }
 
-/* The pixels of this device, while the golden that they were accepted with is there. */
+/* Finds the pixels that were accepted on this device, while the golden that they were accepted with
+ * is there. */
 static void find_expected(struct judging *j)
 {
     const struct kiln_trial *trial = j->trial;
@@ -105,8 +107,8 @@ static void find_expected(struct judging *j)
     }
 }
 
-/* A copy beside the picture, so that a report shows what the picture was judged by whatever becomes
- * of the golden. */
+/* Copies the golden beside the picture, so that a report shows what the picture was judged by
+ * whatever becomes of the golden. */
 static bool copy_reference(struct judging *j)
 {
     const char *golden = j->goldens.paths[j->nearest];
@@ -143,7 +145,7 @@ static void take_values(struct judging *j, const struct kiln_trial_comparison *c
     j->trial->result->hdr = comparison->result.hdr;
 }
 
-/* Compares with every golden and keeps the nearest; the map is made of that one alone. */
+/* Compares with every golden and keeps the nearest; the error map is made of that one alone. */
 static bool measure(struct judging *j, struct kiln_trial_comparison *best)
 {
     double least = INFINITY;
@@ -166,7 +168,7 @@ static bool measure(struct judging *j, struct kiln_trial_comparison *best)
     return true;
 }
 
-/* To four digits, or as many as tell it from the limit. */
+/* Prints a value to four digits, or to as many as tell it from the limit. */
 static void print_value(char out[32], double value, double limit)
 {
     char other[32];
@@ -178,7 +180,8 @@ static void print_value(char out[32], double value, double limit)
     }
 }
 
-/* "flip.mean is 0.02, beyond 0.01; ...", or the metric nearest to its limit. */
+/* Describes the metrics that are beyond their limits, "flip.mean is 0.02, beyond 0.01; ...", or all
+ * that have a limit. */
 static const char *describe(struct judging *j, const struct kiln_trial_comparison *comparison,
                             bool beyond)
 {
@@ -228,7 +231,8 @@ static bool judge_new(struct judging *j)
                                   j->frame->number, j->goldens.paths[0]));
 }
 
-/* Pictures alone do not show that the state is another. */
+/* Judges a frame that is like its golden while no expect.yaml says which state was accepted: a
+ * picture alone does not show whether the state is another. */
 static bool judge_unlisted(struct judging *j)
 {
     j->own->unlisted = true;
@@ -240,7 +244,7 @@ static bool judge_unlisted(struct judging *j)
                                   j->frame->number, j->trial->test->golden));
 }
 
-/* Scene and state are as they were accepted, so what drew them is not. */
+/* Whether scene and state are as they were accepted, so that only the renderer can have changed. */
 static bool renderer_changed(const struct judging *j)
 {
     const struct kiln_trial *trial = j->trial;
@@ -262,7 +266,7 @@ static const char *describe_change(struct judging *j, const char *picture)
                            *before ? before : "known", j->trial->result->version, picture);
 }
 
-/* `cpu` makes the same pixels everywhere. */
+/* Whether the device is `cpu`, which makes the same pixels everywhere. */
 static bool is_cpu(const struct judging *j)
 {
     return strcmp(j->trial->rendering.device_name, "cpu") == 0;
@@ -330,8 +334,8 @@ static bool judge_by_hashes(struct judging *j)
                                          : "no picture is kept; --against PROGRAM draws it"));
 }
 
-/* Shows a frame whose pixels are others beside what another kiln draws; where a picture was
- * accepted, that stays. */
+/* Shows a frame whose pixels differ beside what another kiln draws. Where a picture was accepted,
+ * that picture stays the reference. */
 static bool show_against(struct judging *j)
 {
     struct kiln_result_frame *frame = j->frame;

@@ -1,5 +1,5 @@
-/* Notes: what a tester should know although nothing failed. A limit that is far above all that was
- * ever measured hides the fault that it is there to find. */
+/* Notes what a tester should know although nothing failed, such as limits that are too loose. A
+ * limit that is far above all that was ever measured hides the fault that it is there to find. */
 #include <dirent.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,8 @@
 
 enum { STALE_FACTOR = 10 };
 
-/* How far a value is from that of equal pictures, on a scale on which factors mean something. */
+/* Returns how far a value is from that of equal pictures, on a scale on which factors mean
+ * something. */
 static double distance(const struct kiln_compare_column *column, double value)
 {
     if (strcmp(column->unit, "dB") == 0)
@@ -29,7 +30,7 @@ static const struct kiln_compare_column *find_column(const struct kiln_metric_se
     return NULL;
 }
 
-/* The worst that this run or a calibration measured; false when neither did. */
+/* Finds the worst value that this run or a calibration measured; false when neither did. */
 static bool worst_measured(const struct kiln_trial *trial, size_t column, double *worst)
 {
     const struct kiln_result *result = trial->result;
@@ -54,7 +55,8 @@ static bool worst_measured(const struct kiln_trial *trial, size_t column, double
     return found;
 }
 
-/* The test's limits are instead of the default ones: what is not among them may be anything. */
+/* Notes metrics that have a limit by default and none here. The test's limits replace the default
+ * ones, so a metric without a limit may have any value. */
 static void note_missing_limits(struct kiln_trial *trial, const struct kiln_metric_set *defaults)
 {
     for (size_t i = 0; i < defaults->count; i++) {
@@ -71,7 +73,7 @@ static void note_missing_limits(struct kiln_trial *trial, const struct kiln_metr
     }
 }
 
-/* What makes the count of differing pixels smaller. */
+/* Notes settings that make the count of differing pixels smaller. */
 static void note_settings(struct kiln_trial *trial)
 {
     const struct kiln_compare_params usual = kiln_compare_defaults();
@@ -149,12 +151,12 @@ static void note_scene(struct kiln_trial *trial)
     if (result->change_count > 0)
         kiln_trial_note(trial, "the scene has changed in %zu key%s, and everything passes",
                         result->change_count, result->change_count > 1 ? "s" : "");
-    else if (!trial->other_keys) /* which would be another hash of the same scene */
+    else if (!trial->other_keys) /* other keys give another hash of the same scene */
         kiln_trial_note(trial, "the scene or a file that it uses has changed, and everything "
                                "passes");
 }
 
-/* Does the name of a golden say one of the frames, and the format of the test's? */
+/* Whether the name of a golden has the number of one of the frames, and the test's format. */
 static bool is_used(const struct kiln_trial *trial, const char *name)
 {
     const char *suffix = kiln_test_suffix(trial->test);
@@ -173,7 +175,7 @@ static bool is_used(const struct kiln_trial *trial, const char *name)
     return false;
 }
 
-/* A golden that no frame is judged by any more, as when the list of frames got shorter. */
+/* Notes goldens that no frame is judged by any more, as when the list of frames got shorter. */
 static void note_unused(struct kiln_trial *trial)
 {
     struct dirent **entries = NULL;

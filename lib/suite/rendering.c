@@ -1,4 +1,5 @@
-/* A test pins its techniques: what runs on the processor makes the same pixels everywhere. */
+/* Renders the frames of a test and hashes their states and pixels. A test pins its techniques,
+ * since stages that run on the processor make the same pixels everywhere. */
 #include "suite/rendering.h"
 
 #include <string.h>
@@ -109,7 +110,8 @@ static bool wants_stop(void *user)
     return job->params->stop && job->params->stop(job->params->user);
 }
 
-/* The techniques in the order in which they override each other; NULL when memory is short. */
+/* Lists the techniques in the order in which they override each other; NULL when memory is short.
+ */
 static const char **list_techniques(const struct job *job, size_t *count)
 {
     const struct kiln_test *test = job->params->test;

@@ -1,18 +1,19 @@
-/* Frames of a test's scene, rendered into a folder. */
+/* Renders frames of a test's scene into a folder, and hashes them. */
 #ifndef KILN_SUITE_RENDERING_H
 #define KILN_SUITE_RENDERING_H
 
 #include "suite/golden.h"
 
-/* The frames that a test judges of a scene of so many: its own, or the middle and the last one,
- * which are put in `usual`. Returns how many; *numbers: ascending, the test's or `usual`. */
+/* Chooses the frames that a test judges of a scene with so many: its own, or the middle and the
+ * last one, which are put in `usual`. Returns how many; *numbers: ascending, the test's or `usual`.
+ */
 size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames, uint32_t usual[2],
                         const uint32_t **numbers);
 
 struct kiln_rendering_params {
     const struct kiln_test *test;
     const char *device;            /* wanted, as in kiln_device_params; NULL: KILN_DEVICE_CPU, or */
-                                   /* the default one with GL, if a technique needs that */
+                                   /* the default one with GL, if a technique needs GL */
     const char *const *techniques; /* "stage=name", over all others */
     size_t technique_count;
     uint32_t threads;
@@ -31,9 +32,10 @@ struct kiln_rendered_frame {
     char path[KILN_PATH_SIZE];
 };
 
-/* Zero-initialised knows nothing; what is known before an error stays. */
+/* What is known of a rendering. Zero-initialised, nothing is known; what is known before an error
+ * stays. */
 struct kiln_rendering {
-    bool no_device; /* of that name is there */
+    bool no_device; /* no device of the wanted name exists */
     struct kiln_device_info device;
     char device_name[KILN_DEVICE_NAME_SIZE];
     struct kiln_scene_info scene;
@@ -45,9 +47,9 @@ struct kiln_rendering {
 };
 
 /* Loads the scene, opens the device, renders and hashes; all texts lie in the arena. Techniques are
- * those that every machine has, then the test's, then the given ones. False with what the parts
- * say, KILN_INVALID_INPUT for a frame that the scene does not have, KILN_FRAME_FAILED for one that
- * was not drawn. */
+ * those that every machine has, then the test's, then the given ones. False with the error of the
+ * step that failed, KILN_INVALID_INPUT for a frame that the scene does not have, KILN_FRAME_FAILED
+ * for a frame that was not drawn. */
 bool kiln_rendering_make(struct kiln_arena *arena, const struct kiln_rendering_params *params,
                          struct kiln_rendering *rendering, struct kiln_error *error);
 

@@ -1,4 +1,5 @@
-/* What a result is: the names in it, and the members of its file. */
+/* Defines what a result is: the names in it, its score and its worst frame, the members of its
+ * file, and an empty result. */
 #include "suite/result.h"
 
 #include <math.h>
@@ -139,7 +140,7 @@ const struct kiln_member kiln_result_change_members[] = {
     MEMBERS_END,
 };
 
-/* ---- Empty ones --------------------------------------------------------------------------- */
+/* ---- Empty results ------------------------------------------------------------------------ */
 
 static void clear_texts(const struct kiln_member *members, void *object)
 {

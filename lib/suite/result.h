@@ -1,5 +1,6 @@
-/* What became of a test: written by the process that ran it, read by reports, by `approve` and by
- * the run. It is a JSON file, RESULTS/NAME/result.json, beside the pictures that it names. */
+/* Declares the result of a test, which the process that ran the test writes, and reports, `approve`
+ * and the run read. It is a JSON file, RESULTS/NAME/result.json, beside the pictures that it names.
+ */
 #ifndef KILN_SUITE_RESULT_H
 #define KILN_SUITE_RESULT_H
 
@@ -9,7 +10,7 @@
 
 enum { KILN_TEST_MAX_FRAMES = 1000, KILN_RESULT_MAX_ENTRIES = 1000 };
 
-/* What decided about a frame. */
+/* What decided the verdict on a frame. */
 enum kiln_judged_by {
     KILN_JUDGED_BY_NOTHING, /* no golden, or nothing was rendered, or each time something else */
     KILN_JUDGED_BY_STATE,   /* the state hash differs: the simulation changed */
@@ -20,8 +21,8 @@ enum kiln_judged_by {
 /* "nothing", "state", "pixels", "metrics" */
 const char *kiln_judged_by_name(enum kiln_judged_by judged_by);
 
-/* Texts are never NULL, "" where there is nothing; files are relative to the result's folder and
- * have '/' in no name of their own. */
+/* The result of a frame. Texts are never NULL, and "" where there is nothing. Files are relative to
+ * the result's folder and have no '/' in their names. */
 struct kiln_result_frame {
     uint32_t number;
     enum kiln_test_status status;
@@ -84,28 +85,28 @@ struct kiln_result {
     const char **notes; /* for people: stale limits, goldens written */
 };
 
-/* Nothing is said but the name: texts are "", numbers 0. */
+/* Initialise a result, or a frame of it, with its name or number alone: texts are "", numbers 0. */
 void kiln_result_init(struct kiln_result *result, const char *name);
 void kiln_result_frame_init(struct kiln_result_frame *frame, uint32_t number);
 
-/* A score of a result's worst frame: the highest of the measured ones, 0 without any. */
+/* Returns the score of a result's worst frame: the highest of the measured ones, 0 without any. */
 double kiln_result_score(const struct kiln_result *result);
 
-/* The frame that a person should see first: of the worst status, the highest score, which one
- * without values has unless it passed. 0 without frames. */
+/* Returns the frame that a person should see first: of the worst status, the one with the highest
+ * score. A frame without values has the highest one unless it passed. 0 without frames. */
 size_t kiln_result_worst_frame(const struct kiln_result *result);
 
 /* Writes FOLDER/result.json, whole or not at all; makes missing folders. KILN_IO. */
 bool kiln_result_write(const struct kiln_result *result, const char *folder,
                        struct kiln_error *error);
 
-/* Reads what write wrote; all of it lies in the arena. NULL with KILN_INVALID_INPUT: no such file,
- * or not such a one, with line and column. */
+/* Reads FOLDER/result.json; all of it lies in the arena. NULL with KILN_INVALID_INPUT when there is
+ * no such file or it is no result, with line and column. */
 struct kiln_result *kiln_result_read(struct kiln_arena *arena, const char *folder,
                                      struct kiln_error *error);
 
-/* The same of a text, which must end in a zero byte that size does not count; name stands for the
- * file in messages. */
+/* Reads the text of a result.json, which must end in a zero byte that size does not count; name
+ * stands for the file in messages. */
 struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text, size_t size,
                                       const char *name, struct kiln_error *error);
 

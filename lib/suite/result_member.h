@@ -1,4 +1,4 @@
-/* The members of the objects in result.json: what is written and read is listed here alone. */
+/* Declares the tables of members of the objects in result.json, by which it is written and read. */
 #ifndef KILN_SUITE_RESULT_MEMBER_H
 #define KILN_SUITE_RESULT_MEMBER_H
 
@@ -26,7 +26,7 @@ struct kiln_member {
     size_t offset;
 };
 
-/* Each ends with a NULL name. */
+/* Tables of members, each of which ends with a NULL name. */
 extern const struct kiln_member kiln_result_members[], kiln_result_column_members[],
     kiln_result_frame_members[], kiln_result_change_members[];
 
@@ -34,7 +34,7 @@ extern const struct kiln_member kiln_result_members[], kiln_result_column_member
 void kiln_member_write(struct kiln_json *json, const char *key, const struct kiln_member *member,
                        const void *object);
 
-/* Of frames that were measured, beside "metrics" and "beyond". */
+/* Members of frames that were measured, beside "metrics" and "beyond". */
 extern const struct kiln_member kiln_result_measured_members[];
 
 #endif

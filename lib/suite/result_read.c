@@ -1,5 +1,6 @@
-/* Reading trusts nothing: results travel between machines, and the files that they name are opened
- * by reports. So a member more or less is an error, and so is a name that leaves the folder. */
+/* Reads result.json, and trusts nothing in it. Results travel between machines, and reports open
+ * the files that they name. So a missing or additional member is an error, and so is a name that
+ * leaves the folder. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@ struct reading {
     struct kiln_error *error;
 };
 
-/* "found X; allowed are ..." */
+/* Refuses a value: "found X; allowed is ...". */
 static bool refuse(const struct reading *reading, const struct kiln_node *node, const char *name,
                    const char *allowed)
 {
@@ -48,7 +49,7 @@ static bool read_text(const struct reading *reading, const struct kiln_node *nod
 {
     if (!is_text(node))
         return refuse(reading, node, name, "a text in quotes");
-    *text = node->text; /* which lies in the arena */
+    *text = node->text; /* the node lies in the arena */
     return true;
 }
 
@@ -192,7 +193,7 @@ static bool read_object(const struct reading *reading, const struct kiln_node *n
            check_count(reading, node, count);
 }
 
-/* A list of at most `most` entries, or NULL. */
+/* Finds a list of at most `most` entries, or returns NULL with the error. */
 static const struct kiln_node *find_list(const struct reading *reading,
                                          const struct kiln_node *node, const char *name,
                                          uint32_t most)
@@ -209,7 +210,7 @@ static const struct kiln_node *find_list(const struct reading *reading,
     return list;
 }
 
-/* One entry more, so that an empty list is something, too. */
+/* Allocates one entry more, so that an empty list is no NULL. */
 static void *allocate(const struct reading *reading, uint32_t count, size_t size)
 {
     void *entries = kiln_arena_alloc(reading->arena, (size_t)count + 1, size);
@@ -220,7 +221,8 @@ static void *allocate(const struct reading *reading, uint32_t count, size_t size
 
 /* ---- The parts of a result ---------------------------------------------------------------- */
 
-/* A run that is red in its report and green in its exit code would be believed. */
+/* Checks that the code fits the status: a run that is red in its report and green in its exit code
+ * would be believed. */
 static bool check_code(const struct reading *reading, const struct kiln_node *root,
                        const struct kiln_result *result)
 {

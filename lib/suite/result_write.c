@@ -1,4 +1,4 @@
-/* result.json, written by the same tables of members as it is read. */
+/* Writes result.json by the tables of members by which it is read. */
 #include <stdio.h>
 
 #include "base/error.h"
@@ -57,7 +57,7 @@ static void add_object(struct kiln_json *json, const struct kiln_member *members
     kiln_json_end(json);
 }
 
-/* A list whose entries have lines of their own. */
+/* Begins a list whose entries have lines of their own. */
 static void begin_list(struct kiln_json *json, const char *key)
 {
     kiln_json_begin_array(json, key);
@@ -89,7 +89,7 @@ static void add_frame(struct kiln_json *json, const struct kiln_result *result,
     kiln_json_end(json);
 }
 
-/* How many of `count` entries are written; the others are summed up in one more. */
+/* Returns how many of `count` entries are written; the others are summed up in one more. */
 static size_t entries_written(size_t count)
 {
     return count > KILN_RESULT_MAX_ENTRIES ? KILN_RESULT_MAX_ENTRIES - 1 : count;

@@ -1,4 +1,4 @@
-/* The list of a folder of results:
+/* Keeps the list of a folder of results, and removes what an earlier run left:
  *
  *     # kiln results 1
  *     # writing effects/fire
@@ -6,7 +6,7 @@
  *     fd61a03af4f77d870fc21e05e7e80678095c92d808cfb3b5c279ee04c74aca13  effects/smoke/result.json
  *
  * "writing" names the tests of a run that has not ended, or was killed: what such a run writes in
- * their folders is not known before. */
+ * their folders is not known beforehand. */
 #include "suite/results_folder.h"
 
 #include <dirent.h>
@@ -27,7 +27,7 @@
 enum { MAX_LIST_SIZE = 256 << 20, HASH_SIZE = 64 };
 
 struct entry {
-    const char *path;         /* from the folder; of a test that is being written, its name */
+    const char *path;         /* path from the folder; of a test that is being written, its name */
     char hash[HASH_SIZE + 1]; /* "": written when the run ended early */
 };
 
@@ -41,8 +41,8 @@ struct folder {
     struct kiln_arena *arena;
     struct entries listed;  /* ordered by path */
     struct entries writing; /* tests; ordered */
-    struct entries removed; /* from the list, or of `writing`; ordered once it is complete */
-    struct entries added;   /* to the list */
+    struct entries removed; /* of `listed` or of `writing`; ordered once it is complete */
+    struct entries added;   /* added to the list */
     struct kiln_error *error;
 };
 
@@ -102,7 +102,7 @@ static void add_escaped(struct kiln_text *text, const char *path)
     }
 }
 
-/* Adds an entry of the path that is escaped so. */
+/* Adds an entry whose path is escaped as add_escaped does. */
 static bool add_unescaped(const struct folder *f, struct entries *entries, const char *escaped,
                           size_t length, const char *hash)
 {
@@ -122,7 +122,7 @@ static bool add_unescaped(const struct folder *f, struct entries *entries, const
     return add(f, entries, path, used, hash);
 }
 
-/* A line without its end; comments that mean nothing are passed over. */
+/* Takes a line without its end; comments that mean nothing are passed over. */
 static bool take_line(struct folder *f, const char *line, size_t length)
 {
     static const char digits[] = "0123456789abcdef";
@@ -200,7 +200,7 @@ static bool write_list(struct folder *f)
     return ok;
 }
 
-/* Whether an entry of a folder is more than the folder or the one above it. */
+/* Whether an entry of a folder is neither "." nor "..". */
 static int is_contents(const struct dirent *entry)
 {
     return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
@@ -228,7 +228,8 @@ static bool is_empty(const char *folder)
     return count == 0;
 }
 
-/* Makes the folder where there is none. */
+/* Reads the list, or makes the folder where there is none. A folder with contents but no list is
+ * refused. */
 static bool open_list(struct folder *f)
 {
     char path[KILN_PATH_SIZE];
@@ -252,7 +253,7 @@ static bool ends_in(const char *name, const char *suffix)
     return length > end && strcmp(name + length - end, suffix) == 0;
 }
 
-/* Whether a run gives such names in the folder of a test. */
+/* Whether a run gives this name to a file in the folder of a test. */
 static bool is_written_by_tests(const char *name)
 {
     if (strncmp(name, "frame_", 6) == 0)
@@ -265,7 +266,8 @@ static bool is_written_by_tests(const char *name)
 
 typedef bool visit_file(struct folder *f, const char *path, const char *from_root, bool writing);
 
-/* Visits files of a test's folder that have such names; it need not be there. */
+/* Visits the files of a test's folder that have names which a run gives; the folder need not exist.
+ */
 static bool visit_test(struct folder *f, const struct kiln_test *test, visit_file *visit)
 {
     char folder[KILN_PATH_SIZE];
@@ -301,7 +303,7 @@ static bool visit_all(struct folder *f, visit_file *visit)
     return ok;
 }
 
-/* Whether a file may go, as what an earlier run left. */
+/* Chooses a file to be removed, if an earlier run left it. */
 static bool choose_removed(struct folder *f, const char *path, const char *from_root, bool writing)
 {
     const struct entry *listed = find(&f->listed, from_root);
@@ -340,13 +342,13 @@ static bool list_file(struct folder *f, const char *path, const char *from_root,
     char hash[HASH_SIZE + 1];
     if (!kiln_hash_sha256_file(path, hash))
         return kiln_error_set_errno(f->error, KILN_IO, errno, "%s: the file cannot be read", path);
-    return add(f, &f->removed, from_root, strlen(from_root), "") && /* what was listed there */
+    return add(f, &f->removed, from_root, strlen(from_root), "") && /* replaces the earlier entry */
            add(f, &f->added, from_root, strlen(from_root), hash);
 }
 
 /* ---- A run ----------------------------------------------------------------------------------- */
 
-/* Goldens are pictures of the same names. */
+/* Checks that results do not go into a folder of goldens, whose pictures have the same names. */
 static bool check_goldens(const struct folder *f)
 {
     for (size_t i = 0; i < f->suite->count; i++) {
@@ -362,7 +364,7 @@ static bool check_goldens(const struct folder *f)
     return true;
 }
 
-/* The tests of this run, beside those of one that was killed. */
+/* Lists the tests of this run as being written, beside those of a run that was killed. */
 static bool list_writing(struct folder *f)
 {
     size_t before = f->writing.count;

@@ -1,6 +1,6 @@
-/* The folder of a run's results. kiln removes and replaces there only what it wrote itself, unless
- * that was changed since: the file .kiln-results lists it with its SHA-256, in the format of
- * sha256sum. */
+/* Keeps the folder of a run's results. kiln removes and replaces there only files that it wrote
+ * itself, unless they were changed since: the file .kiln-results lists them with their SHA-256, in
+ * the format of sha256sum. */
 #ifndef KILN_SUITE_RESULTS_FOLDER_H
 #define KILN_SUITE_RESULTS_FOLDER_H
 
@@ -9,8 +9,8 @@
 
 #define KILN_RESULTS_LIST ".kiln-results"
 
-/* After a run: lists the files of its tests, and run.json, beside those that are still listed from
- * other runs. KILN_IO, KILN_DEVICE_FAILED when memory is short. */
+/* Lists the files of a run's tests and run.json after the run, beside files that are still listed
+ * from other runs. KILN_IO, KILN_DEVICE_FAILED when memory is short. */
 bool kiln_results_folder_end(const struct kiln_suite *suite, struct kiln_error *error);
 
 #endif

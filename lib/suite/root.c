@@ -1,5 +1,5 @@
-/* Test files may be by people one does not know: an error would tell what is in a file elsewhere.
- */
+/* Checks that the scene of a test lies below the root of the suite. Test files may come from
+ * strangers, and an error message would tell what is in a file elsewhere. */
 #include "suite/root.h"
 
 #include <limits.h>
@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/file.h"
 
-/* Where a path leads; of a file that is not there, where it would be. False where not even its
- * folder is. */
+/* Finds where a path leads; for a file that is missing, where it would be. False where not even its
+ * folder exists. */
 static bool find_real(const char *path, char real[PATH_MAX])
 {
     char folder[PATH_MAX];
@@ -26,7 +26,7 @@ static bool find_real(const char *path, char real[PATH_MAX])
            (int)(PATH_MAX - length);
 }
 
-/* Where a test that is outside the working directory was looked for. */
+/* Finds the folder in which a test outside the working directory was searched for. */
 static void find_folder(const struct kiln_suite_params *params, const char *test,
                         char folder[PATH_MAX])
 {

@@ -1,4 +1,4 @@
-/* Which scenes the test files of a suite may name. */
+/* Checks which scenes the test files of a suite may name. */
 #ifndef KILN_SUITE_ROOT_H
 #define KILN_SUITE_ROOT_H
 

@@ -1,5 +1,5 @@
-/* A run of one test, from its file to its result. Whatever goes wrong on the way is in the result,
- * so that a run of many tests tells of each. */
+/* Runs one test, from its file to its result. What goes wrong on the way is in the result, so that
+ * a run of many tests tells of each. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -129,7 +129,8 @@ static bool judge_frames(struct kiln_trial *trial, struct kiln_error *error)
     return true;
 }
 
-/* Masks without sense are found even where known pixels pass without a look at them. */
+/* Checks the masks here, so that wrong ones are found even where known pixels pass and no mask is
+ * used. */
 static bool check_masks(struct kiln_trial *trial, struct kiln_error *error)
 {
     struct kiln_mask mask = {0};
@@ -145,7 +146,7 @@ static bool check_masks(struct kiln_trial *trial, struct kiln_error *error)
         kiln_trial_note(trial, "the masks leave %.2g %% of the picture to judge",
                         100.0 * (double)(count - masked) / (double)count);
     if (!ok && error->code == KILN_USAGE)
-        error->code = KILN_INVALID_INPUT; /* it is the test's, not the command line's */
+        error->code = KILN_INVALID_INPUT; /* the mistake is the test's, not the command line's */
     kiln_mask_finish(&mask);
     return ok;
 }
@@ -165,8 +166,8 @@ static void sum_up(struct kiln_trial *trial)
         result->code = kiln_code_worse(result->code, trial->frames[i].code);
 }
 
-/* The accepted scene as this kiln writes it, so that keys which it did not have then are what they
- * are without being stated. As it is, where this kiln cannot read it. */
+/* Prints the accepted scene as this kiln writes it, so that keys which an older kiln did not have
+ * are stated with their defaults. Returns the text as it is where this kiln cannot read it. */
 static const char *complete_scene(struct kiln_trial *trial, const char *text, const char *name)
 {
     const char *scene_path = trial->test->scene, *slash = strrchr(scene_path, '/');
@@ -184,14 +185,15 @@ static const char *complete_scene(struct kiln_trial *trial, const char *text, co
     return complete ? complete : text;
 }
 
-/* Where the accepted scene cannot be read, that is a note: nothing is judged by it. */
+/* Lists what changed since the accepted scene. If that scene cannot be read, a note says so:
+ * nothing is judged by it. */
 static void take_changes(struct kiln_trial *trial)
 {
     struct kiln_result *result = trial->result;
     struct kiln_error error = {0};
     char path[KILN_PATH_SIZE];
     size_t size;
-    if (trial->test->kept == KILN_GOLDEN_HASH) /* of which no scene is kept */
+    if (trial->test->kept == KILN_GOLDEN_HASH) /* no scene is kept of such a test */
         return;
     if (!kiln_path_join(path, trial->test->golden, "scene.yaml", &error) || access(path, F_OK) != 0)
         return;
@@ -279,7 +281,8 @@ static uint32_t count_threads(uint32_t wanted)
     return count;
 }
 
-/* What happens is in the result, but for what is nobody's result. */
+/* Runs the test and writes its result. Errors are in the result, but for a stop and for files that
+ * cannot be written. */
 static bool run_to_result(struct kiln_trial *trial, struct kiln_error *error)
 {
     struct kiln_result *result = trial->result;

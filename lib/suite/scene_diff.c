@@ -1,4 +1,5 @@
-/* Two scenes as lists of dotted keys, ordered, side by side. */
+/* Lists the keys that differ between two scenes. Both scenes become ordered lists of dotted keys,
+ * which are merged side by side. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,7 +28,8 @@ static bool is_plain_list(const struct kiln_node *node)
     return true;
 }
 
-/* A scalar, a list of scalars, or what has no entries, as a scene would say it. */
+/* Returns the text of a scalar, a list of scalars, or an empty list or map, as a scene would say
+ * it. */
 static const char *value_text(struct kiln_arena *arena, const struct kiln_node *node)
 {
     if (node->kind == KILN_NODE_SCALAR)
@@ -67,7 +69,8 @@ static const char *join(struct kiln_arena *arena, const char *path, const char *
     return key;
 }
 
-/* The depth is that of the parser, which is limited. */
+/* Adds entries for all keys below a node. The recursion is as deep as the parser allows, which is
+ * limited. */
 static void flatten(struct flattening *f, const char *path, const struct kiln_node *node)
 {
     if (node->kind == KILN_NODE_SCALAR || !node->first ||

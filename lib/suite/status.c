@@ -1,4 +1,4 @@
-/* What became of tests, as names and as exit codes. */
+/* Names the statuses of tests, and chooses the worse of two exit codes. */
 #include "kiln_program.h"
 
 const char *kiln_test_status_name(enum kiln_test_status status)

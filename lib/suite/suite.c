@@ -1,4 +1,4 @@
-/* From files to a list of tests: found, read, named, chosen. */
+/* Loads a suite: finds the files of tests, reads and names them, and chooses the tests of a run. */
 #include "suite/suite.h"
 
 #include <fnmatch.h>
@@ -16,19 +16,19 @@
 #include "suite/test_name.h"
 #include "suite/unused.h"
 
-enum { MAX_FULL_NAME = 255 }; /* it goes into a summary's 256 bytes */
+enum { MAX_FULL_NAME = 255 }; /* the name goes into a summary's 256 bytes */
 
 struct entry {
     struct kiln_found found;
     struct kiln_test_file file;
-    bool dropped; /* a scene that a test file names */
+    bool dropped; /* a scene that belongs to a test file */
 };
 
 struct loader {
     const struct kiln_suite_params *params;
     struct kiln_suite *suite;
     struct kiln_error *error;
-    struct entry *entries; /* by name */
+    struct entry *entries; /* ordered by name */
     size_t count;
 };
 
@@ -68,8 +68,8 @@ static bool read_files(struct loader *loader)
     return true;
 }
 
-/* A scene of a folder that a test file names is that test's. One that has the name of a test file
- * which cannot be read probably is, too. */
+/* Drops scenes of a folder that test files name: they belong to those tests. A scene with the name
+ * of a test file that cannot be read probably does, too. */
 static void drop_named_scenes(struct loader *loader)
 {
     for (size_t i = 0; i < loader->count; i++) {
@@ -99,7 +99,8 @@ static void drop_named_scenes(struct loader *loader)
 
 /* ---- names ---------------------------------------------------------------------------------- */
 
-/* A file of an odd name is the error of its own test, which has a name that is like it. */
+/* Gives a file of an odd name a good name that is like it; the odd name is the error of its own
+ * test. */
 static bool mend_name(struct loader *loader, struct entry *entry)
 {
     char quoted[64];
@@ -133,7 +134,7 @@ static bool check_names(struct loader *loader)
 
 /* ---- tests ---------------------------------------------------------------------------------- */
 
-/* One test of an entry; device NULL: that of the run. */
+/* Adds one test of an entry; device NULL: that of the run. */
 static bool add_test(struct loader *loader, const struct entry *entry, const char *device)
 {
     struct kiln_suite *suite = loader->suite;
@@ -191,7 +192,8 @@ static bool make_tests(struct loader *loader)
 
 /* ---- choosing ------------------------------------------------------------------------------- */
 
-/* A name without a device means the test on all of them. */
+/* Whether a test has a name that is wanted. A name without a device means the test on all devices.
+ */
 static bool has_name(const struct kiln_test *test, const char *wanted)
 {
     return strcmp(wanted, test->full_name) == 0 || strcmp(wanted, test->name) == 0 ||
@@ -270,7 +272,8 @@ static bool check_params(const struct kiln_suite_params *params, struct kiln_err
                           params->shards);
 }
 
-/* One folder for both would make each picture the golden that it is judged by. */
+/* Checks that results and goldens have two folders: in one folder, each picture would become the
+ * golden that it is judged by. */
 static bool check_folders(const struct kiln_suite_params *params, struct kiln_error *error)
 {
     struct stat golden, results;
@@ -283,7 +286,7 @@ static bool check_folders(const struct kiln_suite_params *params, struct kiln_er
                                    params->results);
 }
 
-/* "out/" as "out", "" as "."; so that paths do not stutter. */
+/* Tidies a folder's path for messages: "out/" is "out", and "" is ".". */
 static char *tidy_folder(struct kiln_arena *arena, const char *folder)
 {
     size_t length = strlen(folder);
@@ -292,7 +295,7 @@ static char *tidy_folder(struct kiln_arena *arena, const char *folder)
     return length ? kiln_arena_text(arena, folder, length) : kiln_arena_text(arena, ".", 1);
 }
 
-/* Are all tests of folders asked for, though it be by shards? */
+/* Whether all tests of folders are asked for, though it be by shards. */
 static bool is_whole(const struct kiln_suite_params *params)
 {
     struct stat status;
@@ -346,7 +349,7 @@ void kiln_suite_destroy(struct kiln_suite **suite)
 {
     if (!*suite)
         return;
-    struct kiln_arena *arena = (*suite)->arena; /* which holds the suite, too */
+    struct kiln_arena *arena = (*suite)->arena; /* the arena holds the suite, too */
     kiln_arena_destroy(&arena);
     *suite = NULL;
 }

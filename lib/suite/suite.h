@@ -1,4 +1,4 @@
-/* The tests of a run: found in folders, read from test files. */
+/* Declares the tests of a run, which are found in folders and read from test files. */
 #ifndef KILN_SUITE_SUITE_H
 #define KILN_SUITE_SUITE_H
 
@@ -18,8 +18,8 @@ struct kiln_test_mask {
     const char *reason;
 };
 
-/* What a test file says, or the defaults for a scene that is a test by itself. Paths can be opened
- * as they are. */
+/* A test, as a test file says or, for a scene that is a test by itself, by the defaults. Paths can
+ * be opened as they are. */
 struct kiln_test {
     const char *name;          /* without a device */
     const char *full_name;     /* with "@device" where the test names several */
@@ -36,7 +36,7 @@ struct kiln_test {
     enum kiln_test_format format;
     enum kiln_test_golden kept;
     const char *device;      /* wanted, or NULL: that of the run */
-    bool may_skip;           /* that device may be absent: the test is skipped then */
+    bool may_skip;           /* the device may be absent: the test is skipped then */
     const char **techniques; /* "stage=name", over those that every test pins */
     size_t technique_count;
     const char **limits; /* "metric=value"; none: the default ones */
@@ -56,7 +56,7 @@ struct kiln_suite {
     size_t count;
     uint32_t shard, shards; /* as asked for; 0 and 0: all tests */
     size_t all_count;       /* tests of all shards */
-    const char **starts;    /* of names of tests in the folders that were searched */
+    const char **starts;    /* how names of tests start in the folders that were searched */
     size_t start_count;
     const char **unused; /* folders of goldens */
     size_t unused_count, unused_capacity;

@@ -1,4 +1,4 @@
-/* Results in short, and those of tests that could not write their own. */
+/* Sums up results, starts results, and writes those of tests that could not write their own. */
 #include "suite/summary.h"
 
 #include <string.h>
@@ -24,7 +24,7 @@ static const char *time_text(struct kiln_arena *arena)
     return text_or_empty(kiln_arena_text(arena, text, strlen(text)));
 }
 
-/* The file that its process prints into, if there is one. */
+/* Returns the name of the file that the test's process prints into, or "". */
 static const char *find_log(const struct kiln_test *test)
 {
     char path[KILN_PATH_SIZE];

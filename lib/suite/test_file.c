@@ -1,5 +1,5 @@
-/* Test files are read by the option tables' machinery, as scenes are: the same errors, the same
- * reference. */
+/* Reads test files by an option table, as scenes are read. So errors and reference have the same
+ * form. */
 #include "suite/test_file.h"
 
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 
 enum { MAX_FILE_SIZE = 1 << 20, MAX_OVERRIDES = 64, MAX_TEXT = 4000 };
 
-/* What the table below fills. */
+/* What the option table of this file fills. */
 struct document {
     uint32_t version;
     const char *scene, *about, *reason;
@@ -139,7 +139,7 @@ static bool out_of_memory(struct kiln_error *error)
     return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading tests");
 }
 
-/* A path as the file at `base` means it. */
+/* Returns a path as the file at `base` means it. */
 static const char *resolve(struct kiln_arena *arena, const char *base, const char *path)
 {
     const char *slash = strrchr(base, '/');
@@ -181,7 +181,8 @@ static bool take_overrides(struct kiln_arena *arena, const struct document *docu
     return ok;
 }
 
-/* The document lies in the arena, too: its arrays are the test's. */
+/* Fills the test from a document. The document lies in the arena, too, so its arrays are the
+ * test's. */
 static bool take_document(struct kiln_arena *arena, struct document *document, const char *path,
                           struct kiln_test_file *file)
 {
@@ -230,7 +231,8 @@ bool kiln_test_file_is_yaml(const char *path)
     return ends_with(path, ".yaml") || ends_with(path, ".yml");
 }
 
-/* Two devices whose names make the same test would overwrite each other's results. */
+/* Checks that the devices have different names: two devices of one name would overwrite each
+ * other's results. */
 static bool check_devices(struct kiln_reader *reader, const struct kiln_node *root,
                           const struct document *document)
 {
@@ -246,7 +248,7 @@ static bool check_devices(struct kiln_reader *reader, const struct kiln_node *ro
     return true;
 }
 
-/* Limits and masks are of pictures. */
+/* Checks that a test that keeps hashes has no limits and masks, which are of pictures. */
 static bool check_golden(struct kiln_reader *reader, const struct kiln_node *root,
                          const struct document *document)
 {
@@ -256,7 +258,7 @@ static bool check_golden(struct kiln_reader *reader, const struct kiln_node *roo
                                 "hash keeps no picture, so there is nothing for limits or masks");
 }
 
-/* What a test has when no file says anything. */
+/* Takes what a test has when no file says anything. */
 static bool take_defaults(struct kiln_arena *arena, struct kiln_arena *scratch, const char *path,
                           struct kiln_test_file *file, struct kiln_error *error)
 {
@@ -271,7 +273,7 @@ static bool take_defaults(struct kiln_arena *arena, struct kiln_arena *scratch, 
            (take_document(arena, document, path, file) || out_of_memory(error));
 }
 
-/* The test file's own text; a fault of it is the problem. */
+/* Takes the test file's own text; a fault of it is the problem. */
 static bool take_text(struct kiln_arena *arena, struct kiln_arena *scratch, const char *text,
                       size_t size, struct kiln_test_file *file, struct kiln_error *problem)
 {
@@ -298,7 +300,7 @@ static bool take_text(struct kiln_arena *arena, struct kiln_arena *scratch, cons
            (take_document(arena, document, path, file) || out_of_memory(problem));
 }
 
-/* The defaults, and over them the text; NULL: the file is a scene, or could not be read. */
+/* Takes the defaults, and over them the text; NULL: the file is a scene, or could not be read. */
 static bool take_file(struct kiln_arena *arena, const char *text, size_t size, const char *path,
                       struct kiln_test_file *file, struct kiln_error *error)
 {

@@ -1,6 +1,5 @@
-/* Which characters are letters follows from the blocks of Unicode that have none, not from a
- * locale.
- */
+/* Checks names of tests, and mends those that are not good. Which characters are letters follows
+ * from the blocks of Unicode that have no letters, not from a locale. */
 #include "suite/test_name.h"
 
 #include <stdint.h>
@@ -8,14 +7,15 @@
 
 #include "base/text.h"
 
-/* Above U+00C0: signs, spaces, what is not seen or turns text around, private use, what is none. */
+/* Blocks above U+00C0 without letters: signs, spaces, invisible characters and overrides of
+ * direction, private use, and codes that are no characters. */
 static const uint32_t no_letters[][2] = {
     {0xd7, 0xd7},     {0xf7, 0xf7},     {0x2000, 0x2bff},    {0x2e00, 0x2e7f},
     {0x3000, 0x3004}, {0x3008, 0x3020}, {0xe000, 0xf8ff},    {0xfe00, 0xfe6f},
     {0xfeff, 0xfeff}, {0xfff0, 0xffff}, {0xe0000, 0x10ffff},
 };
 
-/* length: as kiln_text_utf8_length says, 2 to 4. */
+/* Decodes a character of `length` bytes, 2 to 4, as kiln_text_utf8_length says. */
 static uint32_t decode(const char *text, size_t length)
 {
     uint32_t code = (unsigned char)text[0] & (0x7fu >> length);
@@ -24,7 +24,7 @@ static uint32_t decode(const char *text, size_t length)
     return code;
 }
 
-/* The bytes of the character that starts a text, or 0 where it cannot be in a name. */
+/* Returns the bytes of the character that starts a text, or 0 where it cannot be in a name. */
 static size_t name_character(const char *text)
 {
     static const char ascii[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"

@@ -1,4 +1,5 @@
-/* Helpers of a run of one test. */
+/* Helps the files of a trial with texts, notes, paths, limits and masks, and comparisons with
+ * goldens. */
 #include "suite/trial.h"
 
 #include <math.h>

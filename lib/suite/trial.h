@@ -1,4 +1,5 @@
-/* A run of one test while it is under way: what its files hand to each other. */
+/* Declares a trial, which is a run of one test under way: what the files of a run hand to each
+ * other. */
 #ifndef KILN_SUITE_TRIAL_H
 #define KILN_SUITE_TRIAL_H
 
@@ -9,9 +10,9 @@
 struct kiln_trial_frame {
     enum kiln_code code; /* of an error */
     bool has_golden;
-    bool broken_golden; /* which cannot be decoded, while the picture could take its place */
-    bool equals_golden; /* to the bit */
-    bool unlisted;      /* like its golden, of which no expect.yaml says what was accepted */
+    bool broken_golden; /* the golden cannot be decoded, while the picture could take its place */
+    bool equals_golden; /* the picture's pixels are those of a golden */
+    bool unlisted;      /* like its golden, but no expect.yaml says what was accepted */
     char golden_hash[65];
     const char *unsteady; /* how another render differed; NULL: none did */
 };
@@ -38,24 +39,24 @@ struct kiln_trial {
     double started_s;
 };
 
-/* Limits, masks and the level of warnings, from the test and what was accepted, and the result's
- * columns. KILN_USAGE for a limit without sense. */
+/* Sets limits, masks and the level of warnings, from the test and what was accepted, and the
+ * result's columns. KILN_USAGE for a limit without sense. */
 bool kiln_trial_set_limits(struct kiln_trial *trial, struct kiln_error *error);
 
-/* A formatted text in the arena; "" and no_memory when memory is short. */
+/* Formats a text in the arena; "" and no_memory when memory is short. */
 const char *kiln_trial_text(struct kiln_trial *trial, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* One more note of the result. */
+/* Adds a note to the result. */
 void kiln_trial_note(struct kiln_trial *trial, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* RESULTS/NAME/file; false with KILN_IO when it is too long. */
+/* Makes the path RESULTS/NAME/file; false with KILN_IO when it is too long. */
 bool kiln_trial_path(const struct kiln_trial *trial, const char *file, char path[KILN_PATH_SIZE],
                      struct kiln_error *error);
 
-/* Compares a rendered picture with a golden as the test wants it; error_map is a path or NULL. What
- * cannot be read is an error; a difference is not. */
+/* Compares a rendered picture with a golden as the test wants it; error_map is a path or NULL. A
+ * picture that cannot be read is an error; a difference is not. */
 struct kiln_trial_comparison {
     struct kiln_compare_frame frame; /* without its texts */
     struct kiln_compare_result result;
@@ -65,23 +66,23 @@ bool kiln_trial_compare(const struct kiln_trial *trial, const char *golden, cons
                         const char *error_map, struct kiln_trial_comparison *comparison,
                         struct kiln_error *error);
 
-/* judge.c: fills frame `index` of the result, whose number, picture, state and pixels are there.
+/* Fills frame `index` of the result, whose number, picture, state and pixels are there (judge.c).
  * What goes wrong is the frame's status. */
 void kiln_trial_judge(struct kiln_trial *trial, size_t index);
 
-/* update.c: accepts what the parameters ask for, or notes what it would. KILN_IO. */
+/* Accepts what the parameters ask for, or notes what it would accept (update.c). KILN_IO. */
 bool kiln_trial_update(struct kiln_trial *trial, struct kiln_error *error);
 
-/* scene_diff.c: the keys that differ between two scenes as kiln_scene_print writes them; name
- * stands for the first in messages. */
+/* Lists the keys that differ between two scenes as kiln_scene_print writes them (scene_diff.c);
+ * name stands for the first in messages. */
 bool kiln_scene_diff(struct kiln_arena *arena, const char *before, const char *name,
                      const char *after, struct kiln_result_change **changes, size_t *count,
                      struct kiln_error *error);
 
-/* notes.c: what a tester should know although nothing failed. */
+/* Notes what a tester should know although nothing failed (notes.c). */
 void kiln_trial_take_notes(struct kiln_trial *trial);
 
-/* commands.c: how to run this test again, and how to approve its pictures. */
+/* Return the commands that run this test again, and that approve its pictures (commands.c). */
 const char *kiln_trial_rerun_command(struct kiln_trial *trial);
 const char *kiln_trial_approve_command(struct kiln_trial *trial);
 

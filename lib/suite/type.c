@@ -1,5 +1,5 @@
-/* The types of options that test files alone have: overrides, techniques, metrics and their limits.
- */
+/* Reads the values of options that test files and expect.yaml alone have: overrides, techniques,
+ * devices, sizes, frames, limits and masks. */
 #include "suite/type.h"
 
 #include <stdlib.h>
@@ -128,7 +128,8 @@ static bool read_frame_number(const char **text, uint32_t *frame)
     return true;
 }
 
-/* "24", "0-23" or several with commas between them, added to those that there are. */
+/* Adds frames from a text to those that there are: "24", "0-23" or several with commas between
+ * them. */
 static bool add_frames(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct kiln_node *node, uint32_t *frames, uint32_t *count)
 {
@@ -204,7 +205,7 @@ static bool read_limit(struct kiln_reader *reader, const struct kiln_option *opt
     int length = node->kind == KILN_NODE_SCALAR
                      ? snprintf(limit, sizeof limit, "%s=%s", name, node->text)
                      : -1;
-    /* Neither may bring in a second limit. */
+    /* Neither name nor number may bring in a second limit. */
     if (length < 0 || (size_t)length >= sizeof limit || name[strcspn(name, ",=")] != '\0' ||
         !kiln_text_to_double(node->text, &value->value))
         return kiln_reader_mismatch(reader, option, node);

@@ -1,5 +1,5 @@
-/* The types of keys that test files and expect.yaml have beside those of scenes, and what of their
- * tables is the same. They are only read: none prints or makes a schema. */
+/* Declares the types of keys that test files and expect.yaml have beside those of scenes, and what
+ * their tables share. Values of these types are only read, not printed. */
 #ifndef KILN_SUITE_TYPE_H
 #define KILN_SUITE_TYPE_H
 

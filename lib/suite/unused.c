@@ -1,5 +1,5 @@
-/* A test that is renamed or deleted leaves its goldens behind, and nothing else tells that it is
- * not run any more. */
+/* Finds goldens that no test uses. A test that is renamed or deleted leaves its goldens behind, and
+ * nothing else tells that it is not run any more. */
 #include "suite/unused.h"
 
 #include <dirent.h>
@@ -18,7 +18,7 @@ static bool is_test(const struct kiln_suite *suite, const char *name)
     return false;
 }
 
-/* Was it looked for? */
+/* Whether a test of this name was searched for. */
 static bool is_searched(const struct kiln_suite *suite, const char *name)
 {
     for (size_t i = 0; i < suite->start_count; i++) {
@@ -44,7 +44,8 @@ static bool add(struct kiln_suite *suite, const char *path)
     return true;
 }
 
-/* name: of the test whose goldens the folder has, "" for the folder of all. */
+/* Searches a folder. name is that of the test whose goldens the folder has, "" for the folder of
+ * all goldens. */
 static bool search(struct kiln_suite *suite, const char *folder, const char *name, int depth)
 {
     struct dirent **entries = NULL;

@@ -1,5 +1,5 @@
-/* Accepting what a run rendered. Other runs may accept pictures of the same test for other devices
- * at the same time: what was accepted is read again under the lock, and only this device's entries
+/* Accepts what a run rendered. Other runs may accept pictures of the same test for other devices at
+ * the same time. So what was accepted is read again under the lock, and only this device's entries
  * and the frames in question change. */
 #include <string.h>
 
@@ -10,7 +10,7 @@
 enum action {
     LEAVE,
     ACCEPT_HASHES,  /* the picture is a golden already */
-    ACCEPT_PICTURE, /* it becomes one */
+    ACCEPT_PICTURE, /* the picture becomes a golden */
 };
 
 static enum action choose_action(const struct kiln_trial *trial, size_t index)
@@ -34,8 +34,8 @@ static enum action choose_action(const struct kiln_trial *trial, size_t index)
     return keeps ? ACCEPT_HASHES : ACCEPT_PICTURE;
 }
 
-/* Pictures that pass may be of a scene that has changed: all that is accepted is brought up to
- * date. */
+/* Whether the scene or the techniques have changed although all pictures pass: then --update all
+ * brings up to date all that is accepted. */
 static bool is_scene_new(const struct kiln_trial *trial)
 {
     const struct kiln_expect *expect = trial->expect;
@@ -69,7 +69,7 @@ static bool announce(struct kiln_trial *trial, size_t index, enum action action,
     return true;
 }
 
-/* ---- A real one --------------------------------------------------------------------------- */
+/* ---- An update -------------------------------------------------------------------------- */
 
 static bool accept(struct kiln_trial *trial, size_t index, enum action action,
                    struct kiln_error *error)
@@ -110,8 +110,8 @@ static bool accept(struct kiln_trial *trial, size_t index, enum action action,
     return true;
 }
 
-/* The scene goes with all pictures: while one of them is not accepted, the scene of before stays,
- * so that a report tells what changed since. */
+/* Accepts the scene, which goes with all pictures. While a picture is not accepted, the scene of
+ * before stays, so that a report tells what changed since. */
 static bool accept_scene(struct kiln_trial *trial, struct kiln_error *error)
 {
     for (size_t i = 0; i < trial->result->frame_count; i++) {
