@@ -1,9 +1,9 @@
-/* The frame loop: the file to read first.
+/* This file runs the frame loop: it steps the simulation to each wanted frame and draws the frame.
+ * It is the file to read first.
  *
- * It steps the simulation to each wanted frame and draws it there. Undrawn frames are stepped as
- * well, so a frame is the same bytes in any chunk of the clip. The stages behind one frame are in
- * frame/stages.c; which frames are wanted, and where pictures go, is in job/job.c.
- */
+ * Undrawn frames are stepped as well, so a frame is the same bytes in any chunk of the clip. The
+ * stages behind one frame are in frame/stages.c. The choice of frames, and where pictures go, is in
+ * job/job.c. */
 #include "frame/loop.h"
 
 #include <inttypes.h>
@@ -29,7 +29,7 @@ struct kiln_loop {
     struct kiln_stages stages;
 
     struct kiln_run run;
-    uint32_t next;  /* frames before it have left what they leave to later ones */
+    uint32_t next;  /* frames before it have done what later ones need of them */
     uint64_t steps; /* done here */
 };
 
@@ -56,7 +56,7 @@ static bool step_to(struct kiln_loop *loop, uint32_t step, struct kiln_error *er
     return ok;
 }
 
-/* Frames that are not drawn, where they matter to later ones for more than their steps. */
+/* Runs frames that are not drawn, where later ones need more of them than their steps. */
 static bool pass_over_frames(struct kiln_loop *loop, uint32_t end, struct kiln_error *error)
 {
     const bool matter = kiln_stages_keep_history(&loop->stages);
@@ -77,7 +77,7 @@ bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error
            step_to(loop, kiln_scene_frame_step(loop->scene, frame), error);
 }
 
-/* All moments of a frame while the shutter is open: one, unless the scene asks for more. */
+/* Draws all moments of a frame while the shutter is open: one, unless the scene asks for more. */
 static bool draw_moments(struct kiln_loop *loop, uint32_t frame, struct kiln_drawn *drawn,
                          struct kiln_error *error)
 {
@@ -157,8 +157,8 @@ bool kiln_loop_hash(struct kiln_loop *loop, struct kiln_state_hash *hash, uint64
 
 /* ---- before and after ------------------------------------------------------------------------ */
 
-/* What the device cannot draw. A software device advertises smaller storage blocks than it takes.
- */
+/* Returns false with an error if the device cannot draw so large a scene. A software device
+ * advertises smaller storage blocks than it takes. */
 static bool check_limits(const struct kiln_loop *loop, struct kiln_error *error)
 {
     const struct kiln_device_info *device = &loop->device->info;

@@ -1,5 +1,6 @@
-/* All state that a run changes, in one struct, so that it can be saved and loaded whole. (Only an
- * order that a spread sort keeps is elsewhere, in its stage: kiln_loop_kept_sort.) */
+/* A kiln_run holds all state that a run changes, so that it can be saved and loaded whole. Only an
+ * order that a spread sort keeps is elsewhere, in the sort stage: kiln_loop_kept_sort returns
+ * it. */
 #ifndef KILN_FRAME_RUN_H
 #define KILN_FRAME_RUN_H
 

@@ -1,4 +1,5 @@
-/* One frame through the stages, in the order of figure 3.1. */
+/* This file runs the drawing stages of one frame in the order of figure 3.1 of the thesis (Heinz
+ * 2019): sort, lighting, backdrop, particles, bloom, composite, and the readback. */
 #include "frame/stages.h"
 
 #include <string.h>
@@ -6,8 +7,8 @@
 #include "base/cache.h"
 #include "base/error.h"
 
-/* Float targets accumulate without the dark bias of 16 bits where that costs nothing: on software.
- */
+/* Chooses the format of the targets. Targets of 32-bit floats accumulate without the dark bias of
+ * 16 bits; they are used where they cost nothing, on software. */
 static GLenum target_format(const struct kiln_device *device)
 {
     return !device || device->info.software ? GL_RGBA32F : GL_RGBA16F;
@@ -23,7 +24,7 @@ static uint32_t solids_of(const struct kiln_scene *scene)
     return mask;
 }
 
-/* Of all that is blended. */
+/* Returns the systems with a blend mode, without the opaque ones. */
 static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend blend)
 {
     uint32_t mask = 0;
@@ -34,7 +35,8 @@ static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend ble
     return mask & ~solids_of(scene);
 }
 
-/* Whether particles leave a glow of their own: what the bright pass finds takes its place. */
+/* Returns whether particles draw a glow of their own. Where the scene has a bright pass, its result
+ * takes the place of that glow. */
 static bool needs_glow(const struct kiln_scene *scene, bool layers)
 {
     bool blooms = scene->post.bloom != KILN_BLOOM_NONE;
@@ -84,7 +86,7 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
                                                   .motion = look->motion,
                                                   .motion_scale = (float)look->motion_scale,
                                                   .loader = s->scene->loader};
-        if (look->shape != KILN_SHAPE_BILLBOARD) /* shows no texture: the least there is */
+        if (look->shape != KILN_SHAPE_BILLBOARD) /* it shows no texture: the smallest one */
             requests[i] = (struct kiln_atlas_request){
                 .sources = &plain, .count = 1, .columns = 1, .rows = 1, .motion = "none"};
     }
@@ -94,13 +96,15 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
                            cached ? cache : NULL, s->threads, error);
 }
 
-/* What will be blurred. */
+/* Returns the image that the bloom will blur. */
 static struct kiln_image *bloom_source(struct kiln_stages *s)
 {
     return s->shutter ? kiln_shutter_image(s->shutter, KILN_SHUTTER_BLOOM) : &s->bloom_color;
 }
 
-/* The backdrop draws the scene itself, or what solids are then put before. */
+/* Creates the backdrop, and the solids if the scene has some. Without solids the backdrop draws
+ * into the scene's images; with them it draws into images of its own, and the solids draw the
+ * scene. */
 static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique technique,
                          struct kiln_error *error)
 {
@@ -238,7 +242,7 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_buffer_finish(&stages->entries);
 }
 
-/* Sorts the chosen systems and draws them into a framebuffer. */
+/* Describes a pass that sorts the chosen systems and draws them into a framebuffer. */
 struct particle_pass {
     uint32_t systems;
     bool by_depth;
@@ -248,7 +252,7 @@ struct particle_pass {
     bool by_fragment;
 };
 
-/* Where blending does not ask for an order, none is made. */
+/* Returns the order of a pass. Nothing is sorted where blending does not depend on the order. */
 static enum kiln_sort_order order_of(const struct kiln_stages *s, bool by_depth)
 {
     if (!by_depth)
@@ -265,7 +269,7 @@ static struct kiln_sort_params sort_params(const struct kiln_view *view)
     };
 }
 
-/* Each pass begins with this. False when the caller wants no more. */
+/* Begins a pass. Returns false if the caller asks to stop. */
 static bool begin(struct kiln_stages *s, enum kiln_pass pass, struct kiln_error *error)
 {
     if (!kiln_may_go_on(s->caller, error))
@@ -274,7 +278,7 @@ static bool begin(struct kiln_stages *s, enum kiln_pass pass, struct kiln_error 
     return true;
 }
 
-/* Each pass that has begun ends with this, also one that failed. */
+/* Ends a pass that has begun, also one that failed. */
 static bool end(struct kiln_stages *s, bool ok)
 {
     kiln_timer_end(s->timer);
@@ -334,9 +338,9 @@ static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_erro
            end(s, kiln_solids_draw(s->solids, &s->moment, &s->entries, *count, error));
 }
 
-/* Fire and smoke in one sorted list, or one in each pixel: fire adds and covers nothing, smoke
- * covers fire and its glow; or fire covers, too (Heinz 2019, 2.3.1). The layers of an EXR are drawn
- * apart. */
+/* Draws fire and smoke from one sorted list, or from one list a pixel. Fire adds and covers
+ * nothing, and smoke covers fire and its glow; or fire covers as well (Heinz 2019, 2.3.1). The
+ * layers of an EXR file are drawn separately. */
 static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     uint32_t fire = systems_with(s->scene, KILN_BLEND_ADD);
@@ -367,8 +371,8 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
            draw_particles(s, &fire_layer, &count, error);
 }
 
-/* The thesis's order: smoke over the scene, then fire summed in a target of its own, so that it
- * shines through smoke (Heinz 2019, 3.2.1 and figure 4.3). */
+/* Draws in the thesis's order: smoke over the scene, then fire summed in a target of its own, so
+ * that it shines through smoke (Heinz 2019, 3.2.1 and figure 4.3). */
 static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     struct particle_pass smoke = {.systems = systems_with(s->scene, KILN_BLEND_ALPHA),
@@ -386,7 +390,7 @@ static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_er
     return ok;
 }
 
-/* The pictures of the moment that was drawn last. */
+/* Returns the pictures of the moment that was drawn last. */
 static struct kiln_composite_inputs moment_inputs(struct kiln_stages *s)
 {
     bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
@@ -397,7 +401,7 @@ static struct kiln_composite_inputs moment_inputs(struct kiln_stages *s)
     };
 }
 
-/* The image that is read as the layer of smoke. */
+/* Returns the image that is read as the layer of smoke. */
 static struct kiln_image *smoke_layer(struct kiln_stages *s)
 {
     bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
@@ -427,7 +431,8 @@ static bool fill_moment(struct kiln_stages *s, struct kiln_pool *pool, uint32_t 
                       kiln_lighting_run(s->lighting, &s->moment, &s->light, error));
 }
 
-/* The backdrop, and solid particles before it: what the others are blended over. */
+/* Draws the backdrop, and the solid particles over it. The other particles are blended over the
+ * result. */
 static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     *drawn = 0;

@@ -1,4 +1,5 @@
-/* The stages that draw a state, and the images between them (Heinz 2019, figure 3.1). */
+/* A kiln_stages holds the stages that draw a state, and the images between them (Heinz 2019, figure
+ * 3.1). */
 #ifndef KILN_FRAME_STAGES_H
 #define KILN_FRAME_STAGES_H
 
@@ -20,17 +21,17 @@ struct kiln_stages {
     struct kiln_device *device; /* NULL: all on the host */
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
-    bool layers;              /* of an EXR are asked for */
-    bool glow;                /* particles leave one */
+    bool layers;              /* the layers of an EXR file are wanted */
+    bool glow;                /* particles draw their glow */
     struct kiln_timer *timer; /* borrowed, as is the caller */
     const struct kiln_caller *caller;
     struct kiln_atlas atlas;
 
     struct kiln_sort *sort;
-    struct kiln_moment moment; /* the one at hand */
+    struct kiln_moment moment; /* the moment that is being drawn */
     struct kiln_lighting_stage *lighting;
     struct kiln_lighting light; /* of the moment */
-    bool on_host;               /* a stage of drawing reads particles there */
+    bool on_host;               /* a drawing stage reads particles there */
     struct kiln_backdrop_stage *backdrop;
     struct kiln_particles_stage *particles;
     struct kiln_coarse_stage *coarse;   /* NULL: particles have the frame's resolution */
@@ -49,8 +50,8 @@ struct kiln_stages {
     struct kiln_framebuffer particle_framebuffer, fire_framebuffer, smoke_framebuffer;
 };
 
-/* What stages are set up for. Threads, timer and caller are borrowed; the caller is asked before
- * each pass. */
+/* Describes what stages are set up for. Threads, timer and caller are borrowed; the caller is asked
+ * before each pass. */
 struct kiln_stages_params {
     struct kiln_techniques techniques;
     struct kiln_output_needs needs; /* what the output will ask for */
@@ -73,20 +74,21 @@ void kiln_stages_finish(struct kiln_stages *stages);
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
                       uint32_t sample, uint32_t *drawn, struct kiln_error *error);
 
-/* What a moment that is not drawn leaves for later ones, where kiln_stages_keep_history: the same
- * as one that is. */
+/* Updates the kept order for a moment that is not drawn, as drawing it would do. It is needed if
+ * kiln_stages_keep_history returns true. */
 bool kiln_stages_pass_over(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
                            struct kiln_error *error);
 bool kiln_stages_keep_history(const struct kiln_stages *stages);
 
-/* Makes the picture of a frame of the moments that were drawn: bloom and composite. */
+/* Makes the picture of a frame from the moments that were drawn: runs bloom and composite. */
 bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln_error *error);
 
 /* Copies what was drawn into a picture made for the same needs. */
 bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
                       struct kiln_error *error);
 
-/* The named layers of a frame, for kiln_picture_create; returns how many. */
+/* Writes the names and channels of a frame's layers, for kiln_picture_create; returns how many
+ * there are. */
 uint32_t kiln_stages_layers(const char *names[KILN_MAX_LAYERS], uint32_t channels[KILN_MAX_LAYERS]);
 
 #endif

@@ -1,4 +1,5 @@
-/* Two tables: the techniques of each stage and what each is for, and which of them `auto` takes. */
+/* This file chooses the technique of each stage from the device and from the flags. It has two
+ * tables: the techniques of each stage, and those that `auto` takes for each class of devices. */
 #include "frame/technique.h"
 
 #include <string.h>
@@ -19,7 +20,7 @@ static const enum kiln_pass STAGE_PASSES[STAGE_COUNT] = {
 
 #define AUTO "auto"
 
-/* The one technique of sorting with a number behind it. */
+/* The only technique of sorting that takes a number, the frames that it is spread over. */
 #define SPREADABLE "oddeven"
 
 struct row {
@@ -59,7 +60,7 @@ static const struct row ROWS[] = {
 
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
 
-/* What a device can be, as far as `auto` cares. */
+/* The classes of devices that `auto` distinguishes. */
 enum device_class { SOFTWARE, GPU, INEXACT_GPU, CLASS_COUNT };
 
 static const char *const CLASS_NAMES[CLASS_COUNT] = {
@@ -73,7 +74,7 @@ static enum device_class classify(const struct kiln_device_info *device)
     return device->software ? SOFTWARE : device->exact ? GPU : INEXACT_GPU;
 }
 
-/* `auto`, with its reasons: figures are of docs/measurements.md. */
+/* The choices of `auto` with their reasons; the figures are in docs/measurements.md. */
 static const struct choice {
     const char *name, *why;
 } AUTO_CHOICES[STAGE_COUNT][CLASS_COUNT] = {
@@ -97,7 +98,7 @@ static const struct choice {
                    [INEXACT_GPU] = {"gl", "the picture is there already"}},
 };
 
-/* A row of each stage, and why `auto` takes it: NULL where it was asked for. */
+/* Holds the chosen row of each stage, and why `auto` took it: NULL where a flag asked for it. */
 struct choices {
     const struct row *rows[STAGE_COUNT];
     const char *why[STAGE_COUNT];
@@ -138,7 +139,7 @@ static bool unknown_name(const char *what, const char *found, const char *const 
                           nearest ? "'?)" : "", list);
 }
 
-/* Takes ":N" off "oddeven:N". */
+/* Removes ":N" from "oddeven:N" and returns N in *spread. */
 static bool take_spread(char *name, uint32_t *spread, struct kiln_error *error)
 {
     *spread = 0;
@@ -198,7 +199,8 @@ static bool apply_flag(const char *flag, const struct choices *automatic, struct
     return unknown_name(what, equals + 1, names, count, error);
 }
 
-/* The first row that was chosen and runs in GL, which only those called `cpu` do not; or NULL. */
+/* Returns the first chosen row that runs in GL, or NULL; all techniques but those named `cpu`
+ * do. */
 static const struct row *find_gl(const struct choices *choices)
 {
     for (int stage = 0; stage < STAGE_COUNT; stage++) {
@@ -271,7 +273,7 @@ struct kiln_device_params kiln_techniques_device(const char *wanted, const char 
     return params;
 }
 
-/* The rows of a stage in their order, with `cpu` before the others. */
+/* Lists the rows of a stage in their order, with `cpu` before the others. */
 static size_t list_rows(enum stage stage, const struct row *rows[ROW_COUNT])
 {
     const struct row *first = find_row(stage, "cpu");
@@ -285,7 +287,8 @@ static size_t list_rows(enum stage stage, const struct row *rows[ROW_COUNT])
     return count;
 }
 
-/* The stages at the end of a frame vary fastest: their techniques are those whose pixels differ. */
+/* Varies the stages at the end of a frame fastest: their techniques are those whose pixels
+ * differ. */
 bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list)
 {
     for (int stage = STAGE_COUNT; stage-- > 0;) {
@@ -354,7 +357,7 @@ static void write_technique(void *user, const char *name, const char *help)
     fprintf(user, "  %-18s %s\n", name, help);
 }
 
-/* The table of `auto`: a paragraph a class of devices. */
+/* Writes the choices of `auto` for a class of devices as a paragraph. */
 static void write_choices(FILE *out, enum device_class class)
 {
     fprintf(out, "\n'" AUTO "' on %s:\n", CLASS_NAMES[class]);

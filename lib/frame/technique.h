@@ -1,5 +1,5 @@
-/* Which technique runs each stage: a pure function of the device and the flags, never of a timing,
- * so that pixels do not depend on luck. */
+/* A kiln_techniques says which technique runs each stage. The choice is a pure function of the
+ * device and the flags, never of a timing, so that pixels do not depend on luck. */
 #ifndef KILN_FRAME_TECHNIQUE_H
 #define KILN_FRAME_TECHNIQUE_H
 
@@ -17,38 +17,39 @@ _Static_assert((int)KILN_STAGE_COUNT <= (int)KILN_MAX_STAGES, "statistics hold a
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
     enum kiln_sort_technique sort;
-    uint32_t sort_spread; /* frames over which `oddeven` divides its passes; 0: a frame has all */
+    uint32_t sort_spread; /* frames that `oddeven` spreads a sort over; 0: one frame has all */
     enum kiln_backdrop_technique backdrop;
     enum kiln_raster_technique raster;
     enum kiln_bloom_technique bloom;
     enum kiln_composite_technique composite;
-    struct kiln_technique_choice choices[KILN_STAGE_COUNT]; /* the same for people */
+    struct kiln_technique_choice choices[KILN_STAGE_COUNT]; /* the same as texts */
 };
 
-/* Applies "stage=name" texts over the device's defaults, which "stage=auto" asks for; the last for
- * a stage wins. "sort=oddeven:N" spreads it over N frames. KILN_USAGE names what there is;
- * simulating or sorting on a device that is not exact is KILN_NO_DEVICE. */
+/* Applies "stage=name" texts over the device's defaults, which "stage=auto" asks for; the last text
+ * for a stage wins. "sort=oddeven:N" spreads it over N frames. An unknown name is KILN_USAGE, and
+ * the message lists the known ones; simulating or sorting on a device that is not exact is
+ * KILN_NO_DEVICE. */
 bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error);
 
-/* The device for pictures that shall be the same everywhere: what is wanted, or else
- * KILN_DEVICE_CPU where these techniques let it, or else the default one with GL. */
+/* Returns the device for pictures that shall be the same everywhere: the wanted one, or else
+ * KILN_DEVICE_CPU where these techniques allow it, or else the default one with GL. */
 struct kiln_device_params kiln_techniques_device(const char *wanted, const char *const *flags,
                                                  size_t flag_count);
 
-/* One technique for each stage that has several, as "stage=name". */
+/* Holds one technique for each stage that has several, as "stage=name". */
 struct kiln_technique_list {
     char flags[KILN_STAGE_COUNT][KILN_TECHNIQUE_SIZE];
 };
 
-/* The index-th of all combinations; false beyond the last. The first takes the technique `cpu`
- * where a stage has it and the first of its table elsewhere, which makes the same picture on every
- * machine. Whether a device allows it is for kiln_techniques_choose to say. */
+/* Writes the index-th of all combinations; returns false beyond the last. The first takes the
+ * technique `cpu` where a stage has it and the first of its table elsewhere, which makes the same
+ * picture on every machine. kiln_techniques_choose tells whether a device allows a combination. */
 bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list);
 
-/* Stages below KILN_STAGE_COUNT, for who compares their techniques: "sort"; the pass that shows
- * what a technique takes; and their techniques in the order of the table. */
+/* Describe a stage below KILN_STAGE_COUNT, to compare its techniques: its name ("sort"), the pass
+ * that shows what a technique takes, and its techniques in the order of the table. */
 enum { KILN_MAX_TECHNIQUES = 16 };
 const char *kiln_stage_name(size_t stage);
 enum kiln_pass kiln_stage_pass(size_t stage);

@@ -1,4 +1,5 @@
-/* What a machine lacks to render: judged from the devices found and the nodes under /dev. */
+/* This file names what a machine lacks to render. It judges from the devices that were found and
+ * from the device nodes under /dev. */
 #include "gpu/advice.h"
 
 #include <stdio.h>
@@ -23,7 +24,7 @@ static bool has_software(const struct kiln_device_info *infos, size_t count)
     return false;
 }
 
-/* Adds a sentence if it still fits whole. */
+/* Appends a sentence to the advice if all of it fits. */
 static void add(char advice[256], const char *sentence)
 {
     size_t used = strlen(advice);
@@ -32,7 +33,8 @@ static void add(char advice[256], const char *sentence)
     snprintf(advice + used, 256 - used, "%s%s", used ? "; " : "", sentence);
 }
 
-/* A GPU that this user may not open looks like no GPU. The kernel numbers render nodes from 128. */
+/* Says which render node this user may not open: EGL does not list such a GPU at all. The kernel
+ * numbers render nodes from 128. */
 static void advise_permission(char advice[256])
 {
     for (unsigned number = 128; number < 192; number++) {

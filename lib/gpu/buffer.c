@@ -1,4 +1,6 @@
-/* Buffers. Everything goes through GL_COPY_WRITE_BUFFER, which no draw or dispatch looks at. */
+/* This file allocates buffers on the host and in GL and copies their bytes between the two sides
+ * when one of them is stale. All GL calls bind GL_COPY_WRITE_BUFFER, which no draw or dispatch
+ * uses. */
 #include "gpu/buffer.h"
 
 #include <assert.h>
@@ -34,7 +36,8 @@ void kiln_buffer_reserve(struct kiln_buffer *buffer, size_t size)
     kiln_buffer_init(buffer, device, size, label);
 }
 
-/* Never empty, so that size 0 gives an address, too. */
+/* Returns how many bytes to allocate. The result is never 0, so that a buffer of size 0 has an
+ * address as well. */
 static size_t storage_size(const struct kiln_buffer *buffer)
 {
     return buffer->size > LEAST_SIZE ? buffer->size : LEAST_SIZE;
@@ -98,7 +101,7 @@ static bool allocate_gl(struct kiln_buffer *buffer, struct kiln_error *error)
     glGenBuffers(1, &gl);
     glBindBuffer(GL_COPY_WRITE_BUFFER, gl);
     glBufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)size, NULL, GL_DYNAMIC_COPY);
-    char what[128]; /* the size says why memory runs out */
+    char what[128]; /* the size shows why memory may run out */
     snprintf(what, sizeof what, "%s, %zu bytes", buffer->label, size);
     if (!kiln_device_check(buffer->device, what, error)) {
         glDeleteBuffers(1, &gl);

@@ -1,5 +1,5 @@
-/* Memory with a residency: the same bytes on the host, in GL, or both. A stage asks for them where
- * it works, and they move only when they must. */
+/* A kiln_buffer holds the same bytes on the host, in GL, or on both sides. A stage asks for them on
+ * the side where it works, and they are copied only when that side is stale. */
 #ifndef KILN_GPU_BUFFER_H
 #define KILN_GPU_BUFFER_H
 
@@ -8,7 +8,7 @@
 enum kiln_access {
     KILN_READ,       /* the other side stays valid */
     KILN_READ_WRITE, /* the other side becomes stale */
-    KILN_OVERWRITE,  /* as above, and what was there is not fetched: every byte will be written */
+    KILN_OVERWRITE,  /* as above; nothing is fetched, since every byte will be written */
 };
 
 struct kiln_buffer {
@@ -18,7 +18,7 @@ struct kiln_buffer {
     void *host; /* allocated at first use, 64-byte aligned */
     GLuint gl;  /* created at first use */
     bool host_valid, gl_valid;
-    size_t content; /* bytes that GL is sent: all, unless who wrote them on the host knows better */
+    size_t content; /* bytes that are sent to GL; kiln_buffer_set_content makes it less than size */
 };
 
 /* Size 0 is allowed. Contents start as zeros. label must outlive the buffer. */
@@ -26,18 +26,18 @@ void kiln_buffer_init(struct kiln_buffer *buffer, struct kiln_device *device, si
                       const char *label);
 void kiln_buffer_finish(struct kiln_buffer *buffer);
 
-/* Makes it at least so large; what is in it is lost if it grows. */
+/* Makes the buffer at least so large. Its contents are lost if it grows. */
 void kiln_buffer_reserve(struct kiln_buffer *buffer, size_t size);
 
-/* The bytes on the host, or NULL with an error (KILN_DEVICE_FAILED: memory). */
+/* Returns the bytes on the host, or NULL with an error (KILN_DEVICE_FAILED: memory). */
 void *kiln_buffer_host(struct kiln_buffer *buffer, enum kiln_access access,
                        struct kiln_error *error);
 
-/* Of what the host has just written, nobody will read more than the first so many bytes. Holds
- * until the host asks to write again. */
+/* Says that only the first `bytes` of what the host has just written will be read, so that only
+ * these are sent to GL. Holds until the host asks to write again. */
 void kiln_buffer_set_content(struct kiln_buffer *buffer, size_t bytes);
 
-/* The GL buffer object, or 0 with an error. A shader that wrote it needs no barrier before
+/* Returns the GL buffer object, or 0 with an error. A shader that wrote it needs no barrier before
  * kiln_buffer_host, which issues it. */
 GLuint kiln_buffer_gl(struct kiln_buffer *buffer, enum kiln_access access,
                       struct kiln_error *error);

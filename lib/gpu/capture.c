@@ -1,5 +1,6 @@
-/* Nothing is rasterised, but llvmpipe asks for a complete framebuffer all the same, and without a
- * display there is none by default: it gets one without images. */
+/* This file sets up what transform feedback draws with: a vertex array, and a framebuffer without
+ * images. Nothing is rasterised, but llvmpipe requires a complete framebuffer all the same, and
+ * without a display there is no default one. */
 #include "gpu/capture.h"
 
 enum { WORD4_BYTES = 16 };

@@ -1,5 +1,5 @@
-/* What transform feedback needs around it: vertices go through their stages and are written into
- * buffers, and nothing is drawn. */
+/* A kiln_capture holds the GL objects for a draw with transform feedback: vertices go through their
+ * stages and are written into buffers, and nothing is rasterised. */
 #ifndef KILN_GPU_CAPTURE_H
 #define KILN_GPU_CAPTURE_H
 
@@ -7,17 +7,18 @@
 
 /* Zero-initialised has nothing. */
 struct kiln_capture {
-    GLuint vertex_array; /* of uvec4s that follow each other in one vertex buffer */
+    GLuint vertex_array; /* its attributes are uvec4s, interleaved in one vertex buffer */
     GLuint framebuffer;
 };
 
-/* attributes: uvec4s of a vertex, at locations 0, 1, ... False with an error; kiln_capture_finish
- * then frees what there is. */
+/* attributes: how many uvec4s a vertex has, at locations 0, 1, ... Returns false with an error;
+ * kiln_capture_finish then frees what was made. */
 bool kiln_capture_init(struct kiln_capture *capture, struct kiln_device *device, GLuint attributes,
                        struct kiln_error *error);
 void kiln_capture_finish(struct kiln_capture *capture);
 
-/* Points drawn between the two are not rasterised; the vertex array is bound. */
+/* Between kiln_capture_begin and kiln_capture_end, points are not rasterised and the vertex array
+ * is bound. */
 void kiln_capture_begin(const struct kiln_capture *capture);
 void kiln_capture_end(void);
 

@@ -1,4 +1,4 @@
-/* Devices: listing, choosing and opening them, and watching them for errors. */
+/* This file lists, chooses and opens devices, and checks them for GL errors. */
 #include "gpu/device.h"
 
 #include <stdio.h>
@@ -18,8 +18,8 @@
 
 /* ---- Errors -------------------------------------------------------------------------------- */
 
-/* Compiler messages are left out of the failures: kiln_program_create reports them with their file
- * and line. */
+/* Logs a message of the driver and keeps the first error for kiln_device_check. Messages of the
+ * shader compiler are not kept: kiln_program_create reports them with their file and line. */
 static void GLAPIENTRY on_debug_message(GLenum source, GLenum type, GLuint id, GLenum severity,
                                         GLsizei length, const GLchar *message, const void *user)
 {
@@ -75,7 +75,7 @@ static bool context_was_reset(void)
 bool kiln_device_check(struct kiln_device *device, const char *where, struct kiln_error *error)
 {
     GLenum first = GL_NO_ERROR;
-    /* Bounded, since a lost context may report an error for ever. */
+    /* The loop is bounded, since a lost context may report an error for ever. */
     for (int i = 0; i < 16; i++) {
         GLenum code = glGetError();
         if (code == GL_NO_ERROR)
@@ -177,7 +177,8 @@ static void describe(struct kiln_device_info *info)
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &info->max_texture_size);
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &info->max_array_layers);
 
-    /* The one optional part of OpenGL 4.3 that kiln draws with. */
+    /* Storage buffers in vertex shaders are the only optional part of OpenGL 4.3 that kiln draws
+     * with. */
     GLint vertex_blocks = 0;
     glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &vertex_blocks);
     if (vertex_blocks < 1) {
@@ -203,8 +204,8 @@ static void open_source(struct kiln_device *device, const struct kiln_egl_source
         snprintf(info->name, sizeof info->name, "%s", source->name);
 }
 
-/* This machine without GL. Not usable where the environment asks for vectors that it lacks; error
- * then says so. Images and buffers may be as large as memory allows. */
+/* Describes this machine without GL. It is not usable where the environment asks for vectors that
+ * the processor lacks; error then says so. Images and buffers may be as large as memory allows. */
 static struct kiln_device describe_host(const struct kiln_device_params *params,
                                         struct kiln_error *error)
 {
@@ -229,7 +230,8 @@ static struct kiln_device describe_host(const struct kiln_device_params *params,
 
 /* ---- Choosing ------------------------------------------------------------------------------ */
 
-/* The devices so far, numbered as listed: the one without GL, then those that were opened. */
+/* Holds the devices found so far, numbered as they are listed: first the one without GL, then those
+ * that were opened. */
 struct scan {
     struct kiln_device devices[1 + KILN_MAX_EGL_SOURCES];
     size_t count;
@@ -241,8 +243,8 @@ static bool is_index(const char *wanted, uint64_t *index)
     return wanted && kiln_text_to_uint64(wanted, index);
 }
 
-/* Opening costs time and memory on a machine with many GPUs: stop as soon as the choice is clear. A
- * name is clear only when all are known. */
+/* Returns whether the choice is already clear. Scanning then stops, since opening devices costs
+ * time and memory on a machine with many GPUs. A name is clear only when all devices are known. */
 static bool scan_is_enough(const struct scan *scan, const char *wanted)
 {
     uint64_t index;
@@ -256,8 +258,8 @@ static bool scan_is_enough(const struct scan *scan, const char *wanted)
     return strcmp(wanted, "software") == 0 && last->usable && last->gl && last->software;
 }
 
-/* Mesa's surfaceless platform reaches one of the devices again, or, when none of them works, says
- * nothing that they do not. */
+/* Returns whether an entry of Mesa's surfaceless platform adds nothing: it is one of the devices
+ * again, or is not usable. */
 static bool is_duplicate(const struct scan *scan, const struct kiln_device_info *info)
 {
     if (strcmp(info->platform, "surfaceless") != 0)
@@ -271,14 +273,14 @@ static bool is_duplicate(const struct scan *scan, const struct kiln_device_info 
     return false;
 }
 
-/* Only GPUs are looked for: what is known to be none need not be opened. Mesa's surfaceless
+/* Returns whether a source may be a GPU; the default choice opens no others. Mesa's surfaceless
  * platform has a GPU only where devices cannot be listed. */
 static bool may_be_gpu(const struct kiln_egl_source *source, size_t source_count)
 {
     return !source->software && (source->device || source_count == 1);
 }
 
-/* every: do not stop early. */
+/* Opens devices until the choice is clear, or all of them if `every` is set. */
 static void scan_devices(struct scan *scan, const struct kiln_device_params *params, bool every)
 {
     struct kiln_error error = {0};
@@ -332,7 +334,8 @@ static const struct kiln_device *choose_default(const struct scan *scan, bool gl
     return gl ? choose_software(scan) : &scan->devices[0];
 }
 
-/* A whole name wins over names that contain it; several equal matches are ambiguous. */
+/* Finds a device by name. A whole name is preferred to names that contain it; several equal matches
+ * are ambiguous. */
 static const struct kiln_device *choose_named(const struct scan *scan, const char *wanted,
                                               bool *ambiguous)
 {
@@ -402,7 +405,8 @@ choose(const struct scan *scan, const struct kiln_device_params *params, struct 
     return NULL;
 }
 
-/* A device that is not exact draws, but its particles are stepped by the CPU. */
+/* Finds out whether a device computes exactly. If it does not, it can still draw, but the CPU steps
+ * its particles. */
 static void probe(struct kiln_device *device)
 {
     char reason[256] = "";

@@ -1,8 +1,9 @@
-/* EGL without a display. Extension functions are asked for by name: libepoxy 1.5 aborts the process
- * when a library or a function is missing, and when eglGetPlatformDisplay comes before a display.
+/* This file lists EGL devices and opens contexts on them without a display. Extension functions are
+ * asked for by name: libepoxy 1.5 aborts the process when a library or a function is missing, and
+ * when eglGetPlatformDisplay comes before a display.
  *
  * Displays are never terminated: EGL hands out one display for equal attributes, and terminating it
- * would pull it from under another renderer of the process. */
+ * would close it for another renderer of the process as well. */
 #include "gpu/egl.h"
 
 #include <dlfcn.h>
@@ -21,7 +22,8 @@ static bool has_extension(const char *list, const char *name)
     return false;
 }
 
-/* The libraries stay loaded: libepoxy opens them again. */
+/* Loads the libraries of EGL and OpenGL, or says which is missing. They stay loaded, since libepoxy
+ * opens them again. */
 static bool libraries_present(char problem[256])
 {
     if (!dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL)) {
@@ -85,8 +87,9 @@ size_t kiln_egl_sources(struct kiln_egl_source sources[KILN_MAX_EGL_SOURCES], ch
     return count;
 }
 
-/* The best context that the driver gives: 4.5 brings robustness into the core, 4.3 is the floor.
- * Where the driver can, a reset loses the context, so that a hung GPU is an error, not a freeze. */
+/* Creates the best context that the driver offers: 4.5 brings robustness into the core, 4.3 is the
+ * least. Where the driver can, a reset loses the context, so that a hung GPU is an error, not a
+ * freeze. */
 static EGLContext create_context(EGLDisplay display, bool debug)
 {
     static const EGLint minors[] = {5, 3};
@@ -170,8 +173,9 @@ bool kiln_egl_open(const struct kiln_egl_source *source, bool debug, void **disp
     return true;
 }
 
-/* The bound API belongs to the thread, and eglGetCurrentContext means the context of that API.
- * Making a context current flushes it: not where it is so already. */
+/* Binds the API first: it belongs to the thread, and eglGetCurrentContext returns the context of
+ * that API. A context that is already current is left alone, since making it current would flush
+ * it. */
 bool kiln_egl_make_current(void *display, void *context)
 {
     return eglBindAPI(EGL_OPENGL_API) &&

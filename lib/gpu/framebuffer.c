@@ -1,4 +1,5 @@
-/* Framebuffer objects are made once per set of targets, not per frame. */
+/* This file creates framebuffer objects of images, binds them and draws over all of one. A GL
+ * framebuffer is created at the first bind and kept, not made anew in each frame. */
 #include "gpu/framebuffer.h"
 
 #include "base/error.h"
@@ -23,7 +24,7 @@ void kiln_framebuffer_finish(struct kiln_framebuffer *framebuffer)
     *framebuffer = (struct kiln_framebuffer){.gl = 0};
 }
 
-/* It becomes the bound one. The images have their textures. */
+/* Creates the GL framebuffer and binds it. The images must have their textures. */
 static bool create(struct kiln_framebuffer *framebuffer, struct kiln_error *error)
 {
     struct kiln_device *device = framebuffer->device;

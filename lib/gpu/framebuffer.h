@@ -1,4 +1,4 @@
-/* Drawing into images. */
+/* A kiln_framebuffer is a set of images that shaders draw into together. */
 #ifndef KILN_GPU_FRAMEBUFFER_H
 #define KILN_GPU_FRAMEBUFFER_H
 
@@ -6,7 +6,7 @@
 
 enum { KILN_MAX_TARGETS = 4 };
 
-/* Images of one size that are drawn into together. Zero-initialised has none. */
+/* Holds images of one size that are drawn into together. Zero-initialised has none. */
 struct kiln_framebuffer {
     struct kiln_device *device;
     GLuint gl; /* made when it is bound first */
@@ -14,15 +14,15 @@ struct kiln_framebuffer {
     size_t count;
 };
 
-/* 1 to KILN_MAX_TARGETS images, in the order of the shader's outputs; they must outlive it. device
- * NULL: its images are only drawn into on the host. False with an error. */
+/* Takes 1 to KILN_MAX_TARGETS images, in the order of the shader's outputs; they must outlive it.
+ * device NULL: its images are only drawn into on the host. Returns false with an error. */
 bool kiln_framebuffer_init(struct kiln_framebuffer *framebuffer, struct kiln_device *device,
                            struct kiln_image *const *images, size_t count,
                            struct kiln_error *error);
 void kiln_framebuffer_finish(struct kiln_framebuffer *framebuffer);
 
-/* Binds it with a viewport over all of it. What is drawn next is the images' contents: their host
- * sides become stale. */
+/* Binds it with a viewport over all of it. The images' host sides become stale, since the next draw
+ * writes the textures. */
 bool kiln_framebuffer_bind(struct kiln_framebuffer *framebuffer, struct kiln_error *error);
 
 /* Draws one triangle over the whole of the bound framebuffer with the bound program, whose vertex

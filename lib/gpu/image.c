@@ -1,4 +1,5 @@
-/* Images: a texture on one side, floats on the other. */
+/* This file allocates images as textures in GL and as floats on the host, and copies them between
+ * the two sides when one of them is stale. */
 #include "gpu/image.h"
 
 #include <stdio.h>
@@ -47,7 +48,8 @@ static bool allocate_host(struct kiln_image *image, struct kiln_error *error)
     return image->host || refuse_memory(image, "on the host", error);
 }
 
-/* The texture bound before is put back by the caller, who may be setting up a draw. */
+/* Binds a texture and returns the one that was bound before. The caller binds that one again, since
+ * it may belong to a draw that is being set up. */
 static GLuint bind(GLuint texture)
 {
     GLint before = 0;
@@ -61,7 +63,8 @@ static GLenum pixel_format(const struct kiln_image *image)
     return image->channels == 1 ? GL_RED : GL_RGBA;
 }
 
-/* As floats, which is how both sides exchange them. */
+/* Returns the size of the pixels as floats, the format in which they are copied between the
+ * sides. */
 static uint64_t pixel_bytes(const struct kiln_image *image)
 {
     return (uint64_t)image->width * image->height * image->channels * sizeof(float);
@@ -110,7 +113,7 @@ static bool allocate_gl(struct kiln_image *image, struct kiln_error *error)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     kiln_device_label(image->device, GL_TEXTURE, gl, image->label);
     glBindTexture(GL_TEXTURE_2D, before);
-    char what[128]; /* the size says why memory runs out */
+    char what[128]; /* the size shows why memory may run out */
     snprintf(what, sizeof what, "%s, %u x %u pixels", image->label, image->width, image->height);
     if (!kiln_device_check(image->device, what, error)) {
         glDeleteTextures(1, &gl);

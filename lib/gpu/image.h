@@ -1,5 +1,5 @@
-/* Two-dimensional targets with a residency, like buffers. The texture has one level, filters
- * linearly and clamps at its edge. */
+/* A kiln_image is a two-dimensional render target that is on the host, in GL, or on both sides,
+ * like a kiln_buffer. Its texture has one level, filters linearly and clamps at its edge. */
 #ifndef KILN_GPU_IMAGE_H
 #define KILN_GPU_IMAGE_H
 

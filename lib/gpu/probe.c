@@ -1,5 +1,6 @@
-/* The probe runs the very functions that the simulation is made of, so a driver that passes it
- * rounds, compares and hashes as C does. */
+/* This file runs the exactness probe: it evaluates the arithmetic of the simulation in a shader
+ * stage and compares the results with C. The shader runs the very functions that the simulation is
+ * made of, so a driver that passes rounds, compares and hashes as C does. */
 #include "gpu/probe.h"
 
 #include <assert.h>
@@ -13,7 +14,7 @@
 #include "gpu/words.h"
 #include "shared/probe.h"
 
-/* Edges of the number line; the first vectors are all pairs of them. */
+/* Bit patterns of special and extreme floats. The first test vectors are all pairs of them. */
 static const uint32_t edges[] = {
     0x00000000u, 0x80000000u, 0x00000001u, 0x807fffffu, 0x00800000u, 0x0d7fffffu, 0x0d800000u,
     0x8d800000u, 0x33800000u, 0x3effffffu, 0x3f000000u, 0x3f7fffffu, 0x3f800000u, 0x3f800001u,
@@ -52,13 +53,14 @@ struct probe {
 
 enum { ROW = 64, MEMBERS = PROBE_WORDS / 4 };
 
-/* The texels of so many vectors, in whole rows. */
+/* Returns a number of vectors, rounded up to whole rows of the texture. */
 static uint32_t whole_rows(uint32_t count)
 {
     return (count + ROW - 1) / ROW * ROW;
 }
 
-/* Where the results have word number `word` of a vector: a member of all vectors is one texture. */
+/* Returns the index of a result word. In the fragment stage, each member of the results is a
+ * texture of all vectors. */
 static size_t place_of(const struct probe *probe, uint32_t vector, uint32_t word)
 {
     size_t vectors = probe->vectors.size / sizeof(uint4);
@@ -127,7 +129,7 @@ static bool run_on_device(struct probe *probe, uint32_t first, uint32_t count,
     return kiln_device_check(probe->device, "probe", error);
 }
 
-/* True when all results are C's; otherwise the reason is filled in. */
+/* Returns true when all results equal those of C; otherwise fills in the reason. */
 static bool compare(const struct probe *probe, const uint4 *vectors, const uint32_t *results,
                     uint32_t count, char reason[256])
 {

@@ -1,5 +1,5 @@
-/* Compiling and linking. A failure becomes one line, the driver's first error at its file and line;
- * the driver's whole message goes to the log. */
+/* This file compiles and links GLSL programs. A failure becomes one line, the driver's first error
+ * at its file and line; the driver's whole message goes to the log. */
 #include "gpu/program.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 enum { MAX_STAGES = 4 };
 
-/* A program being made: what is deleted when it ends. */
+/* Holds a program while it is built: its GL objects and its name. */
 struct build {
     struct kiln_device *device;
     GLuint program;
@@ -36,8 +36,8 @@ static char *get_log(GLuint object, bool is_shader)
     return log;
 }
 
-/* Logs each line of a driver's message; when it failed, the first line with an error in it, or else
- * the first one, becomes the error. source NULL: the message names no files. */
+/* Logs each line of a driver's message. If the build failed, the first line that contains "error",
+ * or else the first line, becomes the error. source NULL: the message names no files. */
 static void report(struct build *build, char *log, const struct kiln_source *source, bool failed,
                    struct kiln_error *error)
 {

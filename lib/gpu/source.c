@@ -1,6 +1,7 @@
-/* The joining of shader files. Included text is pasted where it is asked for, each time: headers
- * have include guards, which the GLSL preprocessor understands. "#include <...>" lines are for the
- * C side of shared headers and are left out. */
+/* This file joins shader files by their includes and maps lines of the driver's messages back to
+ * the files. Included text is pasted each time it is asked for: headers have include guards, which
+ * the GLSL preprocessor understands. "#include <...>" lines are for the C side of shared headers
+ * and are left out. */
 #include "gpu/source.h"
 
 #include <ctype.h>
@@ -69,7 +70,8 @@ static bool read_override(const char *dir, const char *path, char **text, struct
     return ok;
 }
 
-/* The text of a file; *owned is to be freed (NULL when it is embedded). */
+/* Returns the text of a file. *owned is to be freed by the caller (NULL when the text is
+ * embedded). */
 static const char *find_text(const struct part *part, char **owned, struct kiln_error *error)
 {
     *owned = NULL;
@@ -105,7 +107,7 @@ static bool check_chain(const struct part *part, struct kiln_error *error)
     return true;
 }
 
-/* The number of a file, or KILN_MAX_SOURCE_FILES when there are too many. */
+/* Returns the number of a file, or KILN_MAX_SOURCE_FILES when there are too many files. */
 static size_t file_number(struct kiln_source *source, const char *path)
 {
     for (size_t i = 0; i < source->file_count; i++)
@@ -117,7 +119,7 @@ static size_t file_number(struct kiln_source *source, const char *path)
     return source->file_count++;
 }
 
-/* Says where the lines that follow come from. */
+/* Records the file and line that the next lines of the joined text come from. */
 static void begin_piece(struct kiln_source *source, size_t file, size_t file_line)
 {
     if (source->piece_count == source->piece_capacity) {
@@ -140,7 +142,7 @@ static void put_line(struct kiln_source *source, const char *line, size_t length
     source->line_count++;
 }
 
-/* Follows comments through one line, so that an #include inside one is not taken. */
+/* Tracks block comments through one line, so that an #include inside a comment is ignored. */
 static void follow_comments(struct part *part, const char *line, size_t length)
 {
     for (size_t i = 0; i + 1 < length; i++) {
@@ -280,7 +282,8 @@ void kiln_source_finish(struct kiln_source *source)
     *source = (struct kiln_source){.line_count = 0};
 }
 
-/* Adds "shaders/file:line: " for a line of the joined text; false when it has no such line. */
+/* Adds "shaders/file:line: " for a line of the joined text. Returns false when the text has no such
+ * line. */
 static bool add_place(const struct kiln_source *source, size_t line, struct kiln_text *out)
 {
     size_t i = source->piece_count;
@@ -297,7 +300,7 @@ static bool add_place(const struct kiln_source *source, size_t line, struct kiln
     return true;
 }
 
-/* Reads digits; NULL when there are none. */
+/* Reads digits and returns the end of them, or NULL when there are none. */
 static const char *read_number(const char *at, const char *end, size_t *number)
 {
     const char *start = at;

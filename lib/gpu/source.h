@@ -1,4 +1,5 @@
-/* Shader files: found, joined by their includes, and lines of messages mapped back to them. */
+/* This header declares how shader files are found, how they are joined by their includes, and how
+ * lines of a driver's messages are mapped back to them. */
 #ifndef KILN_GPU_SOURCE_H
 #define KILN_GPU_SOURCE_H
 
@@ -7,15 +8,16 @@
 
 enum { KILN_MAX_SOURCE_FILES = 64, KILN_MAX_SOURCE_PATH = 128 };
 
-/* Lines of the joined text, from `line` up to the next piece, that come from one file. */
+/* Describes lines of the joined text, from `line` up to the next piece, that come from one file. */
 struct kiln_source_piece {
     size_t line;
     size_t file_line;
-    size_t file; /* index, or KILN_MAX_SOURCE_FILES for what kiln puts before the file */
+    size_t file; /* index, or KILN_MAX_SOURCE_FILES for the lines that kiln puts before the file */
 };
 
-/* A joined text. Zero-initialised is empty; freed by kiln_source_finish. It has no "#line" marks:
- * Mesa reports their string number as 0 for most errors, so lines are mapped by this table. */
+/* Holds a joined text. Zero-initialised is empty; kiln_source_finish frees it. It has no "#line"
+ * directives: Mesa reports their string number as 0 for most errors, so lines are mapped by the
+ * table of pieces. */
 struct kiln_source {
     struct kiln_text text;
     size_t line_count;

@@ -1,16 +1,17 @@
-/* Pass times.
+/* This file measures how long each pass of a frame takes.
  *
- * A GPU runs behind the host, and a pass may work on either. Each pass therefore leaves four times,
- * host and GPU at both ends, brought to one clock; it began when the later of the two reached its
- * beginning and ended when the later of the two reached its end. So a pass that only submits work
- * is charged for that work, and one that waits for an earlier pass is not charged for the wait. */
+ * A GPU runs behind the host, and a pass may work on either. Each pass therefore records four
+ * times, host and GPU at both ends, converted to one clock. A pass begins when the later of the two
+ * reaches its beginning and ends when the later of the two reaches its end. So a pass that only
+ * submits work is charged for that work, and one that waits for an earlier pass is not charged for
+ * the wait. */
 #include "gpu/timer.h"
 
 #include <stdlib.h>
 
 #include "base/clock.h"
 
-enum { MAX_SPANS = 64 }; /* passes a frame that are timed on a GPU; further ones count host time */
+enum { MAX_SPANS = 64 }; /* passes a frame that are timed on a GPU; others count host time */
 
 struct span {
     enum kiln_pass pass;
@@ -78,7 +79,7 @@ static void begin_span(struct kiln_timer *timer, enum kiln_pass pass)
     }
     span->pass = pass;
     glQueryCounter(span->begin, GL_TIMESTAMP);
-    glFlush(); /* or else the driver may hold it back until work that comes much later */
+    glFlush(); /* without a flush, the driver may delay the query until much later work */
 }
 
 void kiln_timer_begin(struct kiln_timer *timer, enum kiln_pass pass)

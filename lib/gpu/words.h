@@ -1,11 +1,11 @@
-/* Textures of whole words, four a texel (RGBA32UI), that are drawn into together: what fragment
- * shaders compute in, bit for bit. */
+/* A kiln_words is a set of integer textures (RGBA32UI, four words a texel) that are drawn into
+ * together. Fragment shaders compute in them bit for bit. */
 #ifndef KILN_GPU_WORDS_H
 #define KILN_GPU_WORDS_H
 
 #include "gpu/device.h"
 
-enum { KILN_MAX_WORD_TEXTURES = 8 }; /* every GL draws into so many */
+enum { KILN_MAX_WORD_TEXTURES = 8 }; /* every OpenGL 4.3 has at least 8 draw buffers */
 
 /* Zero-initialised has nothing. */
 struct kiln_words {
@@ -15,12 +15,13 @@ struct kiln_words {
     GLuint framebuffer, vertex_array;
 };
 
-/* Of zeros. False with an error; kiln_words_finish then frees what there is. */
+/* Makes the textures, filled with zeros. Returns false with an error; kiln_words_finish then frees
+ * what was made. */
 bool kiln_words_init(struct kiln_words *words, struct kiln_device *device, uint32_t count,
                      uint32_t width, uint32_t height, const char *label, struct kiln_error *error);
 void kiln_words_finish(struct kiln_words *words);
 
-/* Makes the textures the units first, first + 1, ... of what is drawn next. */
+/* Binds the textures to the texture units first, first + 1, ... */
 void kiln_words_bind_textures(const struct kiln_words *words, GLuint first);
 
 /* Runs the bound program, whose vertex shader is gpu/framebuffer_fill.vert, over whole rows. */

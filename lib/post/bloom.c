@@ -1,4 +1,4 @@
-/* The stage: hands over to its technique. */
+/* This file runs the bloom stage by the technique that was chosen for it, `gl` or `cpu`. */
 #include "post/bloom.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Stage 5a: the glow around what shines (Heinz 2019, 2.1.5 and 3.2.5): what glows is found, then
- * spread. */
+/* Stage 5a draws the glow around bright particles (Heinz 2019, 2.1.5 and 3.2.5): it finds the light
+ * that glows, then blurs it. */
 #ifndef KILN_POST_BLOOM_H
 #define KILN_POST_BLOOM_H
 
@@ -7,7 +7,7 @@
 #include "gpu/image.h"
 #include "scene/scene.h"
 
-/* Both make the same glow, to rounding. */
+/* Both techniques make the same glow, to rounding. */
 enum kiln_bloom_technique { KILN_BLOOM_GL, KILN_BLOOM_CPU };
 
 struct kiln_bloom_stage;
@@ -20,8 +20,8 @@ struct kiln_bloom_params {
     GLenum format;                /* of the intermediate images */
 };
 
-/* What is passed must outlive the stage; device may be NULL for `cpu`. The scene's bloom must not
- * be KILN_BLOOM_NONE. NULL with an error. */
+/* The arguments must outlive the stage; device may be NULL for `cpu`. The scene's bloom must not be
+ * KILN_BLOOM_NONE. Returns NULL with an error. */
 struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            const struct kiln_bloom_params *params,
@@ -33,8 +33,8 @@ struct kiln_bloom_inputs {
     float time_s;                                /* clip time */
 };
 
-/* Spreads the glow. The result, smaller than the source, belongs to the stage and holds until the
- * next call; *scale becomes its size in parts of the source's. NULL with an error. */
+/* Blurs the glow. The result, smaller than the source, belongs to the stage and holds until the
+ * next call; *scale becomes its size in parts of the source's. Returns NULL with an error. */
 struct kiln_image *kiln_bloom_run(struct kiln_bloom_stage *stage,
                                   const struct kiln_bloom_inputs *inputs, float *scale,
                                   struct kiln_error *error);

@@ -1,4 +1,5 @@
-/* The passes of the blooms, each a loop over rows (bloom_rows.h). */
+/* This file runs the passes of the blooms on the host: the bright pass, the Gaussian and the
+ * pyramid. Each pass is a loop over rows (bloom_rows.h), divided among threads. */
 #include "post/bloom_cpu.h"
 
 #include <stdlib.h>
@@ -13,14 +14,14 @@ struct kiln_bloom_cpu {
     struct kiln_threads *threads;
     struct kiln_image *source;
     struct kiln_image small[2 * KILN_BLOOM_MAX_LEVELS];
-    uint32_t levels; /* of the pyramid; small holds those going down, then those coming up */
+    uint32_t levels; /* of the pyramid; `small` holds the halved pictures, then the joined ones */
     const struct kiln_bloom_rows *rows;
-    struct kiln_bloom_pass pass; /* what all have in common */
+    struct kiln_bloom_pass pass; /* the part that all passes share */
 };
 
 /* ---- create, destroy ------------------------------------------------------------------------- */
 
-/* Of the Gaussian: two pictures of a third of the size, two of a sixth. */
+/* Makes the images of the Gaussian: two pictures of a third of the size, two of a sixth. */
 static void init_gaussian(struct kiln_bloom_cpu *stage, struct kiln_device *device, GLenum format)
 {
     kiln_bloom_gaussian_weights(stage->pass.weights);

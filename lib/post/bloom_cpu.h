@@ -1,4 +1,4 @@
-/* Technique `cpu` of stage `bloom`: threads over rows, in arithmetic that is the same on every
+/* Technique `cpu` runs stage `bloom` in threads over rows, in arithmetic that is the same on every
  * machine. Its functions are those of post/bloom.h. */
 #ifndef KILN_POST_BLOOM_CPU_H
 #define KILN_POST_BLOOM_CPU_H

@@ -1,7 +1,6 @@
-/* The thesis's four blurs: horizontal and vertical at a third of the size, then at a sixth (Heinz
- * 2019, 3.2.5). Each shrinking averages whole blocks first, where the thesis samples bilinearly and
- * may miss a spark.
- */
+/* This file blurs the glow in GL by the thesis's four blurs: horizontal and vertical at a third of
+ * the size, then at a sixth (Heinz 2019, 3.2.5). Each reduction averages whole blocks first, where
+ * the thesis samples bilinearly and may miss a spark. */
 #include <stdlib.h>
 
 #include "base/error.h"

@@ -1,4 +1,6 @@
-/* What glows, by weights or by the bright pass, goes to one of the ways to spread it. */
+/* This file runs the bloom in GL: it runs the bright pass if the scene has one, then the Gaussian
+ * or the pyramid over the source. It also holds the GL functions that the Gaussian and the pyramid
+ * share. */
 #include "post/bloom_gl.h"
 
 #include <stdlib.h>
@@ -12,15 +14,15 @@ struct kiln_bloom_gl {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_image *source;
-    struct kiln_bloom_gaussian *gaussian; /* one of these two */
+    struct kiln_bloom_gaussian *gaussian; /* exactly one of the two is not NULL */
     struct kiln_bloom_pyramid *pyramid;
-    GLuint bright; /* 0: the source comes with its weights */
+    GLuint bright; /* program; 0: particles draw the source with their weights */
     GLint exposure, threshold, separate_fire, scene_alone;
     struct kiln_framebuffer source_framebuffer; /* of the bright pass */
     GLuint vertex_array;
 };
 
-/* ---- What the ways to spread share -------------------------------------------------------- */
+/* ---- shared by the Gaussian and the pyramid -------------------------------------------------- */
 
 bool kiln_bloom_target_init(struct kiln_bloom_target *target, struct kiln_device *device,
                             uint32_t width, uint32_t height, GLenum format,
@@ -66,7 +68,8 @@ GLuint kiln_bloom_program(struct kiln_device *device, const char *fragment,
         error);
 }
 
-/* ---- The stage ---------------------------------------------------------------------------- */
+/* ---- the stage
+ * -------------------------------------------------------------------------------- */
 
 static bool init_bright(struct kiln_bloom_gl *stage, struct kiln_error *error)
 {

@@ -1,4 +1,5 @@
-/* Technique `gl` of stage `bloom`: fragment shaders. Its functions are those of post/bloom.h. */
+/* Technique `gl` runs stage `bloom` in fragment shaders. Its functions are those of
+ * post/bloom.h. */
 #ifndef KILN_POST_BLOOM_GL_H
 #define KILN_POST_BLOOM_GL_H
 

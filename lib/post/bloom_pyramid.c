@@ -1,7 +1,7 @@
-/* A pyramid of halved pictures, put together again from its top: each level is mixed with the
- * doubled one below it, so that the glow has a bright core and a wide, faint skirt. Its depth
- * follows the picture, and so does the glow: it covers the same part of a picture of any size.
- */
+/* This file blurs the glow in GL by a pyramid: it halves the picture level by level, then joins the
+ * levels from the smallest up. Each level is mixed with the doubled one below it, so that the glow
+ * has a bright core and a wide, faint skirt. The depth of the pyramid follows the size of the
+ * picture, so the glow covers the same part of a picture of any size. */
 #include <stdlib.h>
 
 #include "base/error.h"

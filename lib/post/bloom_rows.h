@@ -1,4 +1,4 @@
-/* The loops of bloom=cpu over rows. */
+/* This header declares the loops of bloom=cpu over rows. */
 #ifndef KILN_POST_BLOOM_ROWS_H
 #define KILN_POST_BLOOM_ROWS_H
 
@@ -14,16 +14,16 @@ struct kiln_bloom_view {
     uint32_t width, height;
 };
 
-/* One loop over the rows of a picture that is written. */
+/* Describes one loop over the rows of the picture that it writes. */
 struct kiln_bloom_pass {
-    struct kiln_bloom_view from, level; /* level: of the way up */
+    struct kiln_bloom_view from, level; /* level: the halved picture that `join` mixes in */
     float *to;
     uint32_t to_width, factor;
     float radius;
     float weights[KILN_BLOOM_TAPS];
     struct kiln_compose_light light; /* of the bright pass */
     float exposure, threshold;
-    kiln_quad *rows; /* one a thread: the longest that is read, with edges */
+    kiln_quad *rows; /* one a thread: the longest row that is read, with edges */
     size_t row_length;
 };
 

@@ -1,9 +1,9 @@
-/* What the shaders of post/bloom_*.frag do, row by row. Where a filter has two directions, a row is
- * first put together from several, then filtered along itself.
- */
+/* This file computes rows of the bloom's passes on the host, as the shaders post/bloom_*.frag do in
+ * GL. Where a filter has two directions, it first filters several rows into one, then that row
+ * along itself. */
 #include "post/bloom_rows.h"
 
-static const float HALF_MAX = 65504.0f; /* what an overflow of 16 bits counts as */
+static const float HALF_MAX = 65504.0f; /* the greatest 16-bit float; overflows become it */
 
 static inline kiln_quad limited(kiln_quad light)
 {
@@ -13,7 +13,7 @@ static inline kiln_quad limited(kiln_quad light)
     return (kiln_quad)(((mask)light & below) | ((mask)most & ~below));
 }
 
-/* A row of a picture, the nearest one beyond its edges. */
+/* Returns row y of a picture, or the nearest one if y is outside. */
 static inline const float *row_at(const struct kiln_bloom_view *view, int64_t y)
 {
     int64_t last = (int64_t)view->height - 1;
@@ -21,7 +21,7 @@ static inline const float *row_at(const struct kiln_bloom_view *view, int64_t y)
     return view->pixels + (size_t)y * view->width * 4;
 }
 
-/* Room for a row of the thread; its pixel 0. */
+/* Returns pixel 0 of the thread's own row. */
 static inline kiln_quad *own_row(const struct kiln_bloom_pass *p, uint32_t worker)
 {
     return p->rows + worker * p->row_length + KILN_BLOOM_EDGE;

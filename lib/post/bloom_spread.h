@@ -1,10 +1,11 @@
-/* The two ways in which a glow is spread. */
+/* This header declares the two blurs of the glow in GL, the Gaussian and the pyramid, and the
+ * functions that they share. */
 #ifndef KILN_POST_BLOOM_SPREAD_H
 #define KILN_POST_BLOOM_SPREAD_H
 
 #include "gpu/framebuffer.h"
 
-/* A target of its own framebuffer. Zero-initialised has none. */
+/* Holds an image with its framebuffer. Zero-initialised has none. */
 struct kiln_bloom_target {
     struct kiln_image image;
     struct kiln_framebuffer framebuffer;
@@ -14,22 +15,23 @@ bool kiln_bloom_target_init(struct kiln_bloom_target *target, struct kiln_device
                             struct kiln_error *error);
 void kiln_bloom_target_finish(struct kiln_bloom_target *target);
 
-/* Draws into the target with the program in use and its textures 0 and 1; second may be NULL. */
+/* Draws into the target with the program in use; first and second become its textures 0 and 1.
+ * second may be NULL. */
 bool kiln_bloom_pass(struct kiln_framebuffer *target, struct kiln_image *first,
                      struct kiln_image *second, GLuint vertex_array, struct kiln_error *error);
 
-/* A full-screen program of a fragment shader. 0 with an error. */
+/* Makes a full-screen program of a fragment shader. Returns 0 with an error. */
 GLuint kiln_bloom_program(struct kiln_device *device, const char *fragment,
                           struct kiln_error *error);
 
-/* For sources of width x height. Blurring moves light and makes none. */
+/* Makes a Gaussian for sources of width x height. Blurring does not change the sum of the light. */
 struct kiln_bloom_gaussian;
 struct kiln_bloom_gaussian *kiln_bloom_gaussian_create(struct kiln_device *device, uint32_t width,
                                                        uint32_t height, GLenum format,
                                                        struct kiln_error *error);
 void kiln_bloom_gaussian_destroy(struct kiln_bloom_gaussian **gaussian);
 
-/* A sixth of the size. */
+/* Blurs the source; the result has a sixth of its size. */
 struct kiln_image *kiln_bloom_gaussian_run(struct kiln_bloom_gaussian *gaussian,
                                            struct kiln_image *source, GLuint vertex_array,
                                            struct kiln_error *error);
@@ -40,7 +42,8 @@ struct kiln_bloom_pyramid *kiln_bloom_pyramid_create(struct kiln_device *device,
                                                      struct kiln_error *error);
 void kiln_bloom_pyramid_destroy(struct kiln_bloom_pyramid **pyramid);
 
-/* Half the size. radius: 0 (a pixel or two) to 1 (all over the picture). */
+/* Blurs the source; the result has half its size. radius: 0 (a pixel or two) to 1 (all over the
+ * picture). */
 struct kiln_image *kiln_bloom_pyramid_run(struct kiln_bloom_pyramid *pyramid,
                                           struct kiln_image *source, float radius,
                                           GLuint vertex_array, struct kiln_error *error);

@@ -1,5 +1,5 @@
-/* Scene, particles and fire as one picture of light, on the host: what shaders/post/compose.glsl is
- * in GL. */
+/* This header composes scene, particles and fire into one picture of light on the host, as
+ * shaders/post/compose.glsl does in GL. */
 #ifndef KILN_POST_COMPOSE_H
 #define KILN_POST_COMPOSE_H
 
@@ -24,7 +24,7 @@ struct kiln_compose_light {
     const float *scene, *particles, *fire;
 };
 
-/* False with an error. */
+/* Takes the inputs' pixels on the host. Returns false with an error. */
 static inline bool kiln_compose_open(struct kiln_compose_light *light, struct kiln_image *scene,
                                      struct kiln_image *particles, struct kiln_image *fire,
                                      struct kiln_error *error)
@@ -37,7 +37,7 @@ static inline bool kiln_compose_open(struct kiln_compose_light *light, struct ki
     return light->scene && (!particles || light->particles) && (!particles || !fire || light->fire);
 }
 
-/* The pixel that begins at a float of the images. */
+/* Composes the pixel whose first float is at index `at` of the images. */
 static inline kiln_quad kiln_compose(const struct kiln_compose_light *light, size_t at)
 {
     kiln_quad color = kiln_quad_load(light->scene + at);

@@ -1,4 +1,4 @@
-/* The stage: hands over to its technique. */
+/* This file runs the composite stage by the technique that was chosen for it, `gl` or `cpu`. */
 #include "post/composite.h"
 
 #include <stdlib.h>

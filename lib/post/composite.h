@@ -1,4 +1,4 @@
-/* Stage 5b: scene, particles and bloom become the picture (Heinz 2019, 3.2.1, last step). */
+/* Stage 5b composes scene, particles and bloom into the picture (Heinz 2019, 3.2.1, last step). */
 #ifndef KILN_POST_COMPOSITE_H
 #define KILN_POST_COMPOSITE_H
 
@@ -6,7 +6,7 @@
 #include "gpu/image.h"
 #include "scene/scene.h"
 
-/* Both make the same picture, to a level of rounding. */
+/* Both techniques make the same picture, to a level of rounding. */
 enum kiln_composite_technique { KILN_COMPOSITE_GL, KILN_COMPOSITE_CPU };
 
 struct kiln_composite_stage;

@@ -1,4 +1,5 @@
-/* One loop over the rows of the picture (composite_rows.h). */
+/* This file composes the picture on the host: it runs the loop over rows (composite_rows.h) on
+ * threads and copies the result. */
 #include "post/composite_cpu.h"
 
 #include <stdlib.h>

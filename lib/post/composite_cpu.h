@@ -1,5 +1,5 @@
-/* Technique `cpu` of stage `composite`: threads over rows, in arithmetic that is the same on every
- * machine. Its functions are those of post/composite.h. */
+/* Technique `cpu` runs stage `composite` in threads over rows, in arithmetic that is the same on
+ * every machine. Its functions are those of post/composite.h. */
 #ifndef KILN_POST_COMPOSITE_CPU_H
 #define KILN_POST_COMPOSITE_CPU_H
 

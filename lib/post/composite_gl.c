@@ -1,4 +1,5 @@
-/* One full-screen pass writes both the display picture and the linear one. */
+/* This file composes the picture in GL: one full-screen pass writes both the display picture and
+ * the linear one. */
 #include "post/composite_gl.h"
 
 #include <stdlib.h>

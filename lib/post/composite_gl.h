@@ -1,4 +1,5 @@
-/* Technique `gl` of stage `composite`; its functions are those of post/composite.h. */
+/* Technique `gl` runs stage `composite` in a fragment shader. Its functions are those of
+ * post/composite.h. */
 #ifndef KILN_POST_COMPOSITE_GL_H
 #define KILN_POST_COMPOSITE_GL_H
 

@@ -1,11 +1,11 @@
-/* The loop of composite=cpu over rows. */
+/* This header declares the loop of composite=cpu over rows. */
 #ifndef KILN_POST_COMPOSITE_ROWS_H
 #define KILN_POST_COMPOSITE_ROWS_H
 
 #include "base/simd.h"
 #include "post/magnify.h"
 
-/* What is composed of what, and as what it is written. */
+/* Describes the pictures that are composed and the format of the result. */
 struct kiln_composite_rows {
     uint32_t width; /* of all pictures but the glow */
     struct kiln_compose_light light;

@@ -1,6 +1,6 @@
-/* What shaders/post/composite.frag says of a pixel, for blocks of a row at a time: composed pixel
- * by pixel, then channel by channel, which compilers make into vectors.
- */
+/* This file composes rows of the picture on the host, as shaders/post/composite.frag does in GL. It
+ * works on blocks of a row: it composes them pixel by pixel, then encodes them channel by channel,
+ * in loops that compilers vectorise. */
 #include "post/composite_rows.h"
 #include "post/tonemap.h"
 
@@ -24,8 +24,8 @@ static inline uint32_t hash(uint32_t x)
     return x;
 }
 
-/* Triangular noise of one level, different for each pixel, channel and frame, the same in each
- * run; half of it. */
+/* Makes triangular noise of one level, less its mean, different for each pixel, channel and frame,
+ * the same in each run; half of it is stored. */
 static inline void make_noise(struct block *block, uint32_t first, uint32_t row_hash)
 {
     for (uint32_t i = 0; i < BLOCK; i++) {
@@ -38,7 +38,7 @@ static inline void make_noise(struct block *block, uint32_t first, uint32_t row_
     }
 }
 
-/* Light of the display's range; a NaN is black. */
+/* Returns exposed light, limited to the range of 16-bit floats; a NaN becomes black. */
 static inline float exposed(float light, float exposure)
 {
     return exact_min(exact_max(light * exposure, 0.0f), HALF_MAX);
@@ -85,8 +85,9 @@ static inline void encode_channel(float *channel, bool is_root)
         channel[i] = kiln_encode_srgb(exact_min(channel[i], 1.0f));
 }
 
-/* A file's alpha is not premultiplied. Light without cover (fire on nothing) has no such form: its
- * brightness becomes its cover, so that it still shows over black. */
+/* Divides colour by alpha, since a file's alpha is not premultiplied. Light without cover (fire on
+ * nothing) has no such form: its brightness becomes its cover, so that it still shows over
+ * black. */
 static inline void straighten(struct block *block)
 {
     for (int i = 0; i < BLOCK; i++) {
@@ -152,7 +153,7 @@ static inline void store_shorts(const struct block *block, uint32_t count, uint1
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
-/* The light of a block, which begins at a pixel of the picture and of a row. */
+/* Composes a block of pixels. at: its first pixel in the picture; x: in the row. */
 static inline void compose_block(const struct kiln_composite_rows *p, struct block *block,
                                  size_t at, uint32_t x, uint32_t count, const kiln_quad *glow)
 {

@@ -1,4 +1,5 @@
-/* The rows of composite=cpu, of a picture that is composed already. */
+/* This file makes a display picture of a picture of light that is composed already. It uses the
+ * rows of composite=cpu. */
 #include "post/display.h"
 
 #include "post/composite_rows.h"

@@ -1,5 +1,5 @@
-/* From a picture of light, as an EXR file has it, to the pixels of a display: what the composite
- * does with what it has composed. */
+/* This header declares how a picture of light, as an EXR file has it, becomes the pixels of a
+ * display, as the composite stage makes them. */
 #ifndef KILN_POST_DISPLAY_H
 #define KILN_POST_DISPLAY_H
 
@@ -13,8 +13,8 @@ struct kiln_display_params {
     uint32_t frame; /* noise that hides the steps differs from frame to frame */
 };
 
-/* light is RGBA, linear, multiplied by alpha; display gets RGBA in sRGB with straight alpha. Both
- * have rows from the top. The same pixels on every machine, for any number of threads. */
+/* light is RGBA, linear, premultiplied; display gets RGBA in sRGB with straight alpha. Both have
+ * rows from the top. The pixels are the same on every machine, for any number of threads. */
 bool kiln_display_make(struct kiln_threads *threads, const struct kiln_display_params *params,
                        const float *light, void *display, struct kiln_error *error);
 

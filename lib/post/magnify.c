@@ -1,5 +1,6 @@
-/* First down the columns of the small picture, once for each row of the frame, then along the row.
- */
+/* This file enlarges the glow to the size of the frame by a cubic B-spline. It filters the columns
+ * of the small picture once for each row of the frame; kiln_magnified then filters along that
+ * row. */
 #include "post/magnify.h"
 
 #include <math.h>
@@ -7,9 +8,9 @@
 
 #include "base/error.h"
 
-enum { EDGE = 2 }; /* texels that are asked for beyond the picture, on each side */
+enum { EDGE = 2 }; /* texels that the filter reads beyond the picture, on each side */
 
-/* The cubic B-spline around a pixel's centre. */
+/* Returns the weights of the cubic B-spline around a pixel's centre. */
 static struct kiln_magnify_taps taps_at(uint32_t pixel, float scale)
 {
     float texel = ((float)pixel + 0.5f) * scale - 0.5f;

@@ -1,4 +1,5 @@
-/* The small picture of the glow, made as large as the frame by the cubic B-spline, on the host. */
+/* A kiln_magnifier enlarges the small picture of the glow to the size of the frame by the cubic
+ * B-spline, on the host. */
 #ifndef KILN_POST_MAGNIFY_H
 #define KILN_POST_MAGNIFY_H
 
@@ -18,18 +19,18 @@ struct kiln_magnifier {
     size_t row_length;
 };
 
-/* Makes ready for a glow of a size, which costs nothing when it is the last one's. */
+/* Prepares for a glow of a size; does nothing if the last glow had the same size. */
 bool kiln_magnifier_prepare(struct kiln_magnifier *magnifier, uint32_t width,
                             const struct kiln_image *glow, float scale, uint32_t threads,
                             struct kiln_error *error);
 void kiln_magnifier_finish(struct kiln_magnifier *magnifier);
 
-/* The glow's row, times a strength, for the frame's row y; its alpha is 0. It belongs to the thread
- * `worker` and holds until its next call. */
+/* Returns the glow's row, times a strength, for the frame's row y; its alpha is 0. The row belongs
+ * to the thread `worker` and holds until its next call. */
 const kiln_quad *kiln_magnifier_row(const struct kiln_magnifier *magnifier, const float *glow,
                                     uint32_t y, float strength, uint32_t worker);
 
-/* The glow at pixel x of that row. */
+/* Returns the glow at pixel x of a row that kiln_magnifier_row returned. */
 static inline kiln_quad kiln_magnified(const struct kiln_magnifier *magnifier, const kiln_quad *row,
                                        size_t x)
 {

@@ -1,4 +1,5 @@
-/* The stage: its sums, and how they are taken on the host; in GL that is shutter_gl.c. */
+/* This file sums up the moments of a frame while the shutter is open. It owns the images of the
+ * sums and adds to them on the host; in GL, shutter_gl.c adds to them. */
 #include "post/shutter.h"
 
 #include <stdlib.h>
@@ -47,7 +48,7 @@ void kiln_shutter_destroy(struct kiln_shutter_stage **stage)
     *stage = NULL;
 }
 
-/* One moment on its way into a sum. */
+/* Describes a moment that is being added to a sum. */
 struct adding {
     struct kiln_compose_light light;
     float *sum;
@@ -66,7 +67,7 @@ static void add_rows(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* particles and fire may be NULL. */
+/* Adds a composed moment to a sum. The inputs' particles and fire may be NULL. */
 static bool add_moment(struct kiln_shutter_stage *stage, enum kiln_shutter_sum which,
                        const struct kiln_composite_inputs *inputs, float weight, bool first,
                        struct kiln_error *error)

@@ -1,11 +1,11 @@
-/* Stage 5, first where a scene has a shutter: what the camera sees while it is open, summed up from
- * the pictures of some moments, in linear light. */
+/* The shutter stage sums up pictures of several moments while the camera's shutter is open, in
+ * linear light. Where a scene has a shutter, it runs before bloom and composite. */
 #ifndef KILN_POST_SHUTTER_H
 #define KILN_POST_SHUTTER_H
 
 #include "post/composite.h"
 
-/* What is summed up: the composed picture, and the images that later stages or layers ask for. */
+/* Names the sums: the composed picture, and the images that later stages or layers ask for. */
 enum kiln_shutter_sum {
     KILN_SHUTTER_COMPOSED,
     KILN_SHUTTER_BLOOM,
@@ -16,7 +16,7 @@ enum kiln_shutter_sum {
 
 struct kiln_shutter_stage;
 
-/* Where the sums are taken follows the composite. */
+/* The sums are taken where the composite runs, in GL or on the host. */
 struct kiln_shutter_params {
     enum kiln_composite_technique technique;
     struct kiln_threads *threads; /* of `cpu`; they must outlive the stage */

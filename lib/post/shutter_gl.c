@@ -1,4 +1,5 @@
-/* Additive blending into float targets. */
+/* This file adds moments to the sums of the shutter in GL, by additive blending into float
+ * targets. */
 #include "post/shutter_gl.h"
 
 #include <stdlib.h>
@@ -77,7 +78,7 @@ static bool bind_images(struct kiln_image *const *images, GLuint count, struct k
     return true;
 }
 
-/* With the program in use and its images bound. */
+/* Draws into a sum with the program in use; its images are bound. */
 static bool add_pass(struct kiln_shutter_gl *gl, enum kiln_shutter_sum sum, bool first,
                      struct kiln_error *error)
 {

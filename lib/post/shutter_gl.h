@@ -1,4 +1,4 @@
-/* Sums of the shutter in GL; the functions are those of post/shutter.h. */
+/* This header declares the sums of the shutter in GL; the functions are those of post/shutter.h. */
 #ifndef KILN_POST_SHUTTER_GL_H
 #define KILN_POST_SHUTTER_GL_H
 

@@ -1,12 +1,12 @@
-/* Scene-linear Rec. 709 to display-linear Rec. 709 and to sRGB, on the host: what
- * shaders/post/tonemap.glsl is in GL, where it is said what the numbers are. Without branches, for
- * loops that become vectors. */
+/* This header maps scene-linear Rec. 709 to display-linear Rec. 709 and to sRGB on the host, as
+ * shaders/post/tonemap.glsl does in GL; that file explains the numbers. It has no branches, so that
+ * compilers vectorise loops over pixels. */
 #ifndef KILN_POST_TONEMAP_H
 #define KILN_POST_TONEMAP_H
 
 #include "shared/exact.h"
 
-/* The row (x, y, z) of a matrix times a colour. */
+/* Returns the product of a matrix's row (x, y, z) and a colour. */
 static inline float kiln_tonemap_row(float x, float y, float z, float3 color)
 {
     return x * color.x + y * color.y + z * color.z;
@@ -22,8 +22,8 @@ static inline float kiln_tonemap_agx_channel(float x)
            0.1191f * v - 0.00232f;
 }
 
-/* The display's light to the power of 1 / 2.2, for kiln_encode_root: who takes the power only to
- * encode it then pays for two logarithms and exponentials instead of one. */
+/* Returns the display's light to the power of 1 / 2.2, for kiln_encode_root. Taking the power only
+ * to encode it again would cost two logarithms and exponentials instead of one. */
 static inline float3 kiln_tonemap_agx_root(float3 color)
 {
     float3 v;
@@ -60,7 +60,7 @@ static inline float3 kiln_tonemap_aces(float3 color)
     return out;
 }
 
-/* IEC 61966-2-1. */
+/* Encodes linear light as sRGB (IEC 61966-2-1). */
 static inline float kiln_encode_srgb(float linear)
 {
     float low = linear * 12.92f;
@@ -68,7 +68,7 @@ static inline float kiln_encode_srgb(float linear)
     return linear <= 0.0031308f ? low : high;
 }
 
-/* The same of root^2.2; both parts are powers of the root. */
+/* Encodes root^2.2 as sRGB; both parts of the curve are powers of the root. */
 static inline float kiln_encode_root(float root)
 {
     bool is_low = root <= 0.0727213f; /* 0.0031308^(1 / 2.2) */

@@ -1,5 +1,5 @@
-/* Counts the living of each block of slots, sums the counts, and lists each block behind those
- * before it. */
+/* This file lists the living particles on the device. It counts the living of each block of slots,
+ * sums the counts, and writes each block's list behind the lists of the blocks before it. */
 #include "sort/alive.h"
 
 #include "base/error.h"
@@ -41,7 +41,7 @@ static uint32_t blocks_of(uint32_t slots)
     return slots / SORT_BLOCK + (slots % SORT_BLOCK != 0);
 }
 
-/* Of the chosen systems. */
+/* Returns how many blocks the chosen systems have. */
 static uint32_t count_blocks(const struct kiln_pool *pool, uint32_t systems)
 {
     uint32_t blocks = 0;
@@ -73,7 +73,7 @@ static void run_systems(struct kiln_alive *alive, const struct kiln_pool *pool, 
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-/* Binds a buffer that will be written; NULL is none. */
+/* Binds a buffer that will be written; does nothing for NULL. */
 static bool bind_output(GLuint binding, struct kiln_buffer *buffer, struct kiln_error *error)
 {
     if (!buffer)

@@ -1,7 +1,7 @@
-/* Bitonic merge sort (Heinz 2019, 2.4.1 and 3.4; UberFlow, 4.3.2): bunches of twice the size in
- * each stage, the list padded to a power of two, but at least to a block. Passes whose comparisons
- * stay within a block run as one kernel in shared memory; those that reach farther go through the
- * buffer, three at a time. */
+/* This file sorts pairs in compute by bitonic merges (Heinz 2019, 2.4.1 and 3.4; UberFlow, 4.3.2).
+ * Each stage merges bunches of twice the size; the list is padded to a power of two, but at least
+ * to a block. Passes whose comparisons stay within a block run as one kernel in shared memory;
+ * those that reach farther go through the buffer, three at a time. */
 #include "sort/bitonic.h"
 
 #include <stdlib.h>
@@ -19,7 +19,7 @@ struct kiln_bitonic {
     GLuint far_programs[MAX_LEVELS]; /* for 1, 2 and 3 passes at once */
 };
 
-/* The passes over distances from half a bunch down to a block, which are the first of its merge. */
+/* Runs the first passes of a merge, over distances from half a bunch down to a block. */
 static void run_far(struct kiln_bitonic *bitonic, uint32_t padded, uint32_t size)
 {
     uint32_t distance = size / 2;

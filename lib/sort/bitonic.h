@@ -1,4 +1,4 @@
-/* Technique `bitonic`: lists and sorts in compute, by bitonic merges. */
+/* Technique `bitonic` lists the living and sorts them in compute, by bitonic merges. */
 #ifndef KILN_SORT_BITONIC_H
 #define KILN_SORT_BITONIC_H
 
@@ -10,7 +10,8 @@ struct kiln_bitonic;
 struct kiln_bitonic *kiln_bitonic_create(struct kiln_device *device, struct kiln_error *error);
 void kiln_bitonic_destroy(struct kiln_bitonic **bitonic);
 
-/* What lists, and sorts by the technique; it lives as long. */
+/* Returns the network that lists the living and sorts them by bitonic merges; it lives as long as
+ * the kiln_bitonic. */
 struct kiln_network *kiln_bitonic_network(struct kiln_bitonic *bitonic);
 
 #endif

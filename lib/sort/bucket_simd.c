@@ -1,5 +1,5 @@
-/* Least significant digit first. The digits of all passes are counted at once, since no other
- * thread moves pairs in between. */
+/* This file sorts few pairs on one thread by a radix sort, least significant digit first. It counts
+ * the digits of all passes at once, since no other thread moves pairs in between. */
 #include <string.h>
 
 #include "sort/bucket.h"
@@ -30,7 +30,7 @@ static uint32_t find_span(const kiln_sort_pair *pairs, size_t count, uint32_t *l
     return high - low;
 }
 
-/* How many passes are needed. */
+/* Chooses the width of a digit and returns how many passes are needed. */
 static unsigned cut(struct digits *digits, uint32_t span)
 {
     unsigned bits = 0;

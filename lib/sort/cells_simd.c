@@ -1,5 +1,6 @@
-/* Keys and cells of a few particles at a time, in loops without branches, which become vectors;
- * what is left to do for each of them is to store it. */
+/* This file computes keys and cells of particles for the sort by depth and distributes pairs to
+ * cells. It computes a few particles at a time in loops without branches, which compilers
+ * vectorise; only the stores are made one by one. */
 #include <string.h>
 
 #include "particles/pool.h"
@@ -7,8 +8,8 @@
 
 enum {
     LANES = 128,
-    AHEAD = 128,    /* records that are fetched before their turn: */
-    RECORD_LINE = 2 /* in a line of a cache */
+    AHEAD = 128,    /* records that are prefetched */
+    RECORD_LINE = 2 /* records in a cache line */
 };
 
 /* The inverse of key_of_depth. */
@@ -18,7 +19,8 @@ static inline float depth_of_key(uint32_t key)
     return BITS_FLOAT((key ^ ~behind) & (behind | EXACT_SIZE_BITS));
 }
 
-/* Rises with the key, if not in each step: subtracting, multiplying and rounding keep an order. */
+/* Returns the cell of a key. The result does not decrease when the key grows, since subtracting,
+ * multiplying and rounding keep the order. */
 static inline uint32_t cell_of(const struct kiln_sort_cells *cells, uint32_t key)
 {
     float x = (cells->start_m - depth_of_key(key)) * cells->per_m;
@@ -32,7 +34,7 @@ struct lanes {
     uint32_t keys[LANES], cells[LANES], living[LANES];
 };
 
-/* The dead have the cell behind the last. */
+/* Computes keys and cells. A dead particle gets the cell behind the last one. */
 static inline void find_keys(const struct kiln_particle *records, float3 eye, float3 forward,
                              const struct kiln_sort_cells *cells, struct lanes *lanes)
 {

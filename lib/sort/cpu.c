@@ -1,4 +1,5 @@
-/* Lists the living in the order of serials, or hands over to who sorts them by depth. */
+/* This file sorts on the host: it lists the living in the order of serials, or runs the sort by
+ * depth (depth.c). */
 #include "sort/cpu.h"
 
 #include <stdlib.h>
@@ -8,7 +9,7 @@
 
 enum {
     FEWEST_SLOTS_AT_A_TIME = 8192,
-    BLOCKS_A_THREAD = 4, /* so that one which begins late does less */
+    BLOCKS_A_THREAD = 4, /* so that a thread that begins late does less */
 };
 
 struct kiln_sort_cpu {
@@ -89,8 +90,8 @@ static size_t cut(struct kiln_sort_block *blocks, size_t count, uint32_t system,
     return count;
 }
 
-/* The used slots of the chosen systems in the order of serials: from the oldest that may still have
- * its slot to the end, then from the start. NULL with an error. */
+/* Cuts the used slots of the chosen systems into blocks, in the order of serials: from the oldest
+ * that may still have its slot to the end, then from the start. Returns NULL with an error. */
 static struct kiln_sort_block *make_blocks(struct kiln_sort_cpu *sort, const struct kiln_pool *pool,
                                            uint32_t systems, size_t *count,
                                            struct kiln_error *error)
@@ -118,7 +119,7 @@ static struct kiln_sort_block *make_blocks(struct kiln_sort_cpu *sort, const str
     return blocks;
 }
 
-/* Turns numbers into places and returns how many there are in all. */
+/* Turns the blocks' numbers into places and returns the sum of the numbers. */
 static uint32_t sum_blocks(struct kiln_sort_block *blocks, size_t count)
 {
     uint32_t place = 0;

@@ -1,4 +1,4 @@
-/* Technique `cpu`: lists and sorts in host threads. */
+/* Technique `cpu` lists and sorts the living in host threads. */
 #ifndef KILN_SORT_CPU_H
 #define KILN_SORT_CPU_H
 

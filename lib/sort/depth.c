@@ -1,9 +1,11 @@
-/* Three loops: the living of each block as pairs with keys; these thrown into cells of depth; each
- * cell sorted by one thread, in its caches. Blocks come in the order of serials, so what is thrown
- * into a cell keeps that order. Where most particles are in few cells, there are none, and all are
- * sorted at once (pairs.c).
+/* This file sorts the living particles by depth in threads, with three loops. The first lists the
+ * living of each block as pairs with keys; the second distributes these to cells of depth; in the
+ * third, one thread sorts each cell, in its caches. Blocks come in the order of serials, so each
+ * cell keeps that order. Where most particles are in few cells, cells are not used and all pairs
+ * are sorted at once (pairs.c).
  *
- * What is sorted needs its pairs twice, 16 bytes a particle: the list takes the place of one. */
+ * Sorting needs the pairs twice, 16 bytes a particle: the list takes the place of one of the
+ * two. */
 #include "sort/depth.h"
 
 #include <stdlib.h>
@@ -14,15 +16,15 @@
 #include "sort/cells.h"
 
 enum {
-    FEWEST_SLOTS = 16384, /* for cells to be worth it */
-    SLOTS_A_CELL = 1024,  /* 8 KiB of pairs, as many of scratch: a first cache has room */
-    MOST_IN_CELL = 32768, /* two times these 256 KiB are in a second cache */
+    FEWEST_SLOTS = 16384, /* from which cells are worth their cost */
+    SLOTS_A_CELL = 1024,  /* 8 KiB of pairs and of scratch fit a first cache */
+    MOST_IN_CELL = 32768, /* 256 KiB of pairs and of scratch fit a second cache */
     CELLS_AT_A_TIME = 4,
     SAMPLES = 512,
     OUTLIERS = 2, /* of the samples, on either side */
 };
 
-/* What became of a block. */
+/* Describes the pairs that were listed for a block. */
 struct listed {
     size_t place, count; /* of its pairs in scratch */
     struct kiln_sort_span span;
@@ -35,7 +37,7 @@ struct kiln_sort_depth {
     kiln_sort_bucket *sort_cell;
     struct kiln_buffer pairs;     /* sorted by cells */
     struct kiln_buffer listed;    /* of each block */
-    struct kiln_buffer counts;    /* theirs */
+    struct kiln_buffer counts;    /* the counts of `listed` */
     kiln_sort_pair *cell_scratch; /* MOST_IN_CELL of each thread */
     uint32_t *digit_counts;       /* of pairs.c */
 };
@@ -113,7 +115,7 @@ static void take_sample(struct extremes *of, float depth_m)
     }
 }
 
-/* Of some of the slots, all along the blocks. */
+/* Finds the extreme depths of evenly spaced samples of the slots. */
 static struct extremes sample(const struct work *work, size_t slots)
 {
     struct extremes found;
@@ -153,7 +155,8 @@ static struct kiln_sort_cells choose_cells(const struct work *work, size_t slots
     return cells;
 }
 
-/* Counts become places, ordered by cells and then blocks. Whether no cell has too many. */
+/* Turns counts into places, ordered by cells and then blocks. Returns false if a cell has too
+ * many. */
 static bool sum_cells(struct work *work)
 {
     uint32_t place = 0;
@@ -220,7 +223,7 @@ static void sort_cells(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* What a block listed follows what the one before it did. */
+/* Closes the gaps between the pairs of the blocks. */
 static void close_up(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
@@ -250,7 +253,7 @@ static void sort_at_once(struct work *work)
 
 /* ---- run ------------------------------------------------------------------------------------- */
 
-/* Each block has room for all its slots. How many these are. */
+/* Gives each block room for all its slots and returns how many these are. */
 static size_t give_room(const struct work *work)
 {
     size_t slots = 0;
@@ -275,7 +278,7 @@ static bool reserve(struct kiln_sort_depth *depth, const struct kiln_pool *pool,
     return work->scratch;
 }
 
-/* Room for the counts of each block. */
+/* Reserves memory for the counts of each block. */
 static bool reserve_counts(struct kiln_sort_depth *depth, struct work *work,
                            struct kiln_error *error)
 {

@@ -1,14 +1,15 @@
-/* Lists the living by depth, in threads: the larger part of technique `cpu`. */
+/* A kiln_sort_depth lists the living particles by depth, in threads: the larger part of technique
+ * `cpu`. */
 #ifndef KILN_SORT_DEPTH_H
 #define KILN_SORT_DEPTH_H
 
 #include "sort/sort.h"
 
-/* Slots of one system that follow one another by serial. */
+/* Describes slots of one system whose serials are consecutive. */
 struct kiln_sort_block {
     uint32_t system;
     uint32_t first, end; /* slots of the pool */
-    uint32_t place;      /* for who lists */
+    uint32_t place;      /* for the function that lists them */
 };
 
 struct kiln_sort_depth;
@@ -18,9 +19,9 @@ struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
                                                struct kiln_error *error);
 void kiln_sort_depth_destroy(struct kiln_sort_depth **depth);
 
-/* Fills entries, which it makes large enough for a pair a slot, with the draw
- * entries of those that live in the blocks, whose slots are the systems' in the order of serials,
- * by params->order (not KILN_SORT_BY_SERIAL), and counts them. */
+/* Fills entries with the draw entries of the living particles of the blocks, ordered by
+ * params->order (not KILN_SORT_BY_SERIAL), and counts them. It makes entries large enough for a
+ * pair a slot. The slots of the blocks are those of the systems in the order of serials. */
 bool kiln_sort_depth_run(struct kiln_sort_depth *depth, struct kiln_pool *pool,
                          const struct kiln_sort_params *params,
                          const struct kiln_sort_block *blocks, size_t block_count,

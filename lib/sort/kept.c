@@ -1,6 +1,7 @@
-/* Where a slot comes among those of equal keys follows from the serial that it holds, as in every
- * sort, so a kept order of particles and camera at rest ends as the very list of the other
- * techniques: after less than two whole sorts. */
+/* This file keeps an order of all slots from frame to frame and runs a part of a whole sort in each
+ * frame. The serial that a slot holds decides between equal keys, as in every technique. So where
+ * particles and camera are at rest, the kept order becomes the same list as that of the other
+ * techniques, after less than two whole sorts. */
 #include "sort/kept.h"
 
 #include <string.h>
@@ -67,7 +68,7 @@ static bool bind(struct kiln_kept *kept, struct kiln_pool *pool, struct kiln_err
     return records != 0;
 }
 
-/* A pass over all pairs that turns slots into what is sorted, or back. */
+/* Runs a pass over all pairs that turns slots into the words that are sorted, or back. */
 static void convert(struct kiln_kept *kept, GLuint program, const struct kiln_pool *pool)
 {
     glUseProgram(program);

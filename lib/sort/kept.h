@@ -1,7 +1,7 @@
-/* An order that is kept from frame to frame and sorted a little in each (Kolb, Latta and
- * Rezk-Salama 2004; UberFlow, 4.3 and 5; Heinz 2019, 2.4.1). It has every slot of the pool exactly
- * once, born into or not, so nothing can be lost or drawn twice; the living among them are listed.
- */
+/* A kiln_kept holds an order that is kept from frame to frame and sorted a little in each (Kolb,
+ * Latta and Rezk-Salama 2004; UberFlow, 4.3 and 5; Heinz 2019, 2.4.1). The order has every slot of
+ * the pool exactly once, whether or not a particle was born into it, so no particle can be lost or
+ * drawn twice; the living ones are listed from it. */
 #ifndef KILN_SORT_KEPT_H
 #define KILN_SORT_KEPT_H
 
@@ -24,8 +24,8 @@ bool kiln_kept_init(struct kiln_kept *kept, struct kiln_device *device,
                     struct kiln_oddeven *oddeven, uint32_t frames, struct kiln_error *error);
 void kiln_kept_finish(struct kiln_kept *kept);
 
-/* Sorts on: one frame's share of the passes, by the keys of this moment. Always for the same pool.
- */
+/* Runs one frame's share of the passes, by the keys of this moment. The pool is always the same
+ * one. */
 bool kiln_kept_sort(struct kiln_kept *kept, struct kiln_pool *pool, float3 eye, float3 forward,
                     struct kiln_error *error);
 
@@ -37,7 +37,7 @@ bool kiln_kept_save(struct kiln_kept *kept, const struct kiln_pool *pool, uint32
 bool kiln_kept_restore(struct kiln_kept *kept, const struct kiln_pool *pool, const uint32_t *slots,
                        uint32_t turn, struct kiln_error *error);
 
-/* Like kiln_sort_run, in the order as it is; not KILN_SORT_BY_SERIAL. */
+/* Does the same as kiln_sort_run, in the order as it is; not for KILN_SORT_BY_SERIAL. */
 bool kiln_kept_list(struct kiln_kept *kept, struct kiln_pool *pool,
                     const struct kiln_sort_params *params, struct kiln_buffer *entries,
                     uint32_t *count, struct kiln_error *error);

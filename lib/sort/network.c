@@ -1,4 +1,6 @@
-/* Pairs hold places instead of entries, so that no two are equal: a network is not stable. */
+/* This file does what all sorting networks share: it lists the living as pairs, pads the pairs to a
+ * power of two, runs the network and takes the sorted list. Pairs hold places instead of entries,
+ * so that no two are equal: a network is not stable. */
 #include "sort/network.h"
 
 #include <stdio.h>

@@ -1,5 +1,6 @@
-/* What sorting networks share: the living as pairs (key, place in their list), padded to a power of
- * two, and the list in the order of the sorted pairs. */
+/* A kiln_network is the part that all sorting networks share: it lists the living as pairs (key,
+ * place in their list), pads the pairs to a power of two, and writes the list in the order of the
+ * sorted pairs. */
 #ifndef KILN_SORT_NETWORK_H
 #define KILN_SORT_NETWORK_H
 
@@ -37,11 +38,11 @@ bool kiln_network_pairs(struct kiln_network *network, struct kiln_buffer *pairs,
                         struct kiln_buffer *list, uint32_t count, bool reverse,
                         struct kiln_buffer *entries, struct kiln_error *error);
 
-/* Invocations of a work group in kernels that are made from now on, which sort NETWORK_ITEMS times
- * as many pairs in shared memory. */
+/* Returns the invocations of a work group in kernels that are made from now on; such a group sorts
+ * NETWORK_ITEMS times as many pairs in shared memory. */
 uint32_t kiln_network_group_size(const struct kiln_device *device);
 
-/* A kernel of a network. */
+/* Describes a kernel of a network. */
 struct kiln_network_kernel {
     const char *file, *defines;
     GLuint *program;
@@ -51,7 +52,8 @@ struct kiln_network_kernel {
 bool kiln_network_programs(struct kiln_device *device, const struct kiln_network_kernel *kernels,
                            size_t count, struct kiln_error *error);
 
-/* One kernel over so many invocations' worth of work, with uniforms at the locations from 0. */
+/* Dispatches a kernel over `work` items, `group_work` of them a work group, with uniforms at the
+ * locations from 0. */
 void kiln_network_dispatch(struct kiln_device *device, GLuint program, const uint32_t *uniforms,
                            GLint uniform_count, uint32_t work, uint32_t group_work);
 

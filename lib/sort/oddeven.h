@@ -1,5 +1,5 @@
-/* Technique `oddeven`: lists and sorts in compute, by odd-even merges, all at once or with their
- * passes divided over frames. */
+/* Technique `oddeven` lists the living and sorts them in compute, by odd-even merges, all at once
+ * or with the passes divided over frames. */
 #ifndef KILN_SORT_ODDEVEN_H
 #define KILN_SORT_ODDEVEN_H
 
@@ -11,7 +11,8 @@ struct kiln_oddeven;
 struct kiln_oddeven *kiln_oddeven_create(struct kiln_device *device, struct kiln_error *error);
 void kiln_oddeven_destroy(struct kiln_oddeven **oddeven);
 
-/* What lists, and sorts all at once; it lives as long. */
+/* Returns the network that lists the living and sorts them all at once; it lives as long as the
+ * kiln_oddeven. */
 struct kiln_network *kiln_oddeven_network(struct kiln_oddeven *oddeven);
 
 /* How many passes sort so many pairs, a power of two. */

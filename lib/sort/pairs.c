@@ -1,8 +1,8 @@
-/* Least significant digit first, in one pass or in three: then the last reads the pairs' own memory
- * and can write the list where scratch was. Digits are as short as the span of the keys allows.
- * Each thread owns one stretch of the pairs: it counts the digits in it, and after a sum over
- * (digit, stretch) knows where each of its pairs goes, so the result is stable and the same for any
- * number of threads. */
+/* This file sorts pairs in threads by a radix sort, least significant digit first. It takes one
+ * pass or three: the last one then reads the pairs' own memory and can write the list where scratch
+ * was. Digits are as short as the span of the keys allows. Each thread owns one stretch of the
+ * pairs: it counts the digits in it, and after a sum over (digit, stretch) knows where each of its
+ * pairs goes, so the result is stable and the same for any number of threads. */
 #include "sort/pairs.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@ enum {
 
 struct pass {
     const kiln_sort_pair *from;
-    kiln_sort_pair *to; /* NULL: the last, which writes: */
+    kiln_sort_pair *to; /* NULL: the last pass, which writes `list` */
     uint32_t *list;
     bool reverse;
     size_t count;

@@ -1,7 +1,8 @@
-/* Least significant digit first. Each pass counts the digits of every tile of pairs, sums the
- * counts by (digit, tile), and moves each tile's pairs behind those that come before. No work group
- * waits for another, and no atomic decides an order. The number of passes is even: so the last one
- * reads the other buffer, and its list takes the place of the pairs. */
+/* This file sorts pairs in compute by a radix sort, least significant digit first. Each pass counts
+ * the digits of every tile of pairs, sums the counts by (digit, tile), and moves each tile's pairs
+ * behind those that come before. No work group waits for another, and no atomic decides an order.
+ * The number of passes is even: so the last one reads the other buffer, and its list takes the
+ * place of the pairs. */
 #include "sort/radix.h"
 
 #include <stdio.h>
@@ -14,8 +15,8 @@
 
 enum { KEY_BITS = 32, PAIR_BYTES = 8, MAX_SHARED_BYTES = 32768 };
 
-/* How the work is cut, which changes no result. A counter for every digit and invocation must fit
- * in 32 KiB of shared memory. */
+/* Describes how the work is divided, which changes no result. A counter for every digit and
+ * invocation must fit in 32 KiB of shared memory. */
 struct shape {
     uint32_t bits;       /* of a digit */
     uint32_t group_size; /* invocations of a work group */
@@ -32,7 +33,7 @@ struct kiln_radix {
     struct kiln_alive alive;
     struct kiln_scan scan;
     GLuint count_program, scatter_program, last_program;
-    struct kiln_buffer other;  /* than the pairs that are sorted: passes write one and the other */
+    struct kiln_buffer other;  /* passes alternate between the pairs and this */
     struct kiln_buffer counts; /* by digit, then by tile */
 };
 
@@ -61,14 +62,14 @@ static bool create_programs(struct kiln_radix *radix, struct kiln_error *error)
     return radix->last_program != 0;
 }
 
-/* Do an even number of digits of so many bits make a key? */
+/* Returns whether the key has an even number of digits of so many bits. */
 static bool is_even(uint32_t bits)
 {
     return (KEY_BITS + bits - 1) / bits % 2 == 0;
 }
 
-/* For a work group of another size, the same tile is cut among more or fewer invocations, and its
- * digits are as wide as their counters find room. */
+/* Chooses the shape for the device. For a work group of another size, the same tile is divided
+ * among more or fewer invocations, and its digits are as wide as their counters find room. */
 static struct shape choose_shape(const struct kiln_device *device)
 {
     struct shape shape = device->info.software ? FOR_SOFTWARE : FOR_GPUS;
@@ -115,7 +116,7 @@ void kiln_radix_destroy(struct kiln_radix **radix)
     *radix = NULL;
 }
 
-/* Where a pass reads and writes. */
+/* Describes a pass: where it reads and writes. */
 struct pass {
     uint32_t count, tiles, shift;
     bool reverse;    /* the last pass: from the end */

@@ -1,4 +1,4 @@
-/* Technique `radix`: lists and sorts in compute; a stable radix sort. */
+/* Technique `radix` lists the living and sorts them in compute by a stable radix sort. */
 #ifndef KILN_SORT_RADIX_H
 #define KILN_SORT_RADIX_H
 
@@ -15,8 +15,9 @@ bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
                     const struct kiln_sort_params *params, struct kiln_buffer *entries,
                     uint32_t *count, struct kiln_error *error);
 
-/* Sorts the first `count` pairs (key, any) of a buffer by ascending key; those of equal keys keep
- * their order. Their place takes the list of the second words, or that list in `reverse`. */
+/* Sorts the first `count` pairs (key, any word) of a buffer by ascending key; pairs of equal keys
+ * keep their order. The list of the second words, reversed if `reverse` is set, takes the place of
+ * the pairs. */
 bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint32_t count,
                       bool reverse, struct kiln_error *error);
 

@@ -1,4 +1,6 @@
-/* Three dispatches: no work group waits for another, which some drivers would not allow. */
+/* This file computes prefix sums on the device, in three dispatches: sums of blocks, their prefix
+ * sums, and the words of each block. No work group waits for another, which some drivers would not
+ * allow. */
 #include "sort/scan.h"
 
 #include "gpu/program.h"

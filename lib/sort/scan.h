@@ -1,4 +1,4 @@
-/* Sums of all that came before, on the device: reduce, then scan. */
+/* A kiln_scan computes prefix sums on the device: it reduces, then scans. */
 #ifndef KILN_SORT_SCAN_H
 #define KILN_SORT_SCAN_H
 
@@ -19,7 +19,7 @@ void kiln_scan_finish(struct kiln_scan *scan);
  * They must have been written before a barrier; there is one behind the result. */
 bool kiln_scan_run(struct kiln_scan *scan, GLuint words, uint32_t count, struct kiln_error *error);
 
-/* The sum of all words of the last scan, read back. */
+/* Reads back the sum of all words of the last scan. */
 bool kiln_scan_total(struct kiln_scan *scan, uint32_t *total, struct kiln_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* The stage: hands over to its technique. */
+/* This file runs the sort stage by the technique that was chosen for it. */
 #include "sort/sort.h"
 
 #include <stdlib.h>
@@ -15,7 +15,7 @@ struct kiln_sort {
     struct kiln_radix *radix;
     struct kiln_bitonic *bitonic;
     struct kiln_oddeven *oddeven;
-    bool keeps; /* an order, which is: */
+    bool keeps; /* the order `kept` */
     struct kiln_kept kept;
 };
 
@@ -93,7 +93,7 @@ uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32
     switch (technique) {
     case KILN_SORT_CPU:
     case KILN_SORT_RADIX:
-        return 2 * pair * slots; /* in one of the two the list ends */
+        return 2 * pair * slots; /* one of the two becomes the list */
     case KILN_SORT_BITONIC:
         break;
     case KILN_SORT_ODDEVEN:
@@ -101,7 +101,7 @@ uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32
             return padded + word * slots;
         break;
     }
-    return padded + 2 * word * slots; /* unsorted and sorted */
+    return padded + 2 * word * slots; /* both lists, unsorted and sorted */
 }
 
 bool kiln_sort_keeps_history(const struct kiln_sort *sort)

@@ -1,5 +1,5 @@
-/* Stage 3: the living particles, ordered for drawing. All techniques give the same list; one that
- * is spread over frames does once it has caught up with what moves. */
+/* Stage 3 lists the living particles in the order of drawing. All techniques give the same list; a
+ * technique that is spread over frames gives it once its order has caught up with what moves. */
 #ifndef KILN_SORT_SORT_H
 #define KILN_SORT_SORT_H
 
@@ -31,24 +31,24 @@ struct kiln_sort_params {
 struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_technique technique,
                                    struct kiln_threads *threads, struct kiln_error *error);
 
-/* The same with technique `oddeven`, which keeps an order from frame to frame and divides the
- * passes of a whole sort over so many of them: 1 to KILN_SORT_MAX_SPREAD. */
+/* Makes a sort of technique `oddeven` that keeps an order from frame to frame and divides the
+ * passes of a whole sort over `frames` frames: 1 to KILN_SORT_MAX_SPREAD. */
 struct kiln_sort *kiln_sort_create_spread(struct kiln_device *device, uint32_t frames,
                                           struct kiln_threads *threads, struct kiln_error *error);
 void kiln_sort_destroy(struct kiln_sort **sort);
 
-/* Does the list depend on earlier frames? Then each moment that could be drawn, drawn or not, must
- * be told in its turn by kiln_sort_follow. */
+/* Returns whether the list depends on earlier frames. If so, kiln_sort_follow must be called in
+ * turn for each moment that could be drawn, drawn or not. */
 bool kiln_sort_keeps_history(const struct kiln_sort *sort);
 
-/* Takes a kept order on to the next moment, always of the same pool; before kiln_sort_run, which
- * then lists in this order. Of no effect without history. params->systems and ->order do not
+/* Sorts a kept order for the next moment, always of the same pool; call it before kiln_sort_run,
+ * which then lists in this order. Has no effect without history. params->systems and ->order do not
  * matter. */
 bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
                       const struct kiln_sort_params *params, struct kiln_error *error);
 
-/* The order that is kept, for a saved state: all slots of the pool, and which part of a sort comes
- * next. Only for those that keep history. Restoring refuses slots that there are not with
+/* Saves and restores the order that is kept: all slots of the pool, and which part of a sort comes
+ * next. Only for sorts that keep history. Restoring refuses slots that the pool does not have, with
  * KILN_INVALID_INPUT. */
 #define KILN_SORT_NOT_BEGUN UINT32_MAX
 bool kiln_sort_save(struct kiln_sort *sort, const struct kiln_pool *pool, uint32_t *slots,
@@ -56,16 +56,16 @@ bool kiln_sort_save(struct kiln_sort *sort, const struct kiln_pool *pool, uint32
 bool kiln_sort_restore(struct kiln_sort *sort, const struct kiln_pool *pool, const uint32_t *slots,
                        uint32_t turn, struct kiln_error *error);
 
-/* Fills entries (room for the pool's slot_count; a technique may make it twice as large, to sort in
- * it) with the draw entries of the living particles of
- * the chosen systems in the order that is asked for, and counts them. Where the technique runs on
- * the device, so do records and entries; the count alone is read back. */
+/* Fills entries with the draw entries of the living particles of the chosen systems in the order
+ * that is asked for, and counts them. entries has room for the pool's slot_count; a technique may
+ * make it twice as large, to sort in it. Where the technique runs on the device, so do records and
+ * entries; the count alone is read back. */
 bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
                    const struct kiln_sort_params *params, struct kiln_buffer *entries,
                    uint32_t *count, struct kiln_error *error);
 
-/* Bytes that sorting so many slots takes in all, the list of entries included: the two or three
- * buffers that grow with them. spread: of an order that is kept. */
+/* Returns the bytes that sorting so many slots takes in all, the list of entries included: the two
+ * or three buffers that grow with them. spread: of an order that is kept. */
 uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32_t slots);
 
 #endif

@@ -1,5 +1,6 @@
-/* The backdrop: scene values at the frame's time into the blocks that its techniques read. When
- * neither a block nor the camera changed since the last frame, the picture is kept. */
+/* This file runs the backdrop stage: it evaluates scene values at the frame's time into the blocks
+ * that its techniques read, and draws by the chosen technique. When neither a block nor the camera
+ * changed since the last frame, the picture is kept. */
 #include "draw/backdrop/backdrop.h"
 
 #include <stdlib.h>
@@ -54,7 +55,7 @@ static void fill_lights(const struct kiln_scene *scene, float time_s,
     }
 }
 
-/* What the particles light and shade. */
+/* Adds the light and the shadows of the particles to the block. */
 static void add_lighting(struct kiln_draw_backdrop *block, const struct kiln_lighting *lighting)
 {
     for (uint32_t i = 0; i < lighting->fire_count; i++)
@@ -65,7 +66,7 @@ static void add_lighting(struct kiln_draw_backdrop *block, const struct kiln_lig
     memcpy(block->sky_to_grid, lighting->sky_to_grid, sizeof block->sky_to_grid);
 }
 
-/* Surfaces, particles and the haze are lit by the image, where there is one. */
+/* Sets the sky's light from the sky image, which then lights surfaces, particles and the haze. */
 static void light_by_image(const struct kiln_backdrop_stage *stage, float intensity,
                            struct kiln_draw_backdrop *block)
 {
@@ -75,12 +76,12 @@ static void light_by_image(const struct kiln_backdrop_stage *stage, float intens
         (float4){horizon[0] * intensity, horizon[1] * intensity, horizon[2] * intensity, 0.0f};
 }
 
-/* The pictures of the floor and the sky, as the technique has them; 0 wide: none. */
+/* Holds the sizes of the floor's and the sky's pictures; width 0: no picture. */
 struct pictures {
     struct kiln_picture_size floor, sky;
 };
 
-/* Where they lie. */
+/* Fills in how the pictures are mapped to the floor and the sky. */
 static void fill_maps(const struct kiln_scene *scene, const struct pictures *pictures, float time_s,
                       struct kiln_draw_shapes *shapes)
 {
@@ -99,7 +100,8 @@ static void fill_maps(const struct kiln_scene *scene, const struct pictures *pic
                      (float)pictures->sky.width / full_turn, 0.0f};
 }
 
-/* The sun's light, where no half space is between: one without end leaves all in its shade. */
+/* Returns the sun's colour, dimmed by planes: a plane is infinite, so the half space behind it
+ * shades everything. */
 static float3 sun_color(const struct kiln_moment *moment)
 {
     const struct kiln_scene *scene = moment->scene;
@@ -137,8 +139,9 @@ static struct kiln_draw_backdrop make_block(const struct kiln_moment *moment)
     return block;
 }
 
-/* The camera's clock does not show in the backdrop; smoke and solid particles do, whose grids and
- * lists are not compared. */
+/* Returns whether two inputs give the same picture. The camera's clock has no effect on it. Smoke
+ * and solid particles have, but their grids and lists are not compared, so with them the pictures
+ * count as different. */
 static bool same_picture(const struct kiln_backdrop_inputs *a, const struct kiln_backdrop_inputs *b)
 {
     return a->block.counts.w == 0 && a->shapes.counts.w == 0 && a->paint == b->paint &&
@@ -213,9 +216,9 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
     return now;
 }
 
-/* A list that llvmpipe would silently not read to its end. An invocation reads lists for each of
- * its rays, and what the floor mirrors; half of what its loops may run is left to everything else.
- */
+/* Refuses lists that llvmpipe would silently not read to their end. An invocation reads lists for
+ * each of its rays, and for the floor's reflection; half of the iterations that its loops may run
+ * is left to everything else. */
 static bool lists_are_short(const struct kiln_backdrop_stage *stage,
                             const struct kiln_solid_bins *solids, struct kiln_error *error)
 {

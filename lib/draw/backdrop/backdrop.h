@@ -1,4 +1,4 @@
-/* Stage 4a: what lies behind the particles, and its depth (Heinz 2019, 3.2.1: render scene).
+/* Stage 4a draws the scene behind the particles, and its depth (Heinz 2019, 3.2.1: render scene).
  * Techniques `gl` and `cpu` make the same pictures within the error of their arithmetic; those of
  * `cpu` are the same bytes on every machine. */
 #ifndef KILN_DRAW_BACKDROP_BACKDROP_H
@@ -27,16 +27,17 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
                                                  struct kiln_error *error);
 void kiln_backdrop_destroy(struct kiln_backdrop_stage **stage);
 
-/* Draws it, unless the picture of the last call still holds. `gl` leaves bound what shaders read
- * that light surfaces like it does (shaders/draw/backdrop/surface.glsl). */
+/* Draws the backdrop, unless the picture of the last call still holds. `gl` leaves bound the blocks
+ * and textures that shaders read to light surfaces as it does
+ * (shaders/draw/backdrop/surface.glsl). */
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_moment *moment,
                         const struct kiln_lighting *lighting, struct kiln_error *error);
 
-/* What lights the particles, as of the last kiln_backdrop_draw. */
+/* Returns the block with the light on particles, as of the last kiln_backdrop_draw. */
 const struct kiln_draw_backdrop *kiln_backdrop_block(const struct kiln_backdrop_stage *stage);
 
-/* Of technique `cpu`: what rays meet and what lights it, as of the last kiln_backdrop_draw; NULL
- * for `gl`. */
+/* Returns the objects and lights of technique `cpu` that rays read, as of the last
+ * kiln_backdrop_draw; NULL for `gl`. */
 const struct kiln_ray_frame *kiln_backdrop_rays(const struct kiln_backdrop_stage *stage);
 
 #endif

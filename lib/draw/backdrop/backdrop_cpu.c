@@ -1,5 +1,6 @@
-/* What rays may meet in a frame, then two passes over rows of tiles: a ray a pixel, and more where
- * there are edges. The order of the rows is no matter: a row writes what is its own. */
+/* This file draws the backdrop on the host: it gathers the objects that rays may hit in a frame,
+ * then runs two passes over rows of tiles, one with a ray a pixel, one with more rays where there
+ * are edges. The order of the rows does not matter, since a row writes only its own pixels. */
 #include "draw/backdrop/backdrop_cpu.h"
 
 #include <math.h>
@@ -92,14 +93,15 @@ void kiln_backdrop_cpu_pictures(const struct kiln_backdrop_cpu *cpu,
         *sky = (struct kiln_picture_size){cpu->sky_image->width, cpu->sky_image->height};
 }
 
-/* ---- what rays meet -------------------------------------------------------------------------- */
+/* ---- objects that rays may hit
+ * ------------------------------------------------------------------ */
 
 static float inverse_of(float x)
 {
     return (x < 0.0f ? -1.0f : 1.0f) / exact_max(exact_abs(x), 1e-8f);
 }
 
-/* Eight waves about the wind, each shorter than the one before
+/* Fills in eight waves around the wind's direction, each shorter than the one before
  * (shaders/draw/backdrop/floor_gloss.glsl). */
 static void fill_waves(const struct kiln_draw_shapes *shapes, struct kiln_wave waves[KILN_WAVES])
 {
@@ -162,14 +164,15 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
     return frame;
 }
 
-/* ---- where objects are seen ------------------------------------------------------------------ */
+/* ---- pixels of objects
+ * -------------------------------------------------------------------------- */
 
 static int32_t pixel_within(float x, float size)
 {
     return (int32_t)exact_clamp(x, 0.0f, size);
 }
 
-/* The pixels that a box along the axes may cover, and a few around them. */
+/* Returns the pixels that a box along the axes may cover, and a few around them. */
 static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 center, float3 half)
 {
     const float near = 0.01f, margin = 3.0f, width = view->frustum.z, height = view->frustum.w;
@@ -191,7 +194,7 @@ static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 cent
         low[1] = exact_min(low[1], y);
         high[1] = exact_max(high[1], y);
     }
-    if (before < 8) /* the eye is beside it: anywhere, unless it is behind */
+    if (before < 8) /* some corners are behind the eye: all pixels; all corners: none */
         return (struct kiln_pixel_box){0, before ? (int32_t)width : 0, 0,
                                        before ? (int32_t)height : 0};
     return (struct kiln_pixel_box){

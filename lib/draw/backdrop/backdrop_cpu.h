@@ -1,4 +1,4 @@
-/* Technique backdrop=cpu: rays on threads, many at a time. */
+/* This header declares technique backdrop=cpu: rays on threads, many at a time. */
 #ifndef KILN_DRAW_BACKDROP_BACKDROP_CPU_H
 #define KILN_DRAW_BACKDROP_BACKDROP_CPU_H
 
@@ -18,7 +18,7 @@ void kiln_backdrop_cpu_pictures(const struct kiln_backdrop_cpu *cpu,
                                 struct kiln_picture_size *floor, struct kiln_picture_size *sky);
 
 /* Draws, unless the picture of the last call still holds (kept). Inputs and lighting must live
- * until the next call, or until nobody asks for the rays. */
+ * until the next call, or until the rays are no longer read. */
 bool kiln_backdrop_cpu_draw(struct kiln_backdrop_cpu *cpu,
                             const struct kiln_backdrop_inputs *inputs,
                             const struct kiln_lighting *lighting, bool kept,

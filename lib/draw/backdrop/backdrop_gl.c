@@ -1,6 +1,5 @@
-/* Uniform blocks, the meshes, a full-screen pass, and a second one over the tiles with edges in
- * them.
- */
+/* This file draws the backdrop in GL: it uploads uniform blocks, draws the meshes, then runs a
+ * full-screen pass and a second pass over the tiles that contain edges. */
 #include "draw/backdrop/backdrop_gl.h"
 
 #include <stdlib.h>
@@ -16,7 +15,7 @@ struct kiln_backdrop_gl {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_image *color, *depth;
-    struct kiln_image surfaces; /* what each pixel's centre shows */
+    struct kiln_image surfaces; /* the surface at each pixel's centre */
     GLuint cast, antialias;     /* programs */
     struct kiln_framebuffer cast_framebuffer, color_framebuffer;
     GLuint vertex_array;

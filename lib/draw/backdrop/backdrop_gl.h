@@ -1,4 +1,5 @@
-/* Technique backdrop=gl: a ray a pixel in a fragment shader, and four in tiles with edges. */
+/* This header declares technique backdrop=gl: a ray a pixel in a fragment shader, and four in tiles
+ * with edges. */
 #ifndef KILN_DRAW_BACKDROP_BACKDROP_GL_H
 #define KILN_DRAW_BACKDROP_BACKDROP_GL_H
 

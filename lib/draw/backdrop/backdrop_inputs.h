@@ -1,16 +1,16 @@
-/* What both techniques of stage `backdrop` draw from. */
+/* This header declares the inputs of both techniques of stage `backdrop`. */
 #ifndef KILN_DRAW_BACKDROP_BACKDROP_INPUTS_H
 #define KILN_DRAW_BACKDROP_BACKDROP_INPUTS_H
 
 #include "draw/backdrop/backdrop.h"
 #include "draw/moment/meshes.h"
 
-/* All that the picture depends on but the grids of smoke and the lists of solids. */
+/* Holds all inputs of the picture except the grids of smoke and the lists of solids. */
 struct kiln_backdrop_inputs {
     struct kiln_view view;
     struct kiln_draw_backdrop block;
     struct kiln_draw_shapes shapes;
-    uint64_t paint; /* changes of it */
+    uint64_t paint; /* how often it changed */
 };
 
 struct kiln_picture_size {

@@ -1,11 +1,12 @@
-/* The loops of technique backdrop=cpu over the picture, for each width of vectors. */
+/* This header declares the loops of technique backdrop=cpu over the picture, for each width of
+ * vectors. */
 #ifndef KILN_DRAW_BACKDROP_BACKDROP_ROWS_H
 #define KILN_DRAW_BACKDROP_BACKDROP_ROWS_H
 
 #include "base/simd.h"
 #include "draw/backdrop/ray.h"
 
-/* Pixels from .. to - 1 in which an object may be seen. */
+/* Holds the range of pixels, from .. to - 1, in which an object may be seen. */
 struct kiln_pixel_box {
     int32_t x_from, x_to, y_from, y_to;
 };
@@ -20,11 +21,12 @@ struct kiln_backdrop_picture {
         cylinders[KILN_MAX_OBJECTS], capsules[KILN_MAX_OBJECTS], turned[KILN_MAX_OBJECTS];
 };
 
-/* Each draws KILN_EDGE_TILE rows from row y. */
+/* Each function draws KILN_EDGE_TILE rows from row y. */
 struct kiln_backdrop_rows {
-    /* A ray through the centre of each pixel: colour, depth, surface. */
+    /* Casts a ray through the centre of each pixel and writes colour, depth and surface. */
     void (*cast)(const struct kiln_backdrop_picture *picture, uint32_t y);
-    /* Then KILN_EDGE_SAMPLES rays a pixel in tiles where neighbours show different surfaces. */
+    /* Casts KILN_EDGE_SAMPLES rays a pixel in tiles where neighbours show different surfaces; after
+     * cast. */
     void (*antialias)(const struct kiln_backdrop_picture *picture, uint32_t y);
 };
 

@@ -1,12 +1,12 @@
-/* Rays of the picture, a vector of them at a time: what shaders/draw/backdrop/backdrop.frag and
- * backdrop_edges.vert do in GL. */
+/* This file casts the rays of the backdrop's picture, a vector of them at a time, as
+ * shaders/draw/backdrop/backdrop.frag and backdrop_edges.vert do in GL. */
 #include "draw/backdrop/backdrop_rows.h"
 #include "draw/backdrop/ray_floor.h"
 #include "draw/backdrop/ray_mesh.h"
 
 enum { TILE = KILN_EDGE_TILE, STRIP = 64 }; /* px; a strip's rays try the same objects */
 
-/* Rays of pixels from the eye. */
+/* Holds rays from the eye through pixels. */
 struct eye_rays {
     struct ray ray;
     struct ray_place place;
@@ -25,7 +25,7 @@ SIMD struct eye_rays aim_at(const struct kiln_ray_frame *frame, const struct ray
     };
 }
 
-/* Through the centres of pixels. */
+/* Returns the rays through the centres of pixels. */
 SIMD struct eye_rays aim(const struct kiln_ray_frame *frame, vi column, vi row)
 {
     const float4 frustum = frame->view->frustum;
@@ -39,7 +39,7 @@ SIMD struct eye_rays aim(const struct kiln_ray_frame *frame, vi column, vi row)
     return aim_at(frame, &place);
 }
 
-/* What rays meet first; floor: the t of the floor, whose albedo is left open. */
+/* Finds the first hit of each ray. floor: the t of the floor, whose albedo is not set here. */
 SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
                           const struct kiln_ray_objects *objects, const struct ray *ray, vf floor,
                           const struct ray_place *place)
@@ -64,12 +64,12 @@ SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
     return nearest;
 }
 
-/* What rays find. */
+/* Holds the result of rays. */
 struct sight {
     struct ray_color color;
     struct ray_hit first;
-    vf sunlit;  /* part of the sun there, before smoke */
-    vf arrives; /* and past it */
+    vf sunlit;  /* part of the sun at the hit, without smoke */
+    vf arrives; /* the same with smoke */
 };
 
 SIMD struct sight look_along(const struct kiln_ray_frame *frame,
@@ -101,7 +101,7 @@ SIMD uint32_t first_bits(uint32_t count)
     return (uint32_t)((1ull << count) - 1);
 }
 
-/* Goes on from a floor that mirrors. */
+/* Adds the reflection of a glossy floor: follows the reflected ray. */
 SIMD void add_mirrored(const struct kiln_ray_frame *frame, const struct ray *ray,
                        struct sight *seen)
 {
@@ -149,7 +149,7 @@ static uint32_t seen_in(const struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], uin
     return seen;
 }
 
-/* The objects that may be seen in a part of TILE rows. */
+/* Returns the objects that may be seen in a part of TILE rows. */
 static struct kiln_ray_objects find_objects(const struct kiln_backdrop_picture *p, uint32_t x,
                                             uint32_t y, uint32_t width)
 {
@@ -189,7 +189,7 @@ SIMD void store_numbers(float *to, vf numbers, uint32_t count)
         to[i] = all[i];
 }
 
-/* Pixels from (x, y) on, up to LANES of a row. */
+/* Casts the rays of up to LANES pixels of a row, from (x, y) on. */
 SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_ray_objects *objects,
                       uint32_t x, uint32_t y)
 {
@@ -230,8 +230,8 @@ static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 
 /* ---- edges ----------------------------------------------------------------------------------- */
 
-/* The sun's light may change by this much from a pixel to the next: a penumbra four wide. Surfaces
- * differ by more. */
+/* The sun's light may change by this much from a pixel to the next without an edge: a penumbra four
+ * pixels wide. Numbers of surfaces differ by more. */
 static const float WIDE = 0.25f;
 
 static inline int32_t within(int32_t x, uint32_t size)
@@ -244,7 +244,7 @@ static inline const float *surface_row(const struct kiln_backdrop_picture *p, in
     return p->surfaces + (size_t)within(y, p->height) * p->width;
 }
 
-/* Whether two neighbours in the tile, or just around it, show different things. */
+/* Returns whether two neighbours in the tile, or just around it, show different surfaces. */
 static bool has_edge(const struct kiln_backdrop_picture *p, int32_t x, int32_t y)
 {
     float steepest = 0.0f, above[TILE + 2] = {0};

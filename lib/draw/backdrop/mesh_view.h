@@ -1,5 +1,5 @@
-/* Meshes as camera and sun see them, on the host: which triangle each ray of the picture meets, and
- * maps of what lies in the sun's light. */
+/* A kiln_mesh_view holds meshes as camera and sun see them, on the host: the triangle that each ray
+ * of the picture hits, and the shadow maps. */
 #ifndef KILN_DRAW_BACKDROP_MESH_VIEW_H
 #define KILN_DRAW_BACKDROP_MESH_VIEW_H
 
@@ -13,7 +13,8 @@ enum {
     KILN_HIT_LAYERS = 1 + KILN_EDGE_SAMPLES, /* the centres of pixels, and their samples */
 };
 
-/* A triangle along rays (u, v, -1) in view space: planes over u and v, as factors of u, v and 1. */
+/* Describes a triangle along rays (u, v, -1) in view space by planes over u and v, as factors of u,
+ * v and 1. */
 struct kiln_mesh_triangle {
     float nearness[3];  /* 1 / depth, 1/m */
     float normal[3][3]; /* in the world, of any length, by axis */
@@ -21,7 +22,7 @@ struct kiln_mesh_triangle {
     int32_t mesh;       /* in the scene's order */
 };
 
-/* Where a triangle's places are in the texture of paint, times nearness: planes over u and v. */
+/* Holds a triangle's texture coordinates in the paint, times nearness: planes over u and v. */
 struct kiln_mesh_uvs {
     float u[3], v[3];
 };

@@ -1,7 +1,7 @@
-/* Each triangle becomes a pyramid with its tip in the eye, whose sides are planes over the picture.
- * What is nearest is found band by band, at the centres of pixels and at the samples of edges at
- * once, as a number of a triangle; rays take depth and normal from the triangle itself.
- */
+/* This file finds the triangles of the backdrop's meshes that rays hit, on the host, and updates
+ * the shadow maps. Each triangle becomes a pyramid with its tip in the eye, whose sides are planes
+ * over the picture. The nearest triangle is found band by band, at the centres of pixels and at the
+ * samples of edges at once, as a number; rays take depth and normal from the triangle itself. */
 #include "draw/backdrop/meshes_cpu.h"
 
 #include <assert.h>
@@ -26,13 +26,13 @@ struct kiln_meshes_cpu {
     struct kiln_mesh_triangle *triangles; /* of all meshes */
     struct kiln_mesh_uvs *uvs;            /* the same; NULL: none takes paint */
     int32_t *hits;
-    bool *empty; /* bands in whose hits there is nothing */
+    bool *empty; /* bands whose hits are all 0 */
     struct kiln_mesh_canvas canvas;
     struct kiln_mesh_shadow shadows[KILN_MAX_MESHES];
     struct kiln_mesh_view view;
 };
 
-/* Of the meshes before one of them. */
+/* Returns the vertices of the meshes before one of them. */
 static size_t vertices_before(const struct kiln_meshes *meshes, uint32_t end)
 {
     size_t count = 0;
@@ -139,7 +139,7 @@ const struct kiln_mesh_view *kiln_meshes_cpu_view(const struct kiln_meshes_cpu *
 
 /* ---- triangles ------------------------------------------------------------------------------- */
 
-/* One mesh on its way into the picture. */
+/* Describes a mesh that is being placed in the picture. */
 struct placing {
     struct kiln_meshes_cpu *m;
     const struct kiln_view *view;
@@ -172,7 +172,8 @@ static void place_vertices(void *context, size_t begin, size_t end, uint32_t wor
     }
 }
 
-/* The side of the pyramid through an edge; the same, times -1, for the edge's other direction. */
+/* Returns the pyramid's side through an edge; for the edge's other direction it is the same, times
+ * -1. */
 static float3 side_of(float3 a, float3 b)
 {
     bool swap = a.x > b.x || (a.x == b.x && (a.y > b.y || (a.y == b.y && a.z > b.z)));
@@ -180,7 +181,7 @@ static float3 side_of(float3 a, float3 b)
     return float3_scale(float3_cross(from, float3_sub(to, from)), swap ? -1.0f : 1.0f);
 }
 
-/* Its value along (u, v, -1). */
+/* Sets the plane whose value along (u, v, -1) is the product with the normal. */
 static void set_plane(float plane[3], float3 normal)
 {
     plane[0] = normal.x;
@@ -194,7 +195,7 @@ static struct kiln_row_range pixels_between(float low, float high, float size)
                                    (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
 }
 
-/* The pixels that it may touch. Where it reaches behind the eye, that may be any. */
+/* Bounds the pixels that a triangle may touch: all of them if it reaches behind the eye. */
 static void find_bounds(const struct kiln_view *view, const float3 p[3],
                         struct kiln_flat_triangle *flat)
 {
@@ -243,7 +244,7 @@ static void place_triangle(const struct placing *p, size_t i)
     const float3 seen[3] = {p->seen[corners[0]], p->seen[corners[1]], p->seen[corners[2]]};
     float3 face = float3_cross(float3_sub(seen[1], seen[0]), float3_sub(seen[2], seen[0]));
     float volume = float3_dot(seen[0], face), sign = volume < 0.0f ? -1.0f : 1.0f;
-    /* Seen from the side, it has no pixels and no depth. */
+    /* A triangle seen edge-on has no pixels and no depth. */
     float size2 = float3_dot(face, face) * float3_dot(seen[0], seen[0]);
     if (!(volume * volume > 1e-10f * size2))
         return;
@@ -302,7 +303,8 @@ static void place_meshes(struct kiln_meshes_cpu *m, const struct kiln_view *view
     }
 }
 
-/* ---- what rays meet -------------------------------------------------------------------------- */
+/* ---- hits
+ * --------------------------------------------------------------------------------------- */
 
 struct finding {
     struct kiln_meshes_cpu *m;

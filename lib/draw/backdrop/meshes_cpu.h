@@ -1,4 +1,4 @@
-/* Technique backdrop=cpu: meshes as camera and sun see them. */
+/* This header declares the meshes of technique backdrop=cpu, as camera and sun see them. */
 #ifndef KILN_DRAW_BACKDROP_MESHES_CPU_H
 #define KILN_DRAW_BACKDROP_MESHES_CPU_H
 
@@ -15,7 +15,8 @@ struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
                                                struct kiln_error *error);
 void kiln_meshes_cpu_destroy(struct kiln_meshes_cpu **meshes);
 
-/* Finds what the rays of the view meet, and draws the sun's maps of those that moved. */
+/* Finds the triangles that the rays of the view hit, and draws the shadow maps of meshes that
+ * moved. */
 bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view *view,
                          const struct kiln_draw_backdrop *backdrop,
                          const struct kiln_draw_shapes *shapes, struct kiln_error *error);

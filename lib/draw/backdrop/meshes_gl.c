@@ -1,7 +1,8 @@
-/* Triangles are rasterised five times: for the rays through the centres of pixels and for each of
- * the four samples of a pixel at an edge, into layers of one integer texture. The sun sees each
- * mesh in a layer of its own, which fits the mesh however far apart they stand; those are drawn
- * again only when a mesh or the sun moved. */
+/* This file rasterises the backdrop's meshes in GL for its rays, and draws their shadow maps.
+ * Triangles are rasterised five times, for the rays through the centres of pixels and for each of
+ * the four samples of a pixel at an edge, into layers of one integer texture. Each mesh has a
+ * shadow map in a layer of its own, which fits the mesh however far apart meshes are; these are
+ * drawn again only when a mesh or the sun moved. */
 #include "draw/backdrop/meshes_gl.h"
 
 #include <stdlib.h>
@@ -121,7 +122,8 @@ static void create_targets(struct kiln_meshes_gl *m)
     kiln_device_label(m->device, GL_TEXTURE, m->shadows, "mesh shadows");
 }
 
-/* Layers as large as the largest texture; the smaller ones begin at a coarser level (shapes.c). */
+/* Creates layers as large as the largest texture; smaller textures begin at a coarser level
+ * (shapes.c). */
 static void create_paint(struct kiln_meshes_gl *m)
 {
     uint32_t levels = 1, layers = 0, edge = 1;
@@ -274,7 +276,7 @@ static void draw_shadows(struct kiln_meshes_gl *m)
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
-/* Do the shadow maps still show this? Colours do not matter, but change with the rest if at all. */
+/* Returns whether the shadow maps still hold. Colours do not matter, but rarely change alone. */
 static bool same_shadows(const struct kiln_meshes_gl *m, const struct kiln_draw_shapes *shapes)
 {
     return m->has_shadows && memcmp(&m->shadow_sun[0], &shapes->sun_right, sizeof(float4)) == 0 &&
@@ -313,7 +315,7 @@ void kiln_meshes_gl_bind_shadows(const struct kiln_meshes_gl *meshes)
     glActiveTexture(GL_TEXTURE0);
 }
 
-/* Vertices that are elsewhere than when they were last uploaded. */
+/* Uploads the vertices of meshes whose pose changed since the last upload. */
 static void upload_poses(struct kiln_meshes_gl *m)
 {
     for (uint32_t i = 0; i < m->count; i++) {

@@ -1,4 +1,5 @@
-/* Technique backdrop=gl: meshes rasterised for its rays, and their shadow maps. */
+/* This header declares the meshes of technique backdrop=gl, rasterised for its rays, and their
+ * shadow maps. */
 #ifndef KILN_DRAW_BACKDROP_MESHES_GL_H
 #define KILN_DRAW_BACKDROP_MESHES_GL_H
 
@@ -16,14 +17,13 @@ struct kiln_meshes_gl *kiln_meshes_gl_create(struct kiln_device *device,
                                              struct kiln_error *error);
 void kiln_meshes_gl_destroy(struct kiln_meshes_gl **meshes);
 
-/* Binds the texture that kiln_meshes_gl_draw fills with what the sun sees to KILN_UNIT_MESH_SHADOW.
- */
+/* Binds the shadow maps that kiln_meshes_gl_draw draws to KILN_UNIT_MESH_SHADOW. */
 void kiln_meshes_gl_bind_shadows(const struct kiln_meshes_gl *meshes);
 
-/* Draws what the camera and the sun see of them and leaves that bound to KILN_UNIT_MESH_HITS and
- * KILN_UNIT_MESH_SHADOW, and their paint, as of the last kiln_painted_update, to
- * KILN_UNIT_MESH_PAINT; the blocks of the view, the backdrop and the shapes must be bound.
- * Changes the framebuffer, the viewport and the program. */
+/* Draws the meshes as camera and sun see them and leaves the results bound to KILN_UNIT_MESH_HITS
+ * and KILN_UNIT_MESH_SHADOW, and their paint, as of the last kiln_painted_update, to
+ * KILN_UNIT_MESH_PAINT. The blocks of the view, the backdrop and the shapes must be bound. Changes
+ * the framebuffer, the viewport and the program. */
 bool kiln_meshes_gl_draw(struct kiln_meshes_gl *meshes, const struct kiln_draw_shapes *shapes,
                          struct kiln_error *error);
 

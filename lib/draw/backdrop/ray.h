@@ -1,7 +1,7 @@
-/* What rays of technique backdrop=cpu may meet in a frame, and what lights it. The code that
- * follows them is for vectors of rays: ray_*.h, in backdrop_simd.c and solid_simd.c. It says what
- * shaders/draw says for GL, in arithmetic of our own.
- */
+/* This header declares the objects that rays of technique backdrop=cpu may hit in a frame, and
+ * their light. The code that follows vectors of rays is in ray_*.h, for backdrop_simd.c and
+ * solid_simd.c. It computes what shaders/draw computes in GL, in arithmetic that does not depend on
+ * the machine. */
 #ifndef KILN_DRAW_BACKDROP_RAY_H
 #define KILN_DRAW_BACKDROP_RAY_H
 
@@ -13,7 +13,7 @@
 
 enum { KILN_WAVES = 8 };
 
-/* Of the floor's water. */
+/* Describes a wave of the floor's water. */
 struct kiln_wave {
     float way_x, way_z; /* unit */
     float number;       /* 2 pi / length, 1/m */
@@ -21,7 +21,8 @@ struct kiln_wave {
     float bend;         /* how far it shifts those after it, m */
 };
 
-/* The sun in the frame of a turned box, as sun_inverse and edges_alike have it in the world's. */
+/* Holds the sun in the frame of a rotated box, as sun_inverse and edges_alike hold it in the
+ * world's. */
 struct kiln_turned_sun {
     float3 inverse, edges_alike;
 };
@@ -41,7 +42,7 @@ struct kiln_ray_frame {
     struct kiln_turned_sun turned[KILN_MAX_OBJECTS];
 };
 
-/* The objects that rays may meet: a bit each. */
+/* Holds the objects that rays may hit, a bit for each. */
 struct kiln_ray_objects {
     uint32_t boxes, spheres, cylinders, capsules, turned, planes;
 };

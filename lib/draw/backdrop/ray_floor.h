@@ -1,5 +1,5 @@
-/* The floor along vectors of rays, and what it mirrors: as shaders/draw/backdrop/backdrop.frag and
- * floor_gloss.glsl have it. */
+/* This header computes the floor along vectors of rays and its reflections, as
+ * shaders/draw/backdrop/backdrop.frag and floor_gloss.glsl do in GL. */
 #ifndef KILN_DRAW_BACKDROP_RAY_FLOOR_H
 #define KILN_DRAW_BACKDROP_RAY_FLOOR_H
 
@@ -12,7 +12,8 @@ SIMD vf square_integral(vf x)
     return 1.0f - vf_abs((half - vf_floor(half)) * 2.0f - 1.0f);
 }
 
-/* The floor that one pixel covers, in x and z: longer along the view where it is seen flat. */
+/* Returns the extent of floor that one pixel covers, in x and z: longer along the view where the
+ * floor is seen at a flat angle. */
 SIMD void floor_footprint(const struct kiln_ray_frame *frame, struct vf3 direction, vf t, vf *x,
                           vf *z)
 {
@@ -43,7 +44,7 @@ SIMD struct vf3 checkers(const struct kiln_ray_frame *frame, struct vf3 directio
     return vf3_scale(vf3_all(b->floor_color), shade);
 }
 
-/* The t at which rays meet the floor; beyond everything where they do not. */
+/* Returns the t at which rays hit the floor; a t beyond RAY_FAR where they do not. */
 SIMD vf find_floor(const struct kiln_ray_frame *frame, const struct ray *ray)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
@@ -55,7 +56,7 @@ SIMD vf find_floor(const struct kiln_ray_frame *frame, const struct ray *ray)
     return vf_select(falls, height / -ray->direction.y, nowhere);
 }
 
-/* What the floor reflects where rays meet it. */
+/* Returns the albedo of the floor where rays hit it. */
 SIMD struct vf3 floor_albedo(const struct kiln_ray_frame *frame, const struct ray *ray, vf t,
                              vi wanted)
 {
@@ -72,7 +73,7 @@ SIMD struct vf3 floor_albedo(const struct kiln_ray_frame *frame, const struct ra
 
 /* ---- gloss ----------------------------------------------------------------------------------- */
 
-/* The tilt of the water, and the square of what a pixel averages away. */
+/* Holds the slope of the water, and the square of the slopes that are averaged within a pixel. */
 struct ray_slope {
     vf x, z, averaged;
 };
@@ -94,7 +95,7 @@ SIMD struct ray_slope wave_slope(const struct kiln_ray_frame *frame, vf x, vf z,
         slope.x += w->way_x * tilt;
         slope.z += w->way_z * tilt;
         slope.averaged += 0.5f * steepness * steepness * (1.0f - seen * seen);
-        /* Each wave is bent by those before it, so that crests are short. */
+        /* Each wave is shifted by the longer ones before it, so that crests are short. */
         x += (w->way_x * w->bend) * angle.sine;
         z += (w->way_z * w->bend) * angle.sine;
     }
@@ -108,7 +109,8 @@ SIMD vf fresnel(vf cosine)
     return 0.02f + 0.98f * away2 * away2 * away;
 }
 
-/* Part of the irradiance along `to_light` that goes to the eye, per solid angle. */
+/* Returns the part of the irradiance along `to_light` that is reflected to the eye, per solid
+ * angle. */
 SIMD vf lobe(struct vf3 normal, struct vf3 to_eye, struct vf3 to_light, vf spread)
 {
     struct vf3 half_way = vf3_normalize(vf3_add(to_eye, to_light));
@@ -124,7 +126,7 @@ SIMD vf lobe(struct vf3 normal, struct vf3 to_eye, struct vf3 to_light, vf sprea
            vf_max(shadowing, vf_all(1e-6f));
 }
 
-/* What the floor does with a ray. */
+/* Holds how the floor reflects a ray. */
 struct ray_mirror {
     struct vf3 lights;  /* that it sends to the eye */
     struct vf3 sun;     /* the same, where no shadow is */
@@ -150,7 +152,7 @@ SIMD struct vf3 mirrored_lights(const struct kiln_ray_frame *frame, struct vf3 p
     return sum;
 }
 
-/* Of the floor along rays from the eye. */
+/* Computes the reflection of the floor along rays from the eye. */
 SIMD struct ray_mirror floor_mirror(const struct kiln_ray_frame *frame, const struct ray *ray)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;

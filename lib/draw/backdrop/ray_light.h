@@ -1,5 +1,6 @@
-/* The light that surfaces send along vectors of rays, and the sky's: as
- * shaders/draw/backdrop/surface.glsl, round.glsl, mesh_trace.glsl and smoke_shadow.glsl have it. */
+/* This header computes the light that surfaces send along vectors of rays, and the sky's, as
+ * shaders/draw/backdrop/surface.glsl, round.glsl, mesh_trace.glsl and smoke_shadow.glsl do in
+ * GL. */
 #ifndef KILN_DRAW_BACKDROP_RAY_LIGHT_H
 #define KILN_DRAW_BACKDROP_RAY_LIGHT_H
 
@@ -14,25 +15,26 @@ struct ray_color {
 
 /* ---- sky on surfaces ------------------------------------------------------------------------- */
 
-/* How much a surface is turned towards something; it sees a little of what is behind it. */
+/* Returns how much a surface is turned towards an object; a little of an object behind it counts as
+ * well. */
 SIMD vf turned_to(vf along_normal, vf distance2)
 {
     return clamp01(along_normal * vf_rsqrt(vf_max(distance2, vf_all(1e-9f))) + 0.4f);
 }
 
-/* What is left of the sky beside something that hides it. */
+/* Returns the part of the sky that is visible beside an object that hides it. */
 SIMD vf shaded_sky(vf visible, vi hides, vf facing, vf fall)
 {
     return visible * (1.0f - vf_where(hides, 0.7f * facing * fall));
 }
 
-/* Beside a box, in whose frame the vectors are. */
+/* Returns the visible sky beside a box; the vectors are in the box's frame. */
 SIMD vf box_leaves_sky(float4 half, struct vf3 towards, struct vf3 normal, vi wanted, vf visible)
 {
     const vf zero = vf_all(0.0f);
     const struct vf3 turn = {vf_abs(normal.x), vf_abs(normal.y), vf_abs(normal.z)};
     vf along = vf3_dot(towards, normal);
-    /* Where it is wholly on the other side of the surface, it hides nothing. */
+    /* A box that is wholly behind the surface hides nothing. */
     vi hides = wanted & (along > 1e-3f - vf3_dot_all(turn, half));
     if (!any(hides))
         return visible;
@@ -54,7 +56,7 @@ SIMD vf boxes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_poi
     return visible;
 }
 
-/* Beside a ball, by the way to its centre. */
+/* Returns the visible sky beside a ball. towards: the way to its centre. */
 SIMD vf ball_leaves_sky(struct vf3 towards, float radius, const struct ray_point *p, vf visible)
 {
     vf distance2 = vf_max(vf3_dot(towards, towards), vf_all(1e-9f));
@@ -94,7 +96,7 @@ SIMD vf cylinders_leave_sky(const struct kiln_ray_frame *frame, const struct ray
     return visible;
 }
 
-/* By the nearest of the balls that a capsule is made of. */
+/* Returns the visible sky beside capsules: each hides as the nearest of the balls that form it. */
 SIMD vf capsules_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p,
                            vf visible)
 {
@@ -120,8 +122,8 @@ SIMD vf turned_leave_sky(const struct kiln_ray_frame *frame, const struct ray_po
     return visible;
 }
 
-/* By the ellipsoid in their bounds; inside of a hollow the middle is in front, and it gets darker.
- */
+/* Returns the visible sky beside meshes: each hides as the ellipsoid in its bounds. In a hollow of
+ * a mesh its middle is in front, so hollows get darker. */
 SIMD vf meshes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
 {
     for (uint32_t i = 0; i < frame->shapes->counts.z; i++) {
@@ -158,7 +160,7 @@ SIMD void add_light(const struct kiln_draw_light *light, const struct ray_point 
     irradiance->z += light->color.z * part;
 }
 
-/* From the sky and the point lights. */
+/* Returns the irradiance from the sky and the point lights. */
 SIMD struct vf3 soft_irradiance(const struct kiln_ray_frame *frame, const struct ray_point *p)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
@@ -176,7 +178,7 @@ SIMD struct vf3 soft_irradiance(const struct kiln_ray_frame *frame, const struct
     return irradiance;
 }
 
-/* The lanes whose surface is turned to the sun, if there is one. */
+/* Returns the lanes whose surface is turned to the sun, if there is one. */
 SIMD vi turned_to_sun(const struct kiln_ray_frame *frame, const struct ray_point *p)
 {
     const float4 color = frame->backdrop->sun_color;
@@ -197,7 +199,7 @@ SIMD struct vf3 sky_color(const struct kiln_ray_frame *frame, struct vf3 directi
     return vf3_mix(b->sky_horizon, b->sky_top, 1.0f - vf_exp(-4.0f * up));
 }
 
-/* What the floor fades into far away. */
+/* Returns the colour that the floor fades into far away. */
 SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi wanted)
 {
     if (!frame->sky_image)
@@ -206,7 +208,8 @@ SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 dir
     return sky_picture(frame, direction, 0.1f, wanted);
 }
 
-/* Lambert: radiance = albedo / pi * irradiance. sunlight: the part of the sun that arrives. */
+/* Returns the radiance of a Lambertian surface: albedo / pi * irradiance. sunlight: the part of the
+ * sun that arrives. */
 SIMD struct ray_color radiance(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
                                struct vf3 direction, struct vf3 irradiance, vf sunlight)
 {
@@ -226,7 +229,7 @@ SIMD struct ray_color radiance(const struct kiln_ray_frame *frame, const struct 
     return (struct ray_color){color, vf_all(1.0f)};
 }
 
-/* The same, or the sky where the ray meets nothing. */
+/* Returns the radiance of a surface, or the sky where the ray hits nothing. */
 SIMD struct ray_color radiance_or_sky(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
                                       struct vf3 direction, struct vf3 irradiance, vf sunlight)
 {

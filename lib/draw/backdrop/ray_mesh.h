@@ -1,12 +1,12 @@
-/* Meshes along vectors of rays: triangles that were found beforehand (mesh_rows.h). As
- * shaders/draw/backdrop/mesh_trace.glsl has it. */
+/* This header computes meshes along vectors of rays from triangles that were found beforehand
+ * (mesh_rows.h), as shaders/draw/backdrop/mesh_trace.glsl does in GL. */
 #ifndef KILN_DRAW_BACKDROP_RAY_MESH_H
 #define KILN_DRAW_BACKDROP_RAY_MESH_H
 
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_shapes.h"
 
-/* Rays of a layer. */
+/* Describes rays of a layer of hits. */
 struct ray_place {
     vf u, v;   /* the ray is (u, v, -1) in view space */
     vi hit;    /* in the meshes' hits, of layer 0 */
@@ -31,7 +31,8 @@ SIMD vi read_hit(const struct kiln_mesh_view *meshes, const struct ray_place *at
     return vi_gather(meshes->hits + meshes->pitch * (size_t)layer, at->hit) - 1;
 }
 
-/* Both sides of a triangle are seen; the normal is turned to the side that faces the eye. */
+/* Reads depth and normal of a triangle. Both sides of it are visible; the normal is turned to the
+ * side that faces the eye. */
 SIMD struct ray_mesh_hit find_mesh(const struct kiln_mesh_view *meshes, vi triangle,
                                    const struct ray_place *at)
 {
@@ -53,7 +54,8 @@ SIMD struct ray_mesh_hit find_mesh(const struct kiln_mesh_view *meshes, vi trian
     return hit;
 }
 
-/* How far what is linear along a triangle moves from this pixel to the next one, in u and v. */
+/* Holds how much a value that is linear along a triangle changes from this pixel to the next one,
+ * in u and v. */
 struct ray_drift {
     vf u, v;
 };
@@ -66,8 +68,8 @@ SIMD struct ray_drift find_slope(const float *plane, const float *nearness, vi u
         (vf_gather(plane + 1, uvs) - value * vf_gather(nearness + 1, triangle)) * depth};
 }
 
-/* What is painted, over the mesh's own colour. A pixel covers as much of the texture as the area of
- * its slopes says, or as half of the longer one. */
+/* Puts the paint over the mesh's own colour. A pixel covers as much of the texture as the area of
+ * its slopes, or as half of the longer slope. */
 SIMD struct vf3 add_paint(const struct kiln_ray_frame *frame, const struct ray_place *at,
                           const struct ray_mesh_hit *found, vi wanted, struct vf3 albedo)
 {
@@ -127,7 +129,7 @@ SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_plac
     nearest->albedo = vf3_select(nearer, albedo, nearest->albedo);
 }
 
-/* The place of a sample of the same pixel. */
+/* Returns the position of a sample of the same pixel. */
 SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const struct ray_place *at,
                                    int sample)
 {
@@ -143,8 +145,8 @@ SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const str
     return (struct ray_place){at->u + right, at->v - down, at->hit, 1 + sample};
 }
 
-/* A mesh has edges inside, where it hides itself or bends. The surface's number changes there, and
- * so that a whole tile of edges is seen, too, it changes from pixel to pixel. */
+/* Marks edges inside a mesh, where it hides itself or bends. The surface's number changes there,
+ * and it changes from pixel to pixel, so that a whole tile of edges is found as well. */
 SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at, vf surface,
                         vi odd)
 {

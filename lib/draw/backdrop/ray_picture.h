@@ -1,7 +1,6 @@
-/* Pictures of the floor and the sky along vectors of rays: as
- * shaders/draw/backdrop/floor_image.glsl and sky_image.glsl have it. A texel is a vector of its
- * own, fetched for one lane after the other.
- */
+/* This header reads pictures of the floor and the sky along vectors of rays, as
+ * shaders/draw/backdrop/floor_image.glsl and sky_image.glsl do in GL. A texel is a vector of its
+ * own, fetched for one lane after the other. */
 #ifndef KILN_DRAW_BACKDROP_RAY_PICTURE_H
 #define KILN_DRAW_BACKDROP_RAY_PICTURE_H
 
@@ -12,7 +11,7 @@ enum { RAY_FLOOR_TAPS = 8 };
 
 typedef float ray_texel __attribute__((vector_size(16)));
 
-/* The colour in half floats: their bits, shifted, are floats 2^112 times too small. */
+/* Reads a colour in half floats: their bits, shifted, are floats 2^112 times too small. */
 static inline ray_texel read_texel(const uint16_t half[4])
 {
     typedef uint16_t halves __attribute__((vector_size(8)));
@@ -27,8 +26,8 @@ static inline float fraction(float x)
     return x - floorf(x);
 }
 
-/* Linear between four texels of a level. u: 0 to 1, beyond which the picture repeats; v: the same,
- * or clamped to the picture. */
+/* Interpolates linearly between four texels of a level. u: 0 to 1, beyond which the picture
+ * repeats; v: the same, or clamped to the picture. */
 static inline ray_texel read_level(const struct kiln_pyramid *p, uint32_t level, float u, float v,
                                    bool repeats_y)
 {
@@ -52,7 +51,7 @@ static inline ray_texel read_level(const struct kiln_pyramid *p, uint32_t level,
     return a + (c - a) * down;
 }
 
-/* The levels of one lane. */
+/* Holds the mip levels of one lane. */
 struct ray_levels {
     uint32_t fine, coarse;
     float part; /* of the coarse one */
@@ -85,12 +84,12 @@ SIMD void set_lane(struct vf3 *color, int lane, ray_texel texel)
 
 /* ---- the floor ------------------------------------------------------------------------------- */
 
-/* A place on the floor, and the longer edge of what a pixel covers of it. */
+/* Holds a place on the floor, and the longer edge of the area that a pixel covers there. */
 struct ray_patch {
     vf x, z, longer_x, longer_z, level;
 };
 
-/* How far a place on the floor moves with the ray's direction. */
+/* Returns how far a place on the floor moves with the ray's direction. */
 SIMD void shift_on_floor(struct vf3 direction, float4 row, float factor, vf t, vf *x, vf *z)
 {
     vf climb = (row.y * factor) / direction.y;
@@ -98,7 +97,8 @@ SIMD void shift_on_floor(struct vf3 direction, float4 row, float factor, vf t, v
     *z = t * (row.z * factor - direction.z * climb);
 }
 
-/* Along the longer edge several fetches lie; the shorter one chooses their level. */
+/* Finds the area that a pixel covers. Several fetches lie along its longer edge; the shorter one
+ * chooses their level. */
 SIMD struct ray_patch find_patch(const struct kiln_ray_frame *frame, struct vf3 direction, vf t,
                                  vf x, vf z)
 {
@@ -112,7 +112,7 @@ SIMD struct ray_patch find_patch(const struct kiln_ray_frame *frame, struct vf3 
     vi along_u = u2 > v2;
     vf length2 = vf_max(vf_select(along_u, u2, v2), vf_all(1e-18f));
     vf inverse = vf_rsqrt(length2);
-    /* By the area: the two need not be square to each other. */
+    /* The width is the area over the length, since the two edges need not be perpendicular. */
     vf width = vf_abs(ux * vz - uz * vx) * inverse;
     vf covered = vf_max(width, length2 * inverse * (1.0f / (float)RAY_FLOOR_TAPS));
     vf texels = vf_min(vf_max(covered * frame->shapes->floor_map.z, vf_all(1e-6f)), vf_all(1e9f));
@@ -144,7 +144,7 @@ SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame, const struct r
 
 /* ---- the sky --------------------------------------------------------------------------------- */
 
-/* Averaged over at least `angle` radians. The picture's middle lies towards -z. */
+/* Reads the sky, averaged over at least `angle` radians. The picture's middle lies towards -z. */
 SIMD struct vf3 sky_picture(const struct kiln_ray_frame *frame, struct vf3 direction, float angle,
                             vi wanted)
 {

@@ -1,5 +1,5 @@
-/* Finds where vectors of rays meet boxes, spheres and cylinders: as
- * shaders/draw/backdrop/surface.glsl and round.glsl have it. */
+/* This header finds where vectors of rays hit boxes, spheres and cylinders, as
+ * shaders/draw/backdrop/surface.glsl and round.glsl do in GL. */
 #ifndef KILN_DRAW_BACKDROP_RAY_SHAPES_H
 #define KILN_DRAW_BACKDROP_RAY_SHAPES_H
 
@@ -52,7 +52,7 @@ SIMD struct vf3 ray_at(const struct ray *ray, vf t)
     return vf3_along(ray->origin, ray->direction, t);
 }
 
-/* Takes over what is hit before the rest. */
+/* Replaces the nearest hit in the lanes of a nearer one. */
 SIMD void keep_nearer(struct ray_hit *nearest, vi nearer, vf t, vf surface, struct vf3 normal,
                       float4 albedo)
 {
@@ -84,7 +84,7 @@ SIMD struct ray_interval slabs_interval(const struct ray_slabs *s)
                                  vf_min(vf_min(s->out.x, s->out.y), s->out.z)};
 }
 
-/* Of the face of the slab which is entered last. */
+/* Returns the normal of the face of the slab that is entered last. */
 SIMD struct vf3 slabs_normal(const struct ray_slabs *s, struct vf3 inverse)
 {
     vi x = (s->in.x >= s->in.y) & (s->in.x >= s->in.z);
@@ -113,7 +113,8 @@ SIMD void trace_boxes(const struct kiln_ray_frame *frame, uint32_t boxes, const 
 
 /* ---- round ones ------------------------------------------------------------------------------ */
 
-/* By the vector across the ray, which keeps its digits far away; out < in for a miss. */
+/* Intersects a sphere. It uses the vector across the ray, which stays precise far away; out < in
+ * for a miss. */
 SIMD struct ray_interval cross_sphere(float4 sphere, const struct ray *ray)
 {
     struct vf3 towards = vf3_towards(sphere, ray->origin);

@@ -1,14 +1,13 @@
-/* The part of the sun that surfaces see past the backdrop's objects and past particles that are
- * spheres: as shaders/draw/backdrop/surface.glsl, sun_cover.glsl, round.glsl, mesh_trace.glsl and
- * solid_shadow.glsl have it. What hides nothing from a lane multiplies its light by exactly 1, so
- * that it does not matter which lanes share a vector.
- */
+/* This header computes the part of the sun that surfaces see past the backdrop's objects and past
+ * solid particles, as shaders/draw/backdrop/surface.glsl, sun_cover.glsl, round.glsl,
+ * mesh_trace.glsl and solid_shadow.glsl do in GL. An object that hides nothing from a lane
+ * multiplies its light by exactly 1, so that it does not matter which lanes share a vector. */
 #ifndef KILN_DRAW_BACKDROP_RAY_SUN_H
 #define KILN_DRAW_BACKDROP_RAY_SUN_H
 
 #include "draw/backdrop/ray_turned.h"
 
-/* Where light starts from, and which lanes ask. */
+/* Describes points that the sun is looked for from, and the lanes that need it. */
 struct ray_shade {
     struct vf3 origin, normal;
     vi wanted;
@@ -19,14 +18,14 @@ SIMD vf clamp01(vf x)
     return vf_clamp(x, 0.0f, 1.0f);
 }
 
-/* The part of a disc on the far side of a line, by the line's signed distance in radii. */
+/* Returns the part of a disc on the far side of a line, by the line's signed distance in radii. */
 SIMD vf disc_cover(vf distance)
 {
     vf x = clamp01(0.5f + 0.5f * distance);
     return x * x * (3.0f - 2.0f * x);
 }
 
-/* Between two parallel lines, the distances to which are positive inside. */
+/* Returns the part of a disc between two parallel lines, whose distances are positive inside. */
 SIMD vf strip_cover(vf one, vf other, vf radius)
 {
     vf scale = 1.0f / vf_max(radius, vf_all(1e-5f));
@@ -35,7 +34,8 @@ SIMD vf strip_cover(vf one, vf other, vf radius)
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
-/* The strip between the edges where two pairs of faces meet; how far outside of it a ray is, m. */
+/* Returns the cover of the strip between the edges where two pairs of faces meet; *outside grows to
+ * how far outside of it a ray is, m. */
 SIMD vf box_strip(vf in_a, vf in_b, vf out_a, vf out_b, float inverse_a, float inverse_b,
                   float spread, vf *outside)
 {
@@ -53,13 +53,13 @@ SIMD vf box_strip(vf in_a, vf in_b, vf out_a, vf out_b, float inverse_a, float i
 
 #define BOX_EDGE 1e-4f /* m: what rounding puts a ray aside, and less than surfaces are */
 
-/* Of two strips; edges that look alike count once. */
+/* Combines the covers of two strips; edges that look alike count once. */
 SIMD vf both_strips(vf a, vf b, float alike)
 {
     return a * b + (vf_min(a, b) - a * b) * alike;
 }
 
-/* How much later a ray leaves a slab that passes `aside` of it, at most. */
+/* Returns how much later, at most, a ray leaves a slab that it passes at the distance `aside`. */
 SIMD vf later(float inverse, vf aside)
 {
     return aside * sqrtf(fmaxf(inverse * inverse - 1.0f, 0.0f));
@@ -101,7 +101,7 @@ SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_s
 
 /* ---- spheres and cylinders ------------------------------------------------------------------- */
 
-/* Of a ball whose centre is so far away. */
+/* Returns the cover of a ball. towards: the way to its centre. */
 SIMD vf ball_cover(struct vf3 towards, float radius, float4 sun, float spread)
 {
     vf t = vf3_dot_all(towards, sun);
@@ -114,7 +114,8 @@ SIMD vf sphere_cover(float4 sphere, struct vf3 origin, float4 sun, float spread)
     return ball_cover(vf3_towards(sphere, origin), sphere.w, sun, spread);
 }
 
-/* Its outline is a band along `up`, with round ends; seen along its axis, it is round. */
+/* Returns the cover of a cylinder. Its outline is a band along `up`, with round ends; seen along
+ * its axis, it is round. */
 SIMD vf cylinder_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
 {
     const float4 sun4 = frame->backdrop->sun_direction, axis4 = frame->shapes->cylinder_axis[i];
@@ -137,7 +138,7 @@ SIMD vf cylinder_cover(const struct kiln_ray_frame *frame, int i, struct vf3 ori
     vf end = halves * slant + fabsf(climb) * inside;
     vf sides = strip_cover(radius - vf_abs(x), radius + vf_abs(x), t * spread);
     vf ends = strip_cover(end - vf_abs(y), end + vf_abs(y), t * spread);
-    /* On its way to the sun, light that starts beside it or beyond an end may lead only away. */
+    /* Light that starts beside the cylinder or beyond an end may only lead away from it. */
     vf height = -vf3_dot_all(towards, axis4);
     struct vf3 aside = vf3_along(towards, vf3_all(axis4), height);
     vi beyond = (vf_abs(height) >= halves) & (height * climb > 0.0f);
@@ -145,7 +146,7 @@ SIMD vf cylinder_cover(const struct kiln_ray_frame *frame, int i, struct vf3 ori
     return vf_where(~(beyond | beside), sides * ends);
 }
 
-/* A light without size is seen, or not. */
+/* Returns the lanes whose ray does not cross the interval, for a sun without size. */
 SIMD vi is_free(struct ray_interval at)
 {
     return vf_max(at.in, vf_all(0.0f)) >= at.out;
@@ -178,7 +179,7 @@ SIMD vf round_let_through(const struct kiln_ray_frame *frame, const struct ray_s
 
 /* ---- capsules and turned boxes --------------------------------------------------------------- */
 
-/* Of the balls that a capsule is made of, the one that the ray passes most closely. */
+/* Returns the cover of the ball, of those that form a capsule, that the ray passes most closely. */
 SIMD vf capsule_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
 {
     const float4 sun = frame->backdrop->sun_direction, axis = frame->shapes->capsule_axis[i];
@@ -221,12 +222,12 @@ SIMD vf turned_let_through(const struct kiln_ray_frame *frame, const struct ray_
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
-/* How much of a place in a map is covered, and the mean distance there times that. */
+/* Holds how much of a place in a shadow map is covered, and the mean distance there times that. */
 struct ray_seen {
     vf cover, distance;
 };
 
-/* Linear between four texels of a level; nothing is beside the map. */
+/* Interpolates linearly between four texels of a level; nothing is beside the map. */
 SIMD struct ray_seen read_shadow_level(const uint32_t *map, vf u, vf v, vi level)
 {
     static const int32_t first[KILN_SHADOW_LEVELS] = {0,       1048576, 1310720, 1376256,
@@ -253,7 +254,7 @@ SIMD struct ray_seen read_shadow_level(const uint32_t *map, vf u, vf v, vi level
     return seen;
 }
 
-/* Between two levels, too. */
+/* Reads a shadow map, interpolated between two levels. */
 SIMD struct ray_seen read_shadow(const uint32_t *map, vf u, vf v, vf level)
 {
     level = vf_clamp(level, 0.0f, (float)(KILN_SHADOW_LEVELS - 1));
@@ -268,7 +269,7 @@ SIMD struct ray_seen read_shadow(const uint32_t *map, vf u, vf v, vf level)
     return seen;
 }
 
-/* A place in the map of a mesh. */
+/* Describes a place in the shadow map of a mesh. */
 struct ray_shadow_place {
     vf u, v, depth;
     vf slope_u, slope_v; /* of the receiver's plane: what its depth is a step aside */
@@ -291,8 +292,8 @@ SIMD struct ray_shadow_place place_in_shadow(const struct kiln_ray_frame *frame,
     };
 }
 
-/* A first fetch looks for anything between that the others could find, over more than they reach;
- * four bilinear ones half a step aside then make a tent, as nine would. */
+/* Returns the cover of a mesh. A first fetch looks for a blocker over a larger area than the others
+ * reach; four bilinear fetches half a step aside then make a tent filter, as nine would. */
 SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct ray_shade *shade)
 {
     const uint32_t *map = frame->meshes->shadows[i];
@@ -311,7 +312,7 @@ SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct ray_s
     if (!any(near))
         return vf_all(0.0f);
     vf middle = seen.distance / vf_max(seen.cover, vf_all(1e-4f));
-    /* How far the sun's disc spreads at the distance of what is between. */
+    /* The gap to the blocker gives the width of the penumbra. */
     vf gap = at.depth - vf_min(middle, at.depth);
     vf width = vf_max(0.75f * spread * gap, vf_all(texel));
     vf level = vf_log2(width * (1.0f / texel)), stride = 0.5f * width, cover = vf_all(0.0f);
@@ -328,7 +329,7 @@ SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct ray_s
 
 /* ---- particles ------------------------------------------------------------------------------- */
 
-/* Two discs, within 3 % of their exact common part. */
+/* Returns the common part of two discs, within 3 % of the exact one. */
 SIMD vf particle_cover(const struct kiln_ray_frame *frame, struct vf3 center, vf size,
                        struct vf3 origin)
 {
@@ -346,7 +347,7 @@ SIMD vf particle_cover(const struct kiln_ray_frame *frame, struct vf3 center, vf
     return vf_where(t > 0.0f, part * most * most * fade);
 }
 
-/* Where a level of the silhouettes starts, in texels. */
+/* Returns where a level of the silhouettes starts, in texels. */
 SIMD vi silhouette_start(vi level)
 {
     vi start = vi_all(0), size = vi_all(KILN_INSTANCE_ATLAS * KILN_INSTANCE_ATLAS);
@@ -357,13 +358,14 @@ SIMD vi silhouette_start(vi level)
     return start;
 }
 
-/* Tiles of meshes: where they start, their width in texels, as of struct kiln_solid_bins. */
+/* Describes tiles of meshes: where they start and their width in texels, as in struct
+ * kiln_solid_bins. */
 struct ray_tile {
     vi x, y, edge;
     vf reach;
 };
 
-/* Linear between four texels of a level; nothing is beside the tile. */
+/* Interpolates linearly between four texels of a level; nothing is beside the tile. */
 SIMD vf silhouette_level(const float *texels, const struct ray_tile *tile, vf u, vf v, vi level)
 {
     const vi edge = tile->edge >> level, pitch = vi_all(KILN_INSTANCE_ATLAS) >> level;
@@ -407,7 +409,7 @@ SIMD vf silhouette_cover(const struct kiln_ray_frame *frame, struct vf3 center,
     return cover + (ball - cover) * wide;
 }
 
-/* What of an entry follows from the place where it is. */
+/* Holds an entry of the list of solids, read for each lane. */
 struct ray_entry {
     struct vf3 center;
     vf size, reach; /* of the sphere, and of what may be in its tile; m */
@@ -431,7 +433,7 @@ SIMD struct ray_entry read_entry(const struct kiln_solid_bins *solids, vi entry,
     return e;
 }
 
-/* May it hide anything? Where it is not, its cover is 0. */
+/* Returns the lanes where an entry may hide the sun; elsewhere its cover is 0. */
 SIMD vi entry_is_near(const struct kiln_ray_frame *frame, const struct ray_entry *e,
                       struct vf3 origin)
 {
@@ -459,7 +461,8 @@ SIMD vf entry_cover(const struct kiln_ray_frame *frame, const struct ray_entry *
     return vf_select(has, silhouette_cover(frame, e->center, &tile, origin, ball), ball);
 }
 
-/* Each lane goes on in its list to what is near, so that few of them wait for the others. */
+/* Returns the part of the sun that solid particles let through. Each lane skips to the next near
+ * entry of its list, so that few lanes wait for the others. */
 SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
@@ -495,7 +498,7 @@ SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct r
 
 /* ---- all of them ----------------------------------------------------------------------------- */
 
-/* 0 for the lanes that do not ask. */
+/* Returns the visible part of the sun; 0 for lanes that are not wanted. */
 SIMD vf sun_visibility(const struct kiln_ray_frame *frame, struct vf3 point, struct vf3 normal,
                        vi wanted)
 {

@@ -1,5 +1,5 @@
-/* Finds where vectors of rays meet capsules, boxes of any direction and planes: as
- * shaders/draw/backdrop/turned.glsl has it. */
+/* This header finds where vectors of rays hit capsules, rotated boxes and planes, as
+ * shaders/draw/backdrop/turned.glsl does in GL. */
 #ifndef KILN_DRAW_BACKDROP_RAY_TURNED_H
 #define KILN_DRAW_BACKDROP_RAY_TURNED_H
 
@@ -7,7 +7,7 @@
 
 /* ---- capsules -------------------------------------------------------------------------------- */
 
-/* Of two convex shapes that are one together. */
+/* Returns the interval of two convex shapes whose union is convex. */
 SIMD struct ray_interval either_interval(struct ray_interval a, struct ray_interval b)
 {
     vi has_a = a.in <= a.out, has_b = b.in <= b.out;
@@ -18,7 +18,7 @@ SIMD struct ray_interval either_interval(struct ray_interval a, struct ray_inter
                                  vf_select(any_of_them, out, vf_all(-1.0f))};
 }
 
-/* The ball at an end. */
+/* Returns the ball at an end of a capsule. */
 SIMD float4 capsule_end(float4 capsule, float4 axis, float way)
 {
     float far = axis.w * way;
@@ -55,7 +55,7 @@ SIMD void trace_capsules(const struct kiln_ray_frame *frame, uint32_t capsules,
 
 /* ---- boxes of any direction ------------------------------------------------------------------ */
 
-/* A direction of the world in the frame of a box, and back. */
+/* Transform a direction from the world to the frame of a box, and back. */
 SIMD struct vf3 into_box(const struct kiln_draw_turned_box *box, struct vf3 v)
 {
     return (struct vf3){vf3_dot_all(v, box->rows[0]), vf3_dot_all(v, box->rows[1]),
@@ -70,7 +70,7 @@ SIMD struct vf3 out_of_box(const struct kiln_draw_turned_box *box, struct vf3 v)
                         v.x * rows[0].z + v.y * rows[1].z + v.z * rows[2].z};
 }
 
-/* inverse: of the ray's direction there. */
+/* Intersects the slabs of a rotated box. inverse: of the ray's direction in the box's frame. */
 SIMD struct ray_slabs cross_turned(const struct kiln_draw_turned_box *box, struct vf3 origin,
                                    struct vf3 inverse)
 {

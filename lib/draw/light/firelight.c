@@ -1,10 +1,10 @@
-/* A system's particles are gathered by their progress through life: each belongs to the two nearest
- * of its lights, in parts. Particles of one age are near each other in a jet, a flame or a burst,
- * and since ages grow evenly a light moves and flickers with its part of the fire and never jumps.
+/* This file gathers the light of fire into a few point lights. The particles of a system are
+ * gathered by their progress through life: each belongs to the two nearest of the system's lights,
+ * in parts. Particles of one age are near each other in a jet, a flame or a burst, and since ages
+ * grow evenly a light moves and flickers with its part of the fire and never jumps.
  *
- * Sums are taken over stretches of slots, as many as the slots ask for, and then over the
- * stretches: the same for any number of threads.
- */
+ * Sums are taken over stretches of slots, whose number depends on the slots alone, and then over
+ * the stretches: the result is the same for any number of threads. */
 #include "draw/light/firelight.h"
 
 #include "draw/light/light_blocks.h"
@@ -26,7 +26,7 @@ struct gatherer {
     struct kiln_gathering lights[MOST_STRETCHES][KILN_MAX_FIRE_LIGHTS];
 };
 
-/* Stretches are of whole blocks. */
+/* Gathers some stretches; each consists of whole blocks. */
 static void gather_stretches(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
@@ -65,7 +65,7 @@ static void add_gathering(struct kiln_gathering *sum, const struct kiln_gatherin
     sum->radius += other->radius;
 }
 
-/* Leaves the sums in the first stretch. */
+/* Gathers a system's lights; the sums are left in the first stretch. */
 static void gather_system(struct gatherer *gatherer, struct kiln_threads *threads)
 {
     uint32_t useful = gatherer->system.used / LEAST_STRETCH + 1;
@@ -77,9 +77,10 @@ static void gather_system(struct gatherer *gatherer, struct kiln_threads *thread
     }
 }
 
-/* A patch of radiance L and area A lights a surface that faces it at distance d by L A / d^2; a
- * light of colour c (what arrives at 1 m, over pi) by pi c / d^2. The light's radius is how far its
- * particles are spread, so that a surface among them is not lit by a point. */
+/* Makes a point light of gathered sums. A patch of radiance L and area A lights a surface that
+ * faces it at distance d by L A / d^2; a light of colour c (the radiance of a white surface at 1 m,
+ * irradiance over pi) by pi c / d^2. The light's radius is how far its particles are spread, so
+ * that a surface among them is not lit by a point. */
 static struct kiln_draw_light make_light(const struct kiln_gathering *light, float3 strength)
 {
     double mean[3], square = 0.0;
@@ -98,7 +99,7 @@ static struct kiln_draw_light make_light(const struct kiln_gathering *light, flo
     };
 }
 
-/* For one of the systems, with nothing gathered yet. */
+/* Returns a gatherer for one of the systems, with nothing gathered yet. */
 static struct gatherer gatherer_of(const struct kiln_moment *moment, uint32_t system)
 {
     struct gatherer gatherer = {.find = KILN_SIMD_PICK(kiln_living_find, moment->simd),

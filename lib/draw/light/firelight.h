@@ -1,5 +1,5 @@
-/* The light that fire sheds on backdrop and smoke: what its particles emit, gathered into a few
- * moving point lights. */
+/* This header declares the light of fire on backdrop and smoke: the emission of particles, gathered
+ * into a few moving point lights. */
 #ifndef KILN_DRAW_LIGHT_FIRELIGHT_H
 #define KILN_DRAW_LIGHT_FIRELIGHT_H
 
@@ -11,7 +11,7 @@
 uint32_t kiln_firelight_gather(const struct kiln_moment *moment, struct kiln_threads *threads,
                                struct kiln_draw_light *lights);
 
-/* Whether a system sheds light at all. */
+/* Returns whether any system sheds light. */
 bool kiln_firelight_exists(const struct kiln_scene *scene);
 
 #endif

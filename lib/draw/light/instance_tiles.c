@@ -1,5 +1,7 @@
-/* Triangles become bits, 4 x 4 of a texel, whose rows are words; a bit is set whose middle lies in
- * a triangle, whichever way that faces. */
+/* This file draws the silhouettes of particles that are meshes, as the sun sees them, into tiles of
+ * an atlas. It draws each triangle as bits, 4 x 4 of a texel, in rows of words; a bit is set if its
+ * middle lies in a triangle, whichever way that faces. Texels are the parts of their bits that are
+ * set, and coarser levels are means. */
 #include "draw/light/instance_tiles.h"
 
 #include <stdlib.h>
@@ -22,7 +24,7 @@ struct kiln_instance_tiles {
     struct kiln_instance_place *places; /* of the run at hand */
 };
 
-/* Where a level starts. */
+/* Returns where a level starts, in texels. */
 static size_t level_at(uint32_t level)
 {
     size_t at = 0;
@@ -80,7 +82,7 @@ const float *kiln_instance_tiles_texels(const struct kiln_instance_tiles *tiles)
 
 /* ---- bits ------------------------------------------------------------------------------------ */
 
-/* The first whose middle is at or after x. */
+/* Returns the first bit whose middle is at or after x. */
 static int32_t bit_from(float x, int32_t bits)
 {
     const float at = x - 0.5f;

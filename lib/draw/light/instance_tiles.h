@@ -1,5 +1,6 @@
-/* What the sun sees of particles that are meshes: the silhouette of each in a tile of an atlas, as
- * parts of texels that are covered, and the same at half the size and so on. */
+/* A kiln_instance_tiles holds the silhouettes of particles that are meshes, as the sun sees them.
+ * Each has a tile of an atlas, whose texels are the parts that are covered; coarser levels have
+ * half the size each. */
 #ifndef KILN_DRAW_LIGHT_INSTANCE_TILES_H
 #define KILN_DRAW_LIGHT_INSTANCE_TILES_H
 
@@ -7,7 +8,8 @@
 #include "draw/moment/instances.h"
 #include "shared/shape_layout.h"
 
-/* A mesh across the sun's direction: from kiln_instances' corners to parts of the tile's half. */
+/* Describes how a mesh is projected across the sun's direction: from kiln_instances' corners to
+ * parts of the tile's half. */
 struct kiln_instance_place {
     float across[2][3];
     uint32_t system;
@@ -33,15 +35,16 @@ void kiln_instance_tiles_destroy(struct kiln_instance_tiles **tiles);
 const struct kiln_instance_mesh *kiln_instance_tiles_mesh(const struct kiln_instance_tiles *tiles,
                                                           uint32_t system);
 
-/* Draws the places into the tiles of their numbers; for any number of threads the same. */
+/* Draws the silhouettes of places into the tiles of their numbers; the result is the same for any
+ * number of threads. */
 void kiln_instance_tiles_run(struct kiln_instance_tiles *tiles, struct kiln_instance_place *places,
                              uint32_t count, struct kiln_threads *threads);
 
 struct kiln_instance_tile kiln_instance_tile_at(const struct kiln_instance_tiles *tiles,
                                                 uint32_t number);
 
-/* Levels of KILN_INSTANCE_ATLAS texels squared, a quarter of that, and so on, one after the other:
- * KILN_INSTANCE_LEVELS of them. */
+/* Returns KILN_INSTANCE_LEVELS levels, one after the other: KILN_INSTANCE_ATLAS texels squared, a
+ * quarter of that, and so on. */
 const float *kiln_instance_tiles_texels(const struct kiln_instance_tiles *tiles);
 
 #endif

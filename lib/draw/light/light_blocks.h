@@ -1,4 +1,4 @@
-/* Sums of light and shade over blocks of living particles, by loops that become vectors
+/* This header declares sums of light and shade over blocks of living particles, by vectorised loops
  * (light_simd.c). */
 #ifndef KILN_DRAW_LIGHT_LIGHT_BLOCKS_H
 #define KILN_DRAW_LIGHT_LIGHT_BLOCKS_H
@@ -6,12 +6,12 @@
 #include "draw/light/sun_box.h"
 #include "draw/moment/living_blocks.h"
 
-/* kiln_living_glow at the samples of a look. */
+/* Holds kiln_living_glow at the samples of a look. */
 struct kiln_glow {
     float red[KILN_LOOK_SAMPLES], green[KILN_LOOK_SAMPLES], blue[KILN_LOOK_SAMPLES];
 };
 
-/* Sums over the particles of one light. */
+/* Holds sums over the particles of one light. */
 struct kiln_gathering {
     double color[3];    /* light sent, m^2 */
     double energy;      /* of all channels: the weight of what follows */
@@ -21,15 +21,15 @@ struct kiln_gathering {
 };
 
 struct kiln_light_loops {
-    /* Adds what the particles emit, cells being filled to a part, to the two lights that each lies
-     * between by its progress. */
+    /* Adds the light of each particle to the two lights that its progress lies between; fill is the
+     * part of a cell that is filled. */
     void (*gather_fire)(const struct kiln_living_block *block, const struct kiln_glow *glow,
                         float fill, uint32_t light_count, struct kiln_gathering *lights);
-    /* Of a ball of smoke that hides `cover` times its opacity in the middle: the extinction summed
-     * over its volume, m^2. */
+    /* Computes each ball's extinction summed over its volume, m^2; the ball hides `cover` times its
+     * opacity in the middle. */
     void (*find_extinction)(const struct kiln_living_block *block, float cover, float shadow,
                             float extinction[KILN_LANES]);
-    /* Multiplies by what boxes let through of the sun. */
+    /* Multiplies by the part of the sun that boxes let through. */
     void (*shade)(const struct kiln_living_block *block, const struct kiln_sun_box *boxes,
                   uint32_t box_count, const struct kiln_sun_frame *sun, float visible[KILN_LANES]);
 };

@@ -1,6 +1,6 @@
-/* Sums up fire, the extinction of smoke and the shade of boxes over blocks of living particles.
- * Every loop here is over lanes, and without branches: compilers make vectors of it. Sums are taken
- * in the same order at every level. */
+/* This file sums up fire, the extinction of smoke and the shade of boxes over blocks of living
+ * particles. Every loop runs over lanes and has no branches, so that compilers vectorise it. Sums
+ * are taken in the same order at every level. */
 #include <math.h>
 
 #include "draw/light/light_blocks.h"
@@ -10,7 +10,7 @@
 
 enum { SUMS = 16 };
 
-/* As many sums side by side at every level. */
+/* As many sums are taken side by side at every level. */
 typedef float sums __attribute__((vector_size(4 * SUMS), may_alias));
 
 static inline double total(const sums *of)
@@ -55,7 +55,7 @@ static inline void find_fire(struct fire *f, const struct kiln_living_block *b,
     }
 }
 
-/* Such sums of arrays, which are as aligned. */
+/* Reads floats of an array with the alignment of sums. */
 static inline const sums *as_sums(const float *from)
 {
     return (const sums *)__builtin_assume_aligned(from, 64);
@@ -111,8 +111,8 @@ __attribute__((flatten)) static void gather_fire(const struct kiln_living_block 
 
 /* ---- smoke ----------------------------------------------------------------------------------- */
 
-/* Extinction of e (1 - d^2)^2, d in radii, has the optical depth 16/15 e r through the middle of a
- * ball and, summed over it, e r^3 32 pi / 105. */
+/* Finds extinctions. Extinction of e (1 - d^2)^2, d in radii, has the optical depth 16/15 e r
+ * through the middle of a ball and, summed over it, e r^3 32 pi / 105. */
 __attribute__((flatten)) static void find_extinction(const struct kiln_living_block *b, float cover,
                                                      float shadow, float extinction[KILN_LANES])
 {
@@ -127,7 +127,8 @@ __attribute__((flatten)) static void find_extinction(const struct kiln_living_bl
 
 /* ---- shade ----------------------------------------------------------------------------------- */
 
-/* Most blocks are far from the shade of most boxes. */
+/* Returns whether any particle may be in a box's shade; most blocks are far from most boxes'
+ * shade. */
 static inline bool any_near(const struct kiln_living_block *b, const struct kiln_sun_box *box,
                             const struct kiln_sun_frame *sun)
 {

@@ -1,5 +1,6 @@
-/* Computed on the host: a few hundred thousand additions a frame, in an order that does not depend
- * on threads. */
+/* This file computes the light of a moment that follows from its particles: it runs firelight,
+ * shadows of smoke and solids, and the shade on particles. It computes on the host, a few hundred
+ * thousand additions a frame, in an order that does not depend on threads. */
 #include "draw/light/lighting.h"
 
 #include <stdlib.h>
@@ -17,7 +18,7 @@ struct kiln_lighting_stage {
     struct kiln_threads *threads;
     uint64_t run;     /* runs done */
     bool fire, smoke; /* whether the scene has any */
-    bool sun;         /* whether it shines ever */
+    bool sun;         /* whether it ever shines */
     struct kiln_smoke puffs;
     struct kiln_smoke_shadow *shadow;
     float *depths;                    /* of the grids */
@@ -111,7 +112,8 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
     *stage = NULL;
 }
 
-/* Where there is no sun, every place lies beside its grid. */
+/* Fills the grids of smoke. Where there is no sun, every position is mapped outside of the sun's
+ * grid. */
 static bool shade(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
                   struct kiln_lighting *lighting, struct kiln_error *error)
 {

@@ -1,6 +1,6 @@
-/* Stage 4, first: the light of a frame that follows from its particles: what fire sheds, what smoke
- * and solid particles keep off. Backdrop and particles are lit by it.
- */
+/* The lighting stage runs first in stage 4. It computes the light of a frame that follows from its
+ * particles: the light that fire sheds, and the shadows of smoke and solid particles. Backdrop and
+ * particles are lit by it. */
 #ifndef KILN_DRAW_LIGHT_LIGHTING_H
 #define KILN_DRAW_LIGHT_LIGHTING_H
 
@@ -10,13 +10,13 @@
 #include "draw/light/sun_shade.h"
 #include "draw/moment/living.h"
 
-/* Of one frame: on the host, and by kiln_lighting_bind in GL. What it points to is the stage's and
- * holds until the next run. */
+/* Holds the light of one frame on the host; kiln_lighting_bind has it in GL. The stage owns the
+ * arrays, which hold until the next run. */
 struct kiln_lighting {
     uint64_t run; /* its number */
     uint32_t fire_count;
     struct kiln_draw_light fire[KILN_MAX_FIRE_LIGHTS];
-    bool smoke;                            /* there is some: the rows mean something */
+    bool smoke;                            /* there is smoke: the rows are set */
     float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
     const float *sun_depth, *sky_depth;    /* optical depth in them, KILN_SMOKE_GRID cubed, rows
                                             * along x; no sun_depth where there is no sun */
@@ -29,17 +29,18 @@ struct kiln_lighting {
 
 struct kiln_lighting_stage;
 
-/* NULL with an error. Moment and threads must outlive it; device NULL: host only. */
+/* Makes the stage. Returns NULL with an error. Moment and threads must outlive it; device NULL:
+ * host only. */
 struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                                  const struct kiln_moment *moment,
                                                  struct kiln_threads *threads,
                                                  struct kiln_error *error);
 void kiln_lighting_destroy(struct kiln_lighting_stage **stage);
 
-/* Does it read particles on the host, so that moments must have them there? */
+/* Returns whether the stage reads particles on the host, so that moments must have them there. */
 bool kiln_lighting_reads_particles(const struct kiln_lighting_stage *stage);
 
-/* The light of a moment's particles. */
+/* Computes the light of a moment's particles. */
 bool kiln_lighting_run(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
                        struct kiln_lighting *lighting, struct kiln_error *error);
 

@@ -1,4 +1,5 @@
-/* What changes every frame is sent once a frame, however many stages ask. */
+/* This file sends the light of a frame to textures in GL and binds them. Data that changes every
+ * frame is sent once a frame, however many stages bind it. */
 #include "draw/light/lighting_gl.h"
 
 #include <stdlib.h>
@@ -64,7 +65,7 @@ static void bind(const struct kiln_lighting_gl *gl, enum texture which)
     glBindTexture(ABOUT[which].target, gl->textures[which]);
 }
 
-/* Binds the texture; true when it is new and needs storage. */
+/* Binds the texture; returns true when it is new and needs storage. */
 static bool make(struct kiln_lighting_gl *gl, enum texture which, GLint filter)
 {
     bool is_new = gl->textures[which] == 0;
@@ -92,7 +93,7 @@ static void send_grid(struct kiln_lighting_gl *gl, enum texture which, const flo
     gl->device->traffic.to_device += sizeof(float) * EDGE * EDGE * EDGE;
 }
 
-/* A list of float4 in rows; returns the rows that it has. */
+/* Sends a list of float4 in rows; returns how many rows it has. */
 static size_t send_list(struct kiln_lighting_gl *gl, enum texture which,
                         const struct kiln_solid_bins *solids, const float4 *list)
 {
@@ -105,7 +106,7 @@ static size_t send_list(struct kiln_lighting_gl *gl, enum texture which,
     return rows;
 }
 
-/* The rows of tiles that are in use. */
+/* Sends the rows of tiles that are in use. */
 static void send_silhouettes(struct kiln_lighting_gl *gl, const struct kiln_solid_bins *solids)
 {
     const float *texels = solids->silhouettes;

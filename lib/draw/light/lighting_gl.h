@@ -1,5 +1,5 @@
-/* The light of a frame as textures, for the programs of GL: made and brought up to date when one of
- * these asks for it. */
+/* A kiln_lighting_gl holds the light of a frame as textures for programs in GL. They are made and
+ * updated when a stage binds them. */
 #ifndef KILN_DRAW_LIGHT_LIGHTING_GL_H
 #define KILN_DRAW_LIGHT_LIGHTING_GL_H
 
@@ -11,8 +11,8 @@ struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device);
 void kiln_lighting_gl_destroy(struct kiln_lighting_gl **gl);
 
 /* Binds the smoke's grids (draw/light/smoke_shadow.glsl), the lists of solids
- * (draw/light/solid_shadow.glsl) and what each particle sees of the sun (KILN_UNIT_SUN_SHADE), as
- * far as there are any. */
+ * (draw/light/solid_shadow.glsl) and the part of the sun that each particle sees
+ * (KILN_UNIT_SUN_SHADE), as far as there are any. */
 bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error *error);
 
 #endif

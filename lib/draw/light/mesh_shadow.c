@@ -1,5 +1,6 @@
-/* The sphere around the mesh fills the map but for a border
- * (shaders/draw/backdrop/meshes_shadow.vert). Coarser levels are means of four texels. */
+/* This file draws the shadow map of a mesh on the host and its coarser levels, which are means of
+ * four texels. The sphere around the mesh fills the map except for a border
+ * (shaders/draw/backdrop/meshes_shadow.vert). */
 #include "draw/light/mesh_shadow.h"
 
 #include <assert.h>
@@ -32,7 +33,7 @@ struct drawing {
     struct kiln_mesh_shadow *shadow;
     struct kiln_mesh_canvas *canvas;
     const struct kiln_mesh *mesh;
-    uint32_t level; /* that is made of the one before */
+    uint32_t level; /* the level that is made from the finer one */
 };
 
 /* ---- triangles ------------------------------------------------------------------------------- */
@@ -59,7 +60,8 @@ static struct corner project(const struct kiln_mesh_shadow *shadow, mat4 to_worl
                            0.5f + dot(shadow->sun, from) * scale};
 }
 
-/* The plane that is 0 along a line; the same, times -1, for its other direction. */
+/* Writes the plane that is 0 along a line; for the line's other direction it is the same, times
+ * -1. */
 static void edge_plane(struct corner a, struct corner b, float plane[3])
 {
     bool swap = a.x > b.x || (a.x == b.x && a.y > b.y);

@@ -1,4 +1,5 @@
-/* Shadow maps of meshes on the host: each shows one mesh as the sun sees it, and fits it. */
+/* A kiln_mesh_shadow is a shadow map on the host: it shows one mesh as the sun sees it, and fits
+ * the mesh. */
 #ifndef KILN_DRAW_LIGHT_MESH_SHADOW_H
 #define KILN_DRAW_LIGHT_MESH_SHADOW_H
 
@@ -23,7 +24,7 @@ struct kiln_mesh_shadow {
     bool drawn;
 };
 
-/* Memory that several maps are drawn with, one after the other. */
+/* Holds memory that several maps are drawn with, one after the other. */
 struct kiln_mesh_canvas {
     struct kiln_threads *threads;
     const struct kiln_mesh_rows *rows;
@@ -36,7 +37,7 @@ struct kiln_mesh_canvas {
 bool kiln_mesh_shadow_init(struct kiln_mesh_shadow *shadow, struct kiln_error *error);
 void kiln_mesh_shadow_finish(struct kiln_mesh_shadow *shadow);
 
-/* Draws the map anew, unless it shows this already. */
+/* Draws the map, unless it shows this mesh in this place and light already. */
 bool kiln_mesh_shadow_update(struct kiln_mesh_shadow *shadow, struct kiln_mesh_canvas *canvas,
                              const struct kiln_mesh *mesh, const struct kiln_draw_mesh *placed,
                              const struct kiln_draw_shapes *shapes, float4 sun,

@@ -1,20 +1,19 @@
-/* The light that smoke lets through to vectors of points: as shaders/draw/light/smoke_shadow.glsl
- * has it.
- */
+/* This header computes the light that smoke lets through to vectors of points, as
+ * shaders/draw/light/smoke_shadow.glsl does in GL. */
 #ifndef KILN_DRAW_LIGHT_RAY_SMOKE_H
 #define KILN_DRAW_LIGHT_RAY_SMOKE_H
 
 #include "draw/light/smoke_shadow.h"
 #include "draw/vector/ray_math.h"
 
-/* A point that asks for light. */
+/* Describes points that light is computed for. */
 struct ray_point {
     struct vf3 at, normal;
     vi wanted; /* lanes */
 };
 
-/* A cell and its next one along an axis, and the way between; clamped to the centres of the outer
- * cells. */
+/* Describes a cell, the next one along an axis, and the part of the way between; clamped to the
+ * centres of the outer cells. */
 struct ray_cell {
     vi from, step;
     vf part;
@@ -45,7 +44,7 @@ SIMD vf read_grid(const float *depth, vf x, vf y, vf z)
     return near + (far - near) * cz.part;
 }
 
-/* The part of the light that gets through the smoke to a place. */
+/* Returns the part of the light that smoke lets through to a point. */
 SIMD vf smoke_lets_through(const float *depth, const float4 to_grid[3], const struct ray_point *p)
 {
     vf one = vf_all(1.0f);
@@ -53,7 +52,7 @@ SIMD vf smoke_lets_through(const float *depth, const float4 to_grid[3], const st
         return one;
     vf x = vf3_map(to_grid[0], p->at), y = vf3_map(to_grid[1], p->at);
     vf z = vf3_map(to_grid[2], p->at);
-    /* Beside the smoke, or between it and the light, there is none. */
+    /* Points beside the smoke, or between it and the light, are not in its shadow. */
     vi inside = p->wanted & (x >= 0.0f) & (y >= 0.0f) & (x <= 1.0f) & (y <= 1.0f) & (z <= 1.0f);
     if (!any(inside))
         return one;

@@ -1,4 +1,5 @@
-/* A system's slots are cut into stretches, and each stretch keeps what lives in it in order. */
+/* This file gathers the particles of smoke into a compact array of balls. It divides a system's
+ * slots into stretches; each stretch keeps its living particles in order. */
 #include "draw/light/smoke.h"
 
 #include <assert.h>
@@ -48,14 +49,15 @@ static void gather_slots(void *context, size_t begin, size_t end, uint32_t worke
     gatherer->counts[stretch] = count;
 }
 
-/* Spheres are no smoke, and what is a few pixels wide hides nothing. */
+/* Returns whether a system is smoke. Spheres are not, and particles a few pixels wide (points,
+ * lines) hide nothing. */
 static bool is_smoke(const struct kiln_system *system)
 {
     return system->enabled && system->look.blend == KILN_BLEND_ALPHA &&
            system->look.shape == KILN_SHAPE_BILLBOARD;
 }
 
-/* 0 for a system that throws no shadow. */
+/* Returns the strength of a system's shadow; 0 if it throws none. */
 static float shadow_of(const struct kiln_moment *moment, uint32_t system)
 {
     const struct kiln_system *s = &moment->scene->systems[system];

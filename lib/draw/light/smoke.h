@@ -1,4 +1,5 @@
-/* The particles that throw a shadow, gathered once a moment into a compact array. */
+/* A kiln_smoke holds the particles that throw a shadow, gathered once a moment into a compact
+ * array. */
 #ifndef KILN_DRAW_LIGHT_SMOKE_H
 #define KILN_DRAW_LIGHT_SMOKE_H
 
@@ -7,15 +8,15 @@
 
 struct kiln_error;
 
-/* A ball of smoke. */
+/* Describes a ball of smoke. */
 struct kiln_puff {
     float3 position;  /* m */
     float radius;     /* m, above 0 */
     float extinction; /* summed over its volume, m^2 */
 };
 
-/* Stretches of puffs, each of which starts at a multiple of KILN_SMOKE_STRETCH: which puff lies
- * where follows from the pool alone. */
+/* Each stretch of puffs starts at a multiple of KILN_SMOKE_STRETCH: the place of a puff follows
+ * from the pool alone. */
 enum { KILN_SMOKE_STRETCH = 2048 };
 
 struct kiln_smoke {
@@ -25,13 +26,13 @@ struct kiln_smoke {
     uint32_t capacity; /* stretches that there is room for */
 };
 
-/* The smoke of all systems that cover. `smoke` starts as zeros and is gathered into again and
- * again. False with an error: no memory. */
+/* Gathers the smoke of all systems that cover. `smoke` starts as zeros and can be gathered into
+ * again. Returns false with an error: no memory. */
 bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_moment *moment,
                        struct kiln_threads *threads, struct kiln_error *error);
 void kiln_smoke_finish(struct kiln_smoke *smoke);
 
-/* Whether any system throws a shadow. */
+/* Returns whether any system throws a shadow. */
 bool kiln_smoke_exists(const struct kiln_scene *scene);
 
 #endif

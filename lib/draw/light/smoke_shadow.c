@@ -1,11 +1,11 @@
-/* Each particle is a ball whose density falls off smoothly, put into a grid of about its own
- * fineness: a pyramid of grids, so that a large puff costs no more cells than a small one. The
- * pyramid is added up, and then summed along the light.
+/* This file fills grids with the optical depth of smoke towards a light. Each particle is a ball
+ * whose density falls off smoothly, and is added to the grid of a pyramid whose cells suit its
+ * size, so that a large puff costs no more cells than a small one. The levels of the pyramid are
+ * added up, then summed along the light.
  *
- * The smoke is cut into parts, as many as its amount asks for, each with a pyramid of its own; they
- * are added up in order, so that threads do not matter. What of a pyramid is empty is not even
- * cleared: most of it, mostly.
- */
+ * The smoke is divided into parts, whose number depends on its amount alone, each with a pyramid of
+ * its own; the parts are added up in order, so that threads do not change the result. Empty slices
+ * of a pyramid, usually most of it, are not even cleared. */
 #include "draw/light/smoke_shadow.h"
 
 #include <math.h>
@@ -28,10 +28,10 @@ enum {
 static const float MOST_CELLS = 2.5f;  /* of a ball's radius, in its grid */
 static const float LEAST_CELLS = 1.2f; /* smaller balls are put in as large as this */
 
-/* The smoke of a part in one grid. */
+/* Holds the smoke of a part in one grid. */
 struct pyramid {
     float *levels[LEVELS];    /* extinction, 1/m */
-    uint64_t touched[LEVELS]; /* a bit a slice of cells; the others have no contents */
+    uint64_t touched[LEVELS]; /* a bit for each slice of cells that has contents */
     float low[3], high[3];    /* bounds along the axes, m */
     bool any;
 };
@@ -106,7 +106,7 @@ static void choose_axes(float3 axes[3], float3 direction)
     axes[2] = direction;
 }
 
-/* The stretches of a part. */
+/* Returns the first stretch of a part. */
 static uint32_t first_stretch(const struct kiln_smoke_shadow *shadow, size_t part)
 {
     return (uint32_t)((uint64_t)shadow->smoke->stretch_count * part / shadow->parts);
@@ -123,7 +123,7 @@ static void widen(const struct box *box, struct pyramid *part, const struct kiln
     part->any = true;
 }
 
-/* Work is a part of a grid: grid * parts + part. */
+/* Finds bounds of the smoke; work item grid * parts + part is a part of a grid. */
 static void find_bounds(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
@@ -143,8 +143,9 @@ static void find_bounds(void *context, size_t begin, size_t end, uint32_t worker
     }
 }
 
-/* The cells lie at multiples of their size in the world, and their size is one of few, so that the
- * grid does not crawl when the smoke grows. False when there is no smoke. */
+/* Places the grid. The cells lie at multiples of their size in the world, and their size is one of
+ * few, so that the grid does not crawl when the smoke grows. Returns false when there is no
+ * smoke. */
 static bool place_grid(struct box *box, uint32_t parts)
 {
     float low[3], high[3], longest = 0.0f;
@@ -174,7 +175,8 @@ static bool place_grid(struct box *box, uint32_t parts)
     return true;
 }
 
-/* Balls of smoke in the cells of their levels, some at a time: loops over them become vectors. */
+/* Holds balls of smoke in the cells of their levels, some at a time, so that loops over them are
+ * vectorised. */
 struct balls {
     float at[3][BALLS]; /* the centre, in cells */
     float radius[BALLS];
@@ -204,7 +206,8 @@ static inline void place_balls(const struct box *box, const struct kiln_puff *pu
     }
 }
 
-/* Rows end with those of the grid, so that one may be read whole. */
+/* Finds the cells that balls reach. A row of cells never extends beyond the grid's, so that it may
+ * be read whole. */
 static inline void find_reaches(int count, struct balls *balls)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -221,11 +224,11 @@ static inline void find_reaches(int count, struct balls *balls)
     }
 }
 
-/* Cells of a row at once. */
+/* Vectors of a row's cells. */
 typedef float row8 __attribute__((vector_size(4 * LANES)));
 typedef int32_t mask8 __attribute__((vector_size(4 * LANES)));
 
-/* A ball's weights: (1 - d^2)^2, d in radii, in rows of a fixed width. */
+/* Holds a ball's weights: (1 - d^2)^2, d in radii, in rows of a fixed width. */
 struct ball {
     float squares[3][LANES]; /* of the distances of cells from its centre, beyond its reach, too */
     row8 weights[LANES * LANES];
@@ -242,7 +245,7 @@ static inline void measure(const struct balls *balls, int i, struct ball *ball)
     }
 }
 
-/* Returns the sum of the weights. */
+/* Computes a ball's weights and returns their sum. */
 static inline float weigh(const struct balls *balls, int i, struct ball *ball)
 {
     row8 sum = {0.0f}, squares;
@@ -284,7 +287,8 @@ static inline void touch(struct pyramid *part, int level, int first, int count)
     }
 }
 
-/* The sum is what is kept, however few cells there are. */
+/* Adds balls to a pyramid. The sum of a ball's extinction is preserved, however few cells it
+ * reaches. */
 static inline void deposit(const struct box *box, struct pyramid *part,
                            const struct kiln_puff *puffs, int count)
 {
@@ -325,7 +329,7 @@ static void deposit_parts(void *context, size_t begin, size_t end, uint32_t work
     }
 }
 
-/* Adds a level of all parts up in the first one. */
+/* Adds a level of all parts to that of the first part. */
 static void add_parts(struct box *box, int level, uint32_t parts)
 {
     struct pyramid *sum = &box->parts[0];
@@ -345,8 +349,8 @@ static void add_parts(struct box *box, int level, uint32_t parts)
     }
 }
 
-/* The two coarse cells that a fine one lies between: its own, of weight 3/4, and the next, of 1/4.
- */
+/* Holds the two coarse cells that a fine one lies between: its own, of weight 3/4, and the next, of
+ * 1/4. */
 struct between {
     int cells[2];
 };
@@ -358,7 +362,7 @@ static struct between between_of(int fine, int coarse_edge)
     return (struct between){{own, next}};
 }
 
-/* Interpolates a level along its rows: each becomes one of twice as many cells. */
+/* Interpolates a level along its rows: each becomes a row of twice as many cells. */
 static inline void refine_rows(const float *restrict coarse, int coarse_edge, float *restrict rows)
 {
     for (int row = 0; row < coarse_edge * coarse_edge; row++) {
@@ -374,7 +378,7 @@ static inline void refine_rows(const float *restrict coarse, int coarse_edge, fl
     }
 }
 
-/* Adds to row (y, z) of a level what lies in the refined rows of the coarser one. */
+/* Adds the refined rows of the coarser level to row (y, z) of a level. */
 static inline void add_coarser(const float *rows, int edge, int y, int z, float *restrict fine)
 {
     struct between at_y = between_of(y, edge / 2), at_z = between_of(z, edge / 2);
@@ -390,7 +394,7 @@ static inline void add_coarser(const float *rows, int edge, int y, int z, float 
     }
 }
 
-/* Brings every level of all parts but the finest together in `finer`. */
+/* Adds up every level of all parts, except the finest, in `finer`. */
 KILN_WIDE_VECTORS
 static void add_levels(void *context, size_t begin, size_t end, uint32_t worker)
 {
@@ -419,7 +423,7 @@ static void add_levels(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* The extinction of a row of cells. */
+/* Adds the extinction of a row of cells. */
 static inline void add_row(const struct kiln_smoke_shadow *shadow, const struct box *box, int y,
                            int z, float *restrict extinction)
 {
@@ -435,8 +439,8 @@ static inline void add_row(const struct kiln_smoke_shadow *shadow, const struct 
         add_coarser(box->finer, EDGE, y, z, extinction);
 }
 
-/* From extinction to the optical depth between a cell's centre and the light. above: up to the
- * cell's upper face. */
+/* Computes from the extinction the optical depth between a cell's centre and the light. above: up
+ * to the cell's upper face. */
 static inline void advance(const float *restrict extinction, float cell, float *restrict above,
                            float *restrict depth)
 {
@@ -447,7 +451,7 @@ static inline void advance(const float *restrict extinction, float cell, float *
     }
 }
 
-/* Some rows of every slice of a grid: grid * (EDGE / BAND) + band. */
+/* Sums some rows of every slice of a grid; the work item is grid * (EDGE / BAND) + band. */
 KILN_WIDE_VECTORS
 static void sum_towards_light(void *context, size_t begin, size_t end, uint32_t worker)
 {

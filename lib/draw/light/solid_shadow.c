@@ -1,7 +1,7 @@
-/* Lists on the host, by counting: first how many solids each bin has, then where its list begins,
- * then the solids themselves, in the order of systems and slots. A solid is in all bins that its
- * shadow can fall into, penumbra included.
- */
+/* This file lists the opaque particles by bins across the sun's direction, on the host, by
+ * counting: it counts the solids of each bin, then sums the counts to where each list begins, then
+ * writes the solids in the order of systems and slots. A solid is in all bins that its shadow can
+ * fall into, penumbra included. */
 #include "draw/light/solid_shadow.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ struct kiln_solid_shadow {
     struct solid *solids;
     size_t count, room;
     struct kiln_instance_tiles *instances; /* NULL: there are no tiles */
-    struct kiln_instance_place *places;    /* of the first so many solids: those with tiles */
+    struct kiln_instance_place *places;    /* of the first place_count solids, which have tiles */
     uint32_t place_count, place_room;
     bool failed;                                          /* no memory for one */
     uint32_t bins[KILN_SOLID_BINS * KILN_SOLID_BINS * 2]; /* first entry and number of each */
@@ -67,7 +67,8 @@ struct kiln_solid_shadow *kiln_solid_shadow_create(const struct kiln_scene *scen
     return shadow;
 }
 
-/* The penumbra widens until the floor, or until nothing is left of what it blurs. */
+/* Returns the width of the penumbra of a solid. It widens until the floor, or until nothing is left
+ * of the shadow that it blurs. */
 static float penumbra_of(const struct kiln_solid_shadow *shadow, float3 center, float widest)
 {
     const float spread = shadow->sun.spread;
@@ -76,7 +77,7 @@ static float penumbra_of(const struct kiln_solid_shadow *shadow, float3 center, 
     return spread > 0.0f ? widest : 0.0f;
 }
 
-/* How far around itself a solid may throw its shadow. */
+/* Returns how far around itself a solid may throw its shadow. */
 static float reach_of(const struct kiln_solid_shadow *shadow, float3 center, float radius)
 {
     return radius + penumbra_of(shadow, center, radius * KILN_SOLID_FADE);
@@ -99,7 +100,7 @@ static struct solid *add(struct kiln_solid_shadow *shadow, float3 at)
     return solid;
 }
 
-/* The bounds of its shadow, by those around its middle. */
+/* Sets the bounds of a solid's shadow from bounds relative to its middle. */
 static void bound(const struct kiln_solid_shadow *shadow, struct solid *solid, const float low[2],
                   const float high[2])
 {
@@ -111,11 +112,11 @@ static void bound(const struct kiln_solid_shadow *shadow, struct solid *solid, c
     }
 }
 
-/* radius: of a sphere with such a shadow, in radii of the particle. */
+/* Collects a sphere. radius: of a sphere with such a shadow, in radii of the particle. */
 static void collect(struct kiln_solid_shadow *shadow, const struct kiln_living *particle,
                     float radius)
 {
-    radius *= particle->radius * particle->opacity; /* it grows by it (solids_spheres.vert) */
+    radius *= particle->radius * particle->opacity; /* opacity scales it (solids_spheres.vert) */
     struct solid *solid = radius > 0.0f && !shadow->failed ? add(shadow, particle->position) : NULL;
     if (!solid)
         return;
@@ -141,7 +142,7 @@ static struct kiln_instance_place *add_place(struct kiln_solid_shadow *shadow)
     return &shadow->places[shadow->place_count++];
 }
 
-/* A mesh with a tile: its radius waits for what is drawn there. */
+/* Collects a mesh with a tile; draw_tiles sets its radius, which depends on its silhouette. */
 static void collect_mesh(struct kiln_solid_shadow *shadow, const struct kiln_living_system *system,
                          uint32_t number, uint32_t slot, const struct kiln_living *particle)
 {
@@ -163,9 +164,10 @@ static void collect_mesh(struct kiln_solid_shadow *shadow, const struct kiln_liv
     solid->tile.z = size * reach;
 }
 
-/* A silhouette spreads half a texel past the texels that it touches, but not farther past its tile;
- * the coarser of its levels has texels up to twice as large as the sun's radius. Where the sphere
- * takes its place, its shadow counts, too. */
+/* Bounds the shadow of a silhouette. A silhouette spreads half a texel past the texels that it
+ * touches, but not farther past its tile; the coarser of its two levels has texels up to twice as
+ * large as the sun's radius. Where a sphere takes the silhouette's place, the sphere's shadow
+ * counts as well. */
 static void bound_silhouette(const struct kiln_solid_shadow *shadow, struct solid *solid,
                              const struct kiln_instance_place *place)
 {
@@ -185,7 +187,8 @@ static void bound_silhouette(const struct kiln_solid_shadow *shadow, struct soli
     bound(shadow, solid, low, high);
 }
 
-/* The spheres that stand for them are as large as their silhouettes. */
+/* Draws the tiles of the meshes. The sphere that stands for a mesh is as large as its
+ * silhouette. */
 static void draw_tiles(struct kiln_solid_shadow *shadow, struct kiln_threads *threads)
 {
     struct kiln_instance_tiles *tiles = shadow->instances;
@@ -220,7 +223,7 @@ static void collect_system(struct kiln_solid_shadow *shadow, const struct kiln_m
     }
 }
 
-/* Those with tiles first. */
+/* Collects all solids; those with tiles come first. */
 static void collect_all(struct kiln_solid_shadow *shadow, const struct kiln_moment *moment,
                         struct kiln_threads *threads)
 {
@@ -240,7 +243,7 @@ static void collect_all(struct kiln_solid_shadow *shadow, const struct kiln_mome
 
 /* ---- lists ----------------------------------------------------------------------------------- */
 
-/* Where the bins lie across the sun's direction. */
+/* Describes the bins across the sun's direction. */
 struct layout {
     uint32_t edge;
     float low_x, low_y, size; /* m */
@@ -277,7 +280,7 @@ static struct range bins_of(const struct layout *layout, const struct solid *s)
                           {bin_at(layout, s->low[1] - y), bin_at(layout, s->high[1] - y)}};
 }
 
-/* Bins so large that their lists are not too long in all; returns the entries. */
+/* Chooses bins so large that their lists are not too long in all; returns the number of entries. */
 static size_t choose_bins(const struct kiln_solid_shadow *shadow, struct layout *layout)
 {
     for (;;) {
@@ -323,7 +326,7 @@ static void put_entry(struct kiln_solid_shadow *shadow, uint32_t at, const struc
         shadow->tiles[at] = solid->tile;
 }
 
-/* Returns the length of the longest. */
+/* Fills the lists and returns the length of the longest. */
 static uint32_t fill_lists(struct kiln_solid_shadow *shadow, const struct layout *layout)
 {
     uint32_t edge = layout->edge, first = 0, longest = 0;

@@ -1,9 +1,9 @@
-/* The shadow of particles that are opaque, spheres and meshes: lists of those that may lie between
- * a place and the sun, by bins across the sun's direction. Who draws takes the exact cover of each
- * sphere from them (shaders/draw/light/solid_shadow.glsl), so that a shadow is as sharp as the sun
- * is small; meshes have their silhouettes in tiles, and spheres with as large a shadow stand for
- * them where the sun's disc blurs these, or where they are too many for tiles.
- */
+/* This header declares the shadow of opaque particles, spheres and meshes: lists of those that may
+ * lie between a place and the sun, by bins across the sun's direction. Techniques of drawing
+ * compute the exact cover of each sphere from them (shaders/draw/light/solid_shadow.glsl), so that
+ * a shadow is as sharp as the sun is small. Meshes have silhouettes in tiles; spheres with as large
+ * a shadow stand for them where the sun's disc blurs the silhouettes, or where meshes are too many
+ * for tiles. */
 #ifndef KILN_DRAW_LIGHT_SOLID_SHADOW_H
 #define KILN_DRAW_LIGHT_SOLID_SHADOW_H
 
@@ -11,7 +11,7 @@
 #include "draw/moment/living.h"
 #include "draw/moment/shapes.h"
 
-/* The lists of one moment; they are valid until the next run. */
+/* Holds the lists of one moment; they are valid until the next run. */
 struct kiln_solid_bins {
     uint32_t edge;            /* bins in each direction; 0: there is no solid */
     float4 world_to_bin[2];   /* rows: a world position to bins */

@@ -1,24 +1,25 @@
-/* How much of the sun a box hides from a ball, for one or, in a loop without branches, many. */
+/* This header computes how much of the sun a box hides from a ball. It has no branches, so that
+ * compilers vectorise loops over balls. */
 #ifndef KILN_DRAW_LIGHT_SUN_BOX_H
 #define KILN_DRAW_LIGHT_SUN_BOX_H
 
 #include "draw/light/sun_cover.h"
 
-/* The part of a disc on the far side of a line, by the line's signed distance in radii. */
+/* Returns the part of a disc on the far side of a line, by the line's signed distance in radii. */
 static inline float kiln_disc_cover(float distance)
 {
     float x = exact_clamp(0.5f + 0.5f * distance, 0.0f, 1.0f);
     return x * x * (3.0f - 2.0f * x);
 }
 
-/* By the way through and behind a shape until the sun is free. */
+/* Returns the factor of cover for the way through a shape to the sun's free side. */
 static inline float kiln_sun_behind(float way, struct kiln_ball ball)
 {
     return exact_clamp(way / exact_max(ball.radius, 1e-4f), 0.0f, 1.0f);
 }
 
-/* What a box and the sun's direction come to. Its outline is the common part of three strips
- * (sun_cover.glsl), each between edges along one axis. */
+/* Holds values that follow from a box and the sun's direction. The box's outline is the common part
+ * of three strips (sun_cover.glsl), each between edges along one axis. */
 struct kiln_sun_box {
     float3 center;
     float size;
@@ -29,7 +30,7 @@ struct kiln_sun_box {
     float3 slope;
 };
 
-/* How much edges of two directions look like one: 1 where they are parallel. */
+/* Returns how much edges of two directions look like one: 1 where they are parallel. */
 static inline float kiln_sun_likeness(float a, float b)
 {
     float cosine = a * b / sqrtf(exact_max((1.0f - a * a) * (1.0f - b * b), 1e-12f));
@@ -75,7 +76,7 @@ struct kiln_sun_strip {
     float outside; /* m */
 };
 
-/* in, out: the ways through the slabs of the two other axes. */
+/* Computes a strip. in, out: the ways through the slabs of the two other axes. */
 static inline struct kiln_sun_strip kiln_sun_strip_at(float in_a, float out_a, float in_b,
                                                       float out_b, float scale, float first,
                                                       float second, struct kiln_ball ball,
@@ -88,14 +89,14 @@ static inline struct kiln_sun_strip kiln_sun_strip_at(float in_a, float out_a, f
     return (struct kiln_sun_strip){exact_max(cover, 0.0f), -exact_min(one, other)};
 }
 
-/* At a corner of the outline the covers of two strips are multiplied; but a sun across an axis sees
- * two of the strips end at the same edge. */
+/* Combines the covers of two strips. At a corner of the outline they are multiplied; but if the sun
+ * is perpendicular to an axis, two of the strips end at the same edge. */
 static inline float kiln_sun_both(float a, float b, float alike)
 {
     return a * b + (exact_min(a, b) - a * b) * alike;
 }
 
-/* Beside the outline, the way behind is taken at its edge. */
+/* Returns the cover of a box. Beside the outline, the way behind the box is taken at its edge. */
 static inline float kiln_sun_box_cover(const struct kiln_sun_box *box, struct kiln_ball ball,
                                        const struct kiln_sun_frame *sun)
 {

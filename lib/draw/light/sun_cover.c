@@ -1,7 +1,8 @@
-/* What all but boxes hide; these are in sun_box.h. */
+/* This file computes how much of the sun spheres, cylinders, capsules and planes hide from a ball;
+ * sun_box.h does so for boxes. */
 #include "draw/light/sun_box.h"
 
-/* Between two parallel lines, the distances to which are positive inside. */
+/* Returns the part of a disc between two parallel lines, whose distances are positive inside. */
 static float strip_cover(float one, float other, float radius)
 {
     return exact_max(kiln_disc_cover(one / radius) + kiln_disc_cover(other / radius) - 1.0f, 0.0f);
@@ -20,14 +21,14 @@ float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
     return cover * kiln_sun_behind(ahead + sqrtf(exact_max(radius * radius - square, 0.0f)), ball);
 }
 
-/* Its outline is a band along `up`, with round ends. */
+/* Returns the cover of a cylinder. Its outline is a band along `up`, with round ends. */
 float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float half_height,
                               struct kiln_ball ball, const struct kiln_sun_frame *sun)
 {
     float3 to = float3_sub(center, ball.center);
     float climb = float3_dot(axis, sun->towards);
     float slant = sqrtf(exact_max(1.0f - climb * climb, 1e-6f));
-    /* Seen along its axis, it is round. */
+    /* Seen along its axis, the cylinder is round. */
     float3 right =
         slant > 1e-3f ? float3_scale(float3_cross(axis, sun->towards), 1.0f / slant) : sun->right;
     float3 up = float3_cross(sun->towards, right);
@@ -39,7 +40,8 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
                   strip_cover(end - fabsf(y), end + fabsf(y), disc);
     if (cover <= 0.0f)
         return 0.0f;
-    /* Where the ray at the nearest place inside of the outline leaves its side or its end. */
+    /* The ray at the nearest place inside of the outline leaves the cylinder through its side or
+     * its end. */
     float at = exact_clamp(y, -end, end) * (float3_dot(axis, up) < 0.0f ? -1.0f : 1.0f);
     float height = -ahead * climb - at * slant; /* of that place above the middle */
     float beside = -ahead * slant + at * climb; /* away from the axis, on the sun's side */
@@ -49,7 +51,8 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
     return cover * kiln_sun_behind(exact_min(side, cap), ball);
 }
 
-/* That of the ball, among those it is made of, which the light passes most closely. */
+/* Returns the cover of a capsule: that of the nearest to the light's ray of the balls that form the
+ * capsule. */
 float kiln_capsule_sun_cover(float3 center, float radius, float3 axis, float half_height,
                              struct kiln_ball ball, const struct kiln_sun_frame *sun)
 {

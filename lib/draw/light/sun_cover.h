@@ -1,6 +1,6 @@
-/* How much of the sun convex shapes hide from a ball: as shaders/draw/light/sun_cover.glsl has it
- * for a point, with the ball's radius added to that of the penumbra.
- */
+/* This header declares how much of the sun convex shapes hide from a ball, as
+ * shaders/draw/light/sun_cover.glsl computes it for a point; the ball's radius is added to that of
+ * the penumbra. */
 #ifndef KILN_DRAW_LIGHT_SUN_COVER_H
 #define KILN_DRAW_LIGHT_SUN_COVER_H
 
@@ -14,7 +14,7 @@ struct kiln_ball {
     float radius; /* m */
 };
 
-/* The edge's width on a ball behind a shape at a distance, m. */
+/* Returns the width of a shadow's edge on a ball that is behind a shape at a distance, m. */
 static inline float kiln_sun_penumbra(float along, struct kiln_ball ball,
                                       const struct kiln_sun_frame *sun)
 {
@@ -22,7 +22,8 @@ static inline float kiln_sun_penumbra(float along, struct kiln_ball ball,
     return exact_max(wide, 1e-5f);
 }
 
-/* Whether a shape within a sphere of a size about its centre can hide nothing from a ball. */
+/* Returns whether a shape within a sphere of a size about its centre can hide nothing from a
+ * ball. */
 static inline bool kiln_sun_misses(float3 center, float size, struct kiln_ball ball,
                                    const struct kiln_sun_frame *sun)
 {
@@ -34,8 +35,8 @@ static inline bool kiln_sun_misses(float3 center, float size, struct kiln_ball b
     return (ahead < -size) | (away > reach);
 }
 
-/* 0 to 1. A shape hides the sun from what is behind it and, up to the ball's radius, inside of it.
- */
+/* Return the cover, 0 to 1. A shape hides the sun from a ball behind it and, up to the ball's
+ * radius, inside of it. */
 float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
                             const struct kiln_sun_frame *sun);
 float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float half_height,
@@ -43,7 +44,7 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
 float kiln_capsule_sun_cover(float3 center, float radius, float3 axis, float half_height,
                              struct kiln_ball ball, const struct kiln_sun_frame *sun);
 
-/* Of the half space below a plane, from anywhere above: 0 to 1. */
+/* Returns the cover of the half space below a plane, for any place above: 0 to 1. */
 float kiln_plane_sun_cover(float3 normal, const struct kiln_sun_frame *sun);
 
 #endif

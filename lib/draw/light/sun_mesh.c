@@ -1,6 +1,6 @@
-/* Cells whose centre a triangle covers keep its height, the highest of all; coarser levels keep
- * means. The sphere around the mesh fills the map.
- */
+/* This file draws and reads a small height map of a mesh as the sun sees it. A cell whose centre is
+ * covered by triangles has the height of the highest; coarser levels have means. The sphere around
+ * the mesh fills the map. */
 #include "draw/light/sun_mesh.h"
 
 #include <assert.h>
@@ -23,7 +23,7 @@ static float3 middle_of(const struct kiln_draw_mesh *placed)
     return (float3){placed->center.x, placed->center.y, placed->center.z};
 }
 
-/* A place relative to the mesh's middle. */
+/* Projects a position relative to the mesh's middle. */
 static struct corner project(const struct kiln_sun_mesh *map, float3 from)
 {
     float scale = 0.5f * EDGE / map->placed.center.w;
@@ -40,7 +40,7 @@ static struct corner corner_of(const struct kiln_sun_mesh *map, mat4 to_world, v
     return project(map, float3_sub(at, middle_of(&map->placed)));
 }
 
-/* Twice the signed area. */
+/* Returns twice the signed area. */
 static float area(struct corner a, struct corner b, float x, float y)
 {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
@@ -109,7 +109,7 @@ void kiln_sun_mesh_update(struct kiln_sun_mesh *map, const struct kiln_mesh *mes
     average_levels(map->height);
 }
 
-/* Linear between the centres of four cells; nothing is beside the map. */
+/* Interpolates linearly between the centres of four cells; the map is surrounded by nothing. */
 static float read_level(const float *cells, int edge, float x, float y)
 {
     float left = floorf(x - 0.5f), top = floorf(y - 0.5f), sum = 0.0f;
@@ -123,7 +123,8 @@ static float read_level(const float *cells, int edge, float x, float y)
     return sum;
 }
 
-/* Four places within the penumbra, in a level whose cells are about as wide as it. */
+/* Returns the cover, the mean of four places within the penumbra, in a level whose cells are about
+ * as wide as it. */
 float kiln_sun_mesh_cover(const struct kiln_sun_mesh *map, struct kiln_ball ball)
 {
     struct corner at = project(map, float3_sub(ball.center, middle_of(&map->placed)));

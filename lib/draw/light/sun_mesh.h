@@ -1,5 +1,5 @@
-/* A mesh as the sun sees it, on the host: a small map of how high it reaches, for particles, whose
- * shade needs no fine one. */
+/* A kiln_sun_mesh is a small height map of a mesh as the sun sees it, on the host. It is for the
+ * shade on particles, which needs no fine map. */
 #ifndef KILN_DRAW_LIGHT_SUN_MESH_H
 #define KILN_DRAW_LIGHT_SUN_MESH_H
 
@@ -16,7 +16,7 @@ struct kiln_sun_mesh {
     float height[KILN_SUN_MESH_CELLS]; /* its mean there times the cover, towards the sun, m */
 };
 
-/* Draws the map anew, unless it shows this already. */
+/* Draws the map, unless it shows this mesh in this place and light already. */
 void kiln_sun_mesh_update(struct kiln_sun_mesh *map, const struct kiln_mesh *mesh,
                           const struct kiln_draw_mesh *placed, const struct kiln_sun_frame *sun);
 

@@ -1,5 +1,6 @@
-/* On the host, a particle at a time: what an object hides of the sun has a closed form, except for
- * a mesh, which has a map. What every technique of drawing reads is the same number. */
+/* This file computes the part of the sun that each lit particle sees past the backdrop, on the
+ * host. The cover of an object has a closed form, except for a mesh, which has a map. Every
+ * technique of drawing reads the same number. */
 #include "draw/light/sun_shade.h"
 
 #include <stdlib.h>
@@ -11,7 +12,7 @@
 
 enum { GRAIN = 8 * KILN_LANES }; /* slots that a worker takes at a time */
 
-/* A box of any direction, in its own frame. */
+/* Describes a rotated box in its own frame. */
 struct turned_box {
     struct kiln_sun_box box; /* about the origin */
     struct kiln_sun_frame sun;
@@ -115,7 +116,7 @@ static void place_objects(struct kiln_sun_shade *shade, const struct kiln_moment
         kiln_sun_mesh_update(&shade->maps[i], meshes[i], &shade->shapes->meshes[i], &shade->sun);
 }
 
-/* One whose particles are at hand. */
+/* Describes the system whose particles are being computed. */
 struct seen_system {
     const struct kiln_sun_shade *shade;
     kiln_living_find *find;
@@ -142,7 +143,7 @@ static float look_past_turned(const struct kiln_sun_shade *shade, struct kiln_ba
     return visible;
 }
 
-/* What is seen of it past all objects but boxes along the axes. */
+/* Returns the part of the sun that a ball sees past all objects except boxes along the axes. */
 static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ball ball)
 {
     const struct kiln_draw_shapes *shapes = shade->shapes;
@@ -160,7 +161,7 @@ static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ba
     return visible * look_past_turned(shade, ball);
 }
 
-/* Whether anything but those may hide the sun. */
+/* Returns whether any object except boxes along the axes may hide the sun. */
 static bool has_others(const struct kiln_sun_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = shade->shapes;
@@ -168,7 +169,8 @@ static bool has_others(const struct kiln_sun_shade *shade)
     return counts.x > 0 || counts.y > 0 || counts.z > 0 || more.x > 0 || more.y > 0;
 }
 
-/* As with the backdrop's surfaces, what two objects let through is multiplied. */
+/* Computes a block of particles. As on the backdrop's surfaces, the parts that objects let through
+ * are multiplied. */
 static void look_from_block(const struct seen_system *seen, uint32_t first)
 {
     const struct kiln_sun_shade *shade = seen->shade;

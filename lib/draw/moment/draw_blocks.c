@@ -1,4 +1,4 @@
-/* Two buffers, new for each picture. */
+/* This file uploads the uniform blocks of view and backdrop for each picture and binds them. */
 #include "draw/moment/draw_blocks.h"
 
 #include <assert.h>

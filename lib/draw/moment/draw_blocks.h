@@ -1,4 +1,5 @@
-/* The uniform blocks of the camera and of what lights the particles, for techniques in GL. */
+/* A kiln_draw_blocks holds the uniform blocks of the camera and of the lights on the particles, for
+ * techniques in GL. */
 #ifndef KILN_DRAW_MOMENT_DRAW_BLOCKS_H
 #define KILN_DRAW_MOMENT_DRAW_BLOCKS_H
 

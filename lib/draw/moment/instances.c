@@ -1,4 +1,6 @@
-/* Corners are kept triangle by triangle, so that whoever draws one needs no other table. */
+/* This file copies the meshes of particle systems into one array of corners, scaled to a box whose
+ * longest edge is 1. Corners are stored triangle by triangle, so that drawing a triangle needs no
+ * index table. */
 #include "draw/moment/instances.h"
 
 #include <stdlib.h>
@@ -6,7 +8,7 @@
 #include "asset/geometry/mesh_measure.h"
 #include "base/error.h"
 
-/* How many particles have tiles so large. */
+/* Tile edges by the number of particles: up to `most` particles have tiles of `edge` texels. */
 static const struct {
     uint64_t most;
     uint32_t edge;

@@ -1,4 +1,5 @@
-/* Records, looks and random numbers put together as the vertex shader does it. */
+/* This file computes the appearance of living particles on the host from their records, looks and
+ * random numbers, as the vertex shader does. */
 #include "draw/moment/living.h"
 
 #include <assert.h>
@@ -61,7 +62,7 @@ bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
     return true;
 }
 
-/* How far a particle has turned that collisions do not turn, rad. */
+/* Returns the angle by which a particle has turned by itself, without collisions, rad. */
 static float turned_angle(const struct kiln_living_system *system, struct kiln_particle record,
                           uint32_t stream, float progress)
 {

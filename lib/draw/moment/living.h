@@ -1,12 +1,12 @@
-/* The living particles as the host sees them, for what is computed of all of them: the light that
- * fire sheds, the shadow that smoke throws. */
+/* This header declares living particles as the host sees them, for results that sum over all of
+ * them: the light of fire, the shadow of smoke. */
 #ifndef KILN_DRAW_MOMENT_LIVING_H
 #define KILN_DRAW_MOMENT_LIVING_H
 
 #include "draw/moment/moment.h"
 #include "shared/instance.h"
 
-/* What the particles of one system follow from. */
+/* Holds the data from which the particles of one system are computed. */
 struct kiln_living_system {
     struct kiln_derived_params derived;
     const float4 *keys;
@@ -25,25 +25,26 @@ struct kiln_living {
     float opacity;   /* at this age, fades included */
 };
 
-/* Returns what the particles of one system follow from. The moment was filled with on_host, and
- * must outlive the result. */
+/* Returns the data from which the particles of one system are computed. The moment was filled with
+ * on_host, and must outlive the result. */
 struct kiln_living_system kiln_living_system(const struct kiln_moment *moment, uint32_t index);
 
-/* The particle in a slot; false when none lives there. */
+/* Computes the particle in a slot; returns false when no particle lives there. */
 bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
                     struct kiln_living *particle);
 
-/* A row of the system's look (KILN_LOOK_*) at a progress through life. */
+/* Returns a row of the system's look (KILN_LOOK_*) at a progress through life. */
 float4 kiln_living_look(const struct kiln_living_system *system, uint32_t row, float progress);
 
-/* How a ball lies in the world, as collisions have turned it or by itself. */
+/* Returns the orientation of a sphere in the world, as collisions or its own spin have turned
+ * it. */
 float4 kiln_living_pose(const struct kiln_living_system *system, uint32_t slot, float progress);
 
-/* How a mesh does whose look has this enum kiln_orient. */
+/* Returns the axes in the world of a mesh whose look has this enum kiln_orient. */
 struct instance_axes kiln_living_axes(const struct kiln_living_system *system, uint32_t slot,
                                       float progress, uint32_t orient);
 
-/* The light that a particle emits, the mean of its hot and cool parts. */
+/* Returns the light that a particle emits, the mean of its hot and cool parts. */
 float3 kiln_living_glow(const struct kiln_living_system *system, float progress);
 
 #endif

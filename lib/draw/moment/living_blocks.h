@@ -1,4 +1,5 @@
-/* The living particles in blocks of slots, found by a loop that becomes vectors (living_simd.c). */
+/* This header declares living particles in blocks of slots, which a vectorised loop computes
+ * (living_simd.c). */
 #ifndef KILN_DRAW_MOMENT_LIVING_BLOCKS_H
 #define KILN_DRAW_MOMENT_LIVING_BLOCKS_H
 
@@ -7,7 +8,7 @@
 #include "particles/lanes.h"
 #include "shared/look_layout.h"
 
-/* struct kiln_living of each slot; where none lives, radius and opacity are 0. */
+/* Holds the struct kiln_living of each slot; where no particle lives, radius and opacity are 0. */
 struct kiln_living_block {
     struct kiln_lanes lanes;
     uint32_t alive[KILN_LANES]; /* 0 or 1 */
@@ -15,8 +16,8 @@ struct kiln_living_block {
     kiln_floats radius, progress, opacity;
 };
 
-/* A progress through life between two samples of a look, four floats apart in a row of the table.
- */
+/* Describes a progress through life as a place between two samples of a look, which are four floats
+ * apart in a row of the table. */
 struct kiln_look_place {
     int sample, texel; /* texel: where it is in a row of the table */
     float part;
@@ -30,7 +31,7 @@ static inline struct kiln_look_place kiln_look_place_at(float progress)
     return (struct kiln_look_place){sample, 4 * sample, x - (float)sample};
 }
 
-/* Slots first to first + KILN_LANES - 1, of which those from system->used on are empty. */
+/* Computes slots first to first + KILN_LANES - 1, of which those from system->used on are empty. */
 typedef void kiln_living_find(const struct kiln_living_system *system, uint32_t first,
                               struct kiln_living_block *block);
 KILN_SIMD_DECLARE(kiln_living_find, kiln_living_find);

@@ -1,5 +1,5 @@
-/* Finds living particles a block of slots at a time. Every loop here is over lanes, and without
- * branches: compilers make vectors of it. */
+/* This file computes living particles a block of slots at a time. Every loop runs over lanes and
+ * has no branches, so that compilers vectorise it. */
 #include <math.h>
 
 #include "draw/moment/living_blocks.h"

@@ -1,4 +1,5 @@
-/* Every value of a look, at evenly spaced ages. */
+/* This file fills the table of looks, which has every value of each system's look at evenly spaced
+ * ages, and the uniform block of the looks. */
 #include "draw/moment/looks.h"
 
 #include <assert.h>
@@ -8,7 +9,7 @@
 #include "asset/atlas/blackbody.h"
 #include "shared/exact.h"
 
-/* A cell's cool parts are at this share of the hot parts' temperature. */
+/* The temperature of a cell's cool parts, in parts of that of its hot parts. */
 static const float COOL_SHARE = 0.72f;
 
 static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE &&
@@ -34,7 +35,8 @@ static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
     return value3_at(s->scene->keys, *value, s->time_s, s->life);
 }
 
-/* The mean of a curve over the life so far: times the age, it is what has gone by of a speed. */
+/* Returns the mean of a curve over the life so far. The mean speed times the age is the way
+ * gone. */
 static float mean_at(const struct sampler *s, const struct kiln_value *value)
 {
     bool over_life = value->count > 0 && value->clock == KILN_CLOCK_LIFE;
@@ -48,7 +50,8 @@ static float saturate(float x)
     return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x;
 }
 
-/* 0 at birth and at death, 1 in between (Heinz 2019, 3.2.4). */
+/* Returns the factor of opacity that fades a particle in and out: 0 at birth and at death, 1 in
+ * between (Heinz 2019, 3.2.4). */
 static float fade(const struct sampler *s, const struct kiln_look *look)
 {
     float in = at(s, &look->fade_in), out = at(s, &look->fade_out);
@@ -64,8 +67,8 @@ static float4 emitted(const struct sampler *s, float3 tint, float kelvin, float 
     return (float4){tint.x * rgb[0], tint.y * rgb[1], tint.z * rgb[2], w};
 }
 
-/* What glows is tinted by the colour if it covers nothing; a covering particle keeps the colour for
- * what it reflects. */
+/* Samples the rows of colour and light. The colour tints the emitted light of an additive particle;
+ * a covering particle uses it for the light that it reflects. */
 static void sample_light(const struct sampler *s, const struct kiln_look *look,
                          float4 row[KILN_LOOK_ROWS])
 {
@@ -92,8 +95,8 @@ static void sample_light(const struct sampler *s, const struct kiln_look *look,
     }
 }
 
-/* Of any length but 0, through which keys may lead it: then it points up. In double, since squares
- * of small floats vanish. */
+/* Returns the unit vector along v, or up if v is 0, through which key frames may lead it. It
+ * computes in double, since squares of small floats vanish. */
 static float4 unit(float3 v)
 {
     double x = (double)v.x, y = (double)v.y, z = (double)v.z, length = sqrt(x * x + y * y + z * z);
@@ -192,7 +195,8 @@ bool kiln_looks_patterned(const struct kiln_scene *scene)
     return any;
 }
 
-/* What to add to a slot of the system in the pool to have that of its spin, modulo 2^32. */
+/* Returns the number that turns a slot of the system in the pool into that of its spin, modulo
+ * 2^32. */
 static uint32_t spins_before(const struct kiln_scene *scene, uint32_t index)
 {
     uint32_t slots = 0, spins = 0;

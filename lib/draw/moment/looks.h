@@ -1,4 +1,5 @@
-/* The looks of all systems, ready to be read while drawing (shared/look_layout.h). */
+/* This header declares the looks of all systems in the form that drawing reads
+ * (shared/look_layout.h). */
 #ifndef KILN_DRAW_MOMENT_LOOKS_H
 #define KILN_DRAW_MOMENT_LOOKS_H
 
@@ -13,18 +14,18 @@
  * starts at (s * KILN_LOOK_ROWS + r) * KILN_LOOK_SAMPLES. */
 void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *table);
 
-/* Whether the table depends on the time at all. */
+/* Returns whether the table depends on the time. */
 bool kiln_looks_vary(const struct kiln_scene *scene);
 
-/* The rest of the looks, with the cells that the atlas gave them; of systems beyond the scene's,
- * zeros. */
+/* Fills in the uniform block of the looks, with the cells that the atlas gave them; systems beyond
+ * the scene's get zeros. */
 void kiln_looks_fill(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
                      struct kiln_draw_look looks[KILN_MAX_SYSTEMS]);
 
-/* The pattern of the spheres, LOOK_*. */
+/* Returns the pattern of the look's spheres, LOOK_*. */
 uint32_t kiln_look_pattern(const struct kiln_look *look);
 
-/* Whether any system's spheres have one. */
+/* Returns whether any system's spheres have a pattern. */
 bool kiln_looks_patterned(const struct kiln_scene *scene);
 
 #endif

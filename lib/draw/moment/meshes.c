@@ -1,4 +1,6 @@
-/* One after the other, in the order in which kiln_shapes_fill counts them. */
+/* This file collects the meshes of the backdrop: it takes loaded ones from the scene, makes
+ * terrains, and poses copies of animated ones. They stand in the order of the scene's objects, in
+ * which kiln_shapes_fill counts them as well. */
 #include "draw/moment/meshes.h"
 
 #include "base/error.h"
@@ -13,7 +15,7 @@ static struct kiln_mesh *make_terrain(const struct kiln_scene *scene,
     return mesh;
 }
 
-/* One that moves. */
+/* Copies an animated mesh, so that it can be posed. */
 static struct kiln_mesh *make_moving(struct kiln_meshes *meshes, const struct kiln_object *object,
                                      struct kiln_error *error)
 {

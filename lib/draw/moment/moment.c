@@ -1,5 +1,5 @@
-/* Fills a drawn moment: camera, sun, looks, posed meshes and shapes, in an order in which each
- * needs only what stands before it. */
+/* This file fills a drawn moment: camera, sun, looks, posed meshes and shapes. In this order, each
+ * part needs only the parts before it. */
 #include "draw/moment/moment.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* A drawn moment: the state of a scene at one time as every stage of drawing sees it. It is filled
- * once, before the first of them; lights, backdrop, solids and sprites only read it. */
+/* A kiln_moment is the state of a scene at one time as every stage of drawing sees it. It is filled
+ * once, before the first of these stages; lights, backdrop, solids and sprites only read it. */
 #ifndef KILN_DRAW_MOMENT_MOMENT_H
 #define KILN_DRAW_MOMENT_MOMENT_H
 

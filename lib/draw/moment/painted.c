@@ -1,6 +1,7 @@
-/* Texels that are on no triangle take the mean of those around them, level by level: the coarse
- * ones are means of what is on the mesh alone, and fill the holes of the finer ones. So no bare
- * texture shows through at seams, however small the picture is. */
+/* This file makes textures with mip levels of the paint on the backdrop's meshes. Texels that are
+ * on no triangle take the mean of those around them, level by level: a coarse level has means of
+ * texels on the mesh alone, and fills the holes of the finer one. So no bare texture shows through
+ * at seams, however small the picture is. */
 #include "draw/moment/painted.h"
 
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 #include "asset/geometry/chart.h"
 #include "base/error.h"
 
-/* The texture of a mesh. */
+/* Holds the texture of a mesh. */
 struct picture {
     struct kiln_pyramid *pyramid; /* NULL: takes no paint */
     float (*colors)[4];           /* as the pyramid's texels, not rounded */
@@ -34,7 +35,7 @@ static color4 load(const float from[4])
     return color;
 }
 
-/* The four finer texels under one. */
+/* Holds the indices of the four finer texels under a coarse one. */
 struct under {
     size_t texels[4];
 };

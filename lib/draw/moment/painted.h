@@ -1,5 +1,5 @@
-/* What particles painted on the backdrop's meshes, as textures with mip levels for both techniques.
- */
+/* A kiln_painted holds the paint on the backdrop's meshes as textures with mip levels, for both
+ * techniques of the backdrop. */
 #ifndef KILN_DRAW_MOMENT_PAINTED_H
 #define KILN_DRAW_MOMENT_PAINTED_H
 
@@ -10,21 +10,23 @@
 
 struct kiln_painted;
 
-/* meshes: those of the scene, in its order, the ones that take paint unwrapped; they are needed for
- * this call alone, the scene as long as it lives. NULL with an error, as kiln_chart_create. */
+/* Makes the textures of the scene's meshes. meshes: in the scene's order, unwrapped where they take
+ * paint; they are needed for this call alone, the scene as long as the result lives. Returns NULL
+ * with an error, as kiln_chart_create does. */
 struct kiln_painted *kiln_painted_create(const struct kiln_scene *scene,
                                          const struct kiln_mesh *const *meshes,
                                          struct kiln_error *error);
 void kiln_painted_destroy(struct kiln_painted **painted);
 
-/* Brings the textures up to what is painted now. */
+/* Updates the textures to the present paint. */
 void kiln_painted_update(struct kiln_painted *painted, const struct kiln_pool *pool);
 
-/* Of a mesh by its number: premultiplied colour and the part covered, which go on beyond triangles;
- * NULL: it takes none. */
+/* Returns the texture of a mesh by its number: premultiplied colour and the part covered, which
+ * extend beyond triangles. NULL: the mesh takes no paint. */
 const struct kiln_pyramid *kiln_painted_picture(const struct kiln_painted *painted, uint32_t mesh);
 
-/* A number that grows with every change of a mesh's texture, from 1; and of all of them. */
+/* Returns a number that grows with every change of a mesh's texture, from 1, and the sum of the
+ * numbers of all meshes. */
 uint32_t kiln_painted_changes(const struct kiln_painted *painted, uint32_t mesh);
 uint64_t kiln_painted_all_changes(const struct kiln_painted *painted);
 

@@ -1,4 +1,5 @@
-/* Scene values at a time into the block that shaders read. Pictures alone depend on it. */
+/* This file evaluates the backdrop's objects at a time and writes them into the block that shaders
+ * read. No result affects the simulation, only pictures. */
 #include "draw/moment/shapes.h"
 
 #include <assert.h>
@@ -84,8 +85,8 @@ struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float ti
                                    radius.sine / radius.cosine};
 }
 
-/* A wave of height h and length l is pi h / l steep; the shorter ones are as steep as the longest.
- */
+/* Fills in the gloss and the waves of the floor. A wave of height h and length l has the slope pi h
+ * / l; the shorter waves are as steep as the longest. */
 static void fill_gloss(const struct kiln_scene *scene, float time_s,
                        struct kiln_draw_shapes *shapes)
 {
@@ -98,7 +99,7 @@ static void fill_gloss(const struct kiln_scene *scene, float time_s,
     shapes->floor_map.w = height > 0.0f ? time_s : 0.0f;
 }
 
-/* Where a mesh's origin lies; a terrain's is its first point. */
+/* Returns the position of a mesh's origin; a terrain's is its first point. */
 static float3 mesh_origin(const struct kiln_scene *scene, const struct kiln_object *object,
                           float time_s)
 {
@@ -140,8 +141,8 @@ static void fill_mesh(const struct kiln_scene *scene, const struct kiln_object *
     out->half_size = (float4){half_size[0], half_size[1], half_size[2], clip_s};
 }
 
-/* Which layer of the textures of paint each mesh has, and the first level of it: the largest
- * texture fills all of its layer, a smaller one has a finer level of none. */
+/* Writes which layer of the paint textures each mesh has, and its first level there: the largest
+ * texture fills its layer, and smaller ones start at a coarser level. */
 static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *shapes)
 {
     uint32_t largest = 0, mesh = 0;
@@ -165,7 +166,7 @@ static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *
 static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_object *object,
                             float time_s, struct kiln_draw_turned_box *out)
 {
-    mat3 rotation; /* the rows of its inverse are its columns */
+    mat3 rotation; /* its columns are the rows of the inverse */
     kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
     for (int i = 0; i < 3; i++)
         out->rows[i] = (float4){rotation[i][0], rotation[i][1], rotation[i][2], 0.0f};
@@ -175,7 +176,7 @@ static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_ob
     out->color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
 }
 
-/* Capsules, planes and boxes of any direction. */
+/* Adds a capsule, a plane or a rotated box. */
 static void fill_more(const struct kiln_scene *scene, const struct kiln_object *object,
                       float time_s, struct kiln_draw_shapes *shapes)
 {

@@ -1,4 +1,5 @@
-/* The block of the backdrop's pictures and of its objects but boxes along the axes. */
+/* This header declares the block of the backdrop's pictures and of its objects except boxes along
+ * the axes. */
 #ifndef KILN_DRAW_MOMENT_SHAPES_H
 #define KILN_DRAW_MOMENT_SHAPES_H
 
@@ -6,8 +7,8 @@
 #include "scene/scene.h"
 #include "shared/shape_layout.h"
 
-/* The features of the shaders that a scene needs; sets of these choose a variant. solids are
- * particles that throw shadows, instances those of them that are meshes with tiles
+/* Holds the features of the shaders that a scene needs; each set of features is a variant. solids
+ * are particles that throw shadows, instances those of them that are meshes with tiles
  * (instance_tiles.h). */
 struct kiln_shape_features {
     bool round, turned, meshes, paint, solids, instances, floor_image, floor_gloss, sky_image,
@@ -17,22 +18,23 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);
 
 #define KILN_SHAPE_DEFINES 240 /* bytes of their text */
 
-/* The "#define" lines of the variant, SAMPLES rays a pixel; for kiln_program_params. */
+/* Writes the "#define" lines of the variant, for SAMPLES rays a pixel, as kiln_program_params takes
+ * them. */
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
                         char out[KILN_SHAPE_DEFINES]);
 
-/* The unit vector along v, or up where v has no length. */
+/* Returns the unit vector along v, or up where v has no length. */
 float3 kiln_direction(float3 v);
 
-/* Unit vectors towards the sun and across, and the tangent of its radius. */
+/* Holds unit vectors towards the sun and across, and the tangent of its radius. */
 struct kiln_sun_frame {
     float3 right, up, towards;
     float spread;
 };
 struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float time_s);
 
-/* All of these objects at a clip time, and the sun's frame then; meshes are in the scene's order.
- * The pictures' maps and the bins of particles are left 0. */
+/* Fills in the objects at a clip time, and the sun's frame then; meshes are in the scene's order.
+ * The maps of pictures and the bins of particles are left 0. */
 void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,
                       const struct kiln_sun_frame *sun, float time_s,
                       struct kiln_draw_shapes *shapes);

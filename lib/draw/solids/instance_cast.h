@@ -1,6 +1,6 @@
-/* Instances of meshes as rays see them: which triangle lies nearest in which samples, and what
- * light it sends. Like spheres, a triangle has one depth and one light in a pixel: those in its
- * middle, or at the triangle's edge where that is outside. */
+/* This header casts rays at particles that are meshes: it finds the nearest triangle in each sample
+ * and the light of each triangle. A triangle has one depth and one light in a pixel, as a sphere
+ * has: those in the pixel's middle, or at the triangle's edge where the middle is outside. */
 #ifndef KILN_DRAW_SOLIDS_INSTANCE_CAST_H
 #define KILN_DRAW_SOLIDS_INSTANCE_CAST_H
 
@@ -12,7 +12,7 @@ static inline bool is_instance(const struct kiln_solid_strip *s, uint32_t number
     return s->instances && s->instances[number].triangles > 0;
 }
 
-/* The first corner of a triangle, in floats. */
+/* Returns the first corner of a triangle, in floats. */
 static inline int32_t corner_of(const struct kiln_solid_strip *s, uint32_t number,
                                 uint32_t triangle)
 {
@@ -21,8 +21,8 @@ static inline int32_t corner_of(const struct kiln_solid_strip *s, uint32_t numbe
 
 /* ---- samples --------------------------------------------------------------------------------- */
 
-/* Planes over the rays (u, v, -1), as factors of u, v and 1: a ray is inside where none is
- * negative, and there they are the corners' parts. */
+/* Holds planes over the rays (u, v, -1), as factors of u, v and 1. A ray is inside where no plane
+ * is negative; there the planes are the weights of the corners. */
 struct cast_triangle {
     float edges[3][3];
     float depth[3]; /* of the corners, m */
@@ -37,23 +37,24 @@ static inline float3 cast_corner(const struct kiln_drawn_instance *instance, flo
                     rows[2][0] * at.x + rows[2][1] * at.y + rows[2][2] * at.z + rows[2][3]};
 }
 
-/* Of the sample positions of `size` pixels, those between two, and a pixel around. */
+/* Returns the range of pixels between two positions, widened by a pixel and clamped to 0 ..
+ * size. */
 static inline struct kiln_row_range cast_range(float low, float high, float size)
 {
     return (struct kiln_row_range){(int16_t)exact_clamp(low - 1.0f, 0.0f, size),
                                    (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
 }
 
-/* On GL's grid of corners (GL_SUBPIXEL_BITS): of things a few pixels large, one sample in a hundred
- * would else be covered here and not there. px from the middle of the picture, where it is finest.
- */
+/* Rounds a position to GL's grid of corners (GL_SUBPIXEL_BITS). Otherwise, for objects a few pixels
+ * large, one sample in a hundred would be covered here and not in GL. place: px from the middle of
+ * the picture, where floats are finest. */
 static inline float cast_snap(float place)
 {
     return floorf(place * 256.0f + 0.5f) * (1.0f / 256.0f);
 }
 
-/* What it may touch of the picture; nothing, if all of it lies before the near plane. Moves its
- * corners to where GL has them. */
+/* Bounds the pixels that a triangle may touch; none, if all of it lies before the near plane. Moves
+ * its corners to where GL has them. */
 static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct cast_triangle *t)
 {
     const float4 frustum = view->frustum;
@@ -82,8 +83,8 @@ static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct
         t->y = (struct kiln_row_range){0, 0};
 }
 
-/* The side, through an edge, of the pyramid with its tip in the eye; the same, times -1, for the
- * edge's other direction, so that no ray is between two triangles. */
+/* Returns the plane through an edge and the eye. For the edge's other direction the plane is the
+ * same, times -1, so that no ray is between two triangles. */
 static inline float3 cast_side(float3 a, float3 b)
 {
     bool swap = a.x > b.x || (a.x == b.x && (a.y > b.y || (a.y == b.y && a.z > b.z)));
@@ -91,7 +92,7 @@ static inline float3 cast_side(float3 a, float3 b)
     return float3_scale(float3_cross(from, float3_sub(to, from)), swap ? -1.0f : 1.0f);
 }
 
-/* False for one that is seen from its side. */
+/* Computes the edges' planes; returns false for a triangle that is seen edge-on. */
 static inline bool cast_edges(const float3 p[3], struct cast_triangle *t)
 {
     float3 face = float3_cross(float3_sub(p[1], p[0]), float3_sub(p[2], p[0]));
@@ -168,7 +169,7 @@ static void sample_instance(const struct kiln_solid_strip *s, uint32_t number)
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-/* A direction from a mesh to view space, or a place less the middle. */
+/* Transforms a direction from a mesh to view space, or a position relative to the mesh's middle. */
 SIMD struct vf3 cast_to_view(const struct vf3 rows[3], struct vf3 v)
 {
     return (struct vf3){vf3_dot(rows[0], v), vf3_dot(rows[1], v), vf3_dot(rows[2], v)};
@@ -179,8 +180,8 @@ SIMD struct vf3 cast_cross(struct vf3 a, struct vf3 b)
     return (struct vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* A corner's part of the triangle at the ray, times what all three share; edge: from a to b, the
- * other two. */
+/* Returns a corner's weight at the ray, times a factor that all three corners share. a, b: the two
+ * other corners. */
 SIMD vf cast_part(struct vf3 a, struct vf3 b, struct vf3 ray, vf sign)
 {
     vf part = vf3_dot(cast_cross(a, vf3_sub(b, a)), ray) * sign;
@@ -219,7 +220,7 @@ static void light_triangles(const struct kiln_solid_strip *s, const struct seen_
         parts[k] *= scale;
     struct vf3 point = cast_mean(p, parts);
     struct vf3 normal = cast_to_view(rows, cast_mean(normals, parts));
-    vi behind = vf3_dot(normal, face) * sign > 0.0f; /* both sides are seen */
+    vi behind = vf3_dot(normal, face) * sign > 0.0f; /* both sides of a triangle are visible */
     normal = vf3_normalize(vf3_scale(normal, vf_select(behind, vf_all(-1.0f), vf_all(1.0f))));
 
     struct seen_place place = {.depth = -point.z,
@@ -229,7 +230,7 @@ static void light_triangles(const struct kiln_solid_strip *s, const struct seen_
     place.direction = view_to_world(frame, ray);
     place.normal = view_to_world(frame, normal);
     place.at = vf3_add(vf3_all(frame->view->eye), view_to_world(frame, point));
-    /* Out of the sphere that throws its shadow on others. */
+    /* The sun's ray starts outside of the sphere that throws the particle's shadow on others. */
     const float4 sun = frame->backdrop->sun_direction;
     vf ahead = vf3_dot_all(view_to_world(frame, vf3_sub(center, point)), sun);
     vf out = ahead + 0.05f * vf_gather(&all->shade, seen->thing) + 1e-5f * place.depth;

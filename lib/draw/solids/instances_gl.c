@@ -1,6 +1,6 @@
-/* A draw call for each system that has a mesh: an instance for each entry, of which those of other
- * systems are thrown away, for only the device knows where they are in the list.
- */
+/* This file draws particles that are meshes in GL, with one instanced draw call for each system
+ * that has a mesh. A call draws an instance for each entry and discards the entries of other
+ * systems, since only the device knows where these are in the list. */
 #include "draw/solids/instances_gl.h"
 
 #include <stdio.h>

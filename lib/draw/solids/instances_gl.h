@@ -1,4 +1,4 @@
-/* Technique backdrop=gl: particles that are meshes, as instances. */
+/* A kiln_instances_gl draws particles that are meshes, as instances, for technique backdrop=gl. */
 #ifndef KILN_DRAW_SOLIDS_INSTANCES_GL_H
 #define KILN_DRAW_SOLIDS_INSTANCES_GL_H
 
@@ -7,7 +7,8 @@
 
 struct kiln_instances_gl;
 
-/* Of a scene that has some. NULL with an error. Device and moment must outlive it. */
+/* Makes the instances of a scene that has such particles. Returns NULL with an error. Device and
+ * moment must outlive it. */
 struct kiln_instances_gl *kiln_instances_gl_create(struct kiln_device *device,
                                                    const struct kiln_moment *moment,
                                                    struct kiln_error *error);

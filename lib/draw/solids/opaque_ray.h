@@ -1,16 +1,17 @@
-/* What spheres and meshes of particles have in common as rays see them: the rays themselves, and
- * the light of what they meet. For the files of one width of vectors. */
+/* This header holds the rays and the lighting that spheres and meshes of particles share. It is for
+ * files that are compiled for one width of vectors. */
 #ifndef KILN_DRAW_SOLIDS_OPAQUE_RAY_H
 #define KILN_DRAW_SOLIDS_OPAQUE_RAY_H
 
 #include "draw/backdrop/ray_light.h"
 #include "draw/solids/solid_rows.h"
 
-/* A rotated grid: no two samples share a row or a column. */
+/* The positions of a pixel's samples: a rotated grid, in which no two samples share a row or a
+ * column. */
 static const float SAMPLE_OFFSETS[KILN_SOLID_SAMPLES][2] = {
     {-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
 
-/* The ray through a place in the picture, with z of -1: its t is depth. */
+/* Returns the ray through a position in the picture, with z of -1: its t is the depth. */
 SIMD struct vf3 view_ray(const struct kiln_ray_frame *frame, vf x, vf y)
 {
     const float4 frustum = frame->view->frustum;
@@ -32,17 +33,17 @@ SIMD struct vf3 view_to_world(const struct kiln_ray_frame *frame, struct vf3 v)
                         rows[0].z * v.x + rows[1].z * v.y + rows[2].z * v.z};
 }
 
-/* Things of pixels of a row. */
+/* Holds particles seen in pixels of a row, one a lane. */
 struct seen_things {
     vi column, thing; /* number times the words of a record */
     vi corner;        /* of a mesh: the triangle's first, in floats */
     vf part;          /* of the pixel */
 };
 
-/* A place on one of them. */
+/* Holds the visible point of each of these particles. */
 struct seen_place {
     struct vf3 at, normal, direction; /* in the world; of the ray */
-    struct vf3 sun_from;              /* where it looks for the sun */
+    struct vf3 sun_from;              /* start of the ray to the sun */
     vf depth, lit;
     struct vf3 albedo, glow;
 };

@@ -1,4 +1,5 @@
-/* Particles that are spheres or meshes into rows of the picture, for each width of vectors. */
+/* This header declares how rows of the picture are drawn with particles that are spheres or meshes,
+ * for each width of vectors. */
 #ifndef KILN_DRAW_SOLIDS_SOLID_ROWS_H
 #define KILN_DRAW_SOLIDS_SOLID_ROWS_H
 

@@ -1,16 +1,16 @@
-/* What shaders/draw/solids/solids_spheres.frag, instances.frag and solids_resolve.frag do in GL:
- * which sphere or triangle each of a pixel's samples shows, then the light of each one of a pixel,
- * once, by a ray through the middle.
- */
+/* This file draws strips of opaque particles on the host, as solids_spheres.frag, instances.frag
+ * and solids_resolve.frag under shaders/draw/solids do in GL. It finds the sphere or triangle that
+ * each of a pixel's samples shows, then computes the light of each one in a pixel once, by a ray
+ * through the pixel's middle. */
 #include "draw/solids/instance_cast.h"
 
 enum { SAMPLES = KILN_SOLID_SAMPLES };
 
-/* Farther than any scene. */
+/* A depth beyond any scene. */
 #define NOTHING 2e9f
 
-/* The t at which a ray passes the centre most closely, and the square of the radius less that of
- * the distance there: negative for a miss. */
+/* Holds the t at which a ray passes the centre most closely, and the square of the radius less that
+ * of the distance there: negative for a miss. */
 struct approach {
     vf t, inside;
     vf inverse2; /* of the ray's length */
@@ -67,14 +67,14 @@ static void sample_sphere(const struct kiln_solid_strip *s, uint32_t number)
     }
 }
 
-/* What is behind the scene is not seen. */
+/* Sets the samples to the scene's depth, so that particles behind the scene are not visible. */
 static void clear_samples(const struct kiln_solid_strip *s, uint32_t row)
 {
     const float *scene = s->scene_depth + (size_t)(s->y + row) * s->width;
     float *samples = s->samples + (size_t)row * SAMPLES * s->pitch;
     for (int k = 0; k < SAMPLES; k++, samples += s->pitch) {
         for (uint32_t x = 0; x < s->width; x++)
-            samples[x] = scene[x] + scene[x] * 1e-7f; /* at the same depth, it is */
+            samples[x] = scene[x] + scene[x] * 1e-7f; /* a solid at the scene's depth is visible */
         for (size_t x = s->width; x < s->pitch; x++)
             samples[x] = -1.0f;
     }
@@ -92,7 +92,7 @@ SIMD vf part_beyond(vf distance, vf width)
     return vf_max(part, vf_all(0.0f));
 }
 
-/* The sine of an angle times its number of segments, from its sine and its cosine. */
+/* Returns the sine of an angle times its number of segments, from the angle's sine and cosine. */
 SIMD vf sine_of_segments(vf sine, vf cosine, vf segments)
 {
     vf c = cosine, s = sine;
@@ -105,7 +105,8 @@ SIMD vf sine_of_segments(vf sine, vf cosine, vf segments)
     return s;
 }
 
-/* The part of the other colour where the ball's own normal is n; width: of a pixel there, rad. */
+/* Returns the part of the second colour where the ball's own normal is n; width: of a pixel there,
+ * rad. */
 SIMD vf other_part(struct vf3 n, vf segments, vf width)
 {
     vf high = vf_abs(n.y);
@@ -118,7 +119,7 @@ SIMD vf other_part(struct vf3 n, vf segments, vf width)
     return vf_select(segments == 0.0f, vf_all(0.0f), part);
 }
 
-/* A direction of the world, seen from the ball. */
+/* Transforms a direction from the world to the ball's own axes. */
 SIMD struct vf3 into_ball(const struct vf3 axis, vf w, struct vf3 v)
 {
     struct vf3 twice = vf3_scale(cast_cross(axis, v), vf_all(-2.0f));
@@ -166,7 +167,8 @@ static void light_spheres(const struct kiln_solid_strip *s, const struct seen_th
     light_place(frame, &place, seen, color);
 }
 
-/* Adds the light of things to their pixels, in their order. bloom: weights of the first thing. */
+/* Adds the light of particles to their pixels, in their order. bloom: weights of the first
+ * particle. */
 SIMD void add_things(const struct kiln_solid_strip *s, const struct seen_things *seen,
                      uint32_t count, uint32_t y, const float *bloom, const struct ray_color *light)
 {
@@ -196,7 +198,8 @@ static inline float greater(float a, float b)
     return a > b ? a : b;
 }
 
-/* A depth has no mean: a pixel is where the second nearest of its samples is. */
+/* Returns the second nearest depth of a pixel's samples, since a mean of depths would have no
+ * meaning. */
 static inline float second_of(const float t[SAMPLES])
 {
     float near_a = lesser(t[0], t[1]), far_a = greater(t[0], t[1]);
@@ -204,9 +207,9 @@ static inline float second_of(const float t[SAMPLES])
     return lesser(greater(near_a, near_b), lesser(far_a, far_b));
 }
 
-/* Things of the pixels of a row and the quarters of them that they cover, three words each: the
- * pixel; the thing times 4 and the quarters less 1; the triangle. Spheres come from the front of
- * the room, triangles from its back. */
+/* Holds lists of the particles in the pixels of a row and the quarters of a pixel that each covers,
+ * three words an entry: the pixel; the particle times 4 and the quarters less 1; the triangle.
+ * Spheres are listed from the front of the memory, triangles from its back. */
 struct row_entries {
     uint32_t *spheres, *triangles; /* where the next sphere goes; the last triangle */
 };
@@ -252,7 +255,7 @@ static void list_pixel(const struct kiln_solid_strip *s, size_t first, uint32_t 
     }
 }
 
-/* Puts the scene behind what the solids' samples have become. */
+/* Adds the scene behind the resolved samples of the solids. */
 static void add_scene(const struct kiln_solid_strip *s, uint32_t y)
 {
     const float *scene = s->scene_color + 4 * (size_t)y * s->width;
@@ -264,7 +267,7 @@ static void add_scene(const struct kiln_solid_strip *s, uint32_t y)
     }
 }
 
-/* The things of some entries; size: of a record. */
+/* Reads the particles of some entries; size: of a record. */
 static void see_things(const struct kiln_solid_strip *s, const uint32_t *entries, uint32_t lanes,
                        size_t size, struct seen_things *seen)
 {
@@ -278,7 +281,7 @@ static void see_things(const struct kiln_solid_strip *s, const uint32_t *entries
         if (is_instance(s, number))
             seen->corner[lane] = corner_of(s, number, entries[2]);
     }
-    for (uint32_t lane = lanes; lane < LANES; lane++) { /* no part of one that is there */
+    for (uint32_t lane = lanes; lane < LANES; lane++) { /* repeats a particle, with part 0 */
         seen->thing[lane] = seen->thing[0];
         seen->corner[lane] = seen->corner[0];
     }

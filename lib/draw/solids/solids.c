@@ -1,4 +1,4 @@
-/* The stage: hands over to its technique. */
+/* This file runs the stage of solids by the technique of the backdrop, `gl` or `cpu`. */
 #include "draw/solids/solids.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Stage 4b, before the billboards: particles that are solid, spheres and meshes. They become part
- * of the scene that soft particles fade at and that covers fire and smoke. */
+/* Stage 4b draws solid particles, spheres and meshes, before the billboards. They become part of
+ * the scene, at which soft particles fade and which covers fire and smoke. */
 #ifndef KILN_DRAW_SOLIDS_SOLIDS_H
 #define KILN_DRAW_SOLIDS_SOLIDS_H
 

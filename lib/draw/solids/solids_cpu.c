@@ -1,5 +1,6 @@
-/* Each particle becomes a sphere or a mesh before the eye, each band of rows draws those that touch
- * it. Which of them a sample shows is found before any light is computed. */
+/* This file draws solid particles on the host: it transforms each into a sphere or a mesh in view
+ * space, and draws each band of rows with the particles that touch it. Visibility in the samples is
+ * resolved before any light is computed. */
 #include "draw/solids/solids_cpu.h"
 
 #include <stdlib.h>
@@ -27,7 +28,7 @@ struct kiln_solids_cpu {
     size_t pitch; /* of a row of samples */
     float *samples;
     int32_t *nearest, *triangles;
-    uint32_t *entries; /* these four: for each thread */
+    uint32_t *entries; /* the last four: for each thread */
 };
 
 static size_t samples_of(const struct kiln_solids_cpu *stage)
@@ -99,8 +100,8 @@ struct making {
     struct kiln_living_system systems[KILN_MAX_SYSTEMS];
 };
 
-/* Between the slopes of the tangents at a circle, in a plane through the eye, and a pixel or two
- * around; scale: pixels of a slope of 1. */
+/* Returns the range of pixels between the tangents at a circle, in a plane through the eye, and a
+ * pixel or two around; scale: pixels of a slope of 1. */
 static struct kiln_row_range between_tangents(float aside, float depth, float radius, float scale,
                                               float size)
 {
@@ -113,7 +114,8 @@ static struct kiln_row_range between_tangents(float aside, float depth, float ra
                                    (int16_t)exact_clamp(high, 0.0f, size)};
 }
 
-/* The columns and rows that a ball may touch; of one that reaches the near plane, all of them. */
+/* Bounds the columns and rows that a ball may touch; a ball that reaches the near plane may touch
+ * all of them. */
 static void bound_ball(const struct kiln_view *view, const float center[3], float radius,
                        struct kiln_row_range *x, struct kiln_row_range *y)
 {
@@ -135,7 +137,7 @@ static void find_center(const struct kiln_view *view, float3 at, vec3 center)
     glm_mat4_mulv3(world_to_view, (vec3){at.x, at.y, at.z}, 1.0f, center);
 }
 
-/* No smaller than a pixel, or it would twinkle between the samples. */
+/* Returns the radius of a pixel: a smaller sphere would flicker between the samples. */
 static float least_radius(const struct kiln_view *view, float depth)
 {
     float pixel_m = 2.0f * view->frustum.y * exact_max(depth, 1e-3f) / view->frustum.w;
@@ -165,8 +167,8 @@ static void make_pattern(const struct making *m, uint32_t number, uint32_t slot,
     s->pose[3] = pose.w;
 }
 
-/* It cannot fade, so it grows and shrinks by its opacity. One that reaches the near plane is not
- * drawn. */
+/* Makes a drawn sphere. A sphere cannot fade, so its opacity scales its radius. A sphere that
+ * reaches the near plane is not drawn. */
 static void make_sphere(const struct making *m, const struct kiln_living_system *system,
                         const struct kiln_living *particle, struct kiln_drawn_sphere *s,
                         struct kiln_row_range *rows)
@@ -185,7 +187,7 @@ static void make_sphere(const struct making *m, const struct kiln_living_system 
     bound_ball(view, s->center, s->radius, &s->x, rows);
 }
 
-/* The mesh's axes in view space, each as long as a unit of it is in metres. */
+/* Writes the mesh's axes in view space, each as long as a unit of the mesh is in metres. */
 static void place_axes(const struct kiln_view *view, const struct instance_axes *axes, float scale,
                        struct kiln_drawn_instance *d)
 {
@@ -201,7 +203,7 @@ static void place_axes(const struct kiln_view *view, const struct instance_axes 
         d->to_view[i % 3][i / 3] = turn[i / 3][i % 3];
 }
 
-/* It grows and shrinks by its opacity, too. */
+/* Makes a drawn mesh. Its opacity scales its size. */
 static void make_instance(const struct making *m, uint32_t number, uint32_t slot,
                           const struct kiln_living *particle, struct kiln_drawn_instance *d,
                           struct kiln_row_range *rows)

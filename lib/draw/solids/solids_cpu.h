@@ -1,4 +1,4 @@
-/* Technique backdrop=cpu: solids cast by rays, on threads. */
+/* This header declares solids for technique backdrop=cpu: they are cast by rays, on threads. */
 #ifndef KILN_DRAW_SOLIDS_SOLIDS_CPU_H
 #define KILN_DRAW_SOLIDS_SOLIDS_CPU_H
 

@@ -1,7 +1,8 @@
-/* Spheres as impostors: the geometry shader finds the rectangle that a sphere covers, the fragment
- * shader casts a ray at it. Four samples a pixel with a depth test of their own make the order of
- * the spheres and smooth silhouettes no concern of anybody else; a second pass puts their mean over
- * the backdrop, whose own picture is kept from frame to frame and must not change. */
+/* This file draws solid spheres in GL as impostors: the geometry shader finds the rectangle that a
+ * sphere covers, and the fragment shader casts a ray at it. Four samples a pixel have a depth test
+ * of their own, so spheres need no order and silhouettes are smooth. A second pass puts the mean of
+ * the samples over the backdrop, whose own picture is kept from frame to frame and must not
+ * change. */
 #include "draw/solids/solids_gl.h"
 
 #include <stdio.h>
@@ -13,7 +14,7 @@
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 
-enum { SAMPLES = 4 }; /* what every GL has, and what the shaders count on */
+enum { SAMPLES = 4 }; /* every OpenGL 4.3 has 4; the shaders assume 4 */
 
 struct kiln_solids_gl {
     struct kiln_device *device;
@@ -48,7 +49,8 @@ static bool create_programs(struct kiln_solids_gl *stage, const struct kiln_scen
     return stage->resolve != 0;
 }
 
-/* Nothing is blended in them, so 16 bits lose nothing, and four samples take the less memory. */
+/* Makes the multisampled targets. Nothing is blended in them, so 16 bits lose no precision, and
+ * four samples need less memory. */
 static bool create_samples(struct kiln_solids_gl *stage, struct kiln_error *error)
 {
     static const GLenum formats[3] = {GL_RGBA16F, GL_RGBA16F, GL_DEPTH_COMPONENT32F};

@@ -1,4 +1,5 @@
-/* Technique backdrop=gl: spheres as impostors with four samples a pixel. */
+/* This header declares solids for technique backdrop=gl: spheres as impostors with four samples a
+ * pixel. */
 #ifndef KILN_DRAW_SOLIDS_SOLIDS_GL_H
 #define KILN_DRAW_SOLIDS_SOLIDS_GL_H
 
@@ -12,7 +13,7 @@ struct kiln_solids_gl *kiln_solids_gl_create(struct kiln_device *device,
                                              struct kiln_error *error);
 void kiln_solids_gl_destroy(struct kiln_solids_gl **stage);
 
-/* With the view and backdrop blocks that kiln_backdrop_draw left bound. */
+/* Draws the solids. kiln_backdrop_draw must have bound the blocks of view and backdrop. */
 bool kiln_solids_gl_draw(struct kiln_solids_gl *stage, const struct kiln_moment *moment,
                          struct kiln_buffer *entries, uint32_t count, struct kiln_error *error);
 

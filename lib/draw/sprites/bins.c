@@ -1,6 +1,6 @@
-/* Count, scan, scatter: pieces of the sprites are counted and written independently, each to the
- * place that the scan gave it, so the order of a list is that of the sprites for any number of
- * threads. */
+/* This file lists for each tile of the picture the sprites that touch it, by counting, scanning and
+ * scattering. Pieces of the sprites are counted and written independently, each to the place that
+ * the scan gave it, so the order of a list is that of the sprites for any number of threads. */
 #include "draw/sprites/bins.h"
 
 #include <stdlib.h>
@@ -89,7 +89,8 @@ static bool hidden(const struct kiln_sprite *s, struct kiln_tile_depth depth)
     return !(s->flags & KILN_SPRITE_DEEP) && s->depth > depth.farthest;
 }
 
-/* Calls for each tile of each sprite of a piece: counts it, or writes it to where counts says. */
+/* Visits each tile of each sprite of a piece: counts the sprite, or writes it to the place in
+ * counts. */
 static void visit_piece(const struct filling *f, size_t piece, uint32_t *list)
 {
     const struct kiln_bins *bins = f->bins;
@@ -135,7 +136,7 @@ static void write_pieces(void *context, size_t begin, size_t end, uint32_t worke
         visit_piece(f, piece, f->bins->list);
 }
 
-/* Makes the counts places; false when there are more than 32 bits name. */
+/* Turns counts into places; returns false when there are more than fit 32 bits. */
 static bool scan(struct kiln_bins *bins, size_t pieces, size_t *total)
 {
     size_t tiles = (size_t)bins->columns * bins->rows, place = 0;
@@ -154,7 +155,7 @@ static bool scan(struct kiln_bins *bins, size_t pieces, size_t *total)
     return true;
 }
 
-/* Room for count words; what was there is lost. */
+/* Makes room for count words; their contents are lost. */
 static bool make_room(uint32_t **words, size_t *room, size_t count)
 {
     if (count <= *room)

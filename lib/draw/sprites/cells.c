@@ -1,5 +1,7 @@
-/* What is mixed stays as bytes, like the atlas. The shader follows the motion at each pixel, here
- * it is followed at each texel. */
+/* This file prepares cells of flipbooks for the CPU rasteriser: it lays their texels out for
+ * sampling, finds the hulls of the visible ones, and mixes the cells between two that are wanted.
+ * Mixed cells are stored as bytes, like the atlas. The shader follows the motion at each pixel;
+ * mixing follows it at each texel. */
 #include "draw/sprites/cells.h"
 
 #include <limits.h>
@@ -28,7 +30,8 @@ struct kiln_cells {
     uint8_t *moves;               /* of all layers; NULL: none moves */
 };
 
-/* Lays some channels of RGBA out for sampling: as a row and, beside it, the one below. */
+/* Lays some channels of RGBA out for sampling: each texel holds its row and, beside it, the row
+ * below. */
 static void spread(const uint8_t *from, uint32_t edge, uint32_t channel, uint32_t count,
                    uint8_t *to)
 {
@@ -51,7 +54,7 @@ static void spread_cell(const uint8_t *from, uint32_t edge, uint8_t *to)
     spread(from, edge, 2, 2, to + KILN_CELL_TEXEL * kiln_cells_texels(edge));
 }
 
-/* The atlas's motion of a layer. */
+/* Lays the atlas's motion of a layer out for sampling. */
 static void spread_moves(const int8_t *from, uint8_t *to)
 {
     uint8_t texels[4 * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION] = {0};
@@ -76,12 +79,12 @@ static bool make_moves(struct kiln_cells *cells)
 
 /* ---- hulls ----------------------------------------------------------------------------------- */
 
-/* The least and greatest x, y, x + y and x - y of the texels that show anything. */
+/* Holds the least and greatest x, y, x + y and x - y of the visible texels. */
 struct extent {
     int least[4], most[4];
 };
 
-/* RGBA as it lies in memory: its bits where a texel that shows anything has one. */
+/* Returns a mask over RGBA in memory: a texel is visible if it has one of these bits. */
 static uint32_t shown_bits(uint32_t kind)
 {
     const uint8_t any = kind == KILN_CELL_COLOR ? 0xff : 0, bytes[4] = {any, any, any, 0xff};
@@ -117,7 +120,8 @@ static void extend_to(struct extent *extent, int x, int y)
     }
 }
 
-/* The outermost texels of a row decide: what lies between them extends nothing. */
+/* Measures the extent of the visible texels. The outermost of each row suffice: those between
+ * extend nothing. */
 static struct extent measure(const uint8_t *texels, int edge, uint32_t kind)
 {
     struct extent extent = {{INT_MAX, INT_MAX, INT_MAX, INT_MAX},
@@ -147,8 +151,8 @@ static struct extent around_both(const struct extent *a, const struct extent *b)
     return both;
 }
 
-/* A texel shows up to one texel from its centre, one that is mixed up to one more; and as far as it
- * moves. */
+/* Returns the hull of an extent. A texel is visible up to one texel from its centre, and a mixed
+ * texel up to one more; the hull also grows by the motion. */
 static struct kiln_cell_hull hull_of(const struct extent *extent, float motion, int edge)
 {
     static const float middle[4] = {0.5f, 0.5f, 1.0f, 0.0f};
@@ -168,7 +172,8 @@ static struct kiln_cell_hull hull_of(const struct extent *extent, float motion, 
     return hull;
 }
 
-/* The hulls of a texture's cells at a level. Each is shown together with the next one. */
+/* Makes the hulls of a texture's cells at a level. Each cell is drawn together with the next one,
+ * so a hull contains both. */
 static void make_hulls_of(struct kiln_cells *cells, const struct kiln_atlas_range *range,
                           uint32_t level)
 {
@@ -244,7 +249,7 @@ uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *
     uint32_t number =
         (name->layer * KILN_CELL_PHASES + name->phase) * KILN_ATLAS_LEVELS + name->level;
     atomic_bool *wanted = &cells->wanted[number];
-    /* Whoever comes first writes; all would write the same. */
+    /* The first thread to want the cell writes the slot; all threads would write the same. */
     if (!atomic_load_explicit(wanted, memory_order_relaxed) &&
         !atomic_exchange_explicit(wanted, true, memory_order_relaxed))
         cells->slots[number] = (struct slot){name->next_layer, name->motion};
@@ -261,7 +266,8 @@ struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells)
                                            KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION)};
 }
 
-/* A grid of `channels` a texel, read between its texels and clamped at its edge. */
+/* Describes a bilinear read of a grid: two columns, two rows, and the parts of the way between,
+ * clamped at the edge. */
 struct bilinear {
     uint32_t from[2], to[2]; /* columns, rows */
     float part[2];
@@ -294,8 +300,8 @@ static float between(float upper_left, float upper_right, float lower_left, floa
     return upper + (lower - upper) * part[1];
 }
 
-/* The weights of four texels about a place between the middle two: cubic convolution (Keys 1981)
- * with a = -1/4, which comes closest to the shader's picture. */
+/* Computes the weights of four texels for a place between the middle two: cubic convolution (Keys
+ * 1981) with a = -1/4, which comes closest to the shader's picture. */
 static void weigh_four(float part, float weights[4])
 {
     float square = part * part, cube = square * part;
@@ -305,7 +311,8 @@ static void weigh_four(float part, float weights[4])
     weights[3] = 0.25f * (cube - square);
 }
 
-/* RGBA at a place. Straight lines between texels would blur it, for it becomes texels again. */
+/* Reads RGBA at a place. Linear interpolation would blur the result, since it becomes texels
+ * again. */
 static void read_texel(const uint8_t *texels, uint32_t edge, float x, float y, float rgba[4])
 {
     const struct bilinear at = place(x, y, edge);
@@ -336,7 +343,8 @@ static void read_move(const int8_t *moves, float x, float y, float way[2])
                          lower[2 * at.from[0] + c], lower[2 * at.to[0] + c], at.part);
 }
 
-/* As cell_between() of shaders/draw/sprites/shade.glsl, at each texel. */
+/* Mixes a cell at each texel, as cell_between() of shaders/draw/sprites/shade.glsl does at each
+ * pixel. */
 static void mix(const struct kiln_cells *cells, uint32_t number)
 {
     uint8_t texels[4 * MIXED_EDGE * MIXED_EDGE] = {0}, *texel = texels;
@@ -369,7 +377,7 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
     spread_cell(texels, edge, cells->texels[number]);
 }
 
-/* A layer itself. */
+/* Copies a layer of the atlas as a cell. */
 static void copy(const struct kiln_cells *cells, uint32_t number)
 {
     uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;

@@ -1,9 +1,8 @@
-/* The cells of flipbooks as the CPU rasteriser samples them (Heinz 2019, 3.2.4, equation 3.2). A
- * large particle takes a sample of both cells that it is between, and one of their motion. For a
- * small one of very many they are mixed beforehand: its place between them is rounded to one of
- * KILN_CELL_PHASES, and what is mixed is rounded to bytes and kept. (Mixed large ones would not
- * stay in the cache.)
- */
+/* A kiln_cells holds the cells of flipbooks as the CPU rasteriser samples them (Heinz 2019, 3.2.4,
+ * equation 3.2). A large particle takes a sample of both cells that it is between, and one of their
+ * motion. For a small particle of a large system the two cells are mixed beforehand: its place
+ * between them is rounded to one of KILN_CELL_PHASES, and the mixed cell is rounded to bytes and
+ * kept. (Mixed large cells would not stay in the cache.) */
 #ifndef KILN_DRAW_SPRITES_CELLS_H
 #define KILN_DRAW_SPRITES_CELLS_H
 
@@ -32,15 +31,16 @@ enum {
 
 struct kiln_cells;
 
-/* A cell: phase / KILN_CELL_PHASES of the way from a layer of the atlas to the next one of its
- * texture, at a level of detail; 0 is the layer itself. */
+/* Names a cell: phase / KILN_CELL_PHASES of the way from a layer of the atlas to the next one of
+ * its texture, at a level of detail; phase 0 is the layer itself. */
 struct kiln_cell_name {
     uint32_t layer, next_layer, phase, level;
     float motion; /* of the texture: kiln_atlas_range */
 };
 
-/* Where a cell and the one after it show anything, and all between them: ranges of u, v, u + v and
- * u - v, of the edge. Empty (from[0] >= to[0]) where they are clear all over. */
+/* Holds where a cell, the one after it, and all mixed cells between them are visible: ranges of u,
+ * v, u + v and u - v, in parts of the edge. It is empty (from[0] >= to[0]) where they are clear all
+ * over. */
 struct kiln_cell_hull {
     float from[4], to[4];
 };
@@ -49,18 +49,19 @@ struct kiln_cell_hull {
 struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln_error *error);
 void kiln_cells_destroy(struct kiln_cells **cells);
 
-/* The number of a cell, which will be there after the next kiln_cells_mix. Any thread may ask. */
+/* Returns the number of a cell, which will exist after the next kiln_cells_mix. Any thread may call
+ * it. */
 uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *name);
 
-/* Mixes what was wanted and is not there yet. */
+/* Mixes the wanted cells that do not exist yet. */
 bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
                     struct kiln_error *error);
 
-/* What sampling reads. Cells lie as edge + 1 rows of edge + KILN_CELL_MARGIN texels, in which the
- * outer texels of the atlas's cell stand twice, so that a sample between two needs no clamping.
- * After a cell comes another of its heat and alpha alone, blue and alpha, for sprites that need no
- * more. Motion is a cell of two channels with KILN_ATLAS_MOTION for an edge; right and down, 128
- * for none, 127 more for a full move. */
+/* Holds the data that sampling reads. Cells are edge + 1 rows of edge + KILN_CELL_MARGIN texels, in
+ * which the outer texels of the atlas's cell are repeated, so that a sample between two needs no
+ * clamping. After each cell comes a copy with only heat and alpha (blue and alpha), for sprites
+ * that need no more. Motion is a cell of two channels with KILN_ATLAS_MOTION for an edge: right and
+ * down, 128 for none, 127 more for a full move. */
 struct kiln_cells_content {
     const uint8_t *const *texels; /* by number, of those that are there */
     const atomic_bool *wanted;    /* by number: kiln_cells_want need not be called again */

@@ -1,6 +1,7 @@
-/* Around the rasterisers, whichever it is: each pass is drawn small, against a small depth of the
- * scene, then brought to the frame. Near edges it is drawn again at full resolution, against a
- * depth of 0 everywhere else, behind which rasterisers find that nothing is to be seen. */
+/* This file draws particles at half or a quarter of the frame's resolution with any rasteriser:
+ * each pass is drawn small, against a small depth of the scene, then enlarged to the frame. Near
+ * edges it is drawn again at full resolution, against a depth of 0 everywhere else, behind which
+ * rasterisers skip everything. */
 #include "draw/sprites/coarse.h"
 
 #include <stdlib.h>
@@ -13,7 +14,7 @@ struct kiln_coarse_stage {
     struct kiln_device *device;
     struct kiln_particles_stage *particles;
     struct kiln_coarse_images images;
-    struct kiln_coarse_cpu *cpu; /* one of these two */
+    struct kiln_coarse_cpu *cpu; /* exactly one of the two is not NULL */
     struct kiln_coarse_gl *gl;
 };
 

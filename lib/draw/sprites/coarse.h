@@ -1,6 +1,6 @@
-/* Stage 4b where a scene asks for it: particles in a picture of half or a quarter of the frame's
- * width and height, brought to the frame's by its depth; and at full resolution near edges of the
- * depth, if it asks for that, too (Heinz 2019, 2.2.2). */
+/* Stage 4b, where a scene asks for it, draws particles in a picture of half or a quarter of the
+ * frame's width and height and enlarges it to the frame's by its depth; if the scene asks for that
+ * as well, edges of the depth are drawn at full resolution (Heinz 2019, 2.2.2). */
 #ifndef KILN_DRAW_SPRITES_COARSE_H
 #define KILN_DRAW_SPRITES_COARSE_H
 
@@ -15,8 +15,8 @@ struct kiln_coarse_params {
     GLenum format; /* of the colours */
 };
 
-/* The scene's resolution must not be full. What is passed must outlive the stage; device may be
- * NULL unless in_gl. NULL with an error. */
+/* Makes the stage. The scene's resolution must not be full. The arguments must outlive the stage;
+ * device may be NULL unless in_gl. Returns NULL with an error. */
 struct kiln_coarse_stage *kiln_coarse_create(struct kiln_device *device,
                                              const struct kiln_scene *scene,
                                              const struct kiln_coarse_params *params,
@@ -24,11 +24,11 @@ struct kiln_coarse_stage *kiln_coarse_create(struct kiln_device *device,
                                              struct kiln_error *error);
 void kiln_coarse_destroy(struct kiln_coarse_stage **stage);
 
-/* Takes in the depth of the scene, which the next calls of kiln_coarse_run are for. */
+/* Measures the depth of the scene for the next calls of kiln_coarse_run. */
 bool kiln_coarse_prepare(struct kiln_coarse_stage *stage, struct kiln_image *depth,
                          struct kiln_error *error);
 
-/* What kiln_particles_run does. */
+/* Does what kiln_particles_run does, at the coarse resolution. */
 bool kiln_coarse_run(struct kiln_coarse_stage *stage, const struct kiln_particles_draw *draw,
                      struct kiln_error *error);
 

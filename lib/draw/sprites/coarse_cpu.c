@@ -1,4 +1,6 @@
-/* Threads over rows, by the widest vectors that the machine has. */
+/* This file goes between the frame and its coarse picture on the host: it measures depths and
+ * edges, and enlarges the pictures, by threads over rows, with the widest vectors that the machine
+ * has. */
 #include "draw/sprites/coarse_cpu.h"
 
 #include <stdlib.h>
@@ -144,7 +146,7 @@ bool kiln_coarse_cpu_measure(struct kiln_coarse_cpu *coarse, struct kiln_image *
     return rows.fine_depth && run(coarse, images->height, coarse->loops->mask, &rows, error);
 }
 
-/* False when one of the images cannot be had. */
+/* Takes the images' pixels on the host; returns false if one of them cannot be had. */
 static bool open_images(struct kiln_coarse_images *images, struct kiln_image *depth,
                         struct kiln_coarse_rows *rows, struct kiln_error *error)
 {

@@ -1,5 +1,5 @@
-/* Between a frame and its smaller picture on the host, in arithmetic that is the same on every
- * machine. */
+/* A kiln_coarse_cpu converts between a frame and its smaller picture on the host, in arithmetic
+ * that is the same on every machine. */
 #ifndef KILN_DRAW_SPRITES_COARSE_CPU_H
 #define KILN_DRAW_SPRITES_COARSE_CPU_H
 

@@ -1,4 +1,5 @@
-/* Full-screen passes. */
+/* This file goes between the frame and its coarse picture in GL: it measures depths and edges, and
+ * enlarges the pictures, by full-screen passes. */
 #include "draw/sprites/coarse_gl.h"
 
 #include <stdlib.h>

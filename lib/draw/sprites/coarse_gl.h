@@ -1,4 +1,5 @@
-/* Between a frame and its smaller picture by fragment shaders: see draw/sprites/coarse_cpu.h. */
+/* A kiln_coarse_gl converts between a frame and its smaller picture by fragment shaders;
+ * draw/sprites/coarse_cpu.h describes its functions. */
 #ifndef KILN_DRAW_SPRITES_COARSE_GL_H
 #define KILN_DRAW_SPRITES_COARSE_GL_H
 

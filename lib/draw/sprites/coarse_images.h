@@ -1,6 +1,6 @@
-/* The images between a frame and its smaller picture, for both techniques of going between them. A
- * coarse pixel stands for factor x factor of the frame's, and the coarse picture has the same
- * middle as the frame. */
+/* A kiln_coarse_images holds the images between a frame and its smaller picture, for both
+ * techniques of converting between them. A coarse pixel stands for factor x factor of the frame's,
+ * and the coarse picture has the same middle as the frame. */
 #ifndef KILN_DRAW_SPRITES_COARSE_IMAGES_H
 #define KILN_DRAW_SPRITES_COARSE_IMAGES_H
 
@@ -24,7 +24,7 @@ struct kiln_coarse_images {
     struct kiln_framebuffer fine_framebuffer;
 };
 
-/* What the particles of a pass become in the frame. */
+/* Describes how the particles of a pass are blended in the frame. */
 struct kiln_coarse_blend {
     struct kiln_framebuffer *target; /* colour, and bloom if there is any; of the frame's size */
     bool keep_bloom, sum_alpha;      /* as of struct kiln_particles_draw */

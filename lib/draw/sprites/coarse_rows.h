@@ -1,4 +1,4 @@
-/* The loops of draw/sprites/coarse_cpu.c over rows. */
+/* This header declares the loops of draw/sprites/coarse_cpu.c over rows. */
 #ifndef KILN_DRAW_SPRITES_COARSE_ROWS_H
 #define KILN_DRAW_SPRITES_COARSE_ROWS_H
 
@@ -8,12 +8,12 @@
 /* A pixel, RGBA. */
 typedef float kiln_coarse_quad __attribute__((vector_size(16)));
 
-/* What shows in one place. */
+/* Holds colour and bloom of one pixel. */
 struct kiln_coarse_shown {
     kiln_coarse_quad color, bloom;
 };
 
-/* Where a row or a column of the frame lies among coarse ones. */
+/* Describes where a row or a column of the frame lies among coarse ones. */
 struct kiln_coarse_place {
     int32_t taps[4];  /* two before it, two after it; beyond the edge, the edge's */
     float weights[4]; /* of a cubic spline through them */
@@ -22,7 +22,7 @@ struct kiln_coarse_place {
     float at;         /* its place; whole numbers are the middles of coarse pixels */
 };
 
-/* What is known of a coarse row, by columns of the frame. */
+/* Holds what was measured of a coarse row, by columns of the frame. */
 struct kiln_coarse_columns {
     float *farthest; /* m */
     uint32_t *bent;

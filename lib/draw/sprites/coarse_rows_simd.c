@@ -1,7 +1,7 @@
-/* Where the scene is smooth, a pixel of the frame is interpolated by a spline from the sixteen
- * coarse ones around it; near edges it takes those of nine that have a depth like its own, however
- * far their places.
- */
+/* This file measures rows of the coarse depth and enlarges coarse pictures to rows of the frame.
+ * Where the scene is smooth, a pixel of the frame is interpolated by a spline from the sixteen
+ * coarse ones around it. Near edges it takes the mean of those of the nine nearest that have a
+ * depth like its own. */
 #include <string.h>
 
 #include "draw/sprites/coarse_rows.h"
@@ -39,7 +39,7 @@ struct range {
     uint32_t from, to;
 };
 
-/* The pixels of the frame in a coarse one. */
+/* Returns the pixels of the frame that lie in a coarse one. */
 static inline struct range pixels_of(uint32_t coarse, float beyond, uint32_t factor, uint32_t size)
 {
     uint32_t past = (uint32_t)beyond, from = coarse * factor;
@@ -47,8 +47,8 @@ static inline struct range pixels_of(uint32_t coarse, float beyond, uint32_t fac
                           from + factor - past < size ? from + factor - past : size};
 }
 
-/* Adds a row of the frame to what is known of its coarse row, by columns of the frame: the farthest
- * depth, and whether a pixel's and its neighbours' do not lie on a plane, along either axis. */
+/* Adds a row of the frame to the columns of its coarse row: the farthest depth, and whether the
+ * depths of a pixel and its neighbours do not lie on a plane, along either axis. */
 static inline void add_row(const struct kiln_coarse_images *images, const float *depth, uint32_t y,
                            struct kiln_coarse_columns *columns)
 {
@@ -115,7 +115,7 @@ static void find_edges(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* How much of a pixel is drawn finely: 1 near an edge, falling to 0 over a coarse pixel. */
+/* Returns the weight of the fine picture: 1 near an edge, falling to 0 over a coarse pixel. */
 static inline float fine_part(const float *above, const float *below,
                               const struct kiln_coarse_place *x, float down)
 {
@@ -143,14 +143,14 @@ static void mask_rows(void *context, size_t begin, size_t end, uint32_t worker)
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
-/* Between the middle two of four by their spline, which must not overshoot. */
+/* Interpolates between the middle two of four by their spline, without overshooting the two. */
 static inline quad interpolate(quad before, quad low, quad high, quad after, const float weights[4])
 {
     quad sum = (before * weights[0] + low * weights[1]) + (high * weights[2] + after * weights[3]);
     return least(most(sum, least(low, high)), most(low, high));
 }
 
-/* Four coarse rows mixed. Returns the columns between which all is that any of them shows. */
+/* Mixes four coarse rows. Returns the columns between which everything visible in them lies. */
 static inline struct range mix_rows(const struct kiln_coarse_rows *s,
                                     const struct kiln_coarse_place *row,
                                     struct kiln_coarse_shown *mixed)
@@ -180,7 +180,8 @@ static inline struct range mix_rows(const struct kiln_coarse_rows *s,
     return shown;
 }
 
-/* By depth: of the coarse pixel that it lies in and those around. */
+/* Returns the mean, weighted by likeness of depth, of the coarse pixel that a pixel lies in and the
+ * eight around it. */
 static inline struct kiln_coarse_shown choose(const struct kiln_coarse_rows *s,
                                               const struct kiln_coarse_place *x,
                                               const struct kiln_coarse_place *y, float depth)
@@ -241,7 +242,7 @@ static inline void spread_pixel(const struct kiln_coarse_rows *s, uint32_t x, ui
     store(s->bloom + 4 * at, shown.bloom);
 }
 
-/* Where nothing is shown. */
+/* Clears pixels where the coarse picture is empty. */
 static void spread_nothing(const struct kiln_coarse_rows *s, uint32_t y, struct range pixels)
 {
     const size_t at = (size_t)y * s->images->width + pixels.from;

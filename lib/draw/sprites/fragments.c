@@ -1,5 +1,6 @@
-/* What a sprite shows is found by drawing it alone, into an empty tile, so that no rasteriser needs
- * to know of lists. */
+/* This file blends a tile's particles in an order that each pixel sorts on its own. It finds the
+ * fragments of a sprite by drawing the sprite alone into an empty tile, so that no rasteriser needs
+ * to know of lists; it then sorts and blends the fragments of each pixel. */
 #include "draw/sprites/fragments.h"
 
 #include <stdlib.h>
@@ -16,7 +17,7 @@ struct fragment {
     uint32_t pixel; /* of the scratch tile */
 };
 
-/* A fragment on the list of its pixel. */
+/* Links a fragment to the list of its pixel. */
 struct link {
     uint64_t key;
     uint32_t fragment;
@@ -57,7 +58,7 @@ void kiln_fragments_destroy(struct kiln_fragments **fragments)
 
 /* ---- gathering ------------------------------------------------------------------------------- */
 
-/* Pixels of the scratch tile. */
+/* Holds a range of pixels of the scratch tile. */
 struct box {
     int x_from, x_to, y_from, y_to;
 };
@@ -72,7 +73,7 @@ static struct box find_box(const struct kiln_tile *tile, const struct kiln_sprit
     };
 }
 
-/* Makes the scratch tile some rows of another, with nothing in them. */
+/* Makes the scratch tile an empty copy of some rows of another. */
 static void begin_rows(struct kiln_fragments *f, const struct kiln_tile *tile, int y, int rows)
 {
     struct kiln_tile *scratch = f->scratch;
@@ -97,8 +98,8 @@ static void clear_box(struct kiln_tile *tile, const struct box *box)
     }
 }
 
-/* View depth of a sprite's plane at a pixel, m, and how far from it each half of its thickness is.
- */
+/* Holds the view depth of a sprite's plane at a pixel, m, and the distance from it of each half of
+ * its thickness. */
 struct place {
     float depth, half_depth;
 };
@@ -167,8 +168,8 @@ static size_t count_before(const struct kiln_fragments *f, uint64_t key)
     return count;
 }
 
-/* Leaves the farther half, about, for this time. A row has a key no more often than pixels, so that
- * there is a key in between. */
+/* Keeps about the farther half of the fragments for this time. A key occurs no more often in a row
+ * than there are pixels, so a key in between exists. */
 static void keep_farther(struct kiln_fragments *f)
 {
     uint64_t low = f->from, high = f->until;
@@ -189,8 +190,9 @@ static void keep_farther(struct kiln_fragments *f)
     f->count = kept;
 }
 
-/* The fragments of rows of a tile, of one row those of which there is room for, the farthest that
- * have not been blended. False for rows that have too many together. */
+/* Gathers the fragments of rows of a tile. Of a single row it gathers as many as there is room for,
+ * the farthest that have not been blended. Returns false for several rows that have too many
+ * together. */
 static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct kiln_tile *tile,
                    int y, int rows, const struct kiln_sprite *sprites,
                    const struct kiln_cells *cells, const uint32_t *list, size_t count)
@@ -219,7 +221,7 @@ static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct 
 
 /* ---- blending -------------------------------------------------------------------------------- */
 
-/* By pixels: counted, given places, filled in. */
+/* Makes the list of each pixel: counts fragments, sums the counts to places, fills in the links. */
 static void make_lists(struct kiln_fragments *f)
 {
     memset(f->ends, 0, sizeof f->ends);
@@ -236,7 +238,7 @@ static void make_lists(struct kiln_fragments *f)
             (struct link){f->fragments[i].key, (uint32_t)i};
 }
 
-/* Shell's sort: short, and quick on what is almost in order. */
+/* Sorts a list by Shell's sort, which is short, and quick on lists that are almost in order. */
 static void sort_list(struct link *links, size_t count)
 {
     size_t gap = 1;

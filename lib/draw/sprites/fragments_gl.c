@@ -1,6 +1,8 @@
-/* Two passes over the particles, more where lists are long: places come from counts by a scan on
- * the host, and what arrives in any order leaves it sorted: short lists each by one invocation,
- * long ones in passes that merge, so that none takes more loops than software GL allows. */
+/* This file blends particles in GL in an order that each pixel sorts on its own. It draws the
+ * particles twice, more often where lists are long: once to count fragments, then to fill lists,
+ * whose places a scan on the host computes from the counts. Short lists are sorted each by one
+ * invocation, long ones in merge passes, so that no invocation runs more loop iterations than
+ * software GL allows. Sorting makes the order in which fragments arrive irrelevant. */
 #include "draw/sprites/fragments_gl.h"
 
 #include <assert.h>
@@ -11,26 +13,26 @@
 
 enum { FRAGMENTS_AT_A_TIME = 1 << 21, KEY_BYTES = 16, FRAGMENT_BYTES = 32 };
 
-/* Fragments of a list that an invocation blends on software, besides sorting a short list. */
+/* The fragments of a list that an invocation blends on software, besides sorting a short list. */
 enum { SOFTWARE_STRETCH = 1 << 14 };
 static_assert(KILN_FRAGMENT_SHORT * KILN_FRAGMENT_SHORT * 7 / 10 + KILN_FRAGMENT_SHORT * 10 +
                       SOFTWARE_STRETCH <
                   KILN_SOFTWARE_ITERATIONS,
               "fragments_resolve.frag");
 
-/* What the shaders know of a pixel's list besides its length. */
+/* Holds the data of a pixel's list that shaders read besides its length. */
 struct place {
     uint32_t first, filled;
 };
 
-/* Fragments of a long list that a work group sorts. */
+/* Describes fragments of a long list that a work group sorts. */
 struct block {
     uint32_t pixel, first;
 };
 
 enum program { LISTS, RESOLVE, MERGE, PROGRAM_COUNT };
 
-/* Pixels whose lists are there at a time. */
+/* Describes the pixels whose lists are in memory together. */
 struct part {
     uint32_t x, y, width, height;
     uint32_t longest; /* fragments of one list */
@@ -126,8 +128,8 @@ static void use_program(const struct kiln_fragments_gl *f, enum program program,
     glUniform1ui(f->row_length[program], size->width);
 }
 
-/* The particles, counted or put on lists: a program without outputs leaves undefined what it could
- * write. */
+/* Draws the particles to count fragments or to fill lists. Colour is masked, since a program
+ * without outputs leaves its targets undefined. */
 static void submit_to_lists(const struct kiln_fragments_gl *f, bool fills,
                             const struct kiln_image *size, void (*submit)(void *context),
                             void *context)
@@ -179,7 +181,8 @@ static bool add_part(struct kiln_fragments_gl *f, const struct part *part, struc
     return true;
 }
 
-/* Cuts a picture into parts whose lists fit together: whole rows, or pieces of one row. */
+/* Describes how a picture is divided into parts whose lists fit in memory together: whole rows, or
+ * pieces of one row. */
 struct cutting {
     struct kiln_fragments_gl *f;
     size_t width;
@@ -209,7 +212,7 @@ static void give_places(struct cutting *c, uint32_t x, uint32_t y, uint32_t coun
     }
 }
 
-/* A row whose lists are too long to be there together. */
+/* Divides a row whose lists do not fit in memory together. */
 static bool cut_row(struct cutting *c, uint32_t y, struct kiln_error *error)
 {
     for (uint32_t x = 0; x < c->width; x++) {
@@ -246,8 +249,8 @@ static bool cut(struct cutting *c, uint32_t height, struct kiln_error *error)
     return end_part(c, error);
 }
 
-/* Makes the parts and gives each pixel its place in its own; returns the most fragments of one, or
- * 0 with an error. */
+/* Makes the parts and gives each pixel its place in its part. Returns the most fragments of a part,
+ * or 0 with an error. */
 static size_t scan(struct kiln_fragments_gl *f, const struct kiln_image *size,
                    struct kiln_error *error)
 {
@@ -275,7 +278,7 @@ static size_t scan(struct kiln_fragments_gl *f, const struct kiln_image *size,
 
 /* ---- long lists ------------------------------------------------------------------------------ */
 
-/* The blocks of a part's long lists; with NULL, only how many. */
+/* Lists the blocks of a part's long lists and returns how many; with NULL, it only counts. */
 static uint32_t list_blocks(const uint32_t *counts, uint32_t row_length, const struct part *part,
                             struct block *blocks)
 {
@@ -311,8 +314,8 @@ static uint32_t bind_blocks(struct kiln_fragments_gl *f, const struct kiln_image
     return bind_buffer(&f->blocks, KILN_BIND_FRAGMENT_BLOCKS, KILN_READ, error) ? number : 0;
 }
 
-/* Sorts the long lists of a part, in an even number of passes, so that all keys are then where
- * those of short lists are. */
+/* Sorts the long lists of a part. The number of passes is even, so that all keys end in the buffer
+ * where those of short lists are. */
 static bool sort_long_lists(struct kiln_fragments_gl *f, const struct kiln_image *size,
                             const struct part *part, struct kiln_error *error)
 {
@@ -342,7 +345,8 @@ static bool sort_long_lists(struct kiln_fragments_gl *f, const struct kiln_image
 
 /* ---- a pass ---------------------------------------------------------------------------------- */
 
-/* Blends the lists of a part, on software a stretch of each over those before. */
+/* Blends the lists of a part; on software, a stretch of each list at a time, over the stretches
+ * before. */
 static void resolve(const struct kiln_fragments_gl *f, const struct kiln_particles_draw *draw,
                     const struct part *part)
 {

@@ -1,5 +1,7 @@
-/* A fragment is rejected only if it is farther than the scene by more than rounding can be, so that
- * pictures stay the same to the bit; the fragment shader decides about the rest. */
+/* This file fills a depth buffer with the depth of the scene, so that fragments of hidden particles
+ * are rejected before they are shaded. A fragment is rejected only if it is farther than the scene
+ * by more than rounding can be, so that pictures stay the same to the bit; the fragment shader
+ * decides about the rest. */
 #include "draw/sprites/occlusion.h"
 
 #include <stdlib.h>
@@ -7,8 +9,9 @@
 #include "base/error.h"
 #include "gpu/program.h"
 
-/* On software a test costs some hundredths of shading a fragment, and saves four fifths: it pays
- * where of so many particles one in eight is hidden. On GPUs it costs nothing. */
+/* On software a test costs some hundredths of shading a fragment, and saves four fifths: it is
+ * worth its cost where one in eight of the sampled particles is hidden. On GPUs it costs
+ * nothing. */
 enum { SAMPLES = 1024, PAYS = 8 };
 
 struct kiln_occlusion {
@@ -62,7 +65,7 @@ void kiln_occlusion_destroy(struct kiln_occlusion **occlusion)
     *occlusion = NULL;
 }
 
-/* Finds out whether tests pay. */
+/* Finds out whether tests are worth their cost. */
 static bool sample(struct kiln_occlusion *o, uint32_t count, struct kiln_error *error)
 {
     o->tests = true;

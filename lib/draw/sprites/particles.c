@@ -1,4 +1,4 @@
-/* The stage: hands over to its technique. */
+/* This file runs the stage that draws particles by the technique that was chosen for it. */
 #include "draw/sprites/particles.h"
 
 #include <stdlib.h>
@@ -58,8 +58,8 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
 
 bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
 {
-    /* Chunks of `tiled` begin with what may hide all others. It leaves lists of fragments to those
-     * who blend. */
+    /* `tiled` draws chunks from the nearest on, which may hide all others. Where pixels sort, it
+     * leaves the drawing to a technique that blends. */
     return stage->technique == KILN_RASTER_TILED && stage->scene->post.compose != KILN_COMPOSE_OIT;
 }
 

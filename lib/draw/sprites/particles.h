@@ -1,4 +1,4 @@
-/* Stage 4b: the particles as billboards (Heinz 2019, 3.2.3 to 3.2.6). All techniques make the
+/* Stage 4b draws the particles as billboards (Heinz 2019, 3.2.3 to 3.2.6). All techniques make the
  * same pictures within the error of their arithmetic. */
 #ifndef KILN_DRAW_SPRITES_PARTICLES_H
 #define KILN_DRAW_SPRITES_PARTICLES_H
@@ -24,8 +24,8 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
                       struct kiln_threads *threads, struct kiln_error *error);
 void kiln_particles_destroy(struct kiln_particles_stage **stage);
 
-/* Does the technique take sorted particles from the nearest to the farthest? Else it takes them the
- * other way round. */
+/* Returns whether the technique takes sorted particles from the nearest to the farthest; otherwise
+ * it takes them from the farthest. */
 bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage);
 
 struct kiln_particles_draw {
@@ -45,7 +45,7 @@ struct kiln_particles_draw {
     bool fire_covers; /* premultiplied `over` in which additive particles cover like others */
 };
 
-/* All but `cpu` need bound what kiln_lighting_run binds. */
+/* Draws the particles of a pass into draw->framebuffer. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error);
 

@@ -1,5 +1,6 @@
-/* The particles in pieces of so many that memory stays bounded: made into sprites, sorted into the
- * tiles that they touch, then tile by tile drawn in order. */
+/* This file draws particles on the host in pieces of limited size, so that memory stays bounded: it
+ * makes sprites of the particles, lists them for the tiles that they touch, then draws tile by
+ * tile, in order. */
 #include "draw/sprites/particles_cpu.h"
 
 #include <stdlib.h>
@@ -112,8 +113,8 @@ static bool make_room(struct kiln_tiles *tiles, uint32_t wanted, struct kiln_err
     if (wanted <= tiles->sprite_room)
         return true;
     free(tiles->sprites);
-    /* Tiles read sprites from all over; in small pages a quarter of the drawing waits for
-     * addresses. */
+    /* Tiles read sprites in no order of addresses; with small pages a quarter of the drawing waits
+     * for address translation. */
     tiles->sprites = kiln_alloc_pages(wanted * sizeof *tiles->sprites);
     tiles->sprite_room = tiles->sprites ? wanted : 0;
     return tiles->sprites || out_of_memory(error);
@@ -143,7 +144,7 @@ static void begin_row(const struct drawing *d, struct kiln_tile *tile, int y, si
 typedef float four __attribute__((vector_size(16)));
 typedef float four_unaligned __attribute__((vector_size(16), aligned(4), may_alias));
 
-/* Channels of four pixels become four pixels. */
+/* Transposes channels of four pixels to four pixels. */
 static inline void transpose(four c[4])
 {
     four low = __builtin_shufflevector(c[0], c[1], 0, 4, 1, 5);
@@ -156,7 +157,7 @@ static inline void transpose(four c[4])
     c[3] = __builtin_shufflevector(high, high2, 2, 3, 6, 7);
 }
 
-/* Puts four pixels over others, or in their place. */
+/* Blends four pixels over others, or replaces these. */
 static inline void put_over(const four drawn[4], const float passed[4], bool keep, float *to,
                             size_t count)
 {
@@ -166,7 +167,7 @@ static inline void put_over(const four drawn[4], const float passed[4], bool kee
     }
 }
 
-/* Puts a row over what pieces before have drawn, and an earlier pass into the glow. */
+/* Blends a row over the result of earlier pieces; its glow also over that of an earlier pass. */
 static void store_row(const struct drawing *d, const struct kiln_tile *tile, int y, size_t at)
 {
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
@@ -195,7 +196,7 @@ static void store_row(const struct drawing *d, const struct kiln_tile *tile, int
     }
 }
 
-/* A tile in which a piece has nothing. */
+/* Clears a tile in which a piece has no sprites, if it is the first piece. */
 static void leave_empty(const struct drawing *d, size_t at, uint32_t width, uint32_t height)
 {
     const size_t bytes = 4 * sizeof(float) * (width < KILN_TILE_WIDTH ? width : KILN_TILE_WIDTH);
@@ -263,7 +264,8 @@ static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *
 
 /* ---- pixels that sort, of more sprites than are there at a time ------------------------------ */
 
-/* Lists are of all sprites that touch a tile, so they are made for some tiles at a time. */
+/* Holds the state of drawing where pixels sort. Lists need all sprites that touch a tile, so they
+ * are made for some tiles at a time. */
 struct sorting {
     struct kiln_tiles *tiles;
     const struct kiln_sprite_pass *pass;
@@ -275,7 +277,7 @@ struct sorting {
     uint32_t kept_count;
 };
 
-/* Makes a piece, in its lists of bins; returns how many sprites that are. 0 with an error. */
+/* Makes a piece and its bins; returns how many sprites it has, or 0 with an error. */
 static uint32_t make_piece(const struct sorting *s, uint32_t first, struct kiln_error *error)
 {
     const uint32_t left = s->count - first;
@@ -307,7 +309,7 @@ static bool count_tiles(const struct sorting *s, size_t tile_count, struct kiln_
     return kiln_cells_mix(s->tiles->cells, s->tiles->threads, error);
 }
 
-/* Makes all sprites once more and keeps those of some tiles, in their order. */
+/* Makes all sprites again and keeps those of some tiles, in their order. */
 static bool keep_sprites(struct sorting *s, size_t first_tile, size_t end_tile,
                          struct kiln_error *error)
 {
@@ -371,7 +373,7 @@ static bool draw_sorting(struct sorting *s, struct drawing *drawing, struct kiln
     return ok;
 }
 
-/* The weights of a system's glow, if they are the same at any age. */
+/* Returns the weights of a system's glow, if they are the same at any age. */
 static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
 {
     const float4 *row =
@@ -386,8 +388,8 @@ static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
     return true;
 }
 
-/* What tiles do with the glow: nothing if there is none, and as little as possible where all that
- * glows does so alike, which is what most scenes have. */
+/* Chooses how tiles draw the glow: not at all if there is none, and with the least work where all
+ * glowing particles have the same weights, as in most scenes. */
 static void choose_glow(const struct kiln_moment *moment, struct drawing *d)
 {
     d->glow = KILN_TILE_GLOW_NONE;
@@ -411,7 +413,7 @@ static void choose_glow(const struct kiln_moment *moment, struct drawing *d)
         d->glow = KILN_TILE_GLOW_WEIGHED;
 }
 
-/* The pixels that a pass reads and writes. */
+/* Takes the pixels that a pass reads and writes. */
 static bool open_images(const struct kiln_particles_draw *draw, struct drawing *d,
                         struct kiln_error *error)
 {

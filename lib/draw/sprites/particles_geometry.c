@@ -1,7 +1,7 @@
-/* Particles as points that the geometry shader turns into billboards, or as instances of a quad:
- * one draw call for the systems of a pass, whatever their looks; an entry names system and slot,
- * and the vertex shader fetches the rest (Heinz 2019, 3.2.2: one draw call, nothing stored but what
- * changes). */
+/* This file draws particles in GL as points that the geometry shader turns into billboards, or as
+ * instances of a quad. One draw call draws all systems of a pass, whatever their looks; an entry
+ * names system and slot, and the vertex shader fetches the rest (Heinz 2019, 3.2.2: one draw call,
+ * nothing stored but what changes). */
 #include "draw/sprites/particles_geometry.h"
 
 #include <stdio.h>
@@ -27,9 +27,9 @@ struct kiln_geometry {
     GLint additive_alpha;
 };
 
-/* Does any system need more than billboards parallel to the picture? One program draws all that is
- * sorted together, in one call, however the depths of the shapes interleave; the one that knows all
- * shapes is slower, so only scenes that need it pay. */
+/* Returns whether any system needs more than billboards parallel to the picture. One program draws
+ * all particles that are sorted together, in one call, however the depths of the shapes interleave.
+ * The program for all shapes is slower, so only scenes that need it use it. */
 static bool needs_shapes(const struct kiln_scene *scene)
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
@@ -85,7 +85,7 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
     }
     *stage = (struct kiln_geometry){
         .device = device, .scene = scene, .atlas = atlas, .technique = technique};
-    /* `tiled` leaves lists of fragments to it. */
+    /* `tiled` uses this technique where pixels sort. */
     bool draws = technique == KILN_RASTER_GEOMETRY || technique == KILN_RASTER_INSTANCED ||
                  (technique == KILN_RASTER_TILED && scene->post.compose == KILN_COMPOSE_OIT);
     if (draws && !create_program(stage, error)) {
@@ -131,7 +131,7 @@ bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_part
     return true;
 }
 
-/* A draw call of a technique. */
+/* Describes a draw call of a technique. */
 struct submission {
     const struct kiln_geometry *stage;
     GLsizei count;
@@ -147,7 +147,7 @@ static void submit(void *context)
         glDrawArrays(GL_POINTS, 0, s->count);
 }
 
-/* Draws what is not hidden into the bound framebuffer. */
+/* Draws the visible particles into the bound framebuffer. */
 static bool draw_visible(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
                          struct kiln_error *error)
 {

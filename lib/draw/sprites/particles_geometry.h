@@ -1,4 +1,4 @@
-/* Techniques `geometry` and `instanced` of the particles. */
+/* A kiln_geometry draws particles by techniques `geometry` and `instanced`. */
 #ifndef KILN_DRAW_SPRITES_PARTICLES_GEOMETRY_H
 #define KILN_DRAW_SPRITES_PARTICLES_GEOMETRY_H
 
@@ -6,7 +6,8 @@
 
 struct kiln_geometry;
 
-/* For `tiled`, it binds what that reads, and draws where pixels sort. */
+/* Makes the stage. For technique `tiled` it binds the data that its kernels read, and draws where
+ * pixels sort. */
 struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            const struct kiln_atlas *atlas,
@@ -17,8 +18,8 @@ void kiln_geometry_destroy(struct kiln_geometry **stage);
 /* The defines of shaders that draw particles of a scene (shaders/draw/sprites/particle.glsl). */
 void kiln_geometry_defines(const struct kiln_scene *scene, char *out, size_t size);
 
-/* Binds what kiln_moment_bind does, and what shaders/draw/sprites/shade.glsl reads: light, atlas,
- * motion and depth of the scene. */
+/* Binds the data of kiln_moment_bind, and the light, atlas, motion and depth of the scene, which
+ * shaders/draw/sprites/shade.glsl reads. */
 bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
                              struct kiln_error *error);
 bool kiln_geometry_run(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,

@@ -1,10 +1,9 @@
-/* The particles in chunks of so many that memory stays bounded, the nearest first. Each becomes a
- * sprite, which marks itself with its bit in the masks of the bins of the picture that it touches;
- * each bin's mask becomes a list, whose sprites likewise mark the tiles of the bin; and each tile
- * draws what its mask has from front to back in registers, and writes its pixels once. Bits keep
- * the order without anything that decides it, and however many sprites lie in a tile and however
- * large they are, none is dropped.
- */
+/* This file draws particles in GL by compute kernels, in chunks of limited size, the nearest first,
+ * so that memory stays bounded. Each particle becomes a sprite, which sets its bit in the masks of
+ * the picture's bins that it touches; each bin's mask becomes a list, whose sprites likewise mark
+ * the tiles of the bin; and each tile draws the sprites of its mask from front to back in
+ * registers, and writes its pixels once. Bits keep the order without sorting, and no sprite is
+ * dropped, however many lie in a tile and however large they are. */
 #include "draw/sprites/particles_tiled.h"
 
 #include <assert.h>
@@ -17,7 +16,7 @@
 
 static_assert(sizeof(struct tiled_bin) == 20, "std430");
 
-/* How the work is cut, which changes no result beyond rounding. */
+/* Describes how the work is divided, which changes no result beyond rounding. */
 struct shape {
     uint32_t edge;         /* of a tile, px */
     uint32_t rows;         /* of invocations in a tile */
@@ -25,7 +24,8 @@ struct shape {
     uint32_t most_entries; /* of all lists of a chunk; each takes three words */
 };
 
-/* On software a tile costs its pixels times its sprites; GPUs want many invocations, too. */
+/* On software the cost of a tile is its pixels times its sprites; GPUs also need many
+ * invocations. */
 static const struct shape FOR_SOFTWARE = {8, 2, 1 << 16, 1 << 18},
                           FOR_GPUS = {16, 16, 1 << 18, 1 << 23};
 
@@ -36,7 +36,7 @@ enum { MOST_WORDS = 1 << 24, LEAST_CHUNK = 64 };
 
 enum { SPRITE_BYTES = TILED_SPRITE_ROWS * sizeof(float4), MOST_GROUP_SIZE = 1024 };
 
-/* Less than this of a channel may be left out. */
+/* A part of a channel below this may be left out. */
 static const float UNSEEN = 1.0f / 2048.0f;
 
 struct kiln_tiled {
@@ -86,8 +86,9 @@ static bool create_programs(struct kiln_tiled *tiled, const struct kiln_scene *s
     return true;
 }
 
-/* A tile stays as large for a work group of another size, so that the picture is the same: each of
- * its invocations has more or fewer rows of the tile, but at least one. */
+/* Chooses the shape for the device. A tile has the same size for a work group of another size, so
+ * that the picture is the same: each invocation has more or fewer rows of the tile, but at least
+ * one. */
 static struct shape choose_shape(const struct kiln_device *device)
 {
     struct shape shape = device->info.software ? FOR_SOFTWARE : FOR_GPUS;
@@ -99,18 +100,18 @@ static struct shape choose_shape(const struct kiln_device *device)
 
 /* ---- what software may loop ------------------------------------------------------------------ */
 
-/* How often the loops of an invocation run that lists sprites of a chunk (those of other kernels
- * but the one below run less): for each of its words, the sum over its group and the word's bits.
- */
+/* Returns how many iterations the loops of an invocation run that lists sprites of a chunk: for
+ * each of its words, the sum over its group and the word's bits. Other kernels run fewer, except
+ * the one that draws (round_iterations). */
 static uint32_t listing_iterations(uint32_t chunk, uint32_t group_size)
 {
     enum { SUM = 12, BITS = 33 }; /* doublings of up to 1024, bits of a word; each and one more */
     return (chunk / 32 / group_size + 1) * (1 + SUM + BITS) + 1;
 }
 
-/* The same of one that draws a round of a tile's mask, whether or not the driver unrolls the loop
- * over pixels: what could be left of each pixel; for its share of the words, those before each and
- * its bits; all sprites, and each one's pixels. */
+/* Returns the iterations of an invocation that draws a round of a tile's mask, whether or not the
+ * driver unrolls the loop over pixels: the possible rest of each pixel; for its share of the words,
+ * the words before each and its bits; all sprites, and each one's pixels. */
 static uint32_t round_iterations(const struct shape *shape)
 {
     uint32_t pixels = shape->edge / shape->rows, group_size = shape->edge * shape->rows;
@@ -183,7 +184,7 @@ void kiln_tiled_destroy(struct kiln_tiled **tiled)
     *tiled = NULL;
 }
 
-/* One call of kiln_tiled_run. */
+/* Holds the values of one call of kiln_tiled_run. */
 struct run {
     const struct kiln_particles_draw *draw;
     uint32_t width, height; /* px */
@@ -219,13 +220,13 @@ static void plan(const struct kiln_tiled *tiled, struct run *run)
     run->additive_alpha = run->draw->sum_alpha || run->draw->fire_covers ? 1.0f : 0.0f;
 }
 
-/* Words of the mask of a bin. */
+/* Returns the words of a bin's mask. */
 static uint32_t words_of(const struct run *run)
 {
     return divide_up(run->count, 32);
 }
 
-/* Binds a buffer of at least so many bytes, which a kernel will write. */
+/* Binds a buffer of at least `size` bytes that a kernel will write. */
 static bool bind_output(GLuint binding, struct kiln_buffer *buffer, size_t size,
                         struct kiln_error *error)
 {
@@ -351,7 +352,7 @@ static bool bind_images(const struct run *run, struct kiln_error *error)
     return true;
 }
 
-/* Draws the lists, as much of their masks at a time as the driver has patience for. */
+/* Draws the lists, as much of their masks at a time as the driver's loop limit allows. */
 static void draw_spans(const struct kiln_tiled *tiled, const struct run *run, bool first, bool last)
 {
     uint32_t words = divide_up(run->longest, 32), from = 0;

@@ -1,4 +1,4 @@
-/* Technique `tiled` of the particles: compute kernels, without rasteriser and blending. */
+/* Technique `tiled` draws particles by compute kernels, without rasteriser and blending. */
 #ifndef KILN_DRAW_SPRITES_PARTICLES_TILED_H
 #define KILN_DRAW_SPRITES_PARTICLES_TILED_H
 
@@ -11,7 +11,7 @@ struct kiln_tiled *kiln_tiled_create(struct kiln_device *device, const struct ki
                                      struct kiln_geometry *geometry, struct kiln_error *error);
 void kiln_tiled_destroy(struct kiln_tiled **tiled);
 
-/* See kiln_particles_run. */
+/* Does what kiln_particles_run does. */
 bool kiln_tiled_run(struct kiln_tiled *tiled, const struct kiln_particles_draw *draw,
                     struct kiln_error *error);
 

@@ -1,7 +1,7 @@
-/* What the CPU rasteriser draws: a particle brought to the picture, with all that a pixel of it
- * needs. The places of a sprite's texture are linear in those of the picture, or, where it is not
- * parallel to it, become so when they are divided by its depth (q is one over the depth).
- */
+/* A kiln_sprite is a particle projected to the picture, with all data that a pixel of it needs; the
+ * CPU rasteriser draws it. Its texture coordinates are linear in those of the picture; where the
+ * sprite is not parallel to the picture, they are so divided by its depth (q is one over the
+ * depth). */
 #ifndef KILN_DRAW_SPRITES_SPRITE_H
 #define KILN_DRAW_SPRITES_SPRITE_H
 
@@ -12,7 +12,7 @@
 #include "particles/pool.h"
 #include "shared/look_layout.h"
 
-/* How a pixel of a sprite gets its colour. */
+/* Names how a pixel of a sprite gets its colour. */
 enum kiln_sprite_shade {
     KILN_SHADE_GLOW,  /* mask: base + slope times the cell's heat */
     KILN_SHADE_LIT,   /* mask: and light by the cell's normal */
@@ -51,7 +51,7 @@ struct kiln_sprite {
     uint8_t shade, flags;
 };
 
-/* What all sprites of a pass have in common. */
+/* Holds the data that all sprites of a pass share. */
 struct kiln_sprite_pass {
     const struct kiln_scene *scene;
     const struct kiln_draw_look *looks;  /* of KILN_MAX_SYSTEMS */
@@ -65,8 +65,8 @@ struct kiln_sprite_pass {
     bool fire_covers; /* additive particles cover, too, or have their alpha summed up */
 };
 
-/* Makes the sprites of draw entries and wants their cells. Those of which nothing can be seen touch
- * no pixels (x_from = x_to). */
+/* Makes the sprites of draw entries and wants their cells. Invisible sprites touch no pixels
+ * (x_from = x_to). */
 typedef void kiln_sprites_make(const struct kiln_sprite_pass *pass, const uint32_t *entries,
                                size_t count, struct kiln_sprite *sprites);
 

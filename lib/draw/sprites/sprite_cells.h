@@ -1,16 +1,16 @@
-/* Which cells sprites show (Heinz 2019, 3.2.4). */
+/* This header chooses the cells that sprites show (Heinz 2019, 3.2.4). */
 #ifndef KILN_DRAW_SPRITES_SPRITE_CELLS_H
 #define KILN_DRAW_SPRITES_SPRITE_CELLS_H
 
 #include "draw/sprites/sprite_subjects.h"
 
-/* Of the billboards in a vector. */
+/* Holds the cells of the billboards in a vector. */
 struct chosen_cells {
     vi layer, next_layer, phase, level; /* struct kiln_cell_name */
     vf motion;
 };
 
-/* Which of their system's textures they have. */
+/* Chooses which of their system's textures particles have. */
 SIMD struct columns choose_textures(const struct subjects *p)
 {
     const uint32_t count = p->look->flags.w;
@@ -25,7 +25,8 @@ SIMD struct columns choose_textures(const struct subjects *p)
     return columns_load((const float *)(const void *)textures, &places);
 }
 
-/* The level with one to two texels a pixel: 7 less the power of two that is not below the size. */
+/* Returns the level with one to two texels a pixel: 7 less the power of two that is not below the
+ * size. */
 SIMD vi level_of(vf diameter_px)
 {
     vi bits = (vi)vf_clamp(diameter_px, 1.0f, (float)KILN_ATLAS_CELL);
@@ -37,7 +38,7 @@ SIMD vi cell_number(vi layer, vi phase, vi level)
     return (layer * KILN_CELL_PHASES + phase) * KILN_ATLAS_LEVELS + level;
 }
 
-/* Wants a cell for each lane that is seen; most have been wanted. */
+/* Wants a cell for each lane that is visible; most have been wanted before. */
 SIMD void want_cells(const struct subjects *p, const struct chosen_cells *chosen, vi number,
                      vi lanes)
 {
@@ -65,7 +66,8 @@ SIMD void read_hulls(struct subjects *p, vi layer)
     p->seen &= p->hull_from.c[0] < p->hull_to.c[0];
 }
 
-/* Equation 3.2: the two adjacent cells and the way between them, by the progress through life. */
+/* Chooses the two adjacent cells and the part of the way between them by the progress through life
+ * (equation 3.2). */
 static void choose_cells(struct subjects *p)
 {
     vi first = (vi)p->texture.c[0], count = (vi)p->texture.c[1];

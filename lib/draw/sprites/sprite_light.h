@@ -1,24 +1,26 @@
-/* The light that falls on sprites: as light_particle() of shaders/draw/sprites/particle.glsl. */
+/* This header computes the light that falls on sprites, as light_particle() of
+ * shaders/draw/sprites/particle.glsl does in GL. */
 #ifndef KILN_DRAW_SPRITES_SPRITE_LIGHT_H
 #define KILN_DRAW_SPRITES_SPRITE_LIGHT_H
 
 #include "draw/light/ray_smoke.h"
 #include "draw/sprites/sprite_subjects.h"
 
-/* Light from everywhere, and how it changes along the billboard's axes (right, up, towards the
- * viewer): spherical harmonics of degrees 0 and 1, for each colour. */
+/* Holds light from everywhere, and how it changes along the billboard's axes (right, up, towards
+ * the viewer): spherical harmonics of degrees 0 and 1, for each colour. */
 struct sprite_light {
     vf parts[4][3];
 };
 
-/* The same, with the second part along the axes of the world. */
+/* Holds the same light with the second part along the axes of the world. */
 struct light_sum {
     vf all[3];
     struct vf3 along[3];
 };
 
-/* Smoke scatters: a sprite's far side is dimmer, not black. Light from a direction is half ambient,
- * half along the normal. factor: half of it; towards: the direction times that. */
+/* Adds light from a direction: half of it ambient, half along the normal. Smoke scatters, so a
+ * sprite's far side is dimmer, not black. factor: half of the light; towards: the direction times
+ * that. */
 SIMD void add_light(struct light_sum *sum, float4 radiance, vf factor, struct vf3 towards)
 {
     const float color[3] = {radiance.x, radiance.y, radiance.z};
@@ -49,8 +51,8 @@ SIMD void add_point_lights(struct light_sum *sum, const struct kiln_draw_backdro
     }
 }
 
-/* lit: how much of the light is reflected; the rest of a sprite is as bright as if in white light.
- */
+/* Lights sprites. lit: how much of the light is reflected; the rest of a sprite is as bright as if
+ * in white light. */
 static void light_sprites(const struct subjects *p, struct sprite_light *light)
 {
     const struct kiln_draw_backdrop *b = p->pass->backdrop;

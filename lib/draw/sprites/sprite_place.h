@@ -1,12 +1,12 @@
-/* Where sprites lie in the picture, and what their pixels are to each other: as corner.glsl of
- * shaders/draw does it.
- */
+/* This header places sprites in the picture and computes how their texture coordinates change from
+ * pixel to pixel, as corner.glsl of shaders/draw does in GL. */
 #ifndef KILN_DRAW_SPRITES_SPRITE_PLACE_H
 #define KILN_DRAW_SPRITES_SPRITE_PLACE_H
 
 #include "draw/sprites/sprite_subjects.h"
 
-/* More texels a pixel are too thin to be seen: they would not be found in 32 bits. */
+/* A sprite with more texels a pixel is too thin to be visible, and its coordinates would not fit 32
+ * bits. */
 #define MOST_TEXELS_A_PIXEL 4096.0f
 
 struct vf2 {
@@ -16,7 +16,7 @@ struct vf2 {
 static_assert(WORD_OF(x_from) == WORD_OF(y_from) && WORD_OF(x_to) == WORD_OF(y_to),
               "ranges of pixels are two to a word");
 
-/* Pixels with their centres from low to high, within 0 to size. */
+/* Returns the pixels whose centres are from low to high, within 0 to size. */
 SIMD void limit_range(vf low, vf high, float size, vi *from, vi *to)
 {
     *from = vi_of(vf_clamp(low + 0.5f, 0.0f, size));
@@ -42,7 +42,7 @@ SIMD struct vf2 to_pixels(const struct kiln_view *view, struct vf3 v)
                         0.5f * f.w - v.y * near * (0.5f * f.w / f.y)};
 }
 
-/* Billboards parallel to the picture. */
+/* Places billboards that are parallel to the picture. */
 static void place_flat(struct subjects *p)
 {
     const float4 f = p->pass->view->frustum;
@@ -80,7 +80,8 @@ static void place_flat(struct subjects *p)
     limit_box(p, (struct vf2){x - reach_x, y - reach_y}, (struct vf2){x + reach_x, y + reach_y});
 }
 
-/* A linear function of view space, as one of the pixels about the anchor: constant, x and y. */
+/* Writes a linear function of view space as a function of the pixels about the anchor: constant, x
+ * and y. */
 SIMD void to_plane(struct subjects *p, struct vf3 row, size_t constant, size_t x, size_t y)
 {
     const float4 f = p->pass->view->frustum;
@@ -90,7 +91,8 @@ SIMD void to_plane(struct subjects *p, struct vf3 row, size_t constant, size_t x
                      p->w[y] * (p->w[WORD_OF(y)] - 0.5f * f.w) - row.z;
 }
 
-/* Around the corners of the part that shows; one that reaches behind the eye may be anywhere. */
+/* Bounds the pixels around the corners of the visible part; a sprite that reaches behind the eye
+ * may touch any. */
 SIMD void limit_corners(struct subjects *p, struct vf3 right, struct vf3 up)
 {
     const struct kiln_view *view = p->pass->view;
@@ -113,8 +115,8 @@ SIMD void limit_corners(struct subjects *p, struct vf3 right, struct vf3 up)
     limit_box(p, low, high);
 }
 
-/* Billboards in any plane: a point of the picture is a direction d, and with the inverse of the
- * matrix of right, up and centre, (a, b, 1) / depth = inverse * d. */
+/* Places billboards in any plane: a point of the picture is a direction d, and with the inverse of
+ * the matrix of right, up and centre, (a, b, 1) / depth = inverse * d. */
 static void place_deep(struct subjects *p)
 {
     struct vf3 right = vf3_scale(p->plane.right, p->half_size);
@@ -138,7 +140,7 @@ static void place_deep(struct subjects *p)
     limit_corners(p, right, up);
 }
 
-/* The end of a line that lies behind, cut at the near plane. */
+/* Returns the rear end of a line, cut at the near plane. */
 SIMD struct vf3 find_tail(const struct subjects *p)
 {
     const struct kiln_view *view = p->pass->view;
@@ -150,7 +152,7 @@ SIMD struct vf3 find_tail(const struct subjects *p)
     return vf3_select(-tail.z < near, vf3_along(head, vf3_sub(tail, head), part), tail);
 }
 
-/* A quad along the way between two points: u from its middle, v across, px. */
+/* Places a quad along the way between two points: u from its middle, v across, px. */
 SIMD void place_way(struct subjects *p, struct vf3 head, struct vf3 tail, vf half_width)
 {
     const struct kiln_view *view = p->pass->view;
@@ -183,8 +185,8 @@ SIMD void place_way(struct subjects *p, struct vf3 head, struct vf3 tail, vf hal
               (struct vf2){middle_x + reach_x, middle_y + reach_y});
 }
 
-/* Lines, or points as lines of no length: their ends reach out by half of their width, and what is
- * narrower than a pixel is drawn as wide as one, and the fainter. */
+/* Places lines, or points as lines of length 0: their ends extend by half of their width. A line or
+ * point narrower than a pixel is drawn a pixel wide, and fainter. */
 static void place_plain(struct subjects *p, vf diameter_px)
 {
     bool is_line = p->look->form.x == LOOK_LINE;

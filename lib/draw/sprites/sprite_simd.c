@@ -1,6 +1,6 @@
-/* As shaders/draw/sprites/particle.glsl and corner.glsl do it, but for vectors of particles and in
- * arithmetic of our own, so that pictures do not depend on the machine's mathematics either.
- */
+/* This file makes sprites of vectors of particles, as shaders/draw/sprites/particle.glsl and
+ * corner.glsl do in GL. Its arithmetic does not depend on the machine's mathematics, so that
+ * pictures do not either. */
 #include "draw/sprites/sprite_cells.h"
 #include "draw/sprites/sprite_light.h"
 #include "draw/sprites/sprite_place.h"
@@ -12,8 +12,8 @@ enum {
 
 /* ---- form ------------------------------------------------------------------------------------ */
 
-/* The plane that billboards turn in (Heinz 2019, 2.1.1). Where the direction that says what is up
- * points at the eye, the picture's right is the billboard's. */
+/* Returns the plane that billboards turn in (Heinz 2019, 2.1.1). Where the up direction points at
+ * the eye, the picture's right is the billboard's. */
 static struct plane facing_plane(const struct subjects *p)
 {
     const vf zero = vf_all(0.0f), one = vf_all(1.0f);
@@ -39,12 +39,12 @@ static struct plane facing_plane(const struct subjects *p)
     return (struct plane){sideways, upward, vf3_cross(sideways, upward)};
 }
 
-/* Where a billboard's upward edge points in its plane. */
+/* Holds the direction of a billboard's upward edge in its plane. */
 struct upward {
     vf x, y;
 };
 
-/* Lays those that are stretched along their velocity, and makes them longer. Slow ones keep their
+/* Turns stretched billboards along their velocity, and makes them longer. Slow ones keep their
  * turn. */
 static void stretch_billboards(struct subjects *p, const struct plane *plane, struct upward *up)
 {
@@ -71,7 +71,7 @@ static void stretch_billboards(struct subjects *p, const struct plane *plane, st
     p->half_length += vf_where(stretched, 0.5f * speed * stretch);
 }
 
-/* Turns billboards in their plane: by their angle, or along their velocity. Half of all are
+/* Turns billboards in their plane: by their angle, or along their velocity. Half of them are
  * mirrored. */
 static void turn_billboards(struct subjects *p)
 {
@@ -91,8 +91,8 @@ static void turn_billboards(struct subjects *p)
                        vf3_along(vf3_scale(plane.right, up.x), plane.up, up.y), plane.normal};
 }
 
-/* In a picture smaller than the frame, billboards have a least size, and what is less becomes as
- * much fainter: else it would flicker. */
+/* Widens small billboards in a picture smaller than the frame to a least size and makes them
+ * fainter by as much: otherwise they would flicker. */
 SIMD void widen(struct subjects *p, vf pixels_per_m)
 {
     if (!(p->pass->view->clock.w < 1.0f) || p->look->form.x != 0)
@@ -131,7 +131,7 @@ static void color_sprites(struct subjects *p)
     bool some_lit = any(lit & p->seen);
     for (size_t c = 0; c < 3; c++) {
         vf albedo = p->cover.c[c], hot = p->hot.c[c], cool = p->cool.c[c];
-        /* Of what is not lit by its cell, nothing changes along the axes. */
+        /* The light on a sprite without normals in its cell does not change along the axes. */
         vf flat = vf_max(light.parts[0][c] + light.parts[3][c], zero) * albedo;
         vf base = vf_select(lit, cool, vf_select(glows, cool, hot) + flat);
         vf slope = vf_where(lit | glows, hot - cool);
@@ -171,7 +171,7 @@ static void read_particles(struct subjects *p)
     p->depth = -p->center.z;
 }
 
-/* How much of them may be seen, by their look at their age. */
+/* Computes the opacity of particles by their look at their age. */
 static void fade_particles(struct subjects *p)
 {
     const float near = p->pass->view->eye.w;
@@ -229,7 +229,8 @@ static void finish_sprites(struct subjects *p)
         p->w[WORD_OF(distance)] = vf_sqrt(vf3_dot(p->center, p->center));
 }
 
-/* Entries of a piece in the order of their systems, and among those in their own. */
+/* Holds entries of a piece in the order of their systems, and within a system in their own
+ * order. */
 struct piece {
     const uint32_t *entries;
     struct kiln_sprite *sprites;
@@ -237,7 +238,7 @@ struct piece {
     uint16_t order[AT_A_TIME];
 };
 
-/* first: where a system's entries begin. */
+/* Orders a piece by system. first: where a system's entries begin. */
 static void order_piece(struct piece *piece, uint32_t first[KILN_MAX_SYSTEMS + 1])
 {
     memset(first, 0, (KILN_MAX_SYSTEMS + 1) * sizeof *first);
@@ -252,8 +253,9 @@ static void order_piece(struct piece *piece, uint32_t first[KILN_MAX_SYSTEMS + 1
         piece->order[next[KILN_ENTRY_SYSTEM(piece->entries[i])]++] = (uint16_t)i;
 }
 
-/* Neighbours in depth are far apart in memory, and the sprites' is too large for the caches.
- * Inline: a function that does nothing else counts as one without effect, and gcc leaves it out. */
+/* Prefetches records and sprites: neighbours in depth are far apart in memory, and the sprites'
+ * memory is too large for the caches. The function is inline because gcc removes a function that
+ * only prefetches as one without effect. */
 SIMD void fetch(const struct kiln_sprite_pass *pass, const struct piece *piece, uint32_t from,
                 uint32_t to)
 {
@@ -269,7 +271,7 @@ SIMD void fetch(const struct kiln_sprite_pass *pass, const struct piece *piece, 
     }
 }
 
-/* lanes: numbers in the piece. */
+/* Makes the sprites of a vector. lanes: their numbers in the piece. */
 static void make_vector(struct subjects *p, const struct piece *piece, const uint16_t lanes[LANES])
 {
     for (int i = 0; i < LANES; i++)
@@ -304,7 +306,7 @@ static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
         p.many = vi_all(-(capacity >= KILN_CELL_MIXED_LEAST));
         p.few = vi_all(-(capacity <= KILN_CELL_FINE_MOST));
         for (uint32_t i = first[system]; i < end; i += LANES) {
-            uint16_t rest[LANES]; /* and the last over and over */
+            uint16_t rest[LANES]; /* padded with the last one */
             for (uint32_t k = 0; end - i < LANES && k < LANES; k++)
                 rest[k] = piece->order[i + k < end ? i + k : end - 1];
             fetch(pass, piece, i + AHEAD, i + AHEAD + LANES);

@@ -1,6 +1,5 @@
-/* A vector of particles on their way to sprites: each lane is one, all are of one system, so that
- * what their look decides is the same for all of them.
- */
+/* A `subjects` holds a vector of particles while they become sprites. Each lane is a particle; all
+ * are of one system, so that decisions by its look are the same for all lanes. */
 #ifndef KILN_DRAW_SPRITES_SPRITE_SUBJECTS_H
 #define KILN_DRAW_SPRITES_SPRITE_SUBJECTS_H
 
@@ -11,7 +10,7 @@
 
 enum { SPRITE_WORDS = sizeof(struct kiln_sprite) / sizeof(float) };
 
-/* The word of a sprite that a field of one is. */
+/* Returns the word of a sprite at which a field is. */
 #define WORD_OF(field) (offsetof(struct kiln_sprite, field) / sizeof(float))
 
 /* The plane of a billboard: unit vectors in view space. */
@@ -46,14 +45,14 @@ struct subjects {
     _Alignas(64) vf w[SPRITE_WORDS];   /* the sprites, word by word */
 };
 
-/* Those that turn in the picture's own plane. */
+/* Returns whether the billboards turn in the picture's own plane. */
 SIMD bool lie_in_picture(const struct subjects *p)
 {
     uint32_t facing = p->look->form.y;
     return facing == LOOK_SCREEN || facing == LOOK_VELOCITY;
 }
 
-/* A row of the look at the particles' age. */
+/* Returns a row of the look at the particles' age. */
 SIMD struct columns look_row(const struct subjects *p, uint32_t row)
 {
     return columns_load_between(p->rows + (size_t)row * KILN_LOOK_SAMPLES * 4, &p->samples,

@@ -1,13 +1,12 @@
-/* Texels of cells, sampled by the vectors of simd.h.
+/* This header samples texels of cells by the vectors of simd.h.
  *
- * A texel of 8 bytes is red, green, blue and alpha of two rows: red, red below, green... each less
- * 128. A bilinear sample is the 16 bytes of two texels side by side, weighed by integers: downwards
- * by two bytes, then across by two words, both pairs with a sum of 255. A texel of 4 bytes is two
+ * A texel of 8 bytes is red, green, blue and alpha of two rows: red, red below, green..., each less
+ * 128. A bilinear sample is the 16 bytes of two adjacent texels, weighted by integers: downwards by
+ * two bytes, then across by two words, both pairs with a sum of 255. A texel of 4 bytes has two
  * channels, half the work.
  *
- * A place in a cell is two words without sign, u and v: the texel, and the 255ths of the way to the
- * next one that its weight is.
- */
+ * A place in a cell is two unsigned words, u and v: the texel, and the 255ths of the way to the
+ * next one, which are its weight. */
 #ifndef KILN_DRAW_SPRITES_TEXELS_H
 #define KILN_DRAW_SPRITES_TEXELS_H
 
@@ -231,7 +230,7 @@ SIMD struct vf4 channels_of(struct quads q)
     return result;
 }
 
-/* As the third and fourth. */
+/* Returns two channels as the third and fourth. */
 SIMD struct vf4 channels_of_pairs(struct pairs p)
 {
     vf a = (vf)p.k[0], b = (vf)p.k[1];

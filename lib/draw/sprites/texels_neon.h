@@ -1,6 +1,5 @@
-/* The functions of texels.h for NEON. Integers alone: what is multiplied and added here is exact,
- * in any order. Part of texels.h, which declares the types.
- */
+/* This header has the functions of texels.h for NEON. It is part of texels.h, which declares the
+ * types. It uses only integers: products and sums are exact, in any order. */
 #ifndef KILN_DRAW_SPRITES_TEXELS_NEON_H
 #define KILN_DRAW_SPRITES_TEXELS_NEON_H
 
@@ -122,7 +121,7 @@ SIMD struct vf4 channels_of(struct quads q)
     return result;
 }
 
-/* As the third and fourth. */
+/* Returns two channels as the third and fourth. */
 SIMD struct vf4 channels_of_pairs(struct pairs p)
 {
     int32x4x2_t channels = vuzpq_s32((int32x4_t)p.k[0], (int32x4_t)p.k[1]);

@@ -1,5 +1,6 @@
-/* A part of the picture that stays in the first cache while everything that touches it is drawn,
- * in order. Sprites are drawn by the widest vectors that the machine has, with the same bits. */
+/* A kiln_tile is a part of the picture that stays in the first cache while all sprites that touch
+ * it are drawn, in order. Sprites are drawn by the widest vectors that the machine has, with the
+ * same bits. */
 #ifndef KILN_DRAW_SPRITES_TILE_H
 #define KILN_DRAW_SPRITES_TILE_H
 
@@ -14,7 +15,7 @@ enum {
     KILN_TILE_UNITS = KILN_TILE_HEIGHT * KILN_TILE_WIDTH / 8 + 8,
 };
 
-/* What the planes of the glow hold. */
+/* Names the contents of the glow's planes. */
 enum kiln_tile_glow {
     KILN_TILE_GLOW_NONE,    /* nothing */
     KILN_TILE_GLOW_APART,   /* colour: all that glows does so by the same weights, and is drawn */
@@ -46,8 +47,8 @@ struct kiln_tile {
     bool over; /* what covers hides what is behind it: else alpha is summed up */
 };
 
-/* Draws sprites into the tile, whose list has the farthest first; their cells have been mixed. They
- * are drawn from the nearest on, because so what covers changes no colour but its own. */
+/* Draws sprites into the tile. The list has the farthest first, but sprites are drawn from the
+ * nearest on, so that cover changes no colour but a sprite's own; their cells have been mixed. */
 typedef void kiln_tile_draw(struct kiln_tile *tile, const struct kiln_sprite *sprites,
                             const struct kiln_cells *cells, const uint32_t *list, size_t count);
 

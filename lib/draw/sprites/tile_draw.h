@@ -1,7 +1,7 @@
-/* Sprites into a tile: included by a file for each level of KILN_SIMD_LEVEL, which says what
- * TILE_DRAW is called. The operations of a pixel are those of shaders/draw/sprites/shade.glsl
- * (Heinz 2019, 3.2.3 to 3.2.6); all lanes do them, and those outside of the sprite with alpha 0.
- */
+/* This header draws sprites into a tile. A file for each level of KILN_SIMD_LEVEL includes it and
+ * defines the name TILE_DRAW. The operations of a pixel are those of
+ * shaders/draw/sprites/shade.glsl (Heinz 2019, 3.2.3 to 3.2.6); all lanes do them, those outside of
+ * the sprite with alpha 0. */
 #include "draw/sprites/texels.h"
 #include "draw/sprites/tile_rows.h"
 
@@ -13,7 +13,7 @@ enum {
 /* Where less than this part of the light from behind is left, no more is drawn. */
 #define UNSEEN 0x1p-16f
 
-/* What all pixels of a sprite have in common. */
+/* Holds the data that all pixels of a sprite share. */
 struct brush {
     const uint8_t *cell, *next, *moves; /* next: NULL if mixed; moves: NULL where nothing does */
     int32_t pitch, texel;               /* of the cells, bytes */
@@ -78,7 +78,7 @@ SIMD struct shaded shade_color(const struct kiln_sprite *s, const struct brush *
                            cell.c[3]};
 }
 
-/* The part of a pixel inside a disc or a rectangle. */
+/* Returns the colour of a disc or a rectangle; alpha is the part of a pixel inside. */
 SIMD struct shaded shade_plain(const struct kiln_sprite *s, vf u, vf v)
 {
     vf alpha;
@@ -89,7 +89,8 @@ SIMD struct shaded shade_plain(const struct kiln_sprite *s, vf u, vf v)
     return (struct shaded){{vf_all(s->base[0]), vf_all(s->base[1]), vf_all(s->base[2])}, alpha};
 }
 
-/* What is left of a sprite before the scene: equation 3.3, clamped to a fade, or as printed. */
+/* Returns the opacity of a sprite before the scene: equation 3.3, clamped to a fade, or as
+ * printed. */
 SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
 {
     vi visible = inside & (depth <= scene);
@@ -100,7 +101,7 @@ SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
     return vf_where(inside, vf_clamp01((scene - depth) * s->soft) * s->opacity);
 }
 
-/* Puts light behind what lies at the offsets. */
+/* Adds light behind the pixels at the offsets. */
 SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struct brush *b,
                 const float bloom[3], const vf rgb[3])
 {
@@ -126,9 +127,9 @@ struct pixels {
 
 enum { BATCH = 16 };
 
-/* Vectors of pixels on their way, one step after the other for all of them: each step alone takes
- * little room in the processor, so that several are under way while texels come. Of a cell and, if
- * not mixed, of the next one: places, and their texels. */
+/* Holds vectors of pixels that take each step together: a step alone needs few resources of the
+ * processor, so that several vectors overlap while texels are fetched. It has places and texels of
+ * a cell and, if not mixed, of the next one. */
 struct batch {
     _Alignas(64) int32_t texels[2][BATCH][LANES];
     vi places[2][BATCH], inside[BATCH];
@@ -138,7 +139,7 @@ struct batch {
     int count;
 };
 
-/* What all steps know of a sprite. */
+/* Holds the sprite that steps draw, and its tile. */
 struct drawn {
     struct kiln_tile *tile;
     const struct kiln_sprite *s;
@@ -183,8 +184,8 @@ SIMD void put_pixels(struct batch *batch, const struct drawn *d, struct pixels p
     memcpy(batch->at[i], p.at, sizeof p.at);
 }
 
-/* Between two cells, each of which is followed to where it is at that time. Clamped to the centres
- * of the outer texels. */
+/* Follows the motion of two cells to the time between them. Places are clamped to the centres of
+ * the outer texels. */
 SIMD void follow(struct batch *batch, const struct brush *b)
 {
     const int32_t half = PLACE_ONE / 2, most = b->edge + half;
@@ -409,7 +410,7 @@ SIMD struct box box_in(const struct kiln_tile *tile, const struct kiln_sprite *s
     };
 }
 
-/* Whether no pixel of a box is seen. */
+/* Returns whether all pixels of a box are hidden. */
 SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
 {
     uint64_t seen = 0;
@@ -419,7 +420,8 @@ SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
     return seen == 0;
 }
 
-/* Finds out what is still seen behind what was drawn; false when nothing is. */
+/* Finds the pixels where anything behind the drawn sprites is still visible; returns false when
+ * there are none. */
 static bool look_behind(struct kiln_tile *tile)
 {
     const uint64_t whole = ~(uint64_t)0 >> (KILN_TILE_WIDTH - tile->width);
@@ -457,7 +459,7 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
 /* ---- small sprites of which there are few ------------------------------------------------------
  */
 
-/* At places among the texels as they lie in a cell. first: of four channels. */
+/* Samples texels by floats, at places among the texels of a cell. first: of four channels. */
 SIMD struct vf4 sample_floats(const struct brush *b, const uint8_t *cell, size_t first, vf u, vf v)
 {
     struct vf4 sampled = {{{0}}};
@@ -476,7 +478,7 @@ SIMD struct vf4 sample_floats(const struct brush *b, const uint8_t *cell, size_t
     return sampled;
 }
 
-/* A unit of each of UNITS rows, or part of one. u, v: texels. */
+/* Draws a unit of each of UNITS rows, or part of one. u, v: texels. */
 SIMD void draw_floats(const struct drawn *d, struct batch *batch, vf u, vf v)
 {
     const struct kiln_sprite *s = d->s;

@@ -1,4 +1,5 @@
-/* Which pixels of a tile a wide sprite touches: a span in each row, in units of 8 pixels. */
+/* This header finds the pixels of a tile that a wide sprite touches: a span in each row, in units
+ * of 8 pixels. */
 #ifndef KILN_DRAW_SPRITES_TILE_ROWS_H
 #define KILN_DRAW_SPRITES_TILE_ROWS_H
 
@@ -14,7 +15,7 @@ struct units {
 typedef float four __attribute__((vector_size(16)));
 typedef int32_t four_ints __attribute__((vector_size(16)));
 
-/* Of u, v, u + v and u - v. */
+/* Holds limits of u, v, u + v and u - v. */
 struct limits {
     four least, most;   /* texels */
     four pixels_a_step; /* 1 / their change with x; 0: hardly any */
@@ -32,7 +33,7 @@ SIMD void find_limits(const struct kiln_sprite *s, const struct kiln_cell_hull *
     limits->most *= s->edge_u;
 }
 
-/* The columns of a row where least <= place + step * x < most, a little more than exactly. */
+/* Narrows a row's columns to those where least <= place + step * x < most, slightly widened. */
 SIMD void narrow(vf place, float pixels_a_step, float least, float most, float offset, vf *from,
                  vf *to)
 {
@@ -44,18 +45,18 @@ SIMD void narrow(vf place, float pixels_a_step, float least, float most, float o
     *to = vf_min(vf_max(one, other) + 2.0f, *to);
 }
 
-/* The rows of a tile that a sprite touches, each from a column on. */
+/* Holds the rows of a tile that a sprite touches, each from a column on. */
 struct rows {
     _Alignas(64) float u[KILN_TILE_HEIGHT], v[KILN_TILE_HEIGHT], q[KILN_TILE_HEIGHT];
     int32_t from[KILN_TILE_HEIGHT], units[KILN_TILE_HEIGHT];
 };
 
-/* What part of a sprite lies in a tile, px. */
+/* Holds the part of a sprite that lies in a tile, px. */
 struct box {
     int x_from, x_to, y_from, y_to;
 };
 
-/* hull: what to keep to, or NULL. */
+/* Finds the rows. hull: the visible part of the cell, or NULL. */
 SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
                     const struct box *box, const struct kiln_cell_hull *hull, struct rows *rows)
 {
@@ -86,7 +87,8 @@ SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
     }
 }
 
-/* As many as a row may have are written, those that it has are kept: nothing to be predicted. */
+/* Lists the units of all rows. For each row it writes as many as any row may have and keeps those
+ * that the row has, so that there is no branch to predict. */
 SIMD int list_units(const struct rows *rows, const struct box *box, const float steps[3], bool deep,
                     struct units *units)
 {
@@ -112,7 +114,7 @@ SIMD int list_units(const struct rows *rows, const struct box *box, const float 
     return count;
 }
 
-/* Leaves out units of which no pixel is seen. */
+/* Removes units of which no pixel is visible. */
 SIMD int drop_hidden(const struct kiln_tile *tile, struct units *units, int count)
 {
     int kept = 0;
@@ -128,7 +130,7 @@ SIMD int drop_hidden(const struct kiln_tile *tile, struct units *units, int coun
     return kept;
 }
 
-/* Makes the number even: one more that lies nowhere. */
+/* Appends a unit that lies outside of the tile, so that units can be taken in pairs. */
 SIMD void add_nowhere(struct units *units, int count)
 {
     units->at[count] = KILN_TILE_HEIGHT * KILN_TILE_PLANES * KILN_TILE_PITCH;

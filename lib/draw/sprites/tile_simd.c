@@ -1,4 +1,5 @@
-/* The tile of the CPU rasteriser; `plain` is what the other levels are tested against. */
+/* This file compiles the tile drawing of the CPU rasteriser for one level of vectors. The other
+ * levels are tested against `plain`. */
 #include "base/simd.h"
 
 #define TILE_DRAW KILN_SIMD_NAME(kiln_tile_draw)

@@ -1,5 +1,5 @@
-/* Triangles into rows of a picture, for each width of vectors: for technique backdrop=cpu, where GL
- * has its rasteriser. */
+/* This header declares a rasteriser of triangles into rows of a picture, for each width of vectors.
+ * Technique backdrop=cpu uses it where GL has its own rasteriser. */
 #ifndef KILN_DRAW_VECTOR_MESH_ROWS_H
 #define KILN_DRAW_VECTOR_MESH_ROWS_H
 
@@ -15,9 +15,9 @@ enum {
     KILN_MESH_PAD = 16, /* pixels that vectors may reach beyond the right edge */
 };
 
-/* A triangle over places (u, v) of a picture: planes, as factors of u, v and 1. A place is inside
- * where no edge is negative; of triangles with a common edge, each has the other's times -1, so
- * that no place is between them. */
+/* Describes a triangle over positions (u, v) of a picture by planes, as factors of u, v and 1. A
+ * position is inside where no edge is negative. Of two triangles with a common edge, each has the
+ * other's plane times -1, so that no position is between them. */
 struct kiln_flat_triangle {
     float edges[3][3];
     float nearness[3];          /* the greatest of all is seen */

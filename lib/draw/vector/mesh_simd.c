@@ -1,4 +1,5 @@
-/* A triangle's rows within its bounds, a vector of pixels at a time, in all layers. */
+/* This file draws the rows of triangles within their bounds, a vector of pixels at a time, in all
+ * layers. */
 #include "draw/vector/mesh_rows.h"
 #include "draw/vector/ray_math.h"
 

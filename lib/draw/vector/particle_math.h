@@ -1,6 +1,5 @@
-/* What shaders/shared has for one particle (exact.h, random.h, derived.h), for vectors of them,
- * with the same bits.
- */
+/* This header computes values of particles for vectors of them, as shaders/shared does for one
+ * particle (exact.h, random.h, derived.h), with the same bits. */
 #ifndef KILN_DRAW_VECTOR_PARTICLE_MATH_H
 #define KILN_DRAW_VECTOR_PARTICLE_MATH_H
 
@@ -96,7 +95,7 @@ SIMD vf vf_age(vu birth, uint32_t step, float dt_s)
     return (steps - vf_birth_fraction(birth)) * dt_s;
 }
 
-/* A value at times: most are the same at all. */
+/* Returns a value at each lane's time; most values are constant. */
 SIMD vf vf_value_at(const float4 *keys, const struct kiln_value *value, vf time_s)
 {
     if (value->count == 0)

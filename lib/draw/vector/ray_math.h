@@ -1,7 +1,6 @@
-/* Mathematics for vectors of rays, beyond draw/vector/simd.h: the same bits at every level, from
- * operations that IEEE 754 rounds, with no function of libm (the scalar ones are in
- * shaders/shared/exact.h).
- */
+/* This header holds mathematics for vectors of rays, beyond draw/vector/simd.h. Results are the
+ * same bits at every level, from operations that IEEE 754 rounds, with no function of libm (the
+ * scalar ones are in shaders/shared/exact.h). */
 #ifndef KILN_DRAW_VECTOR_RAY_MATH_H
 #define KILN_DRAW_VECTOR_RAY_MATH_H
 
@@ -208,7 +207,7 @@ SIMD vf vf_atan2(vf y, vf x)
     vf across = vf_abs(x), up = vf_abs(y);
     vi steep = up > across;
     vf less = vf_min(across, up), more = vf_max(vf_max(across, up), vf_all(1e-30f));
-    /* Beyond an eighth of a half turn, by the tangent of what is left to a quarter of it. */
+    /* For angles above pi / 8, the tangent of the difference to pi / 4 is used. */
     vi wide = less > 0.414213562f * more;
     vf ratio = vf_select(wide, less - more, less) / vf_select(wide, less + more, more);
     vf z = ratio * ratio;
@@ -273,7 +272,7 @@ SIMD struct vf3 vf3_normalize(struct vf3 a)
     return vf3_scale(a, vf_rsqrt(vf3_dot(a, a)));
 }
 
-/* A uniform vector less one of each lane. */
+/* Returns a uniform vector less each lane's vector. */
 SIMD struct vf3 vf3_towards(float4 to, struct vf3 from)
 {
     return (struct vf3){to.x - from.x, to.y - from.y, to.z - from.z};

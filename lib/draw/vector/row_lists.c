@@ -1,4 +1,5 @@
-/* By counting: how long each list is, then where it begins, then what is in it. */
+/* This file lists for each band of rows the items that touch it, by counting: it counts each list's
+ * length, then sums the lengths to where each list begins, then fills the lists. */
 #include "draw/vector/row_lists.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Which of many things touch which rows of a picture: for each band of rows a list, in the things'
- * order, so that bands can be drawn by threads. */
+/* A kiln_row_lists has for each band of rows of a picture a list of the items that touch it, in the
+ * order of the items, so that threads can draw bands. */
 #ifndef KILN_DRAW_VECTOR_ROW_LISTS_H
 #define KILN_DRAW_VECTOR_ROW_LISTS_H
 
@@ -20,8 +20,9 @@ struct kiln_row_lists {
     size_t room, band_room;
 };
 
-/* Lists `count` things. ranges: the rows of the first one, those of the next `stride` bytes on, all
- * within the picture; an empty range is in no list. Zero-initialised lists are none. */
+/* Lists `count` items. ranges: the rows of the first item; those of the next are `stride` bytes on.
+ * All are within the picture; an item with an empty range is in no list. Zero-initialised lists are
+ * none. */
 bool kiln_row_lists_fill(struct kiln_row_lists *lists, const struct kiln_row_range *ranges,
                          size_t stride, uint32_t count, uint32_t height, uint32_t band_height,
                          struct kiln_error *error);

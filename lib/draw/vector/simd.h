@@ -1,7 +1,7 @@
-/* Vectors of floats for the tiles of the CPU rasteriser, by what a file is compiled for:
- * KILN_SIMD_LEVEL is 0 (any machine), 1 (SSE4.1), 2 (AVX2), 3 (AVX-512 with BW) or 4 (NEON). Every
- * operation gives the same bits at all levels; a port to another processor starts from level 0.
- */
+/* This header defines vectors of floats for the drawing code on the host, by the level that a file
+ * is compiled for: KILN_SIMD_LEVEL is 0 (any machine), 1 (SSE4.1), 2 (AVX2), 3 (AVX-512 with BW) or
+ * 4 (NEON). Every operation gives the same bits at all levels; a port to another processor starts
+ * from level 0. */
 #ifndef KILN_DRAW_VECTOR_SIMD_H
 #define KILN_DRAW_VECTOR_SIMD_H
 
@@ -103,8 +103,8 @@ SIMD vf vf_sqrt(vf a)
     return (vf)_mm_sqrt_ps((__m128)a);
 }
 #else
-/* The second operand where neither is less, as x86 has it; NEON's own minimum and maximum would be
- * NaN where either operand is. */
+/* Returns the second operand where neither is less, as x86 does; NEON's own minimum and maximum
+ * would be NaN where either operand is. */
 SIMD vf vf_min(vf a, vf b)
 {
     vi less = a < b;
@@ -129,8 +129,8 @@ SIMD vf vf_sqrt(vf a)
 }
 #endif
 
-/* Towards zero. What is no number within 2^31 becomes the least integer, as x86 has it; other
- * processors have the nearest one, and 0 for NaN. */
+/* Rounds towards zero. A value that is not within 2^31 becomes the least integer, as on x86; other
+ * processors give the nearest integer, and 0 for NaN. */
 SIMD vi vi_of(vf x)
 {
 #ifdef __x86_64__

@@ -1,7 +1,6 @@
-/* Records in memory to vectors and back: the lanes of a vector are records, and what lies four
- * floats long in each becomes four vectors. In between, vector k of four has, in its 128 bits p,
- * the four floats of lane 4 p + k.
- */
+/* This header transposes records in memory to vectors and back. The lanes of a vector are records,
+ * and four consecutive floats of each record become four vectors. In between, vector k of four has,
+ * in its 128 bits p, the four floats of lane 4 p + k. */
 #ifndef KILN_DRAW_VECTOR_TRANSPOSE_H
 #define KILN_DRAW_VECTOR_TRANSPOSE_H
 
@@ -23,7 +22,8 @@
 #define VF_PICK(x, y, a, b, c, d) __builtin_shufflevector(x, y, LANES_OF(a, b, c, d, 0))
 #endif
 
-/* Lanes as places in memory. Through memory: to take a vector apart costs twice as much. */
+/* Holds the lanes of a vector as offsets in memory. They go through memory, since extracting lanes
+ * from a vector costs twice as much. */
 struct places {
     _Alignas(64) int32_t at[LANES];
 };
@@ -36,8 +36,8 @@ SIMD struct places places_of_lanes(vi x)
     return places;
 }
 
-/* Of lanes k, 4 + k...: the four floats of each from `from` + its place on. at: the place of lane
- * k, in floats. */
+/* Loads four floats for each of the lanes k, 4 + k..., from `from` + the lane's offset on. at: the
+ * offset of lane k, in floats. */
 SIMD vf vf_load_fours(const float *from, const int32_t *at)
 {
 #if LANES == 16
@@ -54,12 +54,12 @@ SIMD vf vf_load_fours(const float *from, const int32_t *at)
 #endif
 }
 
-/* Four floats of the lanes' records, a vector of each. */
+/* Holds four floats of each lane's record, a vector for each float. */
 struct columns {
     vf c[4];
 };
 
-/* From the floats of records to vectors of them, and back. */
+/* Transposes the floats of records to vectors, and back. */
 SIMD struct columns columns_transpose(vf a, vf b, vf c, vf d)
 {
     vf ab = VF_PICK(a, b, 0, 4, 1, 5), cd = VF_PICK(c, d, 0, 4, 1, 5);
@@ -69,7 +69,7 @@ SIMD struct columns columns_transpose(vf a, vf b, vf c, vf d)
                              VF_PICK(ab_high, cd_high, 2, 3, 6, 7)}};
 }
 
-/* Four floats of each lane's record. places: in floats. */
+/* Loads four floats of each lane's record. places: in floats. */
 SIMD struct columns columns_load(const float *from, const struct places *places)
 {
     const int32_t *at = places->at;
@@ -77,8 +77,8 @@ SIMD struct columns columns_load(const float *from, const struct places *places)
                              vf_load_fours(from, at + 2), vf_load_fours(from, at + 3));
 }
 
-/* The same, and the four floats after them: between the two, by a part of the way that is given as
- * it is for each of the vectors that become transposed. */
+/* Interpolates between four floats of each lane's record and the four floats after them. part: the
+ * weight of the latter, as vf_spread_fours lays it out. */
 SIMD struct columns columns_load_between(const float *from, const struct places *places,
                                          const vf part[4])
 {
@@ -91,7 +91,7 @@ SIMD struct columns columns_load_between(const float *from, const struct places 
     return columns_transpose(between[0], between[1], between[2], between[3]);
 }
 
-/* Each lane's value for the floats of its record. */
+/* Repeats each lane's value for the four floats of its record. */
 SIMD void vf_spread_fours(vf x, vf spread[4])
 {
     spread[0] = VF_PICK(x, x, 0, 0, 0, 0);
@@ -102,7 +102,7 @@ SIMD void vf_spread_fours(vf x, vf spread[4])
 
 enum { LINE_FLOATS = 16 };
 
-/* Sixteen floats of each lane to its record, a line of the cache as a whole. lanes: the numbers of
+/* Stores sixteen floats of each lane to its record, a whole cache line. lanes: the numbers of
  * records of `size` floats. */
 SIMD void vf_store_lines(const vf x[LINE_FLOATS], float *records, size_t size,
                          const uint16_t lanes[LANES])
