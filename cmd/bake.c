@@ -1,4 +1,4 @@
-/* kiln bake: steps through a clip once and saves states, from which later runs start. */
+/* Runs kiln bake, which steps through a clip once and saves states, from which later runs start. */
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
@@ -109,7 +109,7 @@ static void print_result(const struct bake *bake, const struct kiln_bake_stats *
     }
 }
 
-/* "10s" of clip time, or "300" frames. */
+/* Reads an interval: "10s" of clip time, or "300" frames. */
 static int read_every(struct bake *bake, const struct arguments *arguments,
                       const struct kiln_scene_info *info)
 {

@@ -1,4 +1,4 @@
-/* kiln bench: how long techniques take here. */
+/* Runs kiln bench, which measures how long techniques take on this machine. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,7 +97,7 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-/* Lists that the parameters borrow. */
+/* The lists that the parameters point to. */
 struct lists {
     struct overrides overrides;
     struct value_list techniques, stages;
@@ -173,7 +173,7 @@ static struct kiln_bench_params make_params(const struct arguments *arguments, s
     return params;
 }
 
-/* Refuses options that are of no use to what is measured. */
+/* Refuses options that have no effect on what is measured. */
 static int check_options(const struct arguments *arguments, const struct kiln_bench_params *params)
 {
     static const struct {
@@ -207,7 +207,7 @@ static int write_results(const struct kiln_bench *bench, const struct arguments 
     enum kiln_bench_format format =
         (enum kiln_bench_format)arguments_choice(arguments, "format", KILN_BENCH_TEXT);
     if (!kiln_bench_write(bench, format, stdout, &error))
-        return KILN_READER_GONE; /* main says why */
+        return KILN_READER_GONE; /* main reports it */
     const char *folder = arguments_text(arguments, "output", NULL);
     char unplotted[KILN_MESSAGE_SIZE];
     if (folder && !kiln_bench_save(bench, folder, unplotted, &error))

@@ -1,4 +1,4 @@
-/* Which kiln this is. */
+/* Names the build of kiln that is running. */
 #include "build.h"
 
 #include "commit.h"

@@ -1,4 +1,4 @@
-/* Which kiln this is. */
+/* Names the build of kiln that is running. */
 #ifndef KILN_CMD_BUILD_H
 #define KILN_CMD_BUILD_H
 

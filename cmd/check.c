@@ -1,4 +1,5 @@
-/* kiln check: is a scene right, and what does it say with every default spelled out? */
+/* Runs kiln check, which tells whether a scene is right, and prints it on request with every
+ * default spelled out. */
 #include <inttypes.h>
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-/* kiln compare: do two pictures, folders or videos look the same? */
+/* Runs kiln compare, which tells whether two pictures, folders or videos look the same. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,7 +132,7 @@ static int report_failure(const struct kiln_error *error)
     int number = signals_received();
     if (error->code != KILN_INTERRUPTED)
         return report_error(error);
-    if (number == 0) /* nobody reads: main says why */
+    if (number == 0) /* no reader is left: main reports it */
         return KILN_READER_GONE;
     return report((enum kiln_code)(128 + number), "compare: %s", error->message);
 }

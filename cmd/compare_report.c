@@ -1,4 +1,5 @@
-/* Tables for people, lines of JSON for programs; both have the columns of the library's metrics. */
+/* Prints the results of kiln compare: tables for people, lines of JSON for programs. Both have the
+ * columns of the library's metrics. */
 #include "compare_report.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 
 /* ---- Text --------------------------------------------------------------------------------- */
 
-/* Five digits, right of a column's start; counts in full. */
+/* Formats a value with five digits; large counts are written in full. */
 static const char *value_text(char out[32], double value)
 {
     snprintf(out, 32, fabs(value) < 1e5 ? "%.5g" : "%.0f", value);
@@ -16,7 +17,7 @@ static const char *value_text(char out[32], double value)
 
 static size_t find_column(const struct kiln_compare_result *result)
 {
-    size_t first = 0; /* the first that has a limit: what a line of a frame shows */
+    size_t first = 0; /* the first with a limit, which a frame's line shows */
     while (first + 1 < result->column_count && !result->columns[first].limited)
         first++;
     return first;
@@ -37,7 +38,7 @@ static void print_frame_line(const struct kiln_compare_result *result,
         printf(" %s\n", frame->message);
 }
 
-/* Its limit, and whether the value is beyond it. */
+/* Prints the limit of a value, and whether the value is beyond it. */
 static void print_limit(const struct kiln_compare_column *column, double value)
 {
     bool within = column->higher_is_better ? value >= column->limit : value <= column->limit;
@@ -116,7 +117,7 @@ static void print_result_text(const struct compare_report *report,
 
 /* ---- JSON --------------------------------------------------------------------------------- */
 
-/* A value, which is null where it was not measured, or infinite. */
+/* Adds a value, which is null where it was not measured or is infinite. */
 static void add_number(struct kiln_json *json, const char *key, double value)
 {
     kiln_json_rounded(json, key, value, 9);
@@ -207,7 +208,7 @@ void compare_report_frame(struct compare_report *report, const struct kiln_compa
                           const struct kiln_compare_frame *frame)
 {
     report->only = *frame;
-    report->only.name = report->only.message = ""; /* which the frame only lends */
+    report->only.name = report->only.message = ""; /* the frame's texts do not outlive it */
     if (report->json)
         print_frame_json(result, frame);
     if (report->quiet)

@@ -1,4 +1,4 @@
-/* What `kiln compare` prints. */
+/* Prints the results of `kiln compare`. */
 #ifndef KILN_CMD_COMPARE_REPORT_H
 #define KILN_CMD_COMPARE_REPORT_H
 

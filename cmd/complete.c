@@ -1,6 +1,6 @@
-/* kiln complete: what may follow on a command line, from the same tables that read it. The scripts
- * in cmd/completion ask it at each press of Tab and only hand its lines on to their shell. It is in
- * no list of commands, since nobody types it. */
+/* Runs kiln complete, which lists what may follow on a command line, from the same tables that read
+ * it. The scripts in cmd/completion call it at each press of Tab and hand its lines on to their
+ * shell. It is in no list of commands, since nobody types it. */
 #include <string.h>
 
 #include "command.h"
@@ -15,17 +15,17 @@ struct line {
     size_t count;
     const char *typed;
     const struct command *command;
-    const struct option *pending; /* whose value is typed, or NULL */
-    const char *operand;          /* the first, or NULL */
+    const struct option *pending; /* the option whose value is typed, or NULL */
+    const char *operand;          /* the first operand, or NULL */
     size_t operand_count;
-    const char *results; /* of --results */
+    const char *results; /* the value of --results */
     bool options_ended;
 };
 
 /* What is being completed: `prefix_length` bytes of the word stay as they are, `rest` follows. */
 struct value {
     const struct line *line;
-    const struct option *option; /* whose value it is; NULL for an operand */
+    const struct option *option; /* the option of the value; NULL: an operand */
     size_t prefix_length;
     const char *rest;
     const char *part;   /* of a key: what is typed behind its last dot */
@@ -47,7 +47,7 @@ static void offer(const struct value *value, const char *kind, const char *word,
         put(kind, value, word, note);
 }
 
-/* Those of "a|b|c". */
+/* Puts the words of "a|b|c". */
 static void offer_words(const struct value *value, const char *words)
 {
     while (*words) {
@@ -59,7 +59,7 @@ static void offer_words(const struct value *value, const char *words)
     }
 }
 
-/* Goes on behind the last of a separator, where there is one. */
+/* Moves to the text after the last separator, where there is one: only that is completed. */
 static void skip_past(struct value *value, char separator)
 {
     const char *last = strrchr(value->rest, separator);
@@ -71,7 +71,7 @@ static void skip_past(struct value *value, char separator)
 
 /* ---- Keys of a scene ------------------------------------------------------------------------ */
 
-/* Whether a part of a path stands for any entry: NAME of a map, N of a list. */
+/* Returns whether a part of a path stands for any entry: NAME of a map, N of a list. */
 static bool is_entry(const char *part)
 {
     return *part >= 'A' && *part <= 'Z';
@@ -149,7 +149,7 @@ static void put_key(void *user, const struct kiln_option_key *key)
         put_part(value, name, '=', key->help);
 }
 
-/* Words that the key may be, of KEY=WORD. */
+/* Puts the words that the key of KEY=WORD may be. */
 static void put_key_words(void *user, const struct kiln_option_key *key)
 {
     const struct value *value = user;
@@ -158,7 +158,8 @@ static void put_key_words(void *user, const struct kiln_option_key *key)
         offer_words(value, key->words);
 }
 
-/* KEY=VALUE, where a separator may part several values (',') or several of these (';'). */
+/* Completes KEY=VALUE. A separator may stand between several values (',') or several of these
+ * (';'). */
 static void put_pair(struct value *value, char separator)
 {
     if (separator == ';')
@@ -222,7 +223,7 @@ static void put_folders(struct value *value)
     put("folder", value, "", "");
 }
 
-/* Tests of the last run, as far as their names are typed. */
+/* Puts the tests of the last run whose names start as typed. */
 static void put_tests(struct value *value)
 {
     struct kiln_error error = {0};
@@ -233,7 +234,7 @@ static void put_tests(struct value *value)
     kiln_results_destroy(&results);
 }
 
-/* Only what is known without asking OpenGL, which takes its time. */
+/* Puts the devices that are known without asking OpenGL, which is slow. */
 static void put_devices(struct value *value)
 {
     offer(value, "word", KILN_DEVICE_CPU, "this machine without OpenGL");
@@ -250,7 +251,7 @@ static void put_techniques(struct value *value)
     kiln_visit_techniques(put_technique, value);
 }
 
-/* The techniques of a stage follow each other. */
+/* Puts the name of a stage once: the techniques of a stage are visited one after the other. */
 static void put_stage(void *user, const char *name, const char *help)
 {
     (void)help;
@@ -305,7 +306,7 @@ static void put_topic(void *user, const char *name, const char *summary)
     offer(user, "word", name, summary);
 }
 
-/* The second words of the commands of two. */
+/* Puts the second words of commands that have two. */
 static void put_second_words(const struct value *value, const char *first)
 {
     for (size_t i = 0; commands[i]; i++) {
@@ -368,7 +369,7 @@ static void put_meaning(struct value *value, const char *placeholder, size_t len
 
 /* ---- The command line ----------------------------------------------------------------------- */
 
-/* The option of "--name" or "--name=VALUE"; *attached is the value, or NULL. */
+/* Finds the option of "--name" or "--name=VALUE"; *attached is the value, or NULL. */
 static const struct option *find_long(const struct command *command, const char *word,
                                       const char **attached)
 {
@@ -383,7 +384,7 @@ static const struct option *find_long(const struct command *command, const char 
     return NULL;
 }
 
-/* The last option of "-n", "-qn" or "-qnVALUE"; *attached is the value, or NULL. */
+/* Finds the last option of "-n", "-qn" or "-qnVALUE"; *attached is the value, or NULL. */
 static const struct option *find_short(const struct command *command, const char *word,
                                        const char **attached)
 {
@@ -434,7 +435,7 @@ static void read_words(struct line *line, size_t first)
     }
 }
 
-/* `typed` is where the value starts in the word. */
+/* Completes the value of an option; `typed` is where the value starts in the word. */
 static void put_option_values(const struct line *line, const struct option *option,
                               const char *typed)
 {
@@ -462,7 +463,7 @@ static void put_options(const struct line *line)
     }
 }
 
-/* What the words of the synopsis stand for, such as "[PATH | NAME]...". */
+/* Completes an operand by the words of the synopsis, such as "[PATH | NAME]...". */
 static void put_operands(const struct line *line)
 {
     struct value value = {.line = line, .rest = line->typed};

@@ -1,4 +1,4 @@
-/* Opens the device of a command. */
+/* Opens the device that a command's options choose. */
 #include "device.h"
 
 #include "report.h"

@@ -1,4 +1,4 @@
-/* The options that choose a device and what runs on it, and opening it. */
+/* Opens a device, and declares the options that choose it and what runs on it. */
 #ifndef KILN_CMD_DEVICE_H
 #define KILN_CMD_DEVICE_H
 

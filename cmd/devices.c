@@ -1,4 +1,4 @@
-/* kiln devices: what can render here, and what is missing. */
+/* Runs kiln devices, which lists what can render on this machine, and what is missing. */
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -49,7 +49,7 @@ static void print_text(const struct kiln_device_info *info)
            info->max_storage_block_bytes, info->max_texture_size, info->max_array_layers);
 }
 
-/* Prints what the kernel has for --sandbox. */
+/* Prints which parts of --sandbox the kernel supports. */
 static void print_sandbox(void)
 {
     struct kiln_sandbox_support has = kiln_sandbox_support_empty();

@@ -1,4 +1,4 @@
-/* kiln encode: a clip of images that were drawn before. */
+/* Runs kiln encode, which makes a clip of images that were drawn before. */
 #include <inttypes.h>
 #include <unistd.h>
 

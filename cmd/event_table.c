@@ -1,5 +1,5 @@
-/* The events of --events, a row a member: 'kiln help events' and the JSON schema are printed from
- * them, and a test holds what commands print to that schema. */
+/* Lists the events of --events, with a row for each member. 'kiln help events' and the JSON schema
+ * are printed from the rows, and a test checks what commands print against that schema. */
 #include <string.h>
 
 #include "event.h"
@@ -22,8 +22,8 @@ struct member {
 };
 
 struct event {
-    const char *name, *of, *help; /* of: the commands that tell it */
-    struct member members[20];    /* beside event and time; up to one without a name */
+    const char *name, *of, *help; /* of: the commands that print it */
+    struct member members[20];    /* beside event and time; a row without a name ends them */
 };
 
 static const struct event events[] = {

@@ -1,6 +1,6 @@
-/* kiln figure --check: do figures still show what their commands make? Each command is run in the
- * folder in which it was given, without writing anything; with --update, a figure that is stale is
- * written anew. */
+/* Runs kiln figure --check, which tells whether figures still show what their commands make. Each
+ * command is run in the folder in which it was given, without writing anything. With --update, a
+ * figure that is stale is written anew. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,7 +42,7 @@ struct checking {
     bool update, quiet;
 };
 
-/* Runs the command of a sidecar, in whose folder the program is by now. */
+/* Runs the command of a sidecar. The program has already changed to the folder of the command. */
 static int run_command(const struct kiln_figure_entry *entry, const struct figure_check *check)
 {
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
@@ -111,8 +111,8 @@ static int check_all(const struct kiln_figure_list *list, const struct checking 
     return signals_received() ? 128 + signals_received() : code;
 }
 
-/* The paths of --check or --update, and the operands behind them: of `--check *.png`, the shell
- * makes one value and operands. */
+/* Checks the paths of --check or --update and the operands after them: the shell makes of `--check
+ * *.png` one value and operands. */
 static int check_paths(const struct value_list *paths, const struct arguments *arguments,
                        const struct checking *checking)
 {

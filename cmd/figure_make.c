@@ -1,4 +1,4 @@
-/* From options to a figure. */
+/* Makes a figure from the options of `kiln figure sheet`, `triptych` and `strip`. */
 #include "figure_make.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "report.h"
 #include "signals.h"
 
-/* Lists that the parameters borrow. */
+/* The lists that the parameters point to. */
 struct lists {
     struct overrides overrides;
     struct value_list techniques, labels;
@@ -42,7 +42,7 @@ static bool lists_create(struct lists *lists, const struct arguments *arguments)
            value_list_create(&lists->labels, arguments, "label");
 }
 
-/* X,Y,WxH; with a point in it anywhere, all of it are parts. */
+/* Reads X,Y,WxH. With a decimal point anywhere in it, all four numbers are parts of the picture. */
 static bool read_inset(const char *text, struct kiln_figure_inset *inset)
 {
     char copy[96];
@@ -85,7 +85,7 @@ static int read_repeated(const struct command *command, const struct arguments *
     return 0;
 }
 
-/* A width on paper brings its own resolution and size of the lettering. */
+/* Reads a width. A width on paper also sets the resolution and the size of the lettering. */
 static int read_width(const struct command *command, const char *text,
                       struct kiln_figure_params *params)
 {
@@ -171,8 +171,9 @@ static struct kiln_figure_params make_params(const struct arguments *arguments,
     return params;
 }
 
-/* What the sidecar keeps: the words of the command, in which "figure sheet" are two, without
- * --force, which says nothing of the figure. A value is never that: it would be joined by '='. */
+/* Lists the words of the command that the sidecar keeps. "figure sheet" are two words. --force is
+ * left out, since it says nothing of the figure; a value cannot be mistaken for it, since it is
+ * joined by '='. */
 static void list_command(const struct command *command, const struct arguments *arguments,
                          struct lists *lists, struct kiln_figure_params *params)
 {
@@ -190,8 +191,8 @@ static void list_command(const struct command *command, const struct arguments *
     params->command_count = count;
 }
 
-/* The last frame of the scenes, where that is one and the same. Sweeps may change it; what is drawn
- * is checked again by the library. */
+/* Finds the last frame of the scenes, where all have the same. Sweeps may change it; the library
+ * checks again what is drawn. */
 static int find_last_frame(const struct command *command, const struct arguments *arguments,
                            const struct lists *lists, uint32_t *last)
 {

@@ -1,5 +1,6 @@
-/* What `kiln figure sheet`, `triptych` and `strip` share: rows of options, and what becomes of
- * them. `kiln figure --check` runs the same code over words that a sidecar has kept. */
+/* Makes the figures of `kiln figure sheet`, `triptych` and `strip`: declares their common rows of
+ * options and the function that runs them. `kiln figure --check` runs the same code over the words
+ * that a sidecar has kept. */
 #ifndef KILN_CMD_FIGURE_MAKE_H
 #define KILN_CMD_FIGURE_MAKE_H
 

@@ -1,4 +1,4 @@
-/* kiln figure sheet: renders side by side, over sweeps of parameters. */
+/* Runs kiln figure sheet, which renders cells side by side over sweeps of parameters. */
 #include "event.h"
 #include "figure_make.h"
 #include "overrides.h"

@@ -1,4 +1,4 @@
-/* kiln figure strip: frames of a clip in a row. */
+/* Runs kiln figure strip, which shows frames of a clip in a row. */
 #include "event.h"
 #include "figure_make.h"
 #include "overrides.h"

@@ -1,4 +1,4 @@
-/* kiln figure triptych: a reference, a result and their difference. */
+/* Runs kiln figure triptych, which shows a reference, a result and their difference. */
 #include "event.h"
 #include "figure_make.h"
 

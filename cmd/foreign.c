@@ -1,6 +1,6 @@
 /* Suggests kiln's spelling for options of ffmpeg, Blender, Houdini's husk and other renderers. A
- * row is only reached where the command has no option of that name itself: its own tables come
- * first. */
+ * row is used only where the command has no option of that name itself, since its own tables are
+ * searched first. */
 #include "foreign.h"
 
 #include <string.h>
@@ -93,7 +93,7 @@ static const struct foreign rows[] = {
     {"--snapshot", "resume", "what is whole is kept by '--resume', which goes on from there"},
     {"--make-output-path", "output", "missing folders of '--output' are made"},
 
-    /* What many programs call it */
+    /* spellings of many programs */
     {"--overwrite", "force", NULL},
     {"--yes", "force", NULL},
     {"--replace", "force", NULL},

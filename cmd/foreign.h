@@ -1,4 +1,4 @@
-/* Options of other programs that people type at kiln, and what kiln has for them. */
+/* Suggests what kiln has for options of other programs that people type at it. */
 #ifndef KILN_CMD_FOREIGN_H
 #define KILN_CMD_FOREIGN_H
 

@@ -1,4 +1,5 @@
-/* Lists of frames: read piece by piece; for a clip made into ranges, sorted and merged. */
+/* Reads lists of frames, piece by piece. The frames of a clip become ranges that are sorted and
+ * merged. */
 #include "frames.h"
 
 #include <stdlib.h>
@@ -24,7 +25,7 @@ static bool read_number(const char **text, uint32_t *number)
     return true;
 }
 
-/* A number, or the word for the clip's last frame. */
+/* Reads a number, or the word for the clip's last frame. */
 static bool read_frame(const char **text, uint32_t *frame, bool *is_last)
 {
     *is_last = strncmp(*text, last_word, sizeof last_word - 1) == 0;
@@ -39,7 +40,7 @@ static bool ends(const char *text)
     return *text == '\0' || *text == ',' || *text == '/';
 }
 
-/* What stands before the step: FRAME, FIRST-LAST, FIRST- or -LAST. */
+/* Reads the part before the step: FRAME, FIRST-LAST, FIRST- or -LAST. */
 static bool read_range(const char **text, struct frame_piece *piece)
 {
     const bool from_start = **text == '-';
@@ -64,7 +65,7 @@ static bool read_piece(const char **text, struct frame_piece *piece)
     *piece = (struct frame_piece){.step = 1};
     if (!read_range(text, piece))
         return false;
-    if (**text == '/') { /* of one frame it makes no sense */
+    if (**text == '/') { /* a single frame can have no step */
         const bool is_range = memchr(start, '-', (size_t)(*text - start)) != NULL;
         (*text)++;
         if (!is_range || !read_number(text, &piece->step) || piece->step == 0)
@@ -132,7 +133,7 @@ static void merge_ranges(struct frame_list *list)
     list->count = merged + 1;
 }
 
-/* The piece in numbers of the clip. */
+/* Resolves a piece into frame numbers of the clip. */
 static enum frame_result close_piece(struct frame_piece *piece, uint32_t last, uint32_t *frame)
 {
     piece->first = piece->first_is_last ? last : piece->first;

@@ -1,4 +1,4 @@
-/* Frames as a person writes them: "0-149,200", "170-", "-30", "last", "0-100/10". */
+/* Reads frames as a person writes them: "0-149,200", "170-", "-30", "last", "0-100/10". */
 #ifndef KILN_CMD_FRAMES_H
 #define KILN_CMD_FRAMES_H
 

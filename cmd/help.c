@@ -1,4 +1,5 @@
-/* kiln help, and --help of every command: printed from the tables, never written twice. */
+/* Runs kiln help, and prints --help of every command. All of it is printed from the option tables,
+ * so that no text is written twice. */
 #include <string.h>
 
 #include "command.h"
@@ -173,7 +174,7 @@ static void print_repeating(const struct command *command)
     printf(".\n");
 }
 
-/* The commands of two words that begin with this one. */
+/* Prints the commands of two words that begin with this word. */
 static void print_group(const struct command *command)
 {
     bool any = false;

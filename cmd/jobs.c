@@ -1,4 +1,5 @@
-/* From operands and options to jobs. */
+/* Makes the list of jobs of kiln render from its operands and options, and checks their files and
+ * frames. */
 #include "jobs.h"
 
 #include <stdlib.h>
@@ -12,7 +13,7 @@
 
 static const char mark[] = "{scene}";
 
-/* The file's name without folder and suffix; of standard input, a word for it. */
+/* Returns the scene file's name without folder and suffix, or a word for standard input. */
 static const char *scene_stem(const char *path, size_t *length)
 {
     const char *slash = strrchr(path, '/');
@@ -40,7 +41,8 @@ static void add_stem(FILE *out, const char *scene, bool escape)
         fprintf(out, "%s%c", escape && (stem[i] == '%' || stem[i] == '#') ? "%" : "", stem[i]);
 }
 
-/* Adds the pattern with every mark replaced; a folder's name knows no numbers and no escapes. */
+/* Adds the pattern with every mark replaced. In the part that is a folder's name, the scene's name
+ * is not escaped, since numbers have no meaning there. */
 static void add_marked(FILE *out, const char *pattern, const char *scene, bool escape)
 {
     const char *slash = strrchr(pattern, '/');
@@ -54,8 +56,8 @@ static void add_marked(FILE *out, const char *pattern, const char *scene, bool e
     }
 }
 
-/* The file that a pattern means for a scene, in new memory; NULL when memory is short. A folder
- * gets a file named after the scene. */
+/* Returns the file that a pattern means for a scene, in new memory; NULL when memory is short. A
+ * pattern that is a folder gets a file named after the scene. */
 static char *file_name(const char *pattern, const char *scene, const char *suffix, bool numbers)
 {
     char *name = NULL;
@@ -80,8 +82,8 @@ static char *file_name(const char *pattern, const char *scene, const char *suffi
     return NULL;
 }
 
-/* No two jobs may write one file: found here by its name, so that the message can say what to do,
- * and by where it leads once the scenes are loaded. */
+/* Refuses jobs that write the same file. Equal names are found here, so that the message can say
+ * what to do; other paths to one file are found once the scenes are loaded. */
 static int check_clash(const struct job *a, const struct job *b)
 {
     bool output = a->output && b->output && strcmp(a->output, b->output) == 0;
@@ -133,7 +135,7 @@ static int claim_files(struct job_list *list, const struct arguments *arguments)
     return code;
 }
 
-/* Options that make no sense with where the output goes. */
+/* Refuses options that have no meaning for this kind of output. */
 static int check_output(const struct job_list *list, const struct arguments *arguments)
 {
     const struct option_use *output = arguments_last(arguments, "output");
@@ -167,7 +169,7 @@ int quality_check(const struct arguments *arguments, const char *place, const ch
                   place, output);
 }
 
-/* The name of a job's output in new memory; NULL when memory is short. */
+/* Returns the name of a job's output in new memory; NULL when memory is short. */
 static char *output_name(const struct job_list *list, const char *pattern, const char *scene)
 {
     if (list->stream.format)
@@ -199,7 +201,7 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
     return code;
 }
 
-/* Every frame that was asked for must exist. */
+/* Resolves the frames that were asked for, all of which must exist. */
 static int choose_frames(struct job *job, const struct arguments *arguments)
 {
     const struct option_use *frames = arguments_last(arguments, "frames");
@@ -236,7 +238,7 @@ static int read_flipbook(struct job_list *list, const struct arguments *argument
     return 0;
 }
 
-/* Leaves of the job's frames those that a flipbook shows. */
+/* Reduces the job's frames to those that a flipbook shows. */
 static int choose_cells(struct job *job, const struct kiln_flipbook *flipbook)
 {
     size_t count = (size_t)flipbook->columns * flipbook->rows;

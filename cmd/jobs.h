@@ -1,5 +1,5 @@
-/* What `kiln render` is going to do, checked before any device is opened: which scene, which
- * frames, into which files. */
+/* Declares the jobs of `kiln render`, which are checked before any device is opened: which scene,
+ * which frames, into which files. */
 #ifndef KILN_CMD_JOBS_H
 #define KILN_CMD_JOBS_H
 

@@ -1,4 +1,4 @@
-/* kiln join: makes a clip of the parts that several tasks drew. */
+/* Runs kiln join, which makes a clip of the parts that several tasks drew. */
 #include <inttypes.h>
 #include <stdlib.h>
 

@@ -1,5 +1,6 @@
-/* A reader of standard error that has stalled must not keep the program, so it is asked first: a
- * pipe that is ready takes PIPE_BUF bytes. Stdio's lock may be held by whoever hangs. */
+/* Ends the program with one last line on standard error and with its exit code. Stdio is not used,
+ * since a thread that hangs may hold its lock. A stalled reader of standard error must not block
+ * the end, so poll asks first: a pipe that is ready takes PIPE_BUF bytes. */
 #include "last_words.h"
 
 #include <poll.h>

@@ -1,4 +1,4 @@
-/* The end of a program that can wait for nothing any more. */
+/* Ends a program that can wait for nothing any more. */
 #ifndef KILN_CMD_LAST_WORDS_H
 #define KILN_CMD_LAST_WORDS_H
 

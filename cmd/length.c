@@ -1,4 +1,4 @@
-/* Reads lengths by a table of their units. */
+/* Reads lengths on the command line by a table of their units. */
 #include "length.h"
 
 #include <math.h>

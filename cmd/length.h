@@ -1,4 +1,4 @@
-/* Lengths on the command line: a number of pixels, or a length on paper. */
+/* Reads lengths on the command line: a number of pixels, or a length on paper. */
 #ifndef KILN_CMD_LENGTH_H
 #define KILN_CMD_LENGTH_H
 

@@ -1,4 +1,5 @@
-/* A thread looks at the clock and the memory: what loads a picture or encodes one does not. */
+/* Reads the limits of a job, and watches the clock and the memory from a thread: the code that
+ * loads or encodes a picture does not look at them. */
 #include "limits.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 
 enum { LOOK_MS = 50, PATIENCE_MS = 500 };
 
-/* Gives the job time to end by itself. */
+/* Ends the program when a limit is exceeded, after it has given the job time to end by itself. */
 static void look(void *user)
 {
     struct limits *limits = user;

@@ -1,4 +1,4 @@
-/* Limits of a job, from --limits, --timeout and the environment. */
+/* Reads and watches the limits of a job, from --limits, --timeout and the environment. */
 #ifndef KILN_CMD_LIMITS_H
 #define KILN_CMD_LIMITS_H
 

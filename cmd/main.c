@@ -1,4 +1,4 @@
-/* The program: picks the subcommand, reads its options, runs it. */
+/* Holds the main function: it picks the subcommand, reads its options and runs it. */
 #include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -90,7 +90,7 @@ static void follow_batch(void)
     if (!parent || !kiln_text_to_uint64(parent, &process) || process != (uint64_t)getppid())
         return;
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (process != (uint64_t)getppid()) /* it died before that */
+    if (process != (uint64_t)getppid()) /* the parent has died already */
         raise(SIGTERM);
 }
 
@@ -104,7 +104,7 @@ static int check_operands(const struct command *command, const struct arguments 
     return 0;
 }
 
-/* Before work begins; what only explains does without. */
+/* Checks the environment of a command that does work; commands that only explain need no check. */
 static int check_environment(const struct command *command)
 {
     struct kiln_error error = {0};
@@ -113,7 +113,7 @@ static int check_environment(const struct command *command)
     return report(error.code, "%s", error.message);
 }
 
-/* Whether what the environment says of an option is for the command, too. */
+/* Returns whether a command has an option that the environment may set. */
 static bool has_option(const struct command *command, const char *name)
 {
     for (size_t i = 0; i < command->option_count; i++) {
@@ -173,8 +173,8 @@ int main(int argc, char **argv)
     follow_batch();
     signal(SIGCHLD,
            SIG_DFL); /* ignored by whoever starts kiln, how kiln-decode ends would be lost */
-    signal(SIGPIPE, SIG_IGN); /* failed writes are reported as such, */
-    signal(SIGXFSZ, SIG_IGN); /* those beyond the limit of a file's size, too */
+    signal(SIGPIPE, SIG_IGN); /* failed writes are reported, */
+    signal(SIGXFSZ, SIG_IGN); /* also writes beyond the limit of a file's size */
     const char *name = argc > 1 ? argv[1] : "";
     if (argc < 2) {
         help_print_overview(stderr);

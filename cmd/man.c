@@ -1,4 +1,4 @@
-/* The manual pages, in the man macros of roff, from the same tables as --help. */
+/* Writes the manual pages, in the man macros of roff, from the same tables as --help. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +32,7 @@ static void put_heading(FILE *out, const char *title)
     fputc('\n', out);
 }
 
-/* A text of paragraphs, in which lines that start with blanks stay as they are. */
+/* Writes a text of paragraphs, in which lines that start with blanks stay as they are. */
 static void put_text(FILE *out, const char *text)
 {
     bool verbatim = false, parted = false, at_start = true;
@@ -61,7 +61,7 @@ static void put_text(FILE *out, const char *text)
         fputs(".fi\n", out);
 }
 
-/* What a topic of `kiln help` prints. False when memory is short. */
+/* Writes what a topic of `kiln help` prints. False when memory is short. */
 static bool put_topic(FILE *out, const char *title, bool (*write)(FILE *out))
 {
     char *text = NULL;
@@ -77,7 +77,7 @@ static bool put_topic(FILE *out, const char *title, bool (*write)(FILE *out))
     return ok;
 }
 
-/* A paragraph with a bold tag. */
+/* Writes a paragraph with a bold tag. */
 static void put_tagged(FILE *out, const char *tag, const char *text)
 {
     fputs(".TP\n\\fB", out);
@@ -157,7 +157,7 @@ static void put_examples(FILE *out)
     }
 }
 
-/* Paths that matter, and what they are. */
+/* Writes the section FILES: paths that matter, and what they are. */
 static void put_files(FILE *out)
 {
     put_heading(out, "files");

@@ -1,4 +1,4 @@
-/* kiln new: a scene to begin with. */
+/* Runs kiln new, which writes a scene to begin with. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,7 +36,7 @@ static int print(const char *template)
     return 0;
 }
 
-/* What to do with it: a command to copy. */
+/* Prints what to do with the scene: a command to copy. */
 static void print_next(const char *path)
 {
     char name[KILN_PATH_SIZE];

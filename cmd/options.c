@@ -30,8 +30,8 @@ const char *suggest(char out[SUGGESTION_SIZE], const char *prefix, const char *f
     return out;
 }
 
-/* What to type instead of an unknown option: what kiln has for one of another program, else the
- * nearest of its own names. */
+/* Suggests what to type instead of an unknown option: kiln's spelling of another program's option,
+ * else the nearest of its own names. */
 static void advise(const struct parser *parser, const char *typed, char out[FOREIGN_SIZE])
 {
     if (foreign_suggest(out, typed, parser->options, parser->option_count))
@@ -103,7 +103,7 @@ static int read_number(const struct parser *parser, struct option_use *use)
     return wrong_value(parser, use, expected);
 }
 
-/* Two positive whole numbers around a separator. */
+/* Reads two positive whole numbers around a separator. */
 static bool read_two(const char *text, char separator, uint64_t numbers[2])
 {
     char first[24] = "";
@@ -115,7 +115,7 @@ static bool read_two(const char *text, char separator, uint64_t numbers[2])
            kiln_text_to_uint64(middle + 1, &numbers[1]) && numbers[1] > 0;
 }
 
-/* X,Y,WxH, each of which fits a picture. */
+/* Reads X,Y,WxH, each of which fits a picture. */
 static bool read_rect(const char *text, uint64_t numbers[4])
 {
     for (int i = 0; i < 2; i++) {
@@ -164,7 +164,7 @@ static int read_grid(const struct parser *parser, struct option_use *use)
     return wrong_value(parser, use, expected);
 }
 
-/* Of several pieces, the message names the one that is wrong. */
+/* Checks a value of several pieces; the message names the piece that is wrong. */
 static int read_frames(const struct parser *parser, struct option_use *use)
 {
     static const char expected[] =
@@ -223,7 +223,8 @@ static int read_value(const struct parser *parser, struct option_use *use)
     return 0;
 }
 
-/* Two dashes, or one and the letter of an option; "-" and "-30" are values. */
+/* Returns whether a word is an option: two dashes, or one and the letter of an option. "-" and
+ * "-30" are values. */
 static bool looks_like_option(const struct parser *parser, const char *word)
 {
     return strncmp(word, "--", 2) == 0 ||
@@ -231,7 +232,7 @@ static bool looks_like_option(const struct parser *parser, const char *word)
             option_of_letter(parser->options, parser->option_count, word[1]));
 }
 
-/* Whether the next word is the value of an option in its older spelling. */
+/* Returns whether the next word is the value of an option in its older spelling. */
 static bool value_follows(const struct parser *parser, const struct option *option)
 {
     const char *next = parser->next < parser->argc ? parser->argv[parser->next] : NULL;
@@ -320,7 +321,7 @@ static int read_short(struct parser *parser, const char *argument)
         if (strcmp(parser->options[i].name, argument + 1) == 0) /* "-output" is not "-o utput" */
             return unknown_option(parser, argument);
     }
-    size_t count = 0; /* of letters; the whole bundle is looked at before any of it counts */
+    size_t count = 0; /* of letters; all are checked before the first one counts */
     const struct option *option;
     do {
         const char letter = argument[1 + count++];

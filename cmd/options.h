@@ -1,4 +1,5 @@
-/* The command line: one row per option makes the parser, the errors, --help and the man page. */
+/* Declares the options of the command line: one row per option makes the parser, the errors, --help
+ * and the man page. */
 #ifndef KILN_CMD_OPTIONS_H
 #define KILN_CMD_OPTIONS_H
 

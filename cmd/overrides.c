@@ -1,4 +1,4 @@
-/* Turns options into overrides of the scene loader. */
+/* Turns options such as --set and --size into overrides of the scene loader. */
 #include "overrides.h"
 
 #include <inttypes.h>
@@ -7,7 +7,8 @@
 
 #include "signals.h"
 
-/* The override that a use stands for, in new memory; *is_one is false for other options. */
+/* Returns the override that the use of an option stands for, in new memory; *is_one is false for
+ * other options. */
 static char *override_text(const struct option_use *use, bool *is_one)
 {
     const char *key = use->option->sets;

@@ -1,4 +1,5 @@
-/* Two descriptors change places, so that nothing but frames comes out of standard output. */
+/* Prepares `--output -`: frames go to a copy of standard output's descriptor, and standard output
+ * itself becomes standard error, so that nothing but frames goes to the reader. */
 #include "pipe.h"
 
 #include <errno.h>

@@ -1,4 +1,4 @@
-/* `--output -`: frames go to standard output, for another program. */
+/* Sends frames to standard output, for another program (`--output -`). */
 #ifndef KILN_CMD_PIPE_H
 #define KILN_CMD_PIPE_H
 

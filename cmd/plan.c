@@ -1,4 +1,4 @@
-/* kiln plan: what a clip costs, and what each of several tasks would do. */
+/* Runs kiln plan, which tells what a clip costs, and what each of several tasks would do. */
 #include <inttypes.h>
 #include <stdlib.h>
 
@@ -48,7 +48,7 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-/* What is kept while the library tells of one task after the other. */
+/* The state of a report while the library visits one task after the other. */
 struct planning {
     const char *scene_path;
     FILE *json_out; /* NULL: no JSON is wanted */

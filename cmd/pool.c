@@ -1,8 +1,8 @@
-/* Keeps so many processes running and takes note of how each ends. Each leads a process group of
- * its own: Ctrl-C in a terminal reaches the parent alone, which then ends the others.
+/* Keeps a number of processes running and records how each ends. Each leads a process group of its
+ * own: Ctrl-C in a terminal reaches the parent alone, which then ends the others.
  *
  * The parent sleeps in sigtimedwait, with SIGCHLD blocked at all other times: the end of a child
- * cannot fall between a look and a sleep. */
+ * cannot fall between a check and a sleep. */
 #include "pool.h"
 
 #include <errno.h>
@@ -16,8 +16,8 @@
 
 #include "watch.h"
 
-/* A child that was asked to end gets that long before it is killed, and the system that long to
- * find room for a process when nothing else runs. */
+/* How long a child that was asked to end may take before it is killed, and how long the system may
+ * take to find room for a process when nothing else runs. */
 static const double GRACE_S = 2, REFUSAL_S = 5;
 static const double LONGEST_SLEEP_S = 0.25;
 
@@ -84,7 +84,7 @@ static void ask_to_end(struct child *child)
     child->asked_s = now_s();
 }
 
-/* Asks a child to end that is beyond its time, and makes one that does not. */
+/* Asks a child that is beyond its time to end, and kills one that does not. */
 static void watch_child(struct child *child)
 {
     double now = now_s();
@@ -94,7 +94,7 @@ static void watch_child(struct child *child)
         kill(-child->id, SIGKILL);
 }
 
-/* Takes note of a child that has ended. */
+/* Records a child that has ended. */
 static void reap_child(struct run *run, struct child *child)
 {
     int status = 0;
@@ -104,7 +104,7 @@ static void reap_child(struct run *run, struct child *child)
     while (id < 0 && errno == EINTR);
     if (id == 0)
         return;
-    /* Below 0: someone else has taken its status, so that nothing is known about it. */
+    /* Below 0: other code has taken its status, so that nothing is known about it. */
     struct pool_end end = {.total_s = now_s() - child->started_s,
                            .exit_code = KILN_DEVICE_FAILED,
                            .timed_out = child->asked_s >= 0};
@@ -142,7 +142,7 @@ static bool may_start(const struct run *run)
     return !run->stopping && run->next < pool->count && !(pool->enough && pool->enough(pool->user));
 }
 
-/* Fills free places. */
+/* Starts tasks while there are free places. */
 static void start_children(struct run *run)
 {
     const struct pool *pool = run->pool;
@@ -193,7 +193,7 @@ bool pool_run(const struct pool *pool, struct kiln_error *error)
         *error = (struct kiln_error){.code = KILN_DEVICE_FAILED, .message = "out of memory"};
         return false;
     }
-    /* Some callers hand down that the end of children is ignored: their status would be lost. */
+    /* Some callers start kiln with SIGCHLD ignored: then the status of children would be lost. */
     struct sigaction action = {.sa_handler = SIG_DFL}, old_action;
     sigemptyset(&action.sa_mask);
     sigaction(SIGCHLD, &action, &old_action);

@@ -1,5 +1,5 @@
-/* Processes beside each other: the tests of `kiln test`, the jobs of `kiln render --batch`. A
- * crash, a hang or a leak of one is nothing to the others. */
+/* Runs processes in parallel: the tests of `kiln test`, the jobs of `kiln render --batch`. A crash,
+ * a hang or a leak of one does not affect the others. */
 #ifndef KILN_CMD_POOL_H
 #define KILN_CMD_POOL_H
 

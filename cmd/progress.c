@@ -1,4 +1,5 @@
-/* Progress of a job. Times come from the renderer, so that nothing here needs a clock. */
+/* Prints the progress of a job. Times come from the renderer, so that nothing here needs a clock.
+ */
 #include "progress.h"
 
 #include <inttypes.h>
@@ -26,7 +27,7 @@ void add_passes(struct kiln_json *json, const double pass_ms[KILN_PASS_COUNT])
     kiln_json_end(json);
 }
 
-/* "1:05" or "2:00:05". */
+/* Formats a time: "1:05" or "2:00:05". */
 static const char *duration_text(char out[32], double seconds)
 {
     uint64_t whole = (uint64_t)(seconds + 0.5);
@@ -38,7 +39,7 @@ static const char *duration_text(char out[32], double seconds)
     return out;
 }
 
-/* "fire.yaml: 12 of 24 frames, 3.4 a second, 0:04 left". */
+/* Formats the line: "fire.yaml: 12 of 24 frames, 3.4 a second, 0:04 left". */
 static void describe(char out[KILN_MESSAGE_SIZE], const char *scene,
                      const struct kiln_progress *frame)
 {

@@ -1,4 +1,5 @@
-/* What a running job says: a line that moves, or lines now and then; and its frames to programs. */
+/* Prints the progress of a running job: a line that moves, or lines now and then, and its frames
+ * for programs. */
 #ifndef KILN_CMD_PROGRESS_H
 #define KILN_CMD_PROGRESS_H
 

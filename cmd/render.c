@@ -1,4 +1,5 @@
-/* kiln render: scenes in, frames out. All scenes of a call share one device. */
+/* Runs kiln render, which draws the frames of scenes and writes them. All scenes of a call share
+ * one device. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,19 +147,19 @@ struct render {
     struct job_list list;
     struct kiln_render_params params;
     struct value_list techniques;
-    const char **command; /* its words, for manifests */
+    const char **command; /* the command's words, for manifests */
     struct shard shard;
     bool quiet, stats;
     bool tells_frames, tells_stats; /* by --json */
     enum progress_mode progress_mode;
     double frame_timeout_s;
 
-    const struct job *job; /* the one that runs */
+    const struct job *job; /* the job that runs */
     struct progress progress;
     struct watchdog *watchdog;
-    double began_s; /* the job, by now_s */
+    double began_s; /* when the job began, by now_s */
     uint32_t frames_done, frames_total;
-    int64_t last_frame; /* whose time began last; -1: none of the job */
+    int64_t last_frame; /* the last frame with a time; -1: none of the job */
 };
 
 /* ---- While a job runs ----------------------------------------------------------------------- */
@@ -176,11 +177,11 @@ static void allow_frame(struct render *render, uint32_t frame)
 static void begin_frame(void *user, uint32_t frame)
 {
     struct render *render = user;
-    if (frame != render->last_frame) /* else set-up has begun its time */
+    if (frame != render->last_frame) /* else set-up has started its time */
         allow_frame(render, frame);
 }
 
-/* How long the output takes, and who reads it, is no fault of the frame. */
+/* Stops the frame's clock while the output waits, for instance for a slow reader. */
 static void end_frame(void *user, uint32_t frame)
 {
     const struct render *render = user;
@@ -189,7 +190,7 @@ static void end_frame(void *user, uint32_t frame)
         watchdog_disarm(render->watchdog);
 }
 
-/* Whether each frame has a file, whose event tells of it. */
+/* Returns whether each frame has a file, which gets an event. */
 static bool has_files(const struct render *render)
 {
     return render->job->output && !render->list.stream.format &&
@@ -214,7 +215,7 @@ static void show_frame(void *user, const struct kiln_progress *frame)
         tell_frame(render, frame, NULL);
 }
 
-/* An event for a file that is whole, on a thread of the output. */
+/* Prints the event of a file that is whole, on a thread of the output. */
 static void tell_written(void *user, const struct kiln_written *file)
 {
     const struct render *render = user;
@@ -316,7 +317,8 @@ static void print_device_json(const struct kiln_device_info *info)
     event_end(&json);
 }
 
-/* The first line of output: nobody shall take a picture of a software device for a GPU's. */
+/* Prints the device as the first line of output, so that a picture of a software device is not
+ * taken for a GPU's. */
 static void print_device(const struct render *render, const struct kiln_device_info *info)
 {
     if (events_are_open())
@@ -337,7 +339,7 @@ static void print_shard_json(const struct shard *shard)
     event_end(&json);
 }
 
-/* Which shard this is, and who said so. */
+/* Prints which shard this is, and which option or scheduler said so. */
 static void print_shard(const struct render *render)
 {
     const struct shard *shard = &render->shard;
@@ -372,7 +374,7 @@ static void print_job(const struct render *render, const struct kiln_render_stat
     fflush(stdout);
 }
 
-/* Why a job ended early, and the exit code for it. */
+/* Reports why a job ended early, and returns the exit code for it. */
 static int report_failure(const struct render *render, const struct kiln_error *error)
 {
     if (error->code != KILN_INTERRUPTED)
@@ -410,7 +412,8 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
     return 0;
 }
 
-/* After a signal, or when nobody reads any more, no other job begins. */
+/* Returns whether an exit code ends the whole call: after a signal, or when the reader is gone, no
+ * other job begins. */
 static bool is_end_of_all(int code)
 {
     return code > 128 || code == KILN_READER_GONE;
@@ -440,7 +443,7 @@ static int run_jobs(struct render *render, const struct arguments *arguments)
     return code;
 }
 
-/* The scenes, which have the time of a frame, too. */
+/* Loads the scenes, each of which has the time limit of a frame. */
 static int load(struct render *render, const struct arguments *arguments)
 {
     if (render->watchdog)

@@ -1,4 +1,5 @@
-/* Messages to the person. Nothing else in cmd/ writes to standard error but the progress line. */
+/* Prints messages to the person on standard error. Nothing else in cmd/ writes there but the
+ * progress line. */
 #include "report.h"
 
 #include <errno.h>
@@ -22,7 +23,8 @@ int report(enum kiln_code code, const char *format, ...)
     return (int)code;
 }
 
-/* A message that starts with its own place, where editors look for it. */
+/* Prints a message that starts with a place in a file. The place comes first in the line, where
+ * editors look for it. */
 static int report_place(const struct kiln_error *error)
 {
     fprintf(stderr, "%s\n", error->message);

@@ -1,4 +1,4 @@
-/* Messages to the person: one line each, on standard error. */
+/* Prints messages to the person: one line each, on standard error. */
 #ifndef KILN_CMD_REPORT_H
 #define KILN_CMD_REPORT_H
 

@@ -1,4 +1,5 @@
-/* Which files a command reads and writes follows from its arguments, whose rows say so. */
+/* Confines a command to the files of its arguments. The rows of options and operands say which of
+ * them a command reads and which it writes. */
 #include "sandbox.h"
 
 #include <stdlib.h>
@@ -13,14 +14,14 @@ enum mode { MODE_ON, MODE_REQUIRE, MODE_OFF };
 struct reached {
     const char **readable, **writable;
     size_t readable_count, writable_count;
-    char **folders; /* of files that are read; they are among the readable */
+    char **folders; /* the folders of files that are read */
     size_t folder_count;
 };
 
 /* ---- what the arguments name ----------------------------------------------------------------- */
 
-/* The folder of a file, where a scene's pictures are, or, where that is given by an option, the
- * file alone. A link is not followed: whoever made the folder could lead it anywhere. */
+/* Adds the folder of a file, in which a scene's pictures are, or the file alone where an option
+ * names that folder. A link is not followed: whatever wrote the folder could lead it anywhere. */
 static bool add_file(struct reached *reached, const char *path, bool alone)
 {
     struct stat status;
@@ -33,7 +34,7 @@ static bool add_file(struct reached *reached, const char *path, bool alone)
     if (!folder)
         return false;
     strcpy(folder, path);
-    folder[strcspn(folder, "{#%")] = '\0'; /* of numbered frames */
+    folder[strcspn(folder, "{#%")] = '\0'; /* the folder of numbered frames */
     char *slash = strrchr(folder, '/');
     strcpy(slash ? slash : folder, slash ? "/" : ".");
     reached->folders[reached->folder_count++] = folder;
@@ -41,7 +42,7 @@ static bool add_file(struct reached *reached, const char *path, bool alone)
     return true;
 }
 
-/* Whether --output stands for standard output, or for nothing. */
+/* Returns whether --output stands for standard output, or for no output. */
 static bool is_no_file(const char *path)
 {
     return strcmp(path, "-") == 0 || strcmp(path, "none") == 0;

@@ -1,4 +1,4 @@
-/* A command that confines itself to its job: --sandbox and the environment's KILN_SANDBOX. */
+/* Confines a command to its job: --sandbox and the environment's KILN_SANDBOX. */
 #ifndef KILN_CMD_SANDBOX_H
 #define KILN_CMD_SANDBOX_H
 

@@ -1,7 +1,6 @@
-/* Reads a scene out of a file or out of a descriptor that is open already. Of the latter, the
- * folder /dev would be a strange place to look for textures, so they are looked for in the working
- * directory. A FIFO with a name of its own is refused, as no scene file: nobody waits for a writer.
- */
+/* Reads a scene from a file or from a descriptor that is open already. For a descriptor, textures
+ * are looked for in the working directory, since /dev holds none. A FIFO with a name of its own is
+ * refused, so that no command waits for its writer. */
 #include "scene_in.h"
 
 #include <errno.h>
@@ -15,7 +14,7 @@
 
 enum { NO_DESCRIPTOR = -1 };
 
-/* The descriptor that an operand stands for, or NO_DESCRIPTOR. */
+/* Returns the descriptor that an operand stands for, or NO_DESCRIPTOR. */
 static int descriptor_of(const char *path)
 {
     static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
@@ -41,8 +40,8 @@ static const char *name_of(const char *path)
     return strcmp(path, "-") == 0 ? "standard input" : path;
 }
 
-/* Whether a read that failed is worth another one: it was interrupted by a signal that stops
- * nothing, or whoever started the program made the descriptor one that does not wait. */
+/* Returns whether to repeat a read that failed: a signal that stops nothing interrupted it, or the
+ * descriptor is one that does not wait. */
 static bool may_try_again(int file, const struct kiln_scene_params *params)
 {
     if (errno == EAGAIN && poll(&(struct pollfd){.fd = file, .events = POLLIN}, 1, -1) > 0)
@@ -50,7 +49,7 @@ static bool may_try_again(int file, const struct kiln_scene_params *params)
     return errno == EINTR && !(params->stop && params->stop(params->user));
 }
 
-/* All that comes, up to one byte more than a scene has. False with errno. */
+/* Reads to the end, but at most one byte more than a scene may have. False with errno. */
 static bool read_all(int file, char *text, size_t *size, const struct kiln_scene_params *params)
 {
     while (*size <= KILN_MAX_SCENE_SIZE) {

@@ -1,5 +1,5 @@
-/* Scenes as commands name them: a file, or "-" and its relatives for one that comes through
- * standard input or a pipe of the shell. */
+/* Reads scenes as commands name them: a file, or "-" and its relatives for a scene that comes
+ * through standard input or a pipe of the shell. */
 #ifndef KILN_CMD_SCENE_IN_H
 #define KILN_CMD_SCENE_IN_H
 

@@ -1,4 +1,5 @@
-/* Schedulers number the tasks of an array in variables of their own. */
+/* Reads --shard: the number of this task, from the option or from the variables in which a
+ * scheduler numbers the tasks of an array. */
 #include "shard.h"
 
 #include <inttypes.h>
@@ -34,14 +35,16 @@ static int read_variable(const char *name, uint64_t *value, bool *is_there)
                   text);
 }
 
-/* Whether this is a task of the scheduler's. Grid Engine says "undefined" to others. */
+/* Returns whether this is a task of the scheduler. Grid Engine says "undefined" outside of an
+ * array. */
 static bool is_used(const struct scheduler *scheduler)
 {
     const char *id = getenv(scheduler->id);
     return id && *id && strcmp(id, "undefined") != 0;
 }
 
-/* The number of the task from 0, and of how many; 0 where the scheduler does not say that. */
+/* Reads the number of the task, from 0, and the number of tasks; 0 where the scheduler does not say
+ * it. */
 static int ask(const struct scheduler *scheduler, uint64_t *index, uint64_t *count)
 {
     uint64_t id = 0, first = 0, step = 1, last = 0;
@@ -65,7 +68,8 @@ static int ask(const struct scheduler *scheduler, uint64_t *index, uint64_t *cou
     return 0;
 }
 
-/* total: as asked for with auto/N; 0: the scheduler has to say it. */
+/* Finds the shard of a scheduler's task. total: as asked for with auto/N; 0: the scheduler has to
+ * say it. */
 static int read_environment(struct shard *shard, uint64_t total)
 {
     size_t i = 0;

@@ -1,4 +1,4 @@
-/* --shard: which of several tasks this is. */
+/* Reads --shard, which says which of several tasks this is. */
 #ifndef KILN_CMD_SHARD_H
 #define KILN_CMD_SHARD_H
 

@@ -1,4 +1,5 @@
-/* A handler has no other way to reach the program than variables of the file: the only ones. */
+/* Handles SIGINT, SIGTERM and SIGHUP: the first asks the job to stop, the second ends the program.
+ * A handler can reach the program only through variables of the file, so this file has some. */
 #include "signals.h"
 
 #include <errno.h>
@@ -14,10 +15,10 @@
 #include "report.h"
 
 static volatile sig_atomic_t received;
-static volatile sig_atomic_t is_patient; /* PATIENCE_US long after the first signal */
+static volatile sig_atomic_t is_patient; /* the program ends PATIENCE_US after the first signal */
 
-/* An encoder of a library cannot be left in the middle of a large frame. Whatever a job still does
- * so long after the signal is given up: it ends within a second. */
+/* Microseconds that a job has to stop after the first signal, since an encoder of a library cannot
+ * be stopped in the middle of a large frame. So the program ends within a second. */
 static const long PATIENCE_US = 500000;
 
 static const char *name_of(int number)
@@ -36,7 +37,7 @@ static void on_signal(int number)
     if (received)
         end_program(number);
     received = number;
-    if (is_patient) { /* a call of the system and nothing else, so a handler may */
+    if (is_patient) { /* setitimer is a plain system call, so a handler may call it */
         const int before = errno;
         setitimer(ITIMER_REAL, &(struct itimerval){.it_value.tv_usec = PATIENCE_US}, NULL);
         errno = before;
@@ -45,7 +46,7 @@ static void on_signal(int number)
 
 static void on_patience_over(int number)
 {
-    if (!received) { /* somebody else sent it: it ends the program, as it always does */
+    if (!received) { /* SIGALRM from elsewhere ends the program as usual */
         kiln_abandon_outputs();
         signal(number, SIG_DFL);
         raise(number);
@@ -57,7 +58,7 @@ static void on_patience_over(int number)
     end_with_words(line, 128 + received);
 }
 
-/* Whoever started the program may have had the signal blocked. */
+/* Unblocks the signal, which may have been blocked when the program was started. */
 static void unblock(int number)
 {
     sigset_t set;

@@ -1,4 +1,5 @@
-/* Reports of a finished job on standard output. */
+/* Prints the reports of a finished job on standard output: the result line, and --stats as text or
+ * JSON. */
 #include "stats.h"
 
 #include <inttypes.h>
@@ -8,7 +9,7 @@
 #include "progress.h"
 #include "report.h"
 
-/* The most memory that the process has had at once. */
+/* Returns the most memory that the process has had at once. */
 static uint64_t peak_memory_bytes(void)
 {
     struct rusage usage;

@@ -1,4 +1,4 @@
-/* What a finished job did: the result line, and --stats as text or JSON. */
+/* Prints what a finished job did: the result line, and --stats as text or JSON. */
 #ifndef KILN_CMD_STATS_H
 #define KILN_CMD_STATS_H
 

@@ -1,5 +1,6 @@
-/* kiln test: do scenes still give the pictures that were accepted? Finds the tests, runs each in a
- * process of its own, tells what became of them in the order of their names, and writes reports. */
+/* Runs kiln test, which tells whether scenes still give the accepted pictures. It finds the tests,
+ * runs each in a process of its own, prints their results in the order of their names, and writes
+ * reports. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,7 +100,7 @@ struct test_run {
     struct kiln_test_params params;
     double time_limit_s; /* 0: the tests' own */
     uint32_t jobs;
-    char log[KILN_PATH_SIZE]; /* of the task that was asked for last */
+    char log[KILN_PATH_SIZE]; /* of the task that was started last */
     struct kiln_test_summary *summaries;
     bool *ended;
     size_t ended_count, printed; /* tests 0 to printed-1 have had their line */
@@ -114,7 +115,7 @@ struct test_task {
     double time_limit_s; /* of the wall clock */
 };
 
-/* The log's name lasts until the next call. */
+/* Describes a task; the log's name is valid until the next call. */
 static struct test_task task_of(struct test_run *run, size_t index)
 {
     struct kiln_test_info test = kiln_suite_test(run->suite, index);
@@ -124,7 +125,7 @@ static struct test_task task_of(struct test_run *run, size_t index)
                                   run->time_limit_s > 0 ? run->time_limit_s : test.time_limit_s};
 }
 
-/* In the process of the test. */
+/* Runs a test, in the test's own process. */
 static int run_test(void *user, size_t index)
 {
     const struct test_run *run = user;
@@ -147,7 +148,7 @@ static pid_t start_test(void *user, size_t index, struct pool_start *start)
     return test_pool_start(start, task.log, run_test, run, index);
 }
 
-/* Why the process has left no result to believe in; false when it has. */
+/* Says why the process of a test has left no valid result; false when it has left one. */
 static bool describe_failure(const struct pool_end *end, double time_limit_s,
                              char text[KILN_MESSAGE_SIZE])
 {
@@ -170,7 +171,7 @@ static bool describe_failure(const struct pool_end *end, double time_limit_s,
     return true;
 }
 
-/* Takes a test for an error whose process did not say so itself. */
+/* Records an error for a test whose process did not report one itself. */
 static void record_failure(struct test_run *run, size_t index, const struct pool_end *end,
                            const char *cause)
 {
@@ -191,7 +192,7 @@ static void record_failure(struct test_run *run, size_t index, const struct pool
     snprintf(summary->message, sizeof summary->message, "%s", message);
 }
 
-/* Tests end in any order; their lines come in that of the names. */
+/* Prints the lines of tests in the order of their names, though tests end in any order. */
 static void print_ended(struct test_run *run)
 {
     for (; run->printed < run->count && run->ended[run->printed]; run->printed++)
@@ -240,7 +241,7 @@ static enum kiln_code write_results(const struct test_run *run, struct test_outp
 static int finish(struct test_run *run, struct test_outputs *outputs, double total_s)
 {
     struct kiln_results_summary summary = {0};
-    signals_end_at_once(); /* nothing looks for them any more */
+    signals_end_at_once(); /* no loop checks for signals any more */
     int code = (int)write_results(run, outputs, run->lines.results, total_s, &summary);
     bool nothing = summary.tests > 0 && summary.counts[KILN_TEST_SKIP] == summary.tests;
     if (!run->lines.quiet || code) {
@@ -314,7 +315,7 @@ static int read_options(struct test_run *run, struct test_outputs *outputs,
     return test_outputs_read(outputs, arguments, "test", page);
 }
 
-/* No report replaces what the run reads, or its results. */
+/* Checks that no report replaces what the run reads, or its results. */
 static int claim_files(const struct test_run *run, const struct test_outputs *outputs)
 {
     struct kiln_error error = {0};

@@ -1,4 +1,4 @@
-/* kiln test approve: the pictures of the last run are right. */
+/* Runs kiln test approve, which accepts the pictures of the last run as the new references. */
 #include <fnmatch.h>
 #include <string.h>
 
@@ -40,7 +40,7 @@ static const struct option options[] = {
 struct approval {
     struct kiln_approve_params params;
     bool quiet;
-    uint32_t count; /* files written for the test at hand */
+    uint32_t count; /* files written for the present test */
     uint32_t all;   /* tests of which something was accepted */
     enum kiln_code code;
 };
@@ -53,7 +53,8 @@ static void print_change(void *user, const char *line)
         printf("%s\n", line);
 }
 
-/* named: by the user, who is told when there is nothing to accept. */
+/* Accepts the pictures of a test. named: the user named the test, and is told when there is nothing
+ * to accept. */
 static void approve(struct approval *approval, const char *name, bool named)
 {
     struct kiln_error error = {0};
@@ -73,7 +74,7 @@ static bool is_pattern(const char *operand)
     return operand[strcspn(operand, "*?[")] != '\0';
 }
 
-/* The tests of the last run that a pattern means; without one, all. */
+/* Accepts the tests of the last run that a pattern matches; without a pattern, all. */
 static int approve_matching(struct approval *approval, const char *pattern)
 {
     struct kiln_error error = {0};

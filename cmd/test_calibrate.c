@@ -1,4 +1,5 @@
-/* kiln test calibrate: how much do pictures differ for reasons that nobody means? */
+/* Runs kiln test calibrate, which measures how much pictures differ for reasons that are no change
+ * of the scene. */
 #include <stdlib.h>
 
 #include "command.h"

@@ -1,3 +1,5 @@
+/* Makes and claims the results folder of a test run, and writes and reads the log files of tests.
+ */
 #include "test_files.h"
 
 #include <errno.h>
@@ -42,7 +44,7 @@ int claim_folder(const char *path)
     if (folder < 0)
         return report(KILN_IO, "%s: cannot open the folder: %s", path, strerror(errno));
     if (flock(folder, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-        return 0; /* some file systems have no locks: then nothing is kept out. Never closed */
+        return 0; /* without locks in the file system, no run is refused. Never closed */
     close(folder);
     return report(KILN_USAGE,
                   "%s: another run writes its results there; give this one another "

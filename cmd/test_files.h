@@ -1,4 +1,4 @@
-/* Files that a run of tests handles beside those of the library. */
+/* Declares the files that a run of tests handles beside those of the library. */
 #ifndef KILN_CMD_TEST_FILES_H
 #define KILN_CMD_TEST_FILES_H
 

@@ -1,4 +1,4 @@
-/* Words come first, colours only help to find them. */
+/* Prints the lines of kiln test. The words alone say all; colours only help to find them. */
 #include "test_lines.h"
 
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static bool wants_colour(FILE *out)
     return isatty(fileno(out)) == 1 && term && strcmp(term, "dumb") != 0 && !(refused && *refused);
 }
 
-/* Bytes of UTF-8 that begin no character take no column. */
+/* Counts the bytes of UTF-8 that begin no character: they take no column. */
 static int bytes_beside(const char *name)
 {
     int count = 0;
@@ -74,7 +74,7 @@ static void print_notes(struct test_lines *lines, const struct kiln_suite *suite
     }
 }
 
-/* Where the output of a test's process is, if it has any. */
+/* Prints where the output of a test's process is, if it has any. */
 static void print_log_place(const struct test_lines *lines, const char *results)
 {
     char path[KILN_PATH_SIZE], line[LOG_LINE_SIZE];

@@ -1,4 +1,4 @@
-/* What `kiln test` prints for people. */
+/* Prints what `kiln test` says to people. */
 #ifndef KILN_CMD_TEST_LINES_H
 #define KILN_CMD_TEST_LINES_H
 

@@ -1,5 +1,5 @@
-/* From the options of reports to files: which there will be, that none replaces what the run reads,
- * and writing them. */
+/* Reads the options of reports, checks that no report replaces what the run reads, and writes the
+ * reports. */
 #include "test_outputs.h"
 
 #include <string.h>
@@ -30,7 +30,7 @@ int test_outputs_read(struct test_outputs *outputs, const struct arguments *argu
         outputs->files[outputs->count++] = all[i];
         bool takes_it = strcmp(all[i].path, "-") == 0;
         on_standard_output += takes_it;
-        /* Annotations are lines that may stand among others. */
+        /* Annotations are lines that may stand among other lines. */
         outputs->standard_output |= takes_it && strcmp(all[i].format, "github") != 0;
     }
     if (on_standard_output > 1)

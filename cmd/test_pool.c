@@ -1,5 +1,6 @@
-/* Forks without exec: the parent has neither threads nor a device, so a child can go on from where
- * it stands. When the parent is killed, the kernel ends its children. */
+/* Starts the process of each test by fork without exec: the parent has neither threads nor a
+ * device, so a child can go on from where it stands. When the parent is killed, the kernel ends its
+ * children. */
 #include "test_pool.h"
 
 #include <errno.h>
@@ -24,7 +25,7 @@ _Noreturn static void be_child(const struct child *child)
     setpgid(0, 0);
     signals_end_at_once();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != child->parent) /* it died before that */
+    if (getppid() != child->parent) /* the parent has died already */
         _exit(128 + SIGTERM);
     int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(child->log, STDOUT_FILENO) < 0 ||

@@ -1,4 +1,4 @@
-/* The processes of `kiln test`: each test has one of its own. */
+/* Starts the processes of `kiln test`: each test has one of its own. */
 #ifndef KILN_CMD_TEST_POOL_H
 #define KILN_CMD_TEST_POOL_H
 

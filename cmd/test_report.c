@@ -1,4 +1,5 @@
-/* kiln test report: reports of runs that are over, such as the shards of one. */
+/* Runs kiln test report, which writes reports of runs that have ended, such as the shards of one
+ * run. */
 #include <stdlib.h>
 
 #include "command.h"

@@ -8,7 +8,8 @@
 #include "command.h"
 #include "report.h"
 
-/* What is not there but looks like a file is a path all the same: the error then names a file. */
+/* Returns whether an operand is a path. One that does not exist but looks like a file is a path all
+ * the same: the error then names a file. */
 static bool is_path(const char *operand)
 {
     size_t length = strlen(operand);
@@ -18,7 +19,7 @@ static bool is_path(const char *operand)
            (length > 0 && operand[length - 1] == '/');
 }
 
-/* `kiln test aprove x`: the second word was to be a command. */
+/* Suggests a command for a misspelled second word: `kiln test aprove x`. */
 static void suggest_command(const char *command, const char *word)
 {
     const char *names[MAX_COMMANDS];

@@ -1,4 +1,4 @@
-/* Which tests a command line means: the operands and options that `kiln test` shares with
+/* Reads which tests a command line means: the operands and options that `kiln test` shares with
  * `kiln test calibrate` and `kiln test list`. */
 #ifndef KILN_CMD_TEST_SELECT_H
 #define KILN_CMD_TEST_SELECT_H

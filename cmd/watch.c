@@ -1,4 +1,5 @@
-/* The thread sleeps on a condition, so that it ends at once when it is to end. */
+/* Runs a thread that calls a function at regular times. It sleeps on a condition, so that it ends
+ * at once when it is told to. */
 #include "watch.h"
 
 #include <pthread.h>
@@ -24,7 +25,7 @@ double now_s(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* The mutex is held. */
+/* Sleeps until the next call is due; the caller holds the mutex. */
 static void sleep_until_next(struct watch *watch)
 {
     struct timespec until;

@@ -1,4 +1,4 @@
-/* A thread that looks at something again and again beside the one that works. */
+/* Runs a thread that looks at something at regular times beside the thread that works. */
 #ifndef KILN_CMD_WATCH_H
 #define KILN_CMD_WATCH_H
 

@@ -1,4 +1,5 @@
-/* A thread that looks whether a deadline has passed, which the renderer keeps moving. */
+/* Runs a thread that ends the program when a deadline has passed. The renderer moves the deadline
+ * with each frame. */
 #include "watchdog.h"
 
 #include <pthread.h>

@@ -1,4 +1,5 @@
-/* A list of chunks; large requests get a chunk of their own. */
+/* Allocates memory from an arena: a list of chunks of 64 KiB that are all freed together. A larger
+ * request gets a chunk of its own. */
 #include "base/arena.h"
 
 #include <stdalign.h>
@@ -13,7 +14,7 @@ enum { CHUNK_SIZE = 64 * 1024 };
 struct chunk {
     struct chunk *next;
     size_t used, size;
-    alignas(max_align_t) unsigned char bytes[]; /* keeps the header a multiple of it, too */
+    alignas(max_align_t) unsigned char bytes[]; /* the header is aligned likewise */
 };
 
 struct kiln_arena {

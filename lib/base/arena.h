@@ -1,4 +1,5 @@
-/* Memory with one owner: allocations of a scene, a renderer or a frame that end together. */
+/* Allocates memory that has one owner and is freed together: that of a scene, a renderer or a
+ * frame. */
 #ifndef KILN_BASE_ARENA_H
 #define KILN_BASE_ARENA_H
 
@@ -14,10 +15,10 @@ void kiln_arena_destroy(struct kiln_arena **arena);
  * overflows. Lives as long as the arena. Not thread-safe. */
 void *kiln_arena_alloc(struct kiln_arena *arena, size_t count, size_t size);
 
-/* A copy of the first length bytes of text, with a terminating zero; NULL as above. */
+/* Copies the first length bytes of text and adds a terminating zero. NULL when memory is short. */
 char *kiln_arena_text(struct kiln_arena *arena, const char *text, size_t length);
 
-/* A text made as by printf; NULL as above. */
+/* Formats a text as printf does. NULL when memory is short. */
 char *kiln_arena_format(struct kiln_arena *arena, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -1,4 +1,6 @@
-/* Amounts are added before they are compared: what is over its limit stays so, whoever asks. */
+/* Counts what a job takes (pixels, bytes, triangles, time, memory) and compares it with the job's
+ * limits. An amount is added before it is compared, so a sum that is over its limit stays over it
+ * for every later question. */
 #include "base/budget.h"
 
 #include <inttypes.h>
@@ -128,7 +130,7 @@ static uint64_t resident_bytes(void)
     const bool found = file && fgets(text, sizeof text, file);
     if (file)
         fclose(file);
-    const char *second = found ? strchr(text, ' ') : NULL; /* pages: all of them, resident ones */
+    const char *second = found ? strchr(text, ' ') : NULL; /* in pages: all, then resident */
     return second ? strtoull(second, NULL, 10) * (uint64_t)sysconf(_SC_PAGESIZE) : 0;
 }
 
@@ -137,7 +139,8 @@ static uint64_t milliseconds(double seconds)
     return (uint64_t)(seconds * 1e3);
 }
 
-/* The most that was seen: a job that asks later than another thread gets the same answer. */
+/* Returns the most memory that was seen so far: once one thread has found too much, all later
+ * questions get the same answer. */
 static uint64_t peak_bytes(struct kiln_budget *budget)
 {
     const uint64_t now = resident_bytes();

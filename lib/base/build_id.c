@@ -1,5 +1,5 @@
-/* Finds the note NT_GNU_BUILD_ID (`ld --build-id`) in the loaded object that this function is part
- * of. */
+/* Reads the identifier of this build: the note NT_GNU_BUILD_ID, which `ld --build-id` writes, in
+ * the loaded object (program or shared library) that this function is part of. */
 #include "base/build_id.h"
 
 #include <elf.h>

@@ -1,4 +1,5 @@
-/* Which build of the program or library is at work, for what only the same code may read again. */
+/* Identifies the build of the program or library, for files that only the same code may read again.
+ */
 #ifndef KILN_BASE_BUILD_ID_H
 #define KILN_BASE_BUILD_ID_H
 

@@ -1,11 +1,12 @@
-/* Whether who asked for something that takes long still wants it. */
+/* Asks the caller of a long operation whether it still wants the result; if not, the error says
+ * why. */
 #ifndef KILN_BASE_CALLER_H
 #define KILN_BASE_CALLER_H
 
 #include "kiln.h"
 
 struct kiln_caller {
-    bool (*may_go_on)(void *user, struct kiln_error *error); /* false: why not; NULL: always */
+    bool (*may_go_on)(void *user, struct kiln_error *error); /* may be NULL: always true */
     void *user;
 };
 

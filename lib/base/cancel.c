@@ -1,4 +1,5 @@
-/* A request to stop is one atomic that is only ever set. */
+/* Holds a caller's request to stop a job: one atomic flag that is only ever set, so any thread may
+ * set it and any may read it. */
 #include <stdatomic.h>
 #include <stdlib.h>
 

@@ -1,5 +1,6 @@
-/* Two paths lead to one file when they end in one name in one real folder, whether there is such a
- * file yet or not; or when both files exist and are one, by links. */
+/* Finds out whether a call would write one file twice or write a file that it reads. Two paths lead
+ * to the same file when they end in the same name in the same real folder, whether that file exists
+ * or not. They do so, too, when both files exist and have the same device and inode (links). */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +30,7 @@ struct table {
 struct kiln_claims {
     struct kiln_arena *arena;
     struct table by_path, by_inode;
-    /* The folder of the path before, which is often the next one's, too. */
+    /* The last folder and its real path: the next path is often in the same folder. */
     char folder[KILN_PATH_SIZE], real_folder[KILN_PATH_SIZE];
 };
 
@@ -57,7 +58,7 @@ void kiln_claims_destroy(struct kiln_claims **claims)
 
 /* ---- Where a path leads --------------------------------------------------------------------- */
 
-/* Both are shorter than KILN_PATH_SIZE. */
+/* Copies a text that is shorter than KILN_PATH_SIZE. */
 static void copy_text(char *to, const char *text)
 {
     memcpy(to, text, strlen(text) + 1);
@@ -83,7 +84,8 @@ static bool append_name(char path[KILN_PATH_SIZE], const char *name, size_t leng
     return true;
 }
 
-/* The real path of a folder that may not exist: of its part that does, and then by its text. */
+/* Finds the real path of a folder that may not exist: the part that exists is resolved, the rest is
+ * appended by its text. */
 static bool real_folder(const char *folder, char real[KILN_PATH_SIZE])
 {
     char part[KILN_PATH_SIZE];
@@ -113,7 +115,7 @@ static bool real_folder(const char *folder, char real[KILN_PATH_SIZE])
     return ok;
 }
 
-/* False when it is too long, or the working folder is gone. */
+/* Finds the real path of a file. False when it is too long, or the working folder is gone. */
 static bool lead(struct kiln_claims *claims, const char *path, char real[KILN_PATH_SIZE])
 {
     const char *slash = strrchr(path, '/');
@@ -138,7 +140,7 @@ static bool lead(struct kiln_claims *claims, const char *path, char real[KILN_PA
 
 /* ---- Tables --------------------------------------------------------------------------------- */
 
-/* FNV-1a. */
+/* Adds bytes to a hash, by FNV-1a. */
 static size_t mix(size_t hash, const void *bytes, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -170,7 +172,7 @@ static bool is_inode(const struct claim *a, const struct claim *b)
 typedef size_t hash_claim(const struct claim *claim);
 typedef bool equal_claims(const struct claim *a, const struct claim *b);
 
-/* Finds the place of an equal claim, or else a free one, of which a table has always some. */
+/* Finds the place of an equal claim, or else a free place: a table is at most half full. */
 static struct claim **find(const struct table *table, const struct claim *claim, hash_claim *hash,
                            equal_claims *equal)
 {
@@ -180,7 +182,7 @@ static struct claim **find(const struct table *table, const struct claim *claim,
     return &table->claims[at];
 }
 
-/* Makes room for one more. */
+/* Makes room for one more claim. */
 static bool grow(struct table *table, hash_claim *hash, equal_claims *equal)
 {
     if (2 * (table->count + 1) <= table->capacity)
@@ -206,7 +208,7 @@ static bool out_of_memory(const char *path, struct kiln_error *error)
     return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
 }
 
-/* Two that read are no conflict. */
+/* Fails when two claims of one file conflict; two claims that only read do not. */
 static bool check(const struct claim *earlier, const struct claim *now, const char *path,
                   struct kiln_error *error)
 {
@@ -249,7 +251,8 @@ static bool declare(struct kiln_claims *claims, const char *path, const char *wh
 {
     char real[KILN_PATH_SIZE];
     if (!lead(claims, path, real)) {
-        /* Nothing can be there, and whoever opens it says why. */
+        /* No file can be there. Opening it will fail with the reason; only a path to write that is
+         * too long is refused here. */
         return !written || strlen(path) < KILN_PATH_SIZE ||
                kiln_error_set(error, KILN_USAGE, "%.200s...: the path is longer than %d bytes",
                               path, KILN_PATH_SIZE - 1);

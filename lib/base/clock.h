@@ -1,4 +1,4 @@
-/* Time for reports; nothing that reaches a picture may depend on it. */
+/* Measures time for reports. Nothing that reaches a picture may depend on it. */
 #ifndef KILN_BASE_CLOCK_H
 #define KILN_BASE_CLOCK_H
 

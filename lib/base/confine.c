@@ -1,5 +1,6 @@
-/* Landlock by its system calls, since the C library has no functions for them, and seccomp by
- * libseccomp, which knows the numbers of calls on each kind of machine. */
+/* Takes rights from the process for good: access to files by Landlock, system calls by seccomp.
+ * Landlock is called by its system calls, since the C library has no functions for them. seccomp
+ * goes through libseccomp, which knows the numbers of system calls on each kind of machine. */
 #include "base/confine.h"
 
 #include <errno.h>
@@ -16,9 +17,10 @@
 
 /* ---- Landlock -------------------------------------------------------------------------------- */
 
-/* What <linux/landlock.h> of Debian 12 does not have yet (Linux, Documentation/userspace-api). */
+/* Constants that <linux/landlock.h> of Debian 12 does not have yet (Linux,
+ * Documentation/userspace-api), with the version of Landlock that they begin with. */
 enum {
-    FS_TRUNCATE = 1 << 14,               /* from version 3 on */
+    FS_TRUNCATE = 1 << 14,               /* version 3 */
     FS_IOCTL_DEV = 1 << 15,              /* 5 */
     NET_BIND_TCP = 1 << 0,               /* 4 */
     NET_CONNECT_TCP = 1 << 1,            /* 4 */
@@ -38,7 +40,7 @@ static const uint64_t WRITING = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_
 static const uint64_t OTHERS = LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_SOCK |
                                LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK |
                                FS_IOCTL_DEV;
-/* What can be allowed of a file that is no folder. */
+/* The rights that can be granted for a file that is no folder. */
 static const uint64_t OF_A_FILE = LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE |
                                   LANDLOCK_ACCESS_FS_WRITE_FILE | FS_TRUNCATE | FS_IOCTL_DEV;
 
@@ -50,7 +52,7 @@ int kiln_landlock_version(void)
     return version > 0 ? (int)version : 0;
 }
 
-/* What a kernel of that version knows. */
+/* Returns all rights that Landlock knows in this version. */
 static struct ruleset everything(int version)
 {
     struct ruleset all = {.files = LANDLOCK_ACCESS_FS_EXECUTE | READING | WRITING | OTHERS};
@@ -78,7 +80,7 @@ static bool add_place(int ruleset, uint64_t known, const struct kiln_place *plac
         return errno == ENOENT || errno == ENOTDIR;
     rule.allowed_access &= known;
     bool ok = syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
-    if (!ok && errno == EINVAL) { /* it is no folder */
+    if (!ok && errno == EINVAL) { /* the place is a file, which cannot have a folder's rights */
         rule.allowed_access &= OF_A_FILE;
         ok = syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
     }
@@ -145,7 +147,8 @@ bool kiln_has_seccomp(void)
     return kernel_has_seccomp() && open_library(&library, &ignored);
 }
 
-/* What is open already is found again without its file. */
+/* Opens libseccomp once, before Landlock hides its file: an open library is found again without its
+ * file. */
 bool kiln_seccomp_open(struct kiln_error *error)
 {
     struct seccomp library;

@@ -1,4 +1,4 @@
-/* How a process gives rights up for good: the files that it may reach (Landlock, of the kernel from
+/* Lets a process give up rights for good: the files that it may reach (Landlock, in the kernel from
  * 5.13 on) and the system calls that it may make (seccomp). */
 #ifndef KILN_BASE_CONFINE_H
 #define KILN_BASE_CONFINE_H

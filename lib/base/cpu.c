@@ -1,4 +1,5 @@
-/* The name of the processor, from what Linux says of it. */
+/* Reads the name of the processor from /proc/cpuinfo, or its architecture (uname) where that file
+ * has no model name. */
 #include "base/cpu.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* What processor this is. */
+/* Names the processor of this machine, for reports. */
 #ifndef KILN_BASE_CPU_H
 #define KILN_BASE_CPU_H
 

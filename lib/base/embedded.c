@@ -1,4 +1,4 @@
-/* Tables are short, so they are searched from the start. */
+/* Finds an embedded file by its path. The tables are short, so they are searched from the start. */
 #include "base/embedded.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* Files of the tree that the build put into the library (cmake/embedded.cmake). */
+/* Finds files of the tree that the build put into the library (cmake/embedded.cmake). */
 #ifndef KILN_BASE_EMBEDDED_H
 #define KILN_BASE_EMBEDDED_H
 
@@ -12,7 +12,7 @@ extern const struct kiln_embedded_file kiln_embedded_scenes[];    /* scenes/, wh
 extern const struct kiln_embedded_file kiln_embedded_templates[]; /* scenes/templates/ */
 extern const struct kiln_embedded_file kiln_embedded_page[];      /* lib/report/page/ */
 
-/* The text of the file of that path, or NULL. */
+/* Returns the text of the file of that path, or NULL. */
 const char *kiln_embedded_find(const struct kiln_embedded_file *table, const char *path);
 
 #endif

@@ -1,5 +1,5 @@
-/* Errors are values: a code and one line, written where the fault is found and printed once, by
- * whoever called the library. */
+/* Fills struct kiln_error, a code and one line of message. An error is a value: it is written where
+ * the fault is found, and the caller of the library prints it once. */
 #include "base/error.h"
 
 #include <errno.h>
@@ -21,7 +21,8 @@ static void drop_cut_character(char *text)
         text[length - 1] = '\0';
 }
 
-/* Bytes that the caller's struct has for a message; one of size 0 is of this version. */
+/* Returns how many bytes the caller's struct has for a message. A struct of size 0 counts as one of
+ * this version. */
 static size_t message_room(const struct kiln_error *error)
 {
     const size_t before = offsetof(struct kiln_error, message);

@@ -1,4 +1,4 @@
-/* Filling struct kiln_error. */
+/* Declares the functions that fill struct kiln_error. */
 #ifndef KILN_BASE_ERROR_H
 #define KILN_BASE_ERROR_H
 
@@ -9,8 +9,8 @@
 bool kiln_error_set(struct kiln_error *error, enum kiln_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The same with ": " and the text of an errno value after the message. ENOMEM is KILN_DEVICE_FAILED
- * whatever the code: that memory is short says nothing of a file. */
+/* Does what kiln_error_set does, and adds ": " and the text of an errno value to the message.
+ * ENOMEM is KILN_DEVICE_FAILED whatever the code: that memory is short says nothing of a file. */
 bool kiln_error_set_errno(struct kiln_error *error, enum kiln_code code, int errnum,
                           const char *format, ...) __attribute__((format(printf, 4, 5)));
 

@@ -1,6 +1,7 @@
-/* Opens FFmpeg's libraries, and hears their messages. Both are facts of the whole process, so they
- * are the state of this file: the table of functions, and FFmpeg's one log callback, which gets no
- * pointer of ours. A pointer per thread, NULL outside of a pair, says whose messages these are. */
+/* Opens FFmpeg's libraries and receives their log messages. Two things are state of this file,
+ * since a process has them once: the table of FFmpeg's functions, and FFmpeg's one log callback,
+ * which gets no pointer of ours. So a pointer per thread says where the messages of that thread go;
+ * it is NULL outside of kiln_avlog_begin and kiln_avlog_end. */
 #include "base/ffmpeg.h"
 
 #include <pthread.h>
@@ -26,7 +27,7 @@ static const struct kiln_library_function format_functions[] = {KILN_AVFORMAT_FU
             sizeof(functions) / sizeof *(functions), false                                         \
     }
 
-/* Libraries of the versions that the headers describe. */
+/* The libraries, by the names of the versions that the headers describe. */
 static struct library {
     const char *file, *package;
     const struct kiln_library_function *functions;

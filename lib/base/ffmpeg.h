@@ -1,5 +1,6 @@
-/* FFmpeg's libraries, opened when a clip or a JPEG is written, or by kiln-decode. A function of
- * FFmpeg is called as kiln_ff.av_frame_alloc(), after kiln_ffmpeg_open. */
+/* Declares FFmpeg's libraries, which are opened when a clip or a JPEG is written, or by
+ * kiln-decode. A function of FFmpeg is called as kiln_ff.av_frame_alloc(), after kiln_ffmpeg_open.
+ */
 #ifndef KILN_BASE_FFMPEG_H
 #define KILN_BASE_FFMPEG_H
 
@@ -117,7 +118,7 @@ struct kiln_ffmpeg {
 /* Set by kiln_ffmpeg_open and never again. */
 extern struct kiln_ffmpeg kiln_ff;
 
-/* What there is to open: the libraries that code pictures, or these and libavformat. */
+/* Which libraries to open: the ones that encode and decode pictures, or these and libavformat. */
 enum kiln_ffmpeg_part { KILN_FFMPEG_PICTURES, KILN_FFMPEG_CLIPS };
 
 /* Opens libraries that are not open yet. KILN_IO with the package of Debian that brings them when

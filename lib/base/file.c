@@ -48,7 +48,7 @@ static bool read_bytes(int file, const char *path, char *text, size_t expected, 
     while (length < expected) {
         ssize_t count = read(file, text + length, expected - length);
         if (count == 0)
-            break; /* it shrank */
+            break; /* the file has become shorter */
         if (count < 0 && errno != EINTR)
             return kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
         length += count > 0 ? (size_t)count : 0;

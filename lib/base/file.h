@@ -1,10 +1,10 @@
-/* Paths, and text files in: whole, of limited size, and never something else than a file. */
+/* Joins and compares paths, and reads text files whole: only regular files, of limited size. */
 #ifndef KILN_BASE_FILE_H
 #define KILN_BASE_FILE_H
 
 #include "kiln.h"
 
-/* "FOLDER/NAME"; KILN_IO when that is too long. */
+/* Writes "FOLDER/NAME"; KILN_IO when it is too long. */
 bool kiln_path_join(char path[KILN_PATH_SIZE], const char *folder, const char *name,
                     struct kiln_error *error);
 

@@ -1,4 +1,5 @@
-/* Files as they are given by people: they may be anything. */
+/* Reads files that a user names into memory, whole. The path may lead to anything (a folder, a
+ * FIFO, a device), so each file is checked after it is opened, and opening never waits. */
 #include "base/file_in.h"
 
 #include <errno.h>
@@ -43,7 +44,7 @@ static bool read_all(int file, unsigned char *bytes, size_t size)
         if (got < 0 && errno == EINTR)
             continue;
         if (got == 0)
-            errno = ENODATA; /* it has become shorter meanwhile */
+            errno = ENODATA; /* the file has become shorter meanwhile */
         if (got <= 0)
             return false;
         done += (size_t)got;

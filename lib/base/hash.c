@@ -1,4 +1,5 @@
-/* Nettle's SHA-256 takes the processor's own instructions where it has them. */
+/* Computes SHA-256 of bytes, files and descriptors, by Nettle, which uses the processor's
+ * instructions for SHA-256 where there are any. */
 #include "base/hash.h"
 
 #include <errno.h>

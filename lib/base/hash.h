@@ -1,4 +1,4 @@
-/* SHA-256, by Nettle: names of contents, not protection. */
+/* Computes SHA-256, by Nettle. The hashes name contents; they protect nothing. */
 #ifndef KILN_BASE_HASH_H
 #define KILN_BASE_HASH_H
 
@@ -8,8 +8,8 @@
 /* Writes the hash of size bytes in lower-case hex. */
 void kiln_hash_sha256(const void *bytes, size_t size, char hex[65]);
 
-/* The same of a file's contents, and of those of a descriptor from its start on, wherever it
- * stands; false, with errno, when they cannot be read. */
+/* Write the hash of a file's contents. A descriptor is read from the start of its file, wherever it
+ * stands. False, with errno, when the contents cannot be read. */
 bool kiln_hash_sha256_file(const char *path, char hex[65]);
 bool kiln_hash_sha256_descriptor(int file, char hex[65]);
 

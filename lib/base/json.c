@@ -1,5 +1,5 @@
-/* The one place that knows the punctuation of JSON. A level of brackets remembers whether it has an
- * item, for commas, and where its lines begin; all else goes straight to the sink, so that a
+/* Writes JSON; no other file writes its punctuation. Each open level of brackets remembers whether
+ * it has an item, for commas, and where its lines begin. All bytes go straight to the sink, so a
  * document is never held as a whole. */
 #include "base/json.h"
 
@@ -80,7 +80,7 @@ static void put_string(struct kiln_json *json, const char *string)
 {
     char escaped[8];
     put(json, "\"");
-    const char *plain = string; /* from here on nothing is written yet */
+    const char *plain = string; /* the text from here to c is not written yet */
     for (const char *c = string; *c;) {
         if (!escape(json, c, escaped)) {
             c += kiln_text_utf8_length(c);

@@ -1,4 +1,5 @@
-/* JSON into a text that grows, beside the writer of kiln.h. */
+/* Declares a JSON writer that adds to a growing text; kiln.h declares the other functions of the
+ * writer. */
 #ifndef KILN_BASE_JSON_H
 #define KILN_BASE_JSON_H
 

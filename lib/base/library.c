@@ -1,4 +1,5 @@
-/* Opens shared libraries by the dynamic linker, with all that they are linked with. */
+/* Opens shared libraries by the dynamic linker (dlopen), and finds functions in them by their
+ * names. */
 #include "base/library.h"
 
 #include <dlfcn.h>
@@ -22,7 +23,7 @@ bool kiln_library_open(const char *file, const char *package,
         if (!found)
             return kiln_error_set(error, KILN_IO, "the library %s has no function %s", file,
                                   functions[i].name);
-        /* POSIX: a pointer to an object holds one to a function. */
+        /* In POSIX, a pointer to an object can hold a pointer to a function. */
         memcpy(functions[i].pointer, &found, sizeof found);
     }
     return true;

@@ -1,5 +1,5 @@
-/* Shared libraries that are opened when they are needed, so that a run that does not need them
- * neither waits for them nor fails without them. */
+/* Opens shared libraries when they are needed, so that a run that does not need them neither waits
+ * for them nor fails without them. */
 #ifndef KILN_BASE_LIBRARY_H
 #define KILN_BASE_LIBRARY_H
 

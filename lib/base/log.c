@@ -1,4 +1,4 @@
-/* The library prints nothing: a line goes to whoever asked for it. */
+/* Formats a line and hands it to the caller's log callback. The library itself prints nothing. */
 #include "base/log.h"
 
 #include <stdarg.h>

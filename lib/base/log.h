@@ -1,4 +1,4 @@
-/* Lines for the caller's log callback. */
+/* Hands lines to the caller's log callback. */
 #ifndef KILN_BASE_LOG_H
 #define KILN_BASE_LOG_H
 

@@ -1,4 +1,5 @@
-/* Asks for transparent huge pages by madvise, which most systems want to be asked for them. */
+/* Allocates memory in transparent huge pages. It asks for them by madvise, since most systems give
+ * them only on request. */
 #include "base/pages.h"
 
 #include <stdint.h>

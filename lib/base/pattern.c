@@ -1,4 +1,5 @@
-/* The user's text is read here, piece by piece, and never handed to printf as a format. */
+/* Reads and fills the pattern of an output's file name, such as "frame_####.png". The user's text
+ * is read here piece by piece and is never handed to printf as a format. */
 #include "base/pattern.h"
 
 #include <string.h>
@@ -7,7 +8,7 @@
 
 enum { DEFAULT_DIGITS = 4, MAX_DIGITS = 9, MAX_NAME = 255 };
 
-/* The length of a "%d" or "%04d" at text, or 0. */
+/* Returns the length of a "%d" or "%04d" at text, or 0. */
 static size_t percent_length(const char *text, uint32_t *digits)
 {
     size_t width = strspn(text + 1, "0123456789");
@@ -32,7 +33,7 @@ static bool folder_has_number(const char *path, const char *name)
 
 struct reading {
     struct kiln_path_pattern *pattern;
-    const char *path; /* whole, for messages */
+    const char *path; /* the whole path, for messages */
     struct kiln_error *error;
 };
 
@@ -86,7 +87,7 @@ static bool read_name(const struct reading *reading, const char *name)
     return true;
 }
 
-/* "beam.png" becomes "beam_", digits, ".png". */
+/* Adds a number to a name without one: "beam.png" becomes "beam_", digits, ".png". */
 static void add_number(struct kiln_path_pattern *pattern)
 {
     char *dot = strrchr(pattern->before, '.');

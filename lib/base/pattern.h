@@ -1,4 +1,4 @@
-/* Where the number of a frame goes in a file name. */
+/* Says where the number of a frame goes in a file name. */
 #ifndef KILN_BASE_PATTERN_H
 #define KILN_BASE_PATTERN_H
 
@@ -9,13 +9,13 @@ struct kiln_path_pattern {
     char before[KILN_PATH_SIZE];
     char after[256];
     bool numbered;
-    uint32_t digits; /* at least; larger numbers just grow */
+    uint32_t digits; /* at least so many are written; a larger number takes more */
 };
 
-/* Where the names of the files come from. */
+/* Whether the names of an output's files have a number. */
 enum kiln_numbering {
     KILN_NUMBER_NEVER,    /* one file for all frames: a number in the name is an error */
-    KILN_NUMBER_IF_ASKED, /* one frame */
+    KILN_NUMBER_IF_ASKED, /* a single frame: with a number only if the name has one */
     KILN_NUMBER_ALWAYS,   /* several frames: "_0000" is added when the name has no number */
 };
 

@@ -1,4 +1,5 @@
-/* Walks over ranges of frames, which are few. */
+/* Finds frames in ascending ranges of frames. A walk over the ranges is enough, since they are few.
+ */
 #include "base/ranges.h"
 
 uint64_t kiln_ranges_count(const struct kiln_frame_range *ranges, size_t range_count)

@@ -1,4 +1,5 @@
-/* Unicode 15, "Bidi_Control" and general categories Cc, Zl and Zp. */
+/* Escapes the characters of a text that would act on a terminal or on the text around them. These
+ * are Unicode 15's general categories Cc, Zl and Zp and its property "Bidi_Control". */
 #include "base/shown.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* What the processor says of itself. */
+/* Asks the processor which vector instructions it has, and chooses the level that kiln's vector
+ * code uses. The environment variable KILN_SIMD overrides the choice. */
 #include "base/simd.h"
 
 #include <stdlib.h>

@@ -22,7 +22,8 @@
 
 #include "kiln.h"
 
-/* Of one kind of processor, narrowest first; each has what the ones before it have. */
+/* The levels, narrowest first. Each level of one kind of processor has the instructions of that
+ * kind's narrower ones. */
 enum kiln_simd {
     KILN_SIMD_PLAIN,  /* any machine: what the compiler makes of vectors; SSE2 on x86-64 */
     KILN_SIMD_SSE41,  /* SSE4.1 */
@@ -32,7 +33,7 @@ enum kiln_simd {
     KILN_SIMD_COUNT
 };
 
-/* What the file at hand is compiled for. */
+/* The level that the present file is compiled for. */
 #ifndef KILN_SIMD_LEVEL
 #define KILN_SIMD_LEVEL 0
 #endif
@@ -53,7 +54,7 @@ enum kiln_simd {
 #define KILN_SIMD_LEVELS 1
 #endif
 
-/* The narrowest of them. */
+/* The narrowest level that this build has. */
 #define KILN_SIMD_NARROWEST                                                                        \
     (KILN_SIMD_LEVELS & 1   ? KILN_SIMD_PLAIN                                                      \
      : KILN_SIMD_LEVELS & 2 ? KILN_SIMD_SSE41                                                      \
@@ -61,7 +62,7 @@ enum kiln_simd {
      : KILN_SIMD_LEVELS & 8 ? KILN_SIMD_AVX512                                                     \
                             : KILN_SIMD_NEON)
 
-/* A level's own, NULL where the build lacks the level. */
+/* Each of these names a level's export, or NULL where the build lacks the level. */
 #if KILN_SIMD_LEVELS & 1
 #define KILN_SIMD_OF_PLAIN(name) &name##_plain
 #else
@@ -88,7 +89,7 @@ enum kiln_simd {
 #define KILN_SIMD_OF_NEON(name) (__typeof__(&name##_neon))NULL
 #endif
 
-/* Declares what is exported, and takes the address of a level's. */
+/* The first macro declares an export of all levels; the second takes the address of one level's. */
 #define KILN_SIMD_DECLARE(type, name)                                                              \
     extern type name##_plain, name##_sse41, name##_avx2, name##_avx512, name##_neon
 #define KILN_SIMD_PICK(name, simd)                                                                 \
@@ -101,11 +102,11 @@ enum kiln_simd {
 /* "plain", "sse4.1", "avx2", "avx512", "neon". */
 const char *kiln_simd_name(enum kiln_simd simd);
 
-/* Whether this machine and this build have it. */
+/* Returns whether this machine and this build have a level. */
 bool kiln_simd_has(enum kiln_simd simd);
 
-/* The widest that there is, or the one that the environment names by KILN_SIMD: for tests, and for
- * measuring what a lesser machine would take. KILN_USAGE for another name. */
+/* Chooses the widest level that there is, or the one that the environment variable KILN_SIMD names:
+ * for tests, and for measuring the speed of a lesser machine. KILN_USAGE for another name. */
 bool kiln_simd_choose(enum kiln_simd *simd, struct kiln_error *error);
 
 #endif

@@ -1,11 +1,13 @@
-/* The first member of such a struct is a size_t with the bytes of all. */
+/* Copies structs that begin with their own size between the library and a caller that may have been
+ * built against another version. The first member of such a struct is a size_t with the bytes of
+ * the whole struct. */
 #include "base/sized.h"
 
 #include <string.h>
 
 #include "base/error.h"
 
-enum { MOST = 1 << 20 }; /* bytes: far more than any struct */
+enum { MOST = 1 << 20 }; /* bytes; every struct is far smaller */
 
 static size_t size_of(const void *sized)
 {

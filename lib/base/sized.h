@@ -1,5 +1,5 @@
-/* Structs that begin with their size (kiln.h), on their way between a caller that was built against
- * another version and the library. */
+/* Copies structs that begin with their size (kiln.h) between the library and a caller that was
+ * built against another version. */
 #ifndef KILN_BASE_SIZED_H
 #define KILN_BASE_SIZED_H
 
@@ -10,8 +10,8 @@
  * version had. */
 bool kiln_sized_take(void *own, const void *given, const char *what, struct kiln_error *error);
 
-/* Whether results can be given there: KILN_USAGE for a size that no version had. NULL: they are not
- * wanted. */
+/* Checks that results can be copied to `out`: KILN_USAGE for a size that no version had. NULL is
+ * allowed: the caller wants no results. */
 bool kiln_sized_check(const void *out, const char *what, struct kiln_error *error);
 
 /* Gives results as far as the caller's struct has room for them; its size stays. out may be NULL.

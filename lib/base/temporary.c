@@ -1,7 +1,8 @@
-/* Temporary names are the one state of the library at file scope: kiln_abandon_outputs must find
- * them from a signal handler, where no lock and no owner can be asked. So they lie in a table of
- * fixed size. A slot is claimed and released by an atomic, its path is written before it is marked
- * as armed, and a file exists only while its slot is armed. */
+/* Writes files under temporary names and renames them when they are complete. The table of
+ * temporary names is the only state of the library at file scope: kiln_abandon_outputs must find
+ * the names from a signal handler, which can take no lock and has no pointer to an owner. So the
+ * table has a fixed size. A slot is claimed and released by an atomic, its path is written before
+ * it is marked as armed, and a file exists only while its slot is armed. */
 #include "base/temporary.h"
 
 #include <assert.h>
@@ -27,7 +28,7 @@ static struct slot {
     char path[KILN_PATH_SIZE];
 } slots[SLOT_COUNT];
 
-static atomic_bool abandoned; /* the process is about to end: no new files */
+static atomic_bool abandoned; /* set when the process is about to end: then no new file is opened */
 
 static int claim_slot(void)
 {
@@ -91,7 +92,8 @@ bool kiln_make_parent_folders(const char *path, struct kiln_error *error)
     return true;
 }
 
-/* ".NAME.kiln-PID-N.tmp" beside the target; a long NAME is cut, since names have a limit. */
+/* Writes the path ".NAME.kiln-PID-N.tmp" in the target's folder. A long NAME is cut, since file
+ * names have a limit. */
 static bool write_temporary_name(char path[KILN_PATH_SIZE], const char *target, int number)
 {
     const char *slash = strrchr(target, '/');
@@ -101,7 +103,7 @@ static bool write_temporary_name(char path[KILN_PATH_SIZE], const char *target, 
     return length < KILN_PATH_SIZE;
 }
 
-/* Opens a new file, locked for as long as someone writes it; -1 with errno. */
+/* Opens a new file and locks it until it is closed. Returns -1 with errno on failure. */
 static int open_locked(const char *path)
 {
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -111,13 +113,14 @@ static int open_locked(const char *path)
     bool taken = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (!taken && fstat(file, &status) == 0 && status.st_nlink > 0)
         return file;
-    close(file); /* another took it for abandoned, right after it was made */
+    close(file); /* another process took the new file for an abandoned one */
     errno = EEXIST;
     return -1;
 }
 
-/* Removes a file whose writer was killed: one that nobody locks. Else a job that is killed and
- * tried again under the same process number, as in a container, would run out of names. */
+/* Removes a file whose writer was killed: no process locks it. If such files stayed, a job that is
+ * killed and tried again under the same process number, as in a container, would run out of names.
+ */
 static bool remove_abandoned(const char *path)
 {
     /* Without O_NONBLOCK, opening a pipe would wait for its reader. */
@@ -131,7 +134,7 @@ static bool remove_abandoned(const char *path)
     return removed;
 }
 
-/* The folder of a target; false when its name is too long. */
+/* Writes the folder of a target; false when its name is too long. */
 static bool folder_of(const char *target, char folder[KILN_PATH_SIZE])
 {
     const char *slash = strrchr(target, '/');
@@ -174,7 +177,7 @@ void kiln_temporary_sweep(const char *target)
     free(entries);
 }
 
-/* A new file in an armed slot, or -1 with errno. */
+/* Creates a file in an armed slot. Returns -1 with errno on failure. */
 static int create_file(int slot, const char *target)
 {
     int number = slot;
@@ -194,7 +197,7 @@ static int create_file(int slot, const char *target)
             errno = ECANCELED;
         if (file >= 0 || errno != EEXIST)
             return file;
-        atomic_store(&slots[slot].state, SLOT_CLAIMED); /* another's file */
+        atomic_store(&slots[slot].state, SLOT_CLAIMED); /* another process has this file */
         if (!remove_abandoned(slots[slot].path))
             number += SLOT_COUNT;
     }
@@ -245,7 +248,8 @@ bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, s
     return temporary->failure == 0;
 }
 
-/* Too many bytes are the reason where they are, whatever failed then. */
+/* Says why a file failed. When the output is over its limit, that is the reason, whatever errno
+ * says. */
 static bool fail(const struct kiln_temporary *temporary, int failure, struct kiln_error *error)
 {
     return kiln_budget_take(temporary->budget, KILN_LIMIT_output, 0, temporary->target, error) &&
@@ -272,8 +276,8 @@ static void end(struct kiln_temporary *temporary)
     *temporary = (struct kiln_temporary){.file = -1, .slot = -1, .failure = EBADF};
 }
 
-/* Renames; without overwrite, fails where a file has appeared meanwhile. File systems that cannot
- * promise that get a plain rename: the name was free when the job began. */
+/* Renames a file. Without overwrite, it fails where a file has appeared meanwhile. A file system
+ * without RENAME_NOREPLACE gets a plain rename: the name was free when the job began. */
 static bool move_into_place(const char *path, const char *target, bool overwrite)
 {
     if (!overwrite) {
@@ -285,8 +289,9 @@ static bool move_into_place(const char *path, const char *target, bool overwrite
     return rename(path, target) == 0;
 }
 
-/* Closes the file under the name it has; errno of what failed since it was opened, or 0. Another
- * descriptor keeps its lock, so that nobody takes it for abandoned before it has its last name. */
+/* Closes a file, which keeps its temporary name. Returns the errno of the first failure since it
+ * was opened, or 0. A second descriptor keeps its lock, so that no process takes the file for
+ * abandoned before it is renamed. */
 static int close_file(struct kiln_temporary *temporary, int *lock)
 {
     *lock = fcntl(temporary->file, F_DUPFD_CLOEXEC, 0);
@@ -297,7 +302,8 @@ static int close_file(struct kiln_temporary *temporary, int *lock)
     return temporary->failure;
 }
 
-/* Makes names in a target's folder last. What cannot be synchronised is none the worse for it. */
+/* Synchronises a target's folder, so that the names in it outlast a crash. Failures are ignored:
+ * then the file is as safe as without this call. */
 static void sync_folder(const char *target)
 {
     char folder[KILN_PATH_SIZE];
@@ -316,7 +322,7 @@ bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
     return kiln_temporary_commit_all(&temporary, 1, overwrite, error);
 }
 
-/* That all are whole and may get their names. */
+/* Closes all files, and checks that each is whole and may get its name. */
 static bool close_all(struct kiln_temporary *const *files, size_t count, bool overwrite, int *locks,
                       struct kiln_error *error)
 {
@@ -331,7 +337,8 @@ static bool close_all(struct kiln_temporary *const *files, size_t count, bool ov
     return good;
 }
 
-/* How many got their names; all, unless there is an error. */
+/* Renames the files in their order. Returns how many got their names: all, unless there is an
+ * error. */
 static size_t rename_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
                          struct kiln_error *error)
 {
@@ -385,6 +392,6 @@ bool kiln_temporary_write_file(const char *path, const void *bytes, size_t size,
     if (!kiln_target_check(path, true, error) || !kiln_make_parent_folders(path, error) ||
         !kiln_temporary_open(&file, path, error))
         return false;
-    kiln_temporary_write(&file, bytes, size); /* commit tells of failures */
+    kiln_temporary_write(&file, bytes, size); /* kiln_temporary_commit reports a failure */
     return kiln_temporary_commit(&file, true, error);
 }

@@ -1,5 +1,5 @@
-/* Files that appear whole or not at all: written beside their place under a temporary name, and
- * renamed when complete. */
+/* Writes files that appear whole or not at all: each is written in its target's folder under a
+ * temporary name, and renamed when complete. */
 #ifndef KILN_BASE_TEMPORARY_H
 #define KILN_BASE_TEMPORARY_H
 

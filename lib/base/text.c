@@ -1,4 +1,5 @@
-/* Numbers are read and written in the C locale whatever the process has set, so that a scene means
+/* Reads and writes numbers, finds the nearest of several names, and holds texts that grow. Numbers
+ * are read and written in the C locale, whatever locale the process has set, so that a scene means
  * the same everywhere. */
 #include "base/text.h"
 
@@ -14,7 +15,8 @@
 
 bool kiln_text_to_double(const char *text, double *value)
 {
-    /* strtod also takes leading blanks, hexadecimal, "inf" and "nan": none is a number here. */
+    /* strtod also takes leading blanks, hexadecimal, "inf" and "nan", none of which is a number in
+     * a scene. */
     if (strspn(text, "+-.0123456789eE") != strlen(text) || *text == '\0')
         return false;
     locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
@@ -75,7 +77,8 @@ void kiln_text_from_double(char out[32], double value)
 
 enum { MAX_NAME = 64 };
 
-/* Optimal string alignment distance: insert, delete, replace, swap neighbours. */
+/* Computes the optimal string alignment distance: insertions, deletions, replacements, and swaps of
+ * neighbours. */
 static size_t edit_distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
     size_t row[3][MAX_NAME + 1];

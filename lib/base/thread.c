@@ -1,6 +1,7 @@
-/* A fixed pool: workers sleep on a condition until a loop is posted, then take pieces from an
- * atomic counter. Who posts a loop works, too, and waits for nobody who has not begun when there
- * are no pieces left: on busy machines a worker may wake up late. */
+/* Runs loops on a fixed pool of worker threads. Workers sleep on a condition until a loop is
+ * posted, then take pieces of it from an atomic counter. The thread that posts a loop works on it,
+ * too. Once no pieces are left, it waits only for workers that have begun one: on a busy machine a
+ * worker may wake up late. */
 #include "base/thread.h"
 
 #include <pthread.h>
@@ -16,7 +17,8 @@ enum {
     COPY_AT_A_TIME = 1 << 20, /* bytes */
 };
 
-/* Between two questions whether to go on: much less than a second, much more than they cost. */
+/* Seconds between two calls of may_go_on: much less than a second, and much more than a call takes.
+ */
 #define ASK_EVERY_S 0.02
 
 struct worker {
@@ -41,7 +43,7 @@ struct kiln_threads {
     atomic_size_t next;
 
     struct kiln_caller caller;
-    bool asks; /* the present loop does */
+    bool asks; /* whether the present loop asks the caller */
     double asked_s;
     bool stopped;
     struct kiln_error reason; /* when stopped */
@@ -58,7 +60,8 @@ uint32_t kiln_threads_available(void)
     return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (uint32_t)count;
 }
 
-/* Whether the loop goes on. Asked by the thread that posted it alone. */
+/* Asks the caller, now and then, whether the loop goes on. Only the thread that posted the loop
+ * calls this. */
 static bool go_on(struct kiln_threads *pool)
 {
     const double now_s = kiln_clock_seconds();

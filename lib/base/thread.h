@@ -1,4 +1,4 @@
-/* Worker threads for loops over ranges. */
+/* Runs loops over ranges on worker threads. */
 #ifndef KILN_BASE_THREAD_H
 #define KILN_BASE_THREAD_H
 
@@ -23,17 +23,18 @@ void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
                       void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
                       void *context);
 
-/* Whom kiln_threads_try asks, on the thread that calls it; nobody at first. */
+/* Sets the caller that kiln_threads_try asks, on the thread that calls it, whether to go on. A new
+ * pool asks none. */
 void kiln_threads_ask(struct kiln_threads *threads, const struct kiln_caller *caller);
 
-/* The same loop, given up when the caller wants no more: then false with the caller's error, pieces
- * are missing, and every later kiln_threads_try of these threads does nothing. For loops whose
- * results only end up in pixels. */
+/* Runs a loop as kiln_threads_for does, but gives it up when the caller wants no more. Then it
+ * returns false with the caller's error, pieces are missing, and every later kiln_threads_try of
+ * these threads does nothing. It is for loops whose results only end up in pixels. */
 bool kiln_threads_try(struct kiln_threads *threads, size_t count, size_t grain,
                       void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
                       void *context, struct kiln_error *error);
 
-/* memcpy by such a loop. */
+/* Copies bytes by kiln_threads_try. */
 bool kiln_threads_copy(struct kiln_threads *threads, void *to, const void *from, size_t bytes,
                        struct kiln_error *error);
 

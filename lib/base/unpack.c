@@ -1,4 +1,5 @@
-/* zstd takes memory of its own while it unpacks: that it got none says nothing about the bytes. */
+/* Unpacks a frame of zstd. That zstd gets no memory of its own is KILN_DEVICE_FAILED, since it says
+ * nothing about the bytes; every other failure is KILN_INVALID_INPUT. */
 #include "base/unpack.h"
 
 #include <zstd.h>

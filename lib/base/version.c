@@ -1,4 +1,4 @@
-/* The version of the library, for callers whose header may be of another one. */
+/* Returns the version of the library, for callers whose header may be of another version. */
 #include "kiln.h"
 
 const char *kiln_version(void)

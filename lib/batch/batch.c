@@ -1,5 +1,4 @@
-/* Reads files of jobs by an option table, as scenes are read: the same errors, the same reference.
- */
+/* Reads files of jobs by an option table, with the errors and the reference that scenes have. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,7 +36,7 @@ struct kiln_batch {
 
 #define AT(field) offsetof(struct entry, field)
 
-/* name, field, smallest length, default, help */
+/* Makes the row of a text: name, field, smallest length, default, help. */
 #define TEXT(n, f, least, def, h)                                                                  \
     {                                                                                              \
         ROW(NO_PART, n, text, AT(f), def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                  \
@@ -109,7 +108,8 @@ static bool out_of_memory(struct kiln_error *error)
     return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading jobs");
 }
 
-/* A path as the file at `base` means it; NULL for an empty one, or when memory is short. */
+/* Resolves a path relative to the file at `base`; NULL for an empty path, or when memory is short.
+ */
 static const char *resolve(struct kiln_batch *batch, const char *base, const char *path)
 {
     const char *slash = base ? strrchr(base, '/') : NULL;
@@ -130,7 +130,7 @@ static bool make_room(struct kiln_batch *batch)
     return true;
 }
 
-/* The entry lies in the batch's arena. */
+/* Adds the job of an entry, which lies in the batch's arena. */
 static bool add_job(struct kiln_batch *batch, const struct entry *entry, const char *base,
                     struct kiln_error *error)
 {
@@ -192,7 +192,7 @@ static bool read_yaml(struct kiln_batch *batch, const char *text, size_t size, c
     return ok;
 }
 
-/* A line of JSON, which YAML has as a flow mapping. */
+/* Reads a line of JSON, which is also a flow mapping of YAML. */
 static bool read_line(struct kiln_batch *batch, const char *text, size_t size, uint32_t number,
                       const char *name, const char *base, struct kiln_error *error)
 {
@@ -216,7 +216,7 @@ static bool read_line(struct kiln_batch *batch, const char *text, size_t size, u
     return ok;
 }
 
-/* base: where relative paths start, or NULL. Empty lines are passed over. */
+/* Reads lines of JSON; empty lines are passed over. base: where relative paths start, or NULL. */
 static bool read_lines(struct kiln_batch *batch, const char *text, size_t size, const char *name,
                        const char *base, struct kiln_error *error)
 {
@@ -239,7 +239,7 @@ static bool has_suffix(const char *path, const char *suffix)
     return length > end && strcmp(path + length - end, suffix) == 0;
 }
 
-/* base: where relative paths start, or NULL. */
+/* Parses a file of jobs. base: where relative paths start, or NULL. */
 static struct kiln_batch *parse(const char *text, size_t size, const char *name, const char *base,
                                 enum kiln_batch_format format, struct kiln_error *error)
 {

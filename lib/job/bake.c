@@ -1,4 +1,5 @@
-/* Saves states of a run on its way through a clip. */
+/* Steps a scene through its clip once and saves states of the simulation at regular frames, from
+ * which later runs can start. */
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,11 +20,12 @@ struct bake {
     struct kiln_loop *loop;
     struct kiln_states *states;
     uint32_t every;
-    struct kiln_baked baked; /* the one at hand */
+    struct kiln_baked baked; /* the state that was saved or kept last */
     struct kiln_bake_stats stats;
 };
 
-/* The frames before which states are saved. Before the first step there is nothing to save. */
+/* Returns the first frame before which a state is saved. Without warm-up steps that is not frame 0,
+ * since there is nothing to save before the first step. */
 static uint32_t first_frame(const struct bake *bake)
 {
     return bake->scene->warmup_steps > 0 ? 0 : bake->every;
@@ -35,7 +37,7 @@ static uint32_t count_states(const struct bake *bake)
     return first < frames ? (frames - 1 - first) / bake->every + 1 : 0;
 }
 
-/* That no file is in the way, before hours go by. */
+/* Checks before the first step that no file has the name of a state, since a run may take hours. */
 static bool check_files(const struct bake *bake, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
@@ -50,7 +52,7 @@ static bool check_files(const struct bake *bake, struct kiln_error *error)
     return true;
 }
 
-/* Whether the file of the state at hand can stay as it is. */
+/* Returns whether the state of this step has been saved before and can stay as it is. */
 static bool is_kept(const struct bake *bake, uint32_t step)
 {
     struct kiln_error reason = {0};

@@ -1,4 +1,5 @@
-/* The files of a job: what its scene was read from, and what it writes. */
+/* Claims the files of a job, so that none is written twice or both read and written: the files that
+ * its scene was read from, its outputs, its journal and its manifest. */
 #include "job/journal.h"
 #include "kiln_program.h"
 #include "output/output.h"

@@ -1,6 +1,6 @@
-/* Makes a clip of images that are there already. What kiln's own images say of themselves (scene,
- * seed, number, rate) goes into the clip, so that it has the bytes of one that was drawn at once.
- */
+/* Makes a clip of images that were drawn before. What kiln's own images say of themselves (scene,
+ * seed, number, rate) goes into the clip, so that it has the same bytes as a clip that was drawn at
+ * once. */
 #include <dirent.h>
 #include <inttypes.h>
 #include <stdlib.h>
@@ -26,20 +26,21 @@ struct encode {
     struct kiln_caller caller;
     struct kiln_threads *threads;
     struct kiln_footage *footage;
-    uint32_t count; /* of frames */
+    uint32_t count; /* the number of frames */
     struct kiln_output *output;
     enum kiln_tonemap tonemap;
 
-    /* Of the first frame, and so of all. */
+    /* Properties of the first frame; all others must have the same. */
     char first[KILN_PATH_SIZE];
     struct kiln_carried carried;
-    struct kiln_asset_image *image; /* its pixels go when it is written */
+    struct kiln_asset_image *image; /* its pixels are freed when the frame is written */
     uint32_t number, bits;
     bool alpha;
 };
 
-/* EXR images of kiln always have the channel and say whether it counts: smoke may cover all of a
- * frame. In others it counts where something is not covered. */
+/* Returns whether an image's alpha counts. kiln's EXR images always have the channel and say
+ * whether it counts, since smoke may cover all of a frame. In other EXR images it counts where a
+ * pixel is not covered. */
 static bool has_alpha(const struct kiln_asset_image *image, const struct kiln_carried *carried)
 {
     const bool has = image->channels == 2 || image->channels == 4;
@@ -66,7 +67,7 @@ static bool count_frame(void *user, const struct kiln_footage_frame *frame)
     return true;
 }
 
-/* The next picture, what it says of itself, and which frame it is. */
+/* Reads the next image, what it says of itself, and the number of its frame. */
 static struct kiln_asset_image *read_frame(struct encode *encode, char path[KILN_PATH_SIZE],
                                            struct kiln_carried *carried, uint32_t *number,
                                            struct kiln_error *error)
@@ -90,7 +91,7 @@ static struct kiln_asset_image *read_frame(struct encode *encode, char path[KILN
     return image;
 }
 
-/* Pictures of light need to be told how they become colours, and others must not. */
+/* Checks --tonemap: float images need a tone mapping, and images of colours must have none. */
 static bool check_tonemap(struct encode *encode, struct kiln_error *error)
 {
     const char *name = encode->params->tonemap;
@@ -144,7 +145,8 @@ static bool find_rate(const struct encode *encode, uint64_t *num, uint64_t *den,
                           *text ? "has a rate that no clip has" : "does not say its rate");
 }
 
-/* The hash of a scene, or "": anybody may have written into the file. */
+/* Returns the hash of the scene that an image names, or "" where it is no hash: any program may
+ * have written the file. */
 static const char *scene_of(const struct kiln_carried *carried)
 {
     const bool is_hash = strspn(carried->scene, "0123456789abcdef") == 64;
@@ -162,7 +164,7 @@ static bool check_format(const struct kiln_output_params *files, struct kiln_err
                           files->path, files->format->name);
 }
 
-/* Nothing that is read is replaced. */
+/* Claims all files, so that the clip replaces no image that is read. */
 static bool claim(const struct encode *encode, const struct kiln_output_params *files,
                   struct kiln_error *error)
 {
@@ -175,7 +177,7 @@ static bool claim(const struct encode *encode, const struct kiln_output_params *
     return ok;
 }
 
-/* The journal of the job that drew the images: beside them, or in their folder. */
+/* Finds the journal of the job that drew the images, beside them or in their folder. */
 static bool find_job(const struct encode *encode, struct kiln_journal_head *head,
                      struct kiln_arena *arena)
 {
@@ -201,7 +203,7 @@ static bool find_job(const struct encode *encode, struct kiln_journal_head *head
     return found;
 }
 
-/* Images of a job that has not ended are whole, but not all of it. */
+/* Warns when the job that drew the images has not ended: then frames are missing. */
 static void warn_of_missing(const struct encode *encode)
 {
     struct kiln_arena *arena = kiln_arena_create();
@@ -283,7 +285,8 @@ static const char *name_type(const struct kiln_asset_image *image)
     return names[image->type];
 }
 
-/* All frames must be of one clip. */
+/* Checks that a frame has the size, type and alpha, and is of the scene and seed, of the first
+ * frame. */
 static bool check_frame(const struct encode *encode, const struct kiln_asset_image *image,
                         const struct kiln_carried *carried, const char *path,
                         struct kiln_error *error)
@@ -294,7 +297,8 @@ static bool check_frame(const struct encode *encode, const struct kiln_asset_ima
                               image->width, image->height, encode->first, first->width,
                               first->height);
     const bool alpha = has_alpha(image, carried);
-    /* A picture that others made may be covered by chance. */
+    /* An image that another program made may have alpha although every pixel of this frame is
+     * covered. */
     const bool may_be = image->type == KILN_IMAGE_F32 && !*carried->alpha && !alpha;
     if (image->type != first->type || (alpha != encode->alpha && !may_be))
         return kiln_error_set(error, KILN_INVALID_INPUT,
@@ -310,7 +314,7 @@ static bool check_frame(const struct encode *encode, const struct kiln_asset_ima
                           path, encode->first);
 }
 
-/* Into as many bits as the picture has. */
+/* Copies all channels, converted to as many bits as the picture has. */
 static void copy_channels(const struct kiln_asset_image *image, struct kiln_picture *picture)
 {
     const size_t count = (size_t)image->width * image->height * 4;

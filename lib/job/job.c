@@ -1,5 +1,5 @@
-/* A job: opens what it writes, asks the frame loop for each wanted frame, hands the pictures on and
- * keeps count. */
+/* Runs a job: opens the files that it writes, asks the frame loop for each wanted frame, hands the
+ * pictures to the output, and keeps the counts for statistics, journal and manifest. */
 #include "job/job.h"
 
 #include <stdlib.h>
@@ -34,29 +34,30 @@ struct kiln_job {
     struct kiln_attempt run;         /* for both as well */
     bool resumes, is_described;
     struct kiln_resume resume;
-    bool draws;                 /* else all that was asked for is there */
-    size_t range_at;            /* of the next frame, */
-    uint64_t frame_at;          /* which is this, or the range's first one */
-    bool follows;               /* it comes right after one that was drawn */
-    struct kiln_states *states; /* NULL where none are to be taken up */
+    bool draws;                 /* false: all wanted frames are there */
+    size_t range_at;            /* the range of the next frame */
+    uint64_t frame_at;          /* the next frame, or below the range's first one */
+    bool follows;               /* the next frame comes right after one that was drawn */
+    struct kiln_states *states; /* NULL: the run starts from no saved state */
 
     double started_s;
-    struct kiln_picture *kept; /* of the frame that was drawn last, until it is taken; NULL: none */
+    struct kiln_picture *kept; /* the last drawn frame's, until it is taken; NULL: none */
     uint32_t total_frames;
     uint32_t written; /* frames with files of their own; of whoever tells of a whole file */
-    struct kiln_progress progress; /* of the frame at hand */
+    struct kiln_progress progress; /* of the present frame */
     struct kiln_render_stats stats;
 };
 
 /* ---- frame by frame -------------------------------------------------------------------------- */
 
-/* A callback may have used another device on this thread. */
+/* Makes the job's device current again, since a callback may have used another device on this
+ * thread. */
 static bool return_from_caller(const struct kiln_job *job, struct kiln_error *error)
 {
     return kiln_device_make_current(job->device, error);
 }
 
-/* Takes the picture. */
+/* Hands a picture to the output, which owns it from then on. */
 static bool hand_over(struct kiln_job *job, struct kiln_picture *picture, struct kiln_error *error)
 {
     kiln_views_show(job->params, picture);
@@ -73,7 +74,7 @@ static bool hand_over(struct kiln_job *job, struct kiln_picture *picture, struct
     return true;
 }
 
-/* Takes down what is known of a frame before its picture goes to the output. */
+/* Records what is known of a frame before its picture goes to the output. */
 static void record_frame(struct kiln_job *job, uint32_t frame, const struct kiln_drawn *drawn,
                          uint64_t alive)
 {
@@ -109,7 +110,7 @@ static void tell_written(struct kiln_job *job, const struct kiln_whole *whole)
     job->params->written(job->params->user, &file);
 }
 
-/* A file is whole: on any thread, but never twice at a time. */
+/* Records that a file is whole. It is called on any thread, but never on two at a time. */
 static bool take_whole(void *user, const struct kiln_whole *whole, struct kiln_error *error)
 {
     struct kiln_job *job = user;
@@ -180,7 +181,7 @@ struct kiln_loop *kiln_job_loop(struct kiln_job *job)
     return job->loop;
 }
 
-/* A frame that is there already: only its state may have to be found out. */
+/* Passes over a frame whose file is there already; only its state may still have to be computed. */
 static bool pass_over(struct kiln_job *job, uint32_t frame, struct kiln_record *record,
                       struct kiln_error *error)
 {
@@ -193,7 +194,7 @@ static bool pass_over(struct kiln_job *job, uint32_t frame, struct kiln_record *
     return kiln_resume_note(&job->resume, frame, error);
 }
 
-/* The next frame that is wanted; false: there is none. */
+/* Finds the next wanted frame; false: there is none. */
 static bool take_frame(struct kiln_job *job, uint32_t *frame)
 {
     for (; job->draws && job->range_at < job->range_count; job->range_at++) {
@@ -254,7 +255,7 @@ static bool choose_frames(struct kiln_job *job, struct kiln_error *error)
     return true;
 }
 
-/* No file of the job is written twice, or written and read. */
+/* Checks that no file of the job is written twice, or both written and read. */
 static bool check_files(const struct kiln_job *job, struct kiln_error *error)
 {
     struct kiln_claims *claims = kiln_claims_create();
@@ -314,7 +315,7 @@ static bool keep_records(struct kiln_job *job, struct kiln_error *error)
                           job->total_frames);
 }
 
-/* Looks what is there, and leaves what is not to be drawn. */
+/* Finds out which files of the job are there, and leaves only the missing frames to be drawn. */
 static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
 {
     const struct kiln_device_info *device = &job->device->info;
@@ -348,7 +349,7 @@ static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
     return true;
 }
 
-/* What has gone into a stream is gone. */
+/* Refuses to resume a stream: its bytes cannot be looked at again. */
 static bool check_stream(const struct kiln_job *job, struct kiln_error *error)
 {
     return !writes_stream(job) || !(job->resumes || job->params->flipbook) ||
@@ -405,7 +406,8 @@ static bool open_output(struct kiln_job *job, struct kiln_error *error)
     return job->manifest != NULL;
 }
 
-/* Fills the statistics with the techniques that the loop chose, and what the run is known by. */
+/* Fills the statistics with the techniques that the loop chose, and the attempt with device and
+ * techniques. */
 static void describe_run(struct kiln_job *job)
 {
     const struct kiln_render_params *params = job->params;
@@ -456,7 +458,8 @@ static bool begin(struct kiln_job *job, struct kiln_error *error)
     return true;
 }
 
-/* The state at the end; of a run that drew nothing, that of the last frame. */
+/* Finds the state at the end of the run. For a run that drew nothing, it is the state of the last
+ * frame. */
 static bool find_last_state(struct kiln_job *job, struct kiln_error *error)
 {
     struct kiln_render_stats *s = &job->stats;
@@ -527,7 +530,7 @@ bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
 void kiln_job_fail(struct kiln_job *job, const struct kiln_error *failure)
 {
     struct kiln_error ignored = {0};
-    kiln_output_close(&job->output); /* no more files become whole */
+    kiln_output_close(&job->output); /* from here on no more files become whole */
     sum_up(job);
     describe(job, failure, &ignored);
 }

@@ -1,5 +1,5 @@
-/* A job: which frames of a scene are drawn, and what becomes of their pictures. kiln_render runs a
- * whole one; whoever has several at once takes them frame by frame. */
+/* Declares a job: it draws frames of a scene and hands on their pictures. kiln_render runs a whole
+ * job; a caller that has several at once takes them frame by frame. */
 #ifndef KILN_JOB_JOB_H
 #define KILN_JOB_JOB_H
 

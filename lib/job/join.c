@@ -1,4 +1,5 @@
-/* Makes whole what shards drew. All that it takes stands in their journals. */
+/* Joins what shards drew into the whole output: a clip of parts, or a sequence of images with its
+ * manifest. All that this takes stands in the shards' journals. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -84,7 +85,7 @@ static bool write_manifest(const struct join *join, const struct kiln_render_sta
     return ok;
 }
 
-/* The manifest is none of the files of the output. */
+/* Claims the manifest and the output's files, so that the manifest replaces none of them. */
 static bool claim(const struct join *join, struct kiln_error *error)
 {
     const struct kiln_join_params *params = join->params;

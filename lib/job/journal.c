@@ -1,4 +1,5 @@
-/* Lines are appended with one write each. A line that a crash has cut off is forgotten. */
+/* Opens, appends to and closes the journal of a job. Each line is appended with one write. A line
+ * that a crash has cut off is ignored. */
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -83,7 +84,7 @@ static void add_state(struct kiln_json *json, const struct kiln_record *record)
                      record->alive);
 }
 
-/* The name of a file as seen from the folder of the journal. */
+/* Returns the path of a file relative to the folder of the journal. */
 static const char *name_of(const struct kiln_journal *journal, const char *path)
 {
     const char *slash = strrchr(journal->path, '/');
@@ -133,7 +134,8 @@ bool kiln_journal_add_attempt(struct kiln_journal *journal, const struct kiln_at
 
 /* ---- opening --------------------------------------------------------------------------------- */
 
-/* Whether the file still has its name: who had it locked before may have removed it. */
+/* Returns whether the file still has its name: the process that had it locked before may have
+ * removed it. */
 static bool has_its_name(const struct kiln_journal *journal)
 {
     struct stat own, named;
@@ -172,7 +174,7 @@ static bool read_journal(const struct kiln_journal *journal, const struct kiln_j
     char *text = kiln_journal_read_text(journal, error);
     if (!text)
         return false;
-    if (kiln_journal_has_head_alone(text)) { /* nothing came of it, and it may be of another job */
+    if (kiln_journal_has_head_alone(text)) { /* it lists no file, so it may be of another job */
         free(text);
         return ftruncate(journal->file, 0) == 0 ||
                kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",

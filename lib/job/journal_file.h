@@ -1,4 +1,4 @@
-/* The file of a journal, for those who read and write one. */
+/* Declares the file of a journal, for the code that reads and writes one. */
 #ifndef KILN_JOB_JOURNAL_FILE_H
 #define KILN_JOB_JOURNAL_FILE_H
 

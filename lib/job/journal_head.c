@@ -1,4 +1,5 @@
-/* Ranges of frames are a text, "0-149,200-299": of a flipbook there may be thousands. */
+/* Writes and reads the first line of a journal, which says of which job it is. The ranges of frames
+ * are one text, "0-149,200-299", since a flipbook may have thousands of them. */
 #include "job/journal_head.h"
 
 #include <stdlib.h>
@@ -51,8 +52,8 @@ void kiln_journal_head_write(struct kiln_json *json, const struct kiln_journal_h
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-/* Members of a line; `bad` stays true after one that makes no sense, `starved` after one for which
- * memory was too short. */
+/* The members of a line; `bad` stays true after a member that makes no sense, `starved` after a
+ * member for which memory was too short. */
 struct members {
     const struct kiln_node *line;
     struct kiln_arena *arena;
@@ -96,7 +97,7 @@ static const char *take_text(struct members *m, const char *key)
     return text ? text : "";
 }
 
-/* A number at the start of a text; moves past it. */
+/* Reads a number at the start of a text and moves past it. */
 static uint32_t parse_number(struct members *m, const char **text)
 {
     char digits[16] = "";

@@ -1,4 +1,5 @@
-/* The journals of one output: that of the whole job, and those of shards. */
+/* Finds, merges and removes the journals of one output: that of the whole job, and those of its
+ * shards. */
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -9,7 +10,8 @@
 #include "base/error.h"
 #include "job/journal_file.h"
 
-/* "clip.mp4.2-of-4.journal" for the output "clip.mp4", or "clip.mp4.journal". */
+/* Returns whether a file name is that of a journal of the output: for "clip.mp4" that is
+ * "clip.mp4.journal" or, of a shard, "clip.mp4.2-of-4.journal". */
 static bool is_journal_of(const char *name, const char *output, bool *is_shard)
 {
     static const char digits[] = "0123456789";
@@ -73,7 +75,7 @@ static void close_beside(struct kiln_journal *beside, char *text)
         close(beside->file);
 }
 
-/* A journal that takes others over. */
+/* The state of a merge: a journal takes the lines of other journals over. */
 struct merging {
     struct kiln_journal *into; /* NULL: they are read and stay */
     const struct kiln_journal_head *head;
@@ -106,7 +108,7 @@ bool kiln_journal_merge(struct kiln_journal *journal, const struct kiln_journal_
                         struct kiln_error *error)
 {
     struct merging merging = {.head = head, .records = records};
-    /* All of them are looked at before one is taken over, so that nothing is lost by a refusal. */
+    /* All journals are checked before one is removed, so that a refusal loses nothing. */
     if (!visit_journals(head->output.path, take_over, &merging, error))
         return false;
     *found = *found || merging.found;
@@ -114,8 +116,8 @@ bool kiln_journal_merge(struct kiln_journal *journal, const struct kiln_journal_
     return keep || visit_journals(head->output.path, take_over, &merging, error);
 }
 
-/* The first line of a journal, whoever has it locked, into the arena; NULL where there is none, or
- * it makes no sense. alone: nothing came of its job. */
+/* Reads the first line of a journal into the arena, even if another process has it locked. NULL
+ * where there is no line, or it makes no sense. alone: no file of its job is whole. */
 static bool read_first(const char *path, struct kiln_arena *arena, const struct kiln_node **line,
                        bool *alone, struct kiln_error *error)
 {
@@ -135,7 +137,7 @@ static bool read_first(const char *path, struct kiln_arena *arena, const struct 
                  : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
 }
 
-/* A shard looks at the journals beside its own. */
+/* The state of a shard's look at the journals beside its own. */
 struct neighbours {
     const struct kiln_journal *own;
     const struct kiln_journal_head *head;
@@ -182,7 +184,7 @@ bool kiln_journal_look_around(const struct kiln_journal *journal,
     return ok;
 }
 
-/* Removes a journal if `*user`; else only sees that nobody has it. */
+/* Removes a journal if `*user` is true; else only checks that no process has it locked. */
 static bool forget(void *user, const char *path, bool is_shard, struct kiln_error *error)
 {
     const bool *removes = user;
@@ -222,7 +224,7 @@ bool kiln_journal_is_there(const char *output, char path[KILN_PATH_SIZE])
     return *path != '\0';
 }
 
-/* A head that is looked for. */
+/* The state of a search for the head of an output's journal. */
 struct finding {
     struct kiln_journal_head *head;
     const char *output;
@@ -240,7 +242,7 @@ static bool read_head(void *user, const char *path, bool is_shard, struct kiln_e
         return false;
     finding->found = line && kiln_journal_head_read(finding->head, path, finding->output, line,
                                                     finding->arena, error);
-    return !line; /* one is enough: others are compared with it */
+    return !line; /* stop at the first: the others are compared with it */
 }
 
 bool kiln_journal_find(const char *output, struct kiln_journal_head *head, struct kiln_arena *arena,

@@ -1,5 +1,5 @@
-/* A frame that a program keeps is one holder of a picture, beside the output that may be encoding
- * it: that is why no pixel is copied, and why nobody may write to it. */
+/* Implements frames that a program keeps. Such a frame shares its picture with the output that may
+ * still be encoding it: so no pixel is copied, and the pixels must not be written to. */
 #include "job/kept.h"
 
 #include <stdlib.h>

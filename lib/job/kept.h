@@ -1,4 +1,4 @@
-/* Frames that a program keeps (kiln_rendering_take_frame). */
+/* Declares frames that a program keeps (kiln_rendering_take_frame). */
 #ifndef KILN_JOB_KEPT_H
 #define KILN_JOB_KEPT_H
 

@@ -1,4 +1,5 @@
-/* The rows of limits: what each is for, and what the preset says. */
+/* Reads and documents the limits of a job. Each limit has a row with its value in the preset
+ * `service` and its help. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +12,7 @@
 enum { SECOND = 1000, HOUR = 3600 * SECOND };
 
 static const struct row {
-    const char *service; /* what the preset `service` says */
+    const char *service; /* the limit in the preset `service` */
     const char *help;
 } rows[] = {
     [KILN_LIMIT_pixels] = {"16777216", "Width times height of the pictures."},
@@ -103,7 +104,7 @@ static bool refuse_name(const char *name, struct kiln_error *error)
     return false;
 }
 
-/* One of those between the commas. */
+/* Reads one item of the list, between two commas. */
 static bool read_item(struct kiln_limits *limits, char *item, struct kiln_error *error)
 {
     enum kiln_limit limit;

@@ -1,5 +1,5 @@
-/* JSON, one line a frame, straight to a temporary file: the text in memory is never longer than one
- * piece. Nothing here depends on the locale. */
+/* Writes the manifest of a job: JSON with one line a frame, straight to a temporary file, so that
+ * the text in memory is never longer than one piece. Nothing in it depends on the locale. */
 #include "job/manifest.h"
 
 #include <fcntl.h>
@@ -17,7 +17,7 @@ struct kiln_manifest {
     struct kiln_temporary file;
     struct kiln_manifest_params params;
     struct kiln_text text; /* the piece that is being written */
-    struct kiln_json json; /* into it */
+    struct kiln_json json; /* writes into the text */
 };
 
 /* Sends the piece to the file. */
@@ -41,7 +41,7 @@ static void add_state(struct kiln_json *json, const struct kiln_state_hash *stat
     kiln_json_uint(json, "alive", alive);
 }
 
-/* The text of the scene, with every default. */
+/* Adds the text of the scene, with every default spelled out. */
 static void add_scene_text(struct kiln_json *json, const struct kiln_scene *scene)
 {
     char *printed = NULL;
@@ -115,7 +115,7 @@ struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *para
     return manifest;
 }
 
-/* The frame's line of the result. */
+/* Adds a frame's line to the result. */
 static bool add_frame(struct kiln_manifest *manifest, const struct kiln_records *records,
                       uint32_t index, struct kiln_error *error)
 {
@@ -138,8 +138,8 @@ static bool add_frame(struct kiln_manifest *manifest, const struct kiln_records 
     return flush(manifest, error);
 }
 
-/* Whether a frame is there. Of a run that failed, that is so for frames whose files are whole, or
- * which were drawn where no files are written. */
+/* Returns whether a frame is there. For a run that failed, these are the frames whose files are
+ * whole; where no files are written, the frames that were drawn. */
 static bool is_there(const struct kiln_manifest *manifest, const struct kiln_record *record,
                      const struct kiln_error *failure)
 {

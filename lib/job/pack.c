@@ -1,7 +1,7 @@
-/* A table is a sequence of blocks of 2^16 rows, so that threads pack and unpack side by side. A
- * block is a head of two words (its size and its CRC-32, which covers size, number and bytes) and a
- * frame of zstd: a bit for each row that is not zero, then each byte of each column of those rows,
- * a plane after the other. */
+/* Packs tables of words, and unpacks them. A table is a sequence of blocks of 2^16 rows, so that
+ * threads pack and unpack them in parallel. A block is a head of two words (its size and its
+ * CRC-32, which covers size, number and bytes) and a frame of zstd. The frame holds a bit for each
+ * row that is not zero, then each byte of each column of those rows, one plane after the other. */
 #include "job/pack.h"
 
 #include <errno.h>
@@ -19,14 +19,14 @@ enum {
     BITMAP_BYTES = BLOCK_ROWS / 8,
     MAX_RAW = BITMAP_BYTES + BLOCK_ROWS * KILN_PACK_MAX_COLUMNS * 4,
     HEAD_BYTES = 8,
-    LEVEL = 1, /* noise of mantissas gains nothing from more */
+    LEVEL = 1, /* higher levels do not shrink the noise of mantissas */
     MAX_BLOCKS_AT_ONCE = 16,
 };
 
-/* A block on its way. */
+/* A block that is being packed or unpacked. */
 struct block {
     const struct kiln_table *table;
-    size_t number; /* of the table's blocks */
+    size_t number; /* its index in the table */
     uint8_t *raw, *packed;
     size_t raw_size, packed_size;
     uint32_t crc;
@@ -195,7 +195,7 @@ static void unpack_blocks(void *context, size_t begin, size_t end, uint32_t work
 
 struct batch {
     struct block blocks[MAX_BLOCKS_AT_ONCE];
-    size_t most; /* so many at once */
+    size_t most; /* the most blocks at once */
     uint8_t *memory;
 };
 
@@ -216,7 +216,7 @@ static bool make_batch(struct batch *batch, const struct kiln_table *table, uint
     return true;
 }
 
-/* The blocks from `first` on; returns how many. */
+/* Numbers the batch's blocks from `first` on; returns how many there are. */
 static size_t take_batch(struct batch *batch, size_t first, size_t count)
 {
     const size_t taken = count - first < batch->most ? count - first : batch->most;

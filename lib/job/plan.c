@@ -1,4 +1,4 @@
-/* A plan measures what a clip costs, and says how it divides into tasks. */
+/* Plans a clip: measures what a frame and a step cost, and divides the clip into tasks. */
 #include <string.h>
 #include <sys/resource.h>
 
@@ -54,8 +54,8 @@ static bool set_up(struct planning *p, struct kiln_error *error)
     return true;
 }
 
-/* Draws one frame twice, since the first time makes what later ones find; and steps on to the next
- * one where no step led there. */
+/* Measures one frame and its steps. The frame is drawn twice, since the first drawing fills caches
+ * that later frames use. Where no step led to the frame, the step to the next frame is measured. */
 static bool measure(struct planning *p, struct kiln_error *error)
 {
     struct kiln_plan *plan = p->plan;

@@ -1,4 +1,4 @@
-/* An array of records, found by the numbers of frames. */
+/* Keeps the records of a job's frames in an array, and finds them by the numbers of the frames. */
 #include "job/record.h"
 
 #include <stdlib.h>
@@ -56,7 +56,7 @@ void kiln_records_take(struct kiln_records *records, const struct kiln_whole *wh
         take_clip(records, whole);
         return;
     }
-    /* Frames between two of a clip may be none of the job's. */
+    /* A clip may leave out frames, which have no record. */
     for (uint64_t frame = whole->frames.first; frame <= whole->frames.last; frame++) {
         struct kiln_record *record = kiln_records_of(records, (uint32_t)frame);
         if (!record)

@@ -1,4 +1,5 @@
-/* A job as programs have it: whole, or frame by frame in a loop of their own. */
+/* Implements the library's calls to render: a whole job (kiln_render), or a job frame by frame in
+ * the program's own loop (kiln_rendering_next). */
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -12,10 +13,10 @@ struct kiln_rendering {
     struct kiln_device *device;
     struct kiln_job *job;
     bool ended;                /* no frame is left to draw */
-    struct kiln_error failure; /* of a frame; code 0: none */
+    struct kiln_error failure; /* the error of a frame; code 0: none */
 };
 
-/* The job's own parameters. */
+/* Copies the parameters into the job's own. */
 static bool take(struct kiln_rendering *r, const struct kiln_render_params *params,
                  struct kiln_error *error)
 {
@@ -104,7 +105,7 @@ bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
     bool ok = rendering != NULL;
     for (bool drawn = ok; ok && drawn;)
         ok = kiln_rendering_next(rendering, &drawn, NULL, error);
-    struct kiln_error why = kiln_error_empty(); /* what went wrong first counts */
+    struct kiln_error why = kiln_error_empty(); /* the first error is the one that is reported */
     if (rendering && !kiln_rendering_end(&rendering, stats, ok ? error : &why))
         ok = false;
     return ok;

@@ -1,4 +1,5 @@
-/* A file counts when it is as the journal says, or says itself of what it is. */
+/* Finds out which files of a job are whole, so that a run draws only the missing frames. A file
+ * counts when it has the hash that the journal says, or when it names its own scene and frame. */
 #include "job/resume.h"
 
 #include <stdlib.h>
@@ -12,7 +13,7 @@
 
 /* ---- looking at files ------------------------------------------------------------------------ */
 
-/* Whether a file is the one that has this hash. *reason is filled where it cannot be read. */
+/* Returns whether a file has this size and hash. *reason is filled where it cannot be read. */
 static bool is_same(const char *path, uint64_t bytes, const char *sha256, struct kiln_error *reason)
 {
     struct kiln_whole whole = {.path = path};
@@ -22,8 +23,8 @@ static bool is_same(const char *path, uint64_t bytes, const char *sha256, struct
            strcmp(whole.sha256, sha256) == 0;
 }
 
-/* Whether a look at a file tells something of it. One that memory was too short for does not: the
- * file may be whole, so the job ends with that error. */
+/* Returns false when memory was too short to look at a file: it may be whole, so the job ends with
+ * that error. */
 static bool could_look(const struct kiln_error *reason, struct kiln_error *error)
 {
     if (reason->code != KILN_DEVICE_FAILED)
@@ -44,7 +45,7 @@ static bool is_file(const char *path)
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/* A file that nobody has told of: takes it down. */
+/* Records a whole file that the journal does not name. */
 static bool adopt(struct kiln_resume *resume, const char *path, uint32_t frame,
                   struct kiln_error *error)
 {
@@ -55,7 +56,8 @@ static bool adopt(struct kiln_resume *resume, const char *path, uint32_t frame,
     return true;
 }
 
-/* Looks at the image of a frame. found: there was a journal, so that what is in the way is ours. */
+/* Looks at the image of a frame. found: there was a journal, so a file of this name is the job's
+ * own and may be replaced. */
 static bool look_at_image(struct kiln_resume *resume, uint32_t frame, const char *path, bool found,
                           struct kiln_error *error)
 {
@@ -97,7 +99,7 @@ static bool look_at_images(struct kiln_resume *resume, bool found, struct kiln_e
     return true;
 }
 
-/* Marks the frames of a part as whole, or forgets them. */
+/* Marks the frames of a part as whole, or clears their records. */
 static void mark_part(struct kiln_resume *resume, struct kiln_frame_range frames, bool whole)
 {
     for (uint64_t frame = frames.first; frame <= frames.last; frame++) {
@@ -106,13 +108,13 @@ static void mark_part(struct kiln_resume *resume, struct kiln_frame_range frames
             record->whole = true;
         else if (record)
             *record = (struct kiln_record){.has_state = false};
-        if (record) /* what was known of the file of the part */
+        if (record) /* the size of the part's file */
             record->bytes = 0;
     }
 }
 
-/* A part is its own witness: it has a checksum, and says of which clip it is. Its states are in the
- * journal alone, so what that does not name is drawn again. */
+/* Looks at a part of a clip. The part has a checksum and says of which clip it is. Its states are
+ * in the journal alone, so a part that the journal does not name is drawn again. */
 static bool look_at_part(struct kiln_resume *resume, uint32_t part, struct kiln_error *error)
 {
     const struct kiln_frame_range frames = kiln_part_range(&resume->output, part);
@@ -151,7 +153,7 @@ static bool clip_is_whole(const struct kiln_resume *resume, struct kiln_error *r
     return whole;
 }
 
-/* Nothing that the job would write may be there when it begins. */
+/* Checks that no file of the clip is there when the job begins. */
 static bool check_clip_files(const struct kiln_resume *resume, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
@@ -173,7 +175,7 @@ static bool find_folder(const struct kiln_output_params *output, char folder[KIL
         return false;
     if (snprintf(folder, KILN_PATH_SIZE, "%s.parts", clip) >= KILN_PATH_SIZE)
         return kiln_error_set(error, KILN_USAGE, "%s: the path is too long", output->path);
-    /* A link would have parts written, and removed, where somebody else wants it. */
+    /* A link is refused: parts would be written and removed in the folder that it leads to. */
     struct stat status;
     return lstat(folder, &status) != 0 || S_ISDIR(status.st_mode) ||
            kiln_error_set(error, KILN_IO, "%s: it is no folder, and parts of the clip go there",
@@ -233,7 +235,8 @@ static bool list_missing(struct kiln_resume *resume, struct kiln_error *error)
     return true;
 }
 
-/* Which parts count, and that frames of others are others'. */
+/* Finds the parts that the shard draws, and marks the frames of all other parts as other shards'.
+ */
 static void choose_parts(struct kiln_resume *resume, struct kiln_shard shard)
 {
     const uint32_t parts = kiln_parts_count(&resume->output);
@@ -264,8 +267,8 @@ static bool set_up(struct kiln_resume *resume, const struct kiln_resume_params *
     return true;
 }
 
-/* Reads the other journals of the output: those of shards, or of the whole that this is a shard of.
- */
+/* Reads the other journals of the output: a whole job reads those of shards, a shard reads that of
+ * the whole job. */
 static bool look_around(struct kiln_resume *resume, const struct kiln_resume_params *params,
                         bool *found, struct kiln_error *error)
 {
@@ -338,12 +341,13 @@ bool kiln_resume_clear(const struct kiln_output_params *output, struct kiln_erro
 
 void kiln_resume_undo(struct kiln_resume *resume)
 {
-    /* Without the journal the output is another's, and so is the folder of its parts. */
+    /* Without its journal the output belongs to another process, and so does the folder of its
+     * parts. */
     if (resume->was_begun || !resume->journal)
         return;
     kiln_journal_remove(&resume->journal);
     if (resume->folder[0])
-        rmdir(resume->folder); /* where nothing is in it */
+        rmdir(resume->folder); /* does nothing unless the folder is empty */
 }
 
 bool kiln_resume_merge(struct kiln_resume *resume, struct kiln_error *error)

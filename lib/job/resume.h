@@ -1,5 +1,4 @@
-/* Going on with a job: this room finds out which of its files are there, and what is still to be
- * drawn. */
+/* Resumes a job: finds out which of its files are there, and which frames are still to be drawn. */
 #ifndef KILN_JOB_RESUME_H
 #define KILN_JOB_RESUME_H
 

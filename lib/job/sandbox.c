@@ -27,7 +27,7 @@ struct places {
     struct kiln_error *error;
 };
 
-/* The path must outlive the places. */
+/* Adds a place; its path must outlive the places. */
 static bool add(struct places *places, const char *path, unsigned may)
 {
     if (places->count == MOST_PLACES)
@@ -39,7 +39,7 @@ static bool add(struct places *places, const char *path, unsigned may)
 
 /* ---- where a job writes ---------------------------------------------------------------------- */
 
-/* The folder of a pattern, made if it is missing; the caller frees it. */
+/* Finds the folder of a pattern and makes it if it is missing; the caller frees it. */
 static char *make_folder(const char *pattern, struct kiln_error *error)
 {
     struct stat status;
@@ -74,7 +74,7 @@ static bool add_writable(struct places *places, const struct kiln_sandbox_params
 
 /* ---- what every job needs -------------------------------------------------------------------- */
 
-/* The dynamic linker, which the kernel starts with kiln-decode. */
+/* Finds the dynamic linker, which the kernel starts with kiln-decode. */
 static int find_linker(struct dl_phdr_info *info, size_t size, void *user)
 {
     (void)size;
@@ -84,7 +84,7 @@ static int find_linker(struct dl_phdr_info *info, size_t size, void *user)
     return *linker != NULL;
 }
 
-/* Folders of libraries, and what the C library reads of the machine. */
+/* Adds the folders of libraries, and the files of the system that the C library reads. */
 static bool add_machine(struct places *places, char *library_path)
 {
     static const struct kiln_place common[] = {
@@ -110,7 +110,7 @@ static bool add_machine(struct places *places, char *library_path)
     return true;
 }
 
-/* The helper, with the paths in which it is found; a job without pictures does without it. */
+/* Adds kiln-decode. A job without pictures runs without it. */
 static bool add_helper(struct places *places, char helper[KILN_PATH_SIZE])
 {
     const char *linker = NULL;
@@ -146,7 +146,8 @@ static bool add_cache(struct places *places, char cache[KILN_PATH_SIZE])
         .number = SCMP_SYS(name), .differs = true                                                  \
     }
 
-/* Calls that no job makes, and that have been ways out of sandboxes, or into the kernel. */
+/* System calls that no job makes and that have been used to leave sandboxes or to attack the
+ * kernel. */
 static const struct kiln_system_call refused[] = {
     CALL(socket),
     CALL(connect),
@@ -217,7 +218,7 @@ static const struct kiln_system_call refused[] = {
     CALL(setresgid),
     CALL(setgroups),
     CALL(capset),
-    /* what Landlock does not know of */
+    /* changes that Landlock does not restrict */
     CALL(chmod),
     CALL(fchmod),
     CALL(fchmodat),
@@ -235,7 +236,7 @@ static const struct kiln_system_call refused[] = {
     CALL(removexattr),
     CALL(lremovexattr),
     CALL(fremovexattr),
-    CALL(truncate), /* Landlock does from version 3 on */
+    CALL(truncate), /* Landlock restricts it from version 3 on */
     CALL(inotify_add_watch),
     CALL(fanotify_init),
     CALL(fanotify_mark),
@@ -246,7 +247,7 @@ static const struct kiln_system_call refused[] = {
     CALL(mq_open),
     CALL(memfd_create),
     CALL(memfd_secret),
-    /* of other processes */
+    /* calls that change other processes */
     CALL_OF_OTHERS(prlimit64),
     CALL(setpriority),
     CALL(sched_setscheduler),
@@ -275,8 +276,8 @@ static const struct kiln_system_call refused[] = {
  */
 enum { FIRST_NEW_CALL = 451, END_OF_NEW_CALLS = 520 };
 
-/* Emptying a file that is opened for reading alone, which Landlock knows from version 3 on. Flags
- * of openat2 lie where no filter sees them; the loader does without it. */
+/* Calls that empty a file which is opened for reading alone, which Landlock restricts from version
+ * 3 on. A filter cannot see the flags of openat2; the loader does without that call. */
 static const struct kiln_system_call before_landlock_3[] = {
     {.number = SCMP_SYS(open), .argument = 1, .mask = O_TRUNC | O_ACCMODE, .value = O_TRUNC},
     {.number = SCMP_SYS(openat), .argument = 2, .mask = O_TRUNC | O_ACCMODE, .value = O_TRUNC},

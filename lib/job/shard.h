@@ -1,16 +1,16 @@
-/* How the parts of a clip are dealt out to those who draw it together. */
+/* Divides the parts of a clip among the shards that draw it together. */
 #ifndef KILN_JOB_SHARD_H
 #define KILN_JOB_SHARD_H
 
 #include "kiln.h"
 
-/* One of so many. */
+/* One shard of `count`. */
 struct kiln_shard {
     uint32_t index, count; /* from 0 */
 };
 
-/* Its parts are *first to *end - 1 of so many: neighbours, as many as the others have or one more;
- * the last shards have none where there are more of them than parts. */
+/* Finds the parts of a shard, *first to *end - 1. They are neighbours, and as many as the other
+ * shards have or one more. Where there are more shards than parts, the last shards have none. */
 static inline void kiln_shard_parts(struct kiln_shard shard, uint32_t parts, uint32_t *first,
                                     uint32_t *end)
 {
@@ -19,7 +19,7 @@ static inline void kiln_shard_parts(struct kiln_shard shard, uint32_t parts, uin
     *end = (uint32_t)((before + parts + last) / shard.count);
 }
 
-/* The frames of parts first to end - 1, of which there is at least one. */
+/* Returns the frames of parts first to end - 1, of which there is at least one. */
 static inline struct kiln_frame_range kiln_parts_frames(uint32_t first, uint32_t end,
                                                         uint32_t part_frames, uint32_t frames)
 {

@@ -1,5 +1,6 @@
-/* The file of a state: a head of fixed order, which ends with its CRC-32, then packed tables of the
- * records, of the spins, of what is painted, and of a kept order. Integers are little-endian. */
+/* Writes and reads saved states. The file is a head of fixed order, which ends with its CRC-32,
+ * then packed tables of the records, of the spins, of the painted canvases, and of a kept order.
+ * Integers are little-endian. */
 #include "job/state.h"
 
 #include <stdlib.h>
@@ -14,8 +15,8 @@
 
 #define MAGIC "kiln state "
 
-/* The format of the file; what steps make of a scene has a version of its own, which the motion
- * hash covers. */
+/* The version of the file's format. The simulation has a version of its own, which the motion hash
+ * covers. */
 enum { FORMAT = 1, MAX_HEAD = 1024, HASH_DIGITS = 64, VERSION_SIZE = 16 };
 
 enum { RECORD_WORDS = 8, SPIN_WORDS = 8, TEXEL_WORDS = 4, SPLAT_WORDS = 12 };
@@ -23,7 +24,7 @@ enum { RECORD_WORDS = 8, SPIN_WORDS = 8, TEXEL_WORDS = 4, SPLAT_WORDS = 12 };
 /* Serials and birth words rise from slot to slot. */
 enum { RECORD_RISING = 1 << 3 | 1 << 7 };
 
-/* All that the head says. */
+/* The contents of the head. */
 struct head {
     struct kiln_state_info info;
     uint32_t turn;
@@ -39,7 +40,7 @@ struct head {
 
 struct cursor {
     uint8_t bytes[MAX_HEAD];
-    size_t at, size; /* size: of what is read */
+    size_t at, size; /* size: the bytes that were read */
     bool writes;
     bool failed;
 };
@@ -126,7 +127,8 @@ static struct head head_of(const struct kiln_state *state)
     return head;
 }
 
-/* MAGIC and the format, a line; the size of the head with its CRC; what pass_head says; the CRC. */
+/* Writes a line of MAGIC and the format, the size of the head with its CRC, the head as pass_head
+ * orders it, and the CRC. */
 static void write_head(struct kiln_temporary *file, struct head *head)
 {
     struct cursor c = {.writes = true};
@@ -179,7 +181,7 @@ static bool read_start(int file, const char *path, struct cursor *c, uint32_t *s
            refuse(path, "the file is damaged", error);
 }
 
-/* No scene has more slots or larger canvases. */
+/* Returns whether a head can be of a scene: none has more slots or larger canvases. */
 static bool is_plausible(const struct head *head)
 {
     uint64_t slots = 0;
@@ -277,7 +279,7 @@ static bool visit_tables(const struct visitor *v, const struct head *head,
     return !head->info.order[0] || v->visit(v, &order, error);
 }
 
-/* The places of a pool; access as it is for its buffers. */
+/* Finds where the tables of a pool lie; access is the access to its buffers. */
 static bool find_places(struct kiln_pool *pool, enum kiln_access access, struct places *places,
                         struct kiln_error *error)
 {
@@ -305,7 +307,7 @@ bool kiln_state_write(const struct kiln_state *state, const char *path, bool ove
     if (!find_places(state->pool, KILN_READ, &places, error) ||
         !kiln_target_check(path, overwrite, error) || !kiln_temporary_open(&file, path, error))
         return false;
-    file.durable = true; /* whoever resumes counts on it */
+    file.durable = true; /* a later run must find it, even after a crash */
     const struct visitor visitor = {.visit = write_table, .threads = threads, .out = &file};
     write_head(&file, &head);
     if (visit_tables(&visitor, &head, &places, error))
@@ -316,7 +318,7 @@ bool kiln_state_write(const struct kiln_state *state, const char *path, bool ove
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-/* Whether the file ends here. */
+/* Returns whether the file ends here. */
 static bool is_at_end(int file, const char *path, struct kiln_error *error)
 {
     uint8_t more;
@@ -340,7 +342,7 @@ bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kil
     return ok;
 }
 
-/* Makes the pool what the head says, but for the tables. */
+/* Gives the pool the sizes and counters of the head; the tables are read later. */
 static bool shape_pool(struct kiln_pool *pool, const struct head *head, const char *path,
                        struct kiln_error *error)
 {
@@ -366,7 +368,7 @@ static bool shape_pool(struct kiln_pool *pool, const struct head *head, const ch
         if (!kiln_canvas_init(canvas, from->edge, from->slot_count, error))
             return false;
         canvas->next = from->next;
-        canvas->changes = changes + 1; /* who has drawn it before must draw it anew */
+        canvas->changes = changes + 1; /* its users see a new count and draw it anew */
     }
     return true;
 }
@@ -382,7 +384,7 @@ static bool read_state(struct kiln_state *state, const struct visitor *visitor,
         return false;
     state->info = head.info;
     state->turn = head.turn;
-    if (!state->slots) /* whoever wants none reads none: it comes last */
+    if (!state->slots) /* without slots the order, the last table, is not read */
         head.info.order[0] = '\0';
     else if (!head.info.order[0])
         return refuse(visitor->path, "has no order of a spread sort", error);

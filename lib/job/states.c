@@ -1,5 +1,6 @@
-/* Files are named by the motion they are of and by their step, so that those of several scenes may
- * share a folder: "3f9a12bc77d0e1f2-00000620.kilnstate". */
+/* Lists, finds, takes up and saves the states in a folder. A file is named by the hash of its
+ * motion and by its step, "3f9a12bc77d0e1f2-00000620.kilnstate", so that several scenes may share a
+ * folder. */
 #include "job/states.h"
 
 #include <dirent.h>
@@ -27,14 +28,15 @@ struct kiln_states {
     struct kiln_log log;
     char motion[65];
     char order[65];  /* "": no order is kept */
-    uint32_t *steps; /* of the files, ascending */
+    uint32_t *steps; /* the steps of the files, ascending */
     size_t count;
     size_t others; /* files of other motions */
 };
 
 /* ---- listing --------------------------------------------------------------------------------- */
 
-/* Takes both hashes; that of an order covers the technique that keeps it. */
+/* Computes the hashes of the motion and of the kept order. The order's hash covers the technique
+ * that keeps it. */
 static bool take_hashes(struct kiln_states *states, const struct kiln_techniques *techniques,
                         struct kiln_error *error)
 {
@@ -51,7 +53,8 @@ static bool take_hashes(struct kiln_states *states, const struct kiln_techniques
     return true;
 }
 
-/* The step in the name of a file of this motion. *other: it is one of another. */
+/* Reads the step out of the name of a file of this motion. *other: the file is of another motion.
+ */
 static bool parse_name(const struct kiln_states *states, const char *name, uint32_t *step,
                        bool *other)
 {
@@ -165,7 +168,7 @@ bool kiln_states_find(const struct kiln_states *states, uint32_t step, uint32_t 
 
 /* ---- taking up and saving -------------------------------------------------------------------- */
 
-/* That a state has what steps of the scene make, whatever its hash says. */
+/* Checks that a state has the numbers that steps of the scene give, whatever its hash says. */
 static bool fits(const struct kiln_scene *scene, const struct kiln_state_info *info)
 {
     bool good = kiln_paint_fits(scene, info->shapes, info->shape_count);
@@ -203,7 +206,8 @@ bool kiln_states_check(const struct kiln_states *states, uint32_t step, struct k
     return check(states, step, &info, error);
 }
 
-/* The slots of an order that a loop keeps; NULL without one, or with an error. */
+/* Allocates slots for an order that the loop keeps; NULL without such an order, or with an error.
+ */
 static uint32_t *make_slots(const struct kiln_states *states, struct kiln_loop *loop,
                             struct kiln_error *error)
 {
@@ -250,7 +254,7 @@ static bool take_up(const struct kiln_states *states, struct kiln_loop *loop, ui
     return verify_hash(loop, &state.info, path, error);
 }
 
-/* That a run begins at its start although there is a folder of states. */
+/* Logs that a run begins at its start although there is a folder of states. */
 static void tell_of_none(const struct kiln_states *states, uint32_t frame)
 {
     char others[64] = "";

@@ -1,4 +1,5 @@
-/* One answer for all kinds of jobs. */
+/* Decides whether a job goes on: its caller may have cancelled it, or a limit may be reached. All
+ * kinds of jobs ask this file. */
 #include "job/stop.h"
 
 #include "base/error.h"

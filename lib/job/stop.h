@@ -1,4 +1,4 @@
-/* Whether the work of a job goes on: its caller may want no more, or a limit is reached. */
+/* Decides whether the work of a job goes on: its caller may want no more, or a limit is reached. */
 #ifndef KILN_JOB_STOP_H
 #define KILN_JOB_STOP_H
 

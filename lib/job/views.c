@@ -1,4 +1,5 @@
-/* A layer is found by its name: in the display pixels, or among the float layers. */
+/* Finds the layers of a frame by their names, in the display pixels or among the float layers, and
+ * shows them to the caller's callback. */
 #include "job/views.h"
 
 #include <string.h>
@@ -10,7 +11,7 @@
 #define DISPLAY "display"
 #define BEAUTY  "beauty"
 
-/* What is wanted where nothing is named. */
+/* The layers of a caller that names none. */
 static const char *const usual[] = {DISPLAY};
 
 static const char *const *wanted(const struct kiln_render_params *params, size_t *count)

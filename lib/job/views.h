@@ -1,5 +1,5 @@
-/* The layers of a frame on their way to a caller (kiln_render_params.picture), whether or not they
- * also go into a file. */
+/* Hands the layers of a frame to a caller (kiln_render_params.picture), whether or not they also go
+ * into a file. */
 #ifndef KILN_JOB_VIEWS_H
 #define KILN_JOB_VIEWS_H
 

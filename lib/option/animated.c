@@ -1,5 +1,5 @@
-/* Reads and prints keys. Slopes are divided, and areas added up, here, once, in IEEE float:
- * every technique then interpolates with the same bits. */
+/* Reads and prints the keys of animated numbers. Slopes and areas are computed here, once, in IEEE
+ * float, so that every technique interpolates with the same bits. */
 #include "option/animated.h"
 
 #include <math.h>
@@ -14,17 +14,17 @@ bool kiln_node_is_animated(const struct kiln_node *node)
 
 /* ---- reading -------------------------------------------------------------------------------- */
 
-/* Do the option's values take one number for all three components? */
+/* Returns whether the option's values take one number for all three components. */
 static bool allows_grey(const struct kiln_option *option)
 {
     return option->type == &kiln_type_color;
 }
 
-/* The components of one key, or of a constant: numbers without a clock. */
+/* Reads the components of one key, or of a constant: numbers without a clock. */
 static bool read_plain(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct kiln_node *node, float *out, unsigned count)
 {
-    struct kiln_option number = *option; /* what an error says is expected */
+    struct kiln_option number = *option; /* for errors, which say what is expected */
     number.type = &kiln_type_number;
     number.clocks = 0;
     if (count == 1)
@@ -45,7 +45,7 @@ static bool read_plain(struct kiln_reader *reader, const struct kiln_option *opt
     return true;
 }
 
-/* Where the keys of `count` components go while they are read. */
+/* The place of the keys of `count` components while they are read. */
 struct curve {
     struct kiln_value *values;
     unsigned count;
@@ -102,7 +102,7 @@ static bool add_point(struct kiln_reader *reader, const struct kiln_node *node, 
     return true;
 }
 
-/* A clock's own "option": what the x of a key may be. */
+/* The options by which the x of a key is read, one for each clock. */
 const struct kiln_option kiln_option_time = {.name = "time",
                                              .type = &kiln_type_number,
                                              .dimension = KILN_SECONDS,
@@ -165,7 +165,7 @@ static bool read_curve(struct kiln_reader *reader, const struct kiln_option *opt
         return kiln_reader_expected(reader, keys, "[first, ..., last] or {part of life: value}");
     struct curve curve = {.values = values, .count = count};
     struct kiln_option point = *option;
-    point.word = NULL; /* stands for all of the curve */
+    point.word = NULL; /* one point for all of the curve */
     if (!begin_curve(reader, keys, &curve, clock) ||
         !read_points(reader, &point, keys, &curve, over_life ? &life_axis : &kiln_option_time))
         return false;

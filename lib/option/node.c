@@ -1,5 +1,5 @@
-/* libfyaml's events become the tree; its own documents are not used, because events let us refuse
- * anchors and depth before anything is built from them. */
+/* Reads YAML text into a tree of nodes. libfyaml's events become the tree. Its own documents are
+ * not used, because events let us refuse anchors and depth before anything is built from them. */
 #include "option/node.h"
 
 #include <libfyaml.h>
@@ -85,7 +85,7 @@ void kiln_node_quote(char out[64], const char *text)
 /* ---- building ------------------------------------------------------------------------------ */
 
 struct builder {
-    const char *text; /* all of it */
+    const char *text; /* the whole text */
     size_t size;
     struct kiln_arena *arena;
     struct kiln_error *error;
@@ -273,7 +273,7 @@ static bool take_event(struct builder *builder, struct fy_event *event)
     }
 }
 
-/* libfyaml's first complaint, in our form. */
+/* Reports libfyaml's first error as one of ours. */
 static bool report_syntax(struct builder *builder, struct fy_diag *diag)
 {
     struct kiln_node place = {.origin = builder->origin};
@@ -316,10 +316,11 @@ static bool report_nothing(const struct kiln_origin *origin, struct kiln_error *
                            origin->version);
 }
 
-/* Refuses what is no text before a parser sees it. */
-/* libfyaml looks at all blank lines of a block again for each of them. */
+/* libfyaml looks at all blank lines of a block again for each of them, so a text may have only so
+ * many. */
 enum { MOST_BLANK_LINES = 5000 };
 
+/* Refuses bytes that are no text before the parser sees them. */
 static bool check_bytes(const char *text, size_t size, const struct kiln_origin *origin,
                         struct kiln_error *error)
 {

@@ -1,4 +1,4 @@
-/* Questions to the rows of a table. */
+/* Answers questions about the rows of an option table. */
 #include "option/option.h"
 
 #include <stdio.h>

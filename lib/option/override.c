@@ -1,5 +1,6 @@
-/* The key is walked through the tree and through the option tables side by side: the tables tell
- * where a name is the author's own (an entry of a map), which a misspelling must not add to. */
+/* Applies --set key=value to the tree of a scene. The key is walked through the tree and through
+ * the option tables in parallel: the tables tell where a name is the author's own (an entry of a
+ * map), which a misspelling must not add to. */
 #include "option/override.h"
 
 #include <stdarg.h>
@@ -16,7 +17,7 @@ struct override {
     const struct kiln_node *value;
     const char *parts[MAX_PARTS]; /* of the key */
     uint32_t part_count;
-    uint32_t places; /* set so far */
+    uint32_t places; /* places set so far */
     bool wild;       /* the key has a '*': what does not fit is passed over */
 };
 
@@ -34,7 +35,7 @@ static bool fail(struct override *override, const char *format, ...)
                           override->origin->name, message);
 }
 
-/* A copy, so that a later override of one place leaves the others alone. */
+/* Copies a tree, so that a later override of one place leaves the others alone. */
 static struct kiln_node *copy_tree(struct override *override, const struct kiln_node *node)
 {
     struct kiln_node *copy = kiln_arena_alloc(override->reader->scratch, 1, sizeof *copy);
@@ -54,7 +55,7 @@ static struct kiln_node *copy_tree(struct override *override, const struct kiln_
     return copy;
 }
 
-/* Puts a new node in place of one, which keeps its key and its neighbours. */
+/* Replaces the contents of a node, which keeps its key and its neighbours. */
 static void replace(struct kiln_node *node, const struct kiln_node *by)
 {
     struct kiln_node *key = node->key, *next = node->next;
@@ -89,7 +90,7 @@ static bool unknown_name(struct override *override, const struct kiln_node *node
     return fail(override, "there is no '%s'%s", name, suggestion);
 }
 
-/* What may be under a node. */
+/* What the keys under a node may be. */
 struct place {
     const struct kiln_option *members; /* the table of its keys, or NULL: not known */
     bool closed;                       /* its keys cannot be made up */
@@ -109,7 +110,7 @@ static struct place place_under(const struct kiln_node *node, struct place place
     return (struct place){.members = option->members, .closed = option->type == &kiln_type_map};
 }
 
-/* The entry of a list or mapping that a part of the key names; NULL with an error. */
+/* Finds the entry of a list or mapping that a part of the key names; NULL with an error. */
 static struct kiln_node *find_child(struct override *override, struct kiln_node *node,
                                     struct place place, const char *name)
 {
@@ -140,7 +141,7 @@ static struct kiln_node *find_child(struct override *override, struct kiln_node 
     return add_entry(override, node, name);
 }
 
-/* Is this the name of a list that the file does not have? */
+/* Returns whether this is the name of a list that the file does not have. */
 static bool lacks_list(const struct kiln_node *node, struct place place, const char *name)
 {
     if (!place.members || place.closed || kiln_node_entry(node, name))
@@ -171,7 +172,7 @@ static bool walk(struct override *override, struct kiln_node *node, struct place
     }
     for (struct kiln_node *child = node->first; child; child = child->next) {
         struct place below = place_under(node, place, child);
-        /* Of a list of several kinds, '*' means those that fit. */
+        /* In a list of several kinds, '*' means the entries that fit the rest of the key. */
         bool fits = node->kind != KILN_NODE_LIST || child->kind != KILN_NODE_MAP ||
                     part + 1 == override->part_count ||
                     strcmp(override->parts[part + 1], "*") == 0 ||

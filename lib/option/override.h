@@ -1,4 +1,4 @@
-/* --set key=value. */
+/* Applies --set key=value to a tree. */
 #ifndef KILN_OPTION_OVERRIDE_H
 #define KILN_OPTION_OVERRIDE_H
 

@@ -1,4 +1,4 @@
-/* What the printers of all types share. */
+/* Holds the helpers that the printers of all types share. */
 #include "option/printer.h"
 
 void kiln_print_key(struct kiln_printer *printer, const char *name)

@@ -1,5 +1,5 @@
-/* From the struct of a table to a text: the state of one printing, and what the printers of all
- * types share. */
+/* Prints the struct of a table as text. Declares the state of one printing, and the helpers that
+ * the printers of all types share. */
 #ifndef KILN_OPTION_PRINTER_H
 #define KILN_OPTION_PRINTER_H
 

@@ -1,4 +1,5 @@
-/* What all types' readers share: the place for errors, defaults, numbers, and filling a struct. */
+/* Holds the helpers that the readers of all types share: the place for errors, defaults, numbers,
+ * and filling a struct. */
 #include "option/reader.h"
 
 #include <math.h>
@@ -54,7 +55,7 @@ bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node,
     return kiln_node_error(node, reader->error, "%s: %s", reader->path, message);
 }
 
-/* By its number; NULL: it is none, or there are fewer. */
+/* Finds an entry by its number; NULL when the name is no number, or there are fewer entries. */
 static const struct kiln_node *entry_of_list(const struct kiln_node *list, const char *name)
 {
     const struct kiln_node *entry = list->first;
@@ -187,7 +188,7 @@ static bool check_keys(struct kiln_reader *reader, const struct kiln_option *mem
     return true;
 }
 
-/* The default, where there is one. A group that is not there ("none") has no required keys. */
+/* Takes the default, where there is one. A group that is absent ("none") has no required keys. */
 static const struct kiln_node *default_of(struct kiln_reader *reader,
                                           const struct kiln_option *option,
                                           const struct kiln_node *group)
@@ -279,7 +280,7 @@ static bool limit_error(struct kiln_reader *reader, const struct kiln_option *op
     return false;
 }
 
-/* The number without its limits. */
+/* Reads a number without checking its limits. */
 static bool read_si(struct kiln_reader *reader, const struct kiln_option *option,
                     const struct kiln_node *node, double *value)
 {

@@ -1,5 +1,5 @@
-/* From a tree to the struct that a table describes: the state of one reading, and what the readers
- * of all types share. */
+/* Reads a tree into the struct that a table describes. Declares the state of one reading, and the
+ * helpers that the readers of all types share. */
 #ifndef KILN_OPTION_READER_H
 #define KILN_OPTION_READER_H
 

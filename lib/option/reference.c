@@ -1,11 +1,12 @@
-/* The reference of the keys of a table: a walk over its rows and over those of the tables in it. */
+/* Prints the reference of a table's keys: it walks over the table's rows and over those of the
+ * tables in it. */
 #include "option/reference.h"
 
 #include <string.h>
 
 enum { WIDTH = 100, MAX_VARIANTS = 32 };
 
-/* A paragraph, indented and broken at blanks. */
+/* Prints a paragraph, indented and broken at blanks. */
 static void add_wrapped(struct kiln_text *out, unsigned indent, const char *text)
 {
     size_t room = WIDTH - indent;

@@ -1,4 +1,4 @@
-/* The reference of a table's keys, for people. */
+/* Prints the reference of a table's keys, as text to read. */
 #ifndef KILN_OPTION_REFERENCE_H
 #define KILN_OPTION_REFERENCE_H
 

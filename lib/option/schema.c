@@ -1,5 +1,6 @@
-/* JSON schema, draft-07, from the option tables. It is as strict as the loader about keys, words,
- * forms and units; limits are checked on bare numbers only, order and files by the loader alone. */
+/* Writes a JSON schema (draft-07) from the option tables. The schema is as strict as the loader
+ * about keys, words, forms and units. Limits are checked on bare numbers only, and order and files
+ * by the loader alone. */
 #include "option/schema.h"
 
 #define NUMBER_PATTERN "[-+]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
@@ -41,7 +42,7 @@ void kiln_schema_number_pattern(enum kiln_dimension dimension, struct kiln_text 
     kiln_text_free(&pattern);
 }
 
-/* The type's schema with the row's help and default. */
+/* Adds the type's schema with the row's help and default. */
 static void add_property(const struct kiln_option *row, struct kiln_text *out)
 {
     struct kiln_text schema = {0};

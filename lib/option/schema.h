@@ -1,4 +1,4 @@
-/* The JSON schema of a table, and pieces that several types share. */
+/* Writes the JSON schema of a table, and pieces of it that several types share. */
 #ifndef KILN_OPTION_SCHEMA_H
 #define KILN_OPTION_SCHEMA_H
 

@@ -1,4 +1,4 @@
-/* Types that hold other options: group, switch, map, list. */
+/* Implements the option types that hold other options: group, switch, map, list. */
 #include <ctype.h>
 #include <string.h>
 
@@ -106,8 +106,8 @@ static bool is_name(const char *text)
     return true;
 }
 
-/* How many entries there are so far, to be counted up while they are read; NULL with an error when
- * the node has too many. */
+/* Returns the count of entries so far, which the caller increases while it reads them; NULL with an
+ * error when the node has too many. */
 static uint32_t *begin_entries(struct kiln_reader *reader, const struct kiln_option *option,
                                const struct kiln_node *node, void *field)
 {

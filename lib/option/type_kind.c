@@ -1,7 +1,6 @@
-/* Things of several kinds: `cone: {angle: 8 deg}`, a mapping whose one key names the kind and whose
- * value fills the members of that kind. A kind may have a shortcut, a member that a bare value
- * means: `gravity: [0, -9.81, 0]`.
- */
+/* Implements the option type of things of several kinds, such as `cone: {angle: 8 deg}`: a mapping
+ * whose one key names the kind and whose value fills the members of that kind. A kind may have a
+ * shortcut, a member that a bare value means: `gravity: [0, -9.81, 0]`. */
 #include <string.h>
 
 #include "option/animated.h"
@@ -19,7 +18,7 @@ static size_t kind_names(const struct kiln_option_kind *kinds, const char *names
     return count;
 }
 
-/* The row for a kind and, where kinds of one name differ by `field: variant`, its variant. */
+/* Finds the row for a kind and, where kinds of one name differ by `field: variant`, its variant. */
 static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
                                                 const struct kiln_option *option,
                                                 const struct kiln_node *node)
@@ -59,7 +58,7 @@ static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
     return NULL;
 }
 
-/* A mapping as the tree has it, less one key: `field`, which only chose the kind. */
+/* Copies a mapping without one key: `field`, which only chose the kind. */
 static struct kiln_node *without_field(struct kiln_reader *reader, const struct kiln_node *node)
 {
     struct kiln_node *rest = kiln_arena_alloc(reader->scratch, 1, sizeof *rest);
@@ -85,7 +84,7 @@ static struct kiln_node *without_field(struct kiln_reader *reader, const struct 
     return rest;
 }
 
-/* A bare value stands for {shortcut: value}. */
+/* Makes {shortcut: value} of a bare value. */
 static struct kiln_node *spell_out(struct kiln_reader *reader, const struct kiln_node *node,
                                    const char *shortcut)
 {
@@ -149,7 +148,7 @@ static const struct kiln_option_kind *kind_of(const struct kiln_option *option, 
     return kind;
 }
 
-/* Whether a kind without `field` would be another one of that name. */
+/* Returns whether the same kind without `field` would be another variant. */
 static bool needs_field(const struct kiln_option *option, const struct kiln_option_kind *kind)
 {
     const struct kiln_option_kind *first = option->kinds;

@@ -1,4 +1,5 @@
-/* Types of one plain value each: boolean, integer, rational, number, choice, text. */
+/* Implements the option types of one plain value each: boolean, integer, rational, number, choice,
+ * text. */
 #include <inttypes.h>
 #include <string.h>
 
@@ -259,7 +260,8 @@ static void describe_text(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "a text");
 }
 
-/* Characters are not more than bytes, of which an empty text has none. */
+/* Writes the schema of a text. A schema counts characters and the option counts bytes: a text has
+ * at most as many characters as bytes, and an empty text has none. */
 static void schema_text(const struct kiln_option *option, struct kiln_text *out)
 {
     kiln_text_add(out, "{\"type\": \"string\", \"minLength\": %d, \"maxLength\": %.0f}",

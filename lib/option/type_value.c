@@ -1,4 +1,4 @@
-/* Types of animated numbers: value, vector, colour, range. */
+/* Implements the option types of animated numbers: value, vector, colour, range. */
 #include <string.h>
 
 #include "option/animated.h"
@@ -107,7 +107,7 @@ static bool read_color(struct kiln_reader *reader, const struct kiln_option *opt
                    : read_vector(reader, option, node, field);
 }
 
-/* May the three curves be written as one of [x, y, z]? */
+/* Returns whether the three curves can be written as one curve of [x, y, z]. */
 static bool share_keys(const float4 *keys, const struct kiln_value3 *v)
 {
     if (v->x.count == 0 || v->y.count != v->x.count || v->z.count != v->x.count ||

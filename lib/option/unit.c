@@ -1,5 +1,5 @@
-/* One row per unit. Conversions are IEEE products and quotients in double, so that a file means
- * the same floats on every machine. */
+/* Converts numbers between units, of which each has a row in a table. Conversions are IEEE products
+ * and quotients in double, so that a file means the same floats on every machine. */
 #include "option/unit.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ struct unit {
     double multiply, divide; /* a quotient of a power of ten is exact where its product is not */
 };
 
-/* The first of each dimension is its SI unit. */
+/* The units. The first unit of each dimension is its SI unit. */
 static const struct unit units[] = {
     {KILN_FRACTION, "%", 1, 100},
     {KILN_SECONDS, "s", 1, 1},
@@ -54,7 +54,7 @@ static const char *const choices[KILN_DIMENSION_COUNT] = {
     [KILN_STOPS] = "stops",
 };
 
-/* The unit that numbers of a dimension are printed with, "" for none. */
+/* Returns the unit that numbers of a dimension are printed with, "" for none. */
 static const char *unit_name(enum kiln_dimension dimension)
 {
     if (dimension == KILN_FRACTION)
@@ -88,7 +88,7 @@ void kiln_unit_reduce(uint64_t *num, uint64_t *den)
     *den /= divisor;
 }
 
-/* The length of the decimal number at the start of a text, or 0. */
+/* Returns the length of the decimal number at the start of a text, or 0. */
 static size_t number_length(const char *text)
 {
     static const char digits[] = "0123456789";

@@ -1,4 +1,4 @@
-/* Dimensions, and the units a file may write them in. */
+/* Declares the dimensions of numbers, and the units that a file may write them in. */
 #ifndef KILN_OPTION_UNIT_H
 #define KILN_OPTION_UNIT_H
 

@@ -1,5 +1,6 @@
-/* Averages weighted by alpha, over ever larger squares of pixels; a pixel without a colour takes
- * that of the smallest square around it that has one. */
+/* Gives a colour to each pixel that has none because its alpha is 0. It averages colours, weighted
+ * by alpha, over squares of pixels of doubling size; a pixel without a colour takes that of the
+ * smallest square around it that has one. */
 #include "output/bleed.h"
 
 #include <stdlib.h>
@@ -39,7 +40,7 @@ static void add(struct cell *sum, const struct cell *cell)
     sum->alpha += cell->alpha;
 }
 
-/* Squares of 2x2 pixels. */
+/* Sums the pixels of each square of 2x2. */
 static void sum_pixels(const struct kiln_picture *picture, const struct level *level)
 {
     size_t index = 0;

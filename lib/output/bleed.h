@@ -1,4 +1,4 @@
-/* Colours for pixels that nobody sees. */
+/* Gives colours to transparent pixels. */
 #ifndef KILN_OUTPUT_BLEED_H
 #define KILN_OUTPUT_BLEED_H
 

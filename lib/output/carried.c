@@ -1,4 +1,5 @@
-/* Image files say of which scene and frame they are: those that do are known without a journal. */
+/* Reads what a PNG, JPEG or EXR file says of its own scene, frame and settings, so that kiln's
+ * images are recognised without a journal. */
 #include "output/carried.h"
 
 #include <openexr.h>
@@ -85,7 +86,7 @@ static void take_word(const uint8_t *data, size_t size, const char *key, char *v
     }
 }
 
-/* A comment by kiln. */
+/* Reads a comment that kiln wrote. */
 static void take_comment(const uint8_t *data, size_t size, struct kiln_carried *carried)
 {
     take_word(data, size, "kiln:version=", carried->version, sizeof carried->version);

@@ -1,4 +1,4 @@
-/* What image files by kiln say of themselves. */
+/* Reads what image files by kiln say of themselves. */
 #ifndef KILN_OUTPUT_CARRIED_H
 #define KILN_OUTPUT_CARRIED_H
 

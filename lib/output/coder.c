@@ -1,5 +1,5 @@
-/* One encoder for each part of a clip, so that a part's packets are the same whoever encodes the
- * others.
+/* Encodes one part of a clip with an FFmpeg encoder of its own, so that a part's packets do not
+ * depend on which process encodes the other parts.
  *
  * Pixels of luma and chroma are made with BT.709's matrix in limited range (scaler.c), and the tags
  * say just that: primaries and matrix of BT.709, and sRGB's transfer function, since that is what
@@ -109,7 +109,7 @@ int kiln_coder_convert(struct kiln_coder *coder, const struct kiln_picture *pict
 {
     AVFrame *frame = coder->frame;
     struct kiln_error error = {0};
-    /* Lossy codecs smear the colours of pixels that nobody sees into those beside them. */
+    /* A lossy codec smears the colours of transparent pixels into their neighbours. */
     if (picture->has_alpha && !kiln_pixels_are_rgb(coder->codec->pix_fmt) &&
         !kiln_bleed_colors(picture, &error))
         return AVERROR(ENOMEM);

@@ -1,6 +1,7 @@
-/* OpenEXR by its C core: one part, the layers as channels (R, G, B, A for the beauty, "fire.R" and
- * so on for the others, Z for the depth), linear, premultiplied, ZIP-compressed in blocks of 16
- * lines. Alpha and colour are half or float as asked; depth is always float. */
+/* Writes frames as OpenEXR files by OpenEXR's C core. A file has one part with the layers as
+ * channels: R, G, B, A for the beauty, "fire.R" and so on for the others, Z for the depth. Pixels
+ * are linear, premultiplied and ZIP-compressed in blocks of 16 lines. Alpha and colour are half or
+ * float as asked; depth is always float. */
 #include <math.h>
 #include <openexr.h>
 #include <stdlib.h>
@@ -15,7 +16,7 @@ enum {
     ZIP_LEVEL = 2, /* less than half the time of zlib's default for a sixth more bytes */
 };
 
-/* The largest half: more would read back as infinity. */
+/* The largest half: a larger value would read back as infinity. */
 static const float half_max = 65504.0f;
 
 struct exr_encoder {
@@ -27,7 +28,7 @@ struct exr_encoder {
     float *block; /* the lines of one chunk, channel after channel */
 };
 
-/* Where a channel of the file comes from. */
+/* A channel of the file, and the samples that it comes from. */
 struct channel {
     char name[CHANNEL_NAME_SIZE];
     const struct kiln_layer *layer;
@@ -150,7 +151,7 @@ static exr_result_t write_metadata(const struct exr_encoder *encoder, uint32_t f
         {"software", "kiln " KILN_VERSION},
         {"kiln:version", KILN_VERSION},
         {"kiln:alpha", params->alpha ? "1" : "0"},
-        {"kiln:scene", params->scene_hash}, /* from here on: where there is a scene */
+        {"kiln:scene", params->scene_hash}, /* from here on: only where there is a scene */
         {"kiln:seed", seed},
         {"kiln:frame", number},
     };
@@ -202,7 +203,7 @@ static const struct channel *find_channel(const struct channel *channels, uint32
     return NULL;
 }
 
-/* Lines y.. of one channel, side by side; halves are kept finite. */
+/* Gathers the lines from y on of one channel, one after the other; halves are kept finite. */
 static void gather(const struct channel *channel, const struct kiln_picture *picture, uint32_t y,
                    uint32_t lines, float *out)
 {
@@ -268,7 +269,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
     return code == EXR_ERR_SUCCESS || fail(encoder, code, error);
 }
 
-/* The table of chunks is written last. */
+/* Ends the file, of which OpenEXR writes the table of chunks last. */
 static bool finish(void *opaque, const struct kiln_caller *caller, struct kiln_error *error)
 {
     (void)caller;

@@ -1,6 +1,7 @@
-/* An atlas of cells in rows from the top, each a frame with its padding inside: engines divide the
- * texture by columns and rows and know nothing of gaps. Motion is estimated on smaller pictures: it
- * is smooth, and an engine filters it anyway. */
+/* Writes a flipbook: an atlas of cells in rows from the top, and on request a motion atlas beside
+ * it. Each cell is a frame with its padding inside, since engines divide the texture by columns and
+ * rows and know nothing of gaps. Motion is estimated on smaller pictures: it is smooth, and an
+ * engine filters it anyway. */
 #include "output/flipbook.h"
 
 #include <inttypes.h>
@@ -19,7 +20,7 @@
 enum {
     MAX_CELLS_A_SIDE = 64,
     MAX_PADDING = 256,
-    MAX_EDGE = 16384,      /* of the atlas: what GPUs take */
+    MAX_EDGE = 16384,      /* of the atlas: what GPUs accept */
     MAX_MOTION_EDGE = 128, /* of a cell of the motion atlas */
     FEATURES = 2,          /* what flow is estimated from: brightness over black, and cover */
 };
@@ -143,7 +144,7 @@ static const char *beside(const struct kiln_output_params *params, uint32_t inde
     return index < (params->flipbook.motion ? 2 : 1) ? endings[index] : NULL;
 }
 
-/* Opens one of them. */
+/* Opens one of the files beside the atlas. */
 static bool open_beside(const struct flipbook_encoder *encoder, uint32_t index,
                         struct kiln_temporary *file, struct kiln_error *error)
 {
@@ -232,8 +233,8 @@ static uint32_t clamp(uint32_t position, uint32_t padding, uint32_t size)
     return inside < size ? inside : size - 1;
 }
 
-/* One pixel of a cell. Padding continues the edge: its colour alone where there is alpha, so that a
- * filter finds nothing of the neighbour; multiplied by alpha, that is black. */
+/* Copies one pixel of a cell. Padding continues the edge: where there is alpha, only its colour, so
+ * that a filter finds nothing of the neighbour; premultiplied, that is black. */
 static void copy_pixel(const struct flipbook_encoder *encoder, const struct kiln_picture *picture,
                        uint32_t x, uint32_t y, size_t out)
 {
@@ -321,7 +322,8 @@ static bool add_motion(struct flipbook_encoder *encoder, struct kiln_error *erro
                           encoder->params->path);
 }
 
-/* The largest motion along an axis, as a part of a cell: what 255 stands for. At least a pixel. */
+/* Returns the largest motion along an axis as a part of a cell, which 255 stands for. It is at
+ * least a pixel. */
 static float motion_scale(const struct flipbook_encoder *encoder)
 {
     uint32_t width = encoder->motion_width, height = encoder->motion_height;
@@ -334,7 +336,7 @@ static float motion_scale(const struct flipbook_encoder *encoder)
     return scale;
 }
 
-/* -1..1 as 0..255. */
+/* Maps -1..1 to 0..255. */
 static uint8_t encode_motion(float motion)
 {
     return (uint8_t)floorf(127.5f + 127.5f * motion + 0.5f);
@@ -374,7 +376,7 @@ static void add_name(struct kiln_json *json, const struct kiln_temporary *file)
     kiln_json_string(json, "image", slash ? slash + 1 : file->target);
 }
 
-/* Left open, for more members. */
+/* Begins an object with a size and leaves it open, for more members. */
 static void begin_size(struct kiln_json *json, const char *key, uint32_t width, uint32_t height)
 {
     kiln_json_begin_object(json, key);

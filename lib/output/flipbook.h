@@ -1,4 +1,4 @@
-/* Flipbooks: frames side by side in one picture, as game engines play them. */
+/* Writes flipbooks: frames in cells of one picture, as game engines play them. */
 #ifndef KILN_OUTPUT_FLIPBOOK_H
 #define KILN_OUTPUT_FLIPBOOK_H
 

@@ -1,8 +1,9 @@
-/* Coarse to fine: at each size, `to` is bent by the flow so far, and what is left of the motion is
- * found by minimising the difference of the pictures plus a penalty for flow that is not smooth.
- * Both grow like the distance, not its square, so that a puff that appears pulls nothing along and
- * edges of motion stay. The minimum is approached by relaxation in a fixed order of pixels, with
- * plain arithmetic, so the result is the same everywhere. */
+/* Estimates optical flow between two pictures, from coarse to fine. At each size, `to` is warped by
+ * the flow so far, and the rest of the motion is found by minimising the difference of the pictures
+ * plus a penalty for flow that is not smooth. Both terms grow like the distance, not its square, so
+ * that a puff that appears pulls nothing along and edges of motion stay sharp. The minimum is
+ * approached by relaxation in a fixed order of pixels, with plain arithmetic, so the result is the
+ * same everywhere. */
 #include "output/flow.h"
 
 #include <math.h>
@@ -128,7 +129,7 @@ static bool build_pyramid(struct level *levels, uint32_t count, const float *con
 
 /* ---- One level ------------------------------------------------------------------------------ */
 
-/* bent(p) = to(p + flow(p)), between pixels in proportion. */
+/* Warps `to` by the flow: bent(p) = to(p + flow(p)), interpolated linearly. */
 static void bend(const struct solver *solver, const struct picture *to)
 {
     for (uint32_t y = 0; y < to->height; y++) {
@@ -149,7 +150,7 @@ static void bend(const struct solver *solver, const struct picture *to)
     }
 }
 
-/* How stiff the flow is between two pixels: less where it already bends. */
+/* Returns how stiff the flow is between two pixels: less where it already bends. */
 static float stiffness(const float *a, const float *b)
 {
     float du = a[0] - b[0], dv = a[1] - b[1];
@@ -222,7 +223,7 @@ static void relax(const struct solver *solver, uint32_t x, uint32_t y)
     flow[1] += over_relaxation * (new1 - flow[1]);
 }
 
-/* Derivatives say nothing about what is farther away. */
+/* Limits how far one warp may change the flow, since derivatives hold only near a pixel. */
 static void limit_change(const struct solver *solver, size_t count)
 {
     for (size_t i = 0; i < 2 * count; i++) {
@@ -246,7 +247,7 @@ static float median_of_9(float values[9])
     return values[4];
 }
 
-/* Takes out single pixels that went astray where nothing held them. */
+/* Replaces the flow by medians, which removes outliers of single pixels. */
 static void take_medians(const struct solver *solver, size_t count)
 {
     memcpy(solver->start, solver->flow, 2 * count * sizeof *solver->flow);
@@ -289,7 +290,7 @@ static void solve_level(struct solver *solver, const struct level *level)
     }
 }
 
-/* The flow of the coarser level at this one's size; `start` holds it meanwhile. */
+/* Enlarges the flow of the coarser level to this one's size; `start` holds it meanwhile. */
 static void enlarge(struct solver *solver, const struct level *coarse, const struct level *fine)
 {
     size_t count = (size_t)coarse->from.width * coarse->from.height;

@@ -1,4 +1,4 @@
-/* Optical flow: where what is seen in one picture went in the next. */
+/* Estimates optical flow: where each point of one picture is in the next. */
 #ifndef KILN_OUTPUT_FLOW_H
 #define KILN_OUTPUT_FLOW_H
 

@@ -1,4 +1,4 @@
-/* The table of output formats, found by suffix. */
+/* Lists the output formats in a table, and finds one by the suffix of a path. */
 #include "output/formats.h"
 
 #include <string.h>

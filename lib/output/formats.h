@@ -1,5 +1,5 @@
-/* What kiln can write: one row a format. Adding one is a file with these functions and a row in
- * formats.c. */
+/* Declares what kiln can write, one row a format. To add a format, write a file with these
+ * functions and add a row to formats.c. */
 #ifndef KILN_OUTPUT_FORMATS_H
 #define KILN_OUTPUT_FORMATS_H
 

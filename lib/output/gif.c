@@ -1,6 +1,7 @@
-/* GIF: 255 colours for the whole clip and one for "as before". They must be known before the first
- * frame is written, so the frames wait in a temporary file. (FFmpeg's own way, palettegen and
- * paletteuse, would hold them in memory, and make a whole graph of filters a dependency.) */
+/* Writes GIF clips with one palette: 255 colours for the whole clip, and one index for "unchanged".
+ * The colours must be known before the first frame is written, so the frames wait in a temporary
+ * file. FFmpeg's own way, palettegen and paletteuse, would hold them in memory, and make a whole
+ * graph of filters a dependency. */
 #include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@
 
 enum {
     TICKS_PER_S = 100,
-    MAX_RATE = 50, /* browsers play what is faster at 10 frames a second */
+    MAX_RATE = 50, /* browsers play faster clips at 10 frames a second */
     MIN_DELAY = TICKS_PER_S / MAX_RATE,
     MAX_DELAY = 65535,
     TRANSPARENT = 255,
@@ -26,8 +27,8 @@ struct gif_encoder {
     struct kiln_histogram *histogram;
     uint8_t *rgb; /* one frame */
     uint8_t *indices;
-    uint32_t stride; /* every which frame is written */
-    uint64_t frames; /* that came */
+    uint32_t stride; /* every stride-th frame is written */
+    uint64_t frames; /* frames that were given */
 };
 
 static uint32_t choose_stride(const struct kiln_output_params *params)
@@ -36,15 +37,15 @@ static uint32_t choose_stride(const struct kiln_output_params *params)
     return (uint32_t)((params->fps_num + most - 1) / most);
 }
 
-/* When a frame begins, in hundredths of a second, as FFmpeg rounds it. */
+/* Returns when a frame begins, in hundredths of a second, as FFmpeg rounds it. */
 static int64_t tick(const struct kiln_output_params *params, uint64_t frame)
 {
     return kiln_ff.av_rescale((int64_t)frame, (int64_t)params->fps_den * TICKS_PER_S,
                               params->fps_num);
 }
 
-/* Without this, the last frame would last as long as the one before; and less than what MAX_RATE
- * allows, browsers would show for a tenth of a second. */
+/* Sets the duration of the last frame. Without it, that frame would last as long as the one before;
+ * a shorter one than MAX_RATE allows, browsers would show for a tenth of a second. */
 static int prepare(const struct kiln_output_params *params, AVDictionary **options)
 {
     uint64_t length = kiln_ranges_count(params->clip, params->clip_count),
@@ -198,7 +199,7 @@ static const struct kiln_video_settings settings = {
     .codec = "GIF",
     .kind = "a GIF animation",
     .packages = "libavcodec59",
-    .bits = 16, /* those of 8 are dithered, anew in each frame: nothing would stand still */
+    .bits = 16, /* 8-bit frames are dithered anew each time: still pixels would flicker */
     .pixels = {{AV_PIX_FMT_NONE, AV_PIX_FMT_PAL8}, {AV_PIX_FMT_NONE, AV_PIX_FMT_NONE}},
     .max_edge = 16384,
     .muxer_options = "loop=0",

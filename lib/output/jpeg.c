@@ -1,6 +1,6 @@
-/* JPEG by FFmpeg. Everything that decides about the bytes is set here: the quantiser, full chroma
- * (4:2:0 would smear lettering, coloured frames and the edges of fire), arithmetic in integers, one
- * thread. */
+/* Encodes JPEG by FFmpeg: frames, and pictures in memory. All settings that decide about the bytes
+ * are set here: the quantiser, full chroma (4:2:0 would smear lettering, coloured frames and the
+ * edges of fire), arithmetic in integers, one thread. */
 #include "output/jpeg.h"
 
 #include <stdlib.h>
@@ -10,7 +10,8 @@
 #include "base/ffmpeg.h"
 #include "output/formats.h"
 
-/* Rec. 601 with full range, as JFIF has it; 16 bits after the point. */
+/* Converts RGB to Rec. 601 with full range, as JFIF has it, in fixed point with 16 bits after the
+ * point. */
 static void fill_planes(const struct kiln_jpeg *jpeg, AVFrame *frame)
 {
     static const int32_t weights[3][4] = {
@@ -69,8 +70,8 @@ static bool has_jfif(const AVPacket *packet)
     return packet->size >= JFIF_END && memcmp(packet->data + 6, "JFIF", 5) == 0;
 }
 
-/* The packet in new memory, with the density in its header and the comment as a segment after that.
- */
+/* Copies the packet into new memory, with the density in its header and the comment as the segment
+ * after it. */
 static bool copy_out(const AVPacket *packet, const struct kiln_jpeg *jpeg, uint8_t **bytes,
                      size_t *size)
 {
@@ -180,8 +181,8 @@ static void *open_frame(const struct kiln_output_params *params, struct kiln_tem
     return encoder;
 }
 
-/* From 50 up about as other programs count quality: the quantiser is 1 from 91 on, 2 from 84, 3 at
- * 80, 8 at 50. Below, it grows evenly to the worst, 31. */
+/* Maps quality to a quantiser, from 50 up about as other programs count: 1 from quality 91 on, 2
+ * from 84, 3 at 80, 8 at 50. Below 50, the quantiser grows evenly to the worst, 31. */
 static uint32_t quantiser_of(uint32_t quality)
 {
     const uint32_t hundredths = quality >= 50 ? 1600 - 16 * quality : 3100 - 46 * quality;

@@ -1,4 +1,4 @@
-/* JPEG in memory: of frames, and of figures. */
+/* Encodes JPEG in memory, for frames and for figures. */
 #ifndef KILN_OUTPUT_JPEG_H
 #define KILN_OUTPUT_JPEG_H
 

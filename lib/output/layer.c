@@ -1,6 +1,6 @@
-/* Writes one layer of a frame, or pixels that a program made itself, as a PNG or an EXR. They are
- * copied into a picture of their own: rows may have gaps in the caller's memory, and encoders read
- * rows that have none. */
+/* Writes one layer of a frame, or pixels that a program made itself, as a PNG or an EXR. The pixels
+ * are copied into a picture first: rows may have gaps in the caller's memory, and encoders read
+ * rows without gaps. */
 #include <string.h>
 
 #include "base/error.h"

@@ -1,4 +1,5 @@
-/* Containers by FFmpeg. Nothing of the time or the place is written. */
+/* Writes containers of clips by FFmpeg. Neither the time nor the place of
+ * writing goes into them. */
 #include "output/muxer.h"
 
 #include <string.h>

@@ -1,6 +1,7 @@
-/* The way of a picture into its file: a bounded queue, encoder threads, one file an image or one
- * for all, or a descriptor. Images are encoded side by side; a video has one encoder, so its frames
- * stay in order. The first failure stops everything and is told by the next call. */
+/* Takes pictures to their files: through a bounded queue to encoder threads, which write one file
+ * for each image, one file for all, or a descriptor. Images are encoded in parallel; a video has
+ * one encoder, so its frames stay in order. The first failure stops everything, and the next call
+ * returns it. */
 #include "output/output.h"
 
 #include <pthread.h>
@@ -27,13 +28,13 @@ struct kiln_output {
     void *video_encoder;
     struct kiln_part_writer *part; /* in place of both, where parts wait */
 
-    size_t due_range; /* the frame that comes next */
+    size_t due_range; /* the frame that is expected next */
     uint32_t due_frame;
 
     pthread_t encoders[MAX_ENCODERS];
     uint32_t encoder_count;
     pthread_mutex_t mutex;
-    pthread_mutex_t telling; /* held by who tells of a whole file */
+    pthread_mutex_t telling; /* held while `whole` is called for a whole file */
     pthread_cond_t work, room;
     struct kiln_picture *queue[QUEUE_SIZE]; /* a ring */
     uint32_t first, waiting;
@@ -41,7 +42,7 @@ struct kiln_output {
     bool ending;        /* no more pictures come */
     bool failed;
     uint32_t failed_frame;   /* the first in the clip that failed, for any number of encoders */
-    struct kiln_error error; /* what it failed of */
+    struct kiln_error error; /* the error of that frame */
 };
 
 /* ---- Checks before the first frame -------------------------------------------------------- */
@@ -76,7 +77,7 @@ static bool check_ranges(const struct kiln_output_params *params, const struct k
     return true;
 }
 
-/* The path of the file for a frame (the one file, for a video); false if it does not fit. */
+/* Writes the path of the file for a frame (the one file, for a video); false if it does not fit. */
 static bool file_of(const struct kiln_output *output, uint32_t frame, char *path, size_t size)
 {
     return kiln_path_pattern_format(&output->pattern, frame, path, size);
@@ -100,7 +101,7 @@ static bool check_files(const struct kiln_output *output, struct kiln_error *err
     return true;
 }
 
-/* Finds out by doing it whether files can be made there. */
+/* Checks that files can be made in the folder, by making one. */
 static bool check_folder(const struct kiln_output *output, struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];
@@ -123,7 +124,7 @@ static bool make_parts_folder(const struct kiln_output *output, struct kiln_erro
     return true;
 }
 
-/* Removes what killed runs left where the files go. */
+/* Removes the temporary files that killed runs left in the folders of the output. */
 static bool sweep(const struct kiln_output *output)
 {
     char path[KILN_PATH_SIZE];
@@ -134,7 +135,7 @@ static bool sweep(const struct kiln_output *output)
 
 /* ---- Whole files -------------------------------------------------------------------------- */
 
-/* Tells who listens of a file that has its name. */
+/* Tells the job of a file that is whole and has its name. */
 static bool tell(struct kiln_output *output, struct kiln_whole whole, struct kiln_error *error)
 {
     const struct kiln_whole_listener *listener = &output->params.whole;
@@ -194,7 +195,8 @@ static bool encode_image(struct kiln_output *output, const struct kiln_picture *
     return false;
 }
 
-/* Into the part that a picture belongs to, whose file gets its name with its last frame. */
+/* Encodes a picture into the part that it belongs to. The part's file gets its name after its last
+ * frame. */
 static bool encode_into_part(struct kiln_output *output, const struct kiln_picture *picture,
                              struct kiln_error *error)
 {
@@ -225,7 +227,7 @@ static bool encode(struct kiln_output *output, const struct kiln_picture *pictur
     return encode_image(output, picture, error);
 }
 
-/* The next picture, or NULL when no more come; the mutex is held. */
+/* Takes the next picture, or NULL when no more come; the mutex is held. */
 static struct kiln_picture *take(struct kiln_output *output)
 {
     while (output->waiting == 0 && !output->ending)
@@ -262,7 +264,7 @@ static void *run_encoder(void *opaque)
     return NULL;
 }
 
-/* Signals stay with the caller's threads. */
+/* Starts the encoder threads with signals blocked, so that the caller's threads get them. */
 static bool start_encoders(struct kiln_output *output, struct kiln_error *error)
 {
     uint32_t count = output->format->one_file ? 1 : output->params.threads;
@@ -452,7 +454,7 @@ struct kiln_output_needs kiln_output_needs(const struct kiln_output *output)
     return output->format->needs(&output->params);
 }
 
-/* That the picture is the one that was promised; encoders rely on it. */
+/* Checks that the picture is of the expected frame, size and kind; encoders rely on it. */
 static bool check_picture(const struct kiln_output *output, const struct kiln_picture *picture,
                           struct kiln_error *error)
 {
@@ -500,7 +502,7 @@ bool kiln_output_write(struct kiln_output *output, struct kiln_picture *picture,
         pthread_cond_signal(&output->work);
         advance(output);
     } else {
-        while (output->in_flight > 0) /* one before it may fail yet */
+        while (output->in_flight > 0) /* an earlier frame may still fail */
             pthread_cond_wait(&output->room, &output->mutex);
         *error = output->error;
     }
@@ -558,7 +560,7 @@ void kiln_output_close(struct kiln_output **output)
     if (!closing)
         return;
     *output = NULL;
-    /* Images that were handed over are still written; a video is lost anyway. */
+    /* Images in the queue are still written; a video is lost anyway. */
     pthread_mutex_lock(&closing->mutex);
     closing->failed = closing->failed || closing->format->one_file;
     pthread_mutex_unlock(&closing->mutex);

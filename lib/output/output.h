@@ -1,5 +1,5 @@
-/* Frames on their way to files: PNG, JPEG, EXR, video. One interface, one row a format (formats.c).
- */
+/* Takes frames to their files: PNG, JPEG, EXR, video. There is one interface, and one row a format
+ * (formats.c). */
 #ifndef KILN_OUTPUT_OUTPUT_H
 #define KILN_OUTPUT_OUTPUT_H
 

@@ -1,12 +1,13 @@
-/* Colours are counted over the whole clip, so that one palette serves all frames: with one for each
- * frame, what stands still would flicker. Boxes of colours are split where the error is largest,
- * and the result refined by a few rounds of k-means.
+/* Chooses a palette for a clip and dithers frames with it. Colours are counted over the whole clip,
+ * so that one palette serves all frames: with one for each frame, still pixels would flicker. Boxes
+ * of colours are split where the error is largest, and the result is refined by a few rounds of
+ * k-means.
  *
- * Dither is ordered, since diffused errors run with whatever moves and boil on what does not. A
- * palette is no regular grid, so the pattern does not just shift a colour: the 16 palette colours
- * whose average comes nearest to it are found, each making up for the error of those before, sorted
- * by brightness, and dealt out over 4x4 pixels (Knoll's pattern dithering). Still pixels stay as
- * they are from frame to frame, which also makes files small. */
+ * Dither is ordered, since diffused errors move with the picture and flicker where it is still. A
+ * palette is no regular grid, so the pattern cannot just shift a colour. Instead, the 16 palette
+ * colours whose average comes nearest to it are found, each making up for the error of those
+ * before, sorted by brightness, and dealt out over 4x4 pixels (Knoll's pattern dithering). Still
+ * pixels stay as they are from frame to frame, which also makes files small. */
 #include "output/palette.h"
 
 #include <stdlib.h>
@@ -25,7 +26,7 @@ enum {
     ROUNDS = 6,
 };
 
-/* How much an eye minds errors of red, green and blue. */
+/* How visible errors of red, green and blue are. */
 static const double channel_weight[3] = {3, 6, 2};
 
 struct histogram_cell {
@@ -82,7 +83,7 @@ static double square(double x)
     return x * x;
 }
 
-/* The root, to some digits, without the machine's own library. */
+/* Computes the square root to some digits, without the C library's mathematics. */
 static double root(double x)
 {
     double y = x > 1.0 ? x : 1.0;
@@ -91,8 +92,8 @@ static double root(double x)
     return y;
 }
 
-/* A clip is mostly background. Weights grow with the root of the counts, so that it does not take
- * all colours from the flame. */
+/* Lists the counted colours with weights. A clip is mostly background, so weights grow with the
+ * root of the counts: else background would take all colours from the flame. */
 static size_t list_points(const struct kiln_histogram *histogram, struct point *points)
 {
     size_t count = 0;
@@ -131,8 +132,8 @@ static void measure_box(struct box *box)
     }
 }
 
-/* Cuts a box of more than one point at its mean; points keep no order, but the same one always.
- * False when rounding has put the mean beside all of them: they are one point for all that matters.
+/* Cuts a box of more than one point at its mean. The order of the points changes, but always in the
+ * same way. False when rounding has put the mean beside all points: then they are as good as one.
  */
 static bool split_box(struct box *box, struct box *upper)
 {
@@ -155,7 +156,7 @@ static bool split_box(struct box *box, struct box *upper)
     return true;
 }
 
-/* How many boxes there are in the end; 0 when the caller wants no more. */
+/* Splits boxes, and returns how many there are in the end; 0 when the caller wants no more. */
 static uint32_t split_all(struct box *boxes, uint32_t most, const struct kiln_caller *caller,
                           struct kiln_error *error)
 {
@@ -290,7 +291,8 @@ static void mix(struct kiln_dither *dither, const uint32_t cell[3], uint8_t out[
     }
 }
 
-/* A cell for 8 bits a channel: what lies between two is spread over blocks of the pattern. */
+/* Returns the cell for a level of 8 bits. A level between two cells is spread over blocks of the
+ * pattern. */
 static uint32_t spread(uint32_t level, uint32_t x, uint32_t y)
 {
     static const uint32_t order[2][2] = {{1, 5}, {7, 3}}; /* eighths */

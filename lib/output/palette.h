@@ -1,4 +1,4 @@
-/* Few colours for many: a palette for a whole clip, and its use without a pattern that crawls. */
+/* Makes a palette for a whole clip, and dithers frames with it by a pattern that does not crawl. */
 #ifndef KILN_OUTPUT_PALETTE_H
 #define KILN_OUTPUT_PALETTE_H
 

@@ -1,4 +1,4 @@
-/* Which frames are in which part, the files of parts, and the clip that is made of them. */
+/* Divides a clip into parts, writes and checks the files of parts, and joins them into the clip. */
 #include "output/part.h"
 
 #include <dirent.h>
@@ -50,7 +50,7 @@ uint32_t kiln_part_of(const struct kiln_output_params *params, uint32_t frame)
     return position / part_length(params);
 }
 
-/* Frames of a part. */
+/* Returns the number of frames of a part. */
 static uint32_t count_in(const struct kiln_output_params *params, uint32_t part)
 {
     const uint32_t rest = clip_frames(params) - part * part_length(params);
@@ -80,7 +80,7 @@ struct kiln_part_writer {
     struct kiln_temporary file;
     struct kiln_part_out out;
     struct kiln_part_packets *packets; /* NULL: pictures are kept */
-    uint32_t frames;                   /* that came */
+    uint32_t frames;                   /* frames that were written */
     void *packed;
     size_t room;
 };
@@ -222,7 +222,7 @@ bool kiln_part_check(const struct kiln_output_params *params, uint32_t part,
     return true;
 }
 
-/* "00007.part" */
+/* Returns whether an entry is the file of a part, such as "00007.part". */
 static int is_part(const struct dirent *entry)
 {
     const size_t digits = strspn(entry->d_name, "0123456789");
@@ -317,7 +317,7 @@ static bool join_pictures(const struct kiln_output_params *params, struct kiln_e
     return ok;
 }
 
-/* Tells who listens of the clip. */
+/* Tells the job that the clip is whole. */
 static bool tell(const struct kiln_output_params *params, const char *path,
                  struct kiln_error *error)
 {

@@ -1,5 +1,5 @@
-/* A line of text, the head, then words and bytes, then the CRC-32 of all of it. Words are
- * little-endian. */
+/* Writes and reads the file of one part of a clip. It is a line of text, the head, then words and
+ * bytes, then the CRC-32 of all of them. Words are little-endian. */
 #include "output/part_file.h"
 
 #include <errno.h>
@@ -49,7 +49,7 @@ void kiln_part_made_by(char text[128])
 
 void kiln_part_add(struct kiln_part_out *out, const void *bytes, size_t size)
 {
-    if (size == 0) /* zlib takes no bytes at NULL for a new sum */
+    if (size == 0) /* zlib would begin a new sum for no bytes at NULL */
         return;
     out->crc = (uint32_t)crc32_z(out->crc, bytes, size);
     kiln_temporary_write(out->file, bytes, size);

@@ -1,5 +1,6 @@
-/* A file has the encoder's header, then each packet: the number of its frame, whether it is a key
- * frame, the side data in which WebM has the alpha, and its bytes. */
+/* Writes the packets of a coded part into its file, and reads them into the clip. The file has the
+ * encoder's header, then each packet: the number of its frame, whether it is a key frame, the side
+ * data in which WebM has the alpha, and its bytes. */
 #include "output/part_packets.h"
 
 #include <stdlib.h>
@@ -17,7 +18,7 @@ struct kiln_part_packets {
     struct kiln_coder coder;
     struct kiln_avlog avlog;
     AVPacket *packet;
-    int64_t frames; /* that came */
+    int64_t frames; /* frames that were written */
 };
 
 static bool fail(const struct kiln_part_packets *packets, int status, struct kiln_error *error)
@@ -40,7 +41,7 @@ static void write_packet(struct kiln_part_out *out, const AVPacket *packet)
     kiln_part_add(out, packet->data, (size_t)packet->size);
 }
 
-/* All that are ready. */
+/* Writes all packets that are ready. */
 static int write_packets(struct kiln_part_packets *packets)
 {
     for (;;) {
@@ -159,7 +160,7 @@ static bool read_packet(struct kiln_part_in *in, uint32_t size, AVPacket *packet
     uint32_t pts, flags;
     if (!kiln_part_read_word(in, &pts, error) || !kiln_part_read_word(in, &flags, error))
         return false;
-    /* Others of FFmpeg's flags say that the bytes are pointers. */
+    /* Other flags of FFmpeg say that the bytes are pointers, so only the key flag is accepted. */
     if ((flags & ~(uint32_t)AV_PKT_FLAG_KEY) != 0 || pts >= in->head.frames || size > INT32_MAX)
         return kiln_part_refuse(in, "the part of a clip is damaged", error);
     if (!read_alpha(in, packet, error))

@@ -1,4 +1,4 @@
-/* Packets of a coded part: into its file, and out of it into the clip. */
+/* Writes packets of a coded part into its file, and passes them from the file to the clip. */
 #ifndef KILN_OUTPUT_PART_PACKETS_H
 #define KILN_OUTPUT_PART_PACKETS_H
 

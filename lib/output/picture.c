@@ -1,10 +1,11 @@
-/* Pictures: the pixels of one frame on their way from the renderer to an encoder. */
+/* Allocates, shares and frees pictures: the pixels of one frame between the renderer and an
+ * encoder. */
 #include <stdlib.h>
 
 #include "base/error.h"
 #include "output/output.h"
 
-/* The bytes of width * height pixels, or 0 when there are none or too many. */
+/* Returns the bytes of width * height pixels, or 0 when there are none or too many. */
 static size_t pixel_bytes(uint32_t width, uint32_t height, size_t bytes_per_pixel)
 {
     uint64_t pixels = (uint64_t)width * height;

@@ -1,6 +1,6 @@
-/* PNG by libpng. Files are many and short-lived, so speed comes before size. Rendered frames are
- * smooth with dither on top, where looking for repeats finds little: one fixed filter, then runs
- * and Huffman codes alone, take a quarter of the time of the defaults. */
+/* Writes PNG by libpng. Files are many and short-lived, so speed comes before size. Rendered frames
+ * are smooth with dither on top, in which a search for repeats finds little: one fixed filter, then
+ * runs and Huffman codes alone, take a quarter of the time of the defaults. */
 #include <png.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,8 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
     return true;
 }
 
-/* libpng must not return from this; it hands over to the setjmp in encode. */
+/* Keeps libpng's message and jumps back to the setjmp in encode, since libpng must not return from
+ * here. */
 static void on_failure(png_structp png, png_const_charp message)
 {
     struct png_encoder *encoder = png_get_error_ptr(png);

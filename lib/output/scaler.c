@@ -1,4 +1,4 @@
-/* FFmpeg's scaler with all settings that decide about its result. */
+/* Opens FFmpeg's scaler with all settings that decide about its result. */
 #include "output/scaler.h"
 
 bool kiln_pixels_are_rgb(enum AVPixelFormat format)

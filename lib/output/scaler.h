@@ -1,4 +1,4 @@
-/* From the pixels of a picture to those of a video codec, by FFmpeg's scaler. */
+/* Converts the pixels of a picture to those of a video codec, by FFmpeg's scaler. */
 #ifndef KILN_OUTPUT_SCALER_H
 #define KILN_OUTPUT_SCALER_H
 

@@ -1,4 +1,5 @@
-/* Frames as a sequence of bytes for a pipe: YUV4MPEG2, or pixels without any header. */
+/* Writes frames as a sequence of bytes into a pipe: as YUV4MPEG2, or as pixels without any header.
+ */
 #include <errno.h>
 #include <poll.h>
 #include <stdlib.h>
@@ -12,9 +13,9 @@
 
 struct stream {
     const struct kiln_output_params *params;
-    uint8_t *bytes; /* of a frame as it is written */
+    uint8_t *bytes; /* one frame as it is written */
     size_t size;
-    size_t header;             /* of them, what stands before the pixels of each frame */
+    size_t header;             /* how many of them stand before the pixels of a frame */
     struct SwsContext *scaler; /* of Y4M, else NULL */
     uint8_t *planes[4];
     int strides[4];
@@ -25,7 +26,7 @@ static const char FRAME_HEADER[] = "FRAME\n";
 
 /* ---- what each kind writes ----------------------------------------------------------------- */
 
-/* Four bytes of a pixel to three. */
+/* Packs the four bytes of each pixel into three. */
 static void pack_rgb(struct stream *stream, const struct kiln_picture *picture)
 {
     const uint8_t *from = picture->display;
@@ -80,7 +81,7 @@ static const struct kind *kind_of(const struct kiln_output_params *params)
 
 /* ---- writing -------------------------------------------------------------------------------- */
 
-/* A reader may be slow for as long as it likes. */
+/* Writes all bytes, and waits for a slow reader without a limit. */
 static bool write_all(const struct stream *stream, const void *bytes, size_t size,
                       struct kiln_error *error)
 {
@@ -144,7 +145,7 @@ static void close_stream(void *opaque)
     free(stream);
 }
 
-/* Lays the planes out behind the header of a frame. */
+/* Places the planes behind the header of a frame. */
 static bool open_planes(struct stream *stream)
 {
     const int width = (int)stream->params->width, height = (int)stream->params->height;

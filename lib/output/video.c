@@ -1,4 +1,4 @@
-/* Clips by FFmpeg: a sequence of parts, each encoded on its own (coder.c), in one container
+/* Writes clips by FFmpeg: a sequence of parts, each encoded on its own (coder.c), in one container
  * (muxer.c). Formats differ by their settings alone. */
 #include "output/video.h"
 
@@ -16,13 +16,13 @@ struct video_encoder {
     const struct kiln_video_settings *settings;
     struct kiln_temporary *file;
     struct kiln_avlog avlog;
-    struct kiln_coder coder; /* of the part at hand */
+    struct kiln_coder coder; /* of the present part */
     struct kiln_muxer muxer;
     AVPacket *packet;
     AVCodecParameters *codec; /* of the first part */
-    int64_t frames;           /* that came */
-    int64_t part_first;       /* of them, where the part at hand begins */
-    int64_t part_packets;     /* of the part at hand */
+    int64_t frames;           /* frames that were given */
+    int64_t part_first;       /* of them, where the present part begins */
+    int64_t part_packets;     /* of the present part */
 };
 
 struct kiln_output_needs kiln_video_needs(const struct kiln_output_params *params)
@@ -70,7 +70,8 @@ bool kiln_video_find(const struct kiln_video_settings *settings, struct kiln_err
             refuse_build(settings, "muxer", settings->muxer, error));
 }
 
-/* Opening what containers need takes a third of the time that FFmpeg takes to open. */
+/* Finds the encoder, and the muxer unless only a part is written: opening the library for
+ * containers takes a third of the time that FFmpeg takes to open. */
 static bool find(const struct kiln_output_params *params, struct kiln_error *error)
 {
     struct kiln_error reason = {0};
@@ -123,7 +124,8 @@ static bool fail(const struct video_encoder *encoder, int status, const char *wh
 
 /* ---- Parts -------------------------------------------------------------------------------- */
 
-/* Of different parts the headers must be the same: there is one for the clip. */
+/* Returns whether a part's header is that of the first part: the clip has one header for all parts.
+ */
 static bool has_same_header(const AVCodecParameters *first, const uint8_t *header, size_t size)
 {
     return (size_t)first->extradata_size == size &&
@@ -191,7 +193,7 @@ void *kiln_video_open(const struct kiln_output_params *params, struct kiln_tempo
 
 /* ---- Frames ------------------------------------------------------------------------------- */
 
-/* Gives the container a packet of the part at hand. Packets of a part are decoded at even times, as
+/* Gives the container a packet of the present part. Packets of a part are decoded at even times, as
  * many frames ahead as the encoder may reorder: so they follow from where the part begins. */
 static int add_packet(struct video_encoder *encoder, AVPacket *packet)
 {
@@ -248,7 +250,7 @@ static int end_part(struct video_encoder *encoder, const struct kiln_caller *cal
     return status < 0 ? status : pass_packets(encoder, caller, error);
 }
 
-/* A new part where one is due. */
+/* Begins a new part where one is due. */
 static int begin_frame(struct video_encoder *encoder, struct kiln_error *error)
 {
     const struct kiln_output_params *params = encoder->params;
@@ -298,7 +300,7 @@ bool kiln_video_encode_indices(void *opaque, const uint8_t *indices, const uint3
     return push_frame(encoder, status, number, error);
 }
 
-/* Codecs that look ahead still have seconds of frames, and give one at a time. */
+/* Ends the clip. Codecs that look ahead still hold seconds of frames, and give one at a time. */
 bool kiln_video_finish(void *opaque, const struct kiln_caller *caller, struct kiln_error *error)
 {
     struct video_encoder *encoder = opaque;

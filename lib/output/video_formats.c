@@ -1,5 +1,6 @@
-/* What tells FFmpeg's formats from one another: a row of settings each. Whatever decides about the
- * bytes is set here and the same on every machine; the numbers of threads lie in coder.c. */
+/* Lists the settings of FFmpeg's formats, one row each. All settings that decide about the bytes
+ * are set here, the same on every machine, except for the numbers of threads, which are in coder.c.
+ */
 #include "base/log.h"
 #include "output/video.h"
 
@@ -40,7 +41,7 @@ static const struct kiln_video_settings mp4 = {
     .even_sizes = true,
     .max_edge = MAX_EDGE,
     .parts = true,
-    .later_packets = "filter_units=remove_types=6", /* SEI: the version and options of x264 */
+    .later_packets = "filter_units=remove_types=6", /* SEI: x264's version and options */
     .muxer_options = "movflags=+faststart",
     .tune = tune_h264,
 };

@@ -1,4 +1,4 @@
-/* Files that have their names: their sizes and hashes, and which ones a clip consists of. */
+/* Measures files that are whole (size and hash), and lists the files that an output consists of. */
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
