@@ -101,7 +101,7 @@ static void add(struct command_line *line, const char *name, const char *value)
     line->words[line->count++] = word;
 }
 
-/* What the call limits stays so where the job says nothing else. */
+/* Adds the limits of the call and after them those of the job, which replace single values. */
 static void add_limits(struct command_line *line, const char *of_all, const char *own)
 {
     char *both = NULL;

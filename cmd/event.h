@@ -23,8 +23,8 @@ int events_open(const struct command *command, const struct arguments *arguments
  * only those of the result. Returns 0, or the exit code after reporting: --events excludes it. */
 int events_open_json(const char *command, const struct arguments *arguments);
 
-/* The same on standard output, for the older spellings `render --progress ndjson` and
- * `render --stats=json`. Nothing comes of it where a stream is open. */
+/* Opens the stream of --json on standard output for the older spellings `render --progress ndjson`
+ * and `render --stats=json`. Does nothing if a stream is open. */
 void events_open_plain(void);
 
 /* Whether --events was given; whether JSON is told, by --events or by the older options; and

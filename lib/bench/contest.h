@@ -9,7 +9,7 @@
 #include "kiln_program.h"
 #include "scene/scene.h"
 
-/* What the functions of one run of kiln_bench_run share. */
+/* The state that the functions of one call of kiln_bench_run share. */
 struct kiln_bench_run {
     const struct kiln_bench_params *params;
     struct kiln_device *device;
@@ -54,7 +54,7 @@ bool kiln_contest_run(const struct kiln_bench_run *run, const struct kiln_scene 
                       uint32_t frame, const struct kiln_lane *lanes, size_t lane_count,
                       struct kiln_samples *samples, struct kiln_error *error);
 
-/* What the frames of a lane took until their files were whole, a value for each turn. */
+/* The times of a lane's frames until their files were whole, a value for each turn. */
 struct kiln_delivery {
     const char *problem;
     uint32_t count;

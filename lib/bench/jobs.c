@@ -27,7 +27,7 @@ enum { PARTS = 64, QUICK_PARTS = 2, OWN_WORDS = 16 };
 
 static const char SCENE[] = "fire_beam.yaml"; /* in the library */
 
-/* What is measured of a turn: the ways to do something, and the stages of all parts together. */
+/* The values that one turn measures: whole commands, and the stages of all parts together. */
 enum value {
     SINGLE,
     BAKE,

@@ -7,7 +7,7 @@
 #include "compare/measure.h"
 #include "kiln_program.h"
 
-/* Where the pictures of differences go, and what they show. */
+/* The files of the pictures of differences, and which panels these have. */
 struct kiln_difference_plan {
     const char *path; /* the path as it was given */
     bool map_alone;   /* the error map; else reference, test and error map side by side */

@@ -326,7 +326,7 @@ static void filter_row_down(const struct flip *flip, const struct tile *tile, in
                             struct row *out)
 {
     const struct filters *f = &flip->filters;
-    /* What was filtered across by FIRST is filtered down by SECOND. */
+    /* The rows are filtered by FIRST, and the columns of that by SECOND. */
     static const int FIRST[FEATURE_COUNT] = {GAUSS_1, GAUSS, GAUSS_2, GAUSS};
     static const int SECOND[FEATURE_COUNT] = {GAUSS, GAUSS_1, GAUSS, GAUSS_2};
     for (int image = 0; image < 2; image++) {

@@ -63,7 +63,7 @@ bool kiln_drawing_rasterise(const struct kiln_drawing *drawing, struct kiln_pixe
 bool kiln_pixels_resize(const struct kiln_pixels *pixels, uint32_t width, uint32_t height,
                         uint8_t *out);
 
-/* What a PNG or JPEG file says beside its pixels. */
+/* The data that a PNG or JPEG file carries beside its pixels. */
 struct kiln_imprint {
     uint32_t dpi;    /* pixels an inch; 0: not said */
     const char *alt; /* UTF-8; may be NULL */

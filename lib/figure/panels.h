@@ -19,8 +19,8 @@ struct kiln_panel {
     struct kiln_pixels pixels;
 };
 
-/* What rendered the panels, each "" if nothing did. Where all three are the same, so are the
- * pixels. */
+/* Names the device, driver and processor that rendered the panels; each is "" if nothing did. The
+ * same three render the same pixels. */
 struct kiln_maker {
     char device[128], driver[272], cpu[128];
 };

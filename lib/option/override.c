@@ -90,7 +90,7 @@ static bool unknown_name(struct override *override, const struct kiln_node *node
     return fail(override, "there is no '%s'%s", name, suggestion);
 }
 
-/* What the keys under a node may be. */
+/* The keys that are allowed under a node. */
 struct place {
     const struct kiln_option *members; /* the table of its keys, or NULL: not known */
     bool closed;                       /* its keys cannot be made up */

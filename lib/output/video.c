@@ -168,7 +168,7 @@ void kiln_video_close(void *opaque)
 void *kiln_video_open(const struct kiln_output_params *params, struct kiln_temporary *file,
                       struct kiln_error *error)
 {
-    if (!kiln_video_find(params->format->video, error)) /* a run that only joins has not asked */
+    if (!find(params, error)) /* a run that only joins has checked nothing before */
         return NULL;
     struct video_encoder *encoder = calloc(1, sizeof *encoder);
     if (!encoder) {

@@ -10,7 +10,6 @@
 #include "base/embedded.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/temporary.h"
 #include "base/text.h"
 #include "kiln_program.h"
 
@@ -133,15 +132,10 @@ bool kiln_template_write(const char *name, const char *path, bool overwrite,
     char *scene = kiln_template_scene(name, error);
     if (!scene)
         return false;
-    struct kiln_temporary file = {0};
-    bool good = kiln_target_check(path, overwrite, error) &&
-                kiln_make_parent_folders(path, error) && kiln_temporary_open(&file, path, error);
-    if (good) {
-        good = (kiln_temporary_write(&file, scene, strlen(scene)) ||
-                kiln_temporary_fail(&file, error)) &&
-               kiln_temporary_commit(&file, overwrite, error);
-        kiln_temporary_discard(&file);
-    }
+    struct kiln_text_file *file = kiln_text_file_open(path, overwrite, error);
+    if (file)
+        fputs(scene, kiln_text_file_stream(file));
+    const bool good = file && kiln_text_file_close(&file, true, error);
     free(scene);
     return good;
 }

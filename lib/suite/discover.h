@@ -12,7 +12,7 @@ struct kiln_found {
     bool in_folder;       /* not an operand itself */
 };
 
-/* What was found, in the order of the operands and, in a folder, of names. */
+/* The tests that were found, in the order of the operands and, in a folder, of their names. */
 struct kiln_findings {
     struct kiln_found *items; /* in the arena */
     size_t count, capacity;

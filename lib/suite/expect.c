@@ -19,7 +19,7 @@
 
 enum { MAX_FILE_SIZE = 16 << 20, MAX_DEVICES = 64, MAX_TEXT = 4000 };
 
-/* What the option table of this file fills. */
+/* The struct that the option table of this file fills. */
 struct document {
     uint32_t version;
     const char *scene_hash, *reason;

@@ -41,7 +41,7 @@ void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE])
 
 /* ---- names ---------------------------------------------------------------------------------- */
 
-/* What a golden's name says. A golden of number 1 has no "~1" in its name. */
+/* The parts of a golden's name. A golden of number 1 has no "~1" in its name. */
 struct golden_name {
     char device[KILN_DEVICE_NAME_SIZE]; /* "" without one */
     unsigned number;

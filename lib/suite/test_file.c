@@ -15,7 +15,7 @@
 
 enum { MAX_FILE_SIZE = 1 << 20, MAX_OVERRIDES = 64, MAX_TEXT = 4000 };
 
-/* What the option table of this file fills. */
+/* The struct that the option table of this file fills. */
 struct document {
     uint32_t version;
     const char *scene, *about, *reason;

@@ -10,7 +10,8 @@
 
 enum { SUMS = 16 };
 
-/* As many sums are taken side by side at every level. */
+/* A vector of sums. Every width of vectors takes four times SUMS bytes of them side by side, so
+ * that all widths add in the same order. */
 typedef float sums __attribute__((vector_size(4 * SUMS), may_alias));
 
 static inline double total(const sums *of)

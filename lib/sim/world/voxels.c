@@ -330,7 +330,7 @@ static void find_layers(void *context, size_t begin, size_t end, uint32_t worker
 
 /* ---- the most important (Drone 2007, 7.5.2.3) ------------------------------------------------ */
 
-/* What ranks a triangle, in the units of its normal. */
+/* The values by which triangles are ranked, in the units of their normals. */
 struct rank {
     int64_t facing;  /* how it meets the heading */
     int64_t at;      /* where its plane is */
