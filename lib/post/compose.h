@@ -1,5 +1,4 @@
-/* This header composes scene, particles and fire into one picture of light on the host, as
- * shaders/post/compose.glsl does in GL. */
+/* This header composes scene, particles and fire into one picture of light on the host. */
 #ifndef KILN_POST_COMPOSE_H
 #define KILN_POST_COMPOSE_H
 

@@ -2,7 +2,7 @@
  * works on blocks of a row: it composes them pixel by pixel, then encodes them channel by channel,
  * in loops that compilers vectorise. */
 #include "post/composite_rows.h"
-#include "post/tonemap.h"
+#include "shared/tonemap.h"
 
 enum { BLOCK = 128 };
 
@@ -56,8 +56,7 @@ static inline void expose(struct block *block, float exposure)
 static inline void map_agx(struct block *block)
 {
     for (int i = 0; i < BLOCK; i++) {
-        float3 color =
-            kiln_tonemap_agx_root(FLOAT3(block->red[i], block->green[i], block->blue[i]));
+        float3 color = tonemap_agx_root(FLOAT3(block->red[i], block->green[i], block->blue[i]));
         block->red[i] = color.x;
         block->green[i] = color.y;
         block->blue[i] = color.z;
@@ -67,7 +66,7 @@ static inline void map_agx(struct block *block)
 static inline void map_aces(struct block *block)
 {
     for (int i = 0; i < BLOCK; i++) {
-        float3 color = kiln_tonemap_aces(FLOAT3(block->red[i], block->green[i], block->blue[i]));
+        float3 color = tonemap_aces(FLOAT3(block->red[i], block->green[i], block->blue[i]));
         block->red[i] = color.x;
         block->green[i] = color.y;
         block->blue[i] = color.z;
@@ -78,11 +77,11 @@ static inline void encode_channel(float *channel, bool is_root)
 {
     if (is_root) {
         for (int i = 0; i < BLOCK; i++)
-            channel[i] = kiln_encode_root(exact_min(channel[i], 1.0f));
+            channel[i] = tonemap_encode_root(exact_min(channel[i], 1.0f));
         return;
     }
     for (int i = 0; i < BLOCK; i++)
-        channel[i] = kiln_encode_srgb(exact_min(channel[i], 1.0f));
+        channel[i] = tonemap_encode(exact_min(channel[i], 1.0f));
 }
 
 /* Divides colour by alpha, since a file's alpha is not premultiplied. Light without cover (fire on

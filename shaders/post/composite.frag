@@ -1,7 +1,7 @@
 /* Scene, particles, fire and blurred bloom become one picture (Heinz 2019, figure 3.1, last step),
  * then exposure, tone map, sRGB and dither. */
 #include "post/compose.glsl"
-#include "post/tonemap.glsl"
+#include "shared/tonemap.h"
 
 layout(binding = 3) uniform sampler2D bloom; /* smaller */
 
@@ -85,11 +85,14 @@ void main()
 
     /* White long before the upper limit; beyond it, a tone map's squares overflow. */
     vec3 display = clamp(color.rgb * exposure, 0.0, HALF_MAX);
-    if (tonemap == 1)
-        display = tonemap_agx(display);
-    else if (tonemap == 2)
-        display = tonemap_aces(display);
-    display = encode_srgb(min(display, vec3(1.0)));
+    if (tonemap == 1) {
+        vec3 root = min(tonemap_agx_root(display), vec3(1.0));
+        display = vec3(tonemap_encode_root(root.x), tonemap_encode_root(root.y),
+                       tonemap_encode_root(root.z));
+    } else {
+        vec3 light = min(tonemap == 2 ? tonemap_aces(display) : display, vec3(1.0));
+        display = vec3(tonemap_encode(light.x), tonemap_encode(light.y), tonemap_encode(light.z));
+    }
 
     /* A file's alpha is not premultiplied. Light without cover (fire on nothing) has no such form:
      * its brightness becomes its cover, so that it still shows over black. */

@@ -23,6 +23,7 @@
 #define INT(x)   int(x)
 #define FLOAT(x) float(x)
 #define FLOOR(x) floor(x)
+#define SQRT(x)  sqrt(x) /* of light; the simulation has exact_sqrt */
 
 #define float3             vec3
 #define float4             vec4
@@ -48,6 +49,7 @@
 #define INT(x)             ((int)(x))
 #define FLOAT(x)           ((float)(x))
 #define FLOOR(x)           floorf(x)
+#define SQRT(x)            sqrtf(x)
 
 typedef unsigned int uint;
 typedef struct float3 {

@@ -26,6 +26,20 @@
 #define KILN_EDGE_OFFSETS(pair)                                                                    \
     pair(0.375f, 0.125f), pair(0.875f, 0.375f), pair(0.125f, 0.625f), pair(0.625f, 0.875f)
 
+#define KILN_WAVES 8 /* of water on the floor */
+
+/* Numbers of what a ray hits. The sky's is -1, the floor's 0. A box has 27 numbers, one a face
+ * (ray_face_number is added to the middle one), a cylinder one for its side and one for each end, a
+ * mesh 4. */
+#define KILN_SURFACE_BOX(first, i) ((first) + 14 + 27 * (i))
+#define KILN_SURFACE_BOXES         0
+#define KILN_SURFACE_SPHERES       1000
+#define KILN_SURFACE_CYLINDERS     1100
+#define KILN_SURFACE_TURNED        1200
+#define KILN_SURFACE_CAPSULES      2200
+#define KILN_SURFACE_PLANES        2250
+#define KILN_SURFACE_MESHES        2300
+
 /* Edge of a mesh's shadow map, texels; a mesh fills all of them but a border. */
 #define KILN_SHADOW_EDGE   1024
 #define KILN_SHADOW_MARGIN 0.01f /* border, in parts of the half edge */
@@ -70,9 +84,12 @@ struct kiln_draw_shapes {
     float4 sun_right;       /* unit, across the sun's direction; w: tangent of the sun's radius */
     float4 sun_up;          /* the same */
     float4 world_to_bin[2]; /* rows: world positions to bins of particles */
-    float4 floor_map;   /* repetitions a metre in x and z, texels a metre in x; time of waves, s */
-    float4 floor_gloss; /* factor; roughness; length of the longest wave, m; slope of each */
-    float4 sky_map;     /* turn, parts of a circle; factor; texels a radian; unused */
+    float4 floor_map;       /* repetitions a metre in x and z, texels a metre in x; unused */
+    float4 floor_gloss;     /* factor; roughness; slope of each wave; unused */
+    /* Direction in x and z, unit; 2 pi / length, 1/m; phase at the origin, rad. */
+    float4 waves[KILN_WAVES];
+    float4 wave_shift[KILN_WAVES];    /* how far each shifts those after it in x and z, m; unused */
+    float4 sky_map;                   /* turn, parts of a circle; factor; texels a radian; unused */
     float4 spheres[KILN_MAX_OBJECTS]; /* centre; w: radius */
     float4 sphere_color[KILN_MAX_OBJECTS];
     float4 cylinders[KILN_MAX_OBJECTS];     /* centre; w: radius */

@@ -10,7 +10,6 @@
 #include "base/matrix.h"
 #include "draw/backdrop/backdrop_rows.h"
 #include "draw/backdrop/meshes_cpu.h"
-#include "draw/light/sun_box.h"
 #include "shared/exact.h"
 
 struct kiln_backdrop_cpu {
@@ -96,43 +95,15 @@ void kiln_backdrop_cpu_pictures(const struct kiln_backdrop_cpu *cpu,
 /* ---- objects that rays may hit
  * ------------------------------------------------------------------ */
 
-static float inverse_of(float x)
-{
-    return (x < 0.0f ? -1.0f : 1.0f) / exact_max(exact_abs(x), 1e-8f);
-}
-
-/* Fills in eight waves around the wind's direction, each shorter than the one before
- * (shaders/draw/backdrop/floor_gloss.glsl). */
-static void fill_waves(const struct kiln_draw_shapes *shapes, struct kiln_wave waves[KILN_WAVES])
-{
-    const float gravity = 9.81f, full_turn = EXACT_TWO_PI;
-    float length_m = shapes->floor_gloss.z, time_s = shapes->floor_map.w;
-    for (int i = 0; i < KILN_WAVES; i++) {
-        const struct exact_angle heading =
-            exact_sincos(1.2f + 1.1f * exact_sincos(2.7f * (float)i).sine);
-        float number = full_turn / length_m, turns = sqrtf(gravity * number) * time_s / full_turn;
-        waves[i] = (struct kiln_wave){.way_x = heading.cosine,
-                                      .way_z = heading.sine,
-                                      .number = number,
-                                      .phase = (turns - floorf(turns)) * full_turn,
-                                      .bend = 0.1f * length_m};
-        length_m *= 0.71f;
-    }
-}
-
 static void fill_turned_suns(float4 sun, const struct kiln_draw_shapes *shapes,
-                             struct kiln_turned_sun suns[KILN_MAX_OBJECTS])
+                             struct sun_edges suns[KILN_MAX_OBJECTS])
 {
     for (uint32_t i = 0; i < shapes->more.y; i++) {
         const float4 *rows = shapes->turned[i].rows;
         float way[3];
         for (int k = 0; k < 3; k++)
             way[k] = rows[k].x * sun.x + rows[k].y * sun.y + rows[k].z * sun.z;
-        suns[i] = (struct kiln_turned_sun){
-            .inverse = {inverse_of(way[0]), inverse_of(way[1]), inverse_of(way[2])},
-            .edges_alike = {kiln_sun_likeness(way[1], way[2]), kiln_sun_likeness(way[0], way[2]),
-                            kiln_sun_likeness(way[0], way[1])},
-        };
+        suns[i] = sun_edges_of((float3){way[0], way[1], way[2]});
     }
 }
 
@@ -154,12 +125,8 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
         .meshes = cpu->meshes ? kiln_meshes_cpu_view(cpu->meshes) : NULL,
         .floor_gloss = features.floor_gloss && inputs->block.floor_params.x > 0.0f,
         .soft_sun = features.soft_sun,
-        .sun_inverse = {inverse_of(sun.x), inverse_of(sun.y), inverse_of(sun.z)},
-        .edges_alike = {kiln_sun_likeness(sun.y, sun.z), kiln_sun_likeness(sun.x, sun.z),
-                        kiln_sun_likeness(sun.x, sun.y)},
+        .edges = sun_edges_of((float3){sun.x, sun.y, sun.z}),
     };
-    if (frame.floor_gloss)
-        fill_waves(&inputs->shapes, frame.waves);
     fill_turned_suns(sun, &inputs->shapes, frame.turned);
     return frame;
 }

@@ -1,5 +1,4 @@
-/* This file casts the rays of the backdrop's picture, a vector of them at a time, as
- * shaders/draw/backdrop/backdrop.frag and backdrop_edges.vert do in GL. */
+/* This file casts the rays of the backdrop's picture, a vector of them at a time. */
 #include "draw/backdrop/backdrop_rows.h"
 #include "draw/backdrop/ray_floor.h"
 #include "draw/backdrop/ray_mesh.h"

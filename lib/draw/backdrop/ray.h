@@ -1,7 +1,6 @@
 /* This header declares the objects that rays of technique backdrop=cpu may hit in a frame, and
  * their light. The code that follows vectors of rays is in ray_*.h, for backdrop_simd.c and
- * solid_simd.c. It computes what shaders/draw computes in GL, in arithmetic that does not depend on
- * the machine. */
+ * solid_simd.c. Its arithmetic, which GL shares, is in shaders/shared. */
 #ifndef KILN_DRAW_BACKDROP_RAY_H
 #define KILN_DRAW_BACKDROP_RAY_H
 
@@ -10,22 +9,7 @@
 #include "draw/light/lighting.h"
 #include "draw/light/smoke_shadow.h"
 #include "draw/moment/shapes.h"
-
-enum { KILN_WAVES = 8 };
-
-/* Describes a wave of the floor's water. */
-struct kiln_wave {
-    float way_x, way_z; /* unit */
-    float number;       /* 2 pi / length, 1/m */
-    float phase;        /* at the origin, rad */
-    float bend;         /* how far it shifts those after it, m */
-};
-
-/* Holds the sun in the frame of a rotated box, as sun_inverse and edges_alike hold it in the
- * world's. */
-struct kiln_turned_sun {
-    float3 inverse, edges_alike;
-};
+#include "shared/sun_edges.h"
 
 struct kiln_ray_frame {
     const struct kiln_view *view;
@@ -36,10 +20,8 @@ struct kiln_ray_frame {
     struct kiln_solid_bins solids;
     const struct kiln_mesh_view *meshes; /* NULL: none */
     bool floor_gloss, soft_sun;
-    float3 sun_inverse; /* of the direction, by axis; large for 0 */
-    float3 edges_alike; /* of boxes, towards the sun: x is of y and z, and so on */
-    struct kiln_wave waves[KILN_WAVES];
-    struct kiln_turned_sun turned[KILN_MAX_OBJECTS];
+    struct sun_edges edges;                    /* of boxes along the axes */
+    struct sun_edges turned[KILN_MAX_OBJECTS]; /* of rotated boxes */
 };
 
 /* Holds the objects that rays may hit, a bit for each. */

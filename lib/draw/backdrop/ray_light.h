@@ -1,12 +1,11 @@
-/* This header computes the light that surfaces send along vectors of rays, and the sky's, as
- * shaders/draw/backdrop/surface.glsl, round.glsl, mesh_trace.glsl and smoke_shadow.glsl do in
- * GL. */
+/* This header computes the light that surfaces send along vectors of rays, and the sky's. */
 #ifndef KILN_DRAW_BACKDROP_RAY_LIGHT_H
 #define KILN_DRAW_BACKDROP_RAY_LIGHT_H
 
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_sun.h"
 #include "draw/light/ray_smoke.h"
+#include "shared/surface_light.h"
 
 struct ray_color {
     struct vf3 rgb;
@@ -15,35 +14,19 @@ struct ray_color {
 
 /* ---- sky on surfaces ------------------------------------------------------------------------- */
 
-/* Returns how much a surface is turned towards an object; a little of an object behind it counts as
- * well. */
-SIMD vf turned_to(vf along_normal, vf distance2)
+/* Takes away what an object hides in the lanes where it hides some. */
+SIMD vf less_sky(vf visible, vi hides, vf beside)
 {
-    return clamp01(along_normal * vf_rsqrt(vf_max(distance2, vf_all(1e-9f))) + 0.4f);
-}
-
-/* Returns the part of the sky that is visible beside an object that hides it. */
-SIMD vf shaded_sky(vf visible, vi hides, vf facing, vf fall)
-{
-    return visible * (1.0f - vf_where(hides, 0.7f * facing * fall));
+    return visible * vf_select(hides, beside, vf_all(1.0f));
 }
 
 /* Returns the visible sky beside a box; the vectors are in the box's frame. */
 SIMD vf box_leaves_sky(float4 half, struct vf3 towards, struct vf3 normal, vi wanted, vf visible)
 {
-    const vf zero = vf_all(0.0f);
-    const struct vf3 turn = {vf_abs(normal.x), vf_abs(normal.y), vf_abs(normal.z)};
-    vf along = vf3_dot(towards, normal);
-    /* A box that is wholly behind the surface hides nothing. */
-    vi hides = wanted & (along > 1e-3f - vf3_dot_all(turn, half));
+    vi hides = wanted & sky_meets_box(half, towards, normal);
     if (!any(hides))
         return visible;
-    struct vf3 beyond = {vf_max(vf_abs(towards.x) - half.x, zero),
-                         vf_max(vf_abs(towards.y) - half.y, zero),
-                         vf_max(vf_abs(towards.z) - half.z, zero)};
-    float size = fminf(fminf(half.x, half.y), half.z);
-    vf fall = size / (size + 2.0f * vf3_length(beyond));
-    return shaded_sky(visible, hides, turned_to(along, vf3_dot(towards, towards)), fall * fall);
+    return less_sky(visible, hides, sky_beside_box(half, towards, normal));
 }
 
 SIMD vf boxes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
@@ -56,65 +39,34 @@ SIMD vf boxes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_poi
     return visible;
 }
 
-/* Returns the visible sky beside a ball. towards: the way to its centre. */
-SIMD vf ball_leaves_sky(struct vf3 towards, float radius, const struct ray_point *p, vf visible)
-{
-    vf distance2 = vf_max(vf3_dot(towards, towards), vf_all(1e-9f));
-    vf fall = vf_min(radius * radius / distance2, vf_all(1.0f));
-    return shaded_sky(visible, p->wanted, turned_to(vf3_dot(towards, p->normal), distance2), fall);
-}
-
-SIMD vf spheres_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
-{
-    for (uint32_t i = 0; i < frame->shapes->counts.x; i++) {
-        const float4 sphere = frame->shapes->spheres[i];
-        visible = ball_leaves_sky(vf3_towards(sphere, p->at), sphere.w, p, visible);
-    }
-    return visible;
-}
-
-SIMD vf cylinders_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p,
-                            vf visible)
+SIMD vf round_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
-    const vf zero = vf_all(0.0f);
+    for (uint32_t i = 0; i < shapes->counts.x; i++) {
+        const float4 sphere = shapes->spheres[i];
+        vf beside = sky_beside_ball(vf3_towards(sphere, p->at), sphere.w, p->normal);
+        visible = less_sky(visible, p->wanted, beside);
+    }
     for (uint32_t i = 0; i < shapes->counts.y; i++) {
         const float4 axis = shapes->cylinder_axis[i], cylinder = shapes->cylinders[i];
-        float halves = axis.w, radius = cylinder.w, size = fminf(halves, radius);
-        struct vf3 towards = vf3_towards(cylinder, p->at);
-        vf height = vf3_dot_all(towards, axis);
-        struct vf3 aside = vf3_along(towards, vf3_all(axis), -height);
-        vf above = vf_max(vf_abs(height) - halves, zero);
-        vf beside = vf_max(vf3_length(aside) - radius, zero);
-        vf along = vf3_dot(towards, p->normal), climb = vf3_dot_all(p->normal, axis);
-        vf slant = vf_sqrt(vf_max(1.0f - climb * climb, zero));
-        vi hides = p->wanted & (along > 1e-3f - (halves * vf_abs(climb) + radius * slant));
-        vf fall = size / (size + 2.0f * vf_sqrt(above * above + beside * beside));
+        const struct vf3 towards = vf3_towards(cylinder, p->at);
+        vi hides = p->wanted & sky_meets_cylinder(towards, cylinder.w, axis, p->normal);
         visible =
-            shaded_sky(visible, hides, turned_to(along, vf3_dot(towards, towards)), fall * fall);
-    }
-    return visible;
-}
-
-/* Returns the visible sky beside capsules: each hides as the nearest of the balls that form it. */
-SIMD vf capsules_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p,
-                           vf visible)
-{
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    for (uint32_t i = 0; i < shapes->more.x; i++) {
-        const float4 axis = shapes->capsule_axis[i], capsule = shapes->capsules[i];
-        struct vf3 towards = vf3_towards(capsule, p->at);
-        vf along = vf_clamp(-vf3_dot_all(towards, axis), -axis.w, axis.w);
-        towards = vf3_along(towards, vf3_all(axis), along);
-        visible = ball_leaves_sky(towards, capsule.w, p, visible);
+            less_sky(visible, hides, sky_beside_cylinder(towards, cylinder.w, axis, p->normal));
     }
     return visible;
 }
 
 SIMD vf turned_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
 {
-    for (uint32_t i = 0; i < frame->shapes->more.y; i++) {
-        const struct kiln_draw_turned_box *box = &frame->shapes->turned[i];
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    for (uint32_t i = 0; i < shapes->more.x; i++) {
+        const float4 axis = shapes->capsule_axis[i], capsule = shapes->capsules[i];
+        vf beside = sky_beside_capsule(vf3_towards(capsule, p->at), capsule.w, axis, p->normal);
+        visible = less_sky(visible, p->wanted, beside);
+    }
+    for (uint32_t i = 0; i < shapes->more.y; i++) {
+        const struct kiln_draw_turned_box *box = &shapes->turned[i];
         struct vf3 towards = into_box(box, vf3_towards(box->center, p->at));
         struct vf3 normal = into_box(box, p->normal);
         visible = box_leaves_sky(box->half_size, towards, normal, p->wanted, visible);
@@ -122,21 +74,12 @@ SIMD vf turned_leave_sky(const struct kiln_ray_frame *frame, const struct ray_po
     return visible;
 }
 
-/* Returns the visible sky beside meshes: each hides as the ellipsoid in its bounds. In a hollow of
- * a mesh its middle is in front, so hollows get darker. */
 SIMD vf meshes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
 {
     for (uint32_t i = 0; i < frame->shapes->counts.z; i++) {
         const struct kiln_draw_mesh *mesh = &frame->shapes->meshes[i];
-        const float4 half = mesh->half_size;
-        struct vf3 towards = vf3_towards(mesh->center, p->at);
-        struct vf3 parts = {towards.x * (1.0f / fmaxf(half.x, 1e-4f)),
-                            towards.y * (1.0f / fmaxf(half.y, 1e-4f)),
-                            towards.z * (1.0f / fmaxf(half.z, 1e-4f))};
-        vf away = vf_max(vf3_length(parts) - 1.0f, vf_all(0.0f));
-        vf fall = 1.0f / (1.0f + 2.0f * away);
-        vf facing = turned_to(vf3_dot(towards, p->normal), vf3_dot(towards, towards));
-        visible = shaded_sky(visible, p->wanted, facing, fall * fall);
+        vf beside = sky_beside_mesh(vf3_towards(mesh->center, p->at), mesh->half_size, p->normal);
+        visible = less_sky(visible, p->wanted, beside);
     }
     return visible;
 }
@@ -147,14 +90,10 @@ SIMD void add_light(const struct kiln_draw_light *light, const struct ray_point 
                     struct vf3 *irradiance)
 {
     struct vf3 towards = vf3_towards(light->position_radius2, p->at);
-    vf along = vf3_dot(p->normal, towards);
-    vi faces = p->wanted & (along > 0.0f);
+    vi faces = p->wanted & (vf3_dot(p->normal, towards) > 0.0f);
     if (!any(faces))
         return;
-    vf d2 = vf3_dot(towards, towards);
-    vf part =
-        along * vf_rsqrt(vf_max(d2, vf_all(1e-9f))) * RAY_PI / (d2 + light->position_radius2.w);
-    part = vf_where(faces, part);
+    vf part = vf_where(faces, lamp_irradiance(towards, p->normal, light->position_radius2.w));
     irradiance->x += light->color.x * part;
     irradiance->y += light->color.y * part;
     irradiance->z += light->color.z * part;
@@ -165,13 +104,11 @@ SIMD struct vf3 soft_irradiance(const struct kiln_ray_frame *frame, const struct
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     vf sky = boxes_leave_sky(frame, p, vf_all(1.0f));
-    sky = spheres_leave_sky(frame, p, sky);
-    sky = cylinders_leave_sky(frame, p, sky);
-    sky = capsules_leave_sky(frame, p, sky);
+    sky = round_leave_sky(frame, p, sky);
     sky = turned_leave_sky(frame, p, sky);
     sky = meshes_leave_sky(frame, p, sky);
     sky *= smoke_lets_through(frame->smoke_to_sky, b->sky_to_grid, p);
-    struct vf3 ambient = vf3_mix(b->sky_horizon, b->sky_top, 0.5f + 0.5f * p->normal.y);
+    struct vf3 ambient = sky_ambient(b->sky_horizon, b->sky_top, p->normal);
     struct vf3 irradiance = vf3_scale(ambient, RAY_PI * sky);
     for (uint32_t i = 0; i < b->counts.y; i++)
         add_light(&b->lights[i], p, &irradiance);
@@ -195,8 +132,7 @@ SIMD struct vf3 sky_color(const struct kiln_ray_frame *frame, struct vf3 directi
     const float4 frustum = frame->view->frustum;
     if (frame->sky_image)
         return sky_picture(frame, direction, 2.0f * frustum.y / frustum.w, wanted);
-    vf up = clamp01(vf3_normalize(direction).y);
-    return vf3_mix(b->sky_horizon, b->sky_top, 1.0f - vf_exp(-4.0f * up));
+    return sky_gradient(b->sky_horizon, b->sky_top, direction);
 }
 
 /* Returns the colour that the floor fades into far away. */

@@ -1,5 +1,5 @@
 /* This header computes meshes along vectors of rays from triangles that were found beforehand
- * (mesh_rows.h), as shaders/draw/backdrop/mesh_trace.glsl does in GL. */
+ * (mesh_rows.h). */
 #ifndef KILN_DRAW_BACKDROP_RAY_MESH_H
 #define KILN_DRAW_BACKDROP_RAY_MESH_H
 
@@ -120,7 +120,8 @@ SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_plac
     const int stride = (int)(sizeof frame->shapes->meshes[0] / sizeof(float));
     vi index = found.mesh * stride;
     nearest->t = vf_select(nearer, found.depth, nearest->t);
-    nearest->surface = vf_select(nearer, vf_of(found.mesh * 4 + RAY_MESHES), nearest->surface);
+    nearest->surface =
+        vf_select(nearer, vf_of(found.mesh * 4 + KILN_SURFACE_MESHES), nearest->surface);
     nearest->normal = vf3_select(nearer, found.normal, nearest->normal);
     struct vf3 albedo = {vf_gather(colors, index), vf_gather(colors + 1, index),
                          vf_gather(colors + 2, index)};
@@ -150,7 +151,7 @@ SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const str
 SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at, vf surface,
                         vi odd)
 {
-    vi seen = surface >= (float)RAY_MESHES;
+    vi seen = surface >= (float)KILN_SURFACE_MESHES;
     if (!any(seen))
         return surface;
     vi center = read_hit(frame->meshes, at, 0), edge = vi_all(0);

@@ -1,5 +1,4 @@
-/* This header reads pictures of the floor and the sky along vectors of rays, as
- * shaders/draw/backdrop/floor_image.glsl and sky_image.glsl do in GL. A texel is a vector of its
+/* This header reads pictures of the floor and the sky along vectors of rays. A texel is a vector of its
  * own, fetched for one lane after the other. */
 #ifndef KILN_DRAW_BACKDROP_RAY_PICTURE_H
 #define KILN_DRAW_BACKDROP_RAY_PICTURE_H

@@ -1,11 +1,11 @@
 /* This header computes the part of the sun that surfaces see past the backdrop's objects and past
- * solid particles, as shaders/draw/backdrop/surface.glsl, sun_cover.glsl, round.glsl,
- * mesh_trace.glsl and solid_shadow.glsl do in GL. An object that hides nothing from a lane
+ * solid particles. An object that hides nothing from a lane
  * multiplies its light by exactly 1, so that it does not matter which lanes share a vector. */
 #ifndef KILN_DRAW_BACKDROP_RAY_SUN_H
 #define KILN_DRAW_BACKDROP_RAY_SUN_H
 
 #include "draw/backdrop/ray_turned.h"
+#include "shared/sun_cover.h"
 
 /* Describes points that the sun is looked for from, and the lanes that need it. */
 struct ray_shade {
@@ -13,86 +13,35 @@ struct ray_shade {
     vi wanted;
 };
 
-SIMD vf clamp01(vf x)
-{
-    return vf_clamp(x, 0.0f, 1.0f);
-}
-
-/* Returns the part of a disc on the far side of a line, by the line's signed distance in radii. */
-SIMD vf disc_cover(vf distance)
-{
-    vf x = clamp01(0.5f + 0.5f * distance);
-    return x * x * (3.0f - 2.0f * x);
-}
-
-/* Returns the part of a disc between two parallel lines, whose distances are positive inside. */
-SIMD vf strip_cover(vf one, vf other, vf radius)
-{
-    vf scale = 1.0f / vf_max(radius, vf_all(1e-5f));
-    return vf_max(disc_cover(one * scale) + disc_cover(other * scale) - 1.0f, vf_all(0.0f));
-}
-
 /* ---- boxes ----------------------------------------------------------------------------------- */
-
-/* Returns the cover of the strip between the edges where two pairs of faces meet; *outside grows to
- * how far outside of it a ray is, m. */
-SIMD vf box_strip(vf in_a, vf in_b, vf out_a, vf out_b, float inverse_a, float inverse_b,
-                  float spread, vf *outside)
-{
-    float square_a = inverse_a * inverse_a, square_b = inverse_b * inverse_b;
-    float sum = 1.0f / (square_a + square_b), scale = sqrtf(sum);
-    vf one = (out_b - in_a) * scale, other = (out_a - in_b) * scale;
-    vf one_at = (in_a * square_b + out_b * square_a) * sum;
-    vf other_at = (in_b * square_a + out_a * square_b) * sum;
-    *outside = vf_max(*outside, -vf_min(one, other));
-    vf least = vf_all(1e-5f);
-    vf cover = disc_cover(one / vf_max(one_at * spread, least)) +
-               disc_cover(other / vf_max(other_at * spread, least)) - 1.0f;
-    return vf_max(cover, vf_all(0.0f));
-}
 
 #define BOX_EDGE 1e-4f /* m: what rounding puts a ray aside, and less than surfaces are */
 
-/* Combines the covers of two strips; edges that look alike count once. */
-SIMD vf both_strips(vf a, vf b, float alike)
+SIMD vf box_cover(const struct ray_slabs *s, const struct sun_edges *edges, float spread)
 {
-    return a * b + (vf_min(a, b) - a * b) * alike;
+    const struct sun_hidden hidden = sun_cross_box(*s, *edges, BOX_EDGE, spread, 0.0f);
+    return vf_where(hidden.way > 0.0f, hidden.cover);
 }
 
-/* Returns how much later, at most, a ray leaves a slab that it passes at the distance `aside`. */
-SIMD vf later(float inverse, vf aside)
+SIMD struct vf3 sun_inverses(const struct sun_edges *edges)
 {
-    return aside * sqrtf(fmaxf(inverse * inverse - 1.0f, 0.0f));
-}
-
-SIMD vf box_cover(const struct ray_slabs *s, float3 inverse, float3 alike, float spread)
-{
-    vf outside = vf_all(0.0f);
-    vf xy = box_strip(s->in.x, s->in.y, s->out.x, s->out.y, inverse.x, inverse.y, spread, &outside);
-    vf yz = box_strip(s->in.y, s->in.z, s->out.y, s->out.z, inverse.y, inverse.z, spread, &outside);
-    vf xz = box_strip(s->in.x, s->in.z, s->out.x, s->out.z, inverse.x, inverse.z, spread, &outside);
-    vf cover = both_strips(both_strips(yz, xz, alike.z), xy, fmaxf(alike.x, alike.y));
-    vf aside = outside + BOX_EDGE;
-    vf out = vf_min(vf_min(s->out.x + later(inverse.x, aside), s->out.y + later(inverse.y, aside)),
-                    s->out.z + later(inverse.z, aside));
-    return vf_where(out > 0.0f, cover);
+    const float3 inverse = edges->inverse;
+    return (struct vf3){vf_all(inverse.x), vf_all(inverse.y), vf_all(inverse.z)};
 }
 
 SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
-    float3 inverse = frame->sun_inverse;
-    const struct vf3 inverses = {vf_all(inverse.x), vf_all(inverse.y), vf_all(inverse.z)};
+    const struct vf3 inverses = sun_inverses(&frame->edges);
     vf visible = vf_all(1.0f);
     for (uint32_t i = 0; i < b->counts.x; i++) {
-        struct ray_slabs s = cross_slabs(b->box_center[i], b->box_half[i], shade->origin, inverses);
+        struct ray_slabs s =
+            ray_cross_slabs(vf3_towards(b->box_center[i], shade->origin), b->box_half[i], inverses);
         if (!frame->soft_sun) {
-            vf out = vf_min(vf_min(s.out.x, s.out.y), s.out.z);
-            vf in = vf_max(vf_max(s.in.x, s.in.y), s.in.z);
-            vi hidden = shade->wanted & (out > 0.0f) & (in < out);
+            vi hidden = shade->wanted & ray_is_blocked(ray_slabs_interval(s));
             visible = vf_where(~hidden, visible);
         } else {
-            vf cover = box_cover(&s, inverse, frame->edges_alike, frame->shapes->sun_right.w);
+            vf cover = box_cover(&s, &frame->edges, frame->shapes->sun_right.w);
             visible *= 1.0f - vf_where(shade->wanted, cover);
         }
     }
@@ -101,77 +50,37 @@ SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_s
 
 /* ---- spheres and cylinders ------------------------------------------------------------------- */
 
-/* Returns the cover of a ball. towards: the way to its centre. */
-SIMD vf ball_cover(struct vf3 towards, float radius, float4 sun, float spread)
+SIMD vf cylinder_of_sun(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
 {
-    vf t = vf3_dot_all(towards, sun);
-    vf across = vf3_length(vf3_along(towards, vf3_all(sun), -t));
-    return vf_where(t >= 0.0f, strip_cover(radius - across, radius + across, t * spread));
-}
-
-SIMD vf sphere_cover(float4 sphere, struct vf3 origin, float4 sun, float spread)
-{
-    return ball_cover(vf3_towards(sphere, origin), sphere.w, sun, spread);
-}
-
-/* Returns the cover of a cylinder. Its outline is a band along `up`, with round ends; seen along
- * its axis, it is round. */
-SIMD vf cylinder_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
-{
-    const float4 sun4 = frame->backdrop->sun_direction, axis4 = frame->shapes->cylinder_axis[i];
-    const float4 cylinder = frame->shapes->cylinders[i], aside4 = frame->shapes->sun_right;
-    const float3 sun = {sun4.x, sun4.y, sun4.z}, axis = {axis4.x, axis4.y, axis4.z};
-    float halves = axis4.w, radius = cylinder.w, spread = aside4.w;
-    float climb = float3_dot(axis, sun), slant = sqrtf(fmaxf(1.0f - climb * climb, 1e-6f));
-    float3 right = {aside4.x, aside4.y, aside4.z};
-    if (slant > 1e-3f)
-        right = float3_scale(float3_cross(axis, sun), 1.0f / slant);
-    float3 up = float3_cross(sun, right);
-    float tilt = float3_dot(axis, up) < 0.0f ? -1.0f : 1.0f;
-
-    struct vf3 towards = vf3_towards(cylinder, origin);
-    vf x = towards.x * right.x + towards.y * right.y + towards.z * right.z;
-    vf y = towards.x * up.x + towards.y * up.y + towards.z * up.z;
-    vf along = vf_clamp(-y * (1.0f / (slant * tilt)), -halves, halves);
-    vf t = vf_max(vf3_dot_all(towards, sun4) + along * climb, vf_all(0.0f));
-    vf inside = vf_sqrt(vf_max(radius * radius - x * x, vf_all(0.0f)));
-    vf end = halves * slant + fabsf(climb) * inside;
-    vf sides = strip_cover(radius - vf_abs(x), radius + vf_abs(x), t * spread);
-    vf ends = strip_cover(end - vf_abs(y), end + vf_abs(y), t * spread);
-    /* Light that starts beside the cylinder or beyond an end may only lead away from it. */
-    vf height = -vf3_dot_all(towards, axis4);
-    struct vf3 aside = vf3_along(towards, vf3_all(axis4), height);
-    vi beyond = (vf_abs(height) >= halves) & (height * climb > 0.0f);
-    vi beside = (vf3_dot(aside, aside) >= radius * radius) & (vf3_dot_all(aside, sun4) < 0.0f);
-    return vf_where(~(beyond | beside), sides * ends);
-}
-
-/* Returns the lanes whose ray does not cross the interval, for a sun without size. */
-SIMD vi is_free(struct ray_interval at)
-{
-    return vf_max(at.in, vf_all(0.0f)) >= at.out;
+    const float4 sun = frame->backdrop->sun_direction, aside = frame->shapes->sun_right;
+    const float4 cylinder = frame->shapes->cylinders[i], axis = frame->shapes->cylinder_axis[i];
+    const struct sun_band band =
+        sun_band_of((float3){axis.x, axis.y, axis.z}, (float3){sun.x, sun.y, sun.z},
+                    (float3){aside.x, aside.y, aside.z});
+    return cylinder_cover(vf3_towards(cylinder, origin), cylinder.w, axis, sun, band, aside.w);
 }
 
 SIMD vf round_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const float4 sun = frame->backdrop->sun_direction;
-    const struct ray ray = {shade->origin, vf3_all(sun)};
+    const struct vf3 way = vf3_all(sun);
     vf visible = vf_all(1.0f);
     for (int i = 0; i < (int)shapes->counts.x; i++) {
         if (frame->soft_sun)
-            visible *=
-                1.0f - sphere_cover(shapes->spheres[i], ray.origin, sun, shapes->sun_right.w);
+            visible *= 1.0f - ball_cover(vf3_towards(shapes->spheres[i], shade->origin),
+                                         shapes->spheres[i].w, sun, shapes->sun_right.w);
         else
-            visible = vf_where(is_free(cross_sphere(shapes->spheres[i], &ray)), visible);
+            visible = vf_where(
+                ~ray_is_blocked(ray_cross_ball(shapes->spheres[i], shade->origin, way)), visible);
     }
     for (int i = 0; i < (int)shapes->counts.y; i++) {
         if (frame->soft_sun) {
-            visible *= 1.0f - cylinder_cover(frame, i, ray.origin);
+            visible *= 1.0f - cylinder_of_sun(frame, i, shade->origin);
         } else {
-            struct ray_cylinder c =
-                cross_cylinder(shapes->cylinders[i], shapes->cylinder_axis[i], &ray);
-            visible = vf_where(is_free(c.interval), visible);
+            struct ray_cylinder c = ray_cross_cylinder(
+                shapes->cylinders[i], shapes->cylinder_axis[i], shade->origin, way);
+            visible = vf_where(~ray_is_blocked(c.interval), visible);
         }
     }
     return visible;
@@ -179,43 +88,35 @@ SIMD vf round_let_through(const struct kiln_ray_frame *frame, const struct ray_s
 
 /* ---- capsules and turned boxes --------------------------------------------------------------- */
 
-/* Returns the cover of the ball, of those that form a capsule, that the ray passes most closely. */
 SIMD vf capsule_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
 {
-    const float4 sun = frame->backdrop->sun_direction, axis = frame->shapes->capsule_axis[i];
-    const float4 capsule = frame->shapes->capsules[i];
-    const float climb = axis.x * sun.x + axis.y * sun.y + axis.z * sun.z;
-    const float4 flat = {axis.x - sun.x * climb, axis.y - sun.y * climb, axis.z - sun.z * climb,
-                         0.0f};
-    const float square = flat.x * flat.x + flat.y * flat.y + flat.z * flat.z;
-    struct vf3 towards = vf3_towards(capsule, origin);
-    vf along = vf3_dot_all(towards, flat) * (-1.0f / fmaxf(square, 1e-6f));
-    towards = vf3_along(towards, vf3_all(axis), vf_clamp(along, -axis.w, axis.w));
+    const float4 sun = frame->backdrop->sun_direction, capsule = frame->shapes->capsules[i];
+    const struct vf3 towards =
+        capsule_nearest(vf3_towards(capsule, origin), frame->shapes->capsule_axis[i], sun);
     return ball_cover(towards, capsule.w, sun, frame->shapes->sun_right.w);
 }
 
 SIMD vf turned_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
-    const struct ray ray = {shade->origin, vf3_all(frame->backdrop->sun_direction)};
+    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
     vf visible = vf_all(1.0f);
     for (int i = 0; i < (int)shapes->more.x; i++) {
         if (frame->soft_sun)
-            visible *= 1.0f - capsule_cover(frame, i, ray.origin);
+            visible *= 1.0f - capsule_cover(frame, i, shade->origin);
         else
             visible =
-                vf_where(is_free(cross_capsule(shapes->capsules[i], shapes->capsule_axis[i], &ray)),
+                vf_where(~ray_is_blocked(ray_cross_capsule(
+                             shapes->capsules[i], shapes->capsule_axis[i], shade->origin, way)),
                          visible);
     }
     for (int i = 0; i < (int)shapes->more.y; i++) {
-        const struct kiln_turned_sun *sun = &frame->turned[i];
-        const struct vf3 inverse = {vf_all(sun->inverse.x), vf_all(sun->inverse.y),
-                                    vf_all(sun->inverse.z)};
-        struct ray_slabs s = cross_turned(&shapes->turned[i], ray.origin, inverse);
+        const struct sun_edges *edges = &frame->turned[i];
+        struct ray_slabs s = cross_turned(&shapes->turned[i], shade->origin, sun_inverses(edges));
         if (frame->soft_sun)
-            visible *= 1.0f - box_cover(&s, sun->inverse, sun->edges_alike, shapes->sun_right.w);
+            visible *= 1.0f - box_cover(&s, edges, shapes->sun_right.w);
         else
-            visible = vf_where(is_free(slabs_interval(&s)), visible);
+            visible = vf_where(~ray_is_blocked(ray_slabs_interval(s)), visible);
     }
     return visible;
 }
@@ -322,29 +223,18 @@ SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct ray_s
         seen = read_shadow(map, at.u + aside_u, at.v + aside_v, level);
         middle = seen.distance / vf_max(seen.cover, vf_all(1e-4f));
         vf before = at.depth + (at.slope_u * aside_u + at.slope_v * aside_v) - middle;
-        cover += 0.25f * seen.cover * clamp01(before * ramp - 0.5f);
+        cover += 0.25f * seen.cover * real_clamp01(before * ramp - 0.5f);
     }
     return vf_where(near, cover);
 }
 
 /* ---- particles ------------------------------------------------------------------------------- */
 
-/* Returns the common part of two discs, within 3 % of the exact one. */
 SIMD vf particle_cover(const struct kiln_ray_frame *frame, struct vf3 center, vf size,
                        struct vf3 origin)
 {
-    const float4 sun = frame->backdrop->sun_direction;
-    struct vf3 towards = vf3_sub(center, origin);
-    vf t = vf3_dot_all(towards, sun);
-    vf across = vf3_length(vf3_along(towards, vf3_all(sun), -t));
-    vf radius = vf_max(t * frame->shapes->sun_right.w, vf_all(1e-5f));
-    vf smaller = vf_min(radius, size), ratio = smaller / vf_max(radius, size);
-    vf x = clamp01((radius + size - across) / (2.0f * smaller));
-    vf large_over_small = x * x * (3.0f - 2.0f * x), like_over_like = x * (0.55f + 0.45f * x);
-    vf part = large_over_small + (like_over_like - large_over_small) * ratio;
-    vf most = smaller / radius;
-    vf fade = clamp01(2.0f - 2.0f * radius / (size * KILN_SOLID_FADE));
-    return vf_where(t > 0.0f, part * most * most * fade);
+    return speck_cover(vf3_sub(center, origin), size, frame->backdrop->sun_direction,
+                       frame->shapes->sun_right.w, KILN_SOLID_FADE);
 }
 
 /* Returns where a level of the silhouettes starts, in texels. */
@@ -403,8 +293,8 @@ SIMD vf silhouette_cover(const struct kiln_ray_frame *frame, struct vf3 center,
     vf fine = vf_floor(level), coarse = vf_min(fine + 1.0f, most);
     vf cover = silhouette_level(texels, tile, u, v, vi_of(fine));
     cover += (silhouette_level(texels, tile, u, v, vi_of(coarse)) - cover) * (level - fine);
-    vf wide = clamp01((radius / tile->reach - KILN_INSTANCE_SHARP) *
-                      (1.0f / (KILN_INSTANCE_ROUND - KILN_INSTANCE_SHARP)));
+    vf wide = real_clamp01((radius / tile->reach - KILN_INSTANCE_SHARP) *
+                           (1.0f / (KILN_INSTANCE_ROUND - KILN_INSTANCE_SHARP)));
     cover = vf_where(t > 0.0f, cover);
     return cover + (ball - cover) * wide;
 }

@@ -1,6 +1,5 @@
-/* This header declares how much of the sun convex shapes hide from a ball, as
- * shaders/draw/light/sun_cover.glsl computes it for a point; the ball's radius is added to that of
- * the penumbra. */
+/* This header declares how much of the sun convex shapes hide from a ball, by the edges of
+ * shared/sun_cover.h. */
 #ifndef KILN_DRAW_LIGHT_SUN_COVER_H
 #define KILN_DRAW_LIGHT_SUN_COVER_H
 
@@ -8,19 +7,12 @@
 
 #include "draw/moment/shapes.h"
 #include "shared/exact.h"
+#include "shared/sun_cover.h"
 
 struct kiln_ball {
     float3 center;
     float radius; /* m */
 };
-
-/* Returns the width of a shadow's edge on a ball that is behind a shape at a distance, m. */
-static inline float kiln_sun_penumbra(float along, struct kiln_ball ball,
-                                      const struct kiln_sun_frame *sun)
-{
-    float wide = exact_max(along, 0.0f) * sun->spread + ball.radius;
-    return exact_max(wide, 1e-5f);
-}
 
 /* Returns whether a shape within a sphere of a size about its centre can hide nothing from a
  * ball. */
@@ -31,7 +23,7 @@ static inline bool kiln_sun_misses(float3 center, float size, struct kiln_ball b
     float ahead = float3_dot(to, sun->towards);
     float3 across = float3_add_scaled(to, sun->towards, -ahead);
     float away = sqrtf(float3_dot(across, across));
-    float reach = size + kiln_sun_penumbra(ahead + size, ball, sun);
+    float reach = size + sun_penumbra(ahead + size, sun->spread, ball.radius);
     return (ahead < -size) | (away > reach);
 }
 

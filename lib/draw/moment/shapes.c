@@ -11,12 +11,15 @@
 #include "draw/moment/instances.h"
 #include "shared/exact.h"
 
+enum { FIRST_SPHERE = 144 + 2 * 16 * KILN_WAVES };
+
 static_assert(sizeof(struct kiln_draw_mesh) == 96, "std140");
 static_assert(sizeof(struct kiln_draw_turned_box) == 96, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, spheres) == 144, "std140");
-static_assert(offsetof(struct kiln_draw_shapes, meshes) == 144 + 80 * KILN_MAX_OBJECTS, "std140");
+static_assert(offsetof(struct kiln_draw_shapes, spheres) == FIRST_SPHERE, "std140");
+static_assert(offsetof(struct kiln_draw_shapes, meshes) == FIRST_SPHERE + 80 * KILN_MAX_OBJECTS,
+              "std140");
 static_assert(sizeof(struct kiln_draw_shapes) ==
-                  144 + (80 + 80 + 96) * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
+                  FIRST_SPHERE + (80 + 80 + 96) * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
               "std140, and no padding, which the backdrop would compare");
 
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
@@ -85,6 +88,23 @@ struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float ti
                                    radius.sine / radius.cosine};
 }
 
+/* Fills in eight waves around the wind's direction, each shorter than the one before. length_m: of
+ * the longest. */
+static void fill_waves(float length_m, float time_s, struct kiln_draw_shapes *shapes)
+{
+    const float gravity = 9.81f, full_turn = EXACT_TWO_PI;
+    for (int i = 0; i < KILN_WAVES; i++) {
+        const struct exact_angle heading =
+            exact_sincos(1.2f + 1.1f * exact_sincos(2.7f * (float)i).sine);
+        float number = full_turn / length_m, turns = sqrtf(gravity * number) * time_s / full_turn;
+        float shift = 0.1f * length_m;
+        shapes->waves[i] =
+            (float4){heading.cosine, heading.sine, number, (turns - floorf(turns)) * full_turn};
+        shapes->wave_shift[i] = (float4){heading.cosine * shift, heading.sine * shift, 0.0f, 0.0f};
+        length_m *= 0.71f;
+    }
+}
+
 /* Fills in the gloss and the waves of the floor. A wave of height h and length l has the slope pi h
  * / l; the shorter waves are as steep as the longest. */
 static void fill_gloss(const struct kiln_scene *scene, float time_s,
@@ -95,8 +115,8 @@ static void fill_gloss(const struct kiln_scene *scene, float time_s,
     float height = kiln_scene_value(scene, &backdrop->floor_wave_height, time_s);
     float length = kiln_scene_value(scene, &backdrop->floor_wave_length, time_s);
     shapes->floor_gloss = (float4){kiln_scene_value(scene, &backdrop->floor_gloss, time_s),
-                                   roughness * roughness, length, 3.14159265f * height / length};
-    shapes->floor_map.w = height > 0.0f ? time_s : 0.0f;
+                                   roughness * roughness, 3.14159265f * height / length, 0.0f};
+    fill_waves(length, height > 0.0f ? time_s : 0.0f, shapes);
 }
 
 /* Returns the position of a mesh's origin; a terrain's is its first point. */

@@ -1,8 +1,8 @@
-/* This file draws strips of opaque particles on the host, as solids_spheres.frag, instances.frag
- * and solids_resolve.frag under shaders/draw/solids do in GL. It finds the sphere or triangle that
+/* This file draws strips of opaque particles on the host. It finds the sphere or triangle that
  * each of a pixel's samples shows, then computes the light of each one in a pixel once, by a ray
  * through the pixel's middle. */
 #include "draw/solids/instance_cast.h"
+#include "shared/ball_pattern.h"
 
 enum { SAMPLES = KILN_SOLID_SAMPLES };
 
@@ -82,42 +82,7 @@ static void clear_samples(const struct kiln_solid_strip *s, uint32_t row)
            SAMPLES * s->pitch * sizeof *s->nearest);
 }
 
-/* ---- patterns: as shaders/draw/solids/solids_spheres.frag has them
- * ------------------------------------------
- */
-
-SIMD vf part_beyond(vf distance, vf width)
-{
-    vf part = vf_min(vf_all(0.5f) + distance / width, vf_all(1.0f));
-    return vf_max(part, vf_all(0.0f));
-}
-
-/* Returns the sine of an angle times its number of segments, from the angle's sine and cosine. */
-SIMD vf sine_of_segments(vf sine, vf cosine, vf segments)
-{
-    vf c = cosine, s = sine;
-    for (int i = 1; i < 8; i++) {
-        vi more = segments > (float)i;
-        vf next = c * cosine - s * sine;
-        s = vf_select(more, s * cosine + c * sine, s);
-        c = vf_select(more, next, c);
-    }
-    return s;
-}
-
-/* Returns the part of the second colour where the ball's own normal is n; width: of a pixel there,
- * rad. */
-SIMD vf other_part(struct vf3 n, vf segments, vf width)
-{
-    vf high = vf_abs(n.y);
-    vf rim = vf_sqrt(vf_max(n.x * n.x + n.z * n.z, vf_all(1e-12f)));
-    vf sine = sine_of_segments(n.z / rim, n.x / rim, segments);
-    vf lune = part_beyond(sine * rim / vf_max(segments, vf_all(1.0f)), width);
-    vf cap = part_beyond((high - 0.94f) * 2.9f, width);
-    vf beside = part_beyond((high - 0.42f) * 1.1f, width);
-    vf part = vf_select(segments < 0.0f, beside, vf_max(lune, cap));
-    return vf_select(segments == 0.0f, vf_all(0.0f), part);
-}
+/* ---- patterns -------------------------------------------------------------------------------- */
 
 /* Transforms a direction from the world to the ball's own axes. */
 SIMD struct vf3 into_ball(const struct vf3 axis, vf w, struct vf3 v)
@@ -137,7 +102,7 @@ static void paint_spheres(const struct kiln_solid_strip *s, const struct seen_th
     vf facing = vf_max(-vf3_dot(place->direction, place->normal), vf_all(0.0f)) / vf_sqrt(away);
     vf pixel = place->depth * (2.0f * frustum.y / frustum.w);
     vf width = pixel / (vf_gather(&all->radius, seen->thing) * vf_max(facing, vf_all(0.1f)));
-    vf part = other_part(n, vf_gather(&all->segments, seen->thing), width);
+    vf part = ball_other_part(n, vf_gather(&all->segments, seen->thing), width);
     struct vf3 other = gather3(all->other, seen->thing);
     place->albedo = vf3_along(place->albedo, vf3_sub(other, place->albedo), part);
 }

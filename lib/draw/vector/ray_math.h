@@ -37,6 +37,12 @@ SIMD vi vi_select(vi mask, vi yes, vi no)
     return (yes & mask) | (no & ~mask);
 }
 
+/* Returns 1 with the sign of x. */
+SIMD vf vf_sign_one(vf x)
+{
+    return (vf)(((vi)x & INT32_MIN) | 0x3f800000);
+}
+
 SIMD vf vf_clamp(vf x, float low, float high)
 {
     return vf_min(vf_max(x, vf_all(low)), vf_all(high));

@@ -33,44 +33,25 @@ layout(location = 2) out float out_surface; /* a number that changes at every ed
 #endif
 
 #include "draw/backdrop/surface.glsl"
-
-vec3 box_normal(int i, vec3 point)
-{
-    vec3 local = (point - backdrop.box_center[i].xyz) / backdrop.box_half[i].xyz;
-    vec3 a = abs(local);
-    vec3 axis = vec3(a.x >= a.y && a.x >= a.z, a.y > a.x && a.y >= a.z, a.z > a.x && a.z > a.y);
-    return axis * sign(local);
-}
-
-/* The integral of a square wave of period 2. */
-vec2 square_integral(vec2 x)
-{
-    return 1.0 - abs(fract(x * 0.5) * 2.0 - 1.0);
-}
-
-/* Squares of two shades, averaged over the footprint of a pixel, so that they do not alias. */
-vec3 floor_albedo(vec2 position, vec2 footprint)
-{
-    vec3 color = backdrop.floor_color.rgb;
-    float edge = backdrop.floor_params.y;
-    if (edge <= 0.0)
-        return color;
-    vec2 width = max(footprint / edge, vec2(1e-3));
-    vec2 p = position / edge;
-    vec2 wave = (square_integral(p + 0.5 * width) - square_integral(p - 0.5 * width)) / width;
-    return color * (1.0 + 0.2 * wave.x * wave.y);
-}
+#include "shared/floor.h"
 
 #ifdef FLOOR_IMAGE
 #include "draw/backdrop/floor_image.glsl"
 #endif
 
-/* The floor that one pixel covers: longer along the view where it is seen flat. */
-vec2 floor_footprint(vec3 direction, float t)
+/* The floor that one pixel covers. */
+floor_extent floor_extent_along(vec3 direction, float t)
 {
-    float pixel = 2.0 * view.frustum.y / view.frustum.w * t;
-    vec2 along = abs(direction.xz) / max(length(direction.xz), 1e-6);
-    return pixel * (1.0 + along * length(direction) / max(abs(direction.y), 1e-6));
+    return floor_extent_of(direction, t, 2.0 * view.frustum.y / view.frustum.w);
+}
+
+vec3 floor_albedo(vec2 position, vec3 direction, float t)
+{
+    vec3 color = backdrop.floor_color.rgb;
+    float edge = backdrop.floor_params.y;
+    return edge <= 0.0 ? color
+                       : color * floor_checkers(position.x, position.y, edge,
+                                                floor_extent_along(direction, t));
 }
 
 #ifdef FLOOR_GLOSS
@@ -82,14 +63,14 @@ vec2 floor_footprint(vec3 direction, float t)
 vec4 floor_along(vec3 origin, vec3 direction)
 {
     float height = origin.y - backdrop.floor_color.w;
-    if (backdrop.floor_params.x <= 0.0 || direction.y >= -1e-6 || height <= 0.0)
+    float t = ray_cross_plane(height, direction.y);
+    if (backdrop.floor_params.x <= 0.0 || t > FAR)
         return vec4(vec3(0.0), 2.0 * FAR);
-    float t = height / -direction.y;
     vec2 position = (origin + direction * t).xz;
 #ifdef FLOOR_IMAGE
     return vec4(floor_picture(position, direction, t), t);
 #else
-    return vec4(floor_albedo(position, floor_footprint(direction, t)), t);
+    return vec4(floor_albedo(position, direction, t), t);
 #endif
 }
 
@@ -97,19 +78,22 @@ vec4 floor_along(vec3 origin, vec3 direction)
 hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
 {
     hit nearest = hit(FAR, -1, vec3(0.0, 1.0, 0.0), vec3(0.0));
-    vec3 inverse = safe_inverse(direction);
+    vec3 inverse = ray_inverse3(direction);
     int found = -1;
     for (int i = 0; i < int(backdrop.counts.x); i++) {
-        vec2 interval = box_interval(i, origin, inverse);
-        if (interval.x <= interval.y && interval.x > 0.0 && interval.x < nearest.t) {
-            nearest.t = interval.x;
+        ray_slabs slabs =
+            ray_cross_slabs(backdrop.box_center[i].xyz - origin, backdrop.box_half[i], inverse);
+        ray_interval at = ray_slabs_interval(slabs);
+        if (ray_meets(at, nearest.t)) {
+            nearest.t = at.near;
+            nearest.normal = ray_slabs_normal(slabs, inverse);
             found = i;
         }
     }
     if (found >= 0) {
-        nearest.normal = box_normal(found, origin + direction * nearest.t);
         nearest.albedo = backdrop.box_color[found].rgb;
-        nearest.surface = 14 + 27 * found + int(dot(nearest.normal, vec3(1.0, 3.0, 9.0)));
+        nearest.surface = KILN_SURFACE_BOX(KILN_SURFACE_BOXES, found) +
+                          int(ray_face_number(nearest.normal));
     }
 #ifdef ROUND
     trace_spheres(origin, direction, nearest);
@@ -146,7 +130,7 @@ sight look(vec3 direction, int layer)
     vec4 ground = floor_along(origin, direction);
     bool first = true, goes_on = false;
 #ifdef FLOOR_GLOSS
-    mirror m = floor_mirror(direction);
+    mirror m = mirror_along(direction);
 #endif
     do {
         hit h = trace(origin, direction, ground, first ? layer : -1);

@@ -36,7 +36,7 @@ void trace_meshes(int layer, inout hit nearest)
 #ifdef PAINT
         albedo = add_paint(i, found, albedo);
 #endif
-        nearest = hit(t, SURFACE_MESHES + 4 * i, mesh_hit_normal(found.xy), albedo);
+        nearest = hit(t, KILN_SURFACE_MESHES + 4 * i, mesh_hit_normal(found.xy), albedo);
     }
 }
 
@@ -49,14 +49,14 @@ int mark_mesh_edge(int surface)
     float depth = mesh_hit_depth(center);
     vec3 normal = mesh_hit_normal(center);
     bool edge = false;
-    int samples = surface >= SURFACE_MESHES ? KILN_EDGE_SAMPLES : 1; /* a loop saves what `if` cannot */
+    int samples = surface >= KILN_SURFACE_MESHES ? KILN_EDGE_SAMPLES : 1; /* a loop saves what `if` cannot */
     for (int s = 1; s <= samples; s++) {
         uvec2 other = texelFetch(mesh_hits, ivec3(pixel, s), 0).xy;
         edge = edge || mesh_hit_index(other) != mesh_hit_index(center) ||
                abs(mesh_hit_depth(other) - depth) > 0.01 * depth ||
                dot(mesh_hit_normal(other), normal) < 0.95;
     }
-    return edge && surface >= SURFACE_MESHES ? surface + 1 + (pixel.x + pixel.y & 1) : surface;
+    return edge && surface >= KILN_SURFACE_MESHES ? surface + 1 + (pixel.x + pixel.y & 1) : surface;
 }
 
 /* The map has coverage and depth of a mesh as the sun sees it, averaged over texels of a level; the
@@ -118,18 +118,11 @@ float mesh_sun_visibility(vec3 point, vec3 normal)
     return visible;
 }
 
-/* As the boxes do, by the ellipsoid in its bounds; inside of a hollow the middle is in front, and it
- * gets darker. */
 float mesh_sky_visibility(vec3 point, vec3 normal)
 {
     float visible = 1.0;
-    for (int i = 0; i < int(shapes.counts.z); i++) {
-        vec3 towards = shapes.meshes[i].center.xyz - point;
-        float away = length(towards / max(shapes.meshes[i].half_size.xyz, vec3(1e-4)));
-        float facing =
-            clamp(dot(towards, normal) * inversesqrt(max(dot(towards, towards), 1e-9)) + 0.4, 0.0, 1.0);
-        float fall = 1.0 / (1.0 + 2.0 * max(away - 1.0, 0.0));
-        visible *= 1.0 - 0.7 * facing * fall * fall;
-    }
+    for (int i = 0; i < int(shapes.counts.z); i++)
+        visible *= sky_beside_mesh(shapes.meshes[i].center.xyz - point,
+                                   shapes.meshes[i].half_size, normal);
     return visible;
 }

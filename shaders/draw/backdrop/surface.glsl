@@ -2,17 +2,13 @@
  * haze, less what smoke keeps off. For shaders that have the blocks `view` and `backdrop`, and
  * `shapes` with the defines of backdrop.frag. */
 #include "draw/light/smoke_shadow.glsl"
+#include "shared/shape_rays.h"
+#include "shared/sun_cover.h"
+#include "shared/surface_light.h"
 
 const float FAR = 1e9;
-const float PI = 3.14159265;
+const float PI = SURFACE_PI;
 
-/* The sky's surface is -1, the floor's 0; a face of a box has a number of its own, below 1000. */
-const int SURFACE_SPHERES = 1000;
-const int SURFACE_CYLINDERS = 1100; /* side and ends */
-const int SURFACE_TURNED = 1200;    /* as boxes */
-const int SURFACE_CAPSULES = 2200;
-const int SURFACE_PLANES = 2250;
-const int SURFACE_MESHES = 2300; /* 4 of each; nothing is above these */
 struct hit {
     float t;
     int surface;
@@ -33,40 +29,18 @@ vec3 ray_direction(vec2 pixel)
     return view_to_world(vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0));
 }
 
-vec3 safe_inverse(vec3 direction)
+/* The sun's light that a box lets through, 0 to 1. slabs: of a ray towards the sun. */
+float box_sun_visibility(ray_slabs slabs, sun_edges edges)
 {
-    vec3 magnitude = max(abs(direction), vec3(1e-8));
-    return mix(vec3(1.0), vec3(-1.0), lessThan(direction, vec3(0.0))) / magnitude;
-}
-
-/* Slabs: entry and exit of the ray through box i. */
-vec2 box_interval(int i, vec3 origin, vec3 inverse)
-{
-    vec3 center = (backdrop.box_center[i].xyz - origin) * inverse;
-    vec3 extent = backdrop.box_half[i].xyz * abs(inverse);
-    vec3 near = center - extent;
-    vec3 far = center + extent;
-    return vec2(max(max(near.x, near.y), near.z), min(min(far.x, far.y), far.z));
-}
-
-/* What is left of the sky beside a box, in whose frame the vectors are: falls off with the distance
- * in units of the box. Not a solid angle, but it anchors a box to the floor. */
-float box_sky_visibility(vec3 towards, vec3 halves, vec3 normal)
-{
-    float away = length(max(abs(towards) - halves, vec3(0.0)));
-    float facing = clamp(dot(towards, normal) * inversesqrt(dot(towards, towards)) + 0.4, 0.0, 1.0);
-    float size = min(min(halves.x, halves.y), halves.z);
-    bool outside = dot(towards, normal) > -dot(halves, abs(normal)) + 1e-3;
-    float fall = 1.0 / (1.0 + 2.0 * away / size);
-    return outside ? 1.0 - 0.7 * facing * fall * fall : 1.0;
-}
-
 #ifdef SOFT_SUN
-#include "draw/light/sun_cover.glsl"
+    /* Rounding puts a ray aside by less than surfaces are away from themselves. */
+    sun_hidden hidden = sun_cross_box(slabs, edges, 1e-4, shapes.sun_right.w, 0.0);
+    return hidden.way > 0.0 ? 1.0 - hidden.cover : 1.0;
+#else
+    return ray_is_blocked(ray_slabs_interval(slabs)) ? 0.0 : 1.0;
 #endif
-#if defined(ROUND) || defined(TURNED)
-#include "draw/backdrop/round_interval.glsl"
-#endif
+}
+
 #ifdef ROUND
 #include "draw/backdrop/round.glsl"
 #endif
@@ -83,42 +57,20 @@ float box_sky_visibility(vec3 towards, vec3 halves, vec3 normal)
 #include "draw/backdrop/sky_image.glsl"
 #endif
 
-/* The sun's light that boxes let through. */
-#ifdef SOFT_SUN
-
-float box_sun_visibility(vec3 origin)
+float boxes_sun_visibility(vec3 origin)
 {
+    sun_edges edges = sun_edges_of(backdrop.sun_direction.xyz);
     float visible = 1.0;
-    vec3 inverse = safe_inverse(backdrop.sun_direction.xyz);
-    vec3 alike = edges_alike(backdrop.sun_direction.xyz);
-    for (int i = 0; i < int(backdrop.counts.x); i++) {
-        vec3 center = (backdrop.box_center[i].xyz - origin) * inverse;
-        vec3 extent = backdrop.box_half[i].xyz * abs(inverse);
-        visible *= 1.0 - box_cover(center - extent, center + extent, inverse, alike,
-                                   shapes.sun_right.w);
-    }
+    for (int i = 0; i < int(backdrop.counts.x); i++)
+        visible *= box_sun_visibility(ray_cross_slabs(backdrop.box_center[i].xyz - origin,
+                                                      backdrop.box_half[i], edges.inverse), edges);
     return visible;
 }
-
-#else
-
-float box_sun_visibility(vec3 origin)
-{
-    vec3 inverse = safe_inverse(backdrop.sun_direction.xyz);
-    for (int i = 0; i < int(backdrop.counts.x); i++) {
-        vec2 interval = box_interval(i, origin, inverse);
-        if (max(interval.x, 0.0) < interval.y)
-            return 0.0;
-    }
-    return 1.0;
-}
-
-#endif
 
 float sun_visibility(vec3 point, vec3 normal)
 {
     vec3 origin = point + normal * 1e-3;
-    float visible = box_sun_visibility(origin);
+    float visible = boxes_sun_visibility(origin);
 #ifdef ROUND
     visible *= round_sun_visibility(origin);
 #endif
@@ -139,7 +91,8 @@ float sky_visibility(vec3 point, vec3 normal)
     float visible = 1.0;
     for (int i = 0; i < int(backdrop.counts.x); i++) {
         vec3 towards = backdrop.box_center[i].xyz - point;
-        visible *= box_sky_visibility(towards, backdrop.box_half[i].xyz, normal);
+        if (sky_meets_box(backdrop.box_half[i], towards, normal))
+            visible *= sky_beside_box(backdrop.box_half[i], towards, normal);
     }
 #ifdef ROUND
     visible *= round_sky_visibility(point, normal);
@@ -158,8 +111,7 @@ vec3 sky(vec3 direction)
 #ifdef SKY_IMAGE
     return sky_picture(direction, 2.0 * view.frustum.y / view.frustum.w);
 #endif
-    float up = clamp(normalize(direction).y, 0.0, 1.0);
-    return mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 1.0 - exp(-4.0 * up));
+    return sky_gradient(backdrop.sky_horizon, backdrop.sky_top, direction);
 }
 
 /* What the floor fades into far away. */
@@ -174,15 +126,13 @@ vec3 horizon(vec3 direction)
 /* What arrives from the sky and the point lights. */
 vec3 soft_irradiance(hit h, vec3 point)
 {
-    vec3 ambient = mix(backdrop.sky_horizon.rgb, backdrop.sky_top.rgb, 0.5 + 0.5 * h.normal.y);
+    vec3 ambient = sky_ambient(backdrop.sky_horizon, backdrop.sky_top, h.normal);
     vec3 irradiance =
         PI * ambient * sky_visibility(point, h.normal) * skylight_through_smoke(point);
     for (int i = 0; i < int(backdrop.counts.y); i++) {
         vec3 towards = backdrop.lights[i].position_radius2.xyz - point;
-        float d2 = dot(towards, towards);
-        float cosine = max(dot(h.normal, towards) * inversesqrt(max(d2, 1e-9)), 0.0);
-        irradiance += PI * backdrop.lights[i].color.rgb * cosine /
-                      (d2 + backdrop.lights[i].position_radius2.w);
+        irradiance += backdrop.lights[i].color.rgb *
+                      lamp_irradiance(towards, h.normal, backdrop.lights[i].position_radius2.w);
     }
     return irradiance;
 }

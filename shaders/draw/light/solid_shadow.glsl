@@ -2,23 +2,6 @@
 layout(binding = KILN_UNIT_SOLID_BINS) uniform usampler2D solid_bins;
 layout(binding = KILN_UNIT_SOLID_LIST) uniform sampler2D solid_list;
 
-/* How much of the sun's disc, which a point sees through a disc as wide as the penumbra, a sphere
- * hides from it: two discs, within 3 % of their exact common part. */
-float sphere_cover(vec4 sphere, vec3 origin, vec3 sun, float spread)
-{
-    vec3 towards = sphere.xyz - origin;
-    float t = dot(towards, sun);
-    float across = length(towards - sun * t);
-    float radius = max(t * spread, 1e-5);
-    float smaller = min(radius, sphere.w), ratio = smaller / max(radius, sphere.w);
-    float x = clamp((radius + sphere.w - across) / (2.0 * smaller), 0.0, 1.0);
-    float large_over_small = x * x * (3.0 - 2.0 * x), like_over_like = x * (0.55 + 0.45 * x);
-    float part = mix(large_over_small, like_over_like, ratio);
-    float most = smaller / radius;
-    float fade = clamp(2.0 - 2.0 * radius / (sphere.w * KILN_SOLID_FADE), 0.0, 1.0);
-    return t > 0.0 ? part * most * most * fade : 0.0;
-}
-
 #ifdef INSTANCES
 layout(binding = KILN_UNIT_SOLID_TILES) uniform sampler2D solid_tiles;
 layout(binding = KILN_UNIT_SILHOUETTES) uniform sampler2D silhouettes;
@@ -45,10 +28,10 @@ float silhouette_level(vec4 tile, vec2 at, int level)
 
 /* A mesh's, blurred as widely as the sun is, by levels whose texels are as large as its radius; one
  * that is blurred more than it is large is as round as a sphere. */
-float silhouette_cover(vec4 sphere, vec4 tile, vec3 origin, vec3 sun, float spread)
+float silhouette_cover(vec4 sphere, vec4 tile, vec3 origin, vec4 sun, float spread)
 {
     vec3 towards = sphere.xyz - origin;
-    float t = dot(towards, sun);
+    float t = dot(towards, sun.xyz);
     vec2 aside = vec2(dot(towards, shapes.sun_right.xyz), dot(towards, shapes.sun_up.xyz));
     vec2 at = 0.5 - aside * (0.5 / tile.z);
     float radius = max(t * spread, 1e-5);
@@ -60,16 +43,16 @@ float silhouette_cover(vec4 sphere, vec4 tile, vec3 origin, vec3 sun, float spre
                       level - fine);
     float wide = clamp((radius / tile.z - KILN_INSTANCE_SHARP) /
                            (KILN_INSTANCE_ROUND - KILN_INSTANCE_SHARP), 0.0, 1.0);
-    return mix(t > 0.0 ? cover : 0.0, sphere_cover(sphere, origin, sun, spread), wide);
+    return mix(t > 0.0 ? cover : 0.0, speck_cover(towards, sphere.w, sun, spread, KILN_SOLID_FADE), wide);
 }
 #endif
 
-float listed_cover(int entry, int end, vec3 origin, vec3 sun, float spread)
+float listed_cover(int entry, int end, vec3 origin, vec4 sun, float spread)
 {
     int i = min(entry, end - 1);
     ivec2 place = ivec2(i % KILN_SOLID_ROW, i / KILN_SOLID_ROW);
     vec4 sphere = texelFetch(solid_list, place, 0);
-    float cover = sphere_cover(sphere, origin, sun, spread);
+    float cover = speck_cover(sphere.xyz - origin, sphere.w, sun, spread, KILN_SOLID_FADE);
 #ifdef INSTANCES
     vec4 tile = texelFetch(solid_tiles, place, 0);
     if (tile.w > 0.0)
@@ -82,7 +65,7 @@ float listed_cover(int entry, int end, vec3 origin, vec3 sun, float spread)
 float listed_sun_visibility(int entry, int end, vec3 origin)
 {
     float visible = 1.0;
-    vec3 sun = backdrop.sun_direction.xyz;
+    vec4 sun = backdrop.sun_direction;
     float spread = shapes.sun_right.w;
     visible *= 1.0 - listed_cover(entry, end, origin, sun, spread);
     visible *= 1.0 - listed_cover(entry + 1, end, origin, sun, spread);

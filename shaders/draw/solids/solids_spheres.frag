@@ -12,6 +12,7 @@ layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shape
 layout(binding = 2) uniform sampler2D scene_depth;
 
 #include "draw/backdrop/surface.glsl"
+#include "shared/ball_pattern.h"
 
 layout(location = 0) flat in vec4 sphere; /* in view space; w: radius */
 layout(location = 1) flat in vec4 albedo; /* a: lit */
@@ -47,36 +48,13 @@ vec2 approach(vec3 ray)
 
 #ifdef PATTERN
 
-float part_beyond(float distance, float width)
-{
-    return clamp(0.5 + distance / width, 0.0, 1.0);
-}
-
-/* The part of the other colour where the ball's own normal is n; width: of a pixel there, rad. */
-float other_part(vec3 n, float width)
-{
-    if (other.a == 0.0)
-        return 0.0;
-    if (other.a < 0.0)
-        return part_beyond((abs(n.y) - 0.42) * 1.1, width);
-    float rim = sqrt(max(n.x * n.x + n.z * n.z, 1e-12));
-    vec2 once = n.xz / rim, turned = once; /* cosine and sine */
-    for (int i = 1; i < 8; i++) {
-        if (float(i) < other.a)
-            turned = vec2(turned.x * once.x - turned.y * once.y,
-                          turned.y * once.x + turned.x * once.y);
-    }
-    return max(part_beyond(turned.y * rim / other.a, width),
-               part_beyond((abs(n.y) - 0.94) * 2.9, width));
-}
-
 vec3 painted(vec3 normal, vec3 direction, float t)
 {
     vec3 twice = -2.0 * cross(pose.xyz, normal);
     vec3 n = normal + twice * pose.w - cross(pose.xyz, twice);
     float facing = max(-dot(direction, normal), 0.0) * inversesqrt(dot(direction, direction));
     float width = 2.0 * view.frustum.y * t / (view.frustum.w * sphere.w * max(facing, 0.1));
-    return mix(albedo.rgb, other.rgb, other_part(n, width));
+    return mix(albedo.rgb, other.rgb, ball_other_part(n, other.a, width));
 }
 
 #endif
