@@ -41,6 +41,10 @@ static void print_shard_result(const struct job_result *result)
     printf(": part%s %u", plural(parts), stats->first_part + 1);
     if (parts > 1)
         printf("-%u", stats->end_part);
+    if (stats->frames == 0) {
+        printf(": whole already, %u frame%s kept\n", stats->kept, plural(stats->kept));
+        return;
+    }
     printf(": %u frame%s in %.3f s", stats->frames, plural(stats->frames), stats->total_s);
     if (stats->kept > 0)
         printf(", %u kept", stats->kept);

@@ -182,21 +182,34 @@ static bool find_folder(const struct kiln_output_params *output, char folder[KIL
                           folder);
 }
 
+/* Marks all frames of a clip that is whole, and removes what is left of the way to it. Of a shard
+ * that is its own journal alone: another shard may be drawing parts anew. */
+static void keep_clip(struct kiln_resume *resume)
+{
+    for (uint32_t i = 0; i < resume->records->count; i++) {
+        struct kiln_record *record = &resume->records->items[i];
+        *record = (struct kiln_record){
+            .has_state = true,
+            .whole = true,
+            .is_others = record->is_others,
+            .state = record->state,
+            .alive = record->alive,
+        };
+    }
+    if (resume->shard.count == 0)
+        kiln_parts_remove(resume->folder);
+    else if (!resume->was_begun)
+        kiln_journal_remove(&resume->journal);
+}
+
 static bool look_at_clip(struct kiln_resume *resume, struct kiln_error *error)
 {
     struct kiln_error reason = {0};
-    resume->clip_is_whole = resume->shard.count == 0 && clip_is_whole(resume, &reason);
+    resume->clip_is_whole = clip_is_whole(resume, &reason);
     if (!could_look(&reason, error))
         return false;
     if (resume->clip_is_whole) {
-        kiln_parts_remove(resume->folder);
-        for (uint32_t i = 0; i < resume->records->count; i++)
-            resume->records->items[i] = (struct kiln_record){
-                .has_state = true,
-                .whole = true,
-                .state = resume->records->items[i].state,
-                .alive = resume->records->items[i].alive,
-            };
+        keep_clip(resume);
         return true;
     }
     resume->records->file_count = 0;

@@ -37,6 +37,39 @@ $ kiln join c.mp4 --manifest m.json && jq -c '[.runs_before[].shard]' m.json
 1|c.mp4: 61 frames in 4 parts, whole already
 1|["1/3","1/3","2/3","3/3"]
 
+A share of a clip that is whole ends at once, however many shares there are, and leaves nothing. Where the clip is
+damaged, or with --force, the share is drawn anew.
+
+$ for shard in 1/3 3/3 2/2 9/9; do kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --resume --shard $shard --progress none | tail -n 1; done; ls -d c.mp4*
+1|c.mp4: parts 1-2: whole already, 40 frames kept
+1|c.mp4: part 4: whole already, 1 frame kept
+1|c.mp4: parts 3-4: whole already, 21 frames kept
+1|c.mp4: none of its parts is for this shard
+1|c.mp4
+1|c.mp4.journal
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 --seed 2 -q -o c.mp4 --resume --shard 1/3
+2|kiln: c.mp4.journal: is the journal of another scene, or of this one with other values or another size (--force starts anew)
+= 6
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --force --shard 3/3 --progress none | tail -n 1; ls -d c.mp4*
+1|c.mp4: part 4: 1 frame in <s> s
+1|c.mp4
+1|c.mp4.3-of-3.journal
+1|c.mp4.journal
+1|c.mp4.parts
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --resume --shard 3/3 --progress none | tail -n 1
+1|c.mp4: part 4: whole already, 1 frame kept
+$ kiln join c.mp4 && cmp ref.mp4 c.mp4 && ls -d c.mp4*
+1|c.mp4: 61 frames in 4 parts, whole already
+1|c.mp4
+1|c.mp4.journal
+$ truncate -s -1 c.mp4 && for i in 1 2; do kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --resume --shard $i/2 --progress none | tail -n 1; done
+1|c.mp4: parts 1-2: 40 frames in <s> s
+1|c.mp4: parts 3-4: 21 frames in <s> s
+$ kiln join c.mp4 && cmp ref.mp4 c.mp4 && ls -d c.mp4*
+1|c.mp4: 61 frames in 4 parts
+1|c.mp4
+1|c.mp4.journal
+
 Shards of different jobs are not joined.
 
 $ for i in 1 2; do kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --shard $i/2 --seed $i; done; kiln join d.webm; ls -d d.webm d.webm.journal
@@ -122,6 +155,10 @@ A plain run with --resume draws what shards have left over.
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o g.gif --shard 2/2 && kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o g.gif --resume --progress none && ls -d g.gif*
 1|device: <device>
 1|g.gif: 40 frames in <s> s, 21 kept
+1|g.gif
+1|g.gif.journal
+$ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o g.gif --resume --shard 1/2 --progress none | tail -n 1; ls -d g.gif*
+1|g.gif: parts 1-2: whole already, 40 frames kept
 1|g.gif
 1|g.gif.journal
 
