@@ -24,6 +24,7 @@ stub sbatch <<'END'
 id=$(($(<"$work/jobs/last") + 1)) tasks=("") result=0
 while [[ $1 == --* ]]; do
     case $1 in
+    --array=1-*????) echo "sbatch: error: Invalid job array specification" >&2; exit 1 ;;
     --array=1-*) mapfile -t tasks < <(seq "${1#--array=1-}") ;;
     --dependency=afterok:*) [[ $(<"$work/jobs/${1##*:}") == 0 ]] || result=cancelled ;;
     --output=*) log=${1#*=} ;;
@@ -58,6 +59,10 @@ END
 stub scontrol <<'END'
 #!/usr/bin/env bash
 [[ $1 == requeue ]] && touch "$work/requeued.$2"
+END
+stub scancel <<'END'
+#!/usr/bin/env bash
+echo "$*" >>"$work/cancelled"
 END
 stub squeue <<'END'
 #!/usr/bin/env bash
@@ -110,8 +115,15 @@ cmp 'a clip.mp4' single.mp4
 [[ $(jq -s 'map(select(.event == "started")) | length' "$tasks/part-2.ndjson") == 1 ]] ||
     fail "the events of task 2 are not its own"
 
+# The same call again finds the clip whole, and draws nothing.
+"$submit" tiny.yaml 'a clip.mp4' 3 "${long[@]:1}" -- --quality 90 >/dev/null
+expect 5 0 2 "$tasks"/part-[123].log
+[[ $(grep -h '"event": "result"' "$tasks"/part-[123].ndjson | grep -c '"frames": 0, ') == 3 ]] ||
+    fail "tasks draw frames of a clip that is whole"
+cmp 'a clip.mp4' single.mp4
+
 # Images; %02d in the name of a log is no pattern of sbatch. The same call again goes on.
-for parts in 5 8; do
+for parts in 8 11; do
     "$submit" tiny.yaml f_%02d.png 1 --device cpu -- --frames 0-1 >/dev/null
     expect $((parts - 1)) 0 0 f_%02d.png.tasks/bake.log
     expect $parts 0 0 f_%02d.png.tasks/{part-1,join}.log
@@ -120,17 +132,28 @@ done
 
 # What never succeeds is not repeated, and what waits for it does not begin.
 "$submit" tiny.yaml wrong.mp4 1 --set seed=none >/dev/null
-expect 10 3 0 wrong.mp4.tasks/bake.log
-expect 11 cancelled 0 /dev/null
-expect 12 cancelled 0 /dev/null
-"$submit" tiny.yaml large.mp4 1 "${long[@]:1}" -- --limits output=1kB >/dev/null
-expect 14 8 0 large.mp4.tasks/part-1.log
+expect 13 3 0 wrong.mp4.tasks/bake.log
+expect 14 cancelled 0 /dev/null
 expect 15 cancelled 0 /dev/null
+"$submit" tiny.yaml large.mp4 1 "${long[@]:1}" -- --limits output=1kB >/dev/null
+expect 17 8 0 large.mp4.tasks/part-1.log
+expect 18 cancelled 0 /dev/null
 grep -q 'more memory' large.mp4.tasks/part-1.log || fail "the log does not say that more is needed"
 
 # What fails again and again is given up, and what was cancelled is not requeued.
 touch "$work/accidents/always"
 FARM_REQUEUES=1 "$submit" tiny.yaml fails.mp4 1 >/dev/null
-expect 16 137 1 fails.mp4.tasks/bake.log
+expect 19 137 1 fails.mp4.tasks/bake.log
 STATE=COMPLETING "$submit" tiny.yaml gone.mp4 1 >/dev/null
-expect 19 137 0 gone.mp4.tasks/bake.log
+expect 22 137 0 gone.mp4.tasks/bake.log
+
+# TASKS is looked at before anything is submitted. A job that Slurm refuses leaves none of the others.
+rm "$work/accidents/always"
+submitted=$(<"$work/jobs/last")
+for tasks in 0 -1 two 1.5; do
+    said=$("$submit" tiny.yaml none.mp4 $tasks 2>&1) && fail "submit takes $tasks tasks"
+    [[ $said == "submit: TASKS: found '$tasks', expected a whole number from 1 on" ]] || fail "submit said: $said"
+done
+[[ $(<"$work/jobs/last") == "$submitted" && ! -e none.mp4.tasks ]] || fail "a job was submitted all the same"
+! "$submit" tiny.yaml many.mp4 5000 2>/dev/null || fail "submit does not tell that Slurm refused a job"
+[[ $(<"$work/cancelled") == $((submitted + 1)) ]] || fail "cancelled are: $(<"$work/cancelled")"
