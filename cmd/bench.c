@@ -67,7 +67,7 @@ static const struct option options[] = {
      .placeholder = "N",
      .help = "Of the suite jobs: parts that the clip is rendered in, of two seconds each, at most "
              "600 frames; the clip gets as many frames as they have together.",
-     .fallback = "64",
+     .fallback = "64, or 2 with --quick",
      .min = 2,
      .max = KILN_BENCH_MAX_PARTS},
     SET_OPTION,

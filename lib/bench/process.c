@@ -22,6 +22,7 @@
 #include "base/error.h"
 
 enum { EVENTS = 3, /* the descriptor of the events in the process */ HEAD = 32, WAKE_MS = 200 };
+static const double grace_s = 5; /* from SIGTERM until SIGKILL */
 
 struct child {
     const struct kiln_bench_run *run;
@@ -30,6 +31,7 @@ struct child {
     char head[HEAD]; /* the start of the line at hand */
     size_t length;   /* of that line */
     bool stopped;
+    double stopped_s; /* when */
 };
 
 /* Starts the process with empty standard input. Returns 0 or an errno value. */
@@ -88,17 +90,26 @@ static void take_bytes(struct child *child, const char *bytes, size_t count)
     }
 }
 
+/* Ends the process when a stop is asked for: by SIGTERM, and by SIGKILL when that does not help. */
+static void look_for_stop(struct child *child)
+{
+    const struct kiln_bench_params *params = child->run->params;
+    if (!child->stopped && params->stop && params->stop(params->user)) {
+        child->stopped = true;
+        child->stopped_s = kiln_clock_seconds();
+        kill(-child->id, SIGTERM);
+    }
+    if (child->stopped && kiln_clock_seconds() > child->stopped_s + grace_s)
+        kill(-child->id, SIGKILL);
+}
+
 /* Reads events until the other end of the pipe is closed. */
 static void listen_to(struct child *child, int events)
 {
-    const struct kiln_bench_params *params = child->run->params;
     char bytes[4096];
     for (;;) {
         struct pollfd look = {.fd = events, .events = POLLIN};
-        if (!child->stopped && params->stop && params->stop(params->user)) {
-            child->stopped = true;
-            kill(-child->id, SIGTERM);
-        }
+        look_for_stop(child);
         if (poll(&look, 1, WAKE_MS) <= 0)
             continue;
         const ssize_t got = read(events, bytes, sizeof bytes);

@@ -226,3 +226,13 @@ $ (TMPDIR=$PWD/scratch exec env --default-signal timeout --foreground --preserve
 2|kiln: bench: stopped by SIGINT; nothing is written
 = 130
 $ ls -A scratch
+
+A process that no SIGTERM ends is killed five seconds later.
+
+$ TMPDIR=$PWD/scratch env --default-signal kiln bench jobs --device cpu --quiet & bench=$!
+> until child=$(<"/proc/$bench/task/$bench/children") && grep -qs frames=0 "/proc/${child% }/cmdline"; do sleep 0.1; done
+> kill -STOP ${child% } && kill -TERM $bench; start=$SECONDS; wait $bench; code=$?
+> echo $((SECONDS - start >= 4)); ls -A scratch; ! kill -0 ${child% } 2>/dev/null; exit $code
+1|1
+2|kiln: bench: stopped by SIGTERM; nothing is written
+= 143
