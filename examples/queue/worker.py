@@ -22,15 +22,15 @@ import sys
 import time
 import types
 
-TRIES = 3  # of a job that may succeed when it is run again, or during which the worker was killed
+TRIES = 3  # of a job that may succeed when it is run again, or during which the worker was killed or crashed
 GRACE_S = 10  # from --timeout until SIGTERM, and from there until SIGKILL
-now = types.SimpleNamespace(stopping=False, process=None)
+now = types.SimpleNamespace(stopping=False, job=None)  # job: the pidfd of kiln
 
 
 def stop(*_):
     now.stopping = True
-    if now.process:
-        now.process.terminate()
+    if now.job is not None:
+        signal.pidfd_send_signal(now.job, signal.SIGTERM)
 
 
 def write_durably(path, text, mode):
@@ -38,6 +38,24 @@ def write_durably(path, text, mode):
         file.write(text)
         file.flush()
         os.fsync(file.fileno())
+
+
+def hard_link(place):
+    """A file of the job that has another name, too, or None: its owner may be somebody else."""
+    for folder, _, names in os.walk(place / "job"):
+        for name in names:
+            path = pathlib.Path(folder, name)
+            if path.lstat().st_nlink != 1:
+                return path.relative_to(place)
+    return None
+
+
+def begin_try(events):
+    """Counts the try before anything is run, also if it takes the machine down."""
+    write_durably(events, "", "w")
+    folder = os.open(events.parent, os.O_RDONLY | os.O_DIRECTORY)
+    os.fsync(folder)
+    os.close(folder)
 
 
 def run_kiln(place, events, given):
@@ -51,7 +69,7 @@ def run_kiln(place, events, given):
             os.chown(place / folder, *given.user)
     with open(events, "wb") as told, open(place / "messages", "wb") as messages:
         # The job holds the lock, too: a worker that starts after this one was killed waits for its end.
-        now.process = process = subprocess.Popen(
+        process = subprocess.Popen(
             [*rights, "--", given.kiln, "render", "job/scene.yaml", "--asset-root", "job", "--device", "cpu",
              "--sandbox=require", "--limits", given.limits, "--timeout", str(given.timeout), "--resume",
              "--events", "ndjson", "--quiet", "-o", "output/clip.mp4"],
@@ -59,15 +77,16 @@ def run_kiln(place, events, given):
                  "XDG_CACHE_HOME": given.spool / "cache"},
             cwd=place, stdin=subprocess.DEVNULL, stdout=told, stderr=messages, start_new_session=True,
             pass_fds=[given.lock])
+    end = now.job = os.pidfd_open(process.pid)
     if now.stopping:
         process.terminate()
-    end = os.pidfd_open(process.pid)
     for patience_s, then in ((given.timeout + GRACE_S, signal.SIGTERM), (GRACE_S, signal.SIGKILL), (None, 0)):
         if select.select([end], [], [], patience_s)[0]:
             break
         os.killpg(process.pid, then)
+    os.killpg(process.pid, signal.SIGKILL)  # what kiln may have left; its number is taken until wait()
+    now.job = None
     os.close(end)
-    now.process = None
     code = process.wait()
     return code if code >= 0 else 128 - code
 
@@ -85,7 +104,7 @@ def what_kiln_told(place, events):
                 if event["event"] == "ended":
                     # Memory that is short now may be there later. The limits (exit code 8) stay.
                     again = event["again"] == "again" or event["code"] == 5
-            except (ValueError, LookupError, TypeError):  # half a line, of a full disk
+            except (ValueError, LookupError, TypeError, RecursionError):  # half a line, of a full disk, or nonsense
                 continue
     with open(place / "messages", encoding="utf-8", errors="replace") as said:
         return message or said.read(1000).strip() or "kiln does not say why", again, started
@@ -96,11 +115,12 @@ def look_at_clip(place, given):
     the worker's."""
     clip = os.open(place / "output/clip.mp4", os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     with open(clip, "rb") as file:
-        if not stat.S_ISREG(os.fstat(clip).st_mode):
-            raise OSError("output/clip.mp4 is not a file")
+        status = os.fstat(clip)
+        if not stat.S_ISREG(status.st_mode) or status.st_nlink != 1:
+            raise OSError("output/clip.mp4 is not a file, or has another name, too (a hard link)")
         if given.user:
             os.fchown(clip, 0, 0)
-        return {"bytes": os.fstat(clip).st_size, "sha256": hashlib.file_digest(file, "sha256").hexdigest()}
+        return {"bytes": status.st_size, "sha256": hashlib.file_digest(file, "sha256").hexdigest()}
 
 
 def render(place, given):
@@ -108,9 +128,13 @@ def render(place, given):
     tries = len(list(place.glob("events.*"))) + 1
     if not stat.S_ISDIR(os.lstat(place / "job").st_mode):
         return {"outcome": "failed", "code": 3, "message": "job: is not a folder"}
-    if tries > TRIES:
-        return {"outcome": "failed", "code": 137, "message": f"the worker was killed {TRIES} times at this job"}
+    if link := hard_link(place):
+        return {"outcome": "failed", "code": 3, "message": f"{link}: has another name, too (a hard link)"}
+    if tries > TRIES:  # the try before this one has no result
+        return {"outcome": "failed", "code": 137,
+                "message": f"given up after {TRIES} tries: the worker or the machine went down during the last"}
     events = place / f"events.{tries}.ndjson"
+    begin_try(events)
     code = run_kiln(place, events, given)
     message, again, started = what_kiln_told(place, events)
     if code == 0:

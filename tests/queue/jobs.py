@@ -135,7 +135,7 @@ def hostile(row):
 def rows_of_hostile(modules):
     """Those that kiln refuses as they are, as many of a kind as the table says: its smoke, and some of the rest.
     The modules of tests/hostile take seconds to make their bombs."""
-    many = {"paths": 13, "pictures": 11, "videos": 6, "meshes": 7, "grids": 4, "scenes": 7}
+    many = {"paths": 12, "pictures": 11, "videos": 6, "meshes": 7, "grids": 4, "scenes": 7}
     found = [row for module in modules for row in importlib.import_module(module).rows()
              if row.codes == rows.REFUSED and not row.meanwhile]
     for kind, count in many.items():
@@ -163,11 +163,16 @@ def broken():
 
     def linked(root):
         os.symlink("/etc/hostname", root / "scene.yaml")
+
+    def hard(root):
+        write(head + system)(root)
+        os.link(root / "scene.yaml", root.parent / "another name")
     yield Job("broken", "cut YAML", write("kiln: 1\nsystems: {a: {emit: \"\n"), 3, smoke=True)
     yield Job("broken", "no scene", lambda root: None, 3)
     yield Job("broken", "a scene that nobody may read", write(head + system, 0), 3)
     yield Job("broken", "a scene that is a FIFO", lambda root: os.mkfifo(root / "scene.yaml"), 3)
     yield Job("broken", "a scene that is a link", linked, 3)
+    yield Job("broken", "a scene that is a hard link", hard, 3, "has another name", smoke=True)
     yield Job("broken", "an odd size", write(head + "output: {size: [33, 19], frames: 2}\n" + system), 2)
     yield Job("limits", "time of pictures", write(head + slow + system), 8, "limit `time`")
     yield Job("limits", "time of steps", write(head + "simulation: {warmup: 9000 s}\n" +

@@ -2,7 +2,7 @@
 """run.py [--smoke] KILN: gives the worker of examples/queue 200 jobs, of which 60 are hostile or broken, kills
 it once and stops it once on the way, and then looks whether every good clip has the bytes of a plain
 'kiln render', every bad job is reported with its cause, and nothing else is left: no file, no process, no
-shared memory. Root runs jobs as a user whom nobody else is. --smoke has 12 jobs."""
+shared memory. Root runs jobs as a user whom nobody else is. --smoke has 13 jobs."""
 import argparse
 import collections
 import concurrent.futures
@@ -24,7 +24,7 @@ import jobs
 
 WORKER = jobs.SOURCE / "examples/queue/worker.py"
 PATIENCE_S = 1800
-CAUSE = re.compile(r"job/scene\.yaml(:\d+:\d+)?: .|.*the limit `\w+`|output/clip\.mp4: .")
+CAUSE = re.compile(r"job/scene\.yaml(:\d+:\d+)?: .|.*the limit `\w+`|output/clip\.mp4: .|job/[^:]+: has another name")
 # What may lie in the spool when all is done.
 KEPT = re.compile(r"lock|report\.ndjson|cache(/kiln(/\w+\.\w+)?)?|incoming|running|done|failed"
                   r"|(done|failed)/[^/]+(/(result\.json|events\.\d\.ndjson|messages))?|done/[^/]+/clip\.mp4"
@@ -230,6 +230,9 @@ case $PWD in
 */crash) kill -SEGV $$ ;;
 */link) ln -s /etc/passwd output/clip.mp4 ;;
 */pipe) mkfifo output/clip.mp4 ;;
+*/hard) echo >output/a; ln output/a output/clip.mp4 ;;
+*/leaves) sleep 60 & echo "{\\"event\\": \\"left\\", \\"process\\": $!}"; echo >output/clip.mp4 ;;
+*/begun) echo >output/clip.mp4 ;;
 */nothing) ;;
 esac
 """
@@ -240,13 +243,17 @@ def play_double(work, user):
     double, spool = work / "double", work / "double-spool"
     double.write_text(DOUBLE)
     double.chmod(0o755)
-    for name in ("disk", "crash", "link", "pipe", "nothing", "a file"):
+    for name in ("disk", "crash", "link", "pipe", "hard", "leaves", "nothing", "a file"):
         (spool / "incoming" / name).mkdir(parents=True)
     (spool / "incoming/a file").rmdir()
     (spool / "incoming/a file").touch()
     (spool / "running/empty").mkdir(parents=True)
     (spool / "running/known/output").mkdir(parents=True)
     (spool / "running/known/output/clip.mp4").touch()
+    for name, tries in (("begun", 1), ("given up", 3)):  # the worker was killed during the last
+        (spool / "running" / name / "job").mkdir(parents=True)
+        for i in range(tries):
+            (spool / "running" / name / f"events.{i + 1}.ndjson").touch()
     known = json.dumps({"job": "known", "outcome": "done", "code": 0})
     (spool / "running/known/result.json").write_text(known + "\n")
     (spool / "report.ndjson").write_text('{"job": "half a li')
@@ -261,12 +268,17 @@ def play_double(work, user):
         told[line["job"]].append((line["outcome"], line["code"], line.get("message")))
     wanted = {"disk": 2 * [("again", 6, "no room")] + [("failed", 6, "no room")],
               "crash": 2 * [("again", 139, "kiln does not say why")] + [("failed", 139, "kiln does not say why")],
-              "a file": [("failed", 3, "job: is not a folder")]}
-    for name in ("link", "pipe", "nothing"):
+              "a file": [("failed", 3, "job: is not a folder")],
+              "begun": [("done", 0, None)], "leaves": [("done", 0, None)],
+              "given up": [("failed", 137, "given up after 3 tries: the worker or the machine went down during the last")]}
+    for name in ("link", "pipe", "hard", "nothing"):
         wanted[name] = [("failed", 0, told[name][0][2])]
         expect("kiln ended well, and yet: " in str(told[name][0][2]), name, "is", told[name])
     expect(told == wanted, "reported are", dict(told))
-    expect(sorted(os.listdir(spool / "done")) == ["known", "known.2"] and (spool / "done/known.2/clip.mp4").exists() and
+    left = json.loads((spool / "done/leaves/events.1.ndjson").read_text().splitlines()[1])["process"]
+    expect(not os.path.exists(f"/proc/{left}/exe"), "what a job has started runs on when the job is done")
+    expect((spool / "done/begun/events.2.ndjson").exists(), "a try that the worker did not see the end of is none")
+    expect(sorted(os.listdir(spool / "done")) == ["begun", "known", "known.2", "leaves"] and (spool / "done/known.2/clip.mp4").exists() and
            not os.listdir(spool / "running"), "it leaves", sorted(spool.rglob("*")))
     if os.geteuid() == 0:
         done = subprocess.run([*command[:3], spool], capture_output=True, text=True)
