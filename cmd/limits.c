@@ -7,6 +7,7 @@
 
 #include "last_words.h"
 #include "report.h"
+#include "scene_in.h"
 #include "watch.h"
 
 enum { LOOK_MS = 50, PATIENCE_MS = 500 };
@@ -21,8 +22,10 @@ static void look(void *user)
     limits->over_ms += LOOK_MS;
     if (limits->over_ms < PATIENCE_MS)
         return;
-    char line[KILN_MESSAGE_SIZE + 64];
-    snprintf(line, sizeof line, "kiln: %s; what was not whole is given up\n", error.message);
+    char scene[KILN_MESSAGE_SIZE] = "", line[2 * KILN_MESSAGE_SIZE + 64];
+    const bool loads = scene_in_describe(scene);
+    snprintf(line, sizeof line, "kiln: %s%s%s; what was not whole is given up\n", scene,
+             loads ? ": " : "", error.message);
     end_with_words(line, KILN_OVER_LIMIT);
 }
 

@@ -14,6 +14,8 @@
 
 enum { NO_DESCRIPTOR = -1 };
 
+static const char *_Atomic loading; /* the scene that is being loaded, or NULL */
+
 /* Returns the descriptor that an operand stands for, or NO_DESCRIPTOR. */
 static int descriptor_of(const char *path)
 {
@@ -90,13 +92,26 @@ static struct kiln_scene *load(const char *path, const struct kiln_scene_params 
 struct kiln_scene *scene_in_load(const char *path, const struct kiln_scene_params *params,
                                  struct kiln_error *error)
 {
+    loading = name_of(path);
     struct kiln_scene *scene = load(path, params, error);
+    loading = NULL;
     if (scene) {
         struct kiln_scene_info info = kiln_scene_info_empty();
         kiln_scene_get_info(scene, &info);
         event_loaded(path, &info);
     }
     return scene;
+}
+
+bool scene_in_describe(char out[KILN_MESSAGE_SIZE])
+{
+    const char *path = loading;
+    char shown[KILN_MESSAGE_SIZE - 16];
+    if (!path)
+        return false;
+    kiln_shown(shown, sizeof shown, path);
+    snprintf(out, KILN_MESSAGE_SIZE, "loading %s", shown);
+    return true;
 }
 
 int scene_in_check(const struct arguments *arguments, const char *place)

@@ -14,6 +14,10 @@ bool scene_in_is_stream(const char *path);
 struct kiln_scene *scene_in_load(const char *path, const struct kiln_scene_params *params,
                                  struct kiln_error *error);
 
+/* Describes the scene that a thread is just loading: "loading rain.yaml"; false if none is. For
+ * threads that end a program which is over a limit. */
+bool scene_in_describe(char out[KILN_MESSAGE_SIZE]);
+
 /* Returns 0, or the exit code after reporting that two operands would read the same descriptor. */
 int scene_in_check(const struct arguments *arguments, const char *place);
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "last_words.h"
+#include "scene_in.h"
 #include "watch.h"
 
 struct watchdog {
@@ -24,9 +25,10 @@ static void look(void *user)
     struct watchdog *watchdog = user;
     pthread_mutex_lock(&watchdog->mutex);
     if (watchdog->armed && now_s() >= watchdog->deadline_s) {
-        char line[1024];
-        snprintf(line, sizeof line, "kiln: %s took longer than its limit of %g s\n", watchdog->what,
-                 watchdog->limit_s);
+        char scene[KILN_MESSAGE_SIZE], line[KILN_MESSAGE_SIZE + 128];
+        snprintf(line, sizeof line,
+                 "kiln: %s took longer than its limit of %g s (--frame-timeout)\n",
+                 scene_in_describe(scene) ? scene : watchdog->what, watchdog->limit_s);
         end_with_words(line, KILN_DEVICE_FAILED);
     }
     pthread_mutex_unlock(&watchdog->mutex);

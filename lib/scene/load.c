@@ -109,6 +109,15 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
            kiln_budget_is_kept(scene->budget, reader->error);
 }
 
+/* Says that a limit of the whole job was reached, if one was: the line that was read at that time,
+ * or the file that was decoded, is not at fault. */
+static void blame_limit(const struct kiln_scene *scene, struct kiln_error *error)
+{
+    struct kiln_error limit = {0};
+    if (error->code == KILN_OVER_LIMIT && !kiln_budget_is_kept(scene->budget, &limit))
+        kiln_error_set(error, KILN_OVER_LIMIT, "loading %s: %s", scene->name, limit.message);
+}
+
 /* file: where relative paths start, or NULL. */
 static struct kiln_scene *create(const char *text, size_t size, const char *name, const char *file,
                                  const struct kiln_scene_params *params, struct kiln_error *error)
@@ -135,6 +144,7 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
     }
     kiln_arena_destroy(&scratch);
     if (!ok && scene) {
+        blame_limit(scene, error);
         kiln_mesh_library_destroy(&scene->meshes);
         kiln_loader_destroy(&scene->loader);
     }
