@@ -39,15 +39,16 @@ struct kiln_json {
     bool (*write)(void *sink, const char *bytes, size_t length); /* false: it could not */
     void *sink;
     enum kiln_json_style style;
-    bool failed;  /* the sink, or for want of memory, or the calls made no JSON */
-    bool has_key; /* the writer's own, as the rest: the name of the next value is written */
-    int spaces;   /* before the next item; -1: as the level says */
+    bool one_line; /* no item begins a line, whatever the calls say */
+    bool failed;   /* the sink, or for want of memory, or the calls made no JSON */
+    bool has_key;  /* the writer's own, as the rest: the name of the next value is written */
+    int spaces;    /* before the next item; -1: as the level says */
     size_t depth;
     struct kiln_json_level levels[KILN_JSON_MAX_DEPTH + 1];
 };
 
 /* A writer to a stream, which it neither flushes nor closes. For another sink, replace `write` and
- * `sink`; `style` may be changed before anything is written. */
+ * `sink`; `style` and `one_line` may be changed before anything is written. */
 struct kiln_json kiln_json_to_file(FILE *out);
 
 /* Ends the document and its line; another document may follow. Returns false when anything failed

@@ -228,6 +228,11 @@ bool kiln_write_frames(FILE *out, const struct kiln_results_summary *summary);
 /* The name of a test, which belongs to the results; index below the summary's `tests`. */
 const char *kiln_results_name(const struct kiln_results *results, size_t index);
 
+/* Adds to an open object what the report `json` has of the run, and of a test; index as above. */
+void kiln_results_add_head(struct kiln_json *json, const struct kiln_results *results);
+void kiln_results_add_test(struct kiln_json *json, const struct kiln_results *results,
+                           size_t index);
+
 /* Of two codes the worse: a device that failed, then input and output, no device, invalid input,
  * usage, a picture that differs, a missing golden, ok; being interrupted comes before all. */
 enum kiln_code kiln_code_worse(enum kiln_code a, enum kiln_code b);

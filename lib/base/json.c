@@ -50,6 +50,11 @@ static void put(struct kiln_json *json, const char *text)
     put_bytes(json, text, strlen(text));
 }
 
+static bool begins_line(const struct kiln_json *json, int spaces)
+{
+    return spaces >= 0 && !json->one_line;
+}
+
 static void put_line(struct kiln_json *json, int spaces)
 {
     put(json, "\n");
@@ -108,7 +113,7 @@ static void begin_item(struct kiln_json *json, const char *key)
     }
     const int spaces = json->spaces >= 0 ? json->spaces : level->spaces;
     put(json, level->filled ? "," : "");
-    if (spaces >= 0)
+    if (begins_line(json, spaces))
         put_line(json, spaces);
     else
         put(json, level->filled && json->style == KILN_JSON_SPACED ? " " : "");
@@ -137,7 +142,7 @@ static void end_level(struct kiln_json *json, int spaces)
         json->failed = true;
         return;
     }
-    if (level->filled && spaces >= 0)
+    if (level->filled && begins_line(json, spaces))
         put_line(json, spaces);
     put_bytes(json, &level->bracket, 1);
     json->spaces = -1;

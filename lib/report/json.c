@@ -4,7 +4,7 @@
 
 enum { VERSION = 1 };
 
-static void add_head(struct kiln_json *json, const struct kiln_results *results)
+void kiln_results_add_head(struct kiln_json *json, const struct kiln_results *results)
 {
     struct kiln_results_summary summary = kiln_results_summary(results);
     kiln_json_uint(json, "kiln_report", VERSION);
@@ -19,6 +19,13 @@ static void add_head(struct kiln_json *json, const struct kiln_results *results)
     kiln_json_end(json);
 }
 
+void kiln_results_add_test(struct kiln_json *json, const struct kiln_results *results, size_t index)
+{
+    kiln_json_string(json, "folder", results->folders[index]);
+    kiln_json_number(json, "score", kiln_result_score(results->tests[index]));
+    kiln_result_add_json(json, results->tests[index]);
+}
+
 static bool write_json(const struct kiln_results *results, const struct kiln_results_output *output,
                        FILE *out, struct kiln_error *error)
 {
@@ -27,14 +34,12 @@ static bool write_json(const struct kiln_results *results, const struct kiln_res
     struct kiln_json json = kiln_json_to_file(out);
     kiln_json_begin_object(&json, NULL);
     kiln_json_lines(&json, 0);
-    add_head(&json, results);
+    kiln_results_add_head(&json, results);
     kiln_json_begin_array(&json, "tests");
     for (size_t i = 0; i < results->count; i++) {
         kiln_json_begin_object(&json, NULL);
         kiln_json_lines(&json, 2);
-        kiln_json_string(&json, "folder", results->folders[i]);
-        kiln_json_number(&json, "score", kiln_result_score(results->tests[i]));
-        kiln_result_add_json(&json, results->tests[i]);
+        kiln_results_add_test(&json, results, i);
         kiln_json_end_line(&json, 0);
     }
     kiln_json_end(&json);
