@@ -29,6 +29,15 @@ void kiln_claims_visit_read(const struct kiln_claims *claims,
 bool kiln_render_claim(const struct kiln_scene *scene, const struct kiln_render_params *params,
                        struct kiln_claims *claims, struct kiln_error *error);
 
+/* Does what kiln_compare does, in a call that also writes `file` (NULL: it does not) for an option:
+ * KILN_USAGE where that file is compared or written as well. */
+bool kiln_compare_beside(const struct kiln_compare_params *params, const char *file,
+                         const char *option, struct kiln_compare_result *result,
+                         struct kiln_error *error);
+
+/* What the names of states end in, of which no other file is written. */
+#define KILN_STATE_SUFFIX ".kilnstate"
+
 /* ---- Words for people ----------------------------------------------------------------------- */
 
 /* The reference of every scene key, for people, and the JSON schema, for editors. */

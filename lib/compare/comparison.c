@@ -16,6 +16,7 @@
 
 struct comparison {
     const struct kiln_compare_params *params;
+    const char *beside, *option; /* a file that the caller writes, or NULL, and for which option */
     struct kiln_footage *footage[2]; /* reference, test */
     struct kiln_metric_set set;
     struct kiln_difference_plan diff, error_map;
@@ -344,7 +345,9 @@ static bool claim_files(struct comparison *comparison, struct kiln_error *error)
             return false;
     }
     const struct kiln_footage *reference = comparison->footage[0];
-    return (!params->diff || kiln_difference_plan_claim(&comparison->diff, "--diff", reference,
+    return (!comparison->beside ||
+            kiln_claims_write(comparison->claims, comparison->beside, comparison->option, error)) &&
+           (!params->diff || kiln_difference_plan_claim(&comparison->diff, "--diff", reference,
                                                         comparison->claims, error)) &&
            (!params->error_map || kiln_difference_plan_claim(&comparison->error_map, "--error-map",
                                                              reference, comparison->claims, error));
@@ -401,14 +404,18 @@ static bool take(struct kiln_compare_params *taken, const struct kiln_compare_pa
     return true;
 }
 
-bool kiln_compare(const struct kiln_compare_params *given, struct kiln_compare_result *result,
-                  struct kiln_error *error)
+bool kiln_compare_beside(const struct kiln_compare_params *given, const char *file,
+                         const char *option, struct kiln_compare_result *result,
+                         struct kiln_error *error)
 {
     double start_s = kiln_clock_seconds();
     struct kiln_compare_params params = kiln_compare_defaults();
     struct kiln_compare_mask *masks = NULL;
-    struct comparison comparison = {
-        .params = &params, .result = kiln_compare_result_empty(), .worst_score = -1};
+    struct comparison comparison = {.params = &params,
+                                    .beside = file,
+                                    .option = option,
+                                    .result = kiln_compare_result_empty(),
+                                    .worst_score = -1};
     if (!kiln_sized_check(result, "kiln_compare_result", error))
         return false;
     bool ok = take(&params, given, &masks, error) && prepare(&comparison, error) &&
@@ -424,4 +431,10 @@ bool kiln_compare(const struct kiln_compare_params *given, struct kiln_compare_r
     kiln_footage_close(&comparison.footage[1]);
     kiln_claims_destroy(&comparison.claims);
     return ok;
+}
+
+bool kiln_compare(const struct kiln_compare_params *params, struct kiln_compare_result *result,
+                  struct kiln_error *error)
+{
+    return kiln_compare_beside(params, NULL, NULL, result, error);
 }

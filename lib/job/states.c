@@ -18,8 +18,6 @@
 #include "scene/motion.h"
 #include "sim/paint/paint.h"
 
-#define SUFFIX ".kilnstate"
-
 enum { PREFIX_DIGITS = 16 };
 
 struct kiln_states {
@@ -58,10 +56,10 @@ static bool take_hashes(struct kiln_states *states, const struct kiln_techniques
 static bool parse_name(const struct kiln_states *states, const char *name, uint32_t *step,
                        bool *other)
 {
-    const size_t length = strlen(name), suffix = strlen(SUFFIX);
+    const size_t length = strlen(name), suffix = strlen(KILN_STATE_SUFFIX);
     char digits[16] = "";
     *other = false;
-    if (length <= suffix || strcmp(name + length - suffix, SUFFIX) != 0)
+    if (length <= suffix || strcmp(name + length - suffix, KILN_STATE_SUFFIX) != 0)
         return false;
     const size_t count = length - suffix - PREFIX_DIGITS - 1;
     *other = length < suffix + PREFIX_DIGITS + 2 ||
@@ -151,8 +149,8 @@ const char *kiln_states_motion(const struct kiln_states *states)
 bool kiln_states_path(const struct kiln_states *states, uint32_t step, char path[KILN_PATH_SIZE],
                       struct kiln_error *error)
 {
-    char name[PREFIX_DIGITS + sizeof SUFFIX + 16];
-    snprintf(name, sizeof name, "%.*s-%08u" SUFFIX, PREFIX_DIGITS, states->motion, step);
+    char name[PREFIX_DIGITS + sizeof KILN_STATE_SUFFIX + 16];
+    snprintf(name, sizeof name, "%.*s-%08u" KILN_STATE_SUFFIX, PREFIX_DIGITS, states->motion, step);
     return kiln_path_join(path, states->folder, name, error);
 }
 
