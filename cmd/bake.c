@@ -41,7 +41,10 @@ static const struct option options[] = {
      .kind = OPTION_FLAG,
      .help = "Keep states that are whole, and go on from the last of them."},
     JSON_OPTION("an object a line, whose \"event\" is \"state\" for each, and \"result\"."),
-    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    {.name = "quiet",
+     .letter = 'q',
+     .kind = OPTION_FLAG,
+     .help = "Print nothing but errors and what --json asks for."},
     EVENTS_OPTION,
     HELP_OPTION,
 };
@@ -205,6 +208,8 @@ static int run(const struct arguments *arguments)
         bake.steps = info.steps;
         code = read_every(&bake, arguments, &info);
     }
+    if (code == 0)
+        code = json_output_claim(arguments, scene);
     if (code == 0)
         code = run_bake(&bake, arguments, scene);
     kiln_scene_destroy(&scene);

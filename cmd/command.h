@@ -85,6 +85,9 @@ extern const struct exit_code exit_codes[];
  * may call it. */
 const char *exit_code_again(int code);
 
+/* Whether a command that ends with this code came to a result: it did all, or pictures differ. */
+bool exit_code_has_result(int code);
+
 /* Variables of the environment; as above. */
 struct variable {
     const char *name;

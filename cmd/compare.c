@@ -84,7 +84,10 @@ static const struct option options[] = {
      .max = 256},
     JSON_OPTION("an object a line, whose \"event\" is \"frame\" or \"result\"."),
     {.name = "stats", .kind = OPTION_FLAG, .help = "Also print the time that it took."},
-    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
+    {.name = "quiet",
+     .letter = 'q',
+     .kind = OPTION_FLAG,
+     .help = "Print nothing but errors and what --json asks for."},
     EVENTS_OPTION,
     HELP_OPTION,
 };
@@ -185,7 +188,7 @@ static int run(const struct arguments *arguments)
     signals_install();
     struct kiln_compare_result result = kiln_compare_result_empty();
     struct kiln_error error = {0};
-    bool ok = kiln_compare(&params, &result, &error);
+    bool ok = kiln_compare_beside(&params, json_output_path(arguments), "--json", &result, &error);
     free(limits);
     free(masks);
     compare_report_result(&printed, &result);

@@ -100,19 +100,17 @@ static void add_device(struct kiln_json *json, const struct kiln_device_info *in
 static void print_json(FILE *out, const struct kiln_device_info *infos, size_t count,
                        const char *advice)
 {
-    struct kiln_json json = kiln_json_to_file(out);
-    kiln_json_begin_object(&json, NULL);
-    kiln_json_lines(&json, 2);
+    struct kiln_json json;
+    if (!json_output_begin(&json, out))
+        return;
     kiln_json_begin_array(&json, "devices");
     kiln_json_lines(&json, 4);
     for (size_t i = 0; i < count; i++)
         add_device(&json, &infos[i]);
     kiln_json_end_line(&json, 2);
     add_sandbox(&json);
-    kiln_json_lines(&json, 2);
     kiln_json_string(&json, "advice", advice);
-    kiln_json_end_line(&json, 0);
-    kiln_json_finish(&json);
+    json_output_end(&json);
 }
 
 static int run(const struct arguments *arguments)
@@ -125,11 +123,12 @@ static int run(const struct arguments *arguments)
     if (count > MAX_DEVICES)
         count = MAX_DEVICES;
     FILE *out;
-    const int code = json_output_open(arguments, &out);
-    if (out)
-        print_json(out, infos, count, advice);
-    if (code || out == stdout)
+    const int code = json_output_open("devices", arguments, &out);
+    if (code)
         return code;
+    print_json(out, infos, count, advice);
+    if (out == stdout)
+        return 0;
     for (size_t i = 0; i < count; i++)
         print_text(&infos[i]);
     print_sandbox();

@@ -73,6 +73,21 @@ static void show(void *user, const struct kiln_progress *frame)
     progress_tell_engine(encoding->output, frame, 0, 1);
 }
 
+static void print_result(const char *output, const struct kiln_frame_range *frames, bool quiet)
+{
+    const uint32_t count = frames->last - frames->first + 1;
+    struct kiln_json json = event_begin("result");
+    kiln_json_string(&json, "output", output);
+    kiln_json_uint(&json, "frames", count);
+    kiln_json_pair(&json, "range", frames->first, frames->last);
+    event_end(&json);
+    if (quiet)
+        return;
+    print_name(output);
+    printf(": %" PRIu32 " frame%s, %" PRIu32 "-%" PRIu32 "\n", count, count == 1 ? "" : "s",
+           frames->first, frames->last);
+}
+
 static int run(const struct arguments *arguments)
 {
     const struct option_use *output = arguments_last(arguments, "output");
@@ -106,11 +121,7 @@ static int run(const struct arguments *arguments)
     if (!ok)
         return error.code == KILN_INTERRUPTED ? signals_report(params.output, "%s", "")
                                               : report_error(&error);
-    if (!arguments_flag(arguments, "quiet")) {
-        print_name(params.output);
-        printf(": %" PRIu32 " frame%s, %" PRIu32 "-%" PRIu32 "\n", frames.last - frames.first + 1,
-               frames.last == frames.first ? "" : "s", frames.first, frames.last);
-    }
+    print_result(params.output, &frames, arguments_flag(arguments, "quiet"));
     return 0;
 }
 

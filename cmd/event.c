@@ -29,9 +29,12 @@ static const struct {
 static struct {
     FILE *out; /* NULL: none */
     enum form form;
-    bool on_stdout, stdout_failed;
+    bool on_stdout, on_stderr; /* which of them it has taken for itself */
+    bool stdout_failed;
+    bool has_result;   /* the event `result` was told */
     const char *name;  /* for messages */
     uint64_t progress; /* percents that were told */
+    pid_t process;     /* whose end it tells; a child that was forked has another number */
 } stream;
 
 enum { LINE_SIZE = 1 << 16, TIME_SIZE = 32 };
@@ -105,6 +108,8 @@ static bool write_nowhere(void *sink, const char *bytes, size_t length)
 struct kiln_json event_begin(const char *name)
 {
     struct kiln_json json = kiln_json_to_file(stream.out);
+    json.one_line = true;
+    stream.has_result = stream.has_result || strcmp(name, "result") == 0;
     if (events_are_open())
         flockfile(stream.out);
     else
@@ -282,17 +287,23 @@ static void add_quoted(struct line *line, const char *text)
     add(line, "\"");
 }
 
+static void add_code(struct line *line, int code)
+{
+    char digits[4];
+    *add_digits(digits, (unsigned)code, code >= 100 ? 100 : code >= 10 ? 10 : 1) = '\0';
+    add(line, digits);
+}
+
 static void add_event(struct line *line, const char *name, int code)
 {
-    char time[TIME_SIZE], digits[4] = "";
+    char time[TIME_SIZE];
     format_time(time);
-    *add_digits(digits, (unsigned)code, code >= 100 ? 100 : code >= 10 ? 10 : 1) = '\0';
     add(line, "{\"event\": \"");
     add(line, name);
     add(line, "\", \"time\": \"");
     add(line, time);
     add(line, "\", \"code\": ");
-    add(line, digits);
+    add_code(line, code);
     add(line, ", \"again\": ");
     add_quoted(line, exit_code_again(code));
 }
@@ -307,18 +318,26 @@ static void add_last_events(struct line *line, const char *message, int code)
     add(line, "}\n");
 }
 
+static void add_last_lines(struct line *line, const char *message, int code)
+{
+    add(line, "openjd_fail: ");
+    add_message(line, message, false);
+    add(line, "\nopenjd_status: exit code ");
+    add_code(line, code);
+    add(line, ", again: ");
+    add(line, exit_code_again(code));
+    add(line, "\n");
+}
+
 void events_last_words(const char *message, int code)
 {
-    if (!events_are_wanted())
+    if (!events_are_wanted() || getpid() != stream.process)
         return;
     struct line line = {.length = 0};
-    if (is_openjd()) {
-        add(&line, "openjd_fail: ");
-        add_message(&line, message, false);
-        add(&line, "\n");
-    } else {
+    if (is_openjd())
+        add_last_lines(&line, message, code);
+    else
         add_last_events(&line, message, code);
-    }
     const int file = fileno(stream.out);
     if (poll(&(struct pollfd){.fd = file, .events = POLLOUT}, 1, 0) == 1) {
         const ssize_t written = write(file, line.text, line.length);
@@ -403,18 +422,50 @@ static const char *read_form(const char *value)
     return NULL;
 }
 
-/* Keeps standard output for lines of JSON: what is printed for people goes to standard error. */
-static int take_stdout(void)
+/* Keeps a standard stream for lines of JSON: what is printed there for people goes to the
+ * descriptor `instead`. */
+static int take(int descriptor, int instead)
 {
-    const int events = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    const int events = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     fflush(stdout);
-    FILE *out = events >= 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0 ? fdopen(events, "w") : NULL;
+    FILE *out = events >= 0 && dup2(instead, descriptor) >= 0 ? fdopen(events, "w") : NULL;
+    stream.out = NULL; /* a message is no event of a stream that failed */
     if (!out)
-        return report(KILN_IO, "--events: standard output: %s",
+        return report(KILN_IO, "--events: %s: %s", stream.name,
                       strerror(errno)); /* NOLINT(concurrency-mt-unsafe) */
     stream.out = out;
-    stream.on_stdout = true;
+    stream.on_stdout = descriptor == STDOUT_FILENO;
+    stream.on_stderr = descriptor == STDERR_FILENO;
     return 0;
+}
+
+static int take_standard_stream(void)
+{
+    if (stream.form != FORM_NDJSON || (stream.out != stdout && stream.out != stderr))
+        return 0;
+    if (stream.out == stdout)
+        return take(STDOUT_FILENO, STDERR_FILENO);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    const int code = take(STDERR_FILENO, nowhere);
+    close(nowhere);
+    return code;
+}
+
+/* Gives a standard stream back to people. */
+static void give_back(FILE *out)
+{
+    fflush(stdout);
+    if (stream.on_stdout)
+        dup2(fileno(out), STDOUT_FILENO);
+    if (stream.on_stderr)
+        dup2(fileno(out), STDERR_FILENO);
+}
+
+/* Whether '--output -' sends a clip to standard output. */
+static bool is_clip_on_stdout(const struct arguments *arguments)
+{
+    const struct option_use *output = arguments_last(arguments, "output");
+    return output && output->text && strcmp(output->text, "-") == 0;
 }
 
 int events_open(const struct command *command, const struct arguments *arguments)
@@ -424,13 +475,11 @@ int events_open(const struct command *command, const struct arguments *arguments
         return 0;
     const char *value = use->text, *rest = read_form(value);
     int code = 0;
-    stream.name = "standard output";
     if (!rest) {
         code = refuse(command, value);
     } else if (!*rest) {
-        const struct option_use *output = arguments_last(arguments, "output");
-        const bool is_taken = output && output->text && strcmp(output->text, "-") == 0;
-        stream.out = is_taken ? stderr : stdout;
+        stream.out = is_clip_on_stdout(arguments) ? stderr : stdout;
+        stream.name = stream.out == stderr ? "standard error" : "standard output";
     } else if (strncmp(rest, ":fd=", 4) == 0) {
         stream.name = value;
         code = open_descriptor(command, value, rest + 4);
@@ -438,13 +487,21 @@ int events_open(const struct command *command, const struct arguments *arguments
         stream.name = rest + 1;
         code = open_file(command, rest + 1);
     }
-    if (code == 0 && stream.out == stdout && stream.form == FORM_NDJSON)
-        code = take_stdout();
+    if (code == 0 && stream.out == stdout && is_clip_on_stdout(arguments)) {
+        stream.out = NULL;
+        code = report(KILN_USAGE,
+                      "%s: --events: '%s' and '--output -' would both write to standard output; "
+                      "without ':fd=1' events go to standard error",
+                      command->name, value);
+    }
+    if (code == 0)
+        code = take_standard_stream();
     if (code)
         return code;
     /* A line is written at once; messages on standard error do not wait for one. */
     if (stream.out != stderr)
         setvbuf(stream.out, NULL, _IOFBF, LINE_SIZE);
+    stream.process = getpid();
     tell_start(command, arguments);
     return 0;
 }
@@ -466,14 +523,28 @@ void events_open_plain(void)
 int events_open_json(const char *command, const struct arguments *arguments)
 {
     FILE *out;
-    if (arguments_flag(arguments, "json") && events_are_wanted())
-        return report(KILN_USAGE,
-                      "%s: --json and --events exclude each other; events have all that --json has",
-                      command);
-    const int code = json_output_open(arguments, &out);
+    const int code = json_output_open(command, arguments, &out);
     if (out)
         open_plain(out);
     return code;
+}
+
+/* Tells the exit code. A command that came to its end and told no result of its own gets one. */
+static void tell_end(int code)
+{
+    if (code == 0)
+        event_openjd("progress", "100");
+    else
+        event_openjd("status", "exit code %d, again: %s", code, exit_code_again(code));
+    if (!stream.has_result && exit_code_has_result(code)) {
+        struct kiln_json json = event_begin("result");
+        kiln_json_int(&json, "code", code);
+        event_end(&json);
+    }
+    struct kiln_json json = event_begin("ended");
+    kiln_json_int(&json, "code", code);
+    kiln_json_string(&json, "again", exit_code_again(code));
+    event_end(&json);
 }
 
 int events_close(int code)
@@ -482,23 +553,13 @@ int events_close(int code)
         stream.out = NULL;
         return code;
     }
-    if (code == 0)
-        event_openjd("progress", "100");
-    else
-        event_openjd("status", "exit code %d, again: %s", code, exit_code_again(code));
-    struct kiln_json json = event_begin("ended");
-    kiln_json_int(&json, "code", code);
-    kiln_json_string(&json, "again", exit_code_again(code));
-    event_end(&json);
+    tell_end(code);
     const bool failed = ferror(stream.out) != 0;
     FILE *out = stream.out;
     stream.out = NULL;
     if (out == stdout || out == stderr) /* report_finish looks at the one */
         return code;
-    if (stream.on_stdout) { /* report_finish finds out why it failed */
-        fflush(stdout);
-        dup2(fileno(out), STDOUT_FILENO);
-    }
+    give_back(out); /* report_finish finds out why standard output failed */
     const bool is_whole = fclose(out) == 0 && !failed;
     stream.stdout_failed = stream.on_stdout && !is_whole;
     if (stream.on_stdout || is_whole)

@@ -56,10 +56,11 @@ void event_warning(const char *message);
 void event_loaded(const char *scene, const struct kiln_scene_info *info);
 
 /* Tells the error and the end in a signal's handler, or beside a thread that hangs: where the
- * stream takes it at once. */
+ * stream takes it at once. A process that was forked tells nothing. */
 void events_last_words(const char *message, int code);
 
-/* Tells the exit code and closes the stream. Returns the code, or that of a stream that failed. */
+/* Tells the exit code, before it a result where the command came to its end and told none, and
+ * closes the stream. Returns the code, or that of a stream that failed. */
 int events_close(int code);
 
 /* The events for people, and their JSON schema. */

@@ -13,6 +13,7 @@
 #define STRINGS "\"type\": \"array\", \"items\": {\"type\": \"string\"}"
 #define PAIR                                                                                       \
     "\"type\": \"array\", \"items\": {\"type\": \"integer\"}, \"minItems\": 2, \"maxItems\": 2"
+#define OBJECTS     "\"type\": \"array\", \"items\": {\"type\": \"object\"}"
 #define MAYBE(type) "\"type\": [\"" type "\", \"null\"]"
 #define AGAIN       "\"enum\": [\"never\", \"again\", \"with more\"]"
 
@@ -131,7 +132,7 @@ static const struct event events[] = {
       {"particle_bytes", INTEGER, "Of the slots.", true},
       {"peak_memory_bytes", INTEGER, "Of the process.", true},
       {"techniques", STRING, "Of the stages.", true},
-      {"chosen", "\"type\": \"array\"", "Why these.", true},
+      {"chosen", OBJECTS, "Why these.", true},
       {"scene_hash", STRING, "SHA-256 of the scene and its files.", true},
       {"state", STRING, "The state hash at the end.", true}}},
     {"result",
@@ -158,6 +159,54 @@ static const struct event events[] = {
       {"metrics", OBJECT, "Worst and mean values, and limits.", false},
       {"flip_s", NUMBER, "Seconds, with --stats.", true},
       {"total_s", NUMBER, "Seconds, with --stats.", true}}},
+    {"result",
+     "plan",
+     "What the clip costs.",
+     {{"scene", STRING, "As it was given.", false},
+      {"motion", STRING, "The motion hash.", false},
+      {"techniques", STRING, "Of the stages.", false},
+      {"parts", INTEGER, "Of the clip.", false},
+      {"part_frames", INTEGER, "Frames of a part.", false},
+      {"measured", OBJECT, "Seconds of processor time, and memory, at a frame.", false},
+      {"tasks", OBJECTS, "What each draws, and what that costs.", false},
+      {"cpu_s", NUMBER, "Seconds of processor time of all tasks.", false}}},
+    {"result",
+     "join",
+     "The clip is whole.",
+     {{"output", STRING, "As it was given.", false},
+      {"frames", INTEGER, "Of the clip.", false},
+      {"parts", INTEGER, "Of the clip.", false},
+      {"was_whole", BOOLEAN, "It was there already.", false}}},
+    {"result",
+     "encode",
+     "The clip is whole.",
+     {{"output", STRING, "As it was given.", false},
+      {"frames", INTEGER, "Of the clip.", false},
+      {"range", PAIR, "The numbers of the first and the last frame.", false}}},
+    {"test",
+     "test, test report",
+     "How a test ended. It is told when all tests have ended.",
+     {{"name", STRING, "Of the test.", false},
+      {"report", OBJECT, "What --json has of it.", false}}},
+    {"result",
+     "test, test report",
+     "All tests are judged.",
+     {{"kiln_report", INTEGER, "Version of the form of reports.", false},
+      {"version", STRING, "Of kiln.", false},
+      {"started", STRING, "When the first test began.", false},
+      {"total_s", NUMBER, "Seconds.", false},
+      {"code", INTEGER, "The exit code of the worst test.", false},
+      {"counts", OBJECT, "Tests, and those of each verdict.", false}}},
+    {"result",
+     "devices",
+     "What can render on this machine.",
+     {{"devices", OBJECTS, "Each with its limits.", false},
+      {"sandbox", OBJECT, "What the kernel has for --sandbox.", false},
+      {"advice", STRING, "What is missing, and the package that brings it.", false}}},
+    {"result",
+     "every other command",
+     "All is done, or pictures differ.",
+     {{"code", INTEGER, "The exit code.", false}}},
     {"job",
      "render --batch",
      "A job has ended.",
@@ -177,7 +226,7 @@ static const struct event events[] = {
      "Why something failed; there may be several.",
      {{"code", INTEGER, "The exit code for it.", false},
       {"again", AGAIN, "Whether to try again ('kiln help exit-codes').", false},
-      {"message", STRING, "A line, as it is printed on standard error.", false},
+      {"message", STRING, "A line for people.", false},
       {"file", STRING, "Where the message names a place in one.", true},
       {"line", INTEGER, "From 1.", true},
       {"column", INTEGER, "From 1.", true}}},
@@ -191,27 +240,32 @@ enum { EVENT_COUNT = sizeof events / sizeof *events };
 
 bool help_write_events(FILE *out)
 {
-    fputs("--events ndjson          on standard output, and what is printed for people on standard "
-          "error;\n"
-          "                         with '--output -' on standard error\n"
-          "--events ndjson:FILE     at the end of a file\n"
-          "--events ndjson:fd=N     to a descriptor that is open\n"
-          "\n"
-          "`openjd` instead of `ndjson` writes lines for engines of Open Job Description; what a "
-          "person\n"
-          "reads is printed as well, and the engine passes it on:\n"
-          "\n"
-          "openjd_progress: PERCENT   0, whole percents, and 100 when all is done\n"
-          "openjd_status: MESSAGE     what the command does; warnings; last, where it failed, the "
-          "exit\n"
-          "                           code and whether to try again\n"
-          "openjd_fail: MESSAGE       why something failed\n"
-          "\n"
-          "A line of `ndjson` is a JSON object. `event` is its name, `time` is UTC. Events and "
-          "members may "
-          "be\n"
-          "added by later versions. 'kiln help events-schema' is the JSON schema.\n",
-          out);
+    fputs(
+        "--events ndjson          on standard output, and what is printed for people on standard "
+        "error;\n"
+        "                         with '--output -' on standard error\n"
+        "--events ndjson:FILE     at the end of a file\n"
+        "--events ndjson:fd=N     to a descriptor that is open\n"
+        "\n"
+        "Where events of `ndjson` go to standard error, nothing else is printed there: errors and "
+        "warnings\n"
+        "are events, too.\n"
+        "\n"
+        "`openjd` instead of `ndjson` writes lines for engines of Open Job Description; what a "
+        "person\n"
+        "reads is printed as well, and the engine passes it on:\n"
+        "\n"
+        "openjd_progress: PERCENT   0, whole percents, and 100 when all is done\n"
+        "openjd_status: MESSAGE     what the command does; warnings; last, where it failed, the "
+        "exit\n"
+        "                           code and whether to try again\n"
+        "openjd_fail: MESSAGE       why something failed\n"
+        "\n"
+        "A line of `ndjson` is a JSON object. `event` is its name, `time` is UTC. Events and "
+        "members may "
+        "be\n"
+        "added by later versions. 'kiln help events-schema' is the JSON schema.\n",
+        out);
     for (size_t i = 0; i < EVENT_COUNT; i++) {
         const struct event *event = &events[i];
         fprintf(out, "\n%s (%s): %s\n", event->name, event->of, event->help);

@@ -38,6 +38,11 @@ const char *exit_code_again(int code)
     return AGAIN;
 }
 
+bool exit_code_has_result(int code)
+{
+    return code == KILN_OK || code == KILN_FRAME_FAILED;
+}
+
 void help_print_wrapped(FILE *out, const char *text, size_t column, size_t indent)
 {
     bool at_start = true;

@@ -28,6 +28,22 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
+static void print_result(const char *output, const struct kiln_join_stats *stats, bool quiet)
+{
+    struct kiln_json json = event_begin("result");
+    kiln_json_string(&json, "output", output);
+    kiln_json_uint(&json, "frames", stats->frames);
+    kiln_json_uint(&json, "parts", stats->parts);
+    kiln_json_bool(&json, "was_whole", stats->was_whole);
+    event_end(&json);
+    if (quiet)
+        return;
+    print_name(output);
+    printf(": %" PRIu32 " frame%s in %" PRIu32 " part%s%s\n", stats->frames,
+           stats->frames == 1 ? "" : "s", stats->parts, stats->parts == 1 ? "" : "s",
+           stats->was_whole ? ", whole already" : "");
+}
+
 static int run_join(const struct arguments *arguments, const char **command, size_t count)
 {
     const struct kiln_join_params params = {
@@ -48,12 +64,7 @@ static int run_join(const struct arguments *arguments, const char **command, siz
     if (!kiln_join(&params, &stats, &error))
         return error.code == KILN_INTERRUPTED ? signals_report(params.output, "%s", "")
                                               : report_error(&error);
-    if (!arguments_flag(arguments, "quiet")) {
-        print_name(params.output);
-        printf(": %" PRIu32 " frame%s in %" PRIu32 " part%s%s\n", stats.frames,
-               stats.frames == 1 ? "" : "s", stats.parts, stats.parts == 1 ? "" : "s",
-               stats.was_whole ? ", whole already" : "");
-    }
+    print_result(params.output, &stats, arguments_flag(arguments, "quiet"));
     return 0;
 }
 

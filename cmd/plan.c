@@ -51,9 +51,10 @@ static const struct option options[] = {
 /* The state of a report while the library visits one task after the other. */
 struct planning {
     const char *scene_path;
-    FILE *json_out; /* NULL: no JSON is wanted */
+    FILE *json_out; /* of --json, or NULL */
     struct kiln_json json;
-    double cpu_s; /* of all tasks */
+    bool has_json; /* wanted, and begun */
+    double cpu_s;  /* of all tasks */
 };
 
 static bool prints_text(const struct planning *planning)
@@ -96,9 +97,9 @@ static void print_task(const struct kiln_plan_task *task)
 static void begin_json(struct planning *planning, const struct kiln_plan *plan)
 {
     struct kiln_json *json = &planning->json;
-    *json = kiln_json_to_file(planning->json_out);
-    kiln_json_begin_object(json, NULL);
-    kiln_json_lines(json, 2);
+    planning->has_json = json_output_begin(json, planning->json_out);
+    if (!planning->has_json)
+        return;
     kiln_json_string(json, "scene", planning->scene_path);
     kiln_json_string(json, "motion", plan->motion);
     kiln_json_string(json, "techniques", plan->techniques);
@@ -140,18 +141,16 @@ static void end_json(struct planning *planning)
     struct kiln_json *json = &planning->json;
     kiln_json_end_line(json, 2);
     kiln_json_rounded(json, "cpu_s", planning->cpu_s, 6);
-    kiln_json_end_line(json, 0);
-    kiln_json_finish(json);
+    json_output_end(json);
 }
 
 static void show_task(void *user, const struct kiln_plan *plan, const struct kiln_plan_task *task)
 {
     struct planning *planning = user;
-    if (planning->json_out) {
-        if (task->index == 0)
-            begin_json(planning, plan);
+    if (task->index == 0)
+        begin_json(planning, plan);
+    if (planning->has_json)
         add_task(&planning->json, task);
-    }
     if (prints_text(planning)) {
         if (task->index == 0)
             print_head(planning, plan);
@@ -188,11 +187,12 @@ static int run_plan(const struct arguments *arguments, const struct kiln_scene *
     };
     struct kiln_plan plan = kiln_plan_empty();
     struct kiln_error error = {0};
-    int code = json_output_open(arguments, &planning.json_out);
+    int code = json_output_open("plan", arguments, &planning.json_out);
+    code = code ? code : json_output_claim(arguments, scene);
     struct kiln_device *device = code ? NULL : open_device(arguments, techniques, &code);
     if (device && !kiln_plan_tasks(device, scene, &params, &plan, &error))
         code = report_failure(&planning, &error);
-    else if (device && planning.json_out)
+    else if (device && planning.has_json)
         end_json(&planning);
     if (code == 0 && prints_text(&planning) && params.tasks > 1)
         printf("  all of them: %.2f seconds of CPU\n", planning.cpu_s);

@@ -138,7 +138,7 @@ static const struct option options[] = {
     {.name = "quiet",
      .letter = 'q',
      .kind = OPTION_FLAG,
-     .help = "Print nothing but errors and what --stats asks for."},
+     .help = "Print nothing but errors and what --stats and --json ask for."},
     EVENTS_OPTION,
     HELP_OPTION,
 };

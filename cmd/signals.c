@@ -26,9 +26,21 @@ static const char *name_of(int number)
     return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";
 }
 
+/* Writes what is said of a job that a signal has ended: "kiln: stopped by SIGTERM; ...". */
+static void describe_end(char line[128], int number)
+{
+    strcpy(line, "kiln: stopped by ");
+    strcat(line, name_of(number));
+    strcat(line, "; what was not whole is given up\n");
+}
+
+/* Ends the program without a message for people, who asked for it twice. */
 static void end_program(int number)
 {
+    char line[128];
+    describe_end(line, number);
     kiln_abandon_outputs();
+    events_last_words(line + strlen("kiln: "), 128 + number);
     _exit(128 + number);
 }
 
@@ -52,9 +64,8 @@ static void on_patience_over(int number)
         raise(number);
         return;
     }
-    char line[128] = "kiln: stopped by ";
-    strcat(line, name_of(received));
-    strcat(line, "; what was not whole is given up\n");
+    char line[128];
+    describe_end(line, received);
     end_with_words(line, 128 + received);
 }
 

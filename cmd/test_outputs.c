@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "event.h"
 #include "report.h"
 
 int test_outputs_read(struct test_outputs *outputs, const struct arguments *arguments,
@@ -23,7 +24,7 @@ int test_outputs_read(struct test_outputs *outputs, const struct arguments *argu
         {"html", outputs->page, arguments_flag(arguments, "link"), force},
         {"github", arguments_flag(arguments, "github") ? "-" : NULL, false, force},
     };
-    size_t on_standard_output = 0;
+    size_t on_standard_output = events_take_stdout();
     for (size_t i = 0; i < MAX_OUTPUTS; i++) {
         if (!all[i].path)
             continue;
@@ -35,7 +36,7 @@ int test_outputs_read(struct test_outputs *outputs, const struct arguments *argu
     }
     if (on_standard_output > 1)
         return report(KILN_USAGE,
-                      "%s: only one of --json, --junit, --tap, --report and --github "
+                      "%s: only one of --json, --junit, --tap, --report, --github and --events "
                       "can go to standard output",
                       command);
     return 0;
@@ -65,10 +66,30 @@ static int claim_results(const struct test_outputs *outputs, const struct kiln_r
     return code;
 }
 
+/* Tells what --json has, by events: one a test, and the result. */
+static void tell_results(const struct kiln_results *results)
+{
+    if (!events_are_wanted())
+        return;
+    const size_t count = kiln_results_summary(results).tests;
+    for (size_t i = 0; i < count; i++) {
+        struct kiln_json json = event_begin("test");
+        kiln_json_string(&json, "name", kiln_results_name(results, i));
+        kiln_json_begin_object(&json, "report");
+        kiln_results_add_test(&json, results, i);
+        kiln_json_end(&json);
+        event_end(&json);
+    }
+    struct kiln_json json = event_begin("result");
+    kiln_results_add_head(&json, results);
+    event_end(&json);
+}
+
 enum kiln_code test_outputs_write(struct test_outputs *outputs, const struct kiln_results *results,
                                   const char *const *folders, size_t folder_count,
                                   enum kiln_code code)
 {
+    tell_results(results);
     int refused = claim_results(outputs, results, folders, folder_count);
     if (refused) {
         outputs->page = NULL;

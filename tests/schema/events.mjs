@@ -21,7 +21,7 @@ for (const line of events.trim().split("\n")) {
         console.error(`not of this hour: ${event.time}`);
     }
 }
-const wanted = ["started", "loaded", "device", "shard", "frame", "part", "file", "state", "job", "result", "warning",
+const wanted = ["started", "loaded", "device", "shard", "frame", "part", "file", "state", "job", "test", "result", "warning",
     "error", "ended"];
 for (const name of wanted.filter((name) => !seen.has(name))) {
     failures++;

@@ -30,6 +30,7 @@ run compare a_0.png none.png
 run check $tiny
 run devices
 run test scenes --golden golden
+run test report out/test
 run figure sheet $tiny -o sheet.png --frames 0
 run new new.yaml
 "$kiln" help events-schema >schema.json

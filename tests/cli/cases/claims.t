@@ -122,6 +122,36 @@ $ ls v
 1|e_8.png
 1|e_9.png
 
+The file of --json is claimed as well.
+
+$ kiln compare one/f_0001.png two/f_0001.png -q --json=two/../one/f_0001.png --force
+2|kiln: two/../one/f_0001.png: --json would replace a picture of the reference, which this call reads
+= 2
+$ kiln compare one/f_0001.png two/f_0001.png -q --mask t.png --json=same.png --force
+2|kiln: same.png: --json would replace a mask, which this call reads
+= 2
+$ kiln compare one two -q --diff e_%d.png --json=e_2.png
+2|kiln: e_2.png: --json and --diff would both write this file
+= 2
+$ kiln plan t.yaml --device cpu --json=same.png --force
+2|kiln: same.png: --json would replace a file of the scene, which this call reads
+= 2
+$ kiln plan t.yaml --device cpu --json=./t.yaml --force
+2|kiln: ./t.yaml: --json would replace the scene, which this call reads
+= 2
+$ kiln bake t.yaml --device cpu -q -o states --json=t.yaml --force
+2|kiln: t.yaml: --json would replace the scene, which this call reads
+= 2
+$ kiln bake t.yaml --device cpu -q -o states --json=./states
+2|kiln: ./states: --output and --json would both write this file
+= 2
+$ kiln bake t.yaml --device cpu -q -o states --json=states/0.kilnstate --force
+2|kiln: bake: --json: 'states/0.kilnstate' is a name of a state (.kilnstate), which only 'kiln bake' writes
+= 2
+$ cmp t.yaml <(sed 's|atlas: [^,}]*|atlas: t.png|' a.yaml) && cmp t.png scenes/puff.png && ls -d states
+2|ls: cannot access 'states': No such file or directory
+= 2
+
 Figures.
 
 $ kiln figure strip one/f_%04d.png -o one/f_0001.png --force

@@ -26,7 +26,34 @@ $ kiln render scenes/tiny.yaml -o e.mp4 --device cpu -q --resume --events ndjson
 $ jq -r 'select(.event == "file") | "\(.sha256)  \(.file)"' e.log | sha256sum --check
 1|e.mp4: OK
 
-Standard output keeps its text when events go elsewhere. With `-o -` they go to standard error.
+Every command has a result, which has all that --json has.
+
+$ kiln plan scenes/tiny.yaml --device cpu --tasks 2 --events ndjson 2>/dev/null | jq -c 'select(.event == "result") | del(.event, .time) | keys' && kiln plan scenes/tiny.yaml --device cpu --tasks 2 --json | jq -c keys
+1|["cpu_s","measured","motion","part_frames","parts","scene","tasks","techniques"]
+1|["cpu_s","measured","motion","part_frames","parts","scene","tasks","techniques"]
+$ kiln devices --events ndjson 2>/dev/null | jq -S 'select(.event == "result") | del(.event, .time)' >told && kiln devices --json | jq -S . | cmp - told
+$ kiln render scenes/tiny.yaml -o joined.mp4 --device cpu -q --shard 1/1; for i in 1 2; do kiln join joined.mp4 --events ndjson 2>/dev/null | grep result; done
+1|{"event": "result", "time": <time>, "output": "joined.mp4", "frames": 24, "parts": 1, "was_whole": false}
+1|{"event": "result", "time": <time>, "output": "joined.mp4", "frames": 24, "parts": 1, "was_whole": true}
+$ kiln encode e_%d.png -o encoded.mp4 --events ndjson 2>/dev/null | grep result
+1|{"event": "result", "time": <time>, "output": "encoded.mp4", "frames": 2, "range": [0, 1]}
+$ kiln test scenes --golden golden --device cpu --json=test.json --events ndjson 2>/dev/null >test.events; jq -c 'select(.event == "test").report' test.events | cmp - <(jq -c '.tests[]' test.json) && jq -c 'select(.event == "result") | del(.event, .time)' test.events | cmp - <(jq -c 'del(.tests)' test.json); jq -c '[.event, .name, .report.status, .counts.new, .code]' test.events
+1|["started",null,null,null,null]
+1|["test","scenes/empty","new",null,null]
+1|["test","scenes/tiny","new",null,null]
+1|["result",null,null,2,7]
+1|["ended",null,null,null,7]
+$ for command in 'check scenes/tiny.yaml' 'new told.yaml' 'figure sheet scenes/tiny.yaml -o told.png --frames 0 --device cpu' 'figure --check told.png' 'test list scenes' 'test report out/test' 'bench --list'; do kiln $command --events ndjson 2>/dev/null | jq -r 'select(.event == "result") | .event' | sed "s|^|$command: |"; done
+1|check scenes/tiny.yaml: result
+1|new told.yaml: result
+1|figure sheet scenes/tiny.yaml -o told.png --frames 0 --device cpu: result
+1|figure --check told.png: result
+1|test list scenes: result
+1|test report out/test: result
+1|bench --list: result
+
+Standard output keeps its text when events go elsewhere. With `-o -` they go to standard error, and then
+nothing else does.
 
 $ kiln render scenes/tiny.yaml -o none --frames 0 --device cpu --events ndjson:fd=3 --progress none 3>three | sed 's/(.*)/(...)/'; jq -r .event three
 1|device: <device>
@@ -37,13 +64,26 @@ $ kiln render scenes/tiny.yaml -o none --frames 0 --device cpu --events ndjson:f
 1|frame
 1|result
 1|ended
-$ kiln render scenes/tiny.yaml -o - --frames 0 --device cpu --events ndjson -q 2>&1 >/dev/null | jq -r .event
+$ kiln render scenes/tiny.yaml -o - --frames 0 --device cpu --events ndjson --progress lines 2>err >/dev/null; jq -r .event err
 1|started
 1|loaded
 1|device
 1|frame
 1|result
 1|ended
+$ kiln render scenes/tiny.yaml -o none.xyz --events ndjson:fd=2 2>err; jq -r .event err
+1|started
+1|loaded
+1|error
+1|ended
+$ kiln render scenes/tiny.yaml -o - --events ndjson:fd=1 | wc -c
+1|0
+2|kiln: render: --events: 'ndjson:fd=1' and '--output -' would both write to standard output; without ':fd=1' events go to standard error
+$ kiln render scenes/tiny.yaml -o - --events openjd:fd=1 | wc -c
+1|0
+2|kiln: render: --events: 'openjd:fd=1' and '--output -' would both write to standard output; without ':fd=1' events go to standard error
+$ kiln test scenes --golden golden --json --events ndjson 2>/dev/null | jq -r 'select(.event == "error").message'
+1|test: only one of --json, --junit, --tap, --report, --github and --events can go to standard output
 
 Failures have a code, a place, and whether to try again; a signal is a failure, too.
 
@@ -60,6 +100,9 @@ $ kiln render scenes/tiny.yaml -q -o never.mp4 --set output.frames=100000 --set 
 $ kiln render scenes/tiny.yaml -q -o slow.png --frames 0 --size 4096x4096 --set camera.shutter.samples=64 --set simulation.rate=3840 --threads 1 --device cpu --timeout 0.5 --events ndjson 2>/dev/null | jq -c 'select(.event == "error" or .event == "ended") | [.event, .code, .again]'
 1|["error",8,"with more"]
 1|["ended",8,"with more"]
+$ kiln render - -q -o slow.png --timeout 0.1 --events ndjson < <(sleep 2) 2>/dev/null | jq -c 'select(.event == "error" or .event == "ended") | [.event, .code, .file, .message]' | sed 's/taken .* since/taken <s> since/'
+1|["error",8,null,"loading standard input: the job has taken <s> since it began, and the limit `time` is 0.1 s; what was not whole is given up"]
+1|["ended",8,null,null]
 $ kiln compare e_0.png e_1.png --events ndjson | jq -c '[.event, .verdict, .same, .code]'
 1|["started",null,null,null]
 1|["frame","different",null,null]
@@ -147,8 +190,9 @@ $ kiln render "$(printf 'a\nopenjd_env: B=C')" -q -o a.png --events openjd 2>/de
 $ kiln render scenes/tiny.yaml -q -o j_never.mp4 --set output.frames=3000 --device cpu --events openjd 2>/dev/null >stopped & until grep -qsx "openjd_progress: 1" stopped; do sleep 0.05; done; kill -TERM $!; wait $!; tail -n 2 stopped
 1|openjd_fail: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
 1|openjd_status: exit code 143, again: again
-$ kiln render scenes/tiny.yaml -q -o slow.png --frames 0 --size 4096x4096 --set camera.shutter.samples=64 --set simulation.rate=3840 --threads 1 --device cpu --frame-timeout 0.2 --events openjd 2>/dev/null | tail -n 1
-1|openjd_fail: scenes/tiny.yaml: frame 0 took longer than its limit of 0.2 s
+$ kiln render scenes/tiny.yaml -q -o slow.png --frames 0 --size 4096x4096 --set camera.shutter.samples=64 --set simulation.rate=3840 --threads 1 --device cpu --frame-timeout 0.2 --events openjd 2>/dev/null | tail -n 2
+1|openjd_fail: scenes/tiny.yaml: frame 0 took longer than its limit of 0.2 s (--frame-timeout)
+1|openjd_status: exit code 5, again: with more
 $ kiln check scenes/tiny.yaml -q --events openjd:e.log
 2|kiln: check: --events: e.log: the file exists and holds no events, so nothing is added to it
 = 6
@@ -182,8 +226,10 @@ $ kiln check scenes/tiny.yaml -q --events ndjson:/dev/full
 $ kiln plan scenes/tiny.yaml --events ndjson 2>text | jq -r .event; kiln devices --events ndjson 2>>text | jq -r .event; grep -Ec '^scenes/tiny.yaml: |^sandbox:' text
 1|started
 1|loaded
+1|result
 1|ended
 1|started
+1|result
 1|ended
 1|2
 $ kiln plan scenes/tiny.yaml --events ndjson 2>text >/dev/full; echo $?; tail -n 1 text
@@ -193,11 +239,14 @@ $ kiln render scenes/tiny.yaml -o none --set output.frames=100000 --device cpu -
 1|{"event": "started",
 1|9
 2|kiln: standard output: the reader went away: stopped
-$ kiln help events | head -n 22
+$ kiln help events | head -n 25
 1|--events ndjson          on standard output, and what is printed for people on standard error;
 1|                         with '--output -' on standard error
 1|--events ndjson:FILE     at the end of a file
 1|--events ndjson:fd=N     to a descriptor that is open
+1|
+1|Where events of `ndjson` go to standard error, nothing else is printed there: errors and warnings
+1|are events, too.
 1|
 1|`openjd` instead of `ndjson` writes lines for engines of Open Job Description; what a person
 1|reads is printed as well, and the engine passes it on:

@@ -229,9 +229,9 @@ $ kiln render scenes/tiny.yaml -o j.png --frames 1 -q --json=bad.json; ls bad.js
 = 2
 $ kiln render scenes/tiny.yaml -o none --frames 1 --json --events ndjson | jq -r .message
 1|null
-1|render: --json and --events exclude each other; events have all that --json has
+1|render: --json and --events exclude each other; events of ndjson have all that --json has
 1|null
-2|kiln: render: --json and --events exclude each other; events have all that --json has
+2|kiln: render: --json and --events exclude each other; events of ndjson have all that --json has
 $ kiln render scenes/tiny.yaml -o none --frames 1 --stats=json --progress ndjson | jq -r .event
 1|device
 1|frame

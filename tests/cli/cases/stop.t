@@ -60,14 +60,28 @@ $ ls -A twice | grep -v '^[0-9]*\.png$'
 Nor does it wait for who reads its errors.
 
 $ mkfifo errors && exec 4<>errors
-> kiln render scenes/tiny.yaml --set output.frames=100000 -o stuck.mp4 --progress lines 2>errors &
+> kiln render scenes/tiny.yaml --set output.frames=100000 -o stuck.mp4 --progress lines --events ndjson:told 2>errors &
 > job=$!
 > head -c 70000 /dev/zero | timeout 1 tee errors >/dev/null
 > kill -TERM $job
 > wait $job
 1|device: <device>
 = 143
-$ exec 4<&-; find . -name '*stuck*'
+$ exec 4<&-; find . -name '*stuck*'; tail -n 2 told | jq -c '[.event, .code, .again]'
+1|["error",143,"again"]
+1|["ended",143,"again"]
+
+A second signal ends it at once, and its events say so.
+
+$ mkfifo full && exec 4<>full; head -c 65536 /dev/zero >&4
+> kiln render scenes/tiny.yaml -q --set output.frames=100000 -o again.mp4 --events ndjson:again 2>full &
+> job=$!
+> until grep -qs '"frame"' again; do sleep 0.1; done
+> kill -TERM $job; sleep 0.2; kill -TERM $job; wait $job
+= 143
+$ tail -n 2 again | jq -c '[.event, .code, .message]'; find . -name '*again.mp4*'
+1|["error",143,"stopped by SIGTERM; what was not whole is given up"]
+1|["ended",143,null]
 
 Another's alarm is no signal of ours, and ends it as it ends any program.
 
@@ -88,11 +102,14 @@ $ find . -name '*huge*'
 A frame over its limit, and a device that does not open in time. Nothing half-written is left.
 
 $ kiln render scenes/tiny.yaml -q -o late.mp4 --device cpu --frame-timeout 2 --set systems.smoke.emit.rate=1000000 --set 'simulation.warmup=4000 s'
-2|kiln: scenes/tiny.yaml: frame 0 took longer than its limit of 2 s
+2|kiln: scenes/tiny.yaml: frame 0 took longer than its limit of 2 s (--frame-timeout)
 = 5
-$ kiln render scenes/tiny.yaml -q -o late.mp4 --device software --frame-timeout 0.001 2>&1 | sed -E 's/(opening the device|loading the scenes)/.../'; echo ${PIPESTATUS[0]}
-1|kiln: ... took longer than its limit of 0.001 s
+$ kiln render scenes/tiny.yaml -q -o late.mp4 --device software --frame-timeout 0.001 2>&1 | sed -E 's/(opening the device|loading the scenes|loading .*yaml)/.../'; echo ${PIPESTATUS[0]}
+1|kiln: ... took longer than its limit of 0.001 s (--frame-timeout)
 1|5
+$ kiln render - -q -o late.mp4 --frame-timeout 0.1 < <(sleep 2)
+2|kiln: loading standard input took longer than its limit of 0.1 s (--frame-timeout)
+= 5
 $ find . -name '*late*'
 $ kiln render scenes/tiny.yaml -q -o intime.png --frames 0 --frame-timeout 100 && ls intime.png
 1|intime.png

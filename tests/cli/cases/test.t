@@ -165,7 +165,7 @@ $ kiln test fire -q --no-report --json old.json && jq '.tests | length' old.json
 1|1
 2|kiln: warning: test: '--json FILE' is an older spelling of '--json=FILE', and version 0.3 will not know it
 $ kiln test fire --json --tap -
-2|kiln: test: only one of --json, --junit, --tap, --report and --github can go to standard output
+2|kiln: test: only one of --json, --junit, --tap, --report, --github and --events can go to standard output
 = 2
 $ kiln help test aprove
 2|kiln: help: unknown topic 'test aprove' (did you mean 'test approve'?); 'kiln help' lists the topics

@@ -261,8 +261,8 @@ $ kiln help render
 1|                              FILE: an object a line, whose "event" is "device",
 1|                              "frame" for each, and "result", with what --stats
 1|                              has.
-1|  -q, --quiet                 Print nothing but errors and what --stats asks
-1|                              for.
+1|  -q, --quiet                 Print nothing but errors and what --stats and
+1|                              --json ask for.
 1|      --events STREAM         Tell other programs how the command goes, by lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
@@ -321,7 +321,7 @@ $ kiln help compare
 1|                              FILE: an object a line, whose "event" is "frame"
 1|                              or "result".
 1|      --stats                 Also print the time that it took.
-1|  -q, --quiet                 Print nothing but errors.
+1|  -q, --quiet                 Print nothing but errors and what --json asks for.
 1|      --events STREAM         Tell other programs how the command goes, by lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
