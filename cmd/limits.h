@@ -13,8 +13,9 @@
     }
 #define TIMEOUT_OPTION                                                                             \
     {                                                                                              \
-        .name = "timeout", .kind = OPTION_NUMBER, .placeholder = "S",                              \
-        .help = "End with exit code 8 after S seconds, loading and encoding included.",            \
+        .name = "timeout", .kind = OPTION_TIME, .placeholder = "TIME",                             \
+        .help = "End with exit code 8 after that time, loading and encoding included: seconds, "   \
+                "or with a unit, ms, s, min or h.",                                                \
         .fallback = "none", .min = 0.001, .max = 1e7                                               \
     }
 

@@ -103,6 +103,19 @@ static int read_number(const struct parser *parser, struct option_use *use)
     return wrong_value(parser, use, expected);
 }
 
+static int read_time(const struct parser *parser, struct option_use *use)
+{
+    const struct option *option = use->option;
+    if (kiln_text_to_seconds(use->text, &use->number) && use->number >= option->min &&
+        use->number <= option->max)
+        return 0;
+    char expected[96];
+    snprintf(expected, sizeof expected,
+             "a time from %g s to %.0f s, as a number of seconds or in ms, s, min or h",
+             option->min, option->max);
+    return wrong_value(parser, use, expected);
+}
+
 /* Reads two positive whole numbers around a separator. */
 static bool read_two(const char *text, char separator, uint64_t numbers[2])
 {
@@ -167,18 +180,16 @@ static int read_grid(const struct parser *parser, struct option_use *use)
 /* Checks a value of several pieces; the message names the piece that is wrong. */
 static int read_frames(const struct parser *parser, struct option_use *use)
 {
-    static const char expected[] =
-        "frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10";
     struct frame_piece_place wrong;
     if (frame_spec_parse(use->text, &use->frames, &wrong))
         return 0;
     if (wrong.no_memory)
         return report_no_memory();
     if (!strchr(use->text, ','))
-        return wrong_value(parser, use, expected);
-    return report(KILN_USAGE, "%s: --%s: found '%.*s' in '%s', expected %s", parser->place,
-                  use->option->name, (int)wrong.length, use->text + wrong.start, use->text,
-                  expected);
+        return wrong_value(parser, use, FRAMES_EXPECTED);
+    return report(KILN_USAGE, "%s: --%s: found '%.*s' in '%s', expected " FRAMES_EXPECTED,
+                  parser->place, use->option->name, (int)wrong.length, use->text + wrong.start,
+                  use->text);
 }
 
 static int read_value(const struct parser *parser, struct option_use *use)
@@ -194,6 +205,8 @@ static int read_value(const struct parser *parser, struct option_use *use)
         return read_integer(parser, use);
     case OPTION_NUMBER:
         return read_number(parser, use);
+    case OPTION_TIME:
+        return read_time(parser, use);
     case OPTION_SIZE:
         return read_two(use->text, 'x', use->integer)
                    ? 0

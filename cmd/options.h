@@ -11,6 +11,7 @@ enum option_kind {
     OPTION_CHOICE,  /* one of the words of its placeholder, "a|b|c" */
     OPTION_INTEGER, /* min to max */
     OPTION_NUMBER,  /* min to max, a decimal fraction */
+    OPTION_TIME,    /* min to max, in s; with a unit or without */
     OPTION_SIZE,    /* WxH */
     OPTION_GRID,    /* COLUMNSxROWS, each up to max */
     OPTION_RATIO,   /* N/D or a decimal fraction */
@@ -47,7 +48,7 @@ struct option_use {
     const char *text;    /* the value; NULL for a flag, or where it was left out */
     uint64_t integer[4]; /* OPTION_INTEGER; OPTION_SIZE, _GRID: width, height; _RECT: x, y, those;
                             _PART: I, N */
-    double number;       /* OPTION_NUMBER */
+    double number;       /* OPTION_NUMBER; OPTION_TIME: seconds */
     size_t choice;       /* OPTION_CHOICE: index of the word; 0 where it was left out */
     struct frame_spec frames;
 };

@@ -112,9 +112,9 @@ static const struct option options[] = {
     TIMEOUT_OPTION,
     SANDBOX_OPTION,
     {.name = "frame-timeout",
-     .kind = OPTION_NUMBER,
-     .placeholder = "S",
-     .help = "Give up with exit code 5 when a frame takes longer than S seconds. Frames that are "
+     .kind = OPTION_TIME,
+     .placeholder = "TIME",
+     .help = "Give up with exit code 5 when a frame takes longer than that. Frames that are "
              "stepped over lengthen the limit of the next drawn one; set-up and warm-up belong to "
              "the first. Loading the scenes has as long. Waiting for the output does not count.",
      .fallback = "none",

@@ -99,7 +99,7 @@ bool kiln_write_templates(FILE *out);
 char *kiln_template_scene(const char *name, struct kiln_error *error);
 
 /* Writes that text into a file, which appears under its name when it is whole; makes missing
- * folders. KILN_IO, also when there is one and overwrite is not set; else as above. */
+ * folders. KILN_USAGE also when there is one and overwrite is not set; KILN_IO; else as above. */
 bool kiln_template_write(const char *name, const char *path, bool overwrite,
                          struct kiln_error *error);
 
@@ -119,8 +119,8 @@ enum { KILN_MAX_SCENE_SIZE = 4 << 20 };
 
 struct kiln_text_file;
 
-/* Opens a text file that appears under its name when it is closed; makes missing folders. KILN_IO,
- * also when there is one and overwrite is not set. */
+/* Opens a text file that appears under its name when it is closed; makes missing folders.
+ * KILN_USAGE when there is one and overwrite is not set, KILN_IO. */
 struct kiln_text_file *kiln_text_file_open(const char *path, bool overwrite,
                                            struct kiln_error *error);
 
@@ -135,6 +135,9 @@ bool kiln_text_file_close(struct kiln_text_file **text, bool keep, struct kiln_e
 /* A whole text as a decimal number, its point '.' in any locale; false when it is no finite one. */
 bool kiln_text_to_double(const char *text, double *value);
 bool kiln_text_to_uint64(const char *text, uint64_t *value);
+
+/* A whole text as a time: seconds, or a number with one of the units ms, s, min and h. */
+bool kiln_text_to_seconds(const char *text, double *seconds);
 
 /* The candidate nearest to name by edit distance (swapped neighbours count once), or NULL when
  * none is near enough to be a misspelling. */

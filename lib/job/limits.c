@@ -7,9 +7,8 @@
 #include "base/error.h"
 #include "base/sized.h"
 #include "base/text.h"
+#include "kiln_program.h"
 #include "option/unit.h"
-
-enum { SECOND = 1000, HOUR = 3600 * SECOND };
 
 static const struct row {
     const char *service; /* the limit in the preset `service` */
@@ -40,22 +39,25 @@ static const struct {
     const char *name;
     double factor;
 } suffixes[] = {
-    {COUNT, "", 1},         {COUNT, "k", 1e3},      {COUNT, "M", 1e6},
-    {COUNT, "G", 1e9},      {BYTES, "", 1},         {BYTES, "B", 1},
-    {BYTES, "kB", 1e3},     {BYTES, "MB", 1e6},     {BYTES, "GB", 1e9},
-    {BYTES, "TB", 1e12},    {BYTES, "KiB", 0x1p10}, {BYTES, "MiB", 0x1p20},
-    {BYTES, "GiB", 0x1p30}, {BYTES, "TiB", 0x1p40}, {TIME, "", SECOND},
-    {TIME, "ms", 1},        {TIME, "s", SECOND},    {TIME, "min", 60 * SECOND},
-    {TIME, "h", HOUR},
+    {COUNT, "", 1},         {COUNT, "k", 1e3},      {COUNT, "M", 1e6},      {COUNT, "G", 1e9},
+    {BYTES, "", 1},         {BYTES, "B", 1},        {BYTES, "kB", 1e3},     {BYTES, "MB", 1e6},
+    {BYTES, "GB", 1e9},     {BYTES, "TB", 1e12},    {BYTES, "KiB", 0x1p10}, {BYTES, "MiB", 0x1p20},
+    {BYTES, "GiB", 0x1p30}, {BYTES, "TiB", 0x1p40},
 };
 
 static const char *const expected[] = {
     [COUNT] = "a number, with k, M or G behind it or without",
     [BYTES] = "a number of bytes, kB, MB, GB, TB, KiB, MiB, GiB or TiB",
-    [TIME] = "a time in ms, s, min or h",
+    [TIME] = "seconds, or a time in ms, s, min or h",
 };
 
 /* ---- reading --------------------------------------------------------------------------------- */
+
+static bool take_amount(double value, uint64_t *amount)
+{
+    *amount = value >= 1.0 && value < 9e18 ? (uint64_t)value : 0;
+    return *amount > 0;
+}
 
 static bool read_amount(enum kiln_limit limit, const char *text, uint64_t *amount)
 {
@@ -64,14 +66,13 @@ static bool read_amount(enum kiln_limit limit, const char *text, uint64_t *amoun
     *amount = 0;
     if (strcmp(text, "none") == 0)
         return true;
+    if (units[limit] == TIME)
+        return kiln_text_to_seconds(text, &number) && take_amount(1e3 * number + 0.5, amount);
     if (!kiln_unit_split(text, &number, &unit))
         return false;
     for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++) {
-        const double value = number * suffixes[i].factor;
-        if (suffixes[i].of != units[limit] || strcmp(suffixes[i].name, unit) != 0)
-            continue;
-        *amount = value < 9e18 ? (uint64_t)value : 0;
-        return value >= 1.0 && value < 9e18;
+        if (suffixes[i].of == units[limit] && strcmp(suffixes[i].name, unit) == 0)
+            return take_amount(number * suffixes[i].factor, amount);
     }
     return false;
 }

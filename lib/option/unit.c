@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "kiln_program.h"
 
 struct unit {
     enum kiln_dimension dimension;
@@ -19,6 +20,8 @@ static const struct unit units[] = {
     {KILN_FRACTION, "%", 1, 100},
     {KILN_SECONDS, "s", 1, 1},
     {KILN_SECONDS, "ms", 1, 1000},
+    {KILN_SECONDS, "min", 60, 1},
+    {KILN_SECONDS, "h", 3600, 1},
     {KILN_ANGLE, "rad", 1, 1},
     {KILN_ANGLE, "deg", KILN_PI / 180, 1},
     {KILN_ANGULAR_SPEED, "rad/s", 1, 1},
@@ -41,7 +44,7 @@ enum { UNIT_COUNT = sizeof units / sizeof *units };
 static const char *const choices[KILN_DIMENSION_COUNT] = {
     [KILN_PLAIN] = "",
     [KILN_FRACTION] = "none or %",
-    [KILN_SECONDS] = "s or ms",
+    [KILN_SECONDS] = "s, ms, min or h",
     [KILN_ANGLE] = "deg or rad",
     [KILN_ANGULAR_SPEED] = "deg/s or rad/s",
     [KILN_METRES] = "m, cm or mm",
@@ -133,6 +136,13 @@ bool kiln_unit_to_si(enum kiln_dimension dimension, const char *unit, double *nu
         }
     }
     return false;
+}
+
+bool kiln_text_to_seconds(const char *text, double *seconds)
+{
+    const char *unit;
+    return kiln_unit_split(text, seconds, &unit) &&
+           (!*unit || kiln_unit_to_si(KILN_SECONDS, unit, seconds));
 }
 
 void kiln_unit_print_number(char out[32], double value)

@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 NOTHING_TO_OFFER = {
-    "10s|N", "I/N|auto|auto/N", "COLUMNSxROWS", "FACTOR", "I/N", "LAYER", "LENGTH", "LEVELS", "N", "PIXELS", "RANGES", "RATE", "S", "STOPS",
+    "10s|N", "I/N|auto|auto/N", "COLUMNSxROWS", "FACTOR", "I/N", "LAYER", "LENGTH", "LEVELS", "N", "PIXELS", "RANGES", "RATE", "S", "STOPS", "TIME",
     "TEXT", "WxH", "X,Y,WxH",
     "PATTERN", "NAME",  # of tests, where there are results: see tests/cli/cases/test.t
 }

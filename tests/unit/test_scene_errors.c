@@ -271,8 +271,8 @@ static const struct bad units[] = {
      "systems: {a: {look: {fade: {in: 3 s}}}}\n",
      ":2:33: systems.a.look.fade.in: 's' does not fit; the unit is none or %"},
     {"kiln: 1\n"
-     "systems: {a: {emit: {life: 2 min}}}\n",
-     ":2:28: systems.a.emit.life: 'min' does not fit; the unit is s or ms"},
+     "systems: {a: {emit: {life: 2 minutes}}}\n",
+     ":2:28: systems.a.emit.life: 'minutes' does not fit; the unit is s, ms, min or h"},
 };
 
 static const struct bad curves[] = {

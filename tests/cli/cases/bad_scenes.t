@@ -39,7 +39,7 @@ $ printf 'kiln: 1\ncamera: {fov: 1e999}\n' | ./try huge
 2|huge.yaml:2:15: camera.fov: expected a number from 1 deg to 170 deg, found '1e999'
 = 3
 $ printf 'kiln: 1\nsimulation: {warmup: 2 deg}\n' | ./try wrong_unit
-2|wrong_unit.yaml:2:22: simulation.warmup: 'deg' does not fit; the unit is s or ms
+2|wrong_unit.yaml:2:22: simulation.warmup: 'deg' does not fit; the unit is s, ms, min or h
 = 3
 $ printf 'kiln: 1\nseed: 1\nseed: 2\n' | ./try duplicate
 2|duplicate.yaml:3:1: duplicate key 'seed' (first in line 2)

@@ -103,10 +103,10 @@ $ kiln render scenes/tiny.yaml -o x.png --quality 101
 2|kiln: render: --quality: found '101', expected a whole number from 0 to 100
 = 2
 $ kiln render scenes/tiny.yaml -o x.png --frame-timeout 0
-2|kiln: render: --frame-timeout: found '0', expected a number from 0.001 to 86400
+2|kiln: render: --frame-timeout: found '0', expected a time from 0.001 s to 86400 s, as a number of seconds or in ms, s, min or h
 = 2
 $ kiln render scenes/tiny.yaml -o x.png --frame-timeout nan
-2|kiln: render: --frame-timeout: found 'nan', expected a number from 0.001 to 86400
+2|kiln: render: --frame-timeout: found 'nan', expected a time from 0.001 s to 86400 s, as a number of seconds or in ms, s, min or h
 = 2
 $ kiln render scenes/tiny.yaml -o x.png --progress bar
 2|kiln: render: --progress: found 'bar', expected one of tty|lines|ndjson|none
