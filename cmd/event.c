@@ -210,22 +210,27 @@ static size_t find_place(const char *message, unsigned long *line, unsigned long
     return 0;
 }
 
+void event_add_place(struct kiln_json *json, const char *message)
+{
+    unsigned long line, column;
+    const size_t length = find_place(message, &line, &column);
+    if (length == 0)
+        return;
+    kiln_json_format(json, "file", "%.*s", (int)length, message);
+    kiln_json_uint(json, "line", line);
+    kiln_json_uint(json, "column", column);
+}
+
 void event_error(int code, const char *message)
 {
     event_openjd("fail", "%s", message);
     if (!events_are_wanted())
         return;
-    unsigned long line, column;
-    const size_t length = find_place(message, &line, &column);
     struct kiln_json json = event_begin("error");
     kiln_json_int(&json, "code", code);
     kiln_json_string(&json, "again", exit_code_again(code));
     kiln_json_string(&json, "message", message);
-    if (length > 0) {
-        kiln_json_format(&json, "file", "%.*s", (int)length, message);
-        kiln_json_uint(&json, "line", line);
-        kiln_json_uint(&json, "column", column);
-    }
+    event_add_place(&json, message);
     event_end(&json);
 }
 
@@ -386,8 +391,10 @@ static int open_file(const struct command *command, const char *path)
         return fail(command, path, strerror(errno)); /* NOLINT(concurrency-mt-unsafe) */
     if (!holds_events(file)) {
         close(file);
-        return fail(command, path,
-                    "the file exists and holds no events, so nothing is added to it");
+        return report(KILN_USAGE,
+                      "%s: --events: %s: the file exists and holds no events, so nothing is added "
+                      "to it",
+                      command->name, path);
     }
     stream.out = fdopen(file, "a");
     return stream.out ? 0 : report_no_memory();

@@ -42,6 +42,9 @@ bool events_failed_on_stdout(void); /* after it was closed */
 struct kiln_json event_begin(const char *name);
 void event_end(struct kiln_json *json);
 
+/* Adds the members `file`, `line` and `column` where a message begins with a place. */
+void event_add_place(struct kiln_json *json, const char *message);
+
 /* Writes the line "openjd_WHAT: ...", where that is the form of the stream; else nothing. */
 void event_openjd(const char *what, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -13,7 +13,8 @@ static const char NEVER[] = "never", AGAIN[] = "again", MORE[] = "with more";
 const struct exit_code exit_codes[] = {
     {0, NEVER, "all went well"},
     {1, NEVER, "a frame failed, or a picture differs"},
-    {2, NEVER, "the command line makes no sense"},
+    {2, NEVER,
+     "the command line makes no sense, or names an output that exists or a journal of another job"},
     {3, NEVER, "a scene or another input file is wrong"},
     {4, AGAIN, "no usable device, or for want of one every test was skipped, or nothing measured"},
     {5, MORE,

@@ -19,23 +19,6 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-static int fail(const struct kiln_error *error)
-{
-    return error->code == KILN_USAGE ? report(KILN_USAGE, "new: --template: %s", error->message)
-                                     : report_error(error);
-}
-
-static int print(const char *template)
-{
-    struct kiln_error error = {0};
-    char *scene = kiln_template_scene(template, &error);
-    if (!scene)
-        return fail(&error);
-    fputs(scene, stdout); /* report_finish tells of a failure */
-    free(scene);
-    return 0;
-}
-
 /* Prints what to do with the scene: a command to copy. */
 static void print_next(const char *path)
 {
@@ -60,11 +43,17 @@ static int run(const struct arguments *arguments)
     struct kiln_error error = {0};
     if (!*path)
         return report(KILN_USAGE, "new: the name of the scene is empty");
-    if (strcmp(path, "-") == 0)
-        return print(template);
-    if (!kiln_template_write(template, path, arguments_flag(arguments, "force"), &error))
-        return fail(&error);
-    if (!arguments_flag(arguments, "quiet"))
+    char *scene = kiln_template_scene(template, &error);
+    if (!scene)
+        return error.code == KILN_USAGE ? report(KILN_USAGE, "new: --template: %s", error.message)
+                                        : report_error(&error);
+    const bool prints = strcmp(path, "-") == 0;
+    if (prints)
+        fputs(scene, stdout); /* report_finish tells of a failure */
+    free(scene);
+    if (!prints && !kiln_template_write(template, path, arguments_flag(arguments, "force"), &error))
+        return report_error(&error);
+    if (!prints && !arguments_flag(arguments, "quiet"))
         print_next(path);
     return 0;
 }

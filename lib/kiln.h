@@ -57,7 +57,7 @@ KILN_API const char *kiln_version(void);
 enum kiln_code {
     KILN_OK = 0,
     KILN_FRAME_FAILED = 1,   /* a frame failed, or a picture differs */
-    KILN_USAGE = 2,          /* the request itself makes no sense */
+    KILN_USAGE = 2,          /* the request makes no sense, or an output is there already */
     KILN_INVALID_INPUT = 3,  /* a scene, texture or other input file is wrong */
     KILN_NO_DEVICE = 4,      /* no usable device */
     KILN_DEVICE_FAILED = 5,  /* device lost, out of memory, or a frame past its time limit */
@@ -466,8 +466,8 @@ KILN_API bool kiln_frame_get_layer(const struct kiln_frame *frame, const char *n
 /* Writes a layer as a picture, whoever made its samples: integers, which are "display" of 4
  * channels, as a PNG, whose alpha is left out where all is opaque; floats, of 4 channels or 1, as
  * an EXR of floats with the layer's name (NULL: "beauty" or "depth"). KILN_USAGE for a layer or a
- * suffix that is neither, or else KILN_IO or KILN_DEVICE_FAILED; the file is written whole or not
- * at all. */
+ * suffix that is neither, and for a file that exists where it must not be overwritten; or else
+ * KILN_IO or KILN_DEVICE_FAILED. The file is written whole or not at all. */
 KILN_API bool kiln_layer_write(const struct kiln_frame_layer *layer, const char *path,
                                bool overwrite, struct kiln_error *error);
 

@@ -59,9 +59,9 @@ void kiln_suite_destroy(struct kiln_suite **suite);
 size_t kiln_suite_count(const struct kiln_suite *suite);
 
 /* Prepares the folder of results: removes what an earlier run of these tests left there, as far as
- * kiln wrote it and nobody changed it since. Makes the folder where there is none. KILN_IO, and
+ * kiln wrote it and nobody changed it since. Makes the folder where there is none. KILN_USAGE, and
  * nothing is removed, when it has contents and no list of what kiln wrote (.kiln-results), or when
- * there is a file where a test would write one that is not listed or was changed. */
+ * there is a file where a test would write one that is not listed or was changed. KILN_IO. */
 bool kiln_suite_begin(const struct kiln_suite *suite, struct kiln_error *error);
 
 /* Declares what a run of the tests reads (test files, scenes and what they name, masks, goldens)
@@ -249,7 +249,7 @@ bool kiln_results_claim_inputs(const struct kiln_results *results, const char *c
                                size_t folder_count, struct kiln_claims *claims,
                                struct kiln_error *error);
 
-/* Declares the file of a report, before the run. KILN_IO when something else is there. */
+/* Declares the file of a report, before the run. KILN_USAGE when something else is there. */
 bool kiln_results_claim(const struct kiln_results_output *output, struct kiln_claims *claims,
                         struct kiln_error *error);
 

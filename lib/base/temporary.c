@@ -63,11 +63,12 @@ bool kiln_target_check(const char *path, bool overwrite, struct kiln_error *erro
         return kiln_error_set_errno(error, KILN_IO, errno, "%s: the path cannot be used", path);
     }
     if (S_ISDIR(status.st_mode))
-        return kiln_error_set(error, KILN_IO, "%s: a folder has this name", path);
+        return kiln_error_set(error, KILN_USAGE, "%s: a folder has this name", path);
     if (!S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode))
-        return kiln_error_set(error, KILN_IO, "%s: a device, pipe or socket has this name", path);
+        return kiln_error_set(error, KILN_USAGE, "%s: a device, pipe or socket has this name",
+                              path);
     return overwrite ||
-           kiln_error_set(error, KILN_IO, "%s: the file exists (--force replaces it)", path);
+           kiln_error_set(error, KILN_USAGE, "%s: the file exists (--force replaces it)", path);
 }
 
 bool kiln_make_parent_folders(const char *path, struct kiln_error *error)
@@ -81,12 +82,12 @@ bool kiln_make_parent_folders(const char *path, struct kiln_error *error)
     for (char *slash = strchr(folder + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
         struct stat status;
-        if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        if ((mkdir(folder, 0777) != 0 && errno != EEXIST) || stat(folder, &status) != 0)
             return kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be made",
                                         folder);
-        if (stat(folder, &status) != 0 || !S_ISDIR(status.st_mode))
-            return kiln_error_set(error, KILN_IO, "%s: not a folder, but %s needs one here", folder,
-                                  path);
+        if (!S_ISDIR(status.st_mode))
+            return kiln_error_set(error, KILN_USAGE, "%s: not a folder, but %s needs one here",
+                                  folder, path);
         *slash = '/';
     }
     return true;

@@ -16,11 +16,12 @@ struct kiln_temporary {
                                  * too many; NULL: no limits */
 };
 
-/* Whether a file may be put there: KILN_IO, naming it, when something else than a file or link has
- * that name, or one of these has and must not be overwritten. */
+/* Whether a file may be put there: KILN_USAGE, naming it, when something else than a file or link
+ * has that name, or one of these has and must not be overwritten. */
 bool kiln_target_check(const char *path, bool overwrite, struct kiln_error *error);
 
-/* Creates the missing folders above path; KILN_IO, naming the folder, when that fails. */
+/* Creates the missing folders above path. KILN_USAGE, naming the folder, when a file has its name;
+ * KILN_IO when it cannot be made. */
 bool kiln_make_parent_folders(const char *path, struct kiln_error *error);
 
 /* Opens ".NAME.kiln-PID-N.tmp" in the target's folder; KILN_IO, naming the target, on failure. */
@@ -55,7 +56,8 @@ bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
 bool kiln_temporary_commit_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
                                struct kiln_error *error);
 
-/* Writes a whole file, in place of what has that name; makes missing folders. KILN_IO. */
+/* Writes a whole file, in place of what has that name; makes missing folders. KILN_IO, KILN_USAGE.
+ */
 bool kiln_temporary_write_file(const char *path, const void *bytes, size_t size,
                                struct kiln_error *error);
 

@@ -26,7 +26,7 @@ bool kiln_journal_path(const char *output, struct kiln_shard shard, char path[KI
         snprintf(part, sizeof part, ".%u-of-%u", shard.index + 1, shard.count);
     return snprintf(path, KILN_PATH_SIZE, "%s%s" KILN_JOURNAL_SUFFIX, output, part) <
                KILN_PATH_SIZE ||
-           kiln_error_set(error, KILN_IO, "%.200s...: the path is longer than %d bytes", output,
+           kiln_error_set(error, KILN_USAGE, "%.200s...: the path is longer than %d bytes", output,
                           KILN_PATH_SIZE - 1);
 }
 

@@ -9,30 +9,31 @@
 
 struct kiln_journal;
 
-/* "OUTPUT.journal", or of one of several shards "OUTPUT.2-of-4.journal". KILN_IO when it is too
- * long.
- */
+/* "OUTPUT.journal", or of one of several shards "OUTPUT.2-of-4.journal". KILN_USAGE when it is
+ * too long. */
 bool kiln_journal_path(const char *output, struct kiln_shard shard, char path[KILN_PATH_SIZE],
                        struct kiln_error *error);
 
 /* Opens a journal, or begins one, and locks it until it is closed; what it says goes into the
  * records, whose `whole` stays false: nobody has looked. `restart` forgets what it says. *found
- * says whether there was one. KILN_IO when another process has it, when it is of another job, or
- * cannot be used. */
+ * says whether there was one. KILN_USAGE when it is of another job or no journal; KILN_IO when
+ * another process has it, when another program, device or techniques have begun it, or when it
+ * cannot be read or written. */
 struct kiln_journal *kiln_journal_open(const struct kiln_journal_head *head,
                                        struct kiln_shard shard, bool restart,
                                        struct kiln_records *records, bool *found,
                                        struct kiln_error *error);
 
 /* Reads the journals of all shards of the output; unless they are to be kept, takes them over and
- * removes them. *found becomes true when there were any. KILN_IO as above: then all stay. */
+ * removes them. *found becomes true when there were any. After an error, as above,
+ * all stay. */
 bool kiln_journal_merge(struct kiln_journal *journal, const struct kiln_journal_head *head,
                         bool keep, struct kiln_records *records, bool *found,
                         struct kiln_error *error);
 
 /* Looks at the journals beside that of a shard: takes what that of the whole job says into the
- * records, where *found becomes true, and looks at the first lines of other shards. KILN_IO when
- * one is of another job, or when a process goes on with the whole. */
+ * records, where *found becomes true, and looks at the first lines of other shards. KILN_USAGE when
+ * one is of another job, KILN_IO when a process goes on with the whole. */
 bool kiln_journal_look_around(const struct kiln_journal *journal,
                               const struct kiln_journal_head *head, struct kiln_records *records,
                               bool *found, struct kiln_error *error);
@@ -43,7 +44,8 @@ bool kiln_journal_forget(const char *output, struct kiln_error *error);
 /* Whether an output has a journal, and the path of one. */
 bool kiln_journal_is_there(const char *output, char path[KILN_PATH_SIZE]);
 
-/* Reads the head of any journal of an output. KILN_IO when there is none. */
+/* Reads the head of any journal of an output. KILN_IO when there is none, KILN_USAGE when it makes
+ * no sense. */
 bool kiln_journal_find(const char *output, struct kiln_journal_head *head, struct kiln_arena *arena,
                        struct kiln_error *error);
 

@@ -25,7 +25,7 @@ bool kiln_journal_head_make(struct kiln_journal_head *head, const struct kiln_ou
 /* The members of the line. */
 void kiln_journal_head_write(struct kiln_json *json, const struct kiln_journal_head *head);
 
-/* Reads them, for an output of a path; texts and ranges lie in the arena. KILN_IO, naming the
+/* Reads them, for an output of a path; texts and ranges lie in the arena. KILN_USAGE, naming the
  * journal, when it makes no sense, also when the settings are not those of its hash. */
 bool kiln_journal_head_read(struct kiln_journal_head *head, const char *journal, const char *path,
                             const struct kiln_node *line, struct kiln_arena *arena,

@@ -123,10 +123,12 @@ bool kiln_journal_check_head(const struct kiln_journal *journal, const struct ki
     else if (!says(line, "job", head->job))
         other = "is the journal of other frames, or other settings of the output";
     if (other)
-        return kiln_error_set(error, KILN_IO, "%s: %s (--force starts anew)", journal->path, other);
+        return kiln_error_set(error, KILN_USAGE, "%s: %s (--force starts anew)", journal->path,
+                              other);
     if (says(line, "made_by", head->made_by))
         return true;
     const struct kiln_node *made_by = kiln_node_entry(line, "made_by");
+    /* KILN_IO: a scheduler may find the machine again that has begun the job. */
     return kiln_error_set(
         error, KILN_IO,
         "%s: was begun by another program, device or techniques (%.200s), this is "
@@ -182,10 +184,10 @@ char *kiln_journal_read_text(const struct kiln_journal *journal, struct kiln_err
     char *text = kiln_text_file_read(journal->path, "a journal", MAX_SIZE, &size, error);
     const size_t compared = size < sizeof start - 1 ? size : sizeof start - 1;
     if (!text && error->code == KILN_INVALID_INPUT) /* of what nobody gave as an input */
-        error->code = KILN_IO;
+        error->code = KILN_USAGE;
     if (!text || strncmp(text, start, compared) == 0)
         return text;
-    kiln_error_set(error, KILN_IO, "%s: is not a journal (--force starts anew)", journal->path);
+    kiln_error_set(error, KILN_USAGE, "%s: is not a journal (--force starts anew)", journal->path);
     free(text);
     return NULL;
 }

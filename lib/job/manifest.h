@@ -24,7 +24,7 @@ struct kiln_manifest;
 char *kiln_manifest_scene(const struct kiln_scene *scene);
 
 /* Opens a temporary file beside path; makes missing folders. All that params points to is borrowed.
- * NULL with KILN_IO, or KILN_DEVICE_FAILED when memory is short. */
+ * NULL with KILN_USAGE when it exists, KILN_IO, or KILN_DEVICE_FAILED when memory is short. */
 struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *params,
                                          struct kiln_error *error);
 

@@ -77,7 +77,7 @@ static bool look_at_image(struct kiln_resume *resume, uint32_t frame, const char
         return adopt(resume, path, frame, error);
     if (!could_look(&reason, error))
         return false;
-    return found || kiln_error_set(error, KILN_IO,
+    return found || kiln_error_set(error, KILN_USAGE,
                                    "%s: the file exists, and is not a whole frame %u of this job "
                                    "(--force replaces it)",
                                    path, frame);
@@ -162,8 +162,13 @@ static bool check_clip_files(const struct kiln_resume *resume, struct kiln_error
             return false;
         if (!*path)
             return true;
-        if (!kiln_target_check(path, resume->may_replace, error))
+        if (!kiln_target_check(path, true, error))
             return false;
+        if (!resume->may_replace && is_there(path))
+            return kiln_error_set(error, KILN_USAGE,
+                                  "%s: the file exists, and no journal says that this job has made "
+                                  "it (--force replaces it)",
+                                  path);
     }
 }
 
@@ -178,7 +183,7 @@ static bool find_folder(const struct kiln_output_params *output, char folder[KIL
     /* A link is refused: parts would be written and removed in the folder that it leads to. */
     struct stat status;
     return lstat(folder, &status) != 0 || S_ISDIR(status.st_mode) ||
-           kiln_error_set(error, KILN_IO, "%s: it is no folder, and parts of the clip go there",
+           kiln_error_set(error, KILN_USAGE, "%s: it is no folder, and parts of the clip go there",
                           folder);
 }
 
@@ -342,7 +347,7 @@ bool kiln_resume_clear(const struct kiln_output_params *output, struct kiln_erro
     if (!output->format->one_file)
         return true;
     if (!output->overwrite)
-        return kiln_error_set(error, KILN_IO,
+        return kiln_error_set(error, KILN_USAGE,
                               "%s: a job with --resume or --shard has begun this output (--force "
                               "replaces it)",
                               journal);

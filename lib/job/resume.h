@@ -32,15 +32,15 @@ struct kiln_resume_params {
 };
 
 /* Reads the journal and looks at every file that it names. records: of all frames, which are
- * marked. What is handed over is borrowed. KILN_IO when the journal is of another job or process,
- * or when a file is in the way that is not of this job. After a failure, too, kiln_resume_end
- * frees. */
+ * marked. What is handed over is borrowed. KILN_USAGE when the journal is of another job, or when a
+ * file is in the way that is not of this job; KILN_IO when another process has the journal. After a
+ * failure, too, kiln_resume_end frees. */
 bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_params *params,
                        struct kiln_records *records, struct kiln_error *error);
 
 /* For an output that is made without a journal: what journals say of one of its name is true no
- * more, so they and the parts of a clip are removed. KILN_IO when a process has one of them, and
- * for a clip that is not to be overwritten: a job has begun it. */
+ * more, so they and the parts of a clip are removed. KILN_IO when a process has one of them,
+ * KILN_USAGE for a clip that is not to be overwritten: a job has begun it. */
 bool kiln_resume_clear(const struct kiln_output_params *output, struct kiln_error *error);
 
 /* Says in the journal what this run came to, if it made frames. KILN_IO. */

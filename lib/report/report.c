@@ -75,7 +75,7 @@ static bool check_target(const struct kiln_report_format *format,
         return false;
     return output->overwrite || stat(output->path, &status) != 0 || status.st_size == 0 ||
            is_own(format, output->path) ||
-           kiln_error_set(error, KILN_IO,
+           kiln_error_set(error, KILN_USAGE,
                           "%s: the file exists, and is nothing that %s has written (--force "
                           "replaces it)",
                           output->path, format->option);

@@ -137,7 +137,7 @@ static bool take_line(struct folder *f, const char *line, size_t length)
     snprintf(hash, sizeof hash, "%.*s", HASH_SIZE, start);
     if (strspn(hash, digits) != HASH_SIZE || strncmp(start + HASH_SIZE, "  ", 2) != 0 ||
         path >= line + length)
-        return kiln_error_set(f->error, KILN_IO,
+        return kiln_error_set(f->error, KILN_USAGE,
                               "%s/" KILN_RESULTS_LIST ": '%.*s' is not a line of a list of results",
                               f->suite->results_folder, length < 40 ? (int)length : 40, line);
     size_t left = length - (size_t)(path - line);
@@ -152,7 +152,7 @@ static bool read_list(struct folder *f, const char *path)
     if (!text)
         return false;
     bool ok = strncmp(text, HEAD, strlen(HEAD)) == 0 ||
-              kiln_error_set(f->error, KILN_IO,
+              kiln_error_set(f->error, KILN_USAGE,
                              "%s: is not a list of results of this kiln; name another folder by "
                              "--results",
                              path);
@@ -239,7 +239,7 @@ static bool open_list(struct folder *f)
     if (access(path, F_OK) == 0)
         return read_list(f, path);
     return is_empty(f->suite->results_folder) ||
-           kiln_error_set(f->error, KILN_IO,
+           kiln_error_set(f->error, KILN_USAGE,
                           "%s: the folder has contents, but no " KILN_RESULTS_LIST
                           ", so they may be anybody's; name another one by --results, or empty it",
                           f->suite->results_folder);
@@ -309,14 +309,14 @@ static bool choose_removed(struct folder *f, const char *path, const char *from_
     const struct entry *listed = find(&f->listed, from_root);
     char hash[HASH_SIZE + 1];
     if (!listed && !writing)
-        return kiln_error_set(f->error, KILN_IO,
+        return kiln_error_set(f->error, KILN_USAGE,
                               "%s: kiln did not write this file; move it away, or name another "
                               "folder by --results",
                               path);
     if (listed && !kiln_hash_sha256_file(path, hash))
         return kiln_error_set_errno(f->error, KILN_IO, errno, "%s: the file cannot be read", path);
     if (listed && !writing && strcmp(hash, listed->hash) != 0)
-        return kiln_error_set(f->error, KILN_IO,
+        return kiln_error_set(f->error, KILN_USAGE,
                               "%s: changed since kiln wrote this file; move it away, or name "
                               "another folder by --results",
                               path);
@@ -358,7 +358,7 @@ static bool check_goldens(const struct folder *f)
             !kiln_path_join(path, folder, "expect.yaml", f->error))
             return false;
         if (access(path, F_OK) == 0)
-            return kiln_error_set(f->error, KILN_IO,
+            return kiln_error_set(f->error, KILN_USAGE,
                                   "%s: is a folder of goldens, and not for results", folder);
     }
     return true;

@@ -51,7 +51,7 @@ class Error(Exception):
 
 
 class UsageError(Error, ValueError):
-    """The request itself makes no sense (`Code.USAGE`)."""
+    """The request makes no sense, or an output is there already (`Code.USAGE`)."""
 
 
 class InvalidInput(Error, ValueError):

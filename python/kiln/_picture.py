@@ -62,7 +62,7 @@ def write_picture(path: PathLike, pixels: npt.ArrayLike, *, overwrite: bool = Fa
     of floats (linear, premultiplied).
 
     The array has height x width x 4, 3 or 1 values, or height x width. A PNG whose pixels are all opaque gets no
-    alpha. The file appears whole or not at all; raises :class:`kiln.FileError` where there is one and `overwrite`
+    alpha. The file appears whole or not at all; raises :class:`kiln.UsageError` where there is one and `overwrite`
     is false.
     """
     array = _as_pixels(np.asarray(pixels))

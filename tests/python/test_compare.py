@@ -32,7 +32,7 @@ def test_pictures_of_differences(picture, tmp_path):
     other = picture[::-1]
     kiln.compare(picture, other, diff=tmp_path / "diff.png", error_map=tmp_path / "map.png")
     assert (tmp_path / "diff.png").stat().st_size > 100 and (tmp_path / "map.png").stat().st_size > 100
-    with pytest.raises(kiln.FileError):
+    with pytest.raises(kiln.UsageError):
         kiln.compare(picture, other, diff=tmp_path / "diff.png")
 
 
@@ -65,7 +65,7 @@ def test_arrays_become_pictures(tmp_path, kind, full, shape):
     changed = pixels.copy()
     changed[3, 3] = full - changed[3, 3]
     assert not kiln.compare(path, changed, layer=layer).frames[0].equal
-    with pytest.raises(kiln.FileError):
+    with pytest.raises(kiln.UsageError):
         kiln.write_picture(path, pixels)
     kiln.write_picture(path, pixels, overwrite=True)
 

@@ -113,7 +113,7 @@ def test_files(scene, tmp_path):
     stats = kiln.render_to(scene, tmp_path / "clip.mp4", device="cpu", progress=seen.append)
     assert (tmp_path / "clip.mp4").stat().st_size > 500 and stats.files == 1
     assert [progress.done for progress in seen] == [1, 2, 3, 4, 5] and seen[-1].frame == 4
-    with pytest.raises(kiln.FileError, match="clip.mp4: the file exists .overwrite=True replaces it"):
+    with pytest.raises(kiln.UsageError, match="clip.mp4: the file exists .overwrite=True replaces it"):
         kiln.render_to(scene, tmp_path / "clip.mp4", device="cpu")
     kiln.render_to(scene, tmp_path / "clip.mp4", device="cpu", overwrite=True)
 
@@ -158,7 +158,7 @@ def test_states(scene, tmp_path):
         assert next(job, None) is None
     assert job.stats.steps == 0 and last.state == whole[4].state
     assert np.array_equal(last.pixels, whole[4].pixels)
-    with pytest.raises(kiln.FileError):
+    with pytest.raises(kiln.UsageError):
         kiln.bake(scene, tmp_path, every=2, device="cpu")
     assert kiln.bake(scene, tmp_path, every=2, device="cpu", resume=True).steps == 0
 

@@ -339,11 +339,11 @@ static void saving_says_where_it_cannot(void **state)
     char unplotted[KILN_MESSAGE_SIZE];
     test_write_file("file", "in the way");
     assert_false(kiln_bench_prepare("file", &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     assert_true(kiln_bench_prepare("new/folder", &error));
     assert_int_equal(test_count_files("new/folder"), 0);
     assert_false(kiln_bench_save(bench, "file", unplotted, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     assert_non_null(strstr(error.message, "file"));
     kiln_bench_destroy(&bench);
 }

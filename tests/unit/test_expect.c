@@ -284,7 +284,7 @@ static void files_are_written_whole(void **state)
     r.expect->frames[1].pixels[0].device = "a";
     assert_false(kiln_expect_write(r.expect, "taken", &error));
     assert_string_equal(error.message, "taken/expect.yaml: a folder has this name");
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     kiln_arena_destroy(&r.arena);
 }
 

@@ -309,7 +309,7 @@ static void impossible_ones_are_refused(void **state)
     assert_int_equal(test_count_files(folder), 0);
     snprintf(other, sizeof other, "%s/book_motion.png", folder);
     fclose(fopen(other, "w"));
-    refuse(good, KILN_IO, "book_motion.png: the file exists");
+    refuse(good, KILN_USAGE, "book_motion.png: the file exists");
     assert_int_equal(test_count_files(folder), 1);
 }
 
@@ -351,7 +351,7 @@ static void files_come_together(void **state)
         else
             fclose(fopen(taken, "w"));
         assert_false(kiln_output_finish(output, &error));
-        assert_int_equal(error.code, KILN_IO);
+        assert_int_equal(error.code, KILN_USAGE);
         assert_non_null(strstr(error.message, taken));
         kiln_output_close(&output);
         assert_int_equal(test_count_files(folder), 1);

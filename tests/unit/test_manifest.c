@@ -243,7 +243,7 @@ static void only_whole_manifests_stay(void **state)
 
     write_manifest(&f->params, 1, NULL);
     assert_null(kiln_manifest_open(&f->params, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     assert_non_null(strstr(error.message, "the file exists"));
 }
 

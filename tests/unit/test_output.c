@@ -130,7 +130,7 @@ static void existing_files_are_kept(void **state)
 
     struct kiln_error error = {0};
     assert_false(test_write_all(&params, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     assert_non_null(strstr(error.message, "x_0006.png: the file exists (--force"));
     assert_int_equal(test_count_files(folder), 1);
 
@@ -145,7 +145,7 @@ static void existing_files_are_kept(void **state)
     unlink(last);
     assert_int_equal(mkdir(last, 0777), 0);
     assert_false(test_write_all(&params, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     assert_non_null(strstr(error.message, "a folder has this name"));
     test_remove_folder(folder);
 }
@@ -193,7 +193,7 @@ static void late_files_are_kept(void **state)
         fclose(fopen(opened.path, "w"));
         assert_true(write_frame(&opened, 3, &error));
         assert_false(kiln_output_finish(opened.output, &error));
-        assert_int_equal(error.code, KILN_IO);
+        assert_int_equal(error.code, KILN_USAGE);
         assert_int_equal(test_count_files(opened.folder), 1);
         struct stat status;
         assert_int_equal(stat(opened.path, &status), 0);
@@ -216,7 +216,7 @@ static void folders_are_made(void **state)
 
     snprintf(path, sizeof path, "%s/a/b/c.d/x.png/y.png", folder);
     assert_false(test_write_all(&params, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     assert_non_null(strstr(error.message, "x.png: not a folder"));
     test_remove_folder(folder);
 

@@ -235,7 +235,7 @@ static void layers_are_written_as_pictures(void **state)
     assert_true(kiln_compare(&params, &result, &error) && result.same && result.hdr);
 
     assert_false(kiln_layer_write(&display, "written.png", false, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     assert_true(kiln_layer_write(&display, "written.png", true, &error));
     assert_false(kiln_layer_write(&display, "display.exr", false, &error));
     assert_string_equal(error.message, "display.exr: integer samples go into a file '*.png'");

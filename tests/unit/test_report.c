@@ -467,10 +467,10 @@ static void reports_that_cannot_be_written(void **state)
     output.format = "junit";
     output.path = "out";
     assert_false(kiln_results_write(results, &output, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     output.path = "out/run.json/report";
     assert_false(kiln_results_write(results, &output, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
 
     int stdout_copy = dup(STDOUT_FILENO), full = open("/dev/full", O_WRONLY);
     assert_true(stdout_copy >= 0 && full >= 0);

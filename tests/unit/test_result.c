@@ -316,7 +316,7 @@ static void files_that_are_no_result(void **state)
     struct kiln_result result;
     kiln_result_init(&result, "a");
     assert_false(kiln_result_write(&result, folder, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     assert_int_equal(rmdir(path), 0);
 
     FILE *file = fopen(path, "wb");

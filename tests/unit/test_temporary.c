@@ -197,7 +197,7 @@ static void sets_come_whole(void **state)
     check_set(folder, "old");
     open_set(folder, "new", files);
     assert_false(commit_set(files, false, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     check_set(folder, "old");
     open_set(folder, "new", files);
     assert_true(commit_set(files, true, &error));

@@ -164,7 +164,7 @@ $ pixel() { ffmpeg -nostdin -loglevel error -i out/d.png -vf crop=1:1:$1:$2 -f r
 1|   0   0   4
 $ kiln compare -q grey.png box.png --diff out/d.png
 2|kiln: out/d.png: the file exists (--force replaces it)
-= 6
+= 2
 $ kiln compare -q grey.png box.png --diff out/d.png --force
 = 1
 $ kiln compare -q grey.png box.png --diff out/d.jpg
@@ -172,7 +172,7 @@ $ kiln compare -q grey.png box.png --diff out/d.jpg
 = 2
 $ kiln compare -q grey.png box.png --diff grey.png/d.png
 2|kiln: grey.png: not a folder, but grey.png/d.png needs one here
-= 6
+= 2
 
 $ kiln compare -q grey.png box.png --error-map out/map.png --diff out/both.png
 = 1
@@ -183,7 +183,7 @@ $ bytes() { ffmpeg -nostdin -loglevel error -i $1 -vf crop=64:48:$2:0 -f rawvide
 1|the same map
 $ kiln compare -q grey.png box.png --error-map out/map.png
 2|kiln: out/map.png: the file exists (--force replaces it)
-= 6
+= 2
 $ kiln compare -q grey.png box.png --error-map out/map.exr
 2|kiln: out/map.exr: pictures of differences are PNG; the name must end in .png, or be a folder
 = 2

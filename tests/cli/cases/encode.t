@@ -77,7 +77,7 @@ $ kiln encode nowhere -o none.mp4
 = 3
 $ kiln encode mkv -o one.mp4
 2|kiln: one.mp4: the file exists (--force replaces it)
-= 6
+= 2
 $ kiln encode mkv -o none.mp4 --exposure 1
 2|kiln: --exposure: mkv/f_000.png is no picture of light but of colours already
 = 2

@@ -91,8 +91,8 @@ $ printf 'kiln: 1\nsystems: {a: {emit: {raet: 1}}}\n' >wrong.yaml; kiln check wr
 1|{"event": "error", "time": <time>, "code": 3, "again": "never", "message": "wrong.yaml:2:22: systems.a.emit.raet: unknown key (did you mean 'rate'?)", "file": "wrong.yaml", "line": 2, "column": 22}
 1|{"event": "ended", "time": <time>, "code": 3, "again": "never"}
 $ kiln render scenes/tiny.yaml -q -o e.mp4 --events ndjson:fd=2 2>&1 | grep -v '^kiln' | tail -n 2
-1|{"event": "error", "time": <time>, "code": 6, "again": "again", "message": "e.mp4.journal: a job with --resume or --shard has begun this output (--force replaces it)"}
-1|{"event": "ended", "time": <time>, "code": 6, "again": "again"}
+1|{"event": "error", "time": <time>, "code": 2, "again": "never", "message": "e.mp4.journal: a job with --resume or --shard has begun this output (--force replaces it)"}
+1|{"event": "ended", "time": <time>, "code": 2, "again": "never"}
 $ kiln render scenes/tiny.yaml -q -o never.mp4 --set output.frames=100000 --set systems.smoke.emit.rate=100000 --device cpu --events ndjson 2>/dev/null >stopped & until grep -qs '"frame"' stopped; do sleep 0.05; done; kill -TERM $!; wait $!; echo "exit code $?"; jq -c 'select(.event == "error" or .event == "ended") | [.event, .code, .again]' stopped
 1|exit code 143
 1|["error",143,"again"]
@@ -195,7 +195,7 @@ $ kiln render scenes/tiny.yaml -q -o slow.png --frames 0 --size 4096x4096 --set 
 1|openjd_status: exit code 5, again: with more
 $ kiln check scenes/tiny.yaml -q --events openjd:e.log
 2|kiln: check: --events: e.log: the file exists and holds no events, so nothing is added to it
-= 6
+= 2
 $ kiln check scenes/tiny.yaml -q --events openjson
 2|kiln: check: --events: found 'openjson', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
@@ -216,7 +216,7 @@ $ kiln check scenes/tiny.yaml -q --events ndjson:fd=0
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:scenes/tiny.yaml
 2|kiln: check: --events: scenes/tiny.yaml: the file exists and holds no events, so nothing is added to it
-= 6
+= 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:none/e.log
 2|kiln: check: --events: none/e.log: No such file or directory
 = 6
@@ -273,7 +273,7 @@ $ touch kept_empty.png; kiln render wrong.yaml scenes/empty.yaml scenes/tiny.yam
 1|kept_empty.png
 2|wrong.yaml:2:22: systems.a.emit.raet: unknown key (did you mean 'rate'?)
 $ kiln render wrong.yaml scenes/empty.yaml scenes/tiny.yaml -o 'kept_{scene}.png' --frames 0 --device cpu -q --keep-going; echo "exit code $?"; ls kept*
-1|exit code 6
+1|exit code 3
 1|kept_empty.png
 1|kept_tiny.png
 2|wrong.yaml:2:22: systems.a.emit.raet: unknown key (did you mean 'rate'?)

@@ -165,8 +165,8 @@ $ grep '"folder"\|"command"' doc/rates.png.figure.json
 1|"command": ["figure", "sheet", "scenes/tiny.yaml", "-o", "doc/rates.png", "--sweep", "systems.*.emit.rate=5,60", "--sweep", "time=0.2,0.4", "--title", "Rates at 45°"],
 It is not replaced unless that is wanted, and comes out the same.
 $ kiln figure sheet scenes/tiny.yaml -o doc/rates.png
-2|kiln: doc/rates.png: the file exists (--force replaces it)
-= 6
+2|kiln: figure sheet: doc/rates.png: the file exists (--force replaces it)
+= 2
 $ kiln figure sheet scenes/tiny.yaml -o doc/again.png --sweep systems.*.emit.rate=5,60 --sweep time=0.2,0.4 --title 'Rates at 45°' --threads 1
 $ cmp doc/rates.png doc/again.png && rm doc/again.png*
 
@@ -196,8 +196,8 @@ $ grep '"command"\|"size"' doc/alone.jpg.figure.json
 $ kiln compare clip/f_0008.png doc/alone.jpg --quiet --limit psnr=40
 $ rm doc/alone.jpg
 $ kiln figure sheet scenes/tiny.yaml --plain --frames 8 -o doc/alone.jpg
-2|kiln: doc/alone.jpg.figure.json: the file exists (--force replaces it)
-= 6
+2|kiln: figure sheet: doc/alone.jpg.figure.json: the file exists (--force replaces it)
+= 2
 $ rm doc/alone*
 
 A width on paper is the same in all formats, and so is the size of the lettering, 8 points.
@@ -258,8 +258,8 @@ $ kiln figure sheet scenes/tiny.yaml -o odd3.png --depfile /proc/self/x/odd3.d; 
 2|ls: cannot access 'odd3*': No such file or directory
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o odd2.png --depfile odd.d
-2|kiln: odd.d: the file exists (--force replaces it)
-= 6
+2|kiln: figure sheet: odd.d: the file exists (--force replaces it)
+= 2
 $ kiln figure sheet scenes/tiny.yaml -o odd2.png --depfile scenes/tiny.yaml --force
 2|kiln: figure sheet: scenes/tiny.yaml: --depfile would replace a file that it is made of, which this call reads
 = 2

@@ -23,11 +23,11 @@ $ kiln render scenes/tiny.yaml -o f_%02d.jpg --frames 0-5 --progress none && rm 
 $ kiln render scenes/tiny.yaml -o f_%02d.jpg --frames 0-6 --resume --progress none --quality 81
 1|device: <device>
 2|kiln: f_%02d.jpg.journal: is the journal of other frames, or other settings of the output (--force starts anew)
-= 6
+= 2
 $ rm *.journal && kiln render scenes/tiny.yaml -o f_%02d.jpg --frames 0-6 --resume --progress none --quality 81
 1|device: <device>
 2|kiln: f_00.jpg: the file exists, and is not a whole frame 0 of this job (--force replaces it)
-= 6
+= 2
 $ for n in 1 4; do kiln render scenes/tiny.yaml -qo $n/%02d.jpg --threads $n; done; KILN_SIMD=plain kiln render scenes/tiny.yaml -qo plain/%02d.jpg; diff -r 1 4 && diff -r 1 plain && ls 1 | wc -l
 1|24
 

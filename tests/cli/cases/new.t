@@ -6,14 +6,14 @@ $ kiln new effect.yaml && head -n 2 effect.yaml | sed 's|=.*/|=FOLDER/|' && kiln
 1|# A fire on logs: flames, smoke above them and sparks.
 $ test -f "$(sed -n '1s/.*schema=//p' effect.yaml)" && kiln help schema | cmp - "$(sed -n '1s/.*schema=//p' effect.yaml)"
 $ kiln new effect.yaml -t snow; echo $?; kiln new effect.yaml -qt snow --force && sed -n 2p effect.yaml
-1|6
+1|2
 1|# Snow that falls on hills at dusk, past a lamp, in air that eddies.
 2|kiln: effect.yaml: the file exists (--force replaces it)
 $ kiln new below/a/folder.yaml -q && ls below/a
 1|folder.yaml
 $ kiln new below
 2|kiln: below: a folder has this name
-= 6
+= 2
 $ kiln new - --template smoke | kiln check -q -
 $ kiln new x.yaml --template snwo
 2|kiln: new: --template: there is no template 'snwo' (did you mean 'snow'?); there are fire, fountain, smoke, snow

@@ -3,7 +3,7 @@ What stands in the way of writing is said before the work, and leaves nothing be
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png
 2|kiln: a.png: the file exists (--force replaces it)
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png --force
 $ kiln render scenes/tiny.yaml -q -o a.gfi
 2|kiln: a.gfi: unknown output format '.gfi' (did you mean '.gif'?); allowed are .png, .jpg, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
@@ -13,7 +13,7 @@ $ kiln render scenes/tiny.yaml -q -o nosuffix
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png/b.png
 2|kiln: a.png: not a folder, but a.png/b.png needs one here
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -q -o odd.mp4 --size 63x36
 2|kiln: odd.mp4: a video of 63 x 36 pixels; H.264 needs even sizes, the nearest is 64x36
 = 2
@@ -28,16 +28,16 @@ $ kiln render scenes/tiny.yaml -q -o frame_%d_%d.png
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o /dev/null/x.png
 2|kiln: /dev/null: not a folder, but /dev/null/x.png needs one here
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o /sys/x.png
 2|kiln: /sys/x.png: the file cannot be created: Permission denied
 = 6
 $ kiln render scenes/tiny.yaml -q --frames 0 -o b.png --manifest /dev/null/x.json
 2|kiln: /dev/null: not a folder, but /dev/null/x.json needs one here
-= 6
+= 2
 $ mkfifo pipe.png && kiln render scenes/tiny.yaml -q --frames 0 -o pipe.png --force
 2|kiln: pipe.png: a device, pipe or socket has this name
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o b.png --manifest b.png --force
 2|kiln: b.png: --output and --manifest would both write this file
 = 2
@@ -80,7 +80,7 @@ $ kiln render scenes/tiny.yaml -q -o clip_%d.mov
 = 2
 $ kiln render scenes/tiny.yaml -q -o clips/a.gif
 2|kiln: clips/a.gif: the file exists (--force replaces it)
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -q -o a.webn
 2|kiln: a.webn: unknown output format '.webn' (did you mean '.webm'?); allowed are .png, .jpg, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
 = 2
@@ -165,10 +165,10 @@ $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 4x4 --size 8192x64
 = 2
 $ kiln render scenes/tiny.yaml -q -o book.png --flipbook 3x4
 2|kiln: book.png: the file exists (--force replaces it)
-= 6
+= 2
 $ touch sole.json && kiln render scenes/tiny.yaml -q -o sole.png --flipbook 2x2 --frames 0-3
 2|kiln: sole.json: the file exists (--force replaces it)
-= 6
+= 2
 $ ls -A | grep -E 'more|sole'
 1|sole.json
 

@@ -222,7 +222,7 @@ $ kiln render scenes/tiny.yaml -o j.png --frames 1 --progress none --json=new/j.
 1|["result",null,"string"]
 $ kiln render scenes/tiny.yaml -o j.png --frames 1 -q --json=new/j.json
 2|kiln: new/j.json: the file exists (--force replaces it)
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -o j.png --frames 1 -q --json=bad.json; ls bad.json
 2|kiln: j.png: the file exists (--force replaces it)
 2|ls: cannot access 'bad.json': No such file or directory

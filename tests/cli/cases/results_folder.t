@@ -8,7 +8,7 @@ Somebody's folder is refused, and left as it is.
 $ mkdir -p mine/fire && echo mine | tee mine/frame_0001.png mine/run.json mine/fire/result.json mine/fire/frame_0006.png >mine/notes
 $ kiln test fire -q --results mine
 2|kiln: mine: the folder has contents, but no .kiln-results, so they may be anybody's; name another one by --results, or empty it
-= 6
+= 2
 $ find mine -type f | sort | xargs grep -c mine
 1|mine/fire/frame_0006.png:1
 1|mine/fire/result.json:1
@@ -44,16 +44,16 @@ $ echo mine >fresh/fire/notes.txt && echo mine >fresh/notes.txt && kiln test fir
 1|mine
 $ cp -r fresh before && echo mine >fresh/fire/frame_0007.png && kiln test fire -q --results fresh
 2|kiln: fresh/fire/frame_0007.png: kiln did not write this file; move it away, or name another folder by --results
-= 6
+= 2
 $ diff -r before fresh
 1|Only in fresh/fire: frame_0007.png
 = 1
 $ rm fresh/fire/frame_0007.png && echo mine >>fresh/fire/result.json && kiln test fire -q --results fresh
 2|kiln: fresh/fire/result.json: changed since kiln wrote this file; move it away, or name another folder by --results
-= 6
+= 2
 $ cp before/fire/result.json fresh/fire/ && echo '{}' >fresh/run.json && kiln test fire -q --results fresh
 2|kiln: fresh/run.json: changed since kiln wrote this file; move it away, or name another folder by --results
-= 6
+= 2
 $ rm fresh/run.json fresh/fire/log.txt && kiln test fire -q --results fresh && (cd fresh && sha256sum --quiet --check .kiln-results)
 
 Tests that are not in a run keep their results, and their lines.
@@ -85,10 +85,10 @@ A list of something else, or of a later kiln, is none.
 
 $ mkdir other && echo '# kiln results 2' >other/.kiln-results && kiln test fire -q --results other
 2|kiln: other/.kiln-results: is not a list of results of this kiln; name another folder by --results
-= 6
+= 2
 $ printf '# kiln results 1\nrun.json\n' >other/.kiln-results && kiln test fire -q --results other
 2|kiln: other/.kiln-results: 'run.json' is not a line of a list of results
-= 6
+= 2
 
 Reports replace reports of their kind by kiln, and nothing else; what is read never.
 
@@ -120,7 +120,7 @@ $ for report in 'junit r.tap' 'tap r.json' 'json r.xml' 'report r.xml' 'junit r.
 2|kiln: r.xml: the file exists, and is nothing that --report has written (--force replaces it)
 2|kiln: r.html: the file exists, and is nothing that --junit has written (--force replaces it)
 2|kiln: notes: the file exists, and is nothing that --junit has written (--force replaces it)
-= 6
+= 2
 $ cat notes
 1|mine
 $ kiln test fire -q --junit notes --force && head -n 1 notes

@@ -55,24 +55,24 @@ What is of another job is refused, --force starts anew.
 
 $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --seed 1
 2|kiln: f_%d.png.journal: is the journal of another scene, or of this one with other values or another size (--force starts anew)
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -q --frames 0-4 -o f_%d.png --resume
 2|kiln: f_%d.png.journal: is the journal of other frames, or other settings of the output (--force starts anew)
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --png-bits 16
 2|kiln: f_%d.png.journal: is the journal of other frames, or other settings of the output (--force starts anew)
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --technique simulate=inplace 2>&1 | sed "s/(kiln.*//"
 1|kiln: f_%d.png.journal: was begun by another program, device or techniques 
 $ echo mine >f_%d.png.journal; kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume
 2|kiln: f_%d.png.journal: is not a journal (--force starts anew)
-= 6
+= 2
 $ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --force --progress none
 1|device: <device>
 1|f_0.png and 5 more: 6 frames in <s> s
 $ echo mine >x_1.png; kiln render scenes/tiny.yaml -q --frames 0-2 -o x_%d.png --resume
 2|kiln: x_1.png: the file exists, and is not a whole frame 1 of this job (--force replaces it)
-= 6
+= 2
 $ (flock 9; kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume) 9<f_%d.png.journal
 2|kiln: f_%d.png.journal: another process is writing this output: it has the journal
 = 6
@@ -81,7 +81,7 @@ $ kiln render scenes/tiny.yaml -q -o none --resume
 = 2
 $ mkfifo p_%d.png.journal; kiln render scenes/tiny.yaml -q --frames 0-2 -o p_%d.png --resume
 2|kiln: p_%d.png.journal: is not a regular file
-= 6
+= 2
 
 Clips wait in parts: here of 20 frames, the last of one.
 
@@ -109,7 +109,7 @@ $ cmp ref.mp4 c.mp4
 $ echo mine >d.mp4; kiln render scenes/tiny.yaml -q -o d.mp4 --resume; ls d.mp4* x_*
 1|d.mp4
 1|x_1.png
-2|kiln: d.mp4: the file exists (--force replaces it)
+2|kiln: d.mp4: the file exists, and no journal says that this job has made it (--force replaces it)
 
 Of a journal, the job does not heed what its format does not: a PNG has no bits of EXR.
 

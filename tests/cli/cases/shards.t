@@ -95,7 +95,7 @@ $ flock d.webm.2-of-2.journal kiln render scenes/tiny.yaml --fps 10 --set output
 2|kiln: d.webm.2-of-2.journal: another process is writing this output: it has the journal
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm
 2|kiln: d.webm.1-of-2.journal: a job with --resume or --shard has begun this output (--force replaces it)
-= 6
+= 2
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --resume --force --frames 0-30 && kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --resume --frames 0-30; ls -d d.*
 1|d.webm
 1|d.webm.journal
@@ -122,7 +122,7 @@ $ kiln join m.mp4 --manifest m.mp4.journal
 = 2
 $ echo mine >m.mp4 && kiln join m.mp4; cat m.mp4
 1|mine
-2|kiln: m.mp4: the file exists (--force replaces it)
+2|kiln: m.mp4: the file exists, and no journal says that this job has made it (--force replaces it)
 $ kiln join m.mp4 --force --manifest m.json && kiln join m.mp4 --manifest m.json && jq .result.files[0].file m.json
 1|m.mp4: 24 frames in 2 parts
 1|m.mp4: 24 frames in 2 parts, whole already

@@ -26,7 +26,7 @@ Every N frames or seconds; what is there is kept with --resume, replaced with --
 
 $ kiln bake scenes/tiny.yaml -o states --fps 10 --set output.frames=50
 2|kiln: states/a37c7513dbddf799-00000012.kilnstate: the file exists (--force replaces it)
-= 6
+= 2
 $ kiln bake scenes/tiny.yaml -o states --fps 10 --set output.frames=50 --every 1s --resume
 1|frame 0: kept, <n> bytes
 1|frame 10: step 72, 42 particles, <n> bytes
@@ -86,7 +86,7 @@ $ kiln bake scenes/tiny.yaml -o states --every 1.5
 = 2
 $ kiln bake scenes/tiny.yaml -o scenes/tiny.yaml
 2|kiln: scenes/tiny.yaml: not a folder, but scenes/tiny.yaml/ needs one here
-= 6
+= 2
 $ kiln render scenes/tiny.yaml -q -o none --states nowhere
 2|kiln: nowhere: the folder of states cannot be read: No such file or directory
 = 6

@@ -259,7 +259,7 @@ $ kiln test fire --report page.html --junit fire.test.yaml/junit.xml; echo $?; l
 1|1 test in <s> s: 1 pass
 1|report: page.html
 1|1 frame: 1 by pixels, 0 by metrics
-1|6
+1|2
 1|page.html
 2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
 $ kiln test wrong -q --junit fire.test.yaml/junit.xml
@@ -268,7 +268,7 @@ $ kiln test wrong -q --junit fire.test.yaml/junit.xml
 1|report: out/test/report.html
 1|0 frames: 0 by pixels, 0 by metrics
 2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
-= 6
+= 3
 $ kiln test slow -q --time-limit 0.25 --junit fire.test.yaml/junit.xml
 1|error   slow  took longer than 0.25 s
 1|1 test in <s> s: 1 error
@@ -307,7 +307,7 @@ $ kiln test fire --results link/
 $ mkdir -p out/nested; cp -r golden/fire out/nested/fire
 $ kiln test fire --results out/nested --no-report
 2|kiln: out/nested/fire: is a folder of goldens, and not for results
-= 6
+= 2
 $ diff -r golden kept; diff -rq golden/fire out/nested/fire; rm -r kept link
 
 Shards are merged.

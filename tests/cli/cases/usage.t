@@ -235,8 +235,9 @@ $ kiln help render
 1|      --limits KEY=VALUE,...  End with exit code 8 before more is taken;
 1|                              'service' stands for a set of them (see 'kiln help
 1|                              limits'). Default: the environment's KILN_LIMITS.
-1|      --timeout S             End with exit code 8 after S seconds, loading and
-1|                              encoding included. Default: none.
+1|      --timeout TIME          End with exit code 8 after that time, loading and
+1|                              encoding included: seconds, or with a unit, ms, s,
+1|                              min or h. Default: none.
 1|      --sandbox[=on|require|off]
 1|                              Give up all rights that the job does not need, on
 1|                              the device 'cpu': files elsewhere, sockets, other
@@ -244,12 +245,12 @@ $ kiln help render
 1|                              the kernel cannot do that (see 'kiln devices').
 1|                              Default: the environment's KILN_SANDBOX, or else
 1|                              off.
-1|      --frame-timeout S       Give up with exit code 5 when a frame takes longer
-1|                              than S seconds. Frames that are stepped over
-1|                              lengthen the limit of the next drawn one; set-up
-1|                              and warm-up belong to the first. Loading the
-1|                              scenes has as long. Waiting for the output does
-1|                              not count. Default: none.
+1|      --frame-timeout TIME    Give up with exit code 5 when a frame takes longer
+1|                              than that. Frames that are stepped over lengthen
+1|                              the limit of the next drawn one; set-up and
+1|                              warm-up belong to the first. Loading the scenes
+1|                              has as long. Waiting for the output does not
+1|                              count. Default: none.
 1|      --progress tty|lines|ndjson|none
 1|                              A moving line on standard error, or a line now and
 1|                              then. 'ndjson' is an older --json, with the frames
@@ -351,8 +352,9 @@ $ kiln help check
 1|      --limits KEY=VALUE,...  End with exit code 8 before more is taken;
 1|                              'service' stands for a set of them (see 'kiln help
 1|                              limits'). Default: the environment's KILN_LIMITS.
-1|      --timeout S             End with exit code 8 after S seconds, loading and
-1|                              encoding included. Default: none.
+1|      --timeout TIME          End with exit code 8 after that time, loading and
+1|                              encoding included: seconds, or with a unit, ms, s,
+1|                              min or h. Default: none.
 1|      --sandbox[=on|require|off]
 1|                              Give up all rights that the job does not need, on
 1|                              the device 'cpu': files elsewhere, sockets, other
@@ -403,7 +405,8 @@ $ kiln help exit-codes
 1| CODE  AGAIN?     MEANING
 1|    0  never      all went well
 1|    1  never      a frame failed, or a picture differs
-1|    2  never      the command line makes no sense
+1|    2  never      the command line makes no sense, or names an output that
+1|                  exists or a journal of another job
 1|    3  never      a scene or another input file is wrong
 1|    4  again      no usable device, or for want of one every test was skipped,
 1|                  or nothing measured
