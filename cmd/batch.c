@@ -11,11 +11,18 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "batch_check.h"
 #include "event.h"
 #include "pool.h"
 #include "report.h"
 #include "signals.h"
 #include "watch.h"
+
+/* A job that runs. */
+struct running {
+    int log; /* what it prints; -1: it does not run */
+    double began_s;
+};
 
 struct batch {
     struct kiln_batch *jobs;
@@ -23,7 +30,7 @@ struct batch {
     const char *limits;           /* of the call, for every job; or NULL */
     char **shared;                /* words of the command line for every job */
     size_t shared_count;
-    int *logs; /* of each job that runs: what it prints; -1: none */
+    struct running *running; /* one of each job */
     bool keep_going, quiet;
     int code; /* the greatest so far */
     size_t failed, ended;
@@ -127,12 +134,12 @@ static struct command_line line_of(const struct batch *batch, const struct kiln_
         line.words[line.count++] = batch->shared[i];
     line.borrowed = line.count;
     add(&line, "--quiet", "");
-    add(&line, "--output=", job->output);
+    add(&line, "--output=", job->output.text);
     add(&line, "--asset-root=", job->asset_root);
     add(&line, "--states=", job->states);
-    add(&line, "--manifest=", job->manifest);
-    add(&line, "--frames=", job->frames);
-    add_limits(&line, batch->limits, job->limits);
+    add(&line, "--manifest=", job->manifest.text);
+    add(&line, "--frames=", job->frames.text);
+    add_limits(&line, batch->limits, job->limits.text);
     char timeout[32];
     snprintf(timeout, sizeof timeout, "%.3f", job->timeout_s);
     add(&line, "--timeout=", job->timeout_s > 0 ? timeout : NULL);
@@ -171,10 +178,30 @@ static int spawn(const struct batch *batch, char **words, int log, const sigset_
     return failure;
 }
 
+/* Begins an event with the members that say which job it is of. */
+static struct kiln_json begin_event(const char *name, const struct kiln_batch_job *job)
+{
+    struct kiln_json json = event_begin(name);
+    kiln_json_string(&json, "name", job->name);
+    kiln_json_string(&json, "scene", job->scene);
+    kiln_json_string(&json, "output", job->output.text);
+    return json;
+}
+
+static void tell_start(const struct kiln_batch_job *job, pid_t id)
+{
+    if (!events_are_wanted())
+        return;
+    struct kiln_json json = begin_event("job_began", job);
+    kiln_json_int(&json, "process", id);
+    event_end(&json);
+}
+
 static pid_t start_job(void *user, size_t index, struct pool_start *start)
 {
     struct batch *batch = user;
-    struct command_line line = line_of(batch, kiln_batch_job(batch->jobs, index));
+    const struct kiln_batch_job *job = kiln_batch_job(batch->jobs, index);
+    struct command_line line = line_of(batch, job);
     pid_t id = -1;
     const int log = memfd_create("log", MFD_CLOEXEC);
     int failure = line.failed ? ENOMEM : errno;
@@ -183,26 +210,33 @@ static pid_t start_job(void *user, size_t index, struct pool_start *start)
     free_line(&line);
     if (id < 0 && log >= 0)
         close(log);
-    batch->logs[index] = id < 0 ? -1 : log;
+    batch->running[index] = (struct running){.log = id < 0 ? -1 : log, .began_s = now_s()};
+    if (id >= 0)
+        tell_start(job, id);
     if (id < 0 && failure != EAGAIN) /* else there may be room for a process later */
         start->problem = "the job cannot be started";
     errno = failure;
     return id;
 }
 
-/* Copies what a job printed to standard error. *message gets its last line, which the caller frees:
- * why it failed. */
+/* Copies what a job printed to standard error, with its name in the place of the program's.
+ * *message gets the last line that is no warning, which the caller frees: why it failed. */
 static void show_log(int log, const char *name, char **message)
 {
+    static const char program[] = "kiln: ", warning[] = "warning: ";
     FILE *in = log >= 0 && lseek(log, 0, SEEK_SET) == 0 ? fdopen(log, "r") : NULL;
     size_t room = 0;
     char *line = NULL;
     *message = NULL;
     while (in && getline(&line, &room, in) > 0) {
+        const bool has_name = strncmp(line, program, sizeof program - 1) == 0;
+        const char *text = line + (has_name ? sizeof program - 1 : 0);
         line[strcspn(line, "\n")] = '\0';
-        fprintf(stderr, "%s: %s\n", name, line);
+        fprintf(stderr, "%s: %s\n", name, text);
+        if (strncmp(text, warning, sizeof warning - 1) == 0)
+            continue;
         free(*message);
-        *message = strdup(line);
+        *message = strdup(text);
     }
     free(line);
     if (in)
@@ -222,14 +256,13 @@ static void tell(const struct batch *batch, const struct kiln_batch_job *job,
     event_progress(batch->ended, count, status);
     if (code)
         event_openjd("fail", "%s: %s", job->name, message ? message : "failed");
-    struct kiln_json json = event_begin("job");
-    kiln_json_string(&json, "name", job->name);
-    kiln_json_string(&json, "scene", job->scene);
-    kiln_json_string(&json, "output", job->output);
+    struct kiln_json json = begin_event("job", job);
     kiln_json_int(&json, "code", code);
     kiln_json_string(&json, "again", exit_code_again(code));
     kiln_json_string(&json, "message", code ? message : NULL);
     kiln_json_time(&json, "total_s", end->total_s);
+    if (code && message)
+        event_add_place(&json, message);
     event_end(&json);
 }
 
@@ -240,8 +273,8 @@ static void end_job(void *user, size_t index, const struct pool_end *end)
     const int code = end->signal ? 128 + end->signal : end->exit_code;
     char name[KILN_MESSAGE_SIZE], killed[64], *message;
     kiln_shown(name, sizeof name, job->name);
-    show_log(batch->logs[index], name, &message);
-    batch->logs[index] = -1;
+    show_log(batch->running[index].log, name, &message);
+    batch->running[index].log = -1;
     snprintf(killed, sizeof killed, "ended by signal %d", end->signal);
     const char *why = *end->problem ? end->problem : end->signal ? killed : message;
     batch->ended++;
@@ -256,6 +289,22 @@ static void end_job(void *user, size_t index, const struct pool_end *end)
         printf("%s: done in %.3f s\n", name, end->total_s);
     fflush(stdout);
     free(message);
+}
+
+/* Tells of the jobs that were stopped with the batch. Returns how many. */
+static size_t end_stopped(struct batch *batch)
+{
+    const int received = signals_received();
+    struct pool_end end = {.exit_code = received ? 128 + received : KILN_READER_GONE};
+    size_t count = 0;
+    for (size_t i = 0; i < kiln_batch_count(batch->jobs); i++) {
+        if (batch->running[i].log < 0)
+            continue;
+        end.total_s = now_s() - batch->running[i].began_s;
+        end_job(batch, i, &end);
+        count++;
+    }
+    return count;
 }
 
 static bool has_enough(void *user)
@@ -285,7 +334,7 @@ static char *read_input(size_t *size)
     return NULL;
 }
 
-static struct kiln_batch *read_jobs(const char *path, struct kiln_error *error)
+static struct kiln_batch *read_file(const char *path, struct kiln_error *error)
 {
     if (strcmp(path, "-") != 0)
         return kiln_batch_read(path, error);
@@ -299,6 +348,15 @@ static struct kiln_batch *read_jobs(const char *path, struct kiln_error *error)
     struct kiln_batch *batch =
         kiln_batch_parse(text, size, "standard input", KILN_BATCH_LINES, error);
     free(text);
+    return batch;
+}
+
+static struct kiln_batch *read_jobs(const struct arguments *arguments, struct kiln_error *error)
+{
+    struct kiln_batch *batch = read_file(arguments_text(arguments, "batch", ""), error);
+    const char *suffix = arguments_last(arguments, "flipbook") ? ".png" : ".mp4";
+    if (batch && !batch_check(batch, suffix, error))
+        kiln_batch_destroy(&batch);
     return batch;
 }
 
@@ -321,20 +379,21 @@ static int run_pool(struct batch *batch, const struct arguments *arguments)
                               .user = batch};
     struct kiln_error error = {0};
     const double began_s = now_s();
-    batch->logs = malloc(count * sizeof *batch->logs);
-    if (!batch->logs)
+    batch->running = malloc(count * sizeof *batch->running);
+    if (!batch->running)
         return report_no_memory();
     for (size_t i = 0; i < count; i++)
-        batch->logs[i] = -1;
+        batch->running[i].log = -1;
     if (pool_run(&pool, &error)) {
         if (!batch->quiet)
             printf("%zu of %zu jobs in %.3f s, %zu failed\n", batch->ended, count,
                    now_s() - began_s, batch->failed);
         return batch->code;
     }
-    return error.code == KILN_INTERRUPTED
-               ? signals_report("batch", " after %zu of %zu jobs", batch->ended, count)
-               : report_error(&error);
+    if (error.code != KILN_INTERRUPTED)
+        return report_error(&error);
+    const size_t done = batch->ended, stopped = end_stopped(batch);
+    return signals_report("batch", " after %zu of %zu jobs, while %zu ran", done, count, stopped);
 }
 
 /* Sets two variables for the jobs. KILN_BATCH_PROCESS is the process whose end ends them; main.c
@@ -362,7 +421,7 @@ int batch_run(const struct arguments *arguments)
     if (code == 0 && length < 0)
         code = report(KILN_IO, "/proc/self/exe: %s",
                       strerror(errno)); /* NOLINT(concurrency-mt-unsafe): of one thread */
-    if (code == 0 && !(batch.jobs = read_jobs(arguments_text(arguments, "batch", ""), &error)))
+    if (code == 0 && !(batch.jobs = read_jobs(arguments, &error)))
         code = report_error(&error);
     if (code == 0 && !share_options(&batch, arguments))
         code = report_no_memory();
@@ -374,7 +433,7 @@ int batch_run(const struct arguments *arguments)
     for (size_t i = 0; i < batch.shared_count; i++)
         free(batch.shared[i]);
     free(batch.shared);
-    free(batch.logs);
+    free(batch.running);
     kiln_batch_destroy(&batch.jobs);
     return code;
 }

@@ -17,6 +17,14 @@
 #define MAYBE(type) "\"type\": [\"" type "\", \"null\"]"
 #define AGAIN       "\"enum\": [\"never\", \"again\", \"with more\"]"
 
+/* The rows of event_add_place. */
+#define PLACE                                                                                      \
+    {"file", STRING, "Where the message names a place in one.", true},                             \
+        {"line", INTEGER, "From 1.", true},                                                        \
+    {                                                                                              \
+        "column", INTEGER, "From 1.", true                                                         \
+    }
+
 struct member {
     const char *name, *type, *help;
     bool optional;
@@ -207,16 +215,24 @@ static const struct event events[] = {
      "every other command",
      "All is done, or pictures differ.",
      {{"code", INTEGER, "The exit code.", false}}},
+    {"job_began",
+     "render --batch",
+     "A job has begun.",
+     {{"name", STRING, "As the file of jobs calls it.", false},
+      {"scene", STRING, "Its path.", false},
+      {"output", STRING, "Where it writes.", false},
+      {"process", INTEGER, "The number of its process.", false}}},
     {"job",
      "render --batch",
-     "A job has ended.",
+     "A job has ended, or was stopped with the batch.",
      {{"name", STRING, "As the file of jobs calls it.", false},
       {"scene", STRING, "Its path.", false},
       {"output", STRING, "Where it writes.", false},
       {"code", INTEGER, "Its exit code; 128 and the signal's number, where one ended it.", false},
       {"again", AGAIN, "Whether to run it again.", false},
       {"message", MAYBE("string"), "Why it failed.", false},
-      {"total_s", NUMBER, "Seconds.", false}}},
+      {"total_s", NUMBER, "Seconds.", false},
+      PLACE}},
     {"warning",
      "every command",
      "What a person is warned of.",
@@ -227,9 +243,7 @@ static const struct event events[] = {
      {{"code", INTEGER, "The exit code for it.", false},
       {"again", AGAIN, "Whether to try again ('kiln help exit-codes').", false},
       {"message", STRING, "A line for people.", false},
-      {"file", STRING, "Where the message names a place in one.", true},
-      {"line", INTEGER, "From 1.", true},
-      {"column", INTEGER, "From 1.", true}}},
+      PLACE}},
     {"ended",
      "every command",
      "The last event, also after a signal.",

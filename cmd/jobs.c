@@ -56,9 +56,7 @@ static void add_marked(FILE *out, const char *pattern, const char *scene, bool e
     }
 }
 
-/* Returns the file that a pattern means for a scene, in new memory; NULL when memory is short. A
- * pattern that is a folder gets a file named after the scene. */
-static char *file_name(const char *pattern, const char *scene, const char *suffix, bool numbers)
+char *job_file_name(const char *pattern, const char *scene, const char *suffix, bool numbers)
 {
     char *name = NULL;
     size_t size = 0;
@@ -174,7 +172,7 @@ static char *output_name(const struct job_list *list, const char *pattern, const
 {
     if (list->stream.format)
         return strdup(pattern);
-    return file_name(pattern, scene, list->flipbook.columns > 0 ? ".png" : ".mp4", true);
+    return job_file_name(pattern, scene, list->flipbook.columns > 0 ? ".png" : ".mp4", true);
 }
 
 static int name_files(struct job_list *list, const struct arguments *arguments)
@@ -190,7 +188,7 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
         if (writes)
             job->output = output_name(list, output->text, job->path);
         if (manifest)
-            job->manifest = file_name(manifest->text, job->path, ".json", false);
+            job->manifest = job_file_name(manifest->text, job->path, ".json", false);
         if ((writes && !job->output) || (manifest && !job->manifest))
             code = report_no_memory();
         if (code == 0 && job->output && !list->stream.format)

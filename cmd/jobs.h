@@ -34,6 +34,11 @@ struct job_list {
 int job_list_create(struct job_list *list, const struct arguments *arguments);
 void job_list_free(struct job_list *list);
 
+/* Returns the file that a pattern means for a scene, in new memory; NULL when memory is short. A
+ * pattern that is a folder gets a file named after the scene. `numbers`: the name may have the
+ * number of a frame. */
+char *job_file_name(const char *pattern, const char *scene, const char *suffix, bool numbers);
+
 /* Returns 0, or the exit code after reporting that --quality is given for an output whose format
  * has none. `place` starts the message. */
 int quality_check(const struct arguments *arguments, const char *place, const char *output);

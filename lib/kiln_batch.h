@@ -4,21 +4,28 @@
 
 #include "kiln_program.h"
 
+/* A text of the file of jobs and where it was written. */
+struct kiln_batch_text {
+    const char *text; /* NULL: not given */
+    uint32_t line, column;
+};
+
 /* A job of `kiln render --batch`. Paths are as the program can open them; NULL: not given. */
 struct kiln_batch_job {
     const char *name; /* as the file calls it, or "job 3" */
-    const char *scene, *output, *asset_root, *states, *manifest;
-    const char *frames, *limits; /* as the options of these names */
-    double timeout_s;            /* 0: none */
+    const char *scene, *asset_root, *states;
+    struct kiln_batch_text output, manifest;
+    struct kiln_batch_text frames, limits; /* as the options of these names */
+    double timeout_s;                      /* 0: none */
     const char *const *overrides;
     size_t override_count;
 };
 
 struct kiln_batch;
 
-/* Reads a file of jobs: YAML, or, as .ndjson and .jsonl, a JSON object a line. Relative paths in it
- * start at its folder. The caller destroys it. NULL with KILN_INVALID_INPUT and the place, KILN_IO,
- * or KILN_DEVICE_FAILED when memory is short. */
+/* Reads a file of jobs: YAML, or, as .ndjson and .jsonl, a JSON object a line. It has at least one
+ * job. Relative paths in it start at its folder. The caller destroys it. NULL with
+ * KILN_INVALID_INPUT and the place, KILN_IO, or KILN_DEVICE_FAILED when memory is short. */
 struct kiln_batch *kiln_batch_read(const char *path, struct kiln_error *error);
 
 /* Reads jobs out of a text in memory, with a zero behind it that size does not count; name is for
@@ -30,6 +37,13 @@ void kiln_batch_destroy(struct kiln_batch **batch);
 
 size_t kiln_batch_count(const struct kiln_batch *batch);
 const struct kiln_batch_job *kiln_batch_job(const struct kiln_batch *batch, size_t index);
+
+/* Fills the error with KILN_INVALID_INPUT, the place of a text of a job, the job's key that it
+ * stands at, and the formatted message; returns false. */
+bool kiln_batch_refuse(const struct kiln_batch *batch, size_t index,
+                       const struct kiln_batch_text *text, const char *key,
+                       struct kiln_error *error, const char *format, ...)
+    __attribute__((format(printf, 6, 7)));
 
 enum { KILN_MAX_BATCH_SIZE = 64 << 20 }; /* bytes of such a file */
 

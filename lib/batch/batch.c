@@ -1,4 +1,5 @@
 /* Reads files of jobs by an option table, with the errors and the reference that scenes have. */
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,7 +15,8 @@ enum { MAX_JOBS = KILN_NODE_MAX_ENTRIES, MAX_OVERRIDES = 64, MAX_TEXT = 4000 };
 
 /* An entry of `jobs`, as the table fills it. */
 struct entry {
-    const char *name, *scene, *output, *asset_root, *states, *manifest, *frames, *limits;
+    const char *name, *scene, *asset_root, *states;
+    struct kiln_batch_text output, manifest, frames, limits;
     const char *set[MAX_OVERRIDES];
     uint32_t set_count;
     double timeout_s;
@@ -28,6 +30,8 @@ struct document {
 
 struct kiln_batch {
     struct kiln_arena *arena;
+    const char *name; /* of the file, for messages */
+    enum kiln_batch_format format;
     struct kiln_batch_job *jobs;
     size_t count, room;
 };
@@ -36,32 +40,58 @@ struct kiln_batch {
 
 #define AT(field) offsetof(struct entry, field)
 
-/* Makes the row of a text: name, field, smallest length, default, help. */
-#define TEXT(n, f, least, def, h)                                                                  \
+/* A text whose place is kept, since the program looks at it once more. */
+static bool read_placed(struct kiln_reader *reader, const struct kiln_option *option,
+                        const struct kiln_node *node, void *field)
+{
+    struct kiln_batch_text *placed = field;
+    placed->line = node->line + reader->origin->lines_before;
+    placed->column = node->column;
+    return kiln_type_text.read(reader, option, node, &placed->text);
+}
+
+static void describe_placed(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_type_text.describe(option, out);
+}
+
+static void schema_placed(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_type_text.schema(option, out);
+}
+
+static const struct kiln_option_type kiln_type_placed = {
+    .read = read_placed, .describe = describe_placed, .schema = schema_placed};
+
+/* Makes the row of a text: type, name, field, smallest length, default, help. */
+#define TEXT(type, n, f, least, def, h)                                                            \
     {                                                                                              \
-        ROW(NO_PART, n, text, AT(f), def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                  \
+        ROW(NO_PART, n, type, AT(f), def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                  \
     }
 
 static const struct kiln_option override_item = {.type = &kiln_type_override,
                                                  LIMITS(KILN_PLAIN, 1, MAX_TEXT)};
 
 static const struct kiln_option job_rows[] = {
-    TEXT("name", name, 0, "\"\"", "What results call the job; its number where it has no name."),
-    TEXT("scene", scene, 1, NULL, "The scene's path, from the folder of the file of jobs."),
-    TEXT("output", output, 1, NULL,
+    TEXT(text, "name", name, 0, "\"\"",
+         "What results call the job; its number where it has no name."),
+    TEXT(text, "scene", scene, 1, NULL, "The scene's path, from the folder of the file of jobs."),
+    TEXT(placed, "output", output, 1, NULL,
          "Where to write, as --output; from the same folder. 'none' writes nothing."),
     {ROW(NO_PART, "set", list, AT(set), "[]", "Keys of the scene to change."),
      .item = &override_item, .kind_offset = KILN_KIND_NONE, .item_size = sizeof(const char *),
      .count_offset = AT(set_count), .max_count = MAX_OVERRIDES},
-    TEXT("frames", frames, 0, "\"\"", "Frames to draw, as --frames; all where none are named."),
-    TEXT("limits", limits, 0, "\"\"", "What the job may take, as --limits."),
+    TEXT(placed, "frames", frames, 0, "\"\"",
+         "Frames to draw, as --frames; all where none are named."),
+    TEXT(placed, "limits", limits, 0, "\"\"", "What the job may take, as --limits."),
     {ROW(NO_PART, "timeout", number, AT(timeout_s), "0 s",
-         "The job's deadline, loading and encoding included; 0: none."),
+         "The job's deadline, as --timeout: seconds, or with a unit, ms, s, min or h; 0: none."),
      LIMITS(KILN_SECONDS, 0, 1e7)},
-    TEXT("asset_root", asset_root, 0, "\"\"",
+    TEXT(text, "asset_root", asset_root, 0, "\"\"",
          "Files of the scene lie below it; the scene's folder where it is not given."),
-    TEXT("states", states, 0, "\"\"", "A folder of 'kiln bake', as --states."),
-    TEXT("manifest", manifest, 0, "\"\"", "A JSON file that describes the run, as --manifest."),
+    TEXT(text, "states", states, 0, "\"\"", "A folder of 'kiln bake', as --states."),
+    TEXT(placed, "manifest", manifest, 0, "\"\"",
+         "A JSON file that describes the run, as --manifest."),
     END,
 };
 
@@ -130,29 +160,41 @@ static bool make_room(struct kiln_batch *batch)
     return true;
 }
 
+static struct kiln_batch_text resolve_placed(struct kiln_batch *batch, const char *base,
+                                             struct kiln_batch_text placed)
+{
+    placed.text = resolve(batch, base, placed.text);
+    return placed;
+}
+
+static struct kiln_batch_text given(struct kiln_batch_text placed)
+{
+    return *placed.text ? placed : (struct kiln_batch_text){.text = NULL};
+}
+
 /* Adds the job of an entry, which lies in the batch's arena. */
 static bool add_job(struct kiln_batch *batch, const struct entry *entry, const char *base,
                     struct kiln_error *error)
 {
     if (!make_room(batch))
         return out_of_memory(error);
-    const bool writes = strcmp(entry->output, "none") != 0;
+    const bool writes = strcmp(entry->output.text, "none") != 0;
     const struct kiln_batch_job job = {
         .name = *entry->name ? entry->name
                              : kiln_arena_format(batch->arena, "job %zu", batch->count + 1),
         .scene = resolve(batch, base, entry->scene),
-        .output = writes ? resolve(batch, base, entry->output) : entry->output,
+        .output = writes ? resolve_placed(batch, base, entry->output) : entry->output,
         .asset_root = resolve(batch, base, entry->asset_root),
         .states = resolve(batch, base, entry->states),
-        .manifest = resolve(batch, base, entry->manifest),
-        .frames = *entry->frames ? entry->frames : NULL,
-        .limits = *entry->limits ? entry->limits : NULL,
+        .manifest = resolve_placed(batch, base, entry->manifest),
+        .frames = given(entry->frames),
+        .limits = given(entry->limits),
         .timeout_s = entry->timeout_s,
         .overrides = entry->set,
         .override_count = entry->set_count,
     };
     batch->jobs[batch->count++] = job;
-    return (job.name && job.scene && job.output) || out_of_memory(error);
+    return (job.name && job.scene && job.output.text) || out_of_memory(error);
 }
 
 /* ---- reading --------------------------------------------------------------------------------- */
@@ -200,7 +242,7 @@ static bool read_line(struct kiln_batch *batch, const char *text, size_t size, u
                                        .has_lines = true,
                                        .lines_before = number - 1,
                                        .kind = "a job",
-                                       .version = NULL};
+                                       .syntax = "JSON"};
     struct kiln_arena *scratch = kiln_arena_create();
     struct entry *entry = kiln_arena_alloc(batch->arena, 1, sizeof *entry);
     char *line = scratch ? kiln_arena_text(scratch, text, size) : NULL;
@@ -229,8 +271,7 @@ static bool read_lines(struct kiln_batch *batch, const char *text, size_t size, 
             return false;
         text += length + 1;
     }
-    return batch->count > 0 ||
-           kiln_error_set(error, KILN_INVALID_INPUT, "%s: there are no jobs in it", name);
+    return true;
 }
 
 static bool has_suffix(const char *path, const char *suffix)
@@ -246,8 +287,14 @@ static struct kiln_batch *parse(const char *text, size_t size, const char *name,
     struct kiln_batch *batch = create(error);
     if (!batch)
         return NULL;
-    if (format == KILN_BATCH_LINES ? !read_lines(batch, text, size, name, base, error)
-                                   : !read_yaml(batch, text, size, name, base, error))
+    batch->format = format;
+    batch->name = kiln_arena_text(batch->arena, name, strlen(name));
+    bool ok = batch->name || out_of_memory(error);
+    ok = ok && (format == KILN_BATCH_LINES ? read_lines(batch, text, size, name, base, error)
+                                           : read_yaml(batch, text, size, name, base, error));
+    if (ok && batch->count == 0)
+        ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: there are no jobs in it", name);
+    if (!ok)
         kiln_batch_destroy(&batch);
     return batch;
 }
@@ -288,4 +335,19 @@ size_t kiln_batch_count(const struct kiln_batch *batch)
 const struct kiln_batch_job *kiln_batch_job(const struct kiln_batch *batch, size_t index)
 {
     return &batch->jobs[index];
+}
+
+bool kiln_batch_refuse(const struct kiln_batch *batch, size_t index,
+                       const struct kiln_batch_text *text, const char *key,
+                       struct kiln_error *error, const char *format, ...)
+{
+    char message[KILN_MESSAGE_SIZE], job[32] = "";
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    if (batch->format == KILN_BATCH_YAML)
+        snprintf(job, sizeof job, "jobs.%zu.", index);
+    return kiln_error_set(error, KILN_INVALID_INPUT, "%s:%u:%u: %s%s: %s", batch->name, text->line,
+                          text->column, job, key, message);
 }

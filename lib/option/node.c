@@ -277,15 +277,22 @@ static bool take_event(struct builder *builder, struct fy_event *event)
 static bool report_syntax(struct builder *builder, struct fy_diag *diag)
 {
     struct kiln_node place = {.origin = builder->origin};
+    const char *line = builder->origin->syntax, *syntax = line ? line : "YAML";
     void *iterator = NULL;
     const struct fy_diag_error *first = fy_diag_errors_iterate(diag, &iterator);
     if (!first || !first->msg)
-        return kiln_node_error(&place, builder->error, "not valid YAML");
+        return kiln_node_error(&place, builder->error, "not valid %s", syntax);
     if (first->line > 0 && first->column > 0) {
         place.line = (uint32_t)first->line;
         place.column = (uint32_t)first->column;
     }
-    return kiln_node_error(&place, builder->error, "not valid YAML: %s", first->msg);
+    if (line && place.line > 1) {
+        place.line = 1;
+        place.column = (uint32_t)builder->size;
+        return kiln_node_error(&place, builder->error, "not valid %s: the line ends too early",
+                               syntax);
+    }
+    return kiln_node_error(&place, builder->error, "not valid %s: %s", syntax, first->msg);
 }
 
 static bool take_all_events(struct builder *builder, struct fy_parser *parser, struct fy_diag *diag)

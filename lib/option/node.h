@@ -23,6 +23,7 @@ struct kiln_origin {
     uint32_t lines_before; /* of the file, where the text is a part of it */
     const char *kind;      /* for messages: "a scene" */
     const char *version;   /* what such a file starts with: "kiln: 1"; NULL: not told */
+    const char *syntax;    /* "JSON", of a text of one line; NULL: YAML */
 };
 
 enum kiln_node_kind { KILN_NODE_SCALAR, KILN_NODE_LIST, KILN_NODE_MAP };

@@ -260,11 +260,14 @@ static void describe_text(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "a text");
 }
 
-/* Writes the schema of a text. A schema counts characters and the option counts bytes: a text has
- * at most as many characters as bytes, and an empty text has none. */
+/* Writes the schema of a text, which a file may write as a number or a boolean. A schema counts
+ * characters and the option counts bytes: a text has at most as many characters as bytes, and an
+ * empty text has none. */
 static void schema_text(const struct kiln_option *option, struct kiln_text *out)
 {
-    kiln_text_add(out, "{\"type\": \"string\", \"minLength\": %d, \"maxLength\": %.0f}",
+    kiln_text_add(out,
+                  "{\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": %d, "
+                  "\"maxLength\": %.0f}",
                   option->min > 0, option->max);
 }
 

@@ -8,8 +8,9 @@
 
 static void check_job(const struct kiln_batch_job *job)
 {
-    require(*job->name && *job->scene && *job->output, "a text is missing");
-    require(!job->frames || *job->frames, "frames are an empty text");
+    require(*job->name && *job->scene && *job->output.text, "a text is missing");
+    require(job->output.line > 0 && job->output.column > 0, "an output without a place");
+    require(!job->frames.text || *job->frames.text, "frames are an empty text");
     require(job->timeout_s >= 0 && job->timeout_s <= 1e7, "a timeout is out of its range");
     for (size_t i = 0; i < job->override_count; i++)
         require(strchr(job->overrides[i], '='), "an override without a value");
@@ -29,6 +30,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         struct kiln_batch *batch =
             kiln_batch_parse(text, size, "x/jobs", (enum kiln_batch_format)format, &error);
         require(batch || (error.code != KILN_OK && *error.message), "an error without a text");
+        require(!batch || kiln_batch_count(batch) > 0, "a file without a job");
         for (size_t i = 0; batch && i < kiln_batch_count(batch); i++)
             check_job(kiln_batch_job(batch, i));
         fuzz_taken = fuzz_taken || batch;

@@ -75,13 +75,53 @@ $ kiln render --batch - </dev/null
 2|standard input: there are no jobs in it
 = 3
 
-What is no job is refused before any begins.
+What is no job is refused before any begins, and so are frames, limits and files that two jobs would write.
 
+$ printf '%s\n' 'printf "kiln_jobs: 1\njobs:\n" >bad.yaml; printf -- "  - %s\n" "$@" >>bad.yaml; exec kiln render --batch bad.yaml' >jobs; chmod +x jobs; sed -i '1i #!/bin/bash' jobs
 $ printf 'kiln_jobs: 1\njobs: [{scene: scenes/tiny.yaml}]\n' >bad.yaml; kiln render --batch bad.yaml
 2|bad.yaml:2:8: jobs.0.output: missing; it must be given
 = 3
 $ printf 'kiln_jobs: 1\njobs: [{scene: a.yaml, output: b.png, timeout: soon}]\n' >bad.yaml; kiln render --batch bad.yaml
 2|bad.yaml:2:48: jobs.0.timeout: expected a number from 0 s to 10000000 s, found 'soon'
+= 3
+$ printf 'kiln_jobs: 1\njobs: []\n' >bad.yaml; kiln render --batch bad.yaml
+2|bad.yaml: there are no jobs in it
+= 3
+$ printf '{"scene": "a.yaml", "output": "a.png"}\n{"scene": "b.yaml", "output"\n' >bad.ndjson; kiln render --batch bad.ndjson
+2|bad.ndjson:2:28: not valid JSON: the line ends too early
+= 3
+$ printf '{"scene": "a.yaml", "output": "a.png"}\n\n{\n"scene": "b.yaml"}\n' >bad.ndjson; kiln render --batch bad.ndjson
+2|bad.ndjson:3:1: not valid JSON: the line ends too early
+= 3
+$ ./jobs '{scene: a.yaml, output: b.png, frames: 9-5}'
+2|bad.yaml:3:44: jobs.0.frames: found '9-5', expected frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10
+= 3
+$ ./jobs '{scene: a.yaml, output: b.png}' '{scene: a.yaml, output: c.png, frames: "0-3,x", limits: particles=3}'
+2|bad.yaml:4:44: jobs.1.frames: found 'x', expected frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10
+= 3
+$ ./jobs '{scene: a.yaml, output: b.png, limits: "particles=3,stpes=1"}'
+2|bad.yaml:3:44: jobs.0.limits: 'stpes' is no limit; did you mean 'steps'?
+= 3
+$ ./jobs '{scene: a.yaml, output: out/b.mp4}' '{name: twin, scene: c.yaml, output: out/../out/./b.mp4}'
+2|bad.yaml:4:41: jobs.1.output: out/../out/./b.mp4: job 1 and twin would both write this file
+= 3
+$ ./jobs '{scene: a.yaml, output: out/}' '{scene: b.yaml, output: out/}' '{scene: x/a.yaml, output: out/a.mp4}'
+2|bad.yaml:5:31: jobs.2.output: out/a.mp4: job 1 and job 3 would both write this file
+= 3
+$ ./jobs '{scene: a.yaml, output: "b_##.png", frames: 0-3}' '{scene: a.yaml, output: "b_##.png", frames: 0-3}'
+2|bad.yaml:4:29: jobs.1.output: b_##.png of frames 0-3: job 1 and job 2 would both write this file
+= 3
+$ ./jobs '{scene: a.yaml, output: b.png, frames: 0}' '{scene: a.yaml, output: b.png, frames: 1}'
+2|bad.yaml:4:29: jobs.1.output: b.png: job 1 and job 2 would both write this file
+= 3
+$ ./jobs '{scene: a.yaml, output: none, manifest: m.json}' '{scene: b.yaml, output: none, manifest: m.json}'
+2|bad.yaml:4:45: jobs.1.manifest: m.json: job 1 and job 2 would both write this file
+= 3
+$ ./jobs '{scene: a.yaml, output: "-"}'
+2|bad.yaml:3:29: jobs.0.output: a job cannot write to standard output; name a file
+= 3
+$ printf '{"scene": "a.yaml", "output": "a.mp4"}\n{"scene": "b.yaml", "output": "a.mp4"}\n' | kiln render --batch -
+2|standard input:2:31: output: a.mp4: job 1 and job 2 would both write this file
 = 3
 $ kiln render --batch none.yaml
 2|none.yaml: No such file or directory
@@ -140,12 +180,64 @@ $ kiln help jobs | head -n 40
 1|    a list of up to 64: key=value, as for --set
 1|    default: []
 
-A signal ends the jobs that run; no process is left. So does the end of the batch by a kill.
+Numbers and times are taken as they are written; so does the schema.
 
-$ kiln render --batch - --device cpu --set output.frames=100000 --set systems.smoke.emit.rate=100000 --jobs 2 -q <<<'{"scene": "scenes/tiny.yaml", "output": "never.mp4"}' & until ls -A | grep -q never; do sleep 0.05; done; kill -TERM $!; wait $!; echo "exit code $?"; ls -A | grep never
+$ printf 'kiln_jobs: 1\njobs: [{name: 7, scene: scenes/tiny.yaml, output: numbers.png, frames: 5, timeout: 2 min}, {scene: scenes/tiny.yaml, output: "chunk_##.png", frames: 0-1}, {scene: scenes/tiny.yaml, output: "chunk_##.png", frames: 2-}]\n' >numbers.yaml; kiln render --batch numbers.yaml --device cpu -q --timeout 1h --frame-timeout '90 s' && ls numbers.png && ls chunk_* | wc -l
+1|numbers.png
+1|24
+$ kiln help jobs-schema | jq -c '.properties.jobs.items.properties | .frames.type, (.timeout.pattern as $p | ["5 min", "2h", "3 d", "7 ms"] | map(test($p)))'
+1|["string","number","boolean"]
+1|[true,true,false,true]
+$ kiln render scenes/tiny.yaml -o none --timeout '2 d'
+2|kiln: render: --timeout: found '2 d', expected a time from 0.001 s to 10000000 s, as a number of seconds or in ms, s, min or h
+= 2
+
+Events say which jobs run, and where the file is wrong that a job has failed for. Nothing is named twice.
+
+$ kiln render --batch mixed.yaml --device cpu --force --events ndjson 2>/dev/null | jq -c 'select(.event | startswith("job")) | [.event, .name, .code, .message, .file, .line, .column]'
+1|["job_began","broken",null,null,null,null,null]
+1|["job","broken",3,"wrong.yaml:2:22: systems.a.emit.raet: unknown key (did you mean 'rate'?)","wrong.yaml",2,22]
+$ kiln render --batch - --device cpu <<<'{"scene": "scenes/tiny.yaml", "output": "n/1.png", "frames": "1"}'
+1|job 1: exit code 2 after <s> s
+1|1 of 1 jobs in <s> s, 1 failed
+2|job 1: n/1.png: the file exists (--force replaces it)
+= 2
+
+A batch that was begun without --resume: images and jobs that were not done are gone on with; a clip that is done has no journal.
+
+$ cat >go_on.yaml <<END
+> kiln_jobs: 1
+> jobs:
+>   - {name: stills, scene: scenes/tiny.yaml, output: 'go/still_##.png', frames: 0-3}
+>   - {name: clip, scene: scenes/tiny.yaml, output: go/clip.mp4, frames: 0-3}
+>   - {name: undone, scene: scenes/tiny.yaml, output: go/undone.mp4, frames: 0-3}
+> END
+$ kiln render --batch go_on.yaml --device cpu -q && rm go/undone.mp4 go/still_02.png && kiln render --batch go_on.yaml --device cpu --resume --keep-going; ls go
+1|stills: done in <s> s
+1|clip: exit code 2 after <s> s
+1|undone: done in <s> s
+1|3 of 3 jobs in <s> s, 1 failed
+1|clip.mp4
+1|still_##.png.journal
+1|still_00.png
+1|still_01.png
+1|still_02.png
+1|still_03.png
+1|undone.mp4
+1|undone.mp4.journal
+2|clip: go/clip.mp4: the file exists, and no journal says that this job has made it (--force replaces it)
+$ rm go/clip.mp4; kiln render --batch go_on.yaml --device cpu --resume -q && kiln render --batch go_on.yaml --device cpu --resume --events ndjson | jq -c 'select(.event == "job") | [.name, .code]'
+1|["stills",0]
+1|["clip",0]
+1|["undone",0]
+
+A signal ends the jobs that run, which are named; no process is left. So does the end of the batch by a kill.
+
+$ kiln render --batch - --device cpu --set output.frames=100000 --set systems.smoke.emit.rate=100000 --jobs 2 -q <<<'{"scene": "scenes/tiny.yaml", "output": "never.mp4"}' --events ndjson:stopped.log 2>stopped.txt & until ls -A | grep -q never; do sleep 0.05; done; kill -TERM $!; wait $!; echo "exit code $?"; ls -A | grep never; tail -n 1 stopped.txt; jq -c 'select(.event | startswith("job")) | [.event, .name, .code, .again]' stopped.log
 1|exit code 143
-2|kiln: batch: stopped by SIGTERM after 0 of 1 jobs
-= 1
+1|kiln: batch: stopped by SIGTERM after 0 of 1 jobs, while 1 ran
+1|["job_began","job 1",null,null]
+1|["job","job 1",143,"again"]
 
 $ kiln render --batch - --device cpu --set output.frames=100000 --set systems.smoke.emit.rate=100000 --events ndjson:killed.log -q <<<'{"scene": "scenes/tiny.yaml", "output": "killed.mp4"}' & until ls -A | grep -q '^.killed.mp4'; do sleep 0.05; done; kill -KILL $!; { wait $!; } 2>/dev/null; for i in $(seq 100); do ls -A | grep -q '^.killed.mp4' || break; sleep 0.1; done; ls -A | grep killed
 1|killed.log
