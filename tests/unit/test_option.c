@@ -333,7 +333,8 @@ static void a_reference_and_a_schema_follow(void **state)
         "\nspeed\n    Of the pen.\n    a number from 0 m/s to 10 m/s; unit m/s or cm/s\n"
         "    may vary over time or life\n",
         "\"title\": \"a plotter\"",
-        "\"title\": {\"description\": \"What it draws.\", \"type\": \"string\", \"minLength\": 0, "
+        "\"title\": {\"description\": \"What it draws.\", "
+        "\"type\": [\"string\", \"number\", \"boolean\"], \"minLength\": 0, "
         "\"maxLength\": 20}",
         "\"required\": [\"plotter\"]",
     };
