@@ -1,5 +1,6 @@
 /* Asks the caller of a long operation whether it still wants the result; if not, the error says
- * why. */
+ * why. The frame loop asks between steps and passes, loops over pixels between bands of rows
+ * (kiln_threads_try), and an output while it ends a clip. */
 #ifndef KILN_BASE_CALLER_H
 #define KILN_BASE_CALLER_H
 

@@ -1,5 +1,6 @@
-/* Declares FFmpeg's libraries, which are opened when a clip or a JPEG is written, or by
- * kiln-decode. A function of FFmpeg is called as kiln_ff.av_frame_alloc(), after kiln_ffmpeg_open.
+/* Declares FFmpeg's libraries, which are opened when a clip, a JPEG or Y4M is written, or
+ * by kiln-decode. A function of FFmpeg is called as kiln_ff.av_frame_alloc(), after
+ * kiln_ffmpeg_open.
  */
 #ifndef KILN_BASE_FFMPEG_H
 #define KILN_BASE_FFMPEG_H

@@ -1,5 +1,7 @@
 /* This file chooses the technique of each stage from the device and from the flags. It has two
- * tables: the techniques of each stage, and those that `auto` takes for each class of devices. */
+ * tables: the techniques of each stage, and those that `auto` takes for each class of devices.
+ * Techniques called `cpu` do without GL; on a device that has none, this file refuses all others.
+ */
 #include "frame/technique.h"
 
 #include <string.h>

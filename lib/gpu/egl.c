@@ -3,7 +3,8 @@
  * when eglGetPlatformDisplay comes before a display.
  *
  * Displays are never terminated: EGL hands out one display for equal attributes, and terminating it
- * would close it for another renderer of the process as well. */
+ * would close it for another renderer of the process as well. libEGL is opened only when a device
+ * with GL is asked for. */
 #include "gpu/egl.h"
 
 #include <dlfcn.h>

@@ -1,5 +1,6 @@
 /* The exactness probe tells whether a driver computes as C does and may therefore simulate
- * (docs/determinism.md, 1). */
+ * (docs/determinism.md, 1). The geometry and the fragment stage are probed only when
+ * simulate=feedback or texels is to run on them. */
 #ifndef KILN_GPU_PROBE_H
 #define KILN_GPU_PROBE_H
 

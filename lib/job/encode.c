@@ -1,6 +1,6 @@
 /* Makes a clip of images that were drawn before. What kiln's own images say of themselves (scene,
  * seed, number, rate) goes into the clip, so that it has the same bytes as a clip that was drawn at
- * once. */
+ * once. Images of light become colours by the rows of the composite stage (post/display.c). */
 #include <dirent.h>
 #include <inttypes.h>
 #include <stdlib.h>

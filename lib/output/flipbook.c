@@ -1,7 +1,7 @@
 /* Writes a flipbook: an atlas of cells in rows from the top, and on request a motion atlas beside
  * it. Each cell is a frame with its padding inside, since engines divide the texture by columns and
  * rows and know nothing of gaps. Motion is estimated on smaller pictures: it is smooth, and an
- * engine filters it anyway. */
+ * engine filters it anyway. The files get their names together, the layout's last. */
 #include "output/flipbook.h"
 
 #include <inttypes.h>

@@ -1,4 +1,5 @@
-/* Systems whose particles are born of another system's particles. */
+/* Systems whose particles are born of another system's particles. The slot of a parent stays taken
+ * until all its descendants are dead. */
 #ifndef KILN_SCENE_FAMILY_H
 #define KILN_SCENE_FAMILY_H
 

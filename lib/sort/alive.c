@@ -1,5 +1,6 @@
 /* This file lists the living particles on the device. It counts the living of each block of slots,
- * sums the counts, and writes each block's list behind the lists of the blocks before it. */
+ * sums the counts, and writes each block's list behind the lists of the blocks before it. The host
+ * reads back only their number. */
 #include "sort/alive.h"
 
 #include "base/error.h"

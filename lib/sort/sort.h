@@ -1,5 +1,7 @@
 /* Stage 3 lists the living particles in the order of drawing. All techniques give the same list; a
- * technique that is spread over frames gives it once its order has caught up with what moves. */
+ * technique that is spread over frames gives it once its order has caught up with what moves.
+ * Particles that only add light are listed by serials and not sorted. The technique `tiled` of
+ * drawing takes the list from front to back. */
 #ifndef KILN_SORT_SORT_H
 #define KILN_SORT_SORT_H
 

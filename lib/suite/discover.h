@@ -1,4 +1,5 @@
-/* Finds the files that are tests. */
+/* Finds the files that are tests. The name of a test begins from the nearest folder with a file
+ * .kiln-tests, or else from the folder that the goldens' folder lies in. */
 #ifndef KILN_SUITE_DISCOVER_H
 #define KILN_SUITE_DISCOVER_H
 

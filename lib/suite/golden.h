@@ -6,7 +6,9 @@
  *     frame_0024@llvmpipe~2.png   another picture that is right, of the device's
  *
  * The pictures of the most specific name of a device count, its default and alternatives together.
- * Where a device has none, the pictures without a device count.
+ * Where a device has none, the pictures without a device count. update.c accepts pictures in a run
+ * and approve.c from its results, both by these functions and under this lock; nothing else writes
+ * goldens.
  */
 #ifndef KILN_SUITE_GOLDEN_H
 #define KILN_SUITE_GOLDEN_H

@@ -1,5 +1,6 @@
 /* Renders the frames of a test and hashes their states and pixels. A test pins its techniques,
- * since stages that run on the processor make the same pixels everywhere. */
+ * since stages that run on the processor make the same pixels everywhere. Every stage is `cpu`, and
+ * so is the device, unless the test or its techniques ask for another. */
 #include "suite/rendering.h"
 
 #include <string.h>

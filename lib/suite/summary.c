@@ -1,4 +1,5 @@
-/* Sums up results, starts results, and writes those of tests that could not write their own. */
+/* Sums up results, starts results, and writes those of tests that could not write their own. The
+ * process of a test hands over nothing but its result.json, so one that crashed has left none. */
 #include "suite/summary.h"
 
 #include <string.h>

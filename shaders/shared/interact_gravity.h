@@ -3,7 +3,8 @@
  *
  * The sources of a sum are added one by one in the order of their slots, so that it is the same
  * bits however they are cut into tiles; empty slots pull with strength 0.
- * lib/sim/crowd/gravity_simd.c does the same in vectors.
+ * lib/sim/crowd/gravity_simd.c does the same in vectors. Sources may be the particles of another
+ * system.
  */
 #ifndef KILN_SHARED_INTERACT_GRAVITY_H
 #define KILN_SHARED_INTERACT_GRAVITY_H

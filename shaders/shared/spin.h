@@ -1,6 +1,8 @@
 /* How balls turn (UberFlow 2004, 4.5). Friction acts where a ball touches another or a surface, and
  * takes at most the slip there: a solid ball of mass m then gets, per mass, 2/7 of it as velocity,
- * because a push at its skin turns it as well (its moment of inertia is 2/5 m r^2).
+ * because a push at its skin turns it as well (its moment of inertia is 2/5 m r^2). Gathering the
+ * pushes writes the rates that other balls leave; the step writes the rates that surfaces leave,
+ * and the poses (struct kiln_spin).
  */
 #ifndef KILN_SHARED_SPIN_H
 #define KILN_SHARED_SPIN_H

@@ -1,6 +1,7 @@
 /* This file runs the gas of a procedural flipbook and records it at the times of its cells. The gas
  * takes the same steps for any number of cells, which lie between two steps, so a film of few cells
- * is the film of many with cells left out. */
+ * is the film of many with cells left out. The velocity of the gas, summed up until the next cell,
+ * is the motion of a cell. */
 #include "asset/atlas/film.h"
 
 #include <stdlib.h>

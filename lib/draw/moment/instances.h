@@ -1,4 +1,6 @@
-/* A kiln_instances holds the meshes that particles are drawn as. */
+/* A kiln_instances holds the meshes that particles are drawn as. The triangles of single particles
+ * are never stored: each particle is placed while it is drawn (shared/instance.h), so memory grows
+ * with the number of particles. */
 #ifndef KILN_DRAW_MOMENT_INSTANCES_H
 #define KILN_DRAW_MOMENT_INSTANCES_H
 

@@ -1,6 +1,7 @@
 /* This file collects the meshes of the backdrop: it takes loaded ones from the scene, makes
  * terrains, and poses copies of animated ones. They stand in the order of the scene's objects, in
- * which kiln_shapes_fill counts them as well. */
+ * which kiln_shapes_fill counts them as well. The time in its clip that a copy is posed at is kept
+ * with it, and whoever keeps a picture or a shadow map of it compares that time. */
 #include "draw/moment/meshes.h"
 
 #include "base/error.h"

@@ -1,6 +1,7 @@
 /* This file blends a tile's particles in an order that each pixel sorts on its own. It finds the
  * fragments of a sprite by drawing the sprite alone into an empty tile, so that no rasteriser needs
- * to know of lists; it then sorts and blends the fragments of each pixel. */
+ * to know of lists; it then sorts and blends the fragments of each pixel. A row with too many
+ * fragments is drawn again for the nearer ones, so none is left out. */
 #include "draw/sprites/fragments.h"
 
 #include <stdlib.h>

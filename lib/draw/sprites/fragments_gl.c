@@ -2,7 +2,8 @@
  * particles twice, more often where lists are long: once to count fragments, then to fill lists,
  * whose places a scan on the host computes from the counts. Short lists are sorted each by one
  * invocation, long ones in merge passes, so that no invocation runs more loop iterations than
- * software GL allows. Sorting makes the order in which fragments arrive irrelevant. */
+ * software GL allows. Sorting makes the order in which fragments arrive irrelevant. As many rows
+ * are taken at a time as fit a fixed amount of memory, so no fragment is left out. */
 #include "draw/sprites/fragments_gl.h"
 
 #include <assert.h>

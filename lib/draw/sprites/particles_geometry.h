@@ -1,4 +1,5 @@
-/* A kiln_geometry draws particles by techniques `geometry` and `instanced`. */
+/* A kiln_geometry draws particles by techniques `geometry` and `instanced`. `instanced` is for
+ * drivers whose geometry shaders are slow. */
 #ifndef KILN_DRAW_SPRITES_PARTICLES_GEOMETRY_H
 #define KILN_DRAW_SPRITES_PARTICLES_GEOMETRY_H
 

@@ -3,7 +3,8 @@
  * the picture's bins that it touches; each bin's mask becomes a list, whose sprites likewise mark
  * the tiles of the bin; and each tile draws the sprites of its mask from front to back in
  * registers, and writes its pixels once. Bits keep the order without sorting, and no sprite is
- * dropped, however many lie in a tile and however large they are. */
+ * dropped, however many lie in a tile and however large they are. Where llvmpipe limits how often a
+ * loop may run (gpu/device.h), a tile is drawn by several dispatches. */
 #include "draw/sprites/particles_tiled.h"
 
 #include <assert.h>

@@ -1,4 +1,6 @@
-/* Technique `tiled` draws particles by compute kernels, without rasteriser and blending. */
+/* Technique `tiled` draws particles by compute kernels, without rasteriser and blending. It is
+ * meant for GPUs with few raster units. Scenes with `post.compose: oit` are drawn by technique
+ * `geometry` instead, which writes lists of fragments. */
 #ifndef KILN_DRAW_SPRITES_PARTICLES_TILED_H
 #define KILN_DRAW_SPRITES_PARTICLES_TILED_H
 

@@ -1,7 +1,8 @@
 /* This header draws sprites into a tile. A file for each level of KILN_SIMD_LEVEL includes it and
  * defines the name TILE_DRAW. The operations of a pixel are those of
  * shaders/draw/sprites/shade.glsl (Heinz 2019, 3.2.3 to 3.2.6); all lanes do them, those outside of
- * the sprite with alpha 0. */
+ * the sprite with alpha 0. Sprites come from the nearest on; what lies behind pixels that let
+ * nothing through is left out. */
 #include "draw/sprites/texels.h"
 #include "draw/sprites/tile_rows.h"
 

@@ -1,6 +1,7 @@
 /* This file gathers the pushes of all systems whose particles interact. It works out what each
  * system needs and how far ahead its collisions are looked for, then calls the host's code or the
- * GL kernels. */
+ * GL kernels. Where the scene does not say how far ahead, bounds of the velocities decide
+ * (shared/interact_speeds.h). */
 #include "sim/crowd/interact.h"
 
 #include <assert.h>
