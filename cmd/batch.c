@@ -398,7 +398,7 @@ static int run_pool(struct batch *batch, const struct arguments *arguments)
 
 /* Sets two variables for the jobs. KILN_BATCH_PROCESS is the process whose end ends them; main.c
  * reads it. GLIBC_TUNABLES, unless it is set already, makes malloc use large pages: half the time
- * of a job of one small frame went into page faults (docs/measurements.md, "Jobs of a batch"). */
+ * of a job of one small frame went into page faults (docs/speed-log.md, "Jobs in parts"). */
 static bool set_environment(void)
 {
     static const char memory[] = "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=33554432:"
