@@ -1,4 +1,5 @@
-/* Writes what a run is known by, and copies it out of a journal. */
+/* Writes the description of a run (its command, machine, device, techniques and times) as JSON, and
+ * copies such a description out of a journal. */
 #include "job/attempt.h"
 
 #include <string.h>
@@ -20,7 +21,7 @@ static void add_device(struct kiln_json *json, const struct kiln_device_info *de
     kiln_json_end(json);
 }
 
-/* "simulate=cpu sort=cpu" as an object. */
+/* Adds a text such as "simulate=cpu sort=cpu" as an object. */
 static void add_techniques(struct kiln_json *json, const char *techniques)
 {
     kiln_json_begin_object(json, "techniques");
@@ -93,7 +94,7 @@ void kiln_attempt_describe(struct kiln_json *json, const struct kiln_attempt *ru
     add_totals(json, run, stats);
 }
 
-/* Takes digits; false where there is none. */
+/* Moves past the digits at the start of a text; false: there is none. */
 static bool take_digits(const char **text)
 {
     const size_t count = strspn(*text, "0123456789");
@@ -101,7 +102,7 @@ static bool take_digits(const char **text)
     return count > 0;
 }
 
-/* Whether a text is a number by the grammar of JSON, which knows no "+1", ".5" or "01". */
+/* Returns whether a text is a number by the grammar of JSON, which has no "+1", ".5" or "01". */
 static bool is_number(const char *text)
 {
     text += *text == '-';
@@ -120,7 +121,7 @@ static bool is_number(const char *text)
     return *text == '\0';
 }
 
-/* Whether a scalar stands in JSON as it is. */
+/* Returns whether a scalar can be written to JSON without quotes. */
 static bool is_literal(const struct kiln_node *value)
 {
     double number;

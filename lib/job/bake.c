@@ -20,7 +20,7 @@ struct bake {
     struct kiln_loop *loop;
     struct kiln_states *states;
     uint32_t every;
-    struct kiln_baked baked; /* the state that was saved or kept last */
+    struct kiln_baked baked; /* the last state of the folder, saved by this run or found there */
     struct kiln_bake_stats stats;
 };
 

@@ -26,7 +26,7 @@ struct encode {
     struct kiln_caller caller;
     struct kiln_threads *threads;
     struct kiln_footage *footage;
-    uint32_t count; /* the number of frames */
+    uint32_t count; /* the number of frames found */
     struct kiln_output *output;
     enum kiln_tonemap tonemap;
 
@@ -57,7 +57,7 @@ static bool has_alpha(const struct kiln_asset_image *image, const struct kiln_ca
     return false;
 }
 
-/* ---- what there is --------------------------------------------------------------------------- */
+/* ---- finding the frames ---------------------------------------------------------------------- */
 
 static bool count_frame(void *user, const struct kiln_footage_frame *frame)
 {
@@ -128,7 +128,7 @@ static bool open_frames(struct encode *encode, struct kiln_error *error)
     return check_tonemap(encode, error);
 }
 
-/* ---- the clip -------------------------------------------------------------------------------- */
+/* ---- opening the clip ------------------------------------------------------------------------ */
 
 static bool find_rate(const struct encode *encode, uint64_t *num, uint64_t *den,
                       struct kiln_error *error)

@@ -20,7 +20,7 @@ struct kiln_job {
     const struct kiln_scene *scene;
     const struct kiln_render_params *params;
     struct kiln_stop stop;
-    struct kiln_frame_range whole_clip; /* what an empty list of ranges means */
+    struct kiln_frame_range whole_clip; /* the range that stands for an empty list of ranges */
     const struct kiln_frame_range *ranges;
     size_t range_count;
 
@@ -28,23 +28,26 @@ struct kiln_job {
     struct kiln_output_params files; /* complete; path NULL when nothing is written */
     struct kiln_output *output;      /* NULL when nothing is to be written */
     struct kiln_manifest *manifest;  /* NULL when none is wanted */
-    struct kiln_records records;     /* of the frames, where a manifest or a journal needs them */
-    char *scene_json;                /* for both, too */
+    struct kiln_records records;     /* records of the frames; filled if there is a manifest or a
+                                      * journal */
+    char *scene_json;                /* the scene's text, for manifest and journal */
     char made_by[512];               /* device and techniques, for the journal */
-    struct kiln_attempt run;         /* for both as well */
+    struct kiln_attempt run;         /* description of this run, for manifest and journal */
     bool resumes, is_described;
     struct kiln_resume resume;
-    bool draws;                 /* false: all wanted frames are there */
-    size_t range_at;            /* the range of the next frame */
+    bool draws;                 /* false: all wanted frames are there, so nothing is set up to
+                                 * draw */
+    size_t range_at;            /* index of the range that has the next frame */
     uint64_t frame_at;          /* the next frame, or below the range's first one */
-    bool follows;               /* the next frame comes right after one that was drawn */
+    bool follows;               /* true: the next frame comes right after a frame that was drawn */
     struct kiln_states *states; /* NULL: the run starts from no saved state */
 
     double started_s;
-    struct kiln_picture *kept; /* the last drawn frame's, until it is taken; NULL: none */
+    struct kiln_picture *kept; /* the last drawn frame's picture, until the caller takes it; NULL:
+                                * none */
     uint32_t total_frames;
-    uint32_t written; /* frames with files of their own; of whoever tells of a whole file */
-    struct kiln_progress progress; /* of the present frame */
+    uint32_t written;              /* the number of files of frames that are whole */
+    struct kiln_progress progress; /* progress at the present frame */
     struct kiln_render_stats stats;
 };
 
@@ -231,7 +234,7 @@ bool kiln_job_next(struct kiln_job *job, bool *drawn, struct kiln_error *error)
     return true;
 }
 
-/* ---- before and after ------------------------------------------------------------------------ */
+/* ---- set-up and end -------------------------------------------------------------------------- */
 
 static bool choose_frames(struct kiln_job *job, struct kiln_error *error)
 {
@@ -495,8 +498,8 @@ static void sum_up(struct kiln_job *job)
     job->run.asked = job->total_frames;
 }
 
-/* Writes the manifest, and appends the run to the journal; once, however the job ends after that.
- */
+/* Writes the manifest and appends the run to the journal. It does so once, even if the job fails
+ * afterwards. */
 static bool describe(struct kiln_job *job, const struct kiln_error *failure,
                      struct kiln_error *error)
 {
@@ -530,7 +533,8 @@ bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
 void kiln_job_fail(struct kiln_job *job, const struct kiln_error *failure)
 {
     struct kiln_error ignored = {0};
-    kiln_output_close(&job->output); /* from here on no more files become whole */
+    kiln_output_close(&job->output); /* this waits for the last files, so no file becomes whole
+                                      * later */
     sum_up(job);
     describe(job, failure, &ignored);
 }

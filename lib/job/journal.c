@@ -134,7 +134,7 @@ bool kiln_journal_add_attempt(struct kiln_journal *journal, const struct kiln_at
 
 /* ---- opening --------------------------------------------------------------------------------- */
 
-/* Returns whether the file still has its name: the process that had it locked before may have
+/* Returns whether the file still has its name. The process that had it locked before may have
  * removed it. */
 static bool has_its_name(const struct kiln_journal *journal)
 {
@@ -174,7 +174,8 @@ static bool read_journal(const struct kiln_journal *journal, const struct kiln_j
     char *text = kiln_journal_read_text(journal, error);
     if (!text)
         return false;
-    if (kiln_journal_has_head_alone(text)) { /* it lists no file, so it may be of another job */
+    if (kiln_journal_has_head_alone(text)) { /* the journal lists no file, so it may be of another
+                                              * job */
         free(text);
         return ftruncate(journal->file, 0) == 0 ||
                kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",

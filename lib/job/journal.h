@@ -1,5 +1,6 @@
-/* The journal of a job: a file beside its output that says which files are whole, a line of JSON
- * each, so that a killed job can be gone on with. docs/jobs.md describes it. */
+/* Declares the journal of a job, a file beside the job's output that lists which output files are
+ * whole, a line of JSON each. By it a later run resumes a job that was killed. docs/jobs.md
+ * describes the file. */
 #ifndef KILN_JOB_JOURNAL_H
 #define KILN_JOB_JOURNAL_H
 
@@ -38,10 +39,11 @@ bool kiln_journal_look_around(const struct kiln_journal *journal,
                               const struct kiln_journal_head *head, struct kiln_records *records,
                               bool *found, struct kiln_error *error);
 
-/* Removes all journals of an output. KILN_IO when another process has one: then all stay. */
+/* Removes all journals of an output. KILN_IO when a process has one of them locked: then none is
+ * removed. */
 bool kiln_journal_forget(const char *output, struct kiln_error *error);
 
-/* Whether an output has a journal, and the path of one. */
+/* Returns whether an output has a journal, and copies the path of one to `path`. */
 bool kiln_journal_is_there(const char *output, char path[KILN_PATH_SIZE]);
 
 /* Reads the head of any journal of an output. KILN_IO when there is none, KILN_USAGE when it makes
@@ -49,18 +51,18 @@ bool kiln_journal_is_there(const char *output, char path[KILN_PATH_SIZE]);
 bool kiln_journal_find(const char *output, struct kiln_journal_head *head, struct kiln_arena *arena,
                        struct kiln_error *error);
 
-/* Appends a file that is whole, with the states of its frames. The journal is on the disk a second
- * later. KILN_IO. */
+/* Appends a line for a file that is whole, with the states of its frames. The line is synced to the
+ * disk within a second. KILN_IO. */
 bool kiln_journal_add(struct kiln_journal *journal, const struct kiln_records *records,
                       const struct kiln_whole *whole, struct kiln_error *error);
 
-/* Appends what a run came to, at its end. KILN_IO. */
+/* Appends the description of a run at its end. KILN_IO. */
 bool kiln_journal_add_attempt(struct kiln_journal *journal, const struct kiln_attempt *run,
                               const struct kiln_render_stats *stats,
                               const struct kiln_error *failure, struct kiln_error *error);
 void kiln_journal_close(struct kiln_journal **journal);
 
-/* Closes a journal that was begun for nothing, and removes it. */
+/* Closes and removes a journal that was begun and lists no file. */
 void kiln_journal_remove(struct kiln_journal **journal);
 
 #endif

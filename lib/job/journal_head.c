@@ -52,8 +52,8 @@ void kiln_journal_head_write(struct kiln_json *json, const struct kiln_journal_h
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-/* The members of a line; `bad` stays true after a member that makes no sense, `starved` after a
- * member for which memory was too short. */
+/* The members of a line. `bad` becomes true and stays so at a member with an invalid value,
+ * `starved` at a member for which memory was short. */
 struct members {
     const struct kiln_node *line;
     struct kiln_arena *arena;
@@ -68,7 +68,8 @@ static uint32_t number_of(struct members *m, const struct kiln_node *node)
     return (uint32_t)value;
 }
 
-/* A journal with a number that no scene has is damaged: work goes by these numbers. */
+/* Marks a line as bad whose number is above the limit. No scene has such a number, and later code
+ * allocates and loops by it. */
 static void check_range(struct members *m, uint64_t value, uint64_t least, uint64_t most)
 {
     m->bad |= value < least || value > most;

@@ -1,5 +1,5 @@
-/* The first line of a journal: of which job it is, and all that it takes to make the output of its
- * files without the scene. */
+/* Declares the first line of a journal. It identifies the job, and has all settings by which the
+ * output can be made from its files without the scene. */
 #ifndef KILN_JOB_JOURNAL_HEAD_H
 #define KILN_JOB_JOURNAL_HEAD_H
 
@@ -12,17 +12,18 @@
 enum { KILN_JOURNAL_VERSION = 1 };
 
 struct kiln_journal_head {
-    struct kiln_output_params output; /* complete, but for what is the caller's: threads, log... */
-    char job[65];                     /* kiln_clip_hash */
-    const char *made_by;              /* program, device and techniques */
-    const char *scene;                /* as the manifest has it, JSON */
+    struct kiln_output_params output; /* complete except for the members that the caller sets:
+                                       * threads, log... */
+    char job[65];                     /* the job's hash, as kiln_clip_hash makes it */
+    const char *made_by;              /* program, device and techniques as text */
+    const char *scene;                /* the scene as JSON, as in the manifest */
 };
 
-/* False when memory is short. */
+/* Fills a head. False when memory is short. */
 bool kiln_journal_head_make(struct kiln_journal_head *head, const struct kiln_output_params *output,
                             const char *made_by, const char *scene);
 
-/* The members of the line. */
+/* Writes the members of the line. */
 void kiln_journal_head_write(struct kiln_json *json, const struct kiln_journal_head *head);
 
 /* Reads them, for an output of a path; texts and ranges lie in the arena. KILN_USAGE, naming the

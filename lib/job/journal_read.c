@@ -1,4 +1,4 @@
-/* Reads the lines of a journal. One that makes no sense is passed over. */
+/* Reads the lines of a journal into the records of a job. A line that is not valid is skipped. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,8 +33,8 @@ static bool read_state(const struct kiln_node *node, struct kiln_record *record)
     return record->has_state;
 }
 
-/* Takes what a line says of a frame, or of the frames of a part; one that makes no sense is passed
- * over. */
+/* Copies a line about a frame, or about the frames of a part, into their records. An invalid line
+ * is skipped. */
 static void read_frames(const struct kiln_node *line, struct kiln_records *records)
 {
     const struct kiln_node *frames = kiln_node_entry(line, "frames");
@@ -50,7 +50,7 @@ static void read_frames(const struct kiln_node *line, struct kiln_records *recor
     struct kiln_record *record = kiln_records_of(records, (uint32_t)first);
     if (!record)
         return;
-    /* That of a part's first frame has what is known of the file. */
+    /* Size and hash of a part's file are kept in the record of its first frame. */
     record->bytes = bytes;
     memcpy(record->sha256, sha256->text, 65);
     const struct kiln_record *end = records->items + records->count;
@@ -60,7 +60,7 @@ static void read_frames(const struct kiln_node *line, struct kiln_records *recor
     }
 }
 
-/* The last that is said of a file counts. */
+/* Copies a line about the clip's file. The last such line counts. */
 static void read_clip(const struct kiln_journal *journal, const struct kiln_node *line,
                       struct kiln_records *records)
 {
@@ -137,7 +137,7 @@ bool kiln_journal_check_head(const struct kiln_journal *journal, const struct ki
         head->made_by);
 }
 
-/* Takes what a line says; the first line has to be the head of this job. */
+/* Reads one line into the records. The first line must be the head of this job. */
 static bool read_line(const struct kiln_journal *journal, const struct kiln_node *line,
                       const struct kiln_journal_head *head, bool is_first,
                       struct kiln_records *records, struct kiln_error *error)

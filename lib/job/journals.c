@@ -30,7 +30,7 @@ static bool is_journal_of(const char *name, const char *output, bool *is_shard)
     return count > 0 && strcmp(name + count, KILN_JOURNAL_SUFFIX) == 0;
 }
 
-/* Visits the journals beside an output until one visit is false. */
+/* Calls `visit` for each journal beside an output until one call returns false. */
 static bool visit_journals(const char *output,
                            bool (*visit)(void *user, const char *path, bool is_shard,
                                          struct kiln_error *error),
@@ -57,8 +57,8 @@ static bool visit_journals(const char *output,
     return ok;
 }
 
-/* Opens a journal that is there and reads it. The caller frees the text and closes the file, also
- * after a failure, when the text is NULL. */
+/* Opens and reads an existing journal. The caller frees the text and closes the file; after a
+ * failure the text is NULL and the file must still be closed. */
 static char *open_beside(struct kiln_journal *beside, const char *path, int lock,
                          struct kiln_error *error)
 {
@@ -77,7 +77,7 @@ static void close_beside(struct kiln_journal *beside, char *text)
 
 /* The state of a merge: a journal takes the lines of other journals over. */
 struct merging {
-    struct kiln_journal *into; /* NULL: they are read and stay */
+    struct kiln_journal *into; /* NULL: the journals are read and not removed */
     const struct kiln_journal_head *head;
     struct kiln_records *records;
     bool found;
@@ -116,8 +116,9 @@ bool kiln_journal_merge(struct kiln_journal *journal, const struct kiln_journal_
     return keep || visit_journals(head->output.path, take_over, &merging, error);
 }
 
-/* Reads the first line of a journal into the arena, even if another process has it locked. NULL
- * where there is no line, or it makes no sense. alone: no file of its job is whole. */
+/* Reads the first line of a journal into the arena, even if another process has the file locked.
+ * NULL when there is no line or it is invalid. *alone becomes true when the journal lists no
+ * file. */
 static bool read_first(const char *path, struct kiln_arena *arena, const struct kiln_node **line,
                        bool *alone, struct kiln_error *error)
 {

@@ -1,5 +1,5 @@
-/* Implements frames that a program keeps. Such a frame shares its picture with the output that may
- * still be encoding it: so no pixel is copied, and the pixels must not be written to. */
+/* Implements frames that a program keeps. Such a frame shares its picture with the output, which
+ * may still be encoding it. Therefore no pixel is copied, and the pixels must not be written to. */
 #include "job/kept.h"
 
 #include <stdlib.h>

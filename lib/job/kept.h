@@ -4,7 +4,8 @@
 
 #include "output/output.h"
 
-/* Takes the picture, also on failure: NULL with KILN_DEVICE_FAILED when memory is short. */
+/* Makes a frame and takes ownership of the picture, also on failure: NULL with KILN_DEVICE_FAILED
+ * when memory is short. */
 struct kiln_frame *kiln_frame_create(struct kiln_picture *picture, struct kiln_error *error);
 
 #endif

@@ -143,7 +143,7 @@ bool kiln_limits_parse(struct kiln_limits *limits, const char *text, struct kiln
     return ok;
 }
 
-/* ---- words ----------------------------------------------------------------------------------- */
+/* ---- help and listing ------------------------------------------------------------------------ */
 
 bool kiln_write_limits(FILE *out)
 {

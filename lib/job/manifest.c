@@ -1,5 +1,6 @@
-/* Writes the manifest of a job: JSON with one line a frame, straight to a temporary file, so that
- * the text in memory is never longer than one piece. Nothing in it depends on the locale. */
+/* Writes the manifest of a job as JSON, with one line a frame. It goes piece by piece to a
+ * temporary file, so that the text in memory is never longer than one piece. Nothing in it depends
+ * on the locale. */
 #include "job/manifest.h"
 
 #include <fcntl.h>
@@ -78,7 +79,8 @@ char *kiln_manifest_scene(const struct kiln_scene *scene)
     return NULL;
 }
 
-/* Whether a file begins as kiln_manifest_finish writes it; of a run that failed, or of any. */
+/* Returns whether a file begins as kiln_manifest_finish writes it. failed: only the manifest of a
+ * run that failed counts. */
 static bool is_manifest(const char *path, bool failed)
 {
     static const char start[] = "{\n  \"kiln\": \"" KILN_VERSION "\",\n  \"failed\": true";
@@ -138,16 +140,16 @@ static bool add_frame(struct kiln_manifest *manifest, const struct kiln_records 
     return flush(manifest, error);
 }
 
-/* Returns whether a frame is there. For a run that failed, these are the frames whose files are
- * whole; where no files are written, the frames that were drawn. */
+/* Returns whether a frame belongs into the result. For a run that failed, only frames whose files
+ * are whole do; where no files are written, frames that were drawn. */
 static bool is_there(const struct kiln_manifest *manifest, const struct kiln_record *record,
                      const struct kiln_error *failure)
 {
     return !failure || (manifest->params.files ? record->whole : record->has_state);
 }
 
-/* Writes the member that is the same for every run that brought the job to its end, however often
- * it was killed. */
+/* Writes the member `result`, which is the same for every run that completed the job, however often
+ * the job was killed before. */
 static bool add_result(struct kiln_manifest *manifest, const struct kiln_records *records,
                        const struct kiln_error *failure, struct kiln_error *error)
 {
@@ -205,8 +207,7 @@ static bool add_times(struct kiln_manifest *manifest, const struct kiln_records 
     return true;
 }
 
-/* Writes the member that tells of this run, and that of the runs before it that the journals tell
- * of. */
+/* Writes the members that describe this run, and the earlier runs that the journals list. */
 static bool add_runs(struct kiln_manifest *manifest, const struct kiln_records *records,
                      const struct kiln_render_stats *stats, const struct kiln_error *failure,
                      struct kiln_error *error)

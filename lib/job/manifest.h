@@ -1,6 +1,7 @@
-/* The manifest: a JSON file that says what a job came to (`result`), and with what and how long
- * this run and those before worked at it (`run`, `runs_before`), so that it can be repeated and
- * compared. The result is the same for every run that brings the job to its end; runs differ. */
+/* Declares the manifest, a JSON file about a job, so that the job can be repeated and compared.
+ * `result` says what was made. `run` and `runs_before` say with which machine and techniques, and
+ * how long, this run and earlier ones worked. The result is the same for every run that completes
+ * the job; the descriptions of runs differ. */
 #ifndef KILN_JOB_MANIFEST_H
 #define KILN_JOB_MANIFEST_H
 
@@ -10,16 +11,17 @@
 struct kiln_manifest_params {
     const char *path;
     bool overwrite;
-    bool again;         /* any older manifest is replaced; else that of a run that failed */
-    const char *scene;  /* of kiln_manifest_scene */
-    const char *output; /* as the user gave it; NULL: nothing was written */
+    bool again;         /* true: any older manifest is replaced; false: only that of a run that
+                         * failed */
+    const char *scene;  /* JSON made by kiln_manifest_scene */
+    const char *output; /* path as the user gave it; NULL: nothing was written */
     const struct kiln_output_params *files; /* complete; NULL: nothing was written */
     const struct kiln_attempt *run;
 };
 
 struct kiln_manifest;
 
-/* Makes the JSON by which the result describes a scene, with the whole of its text. The caller
+/* Makes the JSON by which the result describes a scene, with the scene's whole text. The caller
  * frees it; NULL when memory is short. */
 char *kiln_manifest_scene(const struct kiln_scene *scene);
 
@@ -28,13 +30,14 @@ char *kiln_manifest_scene(const struct kiln_scene *scene);
 struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *params,
                                          struct kiln_error *error);
 
-/* Writes all of it and gives the file its name. `failure` is why the run failed, or NULL: then its
- * result has all frames, else those that are there. KILN_IO, KILN_DEVICE_FAILED. */
+/* Writes the whole manifest and renames the temporary file to its path. `failure` is the error of
+ * the run, or NULL. Without a failure the result lists all frames, else the frames that are there.
+ * KILN_IO, KILN_DEVICE_FAILED. */
 bool kiln_manifest_finish(struct kiln_manifest *manifest, const struct kiln_records *records,
                           const struct kiln_render_stats *stats, const struct kiln_error *failure,
                           struct kiln_error *error);
 
-/* Without a finish before, nothing is left of the file. */
+/* Closes the manifest. If it was not finished, its temporary file is removed. */
 void kiln_manifest_close(struct kiln_manifest **manifest);
 
 #endif

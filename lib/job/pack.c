@@ -19,7 +19,7 @@ enum {
     BITMAP_BYTES = BLOCK_ROWS / 8,
     MAX_RAW = BITMAP_BYTES + BLOCK_ROWS * KILN_PACK_MAX_COLUMNS * 4,
     HEAD_BYTES = 8,
-    LEVEL = 1, /* higher levels do not shrink the noise of mantissas */
+    LEVEL = 1, /* higher levels do not pack the noise of mantissas smaller */
     MAX_BLOCKS_AT_ONCE = 16,
 };
 
@@ -79,7 +79,7 @@ static bool is_zero(const uint32_t *row, uint32_t columns)
     return any == 0;
 }
 
-/* Marks the rows that are kept in the bitmap and lists them; returns how many. */
+/* Marks the rows that are not zero in the bitmap and lists them; returns their number. */
 static size_t list_rows(const struct kiln_table *table, const uint32_t *first, size_t rows,
                         uint8_t *bitmap, uint32_t *kept)
 {
@@ -158,7 +158,8 @@ static void join_planes(const struct kiln_table *table, const uint8_t *planes, s
     }
 }
 
-/* How many rows the bitmap keeps; none behind the last row of the block may be among them. */
+/* Counts the rows that the bitmap marks. False when it marks a row behind the last row of the
+ * block. */
 static bool count_rows(const uint8_t *bitmap, size_t rows, size_t *count)
 {
     *count = 0;
@@ -191,11 +192,11 @@ static void unpack_blocks(void *context, size_t begin, size_t end, uint32_t work
     }
 }
 
-/* ---- blocks side by side --------------------------------------------------------------------- */
+/* ---- blocks in parallel ---------------------------------------------------------------------- */
 
 struct batch {
     struct block blocks[MAX_BLOCKS_AT_ONCE];
-    size_t most; /* the most blocks at once */
+    size_t most; /* the most blocks that are packed at once */
     uint8_t *memory;
 };
 
@@ -216,7 +217,7 @@ static bool make_batch(struct batch *batch, const struct kiln_table *table, uint
     return true;
 }
 
-/* Numbers the batch's blocks from `first` on; returns how many there are. */
+/* Gives the batch's blocks their numbers, from `first` on; returns how many blocks there are. */
 static size_t take_batch(struct batch *batch, size_t first, size_t count)
 {
     const size_t taken = count - first < batch->most ? count - first : batch->most;

@@ -16,7 +16,7 @@ struct planning {
     const struct kiln_plan_params *params;
     struct kiln_stop stop;
     struct kiln_loop *loop;
-    struct kiln_states *states; /* NULL: none */
+    struct kiln_states *states; /* saved states to start from; NULL: none */
     struct kiln_plan *plan;
 };
 

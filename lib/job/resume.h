@@ -5,30 +5,35 @@
 #include "job/journal.h"
 
 struct kiln_resume {
-    struct kiln_output_params output; /* of the whole job, complete; parts is `folder` */
+    struct kiln_output_params output; /* output of the whole job, complete; `parts` is `folder` */
     struct kiln_journal_head head;
     struct kiln_shard shard;
-    uint32_t first_part, end_part; /* those that count: first to end - 1 */
+    uint32_t first_part, end_part; /* the parts that this run answers for: first_part to end_part -
+                                    * 1 */
     struct kiln_records *records;
     struct kiln_journal *journal;
-    char folder[KILN_PATH_SIZE]; /* of the parts of a clip */
-    bool was_begun;   /* the journal was there, or took others over; else it is removed when nothing
-                       * comes of the job */
-    bool may_replace; /* what is there under final names: it was asked for, or is of the job by a
-                       * journal (a clip: by that of the whole job) */
+    char folder[KILN_PATH_SIZE]; /* folder of the parts of a clip */
+    bool was_begun;   /* true: there was a journal, or shards' journals were merged; false: a job
+                       * without result removes its journal */
+    bool may_replace; /* true: files under final names may be replaced, because the caller allows
+                       * it, or because a journal lists them (for a clip, the journal of the whole
+                       * job) */
     bool clip_is_whole;
-    struct kiln_frame_range *missing; /* frames to be drawn, ascending: of a clip, whole parts */
+    struct kiln_frame_range *missing; /* frames to be drawn, ascending; of a clip, whole parts */
     size_t missing_count;
-    uint32_t kept; /* frames that are there */
+    uint32_t kept; /* number of frames that are there */
 };
 
 struct kiln_resume_params {
-    const struct kiln_output_params *output; /* of the whole job, complete, without parts */
+    const struct kiln_output_params *output; /* output of the whole job, complete, without
+                                              * `parts` */
     const char *made_by;                     /* device and techniques */
-    const char *scene;                       /* for manifests: kiln_manifest_scene */
-    struct kiln_shard shard;                 /* whose frames alone count; count 0: all */
-    bool restart;       /* the journal and all files that are there are forgotten */
-    bool keep_journals; /* of shards, which else go into the one of the job */
+    const char *scene;                       /* the scene for manifests, made by
+                                              * kiln_manifest_scene */
+    struct kiln_shard shard;                 /* the shard whose frames are drawn; count 0: all
+                                              * frames */
+    bool restart;       /* true: the journal and all files that are there are discarded */
+    bool keep_journals; /* true: journals of shards stay; false: they are merged into the job's */
 };
 
 /* Reads the journal and looks at every file that it names. records: of all frames, which are
@@ -43,25 +48,27 @@ bool kiln_resume_begin(struct kiln_resume *resume, const struct kiln_resume_para
  * KILN_USAGE for a clip that is not to be overwritten: a job has begun it. */
 bool kiln_resume_clear(const struct kiln_output_params *output, struct kiln_error *error);
 
-/* Says in the journal what this run came to, if it made frames. KILN_IO. */
+/* Appends the description of this run to the journal if it made frames. KILN_IO. */
 bool kiln_resume_end_attempt(struct kiln_resume *resume, const struct kiln_attempt *run,
                              const struct kiln_render_stats *stats,
                              const struct kiln_error *failure, struct kiln_error *error);
 
-/* Joins the parts of a clip, which are all there, says so in the journal, and removes them. */
+/* Joins the parts of a clip, which must all be there, appends the clip to the journal, and removes
+ * the parts. */
 bool kiln_resume_join(struct kiln_resume *resume, struct kiln_error *error);
 
-/* Takes the journals of shards over that were kept. */
+/* Merges the shards' journals that were kept into the job's journal. */
 bool kiln_resume_merge(struct kiln_resume *resume, struct kiln_error *error);
 
-/* Takes down in the journal an image that was found without it, now that its state is known. */
+/* Appends an image to the journal that was found without a line in it, now that its state is
+ * known. */
 bool kiln_resume_note(struct kiln_resume *resume, uint32_t frame, struct kiln_error *error);
 
-/* Takes down a file in records and journal. */
+/* Adds a file that has become whole to records and journal. */
 bool kiln_resume_take(struct kiln_resume *resume, const struct kiln_whole *whole,
                       struct kiln_error *error);
 
-/* Removes a journal that was begun by kiln_resume_begin: nothing comes of the job. */
+/* Removes a journal that kiln_resume_begin began, for a job that has no result. */
 void kiln_resume_undo(struct kiln_resume *resume);
 void kiln_resume_end(struct kiln_resume *resume);
 

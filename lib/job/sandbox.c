@@ -1,6 +1,6 @@
-/* Confines the process to a job's own folders (Landlock) and takes from it the system calls that no
- * job needs (seccomp). What kiln-decode needs to start stays: its own file, the dynamic linker and
- * libraries; it locks itself in much further (decode/confine.c). */
+/* Confines the process to a job's own folders (Landlock) and forbids the system calls that no job
+ * needs (seccomp). kiln-decode can still be started: its file, the dynamic linker and libraries
+ * stay readable. kiln-decode confines itself further (decode/confine.c). */
 #include <elf.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -126,7 +126,7 @@ static bool add_cache(struct places *places, char cache[KILN_PATH_SIZE])
     struct kiln_error ignored;
     if (!kiln_cache_folder(cache))
         return true;
-    strcat(cache, "/"); /* there is room */
+    strcat(cache, "/"); /* path has room for one more character */
     return !kiln_make_parent_folders(cache, &ignored) ||
            add(places, cache, KILN_MAY_READ | KILN_MAY_WRITE);
 }
@@ -258,8 +258,8 @@ static const struct kiln_system_call refused[] = {
     CALL(tkill),
     CALL(migrate_pages),
     CALL(move_pages),
-    /* Namespaces of its own: the C library takes clone where there is no clone3, whose flags a
-     * filter cannot see. */
+    /* Namespaces of the process's own. clone3 is refused with ENOSYS, because a filter cannot see
+     * its flags; the C library then calls clone. */
     {.number = SCMP_SYS(clone3), .refusal = ENOSYS},
     CALL_WITH(clone, CLONE_NEWUSER),
     CALL_WITH(clone, CLONE_NEWNS),
@@ -270,10 +270,9 @@ static const struct kiln_system_call refused[] = {
     CALL_WITH(clone, CLONE_NEWCGROUP),
 };
 
-/* Calls that are younger than libseccomp 2.5 and have no names in it; they have the same numbers on
- * every kind of processor. Some change files by ways that Landlock does not know (fchmodat2,
- * setxattrat, file_setattr). A program that is told that the kernel lacks one takes an older one.
- */
+/* Calls newer than libseccomp 2.5, which has no names for them. They have the same numbers on every
+ * kind of processor. Some change files in ways that Landlock does not know (fchmodat2, setxattrat,
+ * file_setattr). They fail with ENOSYS, so that programs fall back to an older call. */
 enum { FIRST_NEW_CALL = 451, END_OF_NEW_CALLS = 520 };
 
 /* Calls that empty a file which is opened for reading alone, which Landlock restricts from version

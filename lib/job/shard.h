@@ -4,13 +4,14 @@
 
 #include "kiln.h"
 
-/* One shard of `count`. */
+/* Names one shard among `count`. */
 struct kiln_shard {
-    uint32_t index, count; /* from 0 */
+    uint32_t index, count; /* index is below count */
 };
 
-/* Finds the parts of a shard, *first to *end - 1. They are neighbours, and as many as the other
- * shards have or one more. Where there are more shards than parts, the last shards have none. */
+/* Finds the parts of a shard, *first to *end - 1. The parts of a shard are consecutive, and the
+ * numbers of parts of two shards differ by at most one. Where there are more shards than parts, the
+ * last shards have none. */
 static inline void kiln_shard_parts(struct kiln_shard shard, uint32_t parts, uint32_t *first,
                                     uint32_t *end)
 {

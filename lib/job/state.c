@@ -1,6 +1,6 @@
-/* Writes and reads saved states. The file is a head of fixed order, which ends with its CRC-32,
- * then packed tables of the records, of the spins, of the painted canvases, and of a kept order.
- * Integers are little-endian. */
+/* Writes and reads saved states. The file has a head of fixed order, which ends with its CRC-32,
+ * then packed tables of the records, the spins, the painted canvases and the order of a spread
+ * sort. Integers are little-endian. */
 #include "job/state.h"
 
 #include <stdlib.h>
@@ -21,7 +21,7 @@ enum { FORMAT = 1, MAX_HEAD = 1024, HASH_DIGITS = 64, VERSION_SIZE = 16 };
 
 enum { RECORD_WORDS = 8, SPIN_WORDS = 8, TEXEL_WORDS = 4, SPLAT_WORDS = 12 };
 
-/* Serials and birth words rise from slot to slot. */
+/* Serials and birth words are stored as differences, since they rise from slot to slot. */
 enum { RECORD_RISING = 1 << 3 | 1 << 7 };
 
 /* The contents of the head. */
@@ -36,11 +36,11 @@ struct head {
     struct kiln_canvas_shape canvases[KILN_MAX_MESHES];
 };
 
-/* ---- the head, in one description for both ways ---------------------------------------------- */
+/* ---- the head: one description for writing and reading --------------------------------------- */
 
 struct cursor {
     uint8_t bytes[MAX_HEAD];
-    size_t at, size; /* size: the bytes that were read */
+    size_t at, size; /* size: the number of bytes that were read */
     bool writes;
     bool failed;
 };
@@ -220,8 +220,8 @@ static bool read_head(int file, const char *path, struct head *head, struct kiln
 
 /* ---- the tables ------------------------------------------------------------------------------ */
 
-/* A visitor is called with each table of a state in the order of the file: it writes, reads or
- * looks it through. The words of a table are NULL where it is only looked through. */
+/* A visitor is called with each table of a state in the order of the file. It writes, reads or only
+ * checks the table. The words of a table are NULL where it is only checked. */
 struct visitor {
     bool (*visit)(const struct visitor *visitor, const struct kiln_table *table,
                   struct kiln_error *error);
@@ -249,7 +249,8 @@ static bool check_table(const struct visitor *v, const struct kiln_table *table,
     return kiln_pack_check(table, v->file, v->path, error);
 }
 
-/* Where the tables of a state lie in memory; all NULL where they are only looked through. */
+/* Points to the tables of a state in memory; all pointers are NULL where the tables are only
+ * checked. */
 struct places {
     uint32_t *records, *spins, *slots;
     uint32_t *texels[KILN_MAX_MESHES], *waiting[KILN_MAX_MESHES];
@@ -279,7 +280,7 @@ static bool visit_tables(const struct visitor *v, const struct head *head,
     return !head->info.order[0] || v->visit(v, &order, error);
 }
 
-/* Finds where the tables of a pool lie; access is the access to its buffers. */
+/* Finds the tables of a pool in memory; `access` is the access to its buffers. */
 static bool find_places(struct kiln_pool *pool, enum kiln_access access, struct places *places,
                         struct kiln_error *error)
 {
@@ -342,7 +343,7 @@ bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kil
     return ok;
 }
 
-/* Gives the pool the sizes and counters of the head; the tables are read later. */
+/* Sets a pool's sizes and counters to those of the head. The tables are read later. */
 static bool shape_pool(struct kiln_pool *pool, const struct head *head, const char *path,
                        struct kiln_error *error)
 {
@@ -368,7 +369,7 @@ static bool shape_pool(struct kiln_pool *pool, const struct head *head, const ch
         if (!kiln_canvas_init(canvas, from->edge, from->slot_count, error))
             return false;
         canvas->next = from->next;
-        canvas->changes = changes + 1; /* its users see a new count and draw it anew */
+        canvas->changes = changes + 1; /* a new count makes the painted texture be uploaded again */
     }
     return true;
 }
@@ -384,7 +385,7 @@ static bool read_state(struct kiln_state *state, const struct visitor *visitor,
         return false;
     state->info = head.info;
     state->turn = head.turn;
-    if (!state->slots) /* without slots the order, the last table, is not read */
+    if (!state->slots) /* the order is the last table; without slots it is not read */
         head.info.order[0] = '\0';
     else if (!head.info.order[0])
         return refuse(visitor->path, "has no order of a spread sort", error);

@@ -1,43 +1,48 @@
-/* A saved state: all that a run carries from one step to the next, in a file. */
+/* Writes, checks and reads saved states: files with all data that a run carries from one simulation
+ * step to the next. */
 #ifndef KILN_JOB_STATE_H
 #define KILN_JOB_STATE_H
 
 #include "base/thread.h"
 #include "particles/pool.h"
 
-/* What a state is of. Hashes are those of scene/motion.h. */
+/* Identifies a state. scene/motion.h makes the hashes. */
 struct kiln_state_info {
     char motion[65];
-    char order[65]; /* of the order that a spread sort keeps, with its technique; "": there is none
-                     */
-    char kiln[17];  /* the version that saved it */
-    uint32_t step;  /* after which it was saved */
-    uint32_t frame; /* with an order: the frame that comes next */
+    char order[65]; /* hash of the order that a spread sort keeps, with its technique; "": no order
+                     * is kept */
+    char kiln[17];  /* the version of kiln that saved the state */
+    uint32_t step;  /* the step after which the state was saved */
+    uint32_t frame; /* the number of the next frame, if an order is saved */
     struct kiln_state_hash hash;
-    uint64_t alive;                                   /* particles */
-    bool spins[KILN_MAX_SYSTEMS];                     /* filled by who reads: which systems spin, */
-    struct kiln_canvas_shape shapes[KILN_MAX_MESHES]; /* and what is painted */
+    uint64_t alive;                                   /* number of living particles */
+    bool spins[KILN_MAX_SYSTEMS];                     /* set when a state is read: the systems whose
+                                                       * particles spin */
+    struct kiln_canvas_shape shapes[KILN_MAX_MESHES]; /* set when a state is read: the sizes of the
+                                                       * painted canvases */
     uint32_t shape_count;
 };
 
 struct kiln_state {
     struct kiln_state_info info;
     struct kiln_pool *pool;
-    uint32_t *slots; /* the kept order: all slots of the pool; NULL: none is saved, or wanted */
-    uint32_t turn;   /* and which part of a sort comes next */
+    uint32_t *slots; /* the order of a spread sort, all slots of the pool; NULL: none is saved or
+                      * wanted */
+    uint32_t turn;   /* the part of the spread sort that runs next */
 };
 
-/* Writes a state beside its place and renames it there; replaces a file only with overwrite.
- * KILN_IO, KILN_DEVICE_FAILED. */
+/* Writes a state to a temporary file and renames it to its path. An existing file is replaced only
+ * with `overwrite`. KILN_IO, KILN_DEVICE_FAILED. */
 bool kiln_state_write(const struct kiln_state *state, const char *path, bool overwrite,
                       struct kiln_threads *threads, struct kiln_error *error);
 
-/* Reads what a state is of, and checks the whole file: KILN_INVALID_INPUT with the reason when it
- * is no state, one of another format, cut off or changed in any byte. */
+/* Reads the identity of a state and checks the whole file. KILN_INVALID_INPUT with the reason when
+ * the file is no state, has another format, is cut off or has a changed byte. */
 bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kiln_error *error);
 
-/* Puts a state into a pool that the same scene initialised, and the order into state->slots if that
- * is not NULL. state->info is filled. After a failure the pool is worth nothing. */
+/* Reads a state into a pool that was initialised for the same scene, and the order into
+ * state->slots if that is not NULL. Fills state->info. After a failure the pool must not be
+ * used. */
 bool kiln_state_read(struct kiln_state *state, const char *path, struct kiln_threads *threads,
                      struct kiln_error *error);
 

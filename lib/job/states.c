@@ -1,5 +1,5 @@
-/* Lists, finds, takes up and saves the states in a folder. A file is named by the hash of its
- * motion and by its step, "3f9a12bc77d0e1f2-00000620.kilnstate", so that several scenes may share a
+/* Lists, finds, loads and saves the states in a folder. A file is named by the hash of its motion
+ * and by its step, "3f9a12bc77d0e1f2-00000620.kilnstate", so that several scenes may share a
  * folder. */
 #include "job/states.h"
 
@@ -25,10 +25,10 @@ struct kiln_states {
     const struct kiln_scene *scene;
     struct kiln_log log;
     char motion[65];
-    char order[65];  /* "": no order is kept */
+    char order[65];  /* hash of the order of a spread sort; "": no order is kept */
     uint32_t *steps; /* the steps of the files, ascending */
     size_t count;
-    size_t others; /* files of other motions */
+    size_t others; /* number of files of other motions */
 };
 
 /* ---- listing --------------------------------------------------------------------------------- */
@@ -82,7 +82,8 @@ static int compare_steps(const void *a, const void *b)
 
 static bool add_step(struct kiln_states *states, uint32_t step, struct kiln_error *error)
 {
-    if ((states->count & (states->count - 1)) == 0) { /* full: a power of two */
+    if ((states->count & (states->count - 1)) == 0) { /* the array is full when count is a power of
+                                                       * two */
         const size_t room = states->count ? 2 * states->count : 1;
         uint32_t *steps = realloc(states->steps, room * sizeof *steps);
         if (!steps)
@@ -164,9 +165,10 @@ bool kiln_states_find(const struct kiln_states *states, uint32_t step, uint32_t 
     return i > 0;
 }
 
-/* ---- taking up and saving -------------------------------------------------------------------- */
+/* ---- loading and saving ---------------------------------------------------------------------- */
 
-/* Checks that a state has the numbers that steps of the scene give, whatever its hash says. */
+/* Checks that the numbers of a state can come from steps of this scene. A hash alone does not prove
+ * it, since anybody can write one. */
 static bool fits(const struct kiln_scene *scene, const struct kiln_state_info *info)
 {
     bool good = kiln_paint_fits(scene, info->shapes, info->shape_count);
@@ -204,8 +206,8 @@ bool kiln_states_check(const struct kiln_states *states, uint32_t step, struct k
     return check(states, step, &info, error);
 }
 
-/* Allocates slots for an order that the loop keeps; NULL without such an order, or with an error.
- */
+/* Allocates the slots of the order that a loop keeps. NULL when it keeps none, or with an error
+ * when memory is short. */
 static uint32_t *make_slots(const struct kiln_states *states, struct kiln_loop *loop,
                             struct kiln_error *error)
 {
@@ -252,7 +254,7 @@ static bool take_up(const struct kiln_states *states, struct kiln_loop *loop, ui
     return verify_hash(loop, &state.info, path, error);
 }
 
-/* Logs that a run begins at its start although there is a folder of states. */
+/* Logs that a run starts at the scene's start although a folder of states was given. */
 static void tell_of_none(const struct kiln_states *states, uint32_t frame)
 {
     char others[64] = "";

@@ -1,5 +1,5 @@
-/* Decides whether a job goes on: its caller may have cancelled it, or a limit may be reached. All
- * kinds of jobs ask this file. */
+/* Decides whether a job goes on: its caller may have cancelled it, or a limit may be reached. Every
+ * kind of job asks here. */
 #include "job/stop.h"
 
 #include "base/error.h"

@@ -8,17 +8,18 @@
 #include "gpu/device.h"
 
 struct kiln_stop {
-    bool (*stop)(void *user); /* NULL: nobody asks */
+    bool (*stop)(void *user); /* asks the caller; NULL: the caller cannot cancel */
     void *user;
-    struct kiln_device *device; /* becomes current again, whatever `stop` did; NULL: none */
+    struct kiln_device *device; /* made current again after `stop`, which may have changed it; NULL:
+                                 * none */
     struct kiln_budget *budget;
     const struct kiln_cancel *cancel;
 };
 
-/* A caller for what a job asks to be done. The stop must outlive it. */
+/* Makes a caller (base/caller.h) for operations that the job starts. `stop` must outlive it. */
 struct kiln_caller kiln_stop_caller(struct kiln_stop *stop);
 
-/* False with KILN_INTERRUPTED or KILN_OVER_LIMIT. */
+/* Returns true when the job goes on, else false with KILN_INTERRUPTED or KILN_OVER_LIMIT. */
 bool kiln_stop_ask(const struct kiln_stop *stop, struct kiln_error *error);
 
 #endif

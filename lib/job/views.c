@@ -11,7 +11,7 @@
 #define DISPLAY "display"
 #define BEAUTY  "beauty"
 
-/* The layers of a caller that names none. */
+/* The layers that are shown to a caller that names none. */
 static const char *const usual[] = {DISPLAY};
 
 static const char *const *wanted(const struct kiln_render_params *params, size_t *count)
