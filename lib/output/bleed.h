@@ -4,9 +4,9 @@
 
 #include "output/output.h"
 
-/* Gives pixels whose alpha is zero the colour of the visible ones around them. Alone they look the
- * same; but whatever mixes neighbours (a texture filter, a lossy codec) would else draw their black
- * into the edges. KILN_DEVICE_FAILED when memory is short. */
+/* Gives pixels whose alpha is zero the colour of the visible pixels around them. It does not change
+ * how the picture looks. But a texture filter or a lossy codec mixes neighbouring pixels, and would
+ * mix black into the edges. KILN_DEVICE_FAILED when memory is short. */
 bool kiln_bleed_colors(const struct kiln_picture *picture, struct kiln_error *error);
 
 #endif

@@ -219,7 +219,7 @@ bool kiln_carried_read(const char *path, struct kiln_carried *carried, struct ki
            look_into_exr(path, carried, reason);
 }
 
-/* Whether the file has the depth, or the quality, that is asked for. */
+/* Returns whether the file has the depth, or for JPEG the quality, that the parameters ask for. */
 static bool is_as_good(const struct kiln_output_params *params, const struct kiln_carried *carried)
 {
     uint64_t quality;

@@ -70,7 +70,8 @@ static int open_frame(struct kiln_coder *coder)
     return kiln_ff.av_frame_get_buffer(frame, 0);
 }
 
-/* What of a part's packets would tell again what the first part's have told. */
+/* Opens the filter that removes from a part's packets the data that the first part's packets
+ * already have. */
 static int open_filter(struct kiln_coder *coder)
 {
     int status = kiln_ff.av_bsf_list_parse_str(coder->settings->later_packets, &coder->filter);
@@ -109,7 +110,7 @@ int kiln_coder_convert(struct kiln_coder *coder, const struct kiln_picture *pict
 {
     AVFrame *frame = coder->frame;
     struct kiln_error error = {0};
-    /* A lossy codec smears the colours of transparent pixels into their neighbours. */
+    /* A lossy codec mixes the colours of transparent pixels into their neighbours. */
     if (picture->has_alpha && !kiln_pixels_are_rgb(coder->codec->pix_fmt) &&
         !kiln_bleed_colors(picture, &error))
         return AVERROR(ENOMEM);

@@ -51,8 +51,9 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
     return true;
 }
 
-/* The code that comes back says enough; from here the context, which holds its lock, cannot even be
- * asked for its user data. Without a handler the library would print. */
+/* Ignores OpenEXR's message; without a handler, OpenEXR would print it. The returned code is
+ * enough. The handler cannot ask the context for its user data, since the context holds its
+ * lock. */
 static void on_failure(exr_const_context_t context, exr_result_t code, const char *message)
 {
     (void)context;
@@ -151,7 +152,8 @@ static exr_result_t write_metadata(const struct exr_encoder *encoder, uint32_t f
         {"software", "kiln " KILN_VERSION},
         {"kiln:version", KILN_VERSION},
         {"kiln:alpha", params->alpha ? "1" : "0"},
-        {"kiln:scene", params->scene_hash}, /* from here on: only where there is a scene */
+        {"kiln:scene", params->scene_hash}, /* this key and all after it are written only where
+                                             * there is a scene */
         {"kiln:seed", seed},
         {"kiln:frame", number},
     };
@@ -203,7 +205,7 @@ static const struct channel *find_channel(const struct channel *channels, uint32
     return NULL;
 }
 
-/* Gathers the lines from y on of one channel, one after the other; halves are kept finite. */
+/* Gathers the lines from y on of one channel, in order; halves are kept finite. */
 static void gather(const struct channel *channel, const struct kiln_picture *picture, uint32_t y,
                    uint32_t lines, float *out)
 {
@@ -269,7 +271,7 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
     return code == EXR_ERR_SUCCESS || fail(encoder, code, error);
 }
 
-/* Ends the file, of which OpenEXR writes the table of chunks last. */
+/* Ends the file; OpenEXR writes the table of chunks last. */
 static bool finish(void *opaque, const struct kiln_caller *caller, struct kiln_error *error)
 {
     (void)caller;

@@ -20,9 +20,10 @@
 enum {
     MAX_CELLS_A_SIDE = 64,
     MAX_PADDING = 256,
-    MAX_EDGE = 16384,      /* of the atlas: what GPUs accept */
-    MAX_MOTION_EDGE = 128, /* of a cell of the motion atlas */
-    FEATURES = 2,          /* what flow is estimated from: brightness over black, and cover */
+    MAX_EDGE = 16384,      /* edge of the atlas; GPUs accept no more */
+    MAX_MOTION_EDGE = 128, /* edge of a cell of the motion atlas */
+    FEATURES = 2,          /* channels that flow is estimated from: brightness over black, and
+                            * alpha */
 };
 
 struct flipbook_encoder {
@@ -30,12 +31,13 @@ struct flipbook_encoder {
     struct kiln_temporary *file;
     struct kiln_temporary layout_file, motion_file;
     struct kiln_picture *atlas;
-    uint32_t cells;                   /* filled */
-    uint32_t cell_width, cell_height; /* with padding */
+    uint32_t cells;                   /* number of cells that are filled */
+    uint32_t cell_width, cell_height; /* size of a cell with padding */
 
-    uint32_t motion_width, motion_height; /* of a cell */
-    float *features[2];                   /* of this cell and the one before */
-    float *flows;                         /* from each cell to the next, in cells' own pixels */
+    uint32_t motion_width, motion_height; /* size of a cell of the motion atlas */
+    float *features[2];                   /* features of this cell and of the one before */
+    float *flows;                         /* flow from each cell to the next, in pixels of the
+                                           * motion cell */
 };
 
 static uint32_t cell_count(const struct kiln_output_params *params)
@@ -71,7 +73,7 @@ bool kiln_flipbook_sample(const struct kiln_flipbook *given, const struct kiln_f
     return true;
 }
 
-/* The least and the most frames from one cell to the next. */
+/* Computes the least and the most frames from one cell to the next. */
 static void measure_steps(const struct kiln_output_params *params, uint32_t *least, uint32_t *most)
 {
     uint32_t before = 0, frame = 0;
@@ -233,8 +235,9 @@ static uint32_t clamp(uint32_t position, uint32_t padding, uint32_t size)
     return inside < size ? inside : size - 1;
 }
 
-/* Copies one pixel of a cell. Padding continues the edge: where there is alpha, only its colour, so
- * that a filter finds nothing of the neighbour; premultiplied, that is black. */
+/* Copies one pixel of a cell. Padding repeats the colour of the edge, with alpha 0 where there is
+ * alpha, so that a texture filter does not mix in the neighbouring cell. Premultiplied, alpha 0 is
+ * black. */
 static void copy_pixel(const struct flipbook_encoder *encoder, const struct kiln_picture *picture,
                        uint32_t x, uint32_t y, size_t out)
 {
@@ -254,7 +257,7 @@ static void copy_pixel(const struct flipbook_encoder *encoder, const struct kiln
     write_sample(encoder->atlas, out + 3, alpha);
 }
 
-/* The upper left corner of a cell in an atlas of such cells, in samples. */
+/* Returns the index of the first sample of a cell in an atlas. */
 static size_t cell_origin(const struct flipbook_encoder *encoder, uint32_t cell, uint32_t width,
                           uint32_t height)
 {
@@ -276,7 +279,8 @@ static void fill_cell(struct flipbook_encoder *encoder, const struct kiln_pictur
 
 /* ---- Motion --------------------------------------------------------------------------------- */
 
-/* A smaller picture of the cell: brightness over black and cover, averaged. */
+/* Makes a smaller picture of a cell with its features: brightness over black, and alpha, both
+ * averaged. */
 static void measure_features(const struct flipbook_encoder *encoder, float *features)
 {
     static const float weights[3] = {0.3f, 0.55f, 0.15f};
@@ -462,7 +466,7 @@ static bool write_layout(struct flipbook_encoder *encoder, float scale, struct k
     add_layout(&json, encoder, scale);
     kiln_json_end_line(&json, 0);
     bool good = kiln_json_finish(&json);
-    if (good) /* the commit tells of failures */
+    if (good) /* without a commit the file is not kept, and the commit reports failures */
         kiln_temporary_write(&encoder->layout_file, text.data, text.length);
     kiln_text_free(&text);
     return good || kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the layout",
@@ -502,7 +506,8 @@ static bool finish(void *opaque, const struct kiln_caller *caller, struct kiln_e
            kiln_png_write(encoder->params, encoder->atlas, encoder->file, caller, error);
 }
 
-/* The layout comes last: where it is, the pictures that it names are there and are its own. */
+/* Renames the files, the layout last. So the pictures that an existing layout names are always
+ * there and belong to it. */
 static bool commit(void *opaque, struct kiln_error *error)
 {
     struct flipbook_encoder *encoder = opaque;

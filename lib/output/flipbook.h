@@ -4,8 +4,8 @@
 
 #include "output/formats.h"
 
-/* In place of the PNG format, where params.flipbook has cells: the atlas, and beside it the layout
- * (NAME.json) and, if wanted, the motion (NAME_motion.png). */
+/* Takes the place of the PNG format where params.flipbook has cells. It writes the atlas, and
+ * beside it the layout (NAME.json) and, on request, the motion (NAME_motion.png). */
 extern const struct kiln_format kiln_format_flipbook;
 
 #endif

@@ -13,16 +13,18 @@
 enum {
     MAX_LEVELS = 12,
     MAX_CHANNELS = 4,
-    LEAST_EDGE = 12, /* pixels of the coarsest picture */
+    LEAST_EDGE = 12, /* least edge of the coarsest picture, pixels */
     WARPS = 4,
     SWEEPS = 24,
 };
 
 static const float smoothness = 0.15f;
-static const float least_difference = 1e-3f; /* below, a difference counts like its square */
-static const float least_bend = 0.05f;       /* the same for flow, in pixels a pixel */
+static const float least_difference = 1e-3f; /* below this, a difference is penalised like its
+                                              * square */
+static const float least_bend = 0.05f;       /* bend of the flow, in pixels a pixel, below which it
+                                              * is penalised like its square */
 static const float over_relaxation = 1.7f;
-static const float most_change = 1.0f; /* pixels a warp */
+static const float most_change = 1.0f; /* most change of the flow by one warp, pixels */
 
 struct picture {
     uint32_t width, height, channels;
@@ -35,14 +37,14 @@ struct level {
 
 /* Coefficients of one pixel's equations. */
 struct equation {
-    float xx, xy, yy, xt, yt; /* of the pictures */
-    float right, down;        /* stiffness between this pixel and its neighbours */
+    float xx, xy, yy, xt, yt; /* products of the derivatives of the pictures */
+    float right, down;        /* stiffness between this pixel and its right and lower neighbour */
 };
 
 struct solver {
     uint32_t width, height;
-    float *flow;  /* as it is */
-    float *start; /* as it was when `to` was bent */
+    float *flow;  /* the present flow */
+    float *start; /* the flow by which `to` was warped last */
     struct picture bent;
     struct equation *equations;
 };
@@ -187,7 +189,7 @@ static struct equation make_equation(const struct solver *solver, const struct p
     return equation;
 }
 
-/* Moves one pixel's flow towards what its equations say, its neighbours' as they are. */
+/* Moves one pixel's flow towards the solution of its equations, with its neighbours' flow fixed. */
 static void relax(const struct solver *solver, uint32_t x, uint32_t y)
 {
     size_t width = solver->width, at = (size_t)y * width + x;
@@ -290,7 +292,8 @@ static void solve_level(struct solver *solver, const struct level *level)
     }
 }
 
-/* Enlarges the flow of the coarser level to this one's size; `start` holds it meanwhile. */
+/* Enlarges the flow of the coarser level to this one's size; `start` holds the coarse flow
+ * meanwhile. */
 static void enlarge(struct solver *solver, const struct level *coarse, const struct level *fine)
 {
     size_t count = (size_t)coarse->from.width * coarse->from.height;

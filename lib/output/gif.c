@@ -14,7 +14,7 @@
 
 enum {
     TICKS_PER_S = 100,
-    MAX_RATE = 50, /* browsers play faster clips at 10 frames a second */
+    MAX_RATE = 50, /* browsers play faster clips at only 10 frames a second */
     MIN_DELAY = TICKS_PER_S / MAX_RATE,
     MAX_DELAY = 65535,
     TRANSPARENT = 255,
@@ -23,12 +23,12 @@ enum {
 struct gif_encoder {
     const struct kiln_output_params *params;
     struct kiln_temporary *file;
-    struct kiln_temporary waiting; /* frames, three bytes a pixel */
+    struct kiln_temporary waiting; /* frames that wait for the palette, three bytes a pixel */
     struct kiln_histogram *histogram;
-    uint8_t *rgb; /* one frame */
+    uint8_t *rgb; /* pixels of one frame */
     uint8_t *indices;
     uint32_t stride; /* every stride-th frame is written */
-    uint64_t frames; /* frames that were given */
+    uint64_t frames; /* number of frames that were given */
 };
 
 static uint32_t choose_stride(const struct kiln_output_params *params)
@@ -37,15 +37,16 @@ static uint32_t choose_stride(const struct kiln_output_params *params)
     return (uint32_t)((params->fps_num + most - 1) / most);
 }
 
-/* Returns when a frame begins, in hundredths of a second, as FFmpeg rounds it. */
+/* Returns the time at which a frame begins, in hundredths of a second, as FFmpeg rounds it. */
 static int64_t tick(const struct kiln_output_params *params, uint64_t frame)
 {
     return kiln_ff.av_rescale((int64_t)frame, (int64_t)params->fps_den * TICKS_PER_S,
                               params->fps_num);
 }
 
-/* Sets the duration of the last frame. Without it, that frame would last as long as the one before;
- * a shorter one than MAX_RATE allows, browsers would show for a tenth of a second. */
+/* Sets the duration of the last frame. Without it, that frame would last as long as the one before.
+ * It is never shorter than MAX_RATE allows, because browsers show such a frame for a tenth of a
+ * second. */
 static int prepare(const struct kiln_output_params *params, AVDictionary **options)
 {
     uint64_t length = kiln_ranges_count(params->clip, params->clip_count),
@@ -199,7 +200,8 @@ static const struct kiln_video_settings settings = {
     .codec = "GIF",
     .kind = "a GIF animation",
     .packages = "libavcodec59",
-    .bits = 16, /* 8-bit frames are dithered anew each time: still pixels would flicker */
+    .bits = 16, /* 8-bit frames are dithered with other noise in each frame, so still pixels would
+                 * flicker */
     .pixels = {{AV_PIX_FMT_NONE, AV_PIX_FMT_PAL8}, {AV_PIX_FMT_NONE, AV_PIX_FMT_NONE}},
     .max_edge = 16384,
     .muxer_options = "loop=0",

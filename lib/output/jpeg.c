@@ -44,10 +44,11 @@ static bool open_encoder(struct encoding *encoding, const AVCodec *codec,
     encoder->height = (int)jpeg->height;
     encoder->pix_fmt = AV_PIX_FMT_YUVJ444P;
     encoder->color_range = AVCOL_RANGE_JPEG;
-    encoder->time_base = (AVRational){1, 25};          /* it wants one */
-    encoder->sample_aspect_ratio = (AVRational){1, 1}; /* or it leaves the JFIF header out */
+    encoder->time_base = (AVRational){1, 25};          /* the encoder needs one, any will do */
+    encoder->sample_aspect_ratio = (AVRational){1, 1}; /* without it, FFmpeg leaves out the JFIF
+                                                        * header */
     encoder->thread_count = 1;
-    encoder->dct_algo = FF_DCT_INT; /* others differ from processor to processor */
+    encoder->dct_algo = FF_DCT_INT; /* other methods differ from processor to processor */
     encoder->flags |= AV_CODEC_FLAG_QSCALE | AV_CODEC_FLAG_BITEXACT;
     encoder->qmin = 1;
     encoder->global_quality = FF_QP2LAMBDA * (int)jpeg->quantiser;
@@ -181,8 +182,8 @@ static void *open_frame(const struct kiln_output_params *params, struct kiln_tem
     return encoder;
 }
 
-/* Maps quality to a quantiser, from 50 up about as other programs count: 1 from quality 91 on, 2
- * from 84, 3 at 80, 8 at 50. Below 50, the quantiser grows evenly to the worst, 31. */
+/* Maps quality to a quantiser. From 50 up it is about that of other programs: 1 from quality 91 on,
+ * 2 from 84, 3 at 80, 8 at 50. Below 50, the quantiser grows evenly to the worst, 31. */
 static uint32_t quantiser_of(uint32_t quality)
 {
     const uint32_t hundredths = quality >= 50 ? 1600 - 16 * quality : 3100 - 46 * quality;

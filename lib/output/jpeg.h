@@ -4,18 +4,18 @@
 
 #include "base/error.h"
 
-/* A picture and how well it is kept. */
+/* A picture, and the settings of its file. */
 struct kiln_jpeg {
-    const uint8_t *rgba; /* 8 bits, sRGB, rows from the top; alpha is passed over */
+    const uint8_t *rgba; /* 8 bits, sRGB, rows from the top; alpha is ignored */
     uint32_t width, height;
-    uint32_t quantiser;  /* of FFmpeg's scale, 1 (best) to 31 */
-    const char *comment; /* of the file, UTF-8, cut at 65533 bytes; NULL: none */
-    uint32_t dpi;        /* pixels an inch has, up to 65535; 0: the file does not say */
+    uint32_t quantiser;  /* quantiser on FFmpeg's scale, 1 (best) to 31 */
+    const char *comment; /* comment of the file, UTF-8, cut at 65533 bytes; NULL: none */
+    uint32_t dpi;        /* pixels per inch, up to 65535; 0: the file does not say */
 };
 
-/* Encodes the picture with full chroma. The same bytes on every machine; any thread may call. The
- * caller frees the bytes. KILN_IO where FFmpeg or its encoder is missing, KILN_DEVICE_FAILED when
- * memory is short. */
+/* Encodes the picture with full chroma. The bytes are the same on every machine. Any thread may
+ * call. The caller frees the bytes. KILN_IO where FFmpeg or its encoder is missing,
+ * KILN_DEVICE_FAILED when memory is short. */
 bool kiln_jpeg_encode(const struct kiln_jpeg *jpeg, uint8_t **bytes, size_t *size,
                       struct kiln_error *error);
 

@@ -36,7 +36,7 @@ static int set_metadata(struct kiln_muxer *muxer)
     char comment[256];
     describe(muxer->params, comment, sizeof comment);
     int status = kiln_ff.av_dict_set(&muxer->container->metadata, "comment", comment, 0);
-    /* Alpha is a second stream in the packets' side data: tell WebM. */
+    /* WebM has to be told that alpha is a second stream in the packets' side data. */
     if (status >= 0 && muxer->stream->codecpar->format == AV_PIX_FMT_YUVA420P)
         status = kiln_ff.av_dict_set(&muxer->stream->metadata, "alpha_mode", "1", 0);
     return status;
@@ -98,7 +98,8 @@ int kiln_muxer_open(struct kiln_muxer *muxer, const struct kiln_output_params *p
     return write_header(muxer);
 }
 
-/* FFmpeg's GIF writer keeps a packet, which only the end of the file frees: ends it in memory. */
+/* Frees a container that is not finished. FFmpeg's GIF writer keeps a packet that only the end of
+ * the file frees, so the end is written to memory. */
 static void abandon(struct kiln_muxer *muxer)
 {
     AVIOContext *nowhere = NULL;

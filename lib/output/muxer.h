@@ -1,5 +1,5 @@
-/* The container of a clip: packets in, a file out. Functions return one of FFmpeg's statuses, below
- * 0 for an error; what the disk says is in the file's `failure`. */
+/* Writes the container of a clip, a file of packets. Functions return one of FFmpeg's statuses,
+ * below 0 for an error. The file's `failure` has errors of the disk. */
 #ifndef KILN_OUTPUT_MUXER_H
 #define KILN_OUTPUT_MUXER_H
 
@@ -10,13 +10,14 @@ struct kiln_muxer {
     struct kiln_temporary *file;
     AVFormatContext *container;
     AVIOContext *io;
-    AVStream *stream;     /* the container's */
-    AVRational time_base; /* of the packets: a frame */
-    bool begun;           /* the container waits for its end */
+    AVStream *stream;     /* owned by the container */
+    AVRational time_base; /* unit of the packets' times: a frame */
+    bool begun;           /* the header is written, the end is not */
 };
 
-/* Writes the header of a stream. What codec and time_base say is copied. Zero-initialised is
- * closed, and closing frees what there is after a failure, too. */
+/* Opens the file and writes the header of a stream. Codec and time_base are copied. A
+ * zero-initialised muxer counts as closed. kiln_muxer_close frees everything, also after a
+ * failure. */
 int kiln_muxer_open(struct kiln_muxer *muxer, const struct kiln_output_params *params,
                     const AVCodecParameters *codec, AVRational time_base,
                     struct kiln_temporary *file);
@@ -25,7 +26,7 @@ void kiln_muxer_close(struct kiln_muxer *muxer);
 /* Adds a packet, whose times count frames from the start of the clip; it is empty afterwards. */
 int kiln_muxer_add(struct kiln_muxer *muxer, AVPacket *packet);
 
-/* Ends the file. */
+/* Writes the end of the file. */
 int kiln_muxer_finish(struct kiln_muxer *muxer);
 
 #endif

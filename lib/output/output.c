@@ -1,6 +1,6 @@
-/* Takes pictures to their files: through a bounded queue to encoder threads, which write one file
- * for each image, one file for all, or a descriptor. Images are encoded in parallel; a video has
- * one encoder, so its frames stay in order. The first failure stops everything, and the next call
+/* Writes pictures to their files. A bounded queue feeds encoder threads, which write one file for
+ * each image, one file for all, or a descriptor. Images are encoded in parallel; a video has one
+ * encoder, so its frames stay in order. The first failure stops everything, and the next call
  * returns it. */
 #include "output/output.h"
 
@@ -20,28 +20,31 @@ enum { MAX_ENCODERS = 64, QUEUE_SIZE = MAX_ENCODERS + 1 };
 
 struct kiln_output {
     struct kiln_arena *arena;
-    struct kiln_output_params params; /* its texts and ranges copied into the arena */
+    struct kiln_output_params params; /* parameters whose texts and ranges are copied into the
+                                       * arena */
     const struct kiln_format *format;
     struct kiln_path_pattern pattern;
 
-    struct kiln_temporary video_file; /* one_file formats */
+    struct kiln_temporary video_file; /* the file of formats with one_file */
     void *video_encoder;
-    struct kiln_part_writer *part; /* in place of both, where parts wait */
+    struct kiln_part_writer *part; /* is written instead of video_file and encoder where the clip
+                                    * waits in parts */
 
-    size_t due_range; /* the frame that is expected next */
+    size_t due_range; /* the range of the frame that is expected next */
     uint32_t due_frame;
 
     pthread_t encoders[MAX_ENCODERS];
     uint32_t encoder_count;
     pthread_mutex_t mutex;
-    pthread_mutex_t telling; /* held while `whole` is called for a whole file */
+    pthread_mutex_t telling; /* is held while `whole` is called */
     pthread_cond_t work, room;
-    struct kiln_picture *queue[QUEUE_SIZE]; /* a ring */
+    struct kiln_picture *queue[QUEUE_SIZE]; /* a ring buffer */
     uint32_t first, waiting;
-    uint32_t in_flight; /* waiting or being encoded */
-    bool ending;        /* no more pictures come */
+    uint32_t in_flight; /* pictures in the queue or being encoded */
+    bool ending;        /* true: no more pictures come */
     bool failed;
-    uint32_t failed_frame;   /* the first in the clip that failed, for any number of encoders */
+    uint32_t failed_frame;   /* the earliest frame of the clip that failed, for any number of
+                              * threads */
     struct kiln_error error; /* the error of that frame */
 };
 
@@ -149,7 +152,7 @@ static bool tell(struct kiln_output *output, struct kiln_whole whole, struct kil
     return good;
 }
 
-/* Tells of the one file of a clip, and of those beside it. */
+/* Tells the job of the one file of a clip, and of the files beside it. */
 static bool tell_of_clip(struct kiln_output *output, struct kiln_error *error)
 {
     const struct kiln_output_params *params = &output->params;
@@ -560,7 +563,8 @@ void kiln_output_close(struct kiln_output **output)
     if (!closing)
         return;
     *output = NULL;
-    /* Images in the queue are still written; a video is lost anyway. */
+    /* Images in the queue are still written. The frames of a video in the queue are dropped, since
+     * its file is removed. */
     pthread_mutex_lock(&closing->mutex);
     closing->failed = closing->failed || closing->format->one_file;
     pthread_mutex_unlock(&closing->mutex);

@@ -1,5 +1,5 @@
-/* Takes frames to their files: PNG, JPEG, EXR, video. There is one interface, and one row a format
- * (formats.c). */
+/* Writes frames to files or streams: PNG, JPEG, EXR, video. All formats have one interface, and one
+ * row each in a table (formats.c). */
 #ifndef KILN_OUTPUT_OUTPUT_H
 #define KILN_OUTPUT_OUTPUT_H
 
@@ -10,59 +10,63 @@
 
 enum { KILN_MAX_LAYERS = 8 };
 
-/* A named float layer of a frame, linear, premultiplied; rows from the top. */
+/* A float layer of a frame; linear, premultiplied, rows from the top. */
 struct kiln_layer {
-    const char *name;  /* "beauty", "depth", "fire"... static text */
-    uint32_t channels; /* 1 (Z) or 4 (RGBA) */
+    const char *name;  /* static text: "beauty", "depth", "fire"... */
+    uint32_t channels; /* 1 (depth, Z) or 4 (RGBA) */
     float *pixels;
 };
 
-/* One finished frame on the host. Nobody writes to one that others hold, too. */
+/* Holds the pixels of one finished frame on the host. Pixels are not written to once the picture is
+ * shared. */
 struct kiln_picture {
-    atomic_uint others; /* who hold it beside the first one: kiln_picture_share */
+    atomic_uint others; /* the number of holders besides the first: kiln_picture_share */
     uint32_t frame;
     uint32_t width, height;
     bool has_alpha; /* display alpha is meaningful */
-    bool is_data;   /* the display pixels are no colours: files name no colour space for them */
-    uint32_t bits;  /* of the display pixels: 8 or 16 */
+    bool is_data;   /* the display pixels are numbers, not colours: files name no colour space for
+                     * them */
+    uint32_t bits;  /* bits of a channel of the display pixels: 8 or 16 */
     void *display;  /* sRGB, RGBA, not premultiplied, rows from the top, host byte order */
-    struct kiln_layer layers[KILN_MAX_LAYERS]; /* only what the format asked for */
+    struct kiln_layer layers[KILN_MAX_LAYERS]; /* only the layers that the format needs */
     uint32_t layer_count;
 };
 
-/* Allocates a picture whose display pixels (bits 0: none) and layers (names[i], channels[i]) are
- * ready to be filled; NULL with KILN_DEVICE_FAILED when memory is short. */
+/* Allocates a picture with room for display pixels (bits 0: none) and layers (names[i],
+ * channels[i]). The caller fills them. NULL with KILN_DEVICE_FAILED when memory is short. */
 struct kiln_picture *kiln_picture_create(uint32_t width, uint32_t height, uint32_t bits,
                                          const char *const *names, const uint32_t *channels,
                                          uint32_t layer_count, struct kiln_error *error);
 
-/* Another holder of the same picture, on any thread; each destroys its own. */
+/* Adds a holder to a picture, on any thread. Each holder destroys it once. */
 struct kiln_picture *kiln_picture_share(struct kiln_picture *picture);
 void kiln_picture_destroy(struct kiln_picture **picture);
 
-/* The float layers: none, the picture alone, or those of its parts, too, which are drawn apart. */
+/* Which float layers are needed: none, the whole picture's, or also those of its parts, which are
+ * drawn separately. */
 enum kiln_layers { KILN_LAYERS_NONE, KILN_LAYERS_BEAUTY, KILN_LAYERS_ALL };
 
-/* What a format wants to be given for each frame. */
+/* What a format needs of each frame. */
 struct kiln_output_needs {
-    uint32_t bits; /* display bits: 0 none, 8, 16 */
+    uint32_t bits; /* bits of the display pixels: 0 (none), 8, 16 */
     enum kiln_layers layers;
 };
 
-/* A file that has its name. */
+/* A file that is complete and has its final name. */
 struct kiln_whole {
     const char *path;
-    struct kiln_frame_range frames; /* that it holds, alone or with others in between */
-    bool is_part, is_clip;          /* a part of the one file, or that; else of a frame */
+    struct kiln_frame_range frames; /* frames that the file holds; some in between may be missing */
+    bool is_part, is_clip;          /* is_part: a part of a clip; is_clip: the clip, or a file
+                                     * beside it; neither: the file of a frame */
     uint64_t bytes;
     char sha256[65];
 };
 
-/* Fills size and hash from the file of the path; KILN_IO. */
+/* Fills size and hash by reading the file; KILN_IO. */
 bool kiln_whole_measure(struct kiln_whole *whole, struct kiln_error *error);
 
-/* Told of each file as soon as it is whole, on any thread, one call at a time. false: why not to go
- * on. NULL: nobody, and no file is read again for its hash. */
+/* Is told of each file as soon as it is whole, on any thread, one call at a time. False stops the
+ * output with the error. tell NULL: nobody is told, and no file is read again for its hash. */
 struct kiln_whole_listener {
     bool (*tell)(void *user, const struct kiln_whole *whole, struct kiln_error *error);
     void *user;
@@ -71,84 +75,92 @@ struct kiln_whole_listener {
 struct kiln_format;
 
 struct kiln_output_params {
-    const char *path;                 /* as the user gave it; of a stream, how messages call it */
-    struct kiln_stream stream;        /* in place of files, unless its format is none */
-    const struct kiln_format *format; /* of the path; kiln_output_complete finds it */
+    const char *path;                 /* path as the user gave it; of a stream, its name in
+                                       * messages */
+    struct kiln_stream stream;        /* takes the frames instead of files, unless its format is
+                                       * none */
+    const struct kiln_format *format; /* the path's format; kiln_output_complete finds it */
     uint32_t width, height;
     uint32_t fps_num, fps_den;
     bool alpha;
-    const struct kiln_frame_range *ranges; /* what will be written, ascending, disjoint */
+    const struct kiln_frame_range *ranges; /* the frames that will be written, ascending,
+                                            * disjoint */
     size_t range_count;
-    /* The frames of the whole output, of which `ranges` are some: their places and the names of
-     * files follow from it. Count 0: there are no others. */
+    /* The frames of the whole output, to which `ranges` belong. The place of a frame and the names
+     * of files depend on it. Count 0: `ranges` are the whole output. */
     const struct kiln_frame_range *clip;
     size_t clip_count;
-    /* Of one file for all frames: the folder where its parts wait, each in a file, until they are
-     * joined by kiln_parts_join. Ranges consist of whole parts then. NULL: no parts wait. */
+    /* Only for one file of all frames: the folder where its parts wait in files until
+     * kiln_parts_join joins them. `ranges` are whole parts then. NULL: the clip is written at
+     * once. */
     const char *parts;
-    bool parts_alone; /* another process joins them: what a container needs is not opened here */
-    uint32_t threads; /* encoders; at least 1 */
+    bool parts_alone; /* another process joins the parts, so this one does not open libraries for
+                       * containers */
+    uint32_t threads; /* number of encoder threads; at least 1 */
     bool overwrite;
     uint32_t png_bits, exr_bits, quality;
-    struct kiln_flipbook flipbook; /* columns 0: none */
-    const char *scene_hash; /* 64 hex digits; goes into each file with seed, frame and version.
-                               "" for a clip, NULL for an encoder alone: of no scene */
+    struct kiln_flipbook flipbook; /* columns 0: no flipbook */
+    const char *scene_hash; /* 64 hex digits, written into each file with seed, frame and version;
+                             * "": a clip without a scene; NULL: an encoder alone, without a
+                             * scene */
     uint32_t seed;
     struct kiln_log log;
     struct kiln_whole_listener whole;
     struct kiln_budget *budget; /* NULL: no limits */
-    bool durable;               /* files are on the disk before they have their names */
+    bool durable;               /* files are synced to the disk before they are renamed */
     struct kiln_caller
-        caller; /* asked while parts are joined and the clip ends, by whoever calls */
+        caller; /* is asked by the calling thread while parts are joined and the clip is ended */
 };
 
 struct kiln_output;
 
-/* The parameters with what follows from them: format and clip; those that the format does not heed
- * get their defaults, so that jobs which differ in nothing else are the same. format NULL with
- * KILN_USAGE. */
+/* Returns the parameters with format and clip filled in. Parameters that the format does not use
+ * get their defaults, so that jobs which differ in nothing else count as the same. format is NULL,
+ * with KILN_USAGE, for an unknown suffix. */
 struct kiln_output_params kiln_output_complete(const struct kiln_output_params *params,
                                                struct kiln_error *error);
 
-/* The path of the one file of a clip (index 0), and those of the files beside it; an empty text
+/* Makes the path of the one file of a clip (index 0) or of the files beside it; an empty text
  * behind the last. */
 bool kiln_output_clip_file(const struct kiln_output_params *params, uint32_t index, char *path,
                            struct kiln_error *error);
 
-/* Whether a file is a whole PNG, JPEG or EXR image of such a scene, frame and depth (of JPEG:
- * quality), by this version: it says so itself. *reason gets KILN_DEVICE_FAILED when memory was too
- * short to look. */
+/* Returns whether a file is a whole PNG, JPEG or EXR image that this version of kiln wrote for this
+ * scene, frame and depth (of JPEG: quality), as its texts say. *reason gets KILN_DEVICE_FAILED when
+ * memory was too short to look. */
 bool kiln_output_carries(const struct kiln_output_params *params, const char *path, uint32_t frame,
                          struct kiln_error *reason);
 
-/* Checks everything that can be checked before the first frame (suffix, folder writable, existing
- * files, even sizes, codec present, gaps in a video), makes missing folders, and opens the
- * temporary file of a video. Several images are numbered in their names (pattern.h); one alone
- * keeps the plain name. NULL with KILN_USAGE or KILN_IO. */
+/* Opens an output. Checks everything that can be checked before the first frame: suffix, folder
+ * writable, existing files, even sizes, codec present, gaps in a video. Makes missing folders, and
+ * opens the temporary file of a video. Several images have their numbers in their names
+ * (base/pattern.h); a single image has the plain name. NULL with KILN_USAGE or KILN_IO. */
 struct kiln_output *kiln_output_open(const struct kiln_output_params *params,
                                      struct kiln_error *error);
 struct kiln_output_needs kiln_output_needs(const struct kiln_output *output);
 
-/* Hands a picture over (ownership always moves, also on failure); frames come in ascending order.
- * Waits while too many are queued, so that memory stays bounded. A failure of an earlier frame is
- * reported by the next call. */
+/* Hands a picture to the output, which owns it from then on, also on failure. Frames come in
+ * ascending order. Waits while too many pictures are queued, so that memory stays bounded. The
+ * failure of an earlier frame is reported by the next call. */
 bool kiln_output_write(struct kiln_output *output, struct kiln_picture *picture,
                        struct kiln_error *error);
 
-/* Declares the files that kiln_output_open would write with the same parameters. KILN_USAGE when
- * one of them is taken, or when the path, its suffix or the ranges make no sense. */
+/* Claims the files that kiln_output_open would write with these parameters. KILN_USAGE when one of
+ * them is claimed already, or when the path, its suffix or the ranges are not valid. */
 bool kiln_output_claim(const struct kiln_output_params *params, struct kiln_claims *claims,
                        struct kiln_error *error);
 
-/* Waits for the encoders, completes and renames the files. Asks params.caller every now and then
- * while that takes long; with its error the file is given up. */
+/* Waits for the encoders, completes the files and renames them. Meanwhile it asks params.caller
+ * whether to go on; if not, the unfinished file is removed and the caller's error returned. */
 bool kiln_output_finish(struct kiln_output *output, struct kiln_error *error);
 
-/* Without a finish before: whole image files stay, a video and half-written files are removed. */
+/* Destroys an output. If it was not finished, whole image files stay, and a video and half-written
+ * files are removed. */
 void kiln_output_close(struct kiln_output **output);
 
-/* Of complete parameters: the path of the file for a frame (the one file, for a video), and how
- * many files there will be: one a frame, one for a video, some for a flipbook. KILN_USAGE. */
+/* Makes the path of the file of a frame (for a video, of the one file), and the number of files of
+ * the output: one a frame, one for a video, one to three for a flipbook. The parameters are
+ * complete. KILN_USAGE. */
 bool kiln_output_file(const struct kiln_output_params *params, uint32_t frame,
                       char path[KILN_PATH_SIZE], struct kiln_error *error);
 uint32_t kiln_output_file_count(const struct kiln_output_params *params);

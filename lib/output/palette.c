@@ -26,7 +26,7 @@ enum {
     ROUNDS = 6,
 };
 
-/* How visible errors of red, green and blue are. */
+/* Weights of errors in red, green and blue, by how visible they are. */
 static const double channel_weight[3] = {3, 6, 2};
 
 struct histogram_cell {
@@ -74,8 +74,8 @@ struct box {
     struct point *points;
     size_t count;
     double mean[3];
-    double error; /* sum of weighted squares */
-    int axis;     /* the one with most of it */
+    double error; /* sum of the weighted squares of the distances to the mean */
+    int axis;     /* the axis with the largest part of the error */
 };
 
 static double square(double x)
@@ -132,9 +132,8 @@ static void measure_box(struct box *box)
     }
 }
 
-/* Cuts a box of more than one point at its mean. The order of the points changes, but always in the
- * same way. False when rounding has put the mean beside all points: then they are as good as one.
- */
+/* Cuts a box of more than one point at its mean. The points are reordered, always in the same way.
+ * False when, by rounding, all points are on one side of the mean: then they are nearly equal. */
 static bool split_box(struct box *box, struct box *upper)
 {
     size_t begin = 0, end = box->count;
@@ -156,7 +155,7 @@ static bool split_box(struct box *box, struct box *upper)
     return true;
 }
 
-/* Splits boxes, and returns how many there are in the end; 0 when the caller wants no more. */
+/* Splits boxes and returns the number of boxes; 0 when the caller wants no more. */
 static uint32_t split_all(struct box *boxes, uint32_t most, const struct kiln_caller *caller,
                           struct kiln_error *error)
 {
@@ -191,7 +190,7 @@ static uint32_t nearest(const double (*colors)[3], uint32_t count, const double 
     return best;
 }
 
-/* One round of k-means. */
+/* Runs one round of k-means. */
 static void refine(double (*colors)[3], uint32_t count, const struct point *points,
                    size_t point_count)
 {
@@ -250,7 +249,7 @@ struct kiln_dither {
     uint32_t count;
     double colors[KILN_MAX_PALETTE][3];
     double luma[KILN_MAX_PALETTE];
-    uint8_t mixes[MIX_CELLS][PATTERN_SIZE]; /* indices from dark to bright */
+    uint8_t mixes[MIX_CELLS][PATTERN_SIZE]; /* palette indices of each mix, from dark to bright */
     bool mixed[MIX_CELLS];
 };
 
@@ -295,7 +294,7 @@ static void mix(struct kiln_dither *dither, const uint32_t cell[3], uint8_t out[
  * pattern. */
 static uint32_t spread(uint32_t level, uint32_t x, uint32_t y)
 {
-    static const uint32_t order[2][2] = {{1, 5}, {7, 3}}; /* eighths */
+    static const uint32_t order[2][2] = {{1, 5}, {7, 3}}; /* thresholds, in eighths of a cell */
     uint32_t eighth = order[y / PATTERN_EDGE % 2][x / PATTERN_EDGE % 2];
     return (level * (MIX_LEVELS - 1) * 8 + eighth * 255) / (255 * 8);
 }

@@ -6,7 +6,7 @@
 
 enum { KILN_MAX_PALETTE = 256 };
 
-/* Counts of colours, in 2^18 cells. */
+/* Counts the colours of a clip, in 2^18 cells. */
 struct kiln_histogram;
 
 /* NULL when memory is short. */
@@ -21,21 +21,21 @@ struct kiln_palette {
     uint8_t colors[KILN_MAX_PALETTE][3];
 };
 
-/* At most `most` colours (1 to 256) that stand for those counted; fewer if so few were counted, and
- * black where none was. A function of the counts alone. False when memory is short, or as the
- * caller (which may be NULL) says. */
+/* Makes a palette of at most `most` colours (1 to 256) for the counted ones. It has fewer when
+ * fewer were counted, and is black when none was. It depends on the counts alone. False when memory
+ * is short or the caller (which may be NULL) wants no more. */
 bool kiln_palette_make(struct kiln_palette *palette, const struct kiln_histogram *histogram,
                        uint32_t most, const struct kiln_caller *caller, struct kiln_error *error);
 
-/* Mixes of a palette's colours for all others. */
+/* Holds, for each colour, the palette colours that are mixed for it. */
 struct kiln_dither;
 
-/* Copies the palette. NULL when memory is short. */
+/* Makes a dither for a palette, which is copied. NULL when memory is short. */
 struct kiln_dither *kiln_dither_create(const struct kiln_palette *palette);
 void kiln_dither_destroy(struct kiln_dither **dither);
 
-/* The palette's index for each pixel of row y, which starts at x = 0. The same colour at the same
- * place always gets the same index. */
+/* Chooses the palette's index for each pixel of row y, which starts at x = 0. The same colour at
+ * the same place always gets the same index. */
 void kiln_dither_row(struct kiln_dither *dither, uint32_t y, const uint8_t *rgb, uint32_t width,
                      uint8_t *indices);
 

@@ -79,13 +79,13 @@ struct kiln_part_writer {
     struct kiln_part_head head;
     struct kiln_temporary file;
     struct kiln_part_out out;
-    struct kiln_part_packets *packets; /* NULL: pictures are kept */
-    uint32_t frames;                   /* frames that were written */
+    struct kiln_part_packets *packets; /* NULL: the file has pictures instead of packets */
+    uint32_t frames;                   /* number of frames that were written */
     void *packed;
     size_t room;
 };
 
-/* Formats of coded parts keep packets. */
+/* Returns whether the files of parts have packets of the encoder; else they have pictures. */
 static bool keeps_packets(const struct kiln_output_params *params)
 {
     return params->format->video && params->format->video->parts;
@@ -186,7 +186,7 @@ bool kiln_part_finish(struct kiln_part_writer *writer, struct kiln_error *error)
 
 /* ---- checking and joining -------------------------------------------------------------------- */
 
-/* Opens the file of a part and compares its head with what it should be. */
+/* Opens the file of a part and compares its head with the expected one. */
 static bool open_part(const struct kiln_output_params *params, uint32_t part, const char *path,
                       struct kiln_part_in *in, struct kiln_error *error)
 {
@@ -245,7 +245,7 @@ void kiln_parts_remove(const char *folder)
     rmdir(folder);
 }
 
-/* Reads so many packed bytes, which make `room` bytes. */
+/* Reads `size` packed bytes and unpacks them to `room` bytes. */
 static bool read_packed(struct kiln_part_in *in, uint32_t size, void *out, size_t room,
                         struct kiln_error *error)
 {
@@ -268,7 +268,7 @@ static bool read_packed(struct kiln_part_in *in, uint32_t size, void *out, size_
     return ok;
 }
 
-/* Reads the picture of the frame that comes next; NULL with an error. */
+/* Reads the picture of the next frame; NULL with an error. */
 static struct kiln_picture *read_picture(const struct kiln_output_params *params,
                                          struct kiln_part_in *in, uint32_t frame,
                                          struct kiln_error *error)

@@ -49,7 +49,7 @@ void kiln_part_made_by(char text[128])
 
 void kiln_part_add(struct kiln_part_out *out, const void *bytes, size_t size)
 {
-    if (size == 0) /* zlib would begin a new sum for no bytes at NULL */
+    if (size == 0) /* for no bytes at NULL, zlib would return the start of a new sum */
         return;
     out->crc = (uint32_t)crc32_z(out->crc, bytes, size);
     kiln_temporary_write(out->file, bytes, size);
@@ -105,7 +105,7 @@ bool kiln_part_read_word(struct kiln_part_in *in, uint32_t *word, struct kiln_er
     return true;
 }
 
-/* Reads over all bytes but the last four and compares. */
+/* Reads all bytes but the last four, and compares their checksum with these. */
 static bool check_sum(struct kiln_part_in *in, struct kiln_error *error)
 {
     uint8_t block[1 << 14];

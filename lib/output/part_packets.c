@@ -18,7 +18,7 @@ struct kiln_part_packets {
     struct kiln_coder coder;
     struct kiln_avlog avlog;
     AVPacket *packet;
-    int64_t frames; /* frames that were written */
+    int64_t frames; /* number of frames that were written */
 };
 
 static bool fail(const struct kiln_part_packets *packets, int status, struct kiln_error *error)
@@ -117,9 +117,9 @@ bool kiln_part_packets_finish(struct kiln_part_packets *packets, struct kiln_err
     return status >= 0 || fail(packets, status, error);
 }
 
-/* ---- out of a file --------------------------------------------------------------------------- */
+/* ---- reading --------------------------------------------------------------------------------- */
 
-/* Reads so many bytes into new memory of FFmpeg's, which pads it. */
+/* Reads `size` bytes into new memory, which FFmpeg pads. */
 static uint8_t *read_bytes(struct kiln_part_in *in, uint32_t size, struct kiln_error *error)
 {
     if (size > in->left) {
@@ -153,14 +153,14 @@ static bool read_alpha(struct kiln_part_in *in, AVPacket *packet, struct kiln_er
     return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
 }
 
-/* Reads the packet behind its size. */
+/* Reads a packet whose size has been read. */
 static bool read_packet(struct kiln_part_in *in, uint32_t size, AVPacket *packet,
                         struct kiln_error *error)
 {
     uint32_t pts, flags;
     if (!kiln_part_read_word(in, &pts, error) || !kiln_part_read_word(in, &flags, error))
         return false;
-    /* Other flags of FFmpeg say that the bytes are pointers, so only the key flag is accepted. */
+    /* Only the key flag is accepted: some flags of FFmpeg make it take the bytes for pointers. */
     if ((flags & ~(uint32_t)AV_PKT_FLAG_KEY) != 0 || pts >= in->head.frames || size > INT32_MAX)
         return kiln_part_refuse(in, "the part of a clip is damaged", error);
     if (!read_alpha(in, packet, error))

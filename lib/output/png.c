@@ -14,8 +14,8 @@ struct png_encoder {
     png_infop info;
     const struct kiln_output_params *params;
     struct kiln_temporary *file;
-    const struct kiln_caller *caller; /* or NULL */
-    char failure[128];                /* libpng's own words */
+    const struct kiln_caller *caller; /* NULL: nobody is asked */
+    char failure[128];                /* libpng's message */
 };
 
 static struct kiln_output_needs needs(const struct kiln_output_params *params)
@@ -89,7 +89,7 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
 
 static void add_text(struct png_encoder *encoder, const char *key, const char *value)
 {
-    char key_copy[32], value_copy[80]; /* libpng takes pointers to non-const */
+    char key_copy[32], value_copy[80]; /* libpng takes pointers to char that is not const */
     snprintf(key_copy, sizeof key_copy, "%s", key);
     snprintf(value_copy, sizeof value_copy, "%s", value);
     png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = key_copy, .text = value_copy};
@@ -145,7 +145,7 @@ static bool write_pixels(struct png_encoder *encoder, const struct kiln_picture 
     return true;
 }
 
-/* Nothing that changes after setjmp is read after the jump. */
+/* No variable that changes after setjmp is read after the jump. */
 static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)
 {
     struct png_encoder *encoder = opaque;

@@ -4,12 +4,12 @@
 
 #include "base/ffmpeg.h"
 
-/* Whether pixels are of red, green and blue, or indices of such colours. */
+/* Returns whether pixels are red, green and blue, or indices of such colours. */
 bool kiln_pixels_are_rgb(enum AVPixelFormat format);
 
-/* Opens a scaler, to be freed by sws_freeContext also after a failure, from RGBA of 8 or 16 bits a
- * channel, each 0 to its maximum, to pixels of the format. Luma and chroma are BT.709's in limited
- * range; chroma of half the size is sited left, as H.264 has it. The same on every machine. Returns
+/* Opens a scaler from RGBA of 8 or 16 bits a channel to pixels of the format. The caller frees it
+ * by sws_freeContext, also after a failure. Luma and chroma are BT.709's in limited range; chroma
+ * of half the size is sited left, as H.264 has it. The result is the same on every machine. Returns
  * one of FFmpeg's statuses, below 0 for an error. */
 int kiln_scaler_open(struct SwsContext **scaler, uint32_t width, uint32_t height, uint32_t bits,
                      enum AVPixelFormat format);

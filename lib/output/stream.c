@@ -13,18 +13,18 @@
 
 struct stream {
     const struct kiln_output_params *params;
-    uint8_t *bytes; /* one frame as it is written */
+    uint8_t *bytes; /* bytes of one frame */
     size_t size;
-    size_t header;             /* how many of them stand before the pixels of a frame */
-    struct SwsContext *scaler; /* of Y4M, else NULL */
+    size_t header;             /* number of bytes before the pixels of a frame */
+    struct SwsContext *scaler; /* only for Y4M, else NULL */
     uint8_t *planes[4];
     int strides[4];
-    uint32_t frames; /* written */
+    uint32_t frames; /* number of frames that were written */
 };
 
 static const char FRAME_HEADER[] = "FRAME\n";
 
-/* ---- what each kind writes ----------------------------------------------------------------- */
+/* ---- the pixels of each kind --------------------------------------------------------------- */
 
 /* Packs the four bytes of each pixel into three. */
 static void pack_rgb(struct stream *stream, const struct kiln_picture *picture)
@@ -64,7 +64,7 @@ static void pack_y4m(struct stream *stream, const struct kiln_picture *picture)
 static const struct kind {
     const char *name;
     struct kiln_output_needs needs;
-    size_t pixel_bytes; /* 0: Y4M's planes */
+    size_t pixel_bytes; /* 0: the planes of Y4M */
     bool alpha;
     void (*pack)(struct stream *stream, const struct kiln_picture *picture);
 } kinds[] = {

@@ -16,13 +16,13 @@ struct video_encoder {
     const struct kiln_video_settings *settings;
     struct kiln_temporary *file;
     struct kiln_avlog avlog;
-    struct kiln_coder coder; /* of the present part */
+    struct kiln_coder coder; /* encoder of the present part */
     struct kiln_muxer muxer;
     AVPacket *packet;
-    AVCodecParameters *codec; /* of the first part */
-    int64_t frames;           /* frames that were given */
-    int64_t part_first;       /* of them, where the present part begins */
-    int64_t part_packets;     /* of the present part */
+    AVCodecParameters *codec; /* header of the first part */
+    int64_t frames;           /* number of frames that were given */
+    int64_t part_first;       /* number of the frame where the present part begins */
+    int64_t part_packets;     /* number of packets of the present part */
 };
 
 struct kiln_output_needs kiln_video_needs(const struct kiln_output_params *params)
@@ -70,8 +70,8 @@ bool kiln_video_find(const struct kiln_video_settings *settings, struct kiln_err
             refuse_build(settings, "muxer", settings->muxer, error));
 }
 
-/* Finds the encoder, and the muxer unless only a part is written: opening the library for
- * containers takes a third of the time that FFmpeg takes to open. */
+/* Finds the encoder, and also the muxer unless only a part is written. Opening the library for
+ * containers takes a third of the time in which FFmpeg opens. */
 static bool find(const struct kiln_output_params *params, struct kiln_error *error)
 {
     struct kiln_error reason = {0};
@@ -132,7 +132,7 @@ static bool has_same_header(const AVCodecParameters *first, const uint8_t *heade
            (size == 0 || memcmp(first->extradata, header, size) == 0);
 }
 
-/* Starts the part that begins with the frame that comes next, and the container with the first. */
+/* Starts the part of the next frame, and with the first part the container. */
 static int open_part(struct video_encoder *encoder)
 {
     const bool first = encoder->frames == 0;
@@ -168,7 +168,7 @@ void kiln_video_close(void *opaque)
 void *kiln_video_open(const struct kiln_output_params *params, struct kiln_temporary *file,
                       struct kiln_error *error)
 {
-    if (!find(params, error)) /* a run that only joins has checked nothing before */
+    if (!find(params, error)) /* a run that only joins parts has not checked before */
         return NULL;
     struct video_encoder *encoder = calloc(1, sizeof *encoder);
     if (!encoder) {
@@ -193,8 +193,9 @@ void *kiln_video_open(const struct kiln_output_params *params, struct kiln_tempo
 
 /* ---- Frames ------------------------------------------------------------------------------- */
 
-/* Gives the container a packet of the present part. Packets of a part are decoded at even times, as
- * many frames ahead as the encoder may reorder: so they follow from where the part begins. */
+/* Writes a packet of the present part to the container. A part's decoding times are its frame
+ * times, moved ahead by the number of frames that the encoder may reorder. They start at the
+ * beginning of the part. */
 static int add_packet(struct video_encoder *encoder, AVPacket *packet)
 {
     packet->pts += encoder->part_first;
@@ -202,7 +203,7 @@ static int add_packet(struct video_encoder *encoder, AVPacket *packet)
     if (encoder->settings->parts)
         packet->dts -= encoder->coder.codec->has_b_frames;
     else
-        packet->dts = packet->pts; /* frames may be left out; none are reordered */
+        packet->dts = packet->pts; /* frames may be missing, but none are reordered */
     return kiln_muxer_add(&encoder->muxer, packet);
 }
 
@@ -223,8 +224,8 @@ bool kiln_video_add_packet(void *opaque, AVPacket *packet, struct kiln_error *er
     return status >= 0 || fail(encoder, status, "the video cannot be written", error);
 }
 
-/* Gives the container all packets that are ready. AVERROR_EXIT when the caller wants no more, with
- * its error. */
+/* Writes all packets that are ready to the container. AVERROR_EXIT, with the caller's error, when
+ * the caller wants no more. */
 static int pass_packets(struct video_encoder *encoder, const struct kiln_caller *caller,
                         struct kiln_error *error)
 {
@@ -250,7 +251,7 @@ static int end_part(struct video_encoder *encoder, const struct kiln_caller *cal
     return status < 0 ? status : pass_packets(encoder, caller, error);
 }
 
-/* Begins a new part where one is due. */
+/* Begins a new part if this frame is the first of one. */
 static int begin_frame(struct video_encoder *encoder, struct kiln_error *error)
 {
     const struct kiln_output_params *params = encoder->params;
@@ -261,7 +262,7 @@ static int begin_frame(struct video_encoder *encoder, struct kiln_error *error)
     return status < 0 ? status : open_part(encoder);
 }
 
-/* Gives the encoder its frame, unless making it failed. */
+/* Passes the frame to the encoder, unless making the frame failed. */
 static bool push_frame(struct video_encoder *encoder, int status, int64_t number,
                        struct kiln_error *error)
 {
@@ -300,7 +301,8 @@ bool kiln_video_encode_indices(void *opaque, const uint8_t *indices, const uint3
     return push_frame(encoder, status, number, error);
 }
 
-/* Ends the clip. Codecs that look ahead still hold seconds of frames, and give one at a time. */
+/* Ends the clip. Codecs with a look-ahead still hold seconds of frames, and return them one by
+ * one. */
 bool kiln_video_finish(void *opaque, const struct kiln_caller *caller, struct kiln_error *error)
 {
     struct video_encoder *encoder = opaque;

@@ -11,7 +11,8 @@ enum { MAX_EDGE = 16384, MAX_WEBP_EDGE = 16383, MAX_APNG_DELAY = 65535 };
     .open = kiln_video_open, .encode = kiln_video_encode, .finish = kiln_video_finish,             \
     .close = kiln_video_close
 
-/* False when memory is short. An option that this FFmpeg does not know is left out. */
+/* Sets an option of the encoder. False when memory is short. An option that this FFmpeg does not
+ * have is ignored. */
 static bool set_option(AVCodecContext *codec, const char *key, const char *value)
 {
     return kiln_ff.av_opt_set(codec->priv_data, key, value, 0) != AVERROR(ENOMEM);
@@ -19,13 +20,15 @@ static bool set_option(AVCodecContext *codec, const char *key, const char *value
 
 /* ---- MP4 ---------------------------------------------------------------------------------- */
 
-/* quality 100 is a rate factor of 10, beyond what eyes can tell; 80 is 18, 50 is 30, 0 is 50. */
+/* Sets the rate factor: quality 100 is 10, beyond what eyes can see; 80 is 18, 50 is 30, 0 is
+ * 50. */
 static bool tune_h264(AVCodecContext *codec, const struct kiln_output_params *params)
 {
     kiln_ff.av_opt_set_double(codec->priv_data, "crf", 50.0 - 0.4 * params->quality, 0);
     /* "faster" is within 0.1 dB of "medium" at the same rate factor, in 60 % of the time and less
-     * memory; aq-mode=3 gives bits to dark gradients, such as night and smoke. The last option
-     * makes the same stream with vectors of any width, and no key frame but each part's first. */
+     * memory. aq-mode=3 gives more bits to dark gradients, such as night and smoke. The last option
+     * makes the stream independent of the width of vectors, and makes only the first frame of a
+     * part a key frame. */
     return set_option(codec, "preset", "faster") && set_option(codec, "aq-mode", "3") &&
            set_option(codec, "x264-params", "cpu-independent=1:scenecut=0");
 }
@@ -41,7 +44,8 @@ static const struct kiln_video_settings mp4 = {
     .even_sizes = true,
     .max_edge = MAX_EDGE,
     .parts = true,
-    .later_packets = "filter_units=remove_types=6", /* SEI: x264's version and options */
+    .later_packets = "filter_units=remove_types=6", /* removes SEI with x264's version and
+                                                     * options */
     .muxer_options = "movflags=+faststart",
     .tune = tune_h264,
 };
@@ -56,13 +60,14 @@ const struct kiln_format kiln_format_mp4 = {
 
 /* ---- WebM --------------------------------------------------------------------------------- */
 
-/* quality 100 is a level of 8, 80 is 19, 0 is 63. Tiles may be encoded side by side without a
+/* Sets the level: quality 100 is 8, 80 is 19, 0 is 63. Tiles may be encoded in parallel without a
  * change of bytes; rows of macroblocks may not. */
 static bool tune_vp9(AVCodecContext *codec, const struct kiln_output_params *params)
 {
     kiln_ff.av_opt_set_int(codec->priv_data, "crf", 63 - (55 * (int)params->quality + 50) / 100, 0);
-    codec->bit_rate = 0; /* the level alone decides */
-    /* The two streams of a clip with alpha must keep their frames side by side. */
+    codec->bit_rate = 0; /* the level alone decides the quality */
+    /* With alpha, hidden reference frames are turned off, so that the colour and the alpha stream
+     * have the same frames. */
     return set_option(codec, "deadline", "good") && set_option(codec, "cpu-used", "4") &&
            set_option(codec, "row-mt", "0") && set_option(codec, "tile-columns", "2") &&
            (!params->alpha || set_option(codec, "auto-alt-ref", "0"));
@@ -94,7 +99,7 @@ const struct kiln_format kiln_format_webm = {
 static bool tune_ffv1(AVCodecContext *codec, const struct kiln_output_params *params)
 {
     (void)params;
-    codec->level = 3; /* the version with slices and their checksums */
+    codec->level = 3; /* the version of FFV1 that has slices and their checksums */
     codec->slices = 4;
     return set_option(codec, "slicecrc", "1");
 }
@@ -122,12 +127,12 @@ const struct kiln_format kiln_format_mkv = {
 
 /* ---- QuickTime ----------------------------------------------------------------------------- */
 
-/* A fixed quantiser: 1 at quality 100, 3 at 80, 11 at 0. */
+/* Sets a fixed quantiser: 1 at quality 100, 3 at 80, 11 at 0. */
 static bool tune_prores(AVCodecContext *codec, const struct kiln_output_params *params)
 {
     codec->flags |= AV_CODEC_FLAG_QSCALE;
     codec->global_quality = FF_QP2LAMBDA * (11 - (int)params->quality / 10);
-    /* Some programs open files of no other vendor. */
+    /* Some programs open only files of this vendor. */
     return set_option(codec, "profile", "4444") && set_option(codec, "vendor", "apl0") &&
            set_option(codec, "alpha_bits", params->alpha ? "16" : "0");
 }
@@ -161,11 +166,12 @@ static bool tune_apng(AVCodecContext *codec, const struct kiln_output_params *pa
 {
     (void)params;
     codec->compression_level = 3;
-    codec->sample_aspect_ratio = (AVRational){1, 1}; /* else it writes one of 0 */
-    return set_option(codec, "pred", "sub");         /* as the single images of png.c */
+    codec->sample_aspect_ratio = (AVRational){1, 1}; /* without it, the encoder writes an aspect
+                                                      * ratio of 0 */
+    return set_option(codec, "pred", "sub");         /* the same as in the single images of png.c */
 }
 
-/* A delay is a fraction of 16-bit numbers. */
+/* Sets the delay between frames, which APNG stores as a fraction of 16-bit numbers. */
 static int prepare_apng(const struct kiln_output_params *params, AVDictionary **options)
 {
     AVRational delay;
@@ -206,7 +212,7 @@ static bool tune_webp(AVCodecContext *codec, const struct kiln_output_params *pa
 {
     kiln_ff.av_opt_set_double(codec->priv_data, "quality",
                               params->quality == 100 ? 50 : params->quality,
-                              0); /* lossless: effort */
+                              0); /* of lossless files: the effort */
     return set_option(codec, "lossless", params->quality == 100 ? "1" : "0");
 }
 
