@@ -1,9 +1,8 @@
-/* A YAML file as a tree: what it says, before anyone asks what it means. Every node knows where it
- * was written, so that whoever finds it wrong can say so.
+/* Parses a YAML file into a tree of nodes, without regard to what its keys mean. Every node has the
+ * place where it was written, for error messages.
  *
  * The dialect is YAML 1.2 without anchors, aliases, merge keys, tags and further documents, and
- * with keys that are plain words: nothing in it can grow beyond the size of the file.
- */
+ * with keys that are plain words: nothing in it can grow beyond the size of the file. */
 #ifndef KILN_OPTION_NODE_H
 #define KILN_OPTION_NODE_H
 
@@ -12,11 +11,11 @@
 
 enum {
     KILN_NODE_MAX_DEPTH = 64,
-    KILN_NODE_MAX_ENTRIES = 1024,  /* of one list or mapping */
-    KILN_NODE_MAX_TOTAL = 1 << 17, /* of one text */
+    KILN_NODE_MAX_ENTRIES = 1024,  /* entries of one list or mapping */
+    KILN_NODE_MAX_TOTAL = 1 << 17, /* bytes of one text */
 };
 
-/* Where a text came from: a file, or "--set key". */
+/* Says where a text came from: a file, or "--set key". */
 struct kiln_origin {
     const char *name;
     bool has_lines;        /* false: positions inside it mean nothing to the reader */
@@ -30,31 +29,32 @@ enum kiln_node_kind { KILN_NODE_SCALAR, KILN_NODE_LIST, KILN_NODE_MAP };
 
 struct kiln_node {
     enum kiln_node_kind kind;
-    bool quoted;                      /* scalar: written in quotes, or as a block */
+    bool quoted;                      /* of a scalar: it is written in quotes, or as a block */
     uint32_t line, column;            /* from 1 */
     const struct kiln_origin *origin; /* outlives the node */
-    const char *text;                 /* scalar; valid UTF-8 */
-    struct kiln_node *key;            /* of an entry of a mapping: the scalar before the colon */
+    const char *text;                 /* text of a scalar; valid UTF-8 */
+    struct kiln_node *key;            /* of an entry of a mapping: its key, the scalar before the
+                                       * colon */
     struct kiln_node *first, *last;   /* entries of a list or mapping, in order */
     struct kiln_node *next;
     uint32_t count;
 };
 
-/* Reads a text, which must end in a zero byte that size does not count. The tree lies in the arena.
- * NULL with KILN_INVALID_INPUT and the place of the fault. */
+/* Parses a text, which must end in a zero byte that size does not count. The tree lies in the
+ * arena. Returns NULL with KILN_INVALID_INPUT and the place of the fault. */
 struct kiln_node *kiln_node_parse(struct kiln_arena *arena, const char *text, size_t size,
                                   const struct kiln_origin *origin, struct kiln_error *error);
 
-/* The value under a key, or NULL; also when node is no mapping. */
+/* Returns the value of a key; NULL when there is none, or node is no mapping. */
 struct kiln_node *kiln_node_entry(const struct kiln_node *node, const char *key);
 
-/* Is it a scalar of this text, in quotes or not? */
+/* Returns whether a node is a scalar with this text, in quotes or not. */
 bool kiln_node_is(const struct kiln_node *node, const char *text);
 
 /* Appends a child to a list or, with its key set, to a mapping. */
 void kiln_node_append(struct kiln_node *node, struct kiln_node *child);
 
-/* An empty mapping written at origin; NULL when memory is short. */
+/* Creates an empty mapping written at origin; NULL when memory is short. */
 struct kiln_node *kiln_node_create_map(struct kiln_arena *arena, const struct kiln_origin *origin);
 
 /* Fills the error with "file:line:column: " and the formatted message; returns false. */

@@ -1,10 +1,11 @@
-/* Option tables: one row per key of a file makes the reader, its errors, --set, the printed file,
+/* Declares option tables, one row per key of a file. The rows make the reader, its errors, --set,
+ * the printed file,
  * the reference and the JSON schema. To add a key, add a field to the struct that a table fills and
  * a row to the table.
  *
- * A type is a table of functions, so a room that knows more (the assets of a scene, the metrics of
- * a test) has types of its own beside those that are here.
- */
+ * A type is a table of functions. A room with values of its own (the assets of a scene, the metrics
+ * of
+ * a test) defines its own types beside the types declared here. */
 #ifndef KILN_OPTION_OPTION_H
 #define KILN_OPTION_OPTION_H
 
@@ -19,23 +20,27 @@ struct kiln_option;
 struct kiln_reader;
 struct kiln_printer;
 
-/* What a type does with its rows. `field` points at the row's field in the struct of its table. */
+/* Holds the functions of a type of option. `field` points at the row's field in the struct of its
+ * table. */
 struct kiln_option_type {
     bool (*read)(struct kiln_reader *reader, const struct kiln_option *option,
                  const struct kiln_node *node, void *field);
-    /* Writes what follows "key:", the newline included. */
+    /* Writes the value after "key:", the newline included. */
     void (*print)(struct kiln_printer *printer, const struct kiln_option *option,
                   const void *field);
-    /* Appends what is allowed, for errors and people: "a number in m from 0 to 10". */
+    /* Appends a description of the allowed values for errors and documents: "a number in m from 0
+     * to 10". */
     void (*describe)(const struct kiln_option *option, struct kiln_text *out);
     /* Appends a JSON schema, one object. */
     void (*schema)(const struct kiln_option *option, struct kiln_text *out);
-    /* Appends the words that a value may be, perhaps beside others, with bars between them:
-     * "true|false". NULL: the choices and the word of the row, where it has any. */
+    /* Appends the words that are allowed as values, with bars between them: "true|false". Other
+     * values may be allowed, too. NULL: the words are the row's `choices` and `word`, if it has
+     * any. */
     void (*words)(const struct kiln_option *option, struct kiln_text *out);
 };
 
-/* The types; what a file says, and the field that it fills. */
+/* Types of options. Each comment gives an example of the value in a file, then the field's type in
+ * C. */
 extern const struct kiln_option_type kiln_type_boolean;  /* true; bool */
 extern const struct kiln_option_type kiln_type_integer;  /* 7; uint32_t */
 extern const struct kiln_option_type kiln_type_rational; /* 30000/1001; struct kiln_rational */
@@ -44,29 +49,32 @@ extern const struct kiln_option_type kiln_type_choice;   /* a word of `choices`;
 extern const struct kiln_option_type kiln_type_text;     /* "so", of min to max bytes; char * */
 extern const struct kiln_option_type kiln_type_pair;     /* [1280, 720]; uint32_t[2] */
 extern const struct kiln_option_type kiln_type_bounds;   /* {min, max} or none; kiln_bounds */
-extern const struct kiln_option_type kiln_type_value;    /* animated; struct kiln_value */
-extern const struct kiln_option_type kiln_type_vector;   /* animated; struct kiln_value3 */
-extern const struct kiln_option_type kiln_type_color;    /* the same; one number means grey */
+extern const struct kiln_option_type kiln_type_value;    /* animated number; struct kiln_value */
+extern const struct kiln_option_type kiln_type_vector;   /* animated vector; struct kiln_value3 */
+extern const struct kiln_option_type kiln_type_color;    /* animated colour; struct kiln_value3 */
 extern const struct kiln_option_type kiln_type_range;    /* [1, 2] or 1; struct kiln_range */
 extern const struct kiln_option_type kiln_type_group;    /* a mapping of `members` */
-extern const struct kiln_option_type kiln_type_switch;   /* the same, or none; `count_offset` */
-                                                         /* is its bool */
-extern const struct kiln_option_type kiln_type_map;      /* names to mappings of `members` */
-extern const struct kiln_option_type kiln_type_list;     /* of `item`; an array and its count */
-extern const struct kiln_option_type kiln_type_kind;     /* {kind: members}; `kinds` */
+extern const struct kiln_option_type
+    kiln_type_switch;                                /* {members} or none; a bool at count_offset */
+extern const struct kiln_option_type kiln_type_map;  /* names to mappings of `members` */
+extern const struct kiln_option_type kiln_type_list; /* list of `item`; an array and its
+                                                      * count */
+extern const struct kiln_option_type kiln_type_kind; /* {kind: members}; `kinds` */
 
-/* One of several things that a place may hold, with members of its own. */
+/* Describes one kind of item that a value may be, with its own members. */
 struct kiln_option_kind {
     const char *name;                  /* NULL ends a table */
-    const char *variant;               /* chosen by `field: variant` inside; NULL: no such choice */
-    int value;                         /* goes to the enum at kind_offset */
-    const struct kiln_option *members; /* offsets from the start of the item */
-    const char *shortcut;              /* the member that a bare value means, or NULL */
+    const char *variant;               /* the kind is chosen by `field: variant` in the mapping;
+                                        * NULL: `name` alone chooses it */
+    int value;                         /* value of the enum at kind_offset */
+    const struct kiln_option *members; /* rows whose offsets count from the start of the item */
+    const char *shortcut;              /* the member that gets a value which is no mapping, or
+                                        * NULL */
     const char *help;
 };
 
 enum {
-    KILN_KIND_NONE = -1, /* kind_offset of items that are all of one kind */
+    KILN_KIND_NONE = -1, /* kind_offset of items that have no enum, since all are of one kind */
     KILN_ALLOW_TIME = 1 << KILN_CLOCK_TIME,
     KILN_ALLOW_LIFE = 1 << KILN_CLOCK_LIFE,
     KILN_ALLOW_BOTH = KILN_ALLOW_TIME | KILN_ALLOW_LIFE,
@@ -75,27 +83,31 @@ enum {
 struct kiln_option {
     const char *name; /* NULL ends a table */
     const struct kiln_option_type *type;
-    size_t offset;        /* of the field in the struct of its table */
+    size_t offset;        /* offset of the field in the struct of the row's table */
     const char *fallback; /* the default, as a file would write it; NULL: required */
     const char *help;     /* one line */
-    /* The parts of a file that the row belongs to, a bit each, for printing one of them: of what
-     * the whole table describes, and of the struct that its own table describes. NULL: the file has
-     * no parts. */
+    /* Returns a bit mask of the parts of a file that the row belongs to, for printing one part
+     * alone. source is the struct that the whole table describes, base the struct of the row's own
+     * table. NULL: the file has no parts. */
     unsigned (*parts)(const void *source, const void *base);
-    double min, max;               /* SI, both allowed */
-    enum kiln_dimension dimension; /* of numbers */
-    unsigned clocks;               /* KILN_ALLOW_*; a constant always is */
+    double min, max;               /* limits in SI units, both allowed */
+    enum kiln_dimension dimension; /* of numbers: what they measure */
+    unsigned clocks;               /* KILN_ALLOW_* for keys over time or life; a constant is always
+                                    * allowed */
     const char *const *choices;    /* words in the order of the enum, NULL at the end */
-    const char *word; /* rational: stands for 0/1; value, of 0 or more: KILN_VALUE_BY_WORD */
+    const char *word; /* a word that stands for 0/1 (rational) or for KILN_VALUE_BY_WORD (value,
+                       * whose min is at least 0) */
     const struct kiln_option *members;
     const struct kiln_option_kind *kinds;
-    const struct kiln_option *item; /* of a list */
-    int kind_offset;                /* in the item; KILN_KIND_NONE */
-    size_t item_size, count_offset; /* arrays: in the struct of the table */
+    const struct kiln_option *item; /* of a list: the row of its items */
+    int kind_offset;                /* offset of the item's enum; KILN_KIND_NONE: it has none */
+    size_t item_size, count_offset; /* of arrays: size of an item, and offset of the count in the
+                                     * struct of the table */
     size_t max_count;
 };
 
-/* The number of entries beside an array: both lie in the struct that the row's table describes. */
+/* Returns the field that counts the entries of an array. It lies in the struct that the row's table
+ * describes, as the array does. */
 static inline uint32_t *kiln_option_count_of(const struct kiln_option *option, void *field)
 {
     return (uint32_t *)((char *)field - option->offset + option->count_offset);
@@ -106,17 +118,19 @@ static inline uint32_t kiln_option_count(const struct kiln_option *option, const
     return *(const uint32_t *)((const char *)field - option->offset + option->count_offset);
 }
 
-/* The row of a name in a table, or NULL. */
+/* Returns the row of a name in a table, or NULL. */
 const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name);
 
-/* " (did you mean 'rate'?)", or the names that there are; for a message about an unknown name. */
+/* Writes " (did you mean 'rate'?)", or a list of the names in the table, for a message about an
+ * unknown name. */
 void kiln_option_suggest(char *out, size_t size, const char *name, const char *const *names,
                          size_t count);
 
-/* What may vary, as words: "over time", "over time or life"; NULL for what may not. */
+/* Returns a text for how a value may vary: "over time", "over time or life"; NULL when it may
+ * not. */
 const char *kiln_option_clocks(const struct kiln_option *option);
 
-/* Appends " from 0 m to 10 m". */
+/* Appends a text such as " from 0 m to 10 m". */
 void kiln_option_describe_limits(const struct kiln_option *option, struct kiln_text *out);
 
 #endif

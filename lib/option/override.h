@@ -4,9 +4,9 @@
 
 #include "option/reader.h"
 
-/* Puts the value of "dotted.key=value" into a tree that the table describes, before anything of it
- * is read; mappings that are missing on the way are made, entries of lists and named entries are
- * not. The text need not outlive the call. */
+/* Sets the value of "dotted.key=value" in a tree that the table describes, before the tree is read
+ * into a struct. Mappings that are missing on the way are made. Entries of lists and named entries
+ * have to exist. The text need not outlive the call. */
 bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
                    struct kiln_node *root, const char *text);
 

@@ -7,9 +7,10 @@
 
 struct kiln_printer {
     struct kiln_text text;
-    const void *source; /* what the whole table describes, for types that look around in it */
-    const float4 *keys; /* of its animated values */
-    unsigned parts;     /* only rows of one of these are printed; 0: all */
+    const void *source; /* the struct that the whole table describes, for types that need other
+                         * parts of it */
+    const float4 *keys; /* keys of the animated values in source */
+    unsigned parts;     /* bit mask: only rows of one of these parts are printed; 0: all rows */
     unsigned indent;    /* spaces of the current block */
     bool after_dash;    /* a list's "-" has just been written */
 };
@@ -17,15 +18,15 @@ struct kiln_printer {
 /* Writes "name:" at the current indent; the type writes the rest. */
 void kiln_print_key(struct kiln_printer *printer, const char *name);
 
-/* Whether a row of a table is printed for a struct that the table describes. */
+/* Returns whether a row of a table is printed for a struct that the table describes. */
 bool kiln_print_wants(const struct kiln_printer *printer, const struct kiln_option *row,
                       const void *base);
 
-/* Every member of a struct, one key a line. */
+/* Prints every member of a struct, one key a line. */
 void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *members,
                         const void *base);
 
-/* The print of types whose field is a text: in quotes. */
+/* Prints a text in quotes; the `print` function of types whose field is a text. */
 void kiln_print_text(struct kiln_printer *printer, const struct kiln_option *option,
                      const void *field);
 

@@ -5,19 +5,19 @@
 
 #include "option/option.h"
 
-struct kiln_default; /* a default's text as a tree */
+struct kiln_default; /* holds the text of a default as a tree */
 
-/* The caller sets the first part; all else is 0 at the start. */
+/* The caller sets the members above the blank line; all others are 0 at the start. */
 struct kiln_reader {
-    const struct kiln_origin *origin; /* of the text */
-    struct kiln_arena *arena;         /* of what is read: the texts that the target points to */
-    struct kiln_arena *scratch;       /* of the reading: trees, keys; may end with it */
+    const struct kiln_origin *origin; /* where the text that is read came from */
+    struct kiln_arena *arena;         /* owns the texts that the target points to */
+    struct kiln_arena *scratch;       /* owns trees and keys, and may be destroyed after reading */
     struct kiln_error *error;
-    void *target; /* what the whole table fills, for types that look around in it */
+    void *target; /* the struct that the whole table fills, for types that need other parts of it */
 
-    char path[512]; /* "systems.smoke.emit.rate": where the reader is */
+    char path[512]; /* dotted path of the value that is being read: "systems.smoke.emit.rate" */
     size_t path_length;
-    float4 *keys; /* of all animated values so far; NULL before the first */
+    float4 *keys; /* keys of all animated values read so far; NULL before the first */
     uint32_t key_count;
     struct kiln_default *defaults;
 };
@@ -27,27 +27,28 @@ size_t kiln_reader_enter(struct kiln_reader *reader, const char *name);
 size_t kiln_reader_enter_index(struct kiln_reader *reader, uint32_t index);
 void kiln_reader_leave(struct kiln_reader *reader, size_t length);
 
-/* "file:line:column: path: message"; returns false. */
+/* Fills the error with "file:line:column: path: message"; returns false. */
 bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node, const char *format,
                        ...) __attribute__((format(printf, 3, 4)));
 
-/* The same at a dotted path below root ("systems.smoke.emit"), or at the nearest part of it that
- * was written. */
+/* Fills the error like kiln_reader_error, for a dotted path below root ("systems.smoke.emit"), or
+ * for the nearest part of the path that is in the file. */
 bool kiln_reader_error_at(struct kiln_reader *reader, const struct kiln_node *root,
                           const char *path, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* "expected <what the option allows>, found <the node>"; returns false. */
+/* Fills the error with "expected <allowed values>, found <the node>"; returns false. */
 bool kiln_reader_mismatch(struct kiln_reader *reader, const struct kiln_option *option,
                           const struct kiln_node *node);
 bool kiln_reader_expected(struct kiln_reader *reader, const struct kiln_node *node,
                           const char *expected);
 bool kiln_reader_out_of_memory(struct kiln_reader *reader);
 
-/* Copies a text into the arena of what is read. */
+/* Copies a text into the arena that the target's texts lie in. */
 bool kiln_reader_keep_text(struct kiln_reader *reader, const char *text, const char **kept);
 
-/* Is this a text for YAML? Without quotes, some words are numbers and such. */
+/* Returns whether YAML takes a node for a text. Without quotes, some words are numbers, booleans or
+ * null. */
 bool kiln_reader_is_text(const struct kiln_node *node);
 
 /* Fills one struct from a mapping: all members, defaults for those that are missing. node NULL

@@ -1,5 +1,5 @@
-/* How the tables write their rows. Before the rows of a table, AT(field) is defined as the offset
- * of a field in its struct. Included by files with tables only. */
+/* Defines macros by which the tables write their rows. Before the rows of a table, AT(field) is
+ * defined as the offset of a field in its struct. Only files with tables include this header. */
 #ifndef KILN_OPTION_ROWS_H
 #define KILN_OPTION_ROWS_H
 
@@ -13,8 +13,8 @@
     .help = help_, .parts = part_
 #define LIMITS(dimension_, min_, max_) .dimension = dimension_, .min = min_, .max = max_
 
-/* Every row begins with the parts of its file that it belongs to (`parts` of struct kiln_option).
- */
+/* Stands for `parts` of struct kiln_option in rows of files that have no parts. Each row macro
+ * takes `parts` first. */
 #define NO_PART NULL
 
 /* name, field, dimension, smallest, largest, clocks, default, help */

@@ -6,13 +6,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What a number measures; in memory always in the SI unit named here. */
+/* Names what a number measures. In memory, it is always in the SI unit given here. */
 enum kiln_dimension {
     KILN_PLAIN,         /* no unit */
     KILN_FRACTION,      /* a part of a whole; may be written as "50 %" */
     KILN_SECONDS,       /* s */
     KILN_ANGLE,         /* rad; a bare number other than 0 is refused */
-    KILN_ANGULAR_SPEED, /* rad/s; the same */
+    KILN_ANGULAR_SPEED, /* rad/s; a bare number other than 0 is refused */
     KILN_METRES,        /* m */
     KILN_SPEED,         /* m/s */
     KILN_ACCELERATION,  /* m/s^2 */
@@ -20,18 +20,18 @@ enum kiln_dimension {
     KILN_PER_METRE,     /* 1/m */
     KILN_KELVIN,        /* K */
     KILN_PIXELS,        /* px */
-    KILN_STOPS,         /* powers of two of light */
+    KILN_STOPS,         /* exposure in powers of two */
     KILN_DIMENSION_COUNT
 };
 
-/* Limits in an option table: degrees as the radians that the loader makes of them. */
+/* Converts degrees to radians for the limits of an option table, with the loader's rounding. */
 #define KILN_PI     3.14159265358979323846
 #define KILN_DEG(x) ((x) * (KILN_PI / 180))
 
-/* All units of a dimension, as "m, cm or mm"; "" when it never has one. */
+/* Lists all units of a dimension, as "m, cm or mm"; "" when it has none. */
 const char *kiln_unit_choices(enum kiln_dimension dimension);
 
-/* Does a number other than 0 need its unit written? */
+/* Returns whether a number other than 0 must have a unit. */
 bool kiln_unit_is_required(enum kiln_dimension dimension);
 
 /* Reduces a fraction of two positive numbers. */
@@ -52,14 +52,14 @@ bool kiln_unit_to_si(enum kiln_dimension dimension, const char *unit, double *nu
  * where those are exact. */
 void kiln_unit_print(char out[48], enum kiln_dimension dimension, float value);
 
-/* The same for a limit or a double. */
+/* Writes a limit or a double in SI with its unit, like kiln_unit_print. */
 void kiln_unit_print_double(char out[48], enum kiln_dimension dimension, double value);
 
-/* A number without a unit; whole ones without an exponent. */
+/* Writes a number without a unit; whole numbers without an exponent. */
 void kiln_unit_print_number(char out[32], double value);
 
-/* The unit alternatives as a regular expression of JSON schema, optional where a bare number may
- * stand: "( *(m|cm|mm))". "" for none. */
+/* Writes the units of a dimension as a regular expression of a JSON schema, optional where a bare
+ * number is allowed: "( *(m|cm|mm))". "" when there are none. */
 void kiln_unit_pattern(char out[64], enum kiln_dimension dimension);
 
 #endif

@@ -1,4 +1,5 @@
-/* What some options fill; animated numbers are in shared/value.h. */
+/* Declares the structs that some types of options fill. Animated numbers are declared in
+ * shared/value.h. */
 #ifndef KILN_OPTION_VALUES_H
 #define KILN_OPTION_VALUES_H
 
@@ -7,15 +8,15 @@
 
 #include "shared/value.h"
 
-/* The constant of an animated number in whose place its option's word stands. */
+/* The constant of an animated number for which the file has the option's word. */
 #define KILN_VALUE_BY_WORD (-1.0f)
 
-/* A positive fraction in its lowest terms, or 0/1 where the option has a word for it. */
+/* Holds a positive fraction in its lowest terms, or 0/1 where the option has a word for it. */
 struct kiln_rational {
     uint32_t num, den;
 };
 
-/* A box along the axes, or none. */
+/* Holds an axis-aligned box, or none. */
 struct kiln_bounds {
     bool enabled;
     float min[3], max[3]; /* m */
