@@ -43,7 +43,7 @@ const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const ch
     return result;
 }
 
-/* Does a relative path climb out of its start by "..", whatever exists? */
+/* Returns whether a relative path leaves its start by "..", whether or not it exists. */
 static bool climbs_out(const char *path)
 {
     int depth = 0;
@@ -72,7 +72,8 @@ static const char *reason_of(const struct kiln_error *error, const char *path)
     return error->message + length + strspn(error->message + length, ": ");
 }
 
-/* A file that is wrong makes the scene wrong; a lack of memory or time does not. */
+/* Reports a faulty file as invalid input at its place in the scene. Errors of memory and time keep
+ * their code. */
 static bool fail_as(struct kiln_reader *reader, const struct kiln_error *error)
 {
     if (error->code != KILN_INVALID_INPUT && error->code != KILN_IO)
@@ -163,7 +164,7 @@ bool kiln_asset_add_hash(const struct kiln_scene *scene, const char *asset, stru
 {
     const struct kiln_loader_file file = {asset, "asset", "regular", SIZE_MAX};
     char hex[65];
-    if (asset[0] != '/') /* built in, or none */
+    if (asset[0] != '/') /* built-in texture, or none */
         return true;
     if (!kiln_loader_hash(scene->loader, &file, hex, error))
         return false;

@@ -1,39 +1,40 @@
-/* Names of textures in a scene: built-in ones, and files that stay below the asset root. */
+/* Reads and prints the names of textures and files in a scene. A name is that of a built-in
+ * texture, or a path below the asset root. */
 #ifndef KILN_SCENE_ASSET_PATH_H
 #define KILN_SCENE_ASSET_PATH_H
 
 #include "scene/options.h"
 
-/* The absolute folder that a scene's paths start from: root, or without one the folder of the
- * file, or without that the working directory. NULL with an error when there is no such folder. */
+/* Returns the absolute folder that a scene's paths start from: root; without one, the folder of the
+ * file; without that, the working directory. NULL with an error when there is no such folder. */
 const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const char *file,
                             struct kiln_error *error);
 
-/* Reads "builtin:name", or the path of an image or video file, which becomes absolute. */
+/* Reads "builtin:name", or the path of an image or video file, which is made absolute. */
 bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset);
 
-/* Whether a file, an absolute path, is what it should be. */
+/* Checks the content of a file; path is absolute. */
 typedef bool kiln_check_file(struct kiln_loader *loader, const char *path,
                              struct kiln_error *error);
 
-/* Reads the path of a file that check (or NULL) accepts; it becomes absolute. */
+/* Reads the path of a file that `check` accepts (NULL: any file), and makes it absolute. */
 bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *node,
                           kiln_check_file *check, const char **asset);
 
-/* What went wrong with a file, an absolute path, as an error at a place in the scene: "file" or
- * another key of it, by its path from the root (kiln_reader_error_at). Returns false. */
+/* Reports the error of a file as an error at a place in the scene. path is absolute. key is "file"
+ * or another key of the node, by its path from the root (kiln_reader_error_at). Returns false. */
 bool kiln_asset_fail(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                      const char *file, const struct kiln_error *error);
 
-/* Notes that the scene was read from this file, too. `what`: static text, for messages. False when
- * memory is short. */
+/* Adds a file to the list of files that the scene was read from. `what`: static text, for messages.
+ * False when memory is short. */
 bool kiln_scene_add_file(struct kiln_scene *scene, const char *path, const char *what);
 
-/* Adds a line with the hash of an asset's bytes to a text; nothing for a built-in one. */
+/* Appends a line with the hash of an asset's bytes to a text; nothing for a built-in asset. */
 bool kiln_asset_add_hash(const struct kiln_scene *scene, const char *asset, struct kiln_text *text,
                          struct kiln_error *error);
 
-/* The asset as a scene names it: relative to the asset root. */
+/* Returns the name of an asset as a scene writes it: relative to the asset root. */
 const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset);
 
 #endif

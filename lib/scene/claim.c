@@ -30,10 +30,10 @@ bool kiln_scene_claim(const struct kiln_scene *scene, struct kiln_claims *claims
     return true;
 }
 
-/* ---- Without loading it ---------------------------------------------------------------------- */
+/* ---- without loading the scene --------------------------------------------------------------- */
 
 struct search {
-    const char *folder; /* of the scene, with its slash; "": the working folder */
+    const char *folder; /* folder of the scene, with its slash; "": the working folder */
     struct kiln_claims *claims;
     struct kiln_error *error;
 };

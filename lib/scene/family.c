@@ -28,7 +28,7 @@ static uint32_t generation(const struct kiln_scene *scene, uint32_t system)
         parent = &scene->systems[parent->system].emit.parent;
         count++;
     }
-    return count; /* of a ring: more than there are systems */
+    return count; /* the systems form a cycle: more than the number of systems */
 }
 
 void kiln_family_order(const struct kiln_scene *scene, uint32_t order[KILN_MAX_SYSTEMS])
@@ -135,7 +135,7 @@ static bool check_generations(struct kiln_reader *reader, const struct kiln_node
                                 generations, KILN_MAX_GENERATIONS);
 }
 
-/* Checks the options that a system with a parent must not have, or must. */
+/* Checks the options that a system with a parent must have or must not have. */
 static bool check_births(struct kiln_reader *reader, const struct kiln_node *root,
                          const struct kiln_system *system)
 {

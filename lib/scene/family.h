@@ -8,21 +8,21 @@
 struct kiln_reader;
 struct kiln_node;
 
-/* Is a system, other than by name alone, the parent of one that is enabled? */
+/* Returns whether a system is the parent of a system that is enabled. */
 bool kiln_family_has_children(const struct kiln_scene *scene, uint32_t system);
 
-/* Every system, parents before their children. */
+/* Fills order[] with all systems, parents before their children. */
 void kiln_family_order(const struct kiln_scene *scene, uint32_t order[KILN_MAX_SYSTEMS]);
 
-/* The most children that a particle of the parent's may have: emit.parent.slots. */
+/* Returns the most children that one particle of the parent may have: emit.parent.slots. */
 uint64_t kiln_family_slots(const struct kiln_scene *scene, const struct kiln_parent *parent);
 
-/* Steps after its birth step by whose end a particle and all that descends from it are dead; at
- * most `steps`. */
+/* Returns the number of steps after its birth step at whose end a particle and all its descendants
+ * are dead; at most `steps`. */
 uint32_t kiln_family_lifespan(const struct kiln_scene *scene, uint32_t system, uint32_t steps);
 
-/* Finds the parents by their names and how many slots their children take; refuses unknown ones,
- * rings, too many generations and events that can not happen. root is the tree, for the places of
+/* Finds the parents by their names and computes the slots of their children. Refuses unknown names,
+ * cycles, too many generations and events that cannot happen. root is the tree, for the places of
  * errors. */
 bool kiln_family_settle(struct kiln_reader *reader, const struct kiln_node *root);
 

@@ -1,57 +1,66 @@
-/* How particles of a system act on each other (UberFlow 2004, 4.3 to 4.5; Drone 2007, 7.4); of each
- * kind at most one a system. */
+/* Declares how particles of a system act on each other (UberFlow 2004, 4.3 to 4.5; Drone 2007,
+ * 7.4). A system has at most one interaction of each kind. */
 #ifndef KILN_SCENE_INTERACTION_H
 #define KILN_SCENE_INTERACTION_H
 
 #include "shared/value.h"
 
-enum { KILN_MAX_FLOCK = 1 << 20 }; /* slots of a system that flocks */
+enum { KILN_MAX_FLOCK = 1 << 20 }; /* The most slots of a system that flocks. */
 
 enum kiln_interaction_kind {
-    KILN_INTERACT_COLLIDE, /* with others of the system: shared/interact_collide.h */
-    KILN_INTERACT_GRAVITY, /* of each on all others: shared/interact_gravity.h */
-    KILN_INTERACT_FLOCK,   /* like birds: shared/interact_flock.h */
+    KILN_INTERACT_COLLIDE, /* collision with the system's other particles:
+                            * shared/interact_collide.h */
+    KILN_INTERACT_GRAVITY, /* attraction of all by all: shared/interact_gravity.h */
+    KILN_INTERACT_FLOCK,   /* flocking, as birds do: shared/interact_flock.h */
 };
 
 enum kiln_contact_mode {
-    KILN_CONTACT_EXACT,     /* no pair is missed */
-    KILN_CONTACT_STAGGERED, /* the paper's: shared/interact_staggered.h */
+    KILN_CONTACT_EXACT,     /* finds every pair that touches */
+    KILN_CONTACT_STAGGERED, /* finds pairs as the paper does: shared/interact_staggered.h */
 };
 
-/* How the particles of a flock steer; clock constant or time. */
+/* How the particles of a flock steer. Values have the clock constant or time. */
 struct kiln_flock {
-    struct kiln_value radius;     /* m: of what one sees; above 0 */
-    struct kiln_value view;       /* rad: 0..2 pi, about where it flies */
-    struct kiln_value space;      /* m: that each keeps free about itself; above 0 */
-    struct kiln_value separation; /* m/s^2: away from who is closer than that */
-    struct kiln_value avoidance;  /* m/s^2: out of the way of who is going to be */
-    struct kiln_value horizon;    /* s: within so long; above 0 */
-    struct kiln_value cohesion;   /* m/s^2 for each metre to the middle of those it sees */
-    struct kiln_value alignment;  /* 1/s: towards their mean velocity */
-    struct kiln_value all_cohesion, all_alignment; /* the same with the whole system */
-    struct kiln_value acceleration;                /* m/s^2: the most of all this together */
-    struct kiln_value slowest, fastest;            /* m/s: it flies no slower, no faster */
+    struct kiln_value radius;     /* m: radius within which a particle sees others; above 0 */
+    struct kiln_value view;       /* rad: 0..2 pi, angle of view about the direction of flight */
+    struct kiln_value space;      /* m: distance that a particle keeps free around itself; above
+                                   * 0 */
+    struct kiln_value separation; /* m/s^2: acceleration away from others closer than `space` */
+    struct kiln_value avoidance;  /* m/s^2: acceleration away from others that will be closer
+                                   * soon */
+    struct kiln_value horizon;    /* s: how far ahead `avoidance` looks; above 0 */
+    struct kiln_value cohesion;   /* m/s^2 for each metre to the middle of the others in view */
+    struct kiln_value alignment;  /* 1/s: pull towards the mean velocity of the others in view */
+    struct kiln_value all_cohesion, all_alignment; /* cohesion and alignment with the whole
+                                                    * system */
+    struct kiln_value acceleration;                /* m/s^2: limit of the sum of all these
+                                                    * accelerations */
+    struct kiln_value slowest, fastest;            /* m/s: limits of the speed */
 };
 
 struct kiln_interaction {
     enum kiln_interaction_kind kind;
     enum kiln_contact_mode mode;   /* collide */
-    bool as_drawn;                 /* collide: half of look.size times look.scale is the radius */
-    struct kiln_value radius;      /* m: collide, of who is not */
+    bool as_drawn;                 /* collide: the radius is half of look.size times look.scale */
+    struct kiln_value radius;      /* m: collide, unless as_drawn */
     struct kiln_value restitution; /* collide: 0 no bounce .. 1 all energy is kept */
-    struct kiln_value apart;       /* collide: 0..1: part of an overlap that a round takes away */
-    struct kiln_value fastest;     /* collide: m/s: approach that is foreseen; below 0: auto */
-    uint32_t rounds;               /* collide: of pairs in a step */
-    bool spins;                    /* collide: they turn, and friction acts on their skin */
-    struct kiln_value friction;    /* collide: on each other, of those that turn */
-    struct kiln_range turning;     /* collide: rad/s at birth */
-    struct kiln_value3 axis;       /* collide: of that; 0: drawn for each particle */
-    struct kiln_value rolling;     /* collide: resistance on surfaces, part of what they give */
-    struct kiln_value strength;    /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
-    struct kiln_value softening;   /* m: gravity of nearer ones grows no more; above 0 */
-    const char *of;                /* gravity: the system that attracts, or "self" */
-    bool of_other;                 /* it is another one: */
-    uint32_t source;               /* its index */
+    struct kiln_value apart;       /* collide: 0..1, the part of an overlap that a round removes */
+    struct kiln_value fastest;     /* collide: m/s, the fastest approach that the search allows for;
+                                    * below 0: auto */
+    uint32_t rounds;               /* collide: rounds of collisions in a step */
+    bool spins;                    /* collide: particles turn, and friction acts on their
+                                    * surfaces */
+    struct kiln_value friction;    /* collide: friction between particles that spin */
+    struct kiln_range turning;     /* collide: rad/s, angular speed at birth */
+    struct kiln_value3 axis;       /* collide: axis of that rotation; 0: drawn for each particle */
+    struct kiln_value
+        rolling; /* collide: rolling resistance on surfaces: its lever arm, in radii */
+    struct kiln_value strength;  /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
+    struct kiln_value softening; /* m: gravity softening; within it the attraction does not grow;
+                                  * above 0 */
+    const char *of;              /* gravity: the system that attracts, or "self" */
+    bool of_other;               /* `of` names another system: */
+    uint32_t source;             /* index of that system */
     struct kiln_flock flock;
 };
 

@@ -14,7 +14,7 @@
 #include "scene/asset_path.h"
 #include "scene/validate.h"
 
-/* The limits whose counts start anew with each scene of a job. */
+/* The limits whose counts start at 0 again with each scene of a job. */
 static const enum kiln_limit OF_A_SCENE[] = {KILN_LIMIT_asset_pixels, KILN_LIMIT_asset_bytes,
                                              KILN_LIMIT_triangles};
 

@@ -6,7 +6,7 @@
 
 #define AT(field) offsetof(struct kiln_object, field)
 
-/* Factors on a system's. */
+/* Factors of an object on the restitution and friction of particles. */
 #define RUBBING                                                                                    \
     VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",                      \
           "Factor on the restitution of what bounces off it."),                                    \

@@ -4,7 +4,7 @@
 
 #define AT(field) offsetof(struct kiln_emitter, field)
 
-/* What every shape has; the default spread of the directions differs. */
+/* Members of every shape; the default spread of the directions differs. */
 #define PLACE(spread)                                                                              \
     VECTOR(MOTION, "origin", origin, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",                    \
            "Centre of the shape; when it moves, births are spread along the way."),                \
@@ -86,7 +86,7 @@ static const char *const aligns[] = {
     NULL,
 };
 
-/* At most so many in one place: a system of them still fits. */
+/* The limit of a count of children, at which a system of them still fits. */
 #define COUNT                                                                                      \
     INTEGER(MOTION, "count", parent.count, 1, 65536, "10",                                         \
             "Particles born of one particle of the parent.")

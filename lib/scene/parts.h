@@ -1,21 +1,22 @@
-/* Parts of a scene that are known apart by hashes of their own (scene/motion.c). Each row of the
- * option tables says which of them it belongs to. */
+/* Declares the parts of a scene that have hashes of their own (scene/motion.c). Each row of the
+ * option tables names the parts that it belongs to. */
 #ifndef KILN_SCENE_PARTS_H
 #define KILN_SCENE_PARTS_H
 
 #include "scene/scene.h"
 
 enum kiln_scene_part {
-    KILN_PART_MOTION = 1, /* what decides the state of the particles */
-    KILN_PART_ORDER = 2,  /* and what decides the order that a spread sort keeps */
+    KILN_PART_MOTION = 1, /* options that decide the state of the particles */
+    KILN_PART_ORDER = 2,  /* options that decide the order that a spread sort keeps */
 };
 
-/* What a row says: as `parts` of struct kiln_option. */
+/* Functions for `parts` of struct kiln_option. */
 unsigned kiln_row_look(const void *scene, const void *base);
 unsigned kiln_row_order(const void *scene, const void *base);
 unsigned kiln_row_motion(const void *scene, const void *base);
 
-/* Motion under a condition; base is a struct kiln_look, kiln_object or kiln_backdrop. */
+/* Return KILN_PART_MOTION only under a condition; base is a struct kiln_look, kiln_object or
+ * kiln_backdrop. */
 unsigned kiln_row_if_contacts_are_as_drawn(const void *scene, const void *look);
 unsigned kiln_row_if_it_paints(const void *scene, const void *look);
 unsigned kiln_row_if_object_is_met(const void *scene, const void *object);

@@ -6,14 +6,14 @@
 
 enum kiln_pattern {
     KILN_PATTERN_PLAIN,
-    KILN_PATTERN_STRIPE,   /* about its equator, in look.color */
-    KILN_PATTERN_SEGMENTS, /* from pole to pole, as a beach ball has, and caps */
+    KILN_PATTERN_STRIPE,   /* a band around the equator, in look.color */
+    KILN_PATTERN_SEGMENTS, /* segments from pole to pole, as of a beach ball, and caps */
 };
 
 struct kiln_look_sphere {
     enum kiln_pattern pattern;
-    uint32_t segments;        /* of each colour */
-    struct kiln_value3 color; /* linear; the other one */
+    uint32_t segments;        /* number of segments of each colour */
+    struct kiln_value3 color; /* linear; the second colour */
 };
 
 #endif

@@ -1,5 +1,5 @@
-/* How the tables of a scene write their rows, beside what every table writes. Included by
- * options_*.c only. */
+/* Defines macros by which the tables of a scene write their rows, in addition to those of
+ * option/rows.h. Only options_*.c include it. */
 #ifndef KILN_SCENE_ROWS_H
 #define KILN_SCENE_ROWS_H
 
@@ -7,7 +7,7 @@
 #include "scene/options.h"
 #include "scene/parts.h"
 
-/* The limit of places in a scene: particles beyond 2^20 m die, so this is well inside. */
+/* The limit of coordinates in a scene. Particles beyond 2^20 m die, so it is well below that. */
 #define FAR 100000
 
 /* name, field, default, help */

@@ -11,10 +11,10 @@
 #include "asset/geometry/grid_in.h"
 #include "scene/asset_path.h"
 
-/* The state while grids are counted. Errors point at the largest grid. */
+/* Holds the sums while grids are counted. Errors point at the largest grid. */
 struct count {
     uint64_t samples, largest;
-    char path[128]; /* of the largest's key */
+    char path[128]; /* path of the largest grid's key */
 };
 
 static void add(struct count *count, uint64_t samples, const char *path)
@@ -73,7 +73,7 @@ static bool count_winds(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
-/* ---- what particles collide with ---------------------------------------------------------- */
+/* ---- grids that particles collide with ---------------------------------------------------- */
 
 float kiln_scene_field_reach(const struct kiln_scene *scene, const struct kiln_object *mesh)
 {
@@ -121,7 +121,7 @@ static bool count_object(struct kiln_reader *reader, const struct kiln_node *roo
     return true;
 }
 
-/* ---- all ------------------------------------------------------------------------------------- */
+/* ---- all grids ------------------------------------------------------------------------------- */
 
 bool kiln_samples_settle(struct kiln_reader *reader, const struct kiln_node *root)
 {

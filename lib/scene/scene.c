@@ -28,7 +28,8 @@ uint32_t kiln_scene_moment_step(const struct kiln_scene *scene, uint32_t frame, 
 {
     const struct kiln_camera *camera = &scene->camera;
     double open_steps = scene->steps_per_frame * camera->shutter_angle / KILN_DEG(360);
-    double after = moment * open_steps / camera->shutter_samples + 1e-6; /* whole steps stay so */
+    double after = moment * open_steps / camera->shutter_samples + 1e-6; /* a whole number of steps
+                                                                          * stays one */
     return kiln_scene_frame_step(scene, frame) + (uint32_t)after;
 }
 
@@ -167,7 +168,7 @@ void kiln_scene_destroy(struct kiln_scene **scene)
 {
     if (!*scene)
         return;
-    struct kiln_arena *arena = (*scene)->arena; /* the scene lies in it */
+    struct kiln_arena *arena = (*scene)->arena; /* the scene itself lies in this arena */
     kiln_mesh_library_destroy(&(*scene)->meshes);
     kiln_loader_destroy(&(*scene)->loader);
     kiln_arena_destroy(&arena);

@@ -1,9 +1,8 @@
-/* A validated scene: what every stage reads and nobody changes.
+/* Declares a validated scene, which every stage reads and none changes.
  *
  * SI units, radians, metres, y up, right-handed; colours linear Rec. 709. Every number that a scene
  * may animate is a struct kiln_value (shared/value.h) whose keys lie in scene->keys; the option
- * tables (options_*.c) say which clocks each may use, its unit, its range and its default.
- */
+ * tables (options_*.c) say which clocks each may use, its unit, its range and its default. */
 #ifndef KILN_SCENE_SCENE_H
 #define KILN_SCENE_SCENE_H
 
@@ -20,16 +19,16 @@
 #include "shared/particle.h"
 
 enum {
-    /* shared/limits.h and particle.h have those that shaders know, too */
-    KILN_MAX_CELLS = 2048,        /* an atlas: the layers that every GL 4.3 has */
-    KILN_MAX_PARTICLES = 1 << 24, /* slots of all systems: what a draw entry can address */
+    /* limits that shaders use, too, are in shared/limits.h and particle.h */
+    KILN_MAX_CELLS = 2048,        /* cells of an atlas: the texture layers that every GL 4.3 has */
+    KILN_MAX_PARTICLES = 1 << 24, /* slots of all systems: the most that a draw entry can address */
 };
 
-/* Of particles that are meshes. */
+/* Limits of particles that are meshes. */
 enum {
-    KILN_MAX_INSTANCES = 1 << 20,          /* slots */
-    KILN_MAX_PARTICLE_TRIANGLES = 1 << 16, /* of one particle */
-    KILN_MAX_INSTANCE_TRIANGLES = 1 << 26, /* of all slots */
+    KILN_MAX_INSTANCES = 1 << 20,          /* slots of all systems that show meshes */
+    KILN_MAX_PARTICLE_TRIANGLES = 1 << 16, /* triangles of one particle */
+    KILN_MAX_INSTANCE_TRIANGLES = 1 << 26, /* triangles of all slots together */
 };
 
 /* ---- emit: Heinz 2019, 2.1.2; births are spread inside the step ------------------------------ */
@@ -44,27 +43,27 @@ enum kiln_emitter_shape {
 };
 
 enum kiln_event {
-    KILN_EVENT_DEATH,  /* the end of its life */
-    KILN_EVENT_BOUNCE, /* its first impact */
-    KILN_EVENT_TRAIL,  /* its life, all along */
+    KILN_EVENT_DEATH,  /* the end of the parent's life */
+    KILN_EVENT_BOUNCE, /* the parent's first impact */
+    KILN_EVENT_TRAIL,  /* the parent's whole life, evenly */
 };
 
 enum kiln_align {
-    KILN_ALIGN_WORLD,    /* the shape lies in space as it is written */
-    KILN_ALIGN_VELOCITY, /* its y axis turns to where the parent flies */
-    KILN_ALIGN_NORMAL,   /* its y axis turns to the normal of what the parent has met */
+    KILN_ALIGN_WORLD,    /* the shape keeps the axes of the world */
+    KILN_ALIGN_VELOCITY, /* its y axis turns to the parent's direction of flight */
+    KILN_ALIGN_NORMAL,   /* its y axis turns to the normal of the surface that the parent hit */
 };
 
-/* Particles that are born of those of another system: shared/family.h. */
+/* Births of particles from particles of another system: shared/family.h. */
 struct kiln_parent {
     bool enabled;
     const char *name;
-    uint32_t system; /* its index */
+    uint32_t system; /* index of that system */
     enum kiln_event event;
     enum kiln_align align;
-    uint32_t count;         /* death, bounce: children of one parent */
-    struct kiln_value rate; /* trail: children a second; clock constant or life, the parent's */
-    uint32_t slots;         /* that one parent's children need: above 0 when enabled */
+    uint32_t count;         /* death, bounce: number of children of one parent */
+    struct kiln_value rate; /* trail: children a second; clock constant, or life of the parent */
+    uint32_t slots;         /* slots for the children of one parent: above 0 when enabled */
 };
 
 struct kiln_emitter {
@@ -84,19 +83,21 @@ struct kiln_emitter {
     struct kiln_value3 size;      /* m: box, full edges; line, from its first end to its last */
     uint32_t nozzles;             /* line: places that births take in turn; 0: anywhere on it */
     struct kiln_value turn;       /* rad/s: of the shape about its direction */
-    struct kiln_value inherit;    /* part of the emitter's (or parent's) velocity that it gets */
+    struct kiln_value inherit;    /* part of the emitter's (or parent's) velocity that is added at
+                                   * birth */
 };
 
-/* ---- forces: one row here, one in shared/forces.h, one option list --------------------------- */
+/* ---- forces: each kind also has a row in shared/forces.h and an option list ------------------ */
 
 enum kiln_force_kind {
     KILN_FORCE_GRAVITY, /* vector: acceleration, m/s^2 */
-    KILN_FORCE_DRAG,    /* towards rest */
-    KILN_FORCE_WIND,    /* vector: air velocity, m/s; pulled towards */
+    KILN_FORCE_DRAG,    /* drag towards rest */
+    KILN_FORCE_WIND,    /* vector: air velocity, m/s, which particles are pulled towards */
     KILN_FORCE_CURL,    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift,
                          * pull 1/s towards the air, octaves */
-    KILN_FORCE_LIMIT,   /* strength: m/s, the most that is left of the speed */
-    KILN_FORCE_FIELD,   /* file: air velocities, m/s; strength: factor on them; pull 1/s towards */
+    KILN_FORCE_LIMIT,   /* strength: m/s, limit of the speed */
+    KILN_FORCE_FIELD,   /* file: air velocities, m/s; strength: factor on them; pull 1/s towards the
+                         * air */
     KILN_FORCE_ATTRACT, /* vector: a point, m; strength: m/s^2 at 1 m from it, negative to flee;
                          * scale: m, radius within which it is softened; falloff */
     KILN_FORCE_VORTEX,  /* vector: a point of the axis, m; drift: its direction; strength: m/s at
@@ -116,10 +117,10 @@ enum kiln_vortex_profile {
     KILN_VORTEX_LAMB_OSEEN,
 };
 
-/* What moving air does to particles. */
+/* How moving air acts on particles. */
 enum kiln_wind_mode {
     KILN_WIND_PULL, /* (air - velocity) * pull, as an acceleration */
-    KILN_WIND_ADD,  /* its velocity is added in each step (UberFlow 2004, 4.2); no pull */
+    KILN_WIND_ADD,  /* the air's velocity is added in each step (UberFlow 2004, 4.2); no pull */
 };
 
 struct kiln_force {
@@ -129,20 +130,20 @@ struct kiln_force {
     struct kiln_value pull;      /* 1/s */
     struct kiln_value quadratic; /* 1/m: drag by the square of the speed */
     struct kiln_value scale;     /* m */
-    struct kiln_value3 drift;    /* m/s: the noise field moves with it */
-    struct kiln_value inward;    /* m/s; it and lift vary over time alone */
+    struct kiln_value3 drift;    /* m/s: drift of the noise field */
+    struct kiln_value inward;    /* m/s; inward and lift vary over time alone */
     struct kiln_value lift;      /* m/s */
     uint32_t octaves;            /* 1..4 */
     enum kiln_falloff falloff;
     enum kiln_vortex_profile profile;
-    enum kiln_wind_mode mode; /* of air */
+    enum kiln_wind_mode mode; /* how moving air acts */
     const char *file;         /* field: an absolute path (asset/geometry/grid_in.h) */
 };
 
 enum kiln_integration {
     KILN_INTEGRATE_SEMI_IMPLICIT,  /* velocity, then position */
     KILN_INTEGRATE_POSITION_FIRST, /* the thesis's order: position, then velocity (3.3.2) */
-    KILN_INTEGRATE_TRAPEZOID,      /* second order: UberFlow 2004, 4.2 (shared/stages.h) */
+    KILN_INTEGRATE_TRAPEZOID,      /* second order: as in UberFlow 2004, 4.2 (shared/stages.h) */
     KILN_INTEGRATE_RK4,            /* fourth order */
 };
 
@@ -155,59 +156,62 @@ enum kiln_collide_mode {
 
 struct kiln_collide {
     bool enabled;
-    bool dies; /* of its first impact */
+    bool dies; /* true: a particle dies at its first impact */
     enum kiln_collide_mode mode;
     struct kiln_value randomness;  /* 0 mirror .. 1 any direction of the hemisphere */
     struct kiln_value slowdown;    /* factor on the speed, 0..1 */
     struct kiln_value restitution; /* 0..1: of the speed along the normal */
-    struct kiln_value friction;    /* Coulomb's */
+    struct kiln_value friction;    /* Coulomb's coefficient */
 };
 
 /* ---- paint: Drone 2007, 7.6.1 ---------------------------------------------------------------- */
 
 enum kiln_paint_when {
-    KILN_PAINT_IMPACT, /* where it meets a surface, at its first impact of a step */
-    KILN_PAINT_NEAR,   /* the paper's: where it is at the end of a step */
+    KILN_PAINT_IMPACT, /* at the place of the first impact of a step */
+    KILN_PAINT_NEAR,   /* as in the paper: at the particle's place at the end of a step */
 };
 
-/* What a particle leaves on meshes that take paint: look.color. */
+/* The splats that particles leave on meshes that take paint, in look.color. */
 struct kiln_painting {
     bool enabled;
     enum kiln_paint_when when;
     struct kiln_range radius;  /* m */
-    struct kiln_value opacity; /* 0..1: in the middle */
+    struct kiln_value opacity; /* 0..1: opacity in the middle */
     struct kiln_value soft;    /* 0..1: outer part of the radius over which it fades */
 };
 
 /* ---- look ------------------------------------------------------------------------------------ */
 
 enum kiln_blend {
-    KILN_BLEND_ALPHA, /* covers: smoke */
-    KILN_BLEND_ADD,   /* shines and covers nothing: fire */
+    KILN_BLEND_ALPHA, /* premultiplied "over": smoke */
+    KILN_BLEND_ADD,   /* adds light and covers nothing: fire */
 };
 
 enum kiln_shape {
     KILN_SHAPE_BILLBOARD,
     KILN_SHAPE_POINT,  /* a disc or a square without a texture */
-    KILN_SHAPE_LINE,   /* from the particle back along its way */
+    KILN_SHAPE_LINE,   /* from the particle back along its path */
     KILN_SHAPE_SPHERE, /* opaque, lit like the backdrop */
-    KILN_SHAPE_MESH,   /* the same, out of a file */
+    KILN_SHAPE_MESH,   /* a mesh from a file, opaque, lit like the backdrop */
 };
 
-/* How a mesh lies in the world. Its own z axis is ahead and y is up. */
+/* How a mesh that is a particle is oriented. Its own z axis is ahead and y is up. */
 enum kiln_orient {
-    KILN_ORIENT_VELOCITY, /* ahead is where the particle goes, up as near to the world's as can be
-                           */
-    KILN_ORIENT_SPIN,     /* turned by collisions that spin; else about an axis drawn for each */
+    KILN_ORIENT_VELOCITY, /* ahead is the direction of flight, up is as near to the world's as
+                           * possible */
+    KILN_ORIENT_SPIN,     /* turned by collisions with `spins`; else about an axis drawn for each
+                           * particle */
     KILN_ORIENT_UPRIGHT,  /* turned about the world's up */
 };
 
-/* Instances of a mesh. What follows from the file is there where shape is mesh. */
+/* The mesh that particles of a system are drawn as. The members marked "follows" are filled when
+ * shape is mesh. */
 struct kiln_look_mesh {
     const char *file; /* an absolute path; NULL: none */
     enum kiln_orient orient;
-    const struct kiln_mesh *shown; /* follows: what the file contains */
-    float shade;                   /* follows: radius of a sphere with its mean shadow, in sizes */
+    const struct kiln_mesh *shown; /* follows: the content of the file */
+    float shade;                   /* follows: radius, in units of size, of a sphere whose shadow is
+                                    * as large as the mesh's mean shadow */
 };
 
 /* How a billboard stands to the camera (Heinz 2019, 2.1.1). */
@@ -216,7 +220,7 @@ enum kiln_facing {
     KILN_FACING_VIEWPLANE, /* parallel to the picture, up is the world's */
     KILN_FACING_VIEWPOINT, /* turned to the eye, up is the world's */
     KILN_FACING_AXIAL,     /* turned to the eye about an axis, which is up */
-    KILN_FACING_VELOCITY,  /* parallel to the picture, up is where the particle goes */
+    KILN_FACING_VELOCITY,  /* parallel to the picture, up is the direction of flight */
 };
 
 enum kiln_line_to {
@@ -232,43 +236,47 @@ enum kiln_soft_formula {
 struct kiln_look {
     const char *atlas[KILN_MAX_TEXTURES]; /* "builtin:NAME" or absolute file paths, of which each */
     uint32_t atlas_count;                 /* particle gets one */
-    uint32_t columns, rows;               /* cells of each */
+    uint32_t columns, rows;               /* cells of each atlas */
     const char *motion;  /* "none", "auto" (of built-in atlases) or an absolute file path */
-    double motion_scale; /* edges of a cell that the file's full value means */
+    double motion_scale; /* motion, in edges of a cell, that the file's full value stands for */
     enum kiln_blend blend;
     struct kiln_value size;  /* m: edge of the billboard */
-    struct kiln_range scale; /* factor on size, drawn per particle */
+    struct kiln_range scale; /* factor on size, drawn for each particle */
     enum kiln_shape shape;
-    enum kiln_facing facing;      /* of a billboard */
-    struct kiln_value3 axis;      /* of an axial one; need not be normalised, not zero */
-    struct kiln_value point_size; /* px: diameter; 0: size, in metres */
-    bool point_round;             /* a disc; else a square */
+    enum kiln_facing facing;      /* of a billboard: how it faces the camera */
+    struct kiln_value3 axis;      /* axis of an axial billboard; need not be normalised, not zero */
+    struct kiln_value point_size; /* px: diameter of a point; 0: size, in metres */
+    bool point_round;             /* true: a disc; false: a square */
     struct kiln_value line_width; /* px */
     enum kiln_line_to line_to;
     struct kiln_look_sphere sphere;
     struct kiln_look_mesh mesh;
-    struct kiln_value stretch;     /* s: longer along the velocity by speed * stretch; 0: square */
-    struct kiln_range rotation;    /* rad at birth */
-    struct kiln_range spin;        /* rad/s; the sign is drawn per particle */
-    struct kiln_value cycles;      /* passes through the atlas in a life */
-    bool random_start;             /* each particle starts at a cell of its own */
-    struct kiln_value3 color;      /* linear; multiplies the atlas or the blackbody colour */
-    struct kiln_value opacity;     /* 0..1 */
-    struct kiln_value temperature; /* K: blackbody colour; 0: none */
-    struct kiln_value intensity;   /* factor on emitted light */
-    struct kiln_value fade_in, fade_out; /* parts of the life */
-    struct kiln_value soft;              /* 1/m: equation 3.3; 0: hard */
+    struct kiln_value stretch;           /* s: a billboard is longer along the velocity by speed *
+                                          * stretch; 0: square */
+    struct kiln_range rotation;          /* rad at birth */
+    struct kiln_range spin;              /* rad/s; the sign is drawn for each particle */
+    struct kiln_value cycles;            /* passes through the atlas in one life */
+    bool random_start;                   /* each particle starts at a cell of its own */
+    struct kiln_value3 color;            /* linear; multiplies the atlas or the blackbody colour */
+    struct kiln_value opacity;           /* 0..1 */
+    struct kiln_value temperature;       /* K: blackbody colour; 0: none */
+    struct kiln_value intensity;         /* factor on emitted light */
+    struct kiln_value fade_in, fade_out; /* parts of the life over which opacity rises and falls */
+    struct kiln_value soft;              /* 1/m: softness by equation 3.3; 0: hard edges */
     enum kiln_soft_formula soft_formula;
-    struct kiln_value thickness; /* of a billboard in parts of its size, for KILN_COMPOSE_OIT */
-    struct kiln_value near_fade; /* m: transparent this near to the camera's near plane */
+    struct kiln_value thickness; /* thickness of a billboard in units of its size, for
+                                  * KILN_COMPOSE_OIT */
+    struct kiln_value near_fade; /* m: distance from the camera's near plane over which the particle
+                                  * fades to transparent */
     struct kiln_value3 bloom;    /* weights of equation 3.2, per channel */
     struct kiln_value lit;       /* 0 unlit .. 1 lit by sun, sky and lights */
-    struct kiln_value shadow;    /* of particles that cover: factor on the light they keep off */
-    struct kiln_value3 light;    /* factor on the light that they shed on other things; 0: none */
-    uint32_t light_count;        /* by so many lights */
+    struct kiln_value shadow;    /* of particles that cover: factor on the shadow that they cast */
+    struct kiln_value3 light;    /* factor on the light that they shed on other objects; 0: none */
+    uint32_t light_count;        /* number of point lights for that light */
 };
 
-/* Whether particles are part of the scene that others are drawn before or behind. */
+/* Returns whether particles are solid, so that other particles are drawn in front of or behind
+ * them. */
 static inline bool kiln_look_is_opaque(const struct kiln_look *look)
 {
     return look->shape == KILN_SHAPE_SPHERE || look->shape == KILN_SHAPE_MESH;
@@ -286,92 +294,99 @@ struct kiln_system {
     struct kiln_interaction interactions[KILN_MAX_INTERACTIONS];
     uint32_t interaction_count;
     struct kiln_painting paint;
-    struct kiln_bounds demitters[KILN_MAX_DEMITTERS]; /* a particle inside dies (2.1.2) */
+    struct kiln_bounds demitters[KILN_MAX_DEMITTERS]; /* boxes: a particle inside dies (2.1.2) */
     uint32_t demitter_count;
-    struct kiln_bounds bounds; /* a particle outside dies (2.1.2) */
+    struct kiln_bounds bounds; /* box: a particle outside dies (2.1.2) */
     struct kiln_look look;
-    uint32_t capacity; /* slots; the most births in any window of the longest life, that of the
-                        * longest-lived descendants included; of children, parents' times slots */
+    uint32_t capacity; /* slots: the most births in any window as long as the longest life,
+                        * including that of the longest-lived descendants; of children: the parent's
+                        * capacity times slots */
 };
 
-/* ---- the rest -------------------------------------------------------------------------------- */
+/* ---- objects, backdrop, camera, picture ------------------------------------------------------ */
 
 enum kiln_object_kind {
     KILN_OBJECT_BOX, /* along the axes, unless it has a rotation */
     KILN_OBJECT_SPHERE,
     KILN_OBJECT_CYLINDER, /* with flat ends */
     KILN_OBJECT_MESH,
-    KILN_OBJECT_CAPSULE, /* with round ends */
-    KILN_OBJECT_PLANE,   /* all that is below it */
+    KILN_OBJECT_CAPSULE, /* with round caps */
+    KILN_OBJECT_PLANE,   /* the half-space below it is solid */
     KILN_OBJECT_TERRAIN, /* drawn as a mesh */
 };
 
-/* A mesh that moves in its own space as a clip of its file says (asset/geometry/skin.h). */
+/* A mesh that moves in its own space by a clip of its file (asset/geometry/skin.h). */
 struct kiln_animation {
     bool enabled;
-    const char *clip;               /* its name or number, as written */
+    const char *clip;               /* the clip's name or number, as written */
     struct kiln_value start, speed; /* s; factor: constant */
     bool loop;
-    uint32_t number; /* follows: of the clip */
-    float length;    /* follows: s */
+    uint32_t number; /* follows: number of the clip */
+    float length;    /* follows: s, length of the clip */
 };
 
-/* How particles meet a mesh. */
+/* How particles collide with a mesh. */
 enum kiln_collider_kind {
-    KILN_COLLIDER_FIELD,      /* by its signed distance field: it is closed and moves rigidly */
-    KILN_COLLIDER_VOLUME,     /* by planes in a lattice of cells, in each step anew */
-    KILN_COLLIDER_DEPTH_MAPS, /* by all between its fronts and backs from some directions */
+    KILN_COLLIDER_FIELD,      /* with its signed distance field: the mesh is closed and moves
+                               * rigidly */
+    KILN_COLLIDER_VOLUME,     /* with planes in a lattice of cells, which are made in each step */
+    KILN_COLLIDER_DEPTH_MAPS, /* with all between its fronts and backs, seen from some directions */
 };
 
 enum kiln_sides {
-    KILN_SIDES_ONE, /* what is behind a plane of a volume is in the mesh */
+    KILN_SIDES_ONE, /* all that is behind a plane of a volume counts as inside the mesh */
     KILN_SIDES_TWO,
 };
 
 enum kiln_gather {
-    KILN_GATHER_NEAR, /* splats go to the texels that they may reach */
-    KILN_GATHER_ALL,  /* each texel looks at all of them, as in the paper */
+    KILN_GATHER_NEAR, /* each splat visits the texels that it may reach */
+    KILN_GATHER_ALL,  /* each texel visits all splats, as in the paper */
 };
 
-/* Of a mesh that takes paint (Drone 2007, 7.6.1). */
+/* Paint on a mesh (Drone 2007, 7.6.1). */
 struct kiln_object_paint {
     bool enabled;
     uint32_t size; /* texels along an edge, a power of two */
     enum kiln_gather gather;
-    uint32_t per_step; /* particles that are painted in a step, in turn; 0: all */
+    uint32_t per_step; /* the most particles painted in a step, in turn; 0: all */
 };
 
 /* Values have the clock constant or time. */
 struct kiln_object {
     enum kiln_object_kind kind;
-    struct kiln_value3 center;   /* m; of a mesh, where the origin of its file lies; of terrain, the
-                                  * middle and the lowest height: constant */
+    struct kiln_value3 center;   /* m; mesh: where the origin of its file lies; terrain: its middle
+                                  * and lowest height, constant */
     struct kiln_value3 color;    /* albedo */
     struct kiln_value3 size;     /* m: box, full edges; terrain, constant */
     struct kiln_value radius;    /* m: sphere, cylinder, capsule */
-    struct kiln_value height;    /* m: cylinder, capsule without its ends, along the axis */
-    struct kiln_value3 axis;     /* cylinder, capsule, normal of a plane: not zero, of any length */
+    struct kiln_value height;    /* m: along the axis; of a capsule, without its caps */
+    struct kiln_value3 axis;     /* cylinder, capsule: axis; plane: normal; not zero, of any
+                                  * length */
     const char *file;            /* mesh: an absolute path; terrain: that of an image, or NULL */
     struct kiln_value3 rotation; /* rad: box, mesh: about x, then y, then z */
-    struct kiln_value scale;     /* mesh: metres for a unit of the file */
+    struct kiln_value scale;     /* mesh: metres in one unit of the file */
     struct kiln_animation animation; /* mesh */
-    const struct kiln_mesh *shown;   /* mesh, follows: unwrapped where it takes paint; of one that
-                                      * moves, while no clip plays */
-    const struct kiln_mesh *met;     /* mesh that collides, follows: the same, but not unwrapped */
+    const struct kiln_mesh *shown;   /* mesh, follows: what is drawn; unwrapped if it takes paint;
+                                      * of a mesh that moves, in its rest pose */
+    const struct kiln_mesh *met;     /* mesh that collides, follows: the same mesh, not unwrapped */
     const struct kiln_skin *skin;    /* mesh that moves, follows */
-    uint32_t samples[2]; /* terrain (asset/geometry/terrain.h), and what follows; constant */
+    uint32_t samples[2]; /* terrain, constant (asset/geometry/terrain.h); also the members up to
+                          * `cells` */
     struct kiln_value hills, roughness, ridges;
     uint32_t octaves, seed;
-    uint32_t cells;                   /* mesh: of what it collides by, along its longest edge */
-    enum kiln_collider_kind collider; /* mesh, and what follows */
-    struct kiln_value3 heading;       /* volume: where most particles go; not zero, of any length */
-    enum kiln_sides sides;            /* likewise, of its planes */
-    struct kiln_value3 depth_directions[KILN_MAX_DEPTH_DIRECTIONS]; /* of its depth maps */
+    uint32_t cells;                   /* mesh: cells of its collision grid along its longest edge */
+    enum kiln_collider_kind collider; /* mesh, and the members up to depth_resolution */
+    struct kiln_value3 heading;       /* volume: the direction in which most particles fly; not
+                                       * zero, of any length */
+    enum kiln_sides sides;            /* volume: which sides of its planes are solid */
+    struct kiln_value3 depth_directions[KILN_MAX_DEPTH_DIRECTIONS]; /* depth maps: directions of
+                                                                     * view */
     uint32_t depth_direction_count, depth_resolution; /* (asset/geometry/depth_maps.h) */
     struct kiln_object_paint paint;                   /* mesh */
     bool collide;
     bool visible;                  /* plane: drawn */
-    struct kiln_value restitution; /* factors on those of the particles that bounce off it */
+    struct kiln_value restitution; /* factors on the restitution and friction of the particles that
+                                    * bounce off it */
     struct kiln_value friction;
 };
 
@@ -382,25 +397,30 @@ struct kiln_light {
 };
 
 struct kiln_backdrop {
-    bool transparent; /* no sky, no floor: alpha in the output */
+    bool transparent; /* true: there is neither sky nor floor, and the output has alpha */
     struct kiln_value3 sky_top, sky_horizon;
-    const char *sky_image;           /* equirectangular, an absolute path; NULL: the gradient */
-    struct kiln_value sky_rotation;  /* rad: of the image, about y */
+    const char *sky_image;           /* equirectangular image, an absolute path; NULL: the
+                                      * gradient */
+    struct kiln_value sky_rotation;  /* rad: rotation of the image about y */
     struct kiln_value sky_intensity; /* factor on the image */
     bool floor_enabled, floor_collide;
     struct kiln_value3 floor_color;
-    struct kiln_value floor_height;                      /* m; constant while it collides */
-    struct kiln_value floor_restitution, floor_friction; /* as an object's */
+    struct kiln_value floor_height;                      /* m; must be constant if particles collide
+                                                          * with the floor */
+    struct kiln_value floor_restitution, floor_friction; /* factors, as of an object */
     struct kiln_value floor_checker;                     /* m: edge of the squares; 0: plain */
-    const char *floor_image;       /* repeated, an absolute path; NULL: the colour */
+    const char *floor_image;       /* image that repeats, an absolute path; NULL: the floor's
+                                    * colour */
     struct kiln_value floor_tile;  /* m: width of the image */
-    struct kiln_value floor_gloss; /* factor on what it mirrors; 0: matt */
+    struct kiln_value floor_gloss; /* factor on the reflection; 0: matt */
     struct kiln_value floor_roughness;
-    struct kiln_value floor_wave_height, floor_wave_length; /* m */
-    struct kiln_value3 sun_direction;                       /* towards the sun */
+    struct kiln_value floor_wave_height, floor_wave_length; /* m: height and length of waves */
+    struct kiln_value3 sun_direction;                       /* direction towards the sun */
     struct kiln_value3 sun_color;                           /* irradiance; 0 0 0: none */
-    struct kiln_value sun_size;                             /* rad: its diameter; 0: hard shadows */
-    struct kiln_value haze;                                 /* 1/m: floor fades into the horizon */
+    struct kiln_value sun_size;                             /* rad: angular diameter of the sun; 0:
+                                                             * hard shadows */
+    struct kiln_value haze;                                 /* 1/m: density of the haze by which the
+                                                             * floor fades into the horizon */
     struct kiln_object objects[KILN_MAX_OBJECTS];
     uint32_t object_count;
     struct kiln_light lights[KILN_MAX_LIGHTS];
@@ -412,48 +432,50 @@ struct kiln_camera {
     struct kiln_value fov;               /* rad, vertical */
     struct kiln_value roll;              /* rad */
     struct kiln_value near_plane;        /* m */
-    uint32_t shutter_samples;            /* moments of a frame that are drawn; 1: no blur */
-    double shutter_angle;                /* rad; a full turn is open all the time */
+    uint32_t shutter_samples;            /* moments of a frame that are drawn and averaged; 1: no
+                                          * motion blur */
+    double shutter_angle;                /* rad; with a full turn, the shutter is always open */
 };
 
 enum kiln_compose {
-    KILN_COMPOSE_MERGED,   /* fire and smoke sorted together, premultiplied */
-    KILN_COMPOSE_SEPARATE, /* smoke onto the scene, then fire over it (figure 3.1) */
-    KILN_COMPOSE_ALPHA,    /* sorted together, and fire covers like smoke (Heinz 2019, 2.3.1) */
-    KILN_COMPOSE_OIT,      /* as merged, but sorted in each pixel, by what is nearest there */
+    KILN_COMPOSE_MERGED,   /* fire and smoke are sorted together, premultiplied */
+    KILN_COMPOSE_SEPARATE, /* smoke is drawn onto the scene, then fire over it (figure 3.1) */
+    KILN_COMPOSE_ALPHA,    /* fire and smoke are sorted together, and fire covers like smoke (Heinz
+                            * 2019, 2.3.1) */
+    KILN_COMPOSE_OIT,      /* as merged, but sorted in each pixel by the depth there */
 };
 
-/* Of the pictures that particles are drawn into. */
+/* Resolution of the pictures that particles are drawn into. */
 enum kiln_resolution { KILN_RESOLUTION_FULL, KILN_RESOLUTION_HALF, KILN_RESOLUTION_QUARTER };
 
 enum kiln_bloom_kind { KILN_BLOOM_NONE, KILN_BLOOM_GAUSSIAN, KILN_BLOOM_PYRAMID };
 
-/* What glows. */
+/* What the bloom is made of. */
 enum kiln_bloom_source {
-    KILN_BLOOM_WEIGHTS, /* particles, by the weights of their looks */
-    KILN_BLOOM_BRIGHT,  /* all that is brighter than a threshold */
+    KILN_BLOOM_WEIGHTS, /* particles, by the bloom weights of their looks */
+    KILN_BLOOM_BRIGHT,  /* all light above a threshold */
 };
 
 enum kiln_tonemap { KILN_TONEMAP_NONE, KILN_TONEMAP_AGX, KILN_TONEMAP_ACES };
 
-/* By the word of post.tonemap; false when there is none of that name. */
+/* Finds a tone mapping by its name in post.tonemap; false: there is none of that name. */
 bool kiln_tonemap_find(const char *name, enum kiln_tonemap *tonemap);
 
 struct kiln_post {
     enum kiln_compose compose;
-    enum kiln_resolution resolution; /* of particles */
-    bool mixed_resolution;           /* but full where the depth of the scene has edges */
+    enum kiln_resolution resolution; /* resolution of the particles */
+    bool mixed_resolution;           /* full resolution where the depth of the scene has edges */
     enum kiln_bloom_kind bloom;
     enum kiln_bloom_source bloom_source;
     struct kiln_value bloom_strength;
-    struct kiln_value bloom_threshold; /* of exposed light */
-    struct kiln_value bloom_radius;    /* of the pyramid: 0 to 1 */
-    struct kiln_value exposure;        /* stops */
+    struct kiln_value bloom_threshold; /* threshold on light after exposure */
+    struct kiln_value bloom_radius;    /* of the pyramid: 0 to 1, how far it spreads */
+    struct kiln_value exposure;        /* exposure in stops */
     enum kiln_tonemap tonemap;
     bool dither;
 };
 
-/* Whether particles meet the floor: one that there is. */
+/* Returns whether particles collide with the floor: it is visible and collides. */
 static inline bool kiln_backdrop_floor_collides(const struct kiln_backdrop *backdrop)
 {
     return backdrop->floor_enabled && backdrop->floor_collide;
@@ -462,31 +484,31 @@ static inline bool kiln_backdrop_floor_collides(const struct kiln_backdrop *back
 /* A file that a scene was read from. */
 struct kiln_scene_file {
     const char *path;
-    const char *what; /* for messages: "the scene" */
+    const char *what; /* kind of file for messages: "the scene" */
     struct kiln_scene_file *next;
 };
 
 struct kiln_scene {
     struct kiln_arena *arena;
-    const char *name;                 /* the file, as given */
-    struct kiln_scene_file *files;    /* all that were read; those that meshes name are not here */
-    const char *asset_root;           /* absolute folder */
-    struct kiln_mesh_library *meshes; /* all that objects and looks have */
-    struct kiln_budget *budget;       /* of kiln_scene_params */
-    struct kiln_loader *loader;       /* of the files below the asset root; the scene ends it */
+    const char *name;                 /* name of the file, as given */
+    struct kiln_scene_file *files;    /* all files that were read, except those that meshes name */
+    const char *asset_root;           /* absolute folder that paths start from */
+    struct kiln_mesh_library *meshes; /* owns the meshes of all objects and looks */
+    struct kiln_budget *budget;       /* limits of kiln_scene_params */
+    struct kiln_loader *loader;       /* opens the files below the asset root; owned by the scene */
 
-    uint32_t format_version; /* 1 */
+    uint32_t format_version; /* always 1 */
     uint32_t seed;
     uint32_t width, height; /* px */
     struct kiln_rational fps;
     uint32_t frames;
 
     struct kiln_rational rate; /* steps a second: fps * steps_per_frame */
-    double warmup_s;           /* as written; warmup_steps is what counts */
+    double warmup_s;           /* as written; warmup_steps is the value that is used */
     uint32_t steps_per_frame;  /* rate / fps, a whole number */
-    uint32_t warmup_steps;     /* before frame 0, clip time negative */
+    uint32_t warmup_steps;     /* steps before frame 0, at negative clip times */
     enum kiln_integration integration;
-    struct kiln_bounds bounds; /* of systems without their own, which have it copied */
+    struct kiln_bounds bounds; /* bounds of systems without their own; copied to them */
     float dt_s;                /* 1 / rate, rounded once */
 
     struct kiln_camera camera;
@@ -495,40 +517,41 @@ struct kiln_scene {
     uint32_t system_count;
     struct kiln_post post;
 
-    uint64_t samples; /* follows: of the grids that move particles (scene/samples.h) */
+    uint64_t samples; /* follows: number of samples of the grids that move particles
+                       * (scene/samples.h) */
 
-    float4 *keys; /* (x, y, slope, integral from 0) */
+    float4 *keys; /* keys: x, y, slope, integral from 0 */
     uint32_t key_count;
-    char hash[65]; /* SHA-256 of what kiln_scene_print writes and of the textures, in hex */
+    char hash[65]; /* SHA-256, in hex, of the text of kiln_scene_print and of the textures */
 };
 
-/* Declares the files that the scene was read from as read; errors as of kiln_claims_read. */
+/* Claims the files that the scene was read from as read; errors as of kiln_claims_read. */
 bool kiln_scene_claim(const struct kiln_scene *scene, struct kiln_claims *claims,
                       struct kiln_error *error);
 
-/* Declares a scene file as read, and the files that its texts or those of overrides ("key=value")
- * name, without loading it: whatever is a file below the scene's folder. What cannot be read is
- * nobody's file. */
+/* Claims a scene file as read without loading it, and all files below the scene's folder that its
+ * texts, or the texts of overrides ("key=value"), name. Files that cannot be read are not
+ * claimed. */
 bool kiln_scene_claim_file(const char *path, const char *const *overrides, size_t override_count,
                            struct kiln_claims *claims, struct kiln_error *error);
 
-/* The scene as a scene file, with nothing left to defaults, into a text that the caller frees;
- * false when memory is short. parts: bits of enum kiln_scene_part, for the rows of these alone; 0:
- * all rows. */
+/* Prints the scene as a scene file, with every default written out, into a text that the caller
+ * frees; false when memory is short. parts: bits of enum kiln_scene_part; only rows of these parts
+ * are printed; 0: all rows. */
 bool kiln_print_scene(const struct kiln_scene *scene, unsigned parts, struct kiln_text *text);
 
-/* Clip time in seconds at the end of a step; steps count from 1, 0 is the start of the run. The
- * division is IEEE's, so every host gets the same float. */
+/* Returns the clip time in seconds at the end of a step. Steps count from 1; 0 is the start of the
+ * run. The division is IEEE's, so every host gets the same float. */
 float kiln_scene_time(const struct kiln_scene *scene, uint32_t step);
 
-/* Steps to have run before frame `frame` is drawn. */
+/* Returns the number of steps to run before frame `frame` is drawn. */
 uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame);
 
-/* Steps to have run before one of a frame's moments is drawn, which lie evenly in the time that the
- * shutter is open, from the frame's own time. */
+/* Returns the number of steps to run before one of a frame's moments is drawn. The moments lie
+ * evenly in the time that the shutter is open, which starts at the frame's own time. */
 uint32_t kiln_scene_moment_step(const struct kiln_scene *scene, uint32_t frame, uint32_t moment);
 
-/* Values on the host, at a clip time; for values over time or constant. */
+/* Compute values on the host at a clip time, for values that are constant or vary over time. */
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value,
                        float time_s);
 float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value3 *value,
@@ -536,56 +559,58 @@ float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value
 
 bool kiln_value3_is_constant(const struct kiln_value3 *value);
 
-/* Whether an object is a box that does not lie along the axes, or not always. */
+/* Returns whether an object is a box that has a rotation at any time. */
 bool kiln_object_is_turned_box(const struct kiln_object *object);
 
-/* The largest that the value ever is, and the smallest: they are attained at keys. */
+/* Return the largest and the smallest value over all time, which lie at keys. */
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
 float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
 
-/* Columns of the rotation about x, then y, then z, by angles in radians: a mat3 of base/matrix.h.
- */
+/* Computes the columns of the rotation about x, then y, then z, by angles in radians: a mat3 of
+ * base/matrix.h. */
 void kiln_scene_rotation(float3 angles, float columns[3][3]);
 
-/* Is the object drawn as a mesh? */
+/* Returns whether the object is drawn as a mesh. */
 bool kiln_object_is_mesh(const struct kiln_object *object);
 
-/* Those of the depth maps of a mesh. */
+/* Computes the directions of the depth maps of a mesh. */
 void kiln_object_depth_directions(const struct kiln_object *mesh,
                                   float directions[KILN_MAX_DEPTH_DIRECTIONS][3]);
 
-/* How far into its clip a mesh that moves is at a clip time, s: what kiln_skin_pose takes. */
+/* Returns the position in its clip, s, of a mesh that moves, at a clip time; kiln_skin_pose takes
+ * it. */
 float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s);
-/* Does a clip begin anew between two times, the second later? Then *end_s is where in it it ends.
- */
+/* Returns whether a clip restarts between two times, of which the second is later. Then *end_s
+ * becomes the position in it where it ends. */
 bool kiln_scene_animation_ends(const struct kiln_animation *animation, float from_s, float to_s,
                                float *end_s);
 
-/* Whether particles of a system paint any mesh, and whether an object takes paint. */
+/* Return whether particles of a system paint any mesh, and whether an object takes paint. */
 bool kiln_scene_paints(const struct kiln_scene *scene, uint32_t system);
 bool kiln_object_takes_paint(const struct kiln_object *object);
 
-/* What a terrain is made from; the image's path stays the scene's. */
+/* Returns the parameters of a terrain; the image's path stays owned by the scene. */
 struct kiln_terrain_params kiln_scene_terrain(const struct kiln_scene *scene,
                                               const struct kiln_object *terrain);
-/* The largest radius that particles of a system ever have as balls, m; 0: they do not collide with
+/* Returns the largest radius of the particles of a system as balls, m; 0: they do not collide with
  * each other. */
 float kiln_scene_contact_radius(const struct kiln_scene *scene, uint32_t system);
 
-/* Whether the particles of a system turn as balls that collide do; or those of any. */
+/* Return whether the particles of a system, or of any system, spin by collisions. */
 bool kiln_scene_system_spins(const struct kiln_scene *scene, uint32_t system);
 bool kiln_scene_spins(const struct kiln_scene *scene);
 
-/* The system's interaction of a kind, or NULL. */
+/* Returns the system's interaction of a kind, or NULL. */
 const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *scene,
                                                       uint32_t system,
                                                       enum kiln_interaction_kind kind);
 
-/* What is needed to recompute a particle of a system from its record (shared/derived.h). */
+/* Returns the parameters by which a particle of a system is recomputed from its record
+ * (shared/derived.h). */
 struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system);
 
-/* The births of a system as lib/particles counts them. source.context points into the struct, which
- * must stay where it was filled. */
+/* Holds the births of a system for lib/particles. source.context points into the struct, which must
+ * not be moved after it was filled. */
 struct kiln_scene_births {
     struct kiln_births_source source;
     const struct kiln_scene *scene;

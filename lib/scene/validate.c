@@ -19,11 +19,11 @@
 
 /* ---- clock ---------------------------------------------------------------------------------- */
 
-/* Writes a multiple of the frame rate as a scene may have it. */
+/* Writes a multiple of the frame rate as a number that a scene may have. */
 static void print_multiple(char out[32], struct kiln_rational fps, uint64_t multiple)
 {
     uint64_t num = fps.num * multiple;
-    if (1000000 % fps.den == 0) /* no more decimals than a rate may have */
+    if (1000000 % fps.den == 0) /* a rate has at most six decimals */
         kiln_unit_print_number(out, (double)num / (double)fps.den);
     else
         snprintf(out, 32, "%" PRIu64 "/%" PRIu32, num, fps.den);
@@ -64,7 +64,7 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
         kiln_unit_reduce(&num, &den);
         scene->rate = (struct kiln_rational){(uint32_t)num, (uint32_t)den};
     }
-    /* rate / fps, a whole number? */
+    /* is rate / fps a whole number? */
     uint64_t above = scene->rate.num * fps_den, below = scene->rate.den * fps_num;
     if (above % below != 0)
         return refuse_rate(reader, root, above / below);
@@ -92,17 +92,17 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
 
 /* ---- systems -------------------------------------------------------------------------------- */
 
-/* What the births of a system need over the whole run. */
+/* Bounds the births of a system over the whole run. */
 static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uint32_t index)
 {
     const struct kiln_system *system = &scene->systems[index];
     const struct kiln_parent *parent = &system->emit.parent;
     if (!system->enabled)
         return (struct kiln_births_bound){0};
-    if (parent->enabled) { /* which comes earlier, and has its slots already */
+    if (parent->enabled) { /* the parent comes earlier in the order, so its slots are known */
         struct kiln_births_bound bound = births_bound(scene, parent->system);
         bound.capacity = (uint64_t)scene->systems[parent->system].capacity * parent->slots;
-        bound.total *= parent->slots; /* below 2^63: there are not so many generations */
+        bound.total *= parent->slots; /* stays below 2^63, since generations are few */
         return bound;
     }
     struct kiln_scene_births births;
@@ -121,7 +121,7 @@ static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *
     for (uint32_t i = 0; i < scene->system_count; i++) {
         struct kiln_system *system = &scene->systems[order[i]];
         struct kiln_births_bound bound = births_bound(scene, order[i]);
-        uint64_t slots = bound.capacity ? bound.capacity : 1; /* no buffer is empty */
+        uint64_t slots = bound.capacity ? bound.capacity : 1; /* no buffer may be empty */
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit", system->name);
         const uint64_t mebibyte = 1 << 20, bytes = sizeof(struct kiln_particle);
@@ -151,7 +151,7 @@ static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *
     return true;
 }
 
-/* Calls check at every key time of some values, and once where there is none. */
+/* Calls `check` at the time of every key of some values, and once if they have no keys. */
 static bool at_all_keys(const struct kiln_scene *scene, const struct kiln_value3 *const *vectors,
                         unsigned count,
                         bool (*check)(const struct kiln_scene *scene,
@@ -215,7 +215,7 @@ static bool check_division(struct kiln_reader *reader, const struct kiln_node *r
     return kiln_asset_fail(reader, root, path, file, &error);
 }
 
-/* Other shapes show no texture. */
+/* Checks the cells of a system's atlas. Only billboards show one. */
 static bool check_cells(struct kiln_reader *reader, const struct kiln_node *root,
                         const struct kiln_system *system)
 {
@@ -252,8 +252,8 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
-/* Checks a system's interactions. Two of a kind are refused, since each would gather from the state
- * before the other. */
+/* Checks a system's interactions. Two of a kind are refused, since each would be computed from the
+ * state before the other. */
 static bool check_interactions(struct kiln_reader *reader, const struct kiln_node *root,
                                const struct kiln_system *system)
 {
@@ -317,9 +317,9 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
     return true;
 }
 
-/* ---- the rest ------------------------------------------------------------------------------- */
+/* ---- backdrop and camera --------------------------------------------------------------------- */
 
-/* The key of an object's direction; NULL: it has none. */
+/* Returns the key of an object's direction; NULL: the object has none. */
 static const char *name_of_axis(const struct kiln_object *object)
 {
     if (object->kind == KILN_OBJECT_CYLINDER)
@@ -359,7 +359,7 @@ static bool check_solid(struct kiln_reader *reader, const struct kiln_node *root
            check_depth_maps(reader, root, path, mesh);
 }
 
-/* Checks a mesh that is to take paint. */
+/* Checks a mesh that takes paint. */
 static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);

@@ -1,6 +1,6 @@
-/* This file estimates the work and the memory that a scene takes, and refuses a scene over its
- * budget. The expected memory is a sum over what a scene has many of, by measured sizes of one of
- * each (docs/measurements.md, "Memory of a clip"). */
+/* Estimates the work and the memory that a scene takes, and refuses a scene over its budget. The
+ * expected memory is a sum of counts (pixels, cells, slots, triangles...) times measured sizes
+ * (docs/measurements.md, "Memory of a clip"). */
 #include "scene/work.h"
 
 #include <string.h>
@@ -10,22 +10,22 @@
 #include "base/budget.h"
 #include "base/sized.h"
 
-/* The bytes that one of each takes, and those that every scene takes. */
+/* Bytes of the program, and bytes for one of each thing that a scene has many of. */
 enum {
     PROGRAM_BYTES = 26 << 20,
     ANY_MESH_BYTES = 6 << 20,
     PIXEL_BYTES = 68,
     SLOT_BYTES = 100,
-    CELL_BYTES = 150000, /* of an atlas, and while it is made */
+    CELL_BYTES = 150000, /* a cell of an atlas, including what is needed while it is made */
     TRIANGLE_BYTES = 350,
-    TEXEL_BYTES = 80,    /* of paint */
-    GROUND_BYTES = 330,  /* a sample of terrain: two triangles */
-    SAMPLE_BYTES = 32,   /* of what moves particles */
-    BACKDROP_BYTES = 15, /* a pixel of a picture of floor or sky: half floats, with levels */
-    ATLAS_BYTES = 6,     /* a pixel of an atlas's picture, one at a time, until it is cells */
+    TEXEL_BYTES = 80,    /* a texel of paint */
+    GROUND_BYTES = 330,  /* a sample of terrain, which has two triangles */
+    SAMPLE_BYTES = 32,   /* a sample of a grid that moves particles */
+    BACKDROP_BYTES = 15, /* a pixel of a picture of floor or sky: half floats, with mip levels */
+    ATLAS_BYTES = 6,     /* a pixel of an atlas's picture; pictures are loaded one at a time */
 };
 
-/* ---- what there is --------------------------------------------------------------------------- */
+/* ---- counts ---------------------------------------------------------------------------------- */
 
 uint64_t kiln_work_steps(const struct kiln_scene *scene)
 {
@@ -40,7 +40,7 @@ uint64_t kiln_work_particles(const struct kiln_scene *scene)
     return particles;
 }
 
-/* Has an earlier system, or an earlier entry of this one, the same cells? */
+/* Returns whether an earlier system, or an earlier entry of this one, has the same cells. */
 static bool is_shared(const struct kiln_scene *scene, uint32_t system, uint32_t texture)
 {
     const struct kiln_look *look = &scene->systems[system].look;
@@ -106,7 +106,8 @@ static uint64_t count_ground(const struct kiln_scene *scene)
     return samples;
 }
 
-/* Returns the pixels of a picture whose size is known; 0 for a built-in one or a video. */
+/* Returns the pixels of a picture; 0 for a built-in picture or a video, whose size is not known
+ * here. */
 static uint64_t count_pixels(const struct kiln_scene *scene, const char *picture)
 {
     uint32_t size[2];
@@ -135,7 +136,7 @@ static uint64_t find_largest_atlas(const struct kiln_scene *scene, const char **
 struct term {
     uint64_t bytes;
     const char *path;
-    const char *system; /* that the path is in, or NULL */
+    const char *system; /* system that the path is in, or NULL */
 };
 
 enum { TERMS = 9 };
@@ -237,7 +238,7 @@ bool kiln_work_check(struct kiln_reader *reader, const struct kiln_node *root)
     const struct {
         enum kiln_limit limit;
         uint64_t amount;
-        const char *path; /* the key that one would change */
+        const char *path; /* the key that a user would change */
     } rows[] = {
         {KILN_LIMIT_pixels, (uint64_t)scene->width * scene->height, "output.size"},
         {KILN_LIMIT_frames, scene->frames, "output.frames"},
