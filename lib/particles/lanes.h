@@ -11,10 +11,11 @@
 enum {
     KILN_LANES = 128,
     KILN_RECORD_WORDS = sizeof(struct kiln_particle) / sizeof(uint32_t),
-    KILN_SHORT_CURVE = 12, /* keys; of longer ones, each lane finds its own */
+    KILN_SHORT_CURVE = 12, /* keys of a curve that all lanes search together; in a longer one each
+                            * lane searches alone */
 };
 
-/* A number of each lane. */
+/* One number for each lane. */
 typedef float kiln_floats[KILN_LANES];
 
 struct kiln_floats3 {
@@ -22,9 +23,9 @@ struct kiln_floats3 {
 };
 
 struct kiln_lanes {
-    alignas(64) uint32_t words[KILN_RECORD_WORDS][KILN_LANES]; /* of the records */
+    alignas(64) uint32_t words[KILN_RECORD_WORDS][KILN_LANES]; /* words of the records */
     kiln_floats age_s, life_s;
-    kiln_floats born_s, least, most; /* on the way to life_s */
+    kiln_floats born_s, least, most; /* the times that life_s is computed from */
 };
 
 static inline float3 kiln_get3(const struct kiln_floats3 *from, uint32_t i)
@@ -48,7 +49,7 @@ static inline struct kiln_particle kiln_lanes_record(const struct kiln_lanes *la
     };
 }
 
-/* KILN_LANES records. */
+/* Loads KILN_LANES records. */
 static inline void kiln_lanes_load(struct kiln_lanes *lanes, const struct kiln_particle *records)
 {
     for (uint32_t i = 0; i < KILN_LANES; i++) {
@@ -69,7 +70,7 @@ static inline void kiln_lanes_store(const struct kiln_lanes *lanes, struct kiln_
         records[i] = kiln_lanes_record(lanes, i);
 }
 
-/* value_at_key, key by key. */
+/* Computes value_at_key for all lanes, one key after another. */
 static inline void kiln_lanes_follow(const float4 *keys, struct kiln_value v, const float *x,
                                      float *y)
 {
@@ -94,7 +95,8 @@ static inline void kiln_lanes_follow(const float4 *keys, struct kiln_value v, co
     }
 }
 
-/* value_at: over the clock whose readings are x, or the same for all at a time. */
+/* Computes value_at for all lanes. x has the lanes' readings of the clock, unless all lanes have
+ * the same time. */
 static inline void kiln_lanes_values(const float4 *keys, struct kiln_value v, uint32_t clock,
                                      const float *x, float time_s, float *y)
 {
@@ -107,7 +109,7 @@ static inline void kiln_lanes_values(const float4 *keys, struct kiln_value v, ui
         y[i] = all;
 }
 
-/* particle_life_s, and particle_age at the end of a step. */
+/* Computes particle_life_s, and particle_age at the end of a step. */
 static inline void kiln_lanes_find_ages(struct kiln_lanes *lanes, const float4 *keys,
                                         struct kiln_derived_params derived, uint32_t step)
 {
