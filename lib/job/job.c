@@ -35,8 +35,7 @@ struct kiln_job {
     struct kiln_attempt run;         /* description of this run, for manifest and journal */
     bool resumes, is_described;
     struct kiln_resume resume;
-    bool draws;                 /* false: all wanted frames are there, so nothing is set up to
-                                 * draw */
+    bool draws;                 /* false: no frame is missing, nor the state of one */
     size_t range_at;            /* index of the range that has the next frame */
     uint64_t frame_at;          /* the next frame, or below the range's first one */
     bool follows;               /* true: the next frame comes right after a frame that was drawn */
