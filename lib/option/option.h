@@ -54,12 +54,11 @@ extern const struct kiln_option_type kiln_type_vector;   /* animated vector; str
 extern const struct kiln_option_type kiln_type_color;    /* animated colour; struct kiln_value3 */
 extern const struct kiln_option_type kiln_type_range;    /* [1, 2] or 1; struct kiln_range */
 extern const struct kiln_option_type kiln_type_group;    /* a mapping of `members` */
-extern const struct kiln_option_type
-    kiln_type_switch;                                /* {members} or none; a bool at count_offset */
-extern const struct kiln_option_type kiln_type_map;  /* names to mappings of `members` */
-extern const struct kiln_option_type kiln_type_list; /* list of `item`; an array and its
-                                                      * count */
-extern const struct kiln_option_type kiln_type_kind; /* {kind: members}; `kinds` */
+extern const struct kiln_option_type kiln_type_switch;   /* {members} or none; bool */
+extern const struct kiln_option_type kiln_type_map;      /* names to mappings of `members` */
+extern const struct kiln_option_type kiln_type_list;     /* list of `item`; an array and its
+                                                          * count */
+extern const struct kiln_option_type kiln_type_kind;     /* {kind: members}; `kinds` */
 
 /* Describes one kind of item that a value may be, with its own members. */
 struct kiln_option_kind {
