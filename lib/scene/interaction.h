@@ -53,14 +53,13 @@ struct kiln_interaction {
     struct kiln_value friction;    /* collide: friction between particles that spin */
     struct kiln_range turning;     /* collide: rad/s, angular speed at birth */
     struct kiln_value3 axis;       /* collide: axis of that rotation; 0: drawn for each particle */
-    struct kiln_value
-        rolling; /* collide: rolling resistance on surfaces: its lever arm, in radii */
-    struct kiln_value strength;  /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
-    struct kiln_value softening; /* m: gravity softening; within it the attraction does not grow;
-                                  * above 0 */
-    const char *of;              /* gravity: the system that attracts, or "self" */
-    bool of_other;               /* `of` names another system: */
-    uint32_t source;             /* index of that system */
+    struct kiln_value rolling;     /* collide: lever arm of rolling resistance, in radii */
+    struct kiln_value strength;    /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
+    struct kiln_value softening;   /* m: gravity softening; within it the attraction does not grow;
+                                    * above 0 */
+    const char *of;                /* gravity: the system that attracts, or "self" */
+    bool of_other;                 /* `of` names another system: */
+    uint32_t source;               /* index of that system */
     struct kiln_flock flock;
 };
 
