@@ -14,17 +14,17 @@
 #include "base/error.h"
 #include "base/pages.h"
 
-/* One of the different flipbooks that are asked for. */
+/* One of the different flipbooks that the systems of a scene ask for. */
 struct flipbook {
     struct kiln_cells_source source;
-    const char *name; /* of a built-in one, or NULL */
+    const char *name; /* name of a built-in flipbook, or NULL */
     struct kiln_builtin builtin;
     const struct kiln_atlas_request *request;
     struct kiln_atlas_range *range;
-    uint32_t texture;                     /* of the request */
-    char cached[KILN_FLIPBOOK_NAME_SIZE]; /* its name in the cache; "": it is not kept */
+    uint32_t texture;                     /* index of the texture in the request */
+    char cached[KILN_FLIPBOOK_NAME_SIZE]; /* its name in the cache; "": it is not cached */
     bool is_made;
-    bool failed; /* out of memory */
+    bool failed; /* true: memory was short */
 };
 
 static const size_t CELL_FLOATS = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
@@ -80,7 +80,7 @@ static bool load_cells(struct kiln_atlas *atlas, const struct flipbook *book, en
 
 /* ---- motion ---------------------------------------------------------------------------------- */
 
-/* Whether the cells of a flipbook are to be moved. */
+/* Returns whether the cells of a flipbook have motion. */
 static bool moves(const struct flipbook *book)
 {
     const char *motion = book->request->motion;
@@ -214,7 +214,7 @@ const uint8_t *kiln_atlas_level(const struct kiln_atlas *atlas, uint32_t layer, 
     return atlas->texels + offset;
 }
 
-/* ---- all flipbooks --------------------------------------------------------------------------- */
+/* ---- making all flipbooks -------------------------------------------------------------------- */
 
 static bool same_flipbook(const struct flipbook *a, const struct flipbook *b)
 {
@@ -228,12 +228,13 @@ struct flipbooks {
     enum kiln_simd simd;
     struct flipbook books[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES];
     uint32_t count;
-    struct kiln_atlas_range *copies[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES]; /* ranges like an */
-    uint32_t originals[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES];              /* earlier book's */
+    /* ranges that equal the range of an */
+    struct kiln_atlas_range *copies[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES];
+    uint32_t originals[KILN_MAX_SYSTEMS * KILN_MAX_TEXTURES]; /* earlier flipbook */
     uint32_t copy_count;
 };
 
-/* Gives a texture its layers, or notes that an earlier one is the same. */
+/* Gives a texture its layers, or notes that an earlier texture is the same. */
 static void add_texture(struct flipbooks *all, struct kiln_atlas *atlas,
                         const struct kiln_atlas_request *request, uint32_t texture,
                         struct kiln_atlas_range *range)
@@ -275,7 +276,7 @@ static void open_builtins(void *context, size_t begin, size_t end, uint32_t work
     }
 }
 
-/* What a thread works with. */
+/* Holds the memory of one thread. */
 struct maker {
     float *cell;
     struct kiln_builtin_room *room;
@@ -284,10 +285,10 @@ struct maker {
 struct making {
     const struct kiln_atlas *atlas;
     const struct flipbooks *all;
-    struct maker *makers; /* one a thread */
+    struct maker *makers; /* one for each thread */
 };
 
-/* Layers of built-in flipbooks. */
+/* Makes layers of built-in flipbooks. */
 static void make_layers(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct making *job = context;
@@ -329,7 +330,7 @@ static bool make_builtins(struct kiln_atlas *atlas, struct flipbooks *all,
     return ok || out_of_memory(error, "built-in atlases");
 }
 
-/* ---- from one process to the next ------------------------------------------------------------ */
+/* ---- the cache ------------------------------------------------------------------------------- */
 
 static struct kiln_flipbook_texels memory_of(const struct kiln_atlas *atlas,
                                              const struct flipbook *book)

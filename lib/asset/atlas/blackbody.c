@@ -7,7 +7,7 @@
 #include "shared/exact.h"
 
 struct lobe {
-    float scale, center, below, above; /* nm: widths on either side of the centre */
+    float scale, center, below, above; /* nm: widths below and above the centre */
 };
 
 static float lobe_at(const struct lobe *lobe, float nm)

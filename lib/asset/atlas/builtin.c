@@ -82,7 +82,7 @@ static struct texel_lobe lobe_at(uint32_t index)
     uint stream = random_stream(0x10be5u, index);
     struct exact_angle angle = exact_sincos(EXACT_TWO_PI * random_unit(stream, 0));
     float away = 0.50f * exact_sqrt(random_unit(stream, 1));
-    if (index == 0) /* the one in the middle */
+    if (index == 0) /* the sphere in the middle of the heap */
         return (struct texel_lobe){0.0f, 0.0f, 0.52f};
     return (struct texel_lobe){away * angle.cosine, away * angle.sine,
                                0.18f + 0.26f * random_unit(stream, 2) * random_unit(stream, 4)};

@@ -55,11 +55,12 @@ static void read_motion(const struct kiln_asset_image *image, size_t pixel, floa
 
 /* ---- filter ---------------------------------------------------------------------------------- */
 
-/* The filter along one axis: the weight of a cell's samples in those of the resized cell. */
+/* The weights, along one axis, by which samples of a cell are summed into samples of the resized
+ * cell. */
 struct filter {
-    uint32_t taps;   /* of each resized sample */
-    uint32_t *first; /* sample of the cell */
-    float *weights;  /* resized x taps */
+    uint32_t taps;   /* taps of each resized sample */
+    uint32_t *first; /* the cell's first sample under each filter */
+    float *weights;  /* weights in the order [resized sample][tap] */
 };
 
 static float cubic(float x)
@@ -110,11 +111,11 @@ struct resize {
     void (*read)(const struct kiln_asset_image *image, size_t pixel, float rgba[4]);
     uint32_t columns, cell_width, cell_height, edge;
     struct filter across, down;
-    float *rows; /* of each worker: a row of a cell, then of the resized one */
+    float *rows; /* for each worker: a row of a cell, and a row of the resized cell */
     float *cells;
 };
 
-/* Reads a row of a cell and filters it along. */
+/* Reads a row of a cell and filters it along the row. */
 static void filter_row(const struct resize *job, size_t first_pixel, float *row, float *resized)
 {
     for (uint32_t x = 0; x < job->cell_width; x++)
@@ -197,8 +198,8 @@ static bool resize_image(const struct kiln_asset_image *image,
 
 /* ---- videos ---------------------------------------------------------------------------------- */
 
-/* Reads the frames that become cells, and gives each to `take`, or only looks whether they are
- * there when that is NULL. */
+/* Reads the frames that become cells, and calls `take` with each. take NULL: only checks that the
+ * frames exist. */
 static bool read_frames(const struct kiln_cells_source *source,
                         bool (*take)(void *user, const struct kiln_asset_image *image,
                                      uint32_t number, struct kiln_error *error),
@@ -222,7 +223,7 @@ static bool read_frames(const struct kiln_cells_source *source,
 }
 
 struct frames {
-    struct kiln_cells_source frame; /* one cell */
+    struct kiln_cells_source frame; /* as source, with a single cell */
     float *cells;
     struct kiln_threads *threads;
 };
@@ -256,7 +257,8 @@ bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
     struct kiln_asset_image *image = kiln_asset_image_load(source->loader, source->path, error);
     bool ok = image && resize_image(image, source, false, cells, threads, error);
     kiln_asset_image_destroy(&image);
-    for (size_t i = 0; ok && i < floats; i++) /* the filter overshoots at hard edges */
+    for (size_t i = 0; ok && i < floats; i++) /* the filter overshoots at hard edges, so values are
+                                               * clamped */
         cells[i] = fmaxf(cells[i], 0.0f);
     return ok;
 }

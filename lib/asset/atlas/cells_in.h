@@ -8,9 +8,11 @@
 
 struct kiln_cells_source {
     const char *path;
-    uint32_t columns, rows;     /* a video's cells are its first columns x rows frames */
-    uint32_t edge;              /* of the cells made, px: resized in premultiplied linear light */
-    struct kiln_loader *loader; /* of the file; may be NULL */
+    /* divide an image; of a video, the first columns x rows frames are the cells */
+    uint32_t columns, rows;
+    /* edge of the resulting cells, px; they are resized in premultiplied linear light */
+    uint32_t edge;
+    struct kiln_loader *loader; /* opens the file; may be NULL */
 };
 
 /* Fills columns * rows cells of edge x edge RGBA floats, premultiplied and linear, rows from the
@@ -19,18 +21,18 @@ struct kiln_cells_source {
 bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
                      struct kiln_threads *threads, struct kiln_error *error);
 
-/* Fills as many cells of edge x edge pairs with the motion that an image stores in red (to the
- * right) and green (up): its full value is 1, half of it (128 of 255) is 0, whatever transfer
- * function the image names. */
+/* Fills columns * rows cells of edge x edge pairs with the motion that an image stores in red (to
+ * the right) and green (up). The full value is 1, and half of it (128 of 255) is 0, whatever
+ * transfer function the image names. */
 bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motion,
                             struct kiln_threads *threads, struct kiln_error *error);
 
-/* Whether an image divides into the cells, or a video has that many frames, of which all are
- * decoded then. KILN_INVALID_INPUT with what does not. */
+/* Checks that an image divides into the cells, or that a video has so many frames, which are all
+ * decoded for that. Else KILN_INVALID_INPUT with the sizes. */
 bool kiln_cells_check_division(const struct kiln_cells_source *source, struct kiln_error *error);
 
-/* Whether a file is one that kiln_cells_load could read, but for the number of its cells: decodes
- * an image, or the first frame of a video. */
+/* Checks that kiln_cells_load can read a file, apart from the number of its cells: decodes an
+ * image, or the first frame of a video. */
 bool kiln_cells_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
 
 #endif

@@ -11,7 +11,7 @@
 
 enum { STEPS = 126 };
 
-/* The fields of the gas that a cell shows, before a step. */
+/* The fields of the gas that go into a cell, before a step. */
 struct moment {
     float heat[KILN_FLUID_SIZE];
     float place_x[KILN_FLUID_SIZE], place_y[KILN_FLUID_SIZE];

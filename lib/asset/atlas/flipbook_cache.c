@@ -14,7 +14,8 @@
 #include "base/hash.h"
 #include "base/text.h"
 
-/* Adds what a source is: its name where it is built in, or the hash of its contents. */
+/* Adds the identity of a source: the name of a built-in flipbook, or the hash of the file's
+ * contents. */
 static bool add_source(struct kiln_text *text, const char *source, struct kiln_loader *loader)
 {
     const struct kiln_loader_file file = {source, "image", "regular", SIZE_MAX};
@@ -52,7 +53,7 @@ bool kiln_flipbook_name(char name[KILN_FLIPBOOK_NAME_SIZE],
 
 /* ---- motion ---------------------------------------------------------------------------------- */
 
-/* The second file: the number that motion is relative to, then its bytes. */
+/* Makes the name of the second file, which has the scale of the motion, then its bytes. */
 static void name_motion(char motion[KILN_FLIPBOOK_NAME_SIZE], const char *name)
 {
     snprintf(motion, KILN_FLIPBOOK_NAME_SIZE, "%.*s.motion", (int)strcspn(name, "."), name);

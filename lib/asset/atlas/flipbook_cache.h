@@ -1,5 +1,6 @@
-/* Flipbooks kept from one process to the next: making one takes longer than drawing a small frame.
- * What is kept is what drawing reads: the texels of all levels, and motion. */
+/* Keeps flipbooks on the disk from one process to the next, since making one takes longer than
+ * drawing a small frame. The files have the data that drawing reads: the texels of all levels, and
+ * motion. */
 #ifndef KILN_ASSET_ATLAS_FLIPBOOK_CACHE_H
 #define KILN_ASSET_ATLAS_FLIPBOOK_CACHE_H
 
@@ -7,23 +8,23 @@
 
 enum { KILN_FLIPBOOK_NAME_SIZE = 80 };
 
-/* Names the flipbook of a texture of a request by what it is made of: this build of kiln, the
+/* Names the flipbook of a texture of a request by all that it is made from: this build of kiln, the
  * built-in name or the contents of the file, the division into cells, and the motion. False when it
- * cannot be kept: a file cannot be read, or the build has no identifier. */
+ * cannot be cached, because a file cannot be read or the build has no identifier. */
 bool kiln_flipbook_name(char name[KILN_FLIPBOOK_NAME_SIZE],
                         const struct kiln_atlas_request *request, uint32_t texture);
 
-/* The memory of a flipbook in its atlas. */
+/* Points to the memory of a flipbook in its atlas. */
 struct kiln_flipbook_texels {
     uint8_t *texels;
     size_t texel_bytes;
-    int8_t *moves; /* NULL: it does not move */
+    int8_t *moves; /* NULL: it has no motion */
     size_t move_bytes;
-    float *motion; /* kiln_atlas_range.motion */
+    float *motion; /* the member `motion` of its kiln_atlas_range */
 };
 
-/* Fills the memory; false when the cache does not have the flipbook whole, and then the memory may
- * hold anything. */
+/* Fills the memory from the cache. False when the cache does not have the whole flipbook; then the
+ * memory may hold anything. */
 bool kiln_flipbook_read(const char *cache, const char *name,
                         const struct kiln_flipbook_texels *book);
 void kiln_flipbook_write(const char *cache, const char *name,

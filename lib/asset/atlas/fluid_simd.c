@@ -12,7 +12,7 @@ enum {
     EDGE = KILN_FLUID_EDGE,
     SIZE = KILN_FLUID_SIZE,
     SWEEPS = 12,
-    BLOCK = 16, /* of a diagonal: the widest vector */
+    BLOCK = 16, /* samples of a diagonal that are relaxed at once: the widest vector */
 };
 
 static const float SPACING = 2.0f / EDGE;
@@ -24,8 +24,8 @@ static inline int held(int index)
 
 /* ---- from vorticity to velocity -------------------------------------------------------------- */
 
-/* Relaxes one diagonal, x + y = a, of an over-relaxed Gauss-Seidel sweep. The lowest and the
- * highest row are their own neighbours below and above. */
+/* Relaxes one diagonal, x + y = a, of an over-relaxed Gauss-Seidel sweep. The lowest row uses
+ * itself as the row below, and the highest row itself as the row above. */
 static inline void relax(struct kiln_fluid *fluid, int a)
 {
     float *at = fluid->stream[a + 1] + KILN_FLUID_MARGIN, *before = at - KILN_FLUID_PITCH;
@@ -107,17 +107,19 @@ static void turn(struct kiln_fluid *fluid, float dt)
 
 /* ---- moving with the flow -------------------------------------------------------------------- */
 
-/* Samples with one more row and column before the first and two behind the last. */
+/* Size of a side of fields with one more row and column before the first and two behind the
+ * last. */
 enum { PADDED = EDGE + 3 };
 
-/* Where the gas of a row of samples was before: the sample to the lower left, and weights of the
- * four columns and rows around. */
+/* Where the gas of a row of samples was before the step: the lower left of the four samples around,
+ * and the weights of four columns and rows. */
 struct origins {
-    int32_t at[EDGE]; /* in the padded samples, of the first of 4 x 4 */
+    int32_t at[EDGE]; /* index of the first of 4 x 4 padded samples */
     float wx[4][EDGE], wy[4][EDGE];
 };
 
-/* Catmull and Rom's cubic at a fraction t of the way from the second of four samples. */
+/* Computes the weights of Catmull and Rom's cubic at a fraction t of the way from the second to the
+ * third of four samples. */
 static inline void cubic_weights(float t, float weights[4][EDGE], int x)
 {
     float t2 = t * t, t3 = t2 * t;
@@ -196,7 +198,8 @@ static void step(struct kiln_fluid *fluid, float dt)
 
 /* ---- between the samples --------------------------------------------------------------------- */
 
-/* The taps of a quadratic B-spline: the middle one of three samples, and their weights. */
+/* The taps of a quadratic B-spline: the middle one of three samples, and the weights of the
+ * three. */
 struct taps {
     int middle;
     float weights[3];
@@ -211,7 +214,7 @@ static inline struct taps taps_at(float x)
         middle, {0.5f * (0.5f - t) * (0.5f - t), 0.75f - t * t, 0.5f * (0.5f + t) * (0.5f + t)}};
 }
 
-/* Brings the samples of all rows to the columns of texels. */
+/* Interpolates all rows of samples at the columns of the texels. */
 static void spread(const float *field, uint32_t edge, struct kiln_fluid_room *room,
                    float weights[3][KILN_FLUID_FINEST])
 {

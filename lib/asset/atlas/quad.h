@@ -1,4 +1,4 @@
-/* Four floats side by side: a texel, or all that moves at a sample of a fluid. */
+/* Defines a vector of four floats: a texel, or the four fields that move at a sample of a fluid. */
 #ifndef KILN_ASSET_ATLAS_QUAD_H
 #define KILN_ASSET_ATLAS_QUAD_H
 
@@ -23,7 +23,7 @@ static inline asset_quad asset_quad_select(asset_quad_mask mask, asset_quad a, a
     return (asset_quad)((mask & (asset_quad_mask)a) | (~mask & (asset_quad_mask)b));
 }
 
-/* Like exact_min and exact_max: b where there is no order. */
+/* Return the lesser and the greater, like exact_min and exact_max: b where there is no order. */
 static inline asset_quad asset_quad_min(asset_quad a, asset_quad b)
 {
     return asset_quad_select(a < b, a, b);

@@ -1,4 +1,5 @@
-/* One cell of a procedural flipbook. Private to builtin.c and texel_cell_simd.c. */
+/* Declares how one cell of a procedural flipbook is made. Only builtin.c and texel_cell_simd.c
+ * include this header. */
 #ifndef KILN_ASSET_ATLAS_TEXEL_CELL_H
 #define KILN_ASSET_ATLAS_TEXEL_CELL_H
 
@@ -14,7 +15,7 @@ struct kiln_builtin_room {
 
 struct texel_job {
     const struct builtin *builtin;
-    const struct kiln_film_cell *gas; /* NULL: nothing flows */
+    const struct kiln_film_cell *gas; /* NULL: there is no gas */
     const struct texel_lobe *lobes;
     float time;
     uint32_t edge;

@@ -51,8 +51,8 @@ static uint32_t gather(const struct texel_job *job, const struct kiln_builtin_ro
     return count;
 }
 
-/* Runs the flipbook's function for every texel. It leaves heights in x, heat in heat, density in y.
- */
+/* Runs the flipbook's function for every texel. It stores heights in x, heat in heat, density in
+ * y. */
 static void make_texels(const struct texel_job *job, struct kiln_builtin_room *room)
 {
     struct texel_sites sites = {.time = job->time, .lobes = job->lobes};

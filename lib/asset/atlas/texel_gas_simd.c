@@ -16,14 +16,14 @@ static inline float inside(float u)
     return texel_smooth(0.97f, 0.80f, fabsf(u));
 }
 
-/* The coordinates of columns, or of rows. */
+/* Computes the coordinates of columns, or of rows. */
 static void coordinates(float at[EDGE])
 {
     for (uint32_t i = 0; i < EDGE; i++)
         at[i] = kiln_fluid_at(i);
 }
 
-/* Turbulence that the coarse fluid cannot make by itself: vorticity of two sizes. */
+/* Adds vorticity of two sizes: turbulence that the coarse fluid cannot make by itself. */
 static void stir(struct kiln_fluid *fluid, float time, float amount, float frequency, uint32_t seed)
 {
     struct turbulence_grid large, small;
@@ -52,7 +52,7 @@ static void cool(struct kiln_fluid *fluid, float rate, float dt)
         fluid->heat[i] *= kept;
 }
 
-/* A ball of gas whose heat goes from 0 to 1 between two ragged circles. */
+/* Adds a ball of gas whose heat goes from 0 to 1 between two ragged circles. */
 static void heat_ball(struct kiln_fluid *fluid, float outer, float inner, float raggedness,
                       float frequency, uint32_t seed)
 {
@@ -72,10 +72,10 @@ static void heat_ball(struct kiln_fluid *fluid, float outer, float inner, float 
     }
 }
 
-/* Octaves of noise over places. */
+/* Describes octaves of noise over the places where the gas began. */
 struct detail {
     float frequency, shift_x, shift_y;
-    float pace; /* of its third coordinate, time */
+    float pace; /* speed of the third coordinate, time */
     int octaves;
     uint32_t seed;
 };
@@ -96,19 +96,19 @@ static void detail_at(const struct texel_sites *s, const float *x, const float *
 
 static const float FLAME_FOOT = -0.80f, FLAME_RISE = 0.8f;
 
-/* What feeds a flame: hot gas at the foot, of a width that grows at first, so that its head is no
- * mushroom, and that flickers. */
+/* Describes the hot gas that enters at the foot of a flame. Its width grows at first, so that the
+ * head is no mushroom, and it flickers. */
 struct flame {
-    float width; /* half of the source */
+    float width; /* half of the width of the source */
     float sway;
-    float grain; /* places of the flicker in a half edge */
+    float grain; /* periods of the flicker in a half edge */
     uint32_t seed;
 };
 
 /* The values of a flame's feed at one moment. */
 struct flame_feed {
     float time, strength, width, sway;
-    float x[EDGE], flicker[EDGE]; /* of the columns */
+    float x[EDGE], flicker[EDGE]; /* by column */
 };
 
 static void feed_row(struct kiln_fluid *fluid, uint32_t row, const struct flame_feed *feed)
@@ -160,7 +160,7 @@ static void drive_flame(struct kiln_fluid *fluid, float time, float dt)
     feed_flame(fluid, &(struct flame){0.66f, 0.25f, 3.5f, 111}, time);
 }
 
-/* One narrow tongue. */
+/* Drives one narrow tongue of flame. */
 static void drive_tongue(struct kiln_fluid *fluid, float time, float dt)
 {
     fluid->buoyancy = 16.0f;
@@ -191,7 +191,7 @@ static void flame_texels(const struct texel_sites *restrict s, struct texels *re
     const float foot = texel_smooth(-0.92f, -0.45f, s->v);
     const float top = texel_smooth(0.97f, 0.5f, s->v);
     for (uint32_t i = 0; i < s->count; i++) {
-        /* At the rim, where the air's places and the gas's meet, there is no detail. */
+        /* There is no detail at the rim, where gas and air mix, since their start places differ. */
         float within = texel_smooth(0.12f, 0.55f, s->heat[i]);
         float excess = s->heat[i] + 1.2f * (sheets[i] - 0.36f) * within - threshold;
         out->height[i] = 0.0f;
@@ -232,7 +232,7 @@ static void fire_texels(const struct texel_sites *restrict s, struct texels *res
     }
     turbulence_ridges(x, y, 0.2f * s->time, 5, 241, s->count, sheets);
     const float threshold = texel_mix(0.18f, 1.10f, 0.65f * s->time * s->time + 0.35f * s->time);
-    const float torn = texel_mix(1.15f, 0.80f, s->time); /* in the end, few thick shreds are left */
+    const float torn = texel_mix(1.15f, 0.80f, s->time); /* at the end, few thick shreds are left */
     const float soft = texel_mix(0.26f, 0.45f, s->time);
     for (uint32_t i = 0; i < s->count; i++) {
         float there = texel_saturate(4.0f * s->heat[i]);
@@ -259,7 +259,7 @@ static void drive_smoke(struct kiln_fluid *fluid, float time, float dt)
 
 static const struct kiln_film_gas SMOKE_GAS = {start_smoke, drive_smoke};
 
-/* The heap seen from the front; a power mean joins the domes. */
+/* Computes the heights of the heap seen from the front; a power mean joins the domes. */
 static void heap_heights(const struct texel_sites *s, const float *x, const float *y, float *height)
 {
     for (uint32_t i = 0; i < s->count; i++)
@@ -269,7 +269,7 @@ static void heap_heights(const struct texel_sites *s, const float *x, const floa
         for (uint32_t i = 0; i < s->count; i++) {
             float dx = x[i] - lobe.x, dy = y[i] - lobe.y;
             float squared = lobe.size * lobe.size - (dx * dx + dy * dy);
-            float dome = squared > 0.0f ? 2.25f * squared : 0.0f; /* the square of its height */
+            float dome = squared > 0.0f ? 2.25f * squared : 0.0f; /* square of the dome's height */
             height[i] += dome * dome;
         }
     }
@@ -277,7 +277,7 @@ static void heap_heights(const struct texel_sites *s, const float *x, const floa
         height[i] = sqrtf(sqrtf(height[i]));
 }
 
-#define SMOKE_REACH 0.95f /* the heap is within */
+#define SMOKE_REACH 0.95f /* the heap lies within this radius */
 
 static void smoke_texels(const struct texel_sites *restrict s, struct texels *restrict out)
 {

@@ -1,11 +1,11 @@
-/* This file makes the procedural flipbooks of things with a shape of their own: grains, drops,
- * splinters and glints. */
+/* This file makes the procedural flipbooks of objects with a fixed shape: grains, drops, splinters
+ * and glints. */
 #include <math.h>
 
 #include "asset/atlas/texel.h"
 #include "shared/random.h"
 
-/* A glowing grain: a hot point with a faint halo, the same at any age. */
+/* Draws a glowing grain: a hot point with a faint halo, the same at any age. */
 static void spark_texels(const struct texel_sites *restrict s, struct texels *restrict out)
 {
     for (uint32_t i = 0; i < s->count; i++) {
@@ -18,7 +18,7 @@ static void spark_texels(const struct texel_sites *restrict s, struct texels *re
     }
 }
 
-/* A glint with four rays that shrink with age. */
+/* Draws a glint with four rays that shrink with age. */
 static void star_texels(const struct texel_sites *restrict s, struct texels *restrict out)
 {
     const float v = fabsf(s->v), reach = texel_mix(0.95f, 0.35f, s->time);
@@ -36,8 +36,8 @@ static void star_texels(const struct texel_sites *restrict s, struct texels *res
     }
 }
 
-/* A drop of water: its rim covers more than its middle, which one sees through, and a highlight
- * sits to the upper left. */
+/* Draws a drop of water. Its rim covers more than its middle, which is transparent, and a highlight
+ * lies to the upper left. */
 static void drop_texels(const struct texel_sites *restrict s, struct texels *restrict out)
 {
     for (uint32_t i = 0; i < s->count; i++) {
@@ -53,8 +53,8 @@ static void drop_texels(const struct texel_sites *restrict s, struct texels *res
     }
 }
 
-/* What a drop throws up where it lands, from the side: a crown that rises and opens, and droplets
- * that fly from it. The ground is a quarter of the cell above its foot. */
+/* Draws the splash of a drop on the ground from the side: a crown that rises and opens, and
+ * droplets that fly from it. The ground is a quarter of the cell above its lower edge. */
 static void splash_texels(const struct texel_sites *restrict s, struct texels *restrict out)
 {
     enum { DROPLETS = 26 };
@@ -90,8 +90,8 @@ static void splash_texels(const struct texel_sites *restrict s, struct texels *r
     }
 }
 
-/* A splinter of stone that turns once in its life: what twelve planes leave of space, seen from the
- * front. Each of the cells is a view of its own, too. */
+/* Draws a splinter of stone that turns once in its life: the body inside twelve planes, seen from
+ * the front. A single cell is also a complete view. */
 static void debris_texels(const struct texel_sites *restrict s, struct texels *restrict out)
 {
     enum { PLANES = 12 };
@@ -108,7 +108,7 @@ static void debris_texels(const struct texel_sites *restrict s, struct texels *r
         const float x = turn.cosine * n.x + turn.sine * n.z;
         const float z = turn.cosine * n.z - turn.sine * n.x;
         for (uint32_t i = 0; i < s->count; i++) {
-            /* left of the plane, less z times depth */
+            /* distance of the plane, less z times depth */
             float room = away - x * s->u[i] - n.y * s->v;
             if (z > 0.05f)
                 front[i] = exact_min(front[i], room / z);

@@ -1,5 +1,6 @@
-/* Gradient noise for the procedural flipbooks, over the lattice of the wind field's curl noise, for
- * many points at once. For files *_simd.c; the same bits at every level. */
+/* Computes gradient noise for the procedural flipbooks at many points at once, over the lattice of
+ * the wind field's curl noise. It is for files *_simd.c. The bits are the same at every level of
+ * vectors. */
 #ifndef KILN_ASSET_ATLAS_TURBULENCE_H
 #define KILN_ASSET_ATLAS_TURBULENCE_H
 
@@ -12,7 +13,8 @@
 /* Points come in rows, filled up to a multiple of TURBULENCE_BLOCK with any finite numbers. */
 enum { TURBULENCE_BLOCK = 16, TURBULENCE_ROW = 128 };
 
-/* Along one axis: hashes and weights of the two lattice points, and the ways from them. */
+/* Hashes and weights of the two lattice points around a point along one axis, and the distances
+ * from them. */
 struct noise_place {
     uint32_t hash[2];
     float weight[2], away[2];
@@ -32,7 +34,7 @@ static inline struct noise_place noise_place_at(float x, uint32_t spread)
     return (struct noise_place){{low, low + spread}, {1.0f - upper, upper}, {part, part - 1.0f}};
 }
 
-/* A component of noise_gradient, from its lowest bits. */
+/* Returns a component of noise_gradient, from the lowest bits of a hash. */
 static inline float noise_slope(uint32_t bits)
 {
     return (float)(int32_t)(bits & 7u) - 3.5f;
@@ -47,8 +49,8 @@ static inline float noise_corner(const struct noise_place *x, const struct noise
                      noise_slope(bits >> 6) * z->away[k]);
 }
 
-/* Noise at (x, y, z) with lattice points one unit apart, within about -1 and 1, 0 on average.
- * Points up to 2^24 away are good. */
+/* Computes noise at (x, y, z) with lattice points one unit apart. It lies within about -1 and 1, 0
+ * on average. Points may be up to 2^24 away. */
 static inline void turbulence(const float *restrict x, const float *restrict y, float z,
                               uint32_t seed, size_t count, float *restrict out)
 {
@@ -77,7 +79,7 @@ static inline float turbulence_at(float x, float y, float z, uint32_t seed)
     return out[0];
 }
 
-/* What octaves are made of: one of them, and the sum so far. */
+/* Holds one octave and the sum of octaves so far. */
 struct turbulence_sum {
     float x[TURBULENCE_ROW], y[TURBULENCE_ROW], z;
     float noise[TURBULENCE_ROW];
@@ -109,8 +111,8 @@ static inline void turbulence_next(struct turbulence_sum *sum, float finer, floa
     }
 }
 
-/* The mean of octaves of noise, each half as large and half as strong as the one before; z grows
- * more slowly than x and y, so that small detail does not boil when z is time. */
+/* Computes the mean of octaves of noise, each half as large and half as strong as the one before. z
+ * grows more slowly than x and y, so that small detail does not boil when z is time. */
 static inline void turbulence_octaves(const float *x, const float *y, float z, int octaves,
                                       uint32_t seed, size_t count, float *out)
 {
@@ -126,7 +128,7 @@ static inline void turbulence_octaves(const float *x, const float *y, float z, i
         out[i] = out[i] / sum.total;
 }
 
-/* Octaves of ridges, 0 to 1: bright sheets where the noise crosses zero. */
+/* Computes octaves of ridges, 0 to 1: bright sheets where the noise crosses zero. */
 static inline void turbulence_ridges(const float *x, const float *y, float z, int octaves,
                                      uint32_t seed, size_t count, float *out)
 {
@@ -144,21 +146,22 @@ static inline void turbulence_ridges(const float *x, const float *y, float z, in
         out[i] = out[i] / sum.total;
 }
 
-/* ---- over the fluid's samples ---------------------------------------------------------------- */
+/* ---- noise at the fluid's samples ------------------------------------------------------------ */
 
 enum { TURBULENCE_EDGE = KILN_FLUID_EDGE };
 
-/* The rows of samples between two rows of lattice points share the latter's gradients. */
+/* Noise at the samples of the fluid. All rows of samples between two rows of lattice points share
+ * the gradients there. */
 struct turbulence_grid {
     float scale;
     struct noise_place z;
-    uint32_t hash[2][TURBULENCE_EDGE]; /* of each column */
+    uint32_t hash[2][TURBULENCE_EDGE]; /* hashes by column */
     float weight[2][TURBULENCE_EDGE], away[2][TURBULENCE_EDGE];
-    int32_t lattice_row; /* that the following are for */
+    int32_t lattice_row; /* the row of lattice points that the next members belong to */
     float along[8][TURBULENCE_EDGE], up[8][TURBULENCE_EDGE], deep[8][TURBULENCE_EDGE];
 };
 
-/* Noise at scale times the samples' coordinates. */
+/* Starts noise at the samples' coordinates times `scale`. */
 static inline void turbulence_grid_begin(struct turbulence_grid *grid, const float *x, float z,
                                          uint32_t seed)
 {
@@ -176,7 +179,8 @@ static inline void turbulence_grid_begin(struct turbulence_grid *grid, const flo
     }
 }
 
-/* Corner (i, j, k) of all columns, which may share a vector only with equal j and k. */
+/* Computes corner (i, j, k) of all columns. Two corners may share a vector only with equal j and
+ * k. */
 static inline void turbulence_grid_corner(struct turbulence_grid *grid, const struct noise_place *y,
                                           int corner)
 {

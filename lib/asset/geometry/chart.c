@@ -12,15 +12,16 @@
 
 enum {
     SUBTEXELS = 256,
-    MOST_ROWS = 1 << 24, /* of all triangles: where none overlap, they have about as many texels */
+    /* rows of all triangles together; a mesh without overlaps has about as many as its texels */
+    MOST_ROWS = 1 << 24,
 };
 
-/* The rounding of texture coordinates that a program wrote as 0 or 1. */
+/* Error of a texture coordinate of 0 or 1 that a program wrote rounded. */
 static const float SLACK = 1e-5f;
 
 static const float NOWHERE = 1e15f;
 
-/* What a texel is before blocks are made. */
+/* Holds a texel until blocks are made. */
 struct texel {
     float place[3], normal[3];
 };
@@ -29,9 +30,9 @@ struct making {
     const struct kiln_mesh *mesh;
     const char *name;
     uint32_t edge;
-    uint32_t *owners; /* 1 + the triangle; 0: none */
+    uint32_t *owners; /* 1 + the triangle of each texel; 0: none */
     struct texel *texels;
-    int64_t rows; /* of all triangles up to now */
+    int64_t rows; /* rows of the triangles so far */
 };
 
 /* ---- triangles ------------------------------------------------------------------------------- */
@@ -39,8 +40,8 @@ struct making {
 /* A triangle in texture space, its corners counterclockwise. */
 struct flat {
     int64_t x[3], y[3];
-    uint32_t corners[3]; /* vertices */
-    int64_t area;        /* twice */
+    uint32_t corners[3]; /* vertices of the mesh */
+    int64_t area;        /* twice the area */
 };
 
 static bool place_corners(const struct making *m, uint32_t number, struct flat *flat,
@@ -64,7 +65,7 @@ static bool place_corners(const struct making *m, uint32_t number, struct flat *
     }
     flat->area = (flat->x[1] - flat->x[0]) * (flat->y[2] - flat->y[0]) -
                  (flat->y[1] - flat->y[0]) * (flat->x[2] - flat->x[0]);
-    if (flat->area < 0) { /* a mirrored one */
+    if (flat->area < 0) { /* mirrored: two corners are exchanged */
         const int64_t x = flat->x[1], y = flat->y[1];
         const uint32_t corner = flat->corners[1];
         flat->x[1] = flat->x[2];
@@ -78,7 +79,7 @@ static bool place_corners(const struct making *m, uint32_t number, struct flat *
     return true;
 }
 
-static int64_t floor_of(int64_t a, int64_t b) /* a / b, b > 0 */
+static int64_t floor_of(int64_t a, int64_t b) /* a / b rounded down, b > 0 */
 {
     return a >= 0 ? a / b : -((b - 1 - a) / b);
 }
@@ -98,7 +99,7 @@ static void find_rows(const struct making *m, const struct flat *flat, int64_t *
     *to = *to > last ? last : *to;
 }
 
-/* Twice the area between the edge that lies across from a corner and a place. */
+/* Returns twice the area between a place and the edge opposite to a corner. */
 static int64_t part_of(const struct flat *flat, int corner, int64_t x, int64_t y)
 {
     const int a = (corner + 1) % 3, b = (corner + 2) % 3;
@@ -112,7 +113,7 @@ static void find_span(const struct flat *flat, int64_t y, int64_t *from, int64_t
     for (int k = 0; k < 3; k++) {
         const int a = (k + 1) % 3, b = (k + 2) % 3;
         const int64_t dx = flat->x[b] - flat->x[a], dy = flat->y[b] - flat->y[a];
-        /* Of two opposite edges, one has what lies on it. */
+        /* A centre on an edge belongs to one of the two triangles that share it. */
         const int64_t least = dy > 0 || (dy == 0 && dx > 0) ? 0 : 1;
         const int64_t room = part_of(flat, k, SUBTEXELS / 2, y) - least;
         int64_t limit;
@@ -268,7 +269,7 @@ static uint64_t middle_of(uint64_t a, uint64_t b, uint64_t c)
 /* Brings the least `count` of distinct keys to the front. */
 static void select_least(uint64_t *keys, size_t size, size_t count)
 {
-    size_t first = 0, end = size; /* what is before and after is where it belongs */
+    size_t first = 0, end = size; /* keys outside of first to end are already in place */
     while (end - first > 1) {
         const uint64_t pivot =
             middle_of(keys[first], keys[first + (end - first) / 2], keys[end - 1]);
@@ -296,8 +297,8 @@ static void select_least(uint64_t *keys, size_t size, size_t count)
     }
 }
 
-/* Halves texels across their longer side until they are blocks, which are so small in space. The
- * lower half of a key is the texel, the upper one scratch. */
+/* Halves the texels across their longer side until they are blocks, which are then small in space.
+ * The lower half of a key is the texel, the upper half is scratch. */
 static void sort_texels(const struct making *m, uint64_t *keys, size_t count)
 {
     while (count > KILN_CHART_BLOCK) {
@@ -357,7 +358,7 @@ static void fill_nowhere(struct kiln_chart *chart, size_t i)
     }
 }
 
-/* The bounds of a block's texels, from the first to the last. */
+/* Finds the bounds of a block's texels, which are `first` and those after it. */
 static void bound(struct kiln_chart *chart, uint32_t block, size_t first, size_t end)
 {
     for (int c = 0; c < 3; c++) {
@@ -416,7 +417,7 @@ static bool fill(const struct making *m, struct kiln_chart *chart, struct kiln_e
     return true;
 }
 
-/* ---- a chart --------------------------------------------------------------------------------- */
+/* ---- making the chart ------------------------------------------------------------------------ */
 
 static bool make(struct making *m, struct kiln_chart *chart, struct kiln_error *error)
 {

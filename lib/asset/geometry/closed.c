@@ -13,8 +13,8 @@ struct place {
 };
 
 struct edge {
-    uint32_t low, high; /* places */
-    int32_t way;        /* 1: from low to high; -1: back */
+    uint32_t low, high; /* the two places that it joins */
+    int32_t way;        /* 1: from low to high; -1: from high to low */
 };
 
 static int by_place(const void *left, const void *right)

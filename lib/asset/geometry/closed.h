@@ -4,9 +4,9 @@
 
 #include "asset/geometry/mesh.h"
 
-/* Every edge must be gone along as often one way as the other; vertices at the same place are one.
- * KILN_INVALID_INPUT with the edge and what is wrong with it, after `name`; KILN_DEVICE_FAILED when
- * memory is short. */
+/* Checks that every edge is passed as often in one direction as in the other by the triangles.
+ * Vertices at the same place count as one. KILN_INVALID_INPUT with the edge and its fault, after
+ * `name`; KILN_DEVICE_FAILED when memory is short. */
 bool kiln_mesh_check_closed(const struct kiln_mesh *mesh, const char *name,
                             struct kiln_error *error);
 

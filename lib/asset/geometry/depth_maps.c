@@ -13,47 +13,48 @@
 #include "shared/exact.h"
 
 enum {
-    SUB = 256,             /* places within a sample */
-    MARGIN = 5,            /* samples around the mesh */
-    REACH = 3,             /* samples from the mesh, up to which a map may find something */
+    SUB = 256,             /* steps of a place within a sample */
+    MARGIN = 5,            /* samples of a map around the mesh */
+    REACH = 3,             /* samples from the mesh within which a map may have a surface */
     HEIGHTS = 24,          /* bits of a height */
-    MOST_VISITS = 1 << 28, /* of samples by triangles, for a map */
+    MOST_VISITS = 1 << 28, /* products of samples and triangles for one map */
 };
 
 /* The least distance from front to back, in parts of the mesh's size, so that a sheet has a back.
  */
 static const double HAIR = 1.0 / 8192;
 
-/* A corner in the frame of a map. */
+/* A corner of a triangle in the frame of a map. */
 struct corner {
     int64_t x, y, height;
 };
 
-/* What a triangle does to samples. */
+/* A triangle as it is drawn into a map. */
 struct facet {
     struct corner corners[3];
-    int64_t low, high, area; /* of the heights; twice its area, at least 0 */
+    int64_t low, high, area; /* range of the heights; area: twice the triangle's, at least 0 */
 };
 
-/* What is known of a sample; -1: no triangle. */
+/* The surface at a sample; triangle -1: none. */
 struct sample {
-    int64_t front, back;           /* of what covers it */
-    int64_t near_front, near_back; /* of what is at most one sample away */
+    int64_t front, back;           /* heights of the triangles that cover the sample */
+    int64_t near_front, near_back; /* heights of the triangles at most one sample away */
     int32_t front_triangle, back_triangle;
-    int32_t near_triangles[2]; /* whose normals count for the front and the back */
+    int32_t near_triangles[2]; /* the triangles whose normals the front and the back get */
     double near_tilts[2];
 };
 
-/* One map while it is made. */
+/* The state of one map while it is made. */
 struct making {
     const struct kiln_mesh *mesh;
-    const double (*normals)[3]; /* of the triangles, outwards */
-    double axes[3][3];          /* along columns, rows and heights */
-    double low[3], step[3];     /* least, and for one sample or one of the heights */
+    const double (*normals)[3]; /* unit normals of the triangles, outwards */
+    double axes[3][3];          /* axes of columns, rows and heights */
+    /* low: least value on each axis; step: size of a sample or height */
+    double low[3], step[3];
     uint32_t resolution;
-    struct corner *corners; /* of the vertices */
+    struct corner *corners; /* one for each vertex */
     struct sample *samples;
-    float (*words)[4]; /* of the map's samples */
+    float (*words)[4]; /* words of the map's samples */
     double hair;
 };
 
@@ -179,7 +180,7 @@ static void come_near(const struct making *making, struct sample *sample, int64_
     }
 }
 
-/* How far outside of a triangle's plane a sample is, along the plane of the map. */
+/* Returns how far outside of a triangle a sample is, along the plane of the map. */
 static double aside_of(const struct making *making, const struct facet *facet, int32_t triangle,
                        int64_t x, int64_t y)
 {
@@ -188,8 +189,8 @@ static double aside_of(const struct making *making, const struct facet *facet, i
            dot3(n, making->axes[1]) * (double)(y - facet->corners[0].y) * making->step[1];
 }
 
-/* Finds the weights of the corners at a place. False: the square around it that reaches `slack` to
- * all sides is outside of an edge. */
+/* Computes the weights of the corners at a place. False: the square around the place, of half edge
+ * `slack`, is outside of an edge. */
 static bool weigh(const struct facet *facet, int64_t x, int64_t y, int64_t slack,
                   int64_t weights[3])
 {
@@ -229,7 +230,7 @@ static void meet(const struct making *making, const struct facet *facet, int32_t
     come_near(making, sample, low, high, triangle, aside_of(making, facet, triangle, x, y));
 }
 
-/* Samples from x0 and y0 on, before x1 and y1. */
+/* A range of samples from x0 and y0 to x1 - 1 and y1 - 1. */
 struct range {
     int64_t x0, x1, y0, y1;
 };
@@ -302,14 +303,16 @@ static bool write_sample(const struct making *making, size_t index)
     for (int side = 0; side < 2; side++) {
         const double *n = making->normals[triangles[side]];
         const double along = dot3(n, making->axes[2]) * (side == 0 ? 1 : -1);
-        const double way = along < -1e-3 ? -1 : 1; /* of a sheet, the back of what is in front */
+        /* a thin sheet's back has the normal opposite to its front */
+        const double way = along < -1e-3 ? -1 : 1;
         const double normal[3] = {way * n[0], way * n[1], way * n[2]};
         set_word(making->words[2 * index + (size_t)side], normal, ends[side]);
     }
     return true;
 }
 
-/* Writes a sample without a triangle: front and back are both at the middle of those around it. */
+/* Writes a sample without a triangle. Front and back get one height, the middle of the samples
+ * around it. */
 static void write_empty(const struct making *making, uint32_t x, uint32_t y)
 {
     double normals[2][3] = {{0, 0, 0}, {0, 0, 0}}, height = 0;
@@ -342,7 +345,8 @@ static void write_empty(const struct making *making, uint32_t x, uint32_t y)
 static void write_map(const struct making *making)
 {
     const uint32_t resolution = making->resolution;
-    unsigned char *empty = (unsigned char *)making->corners; /* no longer needed: one a sample */
+    /* reuses memory that is free by now: one byte a sample */
+    unsigned char *empty = (unsigned char *)making->corners;
     for (size_t i = 0; i < (size_t)resolution * resolution; i++)
         empty[i] = !write_sample(making, i);
     for (uint32_t i = 0; i < resolution * resolution; i++) {

@@ -18,9 +18,9 @@
 #include "shared/exact.h"
 
 enum {
-    VERSION = 2, /* of the algorithm: part of a cached field's name */
+    VERSION = 2, /* version of the algorithm, part of a cached field's name */
     NAME_SIZE = 72,
-    MARGIN = 2, /* cells around the box, beside the reach */
+    MARGIN = 2, /* cells around the bounding box, in addition to the reach */
 };
 
 static size_t sample_count(const struct kiln_field *field)
@@ -50,7 +50,7 @@ static struct cut cut_edge(const float *a, const float *b, double z)
                         (double)low[1] + part * ((double)high[1] - (double)low[1])};
 }
 
-/* A piece of a curve adds its direction to all samples before it in the rows that it passes. */
+/* Adds the direction of a piece of a curve to all samples before it in the rows that it crosses. */
 static void wind(const struct kiln_field *field, struct cut from, struct cut to, int32_t *turns)
 {
     if (from.y == to.y)
@@ -72,7 +72,7 @@ static void wind(const struct kiln_field *field, struct cut from, struct cut to,
     }
 }
 
-/* Winding numbers of a layer, as differences along its rows. */
+/* Computes the winding numbers of a layer, as differences along its rows. */
 static void wind_layer(const struct kiln_field *field, const struct kiln_mesh *mesh, double z,
                        int32_t *turns)
 {
@@ -93,7 +93,7 @@ static void wind_layer(const struct kiln_field *field, const struct kiln_mesh *m
     }
 }
 
-/* Is a sample of this layer inside? */
+/* Returns whether a sample of this layer is inside. */
 static bool reaches_inside(const struct kiln_field *field, const struct kiln_mesh *mesh, uint32_t z,
                            int32_t *turns, size_t turns_size)
 {
@@ -137,7 +137,7 @@ struct making {
     struct kiln_field *field;
     const struct kiln_mesh *mesh;
     const struct kiln_nearest *nearest;
-    int32_t *turns; /* of each thread: a layer, each row with one more */
+    int32_t *turns; /* for each thread: a layer of winding numbers, with one more in each row */
     size_t turns_size;
 };
 
@@ -152,7 +152,8 @@ static void make_row(const struct making *making, uint32_t y, uint32_t z, const 
         p[0] = coordinate(field, 0, x);
         const double square = kiln_nearest_square(making->nearest, p, most);
         const float distance = exact_sqrt((float)square);
-        const double reach = (double)distance + 1.01 * spacing; /* of the next one, at most */
+        /* the largest distance that the next sample can have */
+        const double reach = (double)distance + 1.01 * spacing;
         most = reach * reach;
         turn += turns[x];
         row[x][3] = turn != 0 ? -distance : distance;
@@ -172,7 +173,7 @@ static void make_layers(void *context, size_t begin, size_t end, uint32_t worker
     }
 }
 
-/* Finds the gradient: between both neighbours, or at the edges to the only one. */
+/* Computes gradients: between both neighbours, or at the edges to the only neighbour. */
 static void find_growth(struct kiln_field *field)
 {
     const size_t steps[3] = {1, field->size[0], (size_t)field->size[0] * field->size[1]};
@@ -240,7 +241,7 @@ static bool find_name(char name[NAME_SIZE], const struct kiln_mesh *mesh, uint32
     return true;
 }
 
-/* ---- all of it ------------------------------------------------------------------------------- */
+/* ---- making the field ------------------------------------------------------------------------ */
 
 /* Returns the number of cells around the mesh's bounding box. */
 static uint32_t find_margin(float spacing, uint32_t cells, float reach, const char *name,
@@ -258,7 +259,7 @@ static uint32_t find_margin(float spacing, uint32_t cells, float reach, const ch
     return MARGIN + whole + ((float)whole < along ? 1 : 0);
 }
 
-/* Fills in all of a field but its samples. */
+/* Fills all members of a field except its samples. */
 static bool place(struct kiln_field *field, const struct kiln_mesh *mesh, const char *name,
                   uint32_t cells, float reach, struct kiln_error *error)
 {

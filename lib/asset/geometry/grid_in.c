@@ -19,7 +19,7 @@ struct cursor {
     struct kiln_error *error;
 };
 
-/* Takes a line without its end. */
+/* Reads a line without its end. */
 static bool take_line(struct cursor *c, char line[LINE_SIZE])
 {
     const size_t left = (size_t)(c->end - c->at);
@@ -37,7 +37,7 @@ static bool take_line(struct cursor *c, char line[LINE_SIZE])
     return true;
 }
 
-/* Takes a line that is exactly this text. */
+/* Reads a line that must be exactly this text. */
 static bool take_word(struct cursor *c, const char *word)
 {
     char line[LINE_SIZE];
@@ -48,7 +48,7 @@ static bool take_word(struct cursor *c, const char *word)
                           c->line, word, line);
 }
 
-/* Takes a line "word x y z", with each number from least to most. */
+/* Reads a line "word x y z", with each number from least to most. */
 static bool take_numbers(struct cursor *c, const char *word, double least, double most, bool whole,
                          double numbers[3])
 {

@@ -20,8 +20,8 @@ void kiln_mesh_bound(struct kiln_mesh *mesh)
     }
 }
 
-/* Six times the volume of a tetrahedron between a place and a triangle, positive if that faces
- * away. */
+/* Returns six times the volume of the tetrahedron of a place and a triangle, positive if the
+ * triangle faces away from the place. */
 static double volume_below(const struct kiln_mesh *mesh, const uint32_t triangle[3],
                            const float from[3])
 {

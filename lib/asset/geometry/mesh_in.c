@@ -22,12 +22,14 @@ static const float MAX_COORDINATE = 1e6f;
 
 struct request {
     struct kiln_loader *loader; /* may be NULL */
-    const char *name;           /* of the file, for messages, and where the paths in it start */
-    bool alone;                 /* it may name no other files */
+    /* name of the file for messages; paths in the file start at its folder */
+    const char *name;
+    bool alone; /* true: the file may name no other files */
     struct kiln_decode_request wanted;
     struct kiln_helper *helper;
-    struct kiln_error refusal;       /* of the first file that may not be opened, if any */
-    char hashes[MAX_FILES * 64 + 1]; /* of the file and those that it names, in that order */
+    struct kiln_error refusal; /* error of the first file that may not be opened, if any */
+    /* hashes of the file and of those that it names, in that order */
+    char hashes[MAX_FILES * 64 + 1];
     size_t hash_length;
 };
 
@@ -46,7 +48,7 @@ static bool note_contents(struct request *request, int file, struct kiln_error *
     return true;
 }
 
-/* Does a path lead only downwards, by its text? */
+/* Returns whether a path leads only downwards, by its text. */
 static bool stays_below(const char *path)
 {
     if (path[0] == '/' || strchr(path, ':') || strchr(path, '\\'))
@@ -83,7 +85,8 @@ static int open_named(struct request *request, const char *name, struct kiln_err
     size_t size = 0;
     int opened = kiln_loader_open(request->loader, &file, &size, &reason);
     if (opened < 0) {
-        const char *said = strstr(reason.message, ": "); /* after the path, which the name says */
+        /* the reason alone: the message begins with the path, which `name` replaces */
+        const char *said = strstr(reason.message, ": ");
         kiln_error_set(error, reason.code == KILN_IO ? KILN_INVALID_INPUT : reason.code,
                        "%s: it names the file '%.200s'%s", request->name, name, said ? said : "");
     }
@@ -94,8 +97,8 @@ static int open_named(struct request *request, const char *name, struct kiln_err
     return opened;
 }
 
-/* Sends the process a file that it asked for. A file that may not be opened is answered, too, since
- * assimp then looks for others. */
+/* Sends the process a file that it asked for. A refusal is sent, too, since assimp then looks for
+ * other files. */
 static bool hand_over(struct request *request, const char *name, struct kiln_error *error)
 {
     const int file =
@@ -107,7 +110,7 @@ static bool hand_over(struct request *request, const char *name, struct kiln_err
     return sent;
 }
 
-/* ---- what comes back ------------------------------------------------------------------------- */
+/* ---- the answer ------------------------------------------------------------------------------ */
 
 static bool check_vertex(const float v[6])
 {
@@ -177,7 +180,7 @@ static bool receive_array(void *user, void *array, size_t bytes)
                                receiving->reason);
 }
 
-/* Checks the counts before a byte of an array is taken. */
+/* Checks the counts of an answer before any array is received. */
 static bool are_counts_sound(const struct kiln_mesh_result *result, bool moving)
 {
     const struct kiln_skin_result *skin = &result->skin;
@@ -201,7 +204,7 @@ static void take_counts(const struct kiln_decode_answer *answer, struct kiln_mes
     result->skin.key_count = answer->keys;
 }
 
-/* Waits for the answer, and sends the files that are asked for before it. */
+/* Waits for the answer, and sends the files that the process asks for meanwhile. */
 static bool await(struct request *request, struct kiln_decode_answer *answer,
                   struct kiln_error *error)
 {
@@ -241,10 +244,10 @@ static bool receive(struct request *request, int file, struct kiln_mesh_result *
     return ok || kiln_helper_fail(request->name, &reason, error);
 }
 
-/* A file becomes one of these. */
+/* Holds what a file is imported as: a mesh, or a skin. */
 struct imported {
     struct kiln_mesh *mesh;
-    struct kiln_skin *skin; /* of a moving one */
+    struct kiln_skin *skin; /* of a mesh that moves */
 };
 
 static struct imported take(struct request *request, const struct kiln_mesh_result *result,

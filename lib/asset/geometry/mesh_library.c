@@ -15,7 +15,7 @@ struct entry {
     struct entry *next;
     char *path;
     enum way way;
-    struct kiln_mesh *mesh; /* unless it moves */
+    struct kiln_mesh *mesh; /* NULL if the mesh moves */
     struct kiln_skin *skin;
 };
 
@@ -67,7 +67,7 @@ static bool import(const struct kiln_mesh_library *library, struct entry *entry,
                                     mesh->triangle_count, path, error);
 }
 
-/* Returns the entry of a file, which it imports first if need be; NULL: it cannot be imported. */
+/* Returns the entry of a file, and imports the file if it has none; NULL: it cannot be imported. */
 static const struct entry *get(struct kiln_mesh_library *library, const char *path, enum way way,
                                struct kiln_error *error)
 {

@@ -1,6 +1,6 @@
-/* The meshes of a scene, each imported once, however many show it or collide with it. They are
- * imported while the scene is loaded. Filling one is for one thread; what is in it is for any
- * number. */
+/* Holds the meshes of a scene. Each file is imported only once, even if several objects show it or
+ * collide with it. Meshes are imported while the scene is loaded, by one thread; afterwards any
+ * number of threads may read them. */
 #ifndef KILN_ASSET_GEOMETRY_MESH_LIBRARY_H
 #define KILN_ASSET_GEOMETRY_MESH_LIBRARY_H
 
@@ -8,14 +8,16 @@
 
 struct kiln_mesh_library;
 
-/* The loader, in whose budget triangles are counted, must outlive it. NULL: no memory. */
+/* Creates an empty library. Triangles are counted in the loader's budget; the loader must outlive
+ * the library. NULL when memory is short. */
 struct kiln_mesh_library *kiln_mesh_library_create(struct kiln_loader *loader);
 
-/* Frees all meshes in it. */
+/* Frees the library and all its meshes. */
 void kiln_mesh_library_destroy(struct kiln_mesh_library **library);
 
-/* What kiln_mesh_load, kiln_mesh_load_unwrapped and kiln_skin_load give, with their errors and
- * KILN_OVER_LIMIT, out of the library or imported into it. They are the library's. */
+/* Return the result of kiln_mesh_load, kiln_mesh_load_unwrapped or kiln_skin_load for a file, which
+ * is imported unless the library has it. Errors are those of these functions, and KILN_OVER_LIMIT.
+ * The library owns the result. */
 const struct kiln_mesh *kiln_mesh_library_get(struct kiln_mesh_library *library, const char *path,
                                               struct kiln_error *error);
 const struct kiln_mesh *kiln_mesh_library_get_unwrapped(struct kiln_mesh_library *library,

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* Finds a triangle's normal, twice as long as its area. */
+/* Computes a triangle's normal, of twice its area in length. */
 static void double_area(const struct kiln_mesh *mesh, const uint32_t corners[3], double out[3])
 {
     double a[3], b[3];

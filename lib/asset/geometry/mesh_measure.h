@@ -4,13 +4,14 @@
 
 #include "asset/geometry/mesh.h"
 
-/* In the units of the file. */
+/* Sizes of a mesh in the units of the file. */
 struct kiln_mesh_measure {
-    float middle[3]; /* of the box around it */
-    float edge;      /* the longest of that box: above 0, since a triangle has an area */
-    float reach;     /* from the middle to the farthest vertex */
-    float shade; /* radius of the sphere whose shadow is as large as the mesh's is on average over
-                  * all directions, at most `reach` */
+    float middle[3]; /* centre of the bounding box */
+    float edge;      /* longest edge of the bounding box; above 0, since a triangle has an area */
+    float reach;     /* distance from the middle to the farthest vertex */
+    /* radius of a sphere whose shadow has the mean area of the mesh's shadows from all directions;
+     * at most `reach` */
+    float shade;
 };
 
 struct kiln_mesh_measure kiln_mesh_measure(const struct kiln_mesh *mesh);

@@ -5,22 +5,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAF = 4, STACK = 128, DEPTH = 48 /* where all that is left is one leaf */ };
+/* LEAF: most triangles of a leaf, except at DEPTH, where a leaf has all that are left. */
+enum { LEAF = 4, STACK = 128, DEPTH = 48 };
 
 struct node {
     float min[3], max[3];
-    uint32_t first; /* of a leaf's triangles; else the second child: the first one follows */
-    uint32_t count; /* of a leaf's triangles; 0: no leaf */
+    /* of a leaf: its first triangle; else the second child; the first child follows the node */
+    uint32_t first;
+    uint32_t count; /* triangles of a leaf; 0: the node is no leaf */
 };
 
 struct kiln_nearest {
     const struct kiln_mesh *mesh;
-    uint32_t *order; /* triangles, leaf by leaf */
+    uint32_t *order; /* triangles, in the order of the leaves */
     struct node *nodes;
     uint32_t node_count;
 };
 
-/* ---- geometry -------------------------------------------------------------------------------- */
+/* ---- vectors and boxes ----------------------------------------------------------------------- */
 
 struct vec {
     double x, y, z;
@@ -89,7 +91,7 @@ static double box_square(const struct node *node, const double p[3])
     return sum;
 }
 
-/* ---- making ---------------------------------------------------------------------------------- */
+/* ---- building the tree ----------------------------------------------------------------------- */
 
 static void bound(const struct kiln_nearest *tree, struct node *node, uint32_t first,
                   uint32_t count)
@@ -104,14 +106,16 @@ static void bound(const struct kiln_nearest *tree, struct node *node, uint32_t f
     }
 }
 
-/* Brings the triangles whose middle is below that of the box to the front; returns how many. */
+/* Brings the triangles whose middle is in the lower half of the box to the front; returns their
+ * number. */
 static uint32_t part(const struct kiln_nearest *tree, const struct node *node, uint32_t first,
                      uint32_t count)
 {
     int axis = 0;
     for (int c = 1; c < 3; c++)
         axis = node->max[c] - node->min[c] > node->max[axis] - node->min[axis] ? c : axis;
-    const float middle = 1.5f * (node->min[axis] + node->max[axis]); /* of three corners */
+    /* three times the middle, to compare with sums of three corners */
+    const float middle = 1.5f * (node->min[axis] + node->max[axis]);
     uint32_t below = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t triangle = tree->order[first + i];
@@ -126,7 +130,7 @@ static uint32_t part(const struct kiln_nearest *tree, const struct node *node, u
     return below;
 }
 
-/* A stretch of the order that becomes a node; its parent, if it is a second child. */
+/* A range of the order that becomes a node; `parent` is used for a second child only. */
 struct work {
     uint32_t first, count, parent, depth;
     bool second;

@@ -6,12 +6,13 @@
 
 struct kiln_nearest;
 
-/* The mesh must outlive it. NULL when memory is short. The caller destroys it. */
+/* Builds the tree of a mesh, which must outlive it. NULL when memory is short. The caller destroys
+ * the tree. */
 struct kiln_nearest *kiln_nearest_create(const struct kiln_mesh *mesh);
 void kiln_nearest_destroy(struct kiln_nearest **nearest);
 
-/* The square of the distance to the nearest triangle, or `most` if that is less. Several threads
- * may ask at once; the same bits on every machine. */
+/* Returns the square of the distance to the nearest triangle, or `most` if that is less. Several
+ * threads may call it at once. The bits are the same on every machine. */
 double kiln_nearest_square(const struct kiln_nearest *nearest, const double p[3], double most);
 
 #endif

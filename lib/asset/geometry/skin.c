@@ -12,26 +12,27 @@
 #include "asset/geometry/mesh_in.h"
 #include "base/error.h"
 
-static const float FARTHEST = 1e6f; /* units of the file: keys, matrices, vertices */
+/* limit of coordinates in keys, matrices and vertices, in units of the file */
+static const float FARTHEST = 1e6f;
 
 struct kiln_skin {
-    struct kiln_mesh *mesh; /* at rest */
-    float (*sources)[6];    /* its vertices before nodes and bones, and normals of any length */
+    struct kiln_mesh *mesh; /* the mesh at rest */
+    float (*sources)[6];    /* vertices before nodes and bones are applied; normals of any length */
     struct kiln_skin_weights *weights;
     uint32_t node_count, bone_count, clip_count;
     struct kiln_skin_node nodes[KILN_MAX_SKIN_NODES];
     struct kiln_skin_bone bones[KILN_MAX_SKIN_BONES];
     struct kiln_skin_clip clips[KILN_MAX_CLIPS];
-    float lengths[KILN_MAX_CLIPS]; /* s */
+    float lengths[KILN_MAX_CLIPS]; /* lengths of the clips, s */
     struct kiln_skin_channel *channels;
     struct kiln_skin_key *keys;
 };
 
 /* ---- between keys ---------------------------------------------------------------------------- */
 
-/* sin(t angle) / sin(angle) by the cosine of an angle of at most a quarter turn, as a series in
- * (cosine - 1) whose coefficients are polynomials of t (Eberly 2011, A Fast and Accurate Algorithm
- * for Computing SLERP). A term is at most half of the one before. */
+/* Returns sin(t angle) / sin(angle) from the cosine of an angle of at most a quarter turn. It is a
+ * series in (cosine - 1) whose coefficients are polynomials of t (Eberly 2011, A Fast and Accurate
+ * Algorithm for Computing SLERP). A term is at most half of the one before. */
 static float part_of_turn(float t, float cosine)
 {
     enum { TERMS = 22 };
@@ -53,17 +54,18 @@ static void turn_between(versor a, versor b, float t, versor out)
     const float to = sign * part_of_turn(t, sign * cosine);
     glm_vec4_scale(a, from, out);
     glm_vec4_muladds(b, to, out);
-    glm_quat_normalize(out); /* its length was 1 but for rounding */
+    glm_quat_normalize(out); /* corrects the rounding of its length */
 }
 
-/* Reads a track at a moment; a track without keys leaves the value as it is. */
+/* Reads a track at a moment; a track without keys does not change the value. */
 static void read_track(const struct kiln_skin *skin, const struct kiln_skin_track *track,
                        bool turns, float seconds, vec4 out)
 {
     if (track->count == 0)
         return;
     struct kiln_skin_key *keys = skin->keys + track->first;
-    uint32_t low = 0, high = track->count; /* the last key at or before the moment is in there */
+    /* the last key at or before the moment is in low .. high - 1 */
+    uint32_t low = 0, high = track->count;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
         *(keys[middle].seconds <= seconds ? &low : &high) = middle;
@@ -93,7 +95,7 @@ static void place_bones(const struct kiln_skin *skin, const struct kiln_skin_cli
                         float seconds, mat4 *bones)
 {
     mat4 local[KILN_MAX_SKIN_NODES], nodes[KILN_MAX_SKIN_NODES];
-    memcpy(local[0], skin->nodes[0].rest, sizeof local[0]); /* there is one */
+    memcpy(local[0], skin->nodes[0].rest, sizeof local[0]); /* node 0 always exists */
     for (uint32_t i = 1; i < skin->node_count; i++)
         memcpy(local[i], skin->nodes[i].rest, sizeof local[i]);
     for (uint32_t i = 0; clip && i < clip->count; i++) {
@@ -122,7 +124,7 @@ static float bounded(float x)
     return x >= -FARTHEST ? (x <= FARTHEST ? x : FARTHEST) : -FARTHEST;
 }
 
-/* Does it turn left into right? */
+/* Returns whether a matrix mirrors. */
 static bool mirrors(mat4 m)
 {
     mat3 linear;
@@ -130,8 +132,8 @@ static bool mirrors(mat4 m)
     return glm_mat3_det(linear) < 0.0f;
 }
 
-/* A normal goes by the cofactors, which keep it across the surface however that is stretched, and
- * on its side unless it is mirrored. */
+/* Transforms a normal by the cofactors of a matrix. They keep it perpendicular to the surface under
+ * any scaling. A mirror reverses its side. */
 static void turn_normal(mat4 m, vec3 normal, vec3 out)
 {
     mat3 cofactors;
@@ -156,7 +158,7 @@ static void blend(const struct kiln_skin_weights *weights, mat4 *bones, mat4 out
     }
 }
 
-/* Turns the triangles of mirrored parts the other way around; else they would show their inside. */
+/* Reverses the triangles of mirrored parts, which would otherwise show their inside. */
 static void turn_mirrored(struct kiln_skin *skin)
 {
     mat4 bones[KILN_MAX_SKIN_BONES], m;
@@ -200,7 +202,7 @@ void kiln_skin_pose_mesh(const struct kiln_skin *skin, uint32_t clip, float seco
     kiln_mesh_bound(mesh);
 }
 
-/* ---- what came ------------------------------------------------------------------------------- */
+/* ---- checking what kiln-decode sent ---------------------------------------------------------- */
 
 struct check {
     const char *name;
@@ -228,7 +230,7 @@ static bool check_counts(const struct check *check)
         good = r->nodes[i].parent < i;
     for (uint32_t i = 0; good && i < r->bone_count; i++)
         good = r->bones[i].node < r->node_count;
-    /* Ranges come one after the other: those that overlap would be work without end. */
+    /* Ranges must follow one another, since overlapping ranges could make work without end. */
     uint32_t channels = 0, keys = 0;
     for (uint32_t i = 0; good && i < r->clip_count; i++) {
         good = r->clips[i].first == channels && r->clips[i].count <= r->channel_count - channels &&
@@ -317,7 +319,7 @@ static bool check_weights(const struct check *check)
     return true;
 }
 
-/* ---- making ---------------------------------------------------------------------------------- */
+/* ---- making a skin --------------------------------------------------------------------------- */
 
 /* Adds normals where a file has none, as sums of the triangles' area vectors. */
 static void add_normals(struct kiln_skin *skin)
@@ -336,13 +338,13 @@ static void add_normals(struct kiln_skin *skin)
                 skin->sources[corners[k]][3 + n] += area;
         }
     }
-    /* Of length 1, since the square of a small area would be nothing. */
+    /* The sums are scaled to length 1, since squares of small areas would underflow. */
     mat4 same = GLM_MAT4_IDENTITY_INIT;
     for (uint32_t i = 0; i < mesh->vertex_count; i++)
         turn_normal(same, skin->sources[i] + 3, skin->sources[i] + 3);
 }
 
-/* Makes weights sum to 1 and gives quaternions that length, up to rounding. */
+/* Makes weights sum to 1 and quaternions have length 1, up to rounding. */
 static void normalize(struct kiln_skin *skin)
 {
     for (uint32_t i = 0; i < skin->mesh->vertex_count; i++) {
@@ -392,7 +394,8 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
     memcpy(skin->bones, r->bones, sizeof skin->bones);
     memcpy(skin->clips, r->clips, sizeof skin->clips);
     for (uint32_t i = 0; i < skin->clip_count; i++) {
-        for (char *c = skin->clips[i].name; *c; c++) { /* they come into messages */
+        /* names go into messages, so control characters are replaced */
+        for (char *c = skin->clips[i].name; *c; c++) {
             if ((unsigned char)*c < ' ' || *c == 127)
                 *c = ' ';
         }
@@ -438,7 +441,7 @@ void kiln_skin_destroy(struct kiln_skin **skin)
     *skin = NULL;
 }
 
-/* ---- asking ---------------------------------------------------------------------------------- */
+/* ---- queries --------------------------------------------------------------------------------- */
 
 const struct kiln_mesh *kiln_skin_mesh(const struct kiln_skin *skin)
 {

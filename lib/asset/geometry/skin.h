@@ -1,5 +1,6 @@
-/* Meshes that move: vertices that follow bones (linear blend skinning) or whole parts that follow
- * nodes, and the clips that say how, out of glTF and GLB files. The same bits on every machine. */
+/* Declares meshes that move, from glTF and GLB files. Vertices follow bones (linear blend
+ * skinning), or whole parts follow nodes. Clips animate bones and nodes. The bits are the same on
+ * every machine. */
 #ifndef KILN_ASSET_GEOMETRY_SKIN_H
 #define KILN_ASSET_GEOMETRY_SKIN_H
 
@@ -8,41 +9,43 @@
 enum {
     KILN_MAX_SKIN_NODES = 512,
     KILN_MAX_SKIN_BONES = 512,
-    KILN_SKIN_INFLUENCES = 4, /* bones that move one vertex */
+    KILN_SKIN_INFLUENCES = 4, /* the most bones that move one vertex */
     KILN_MAX_CLIPS = 64,
-    KILN_MAX_CLIP_NAME = 64, /* bytes, with the zero at its end */
+    KILN_MAX_CLIP_NAME = 64, /* bytes of a name, including the zero at its end */
     KILN_MAX_CLIP_CHANNELS = 1 << 14,
-    KILN_MAX_CLIP_KEYS = 1 << 18, /* of all clips */
+    KILN_MAX_CLIP_KEYS = 1 << 18, /* keys of all clips of a file */
 };
 
 struct kiln_skin;
 
-/* As kiln_mesh_load and kiln_mesh_parse, and KILN_INVALID_INPUT when nothing in the file moves, or
- * in ways that are none of nodes and bones with linear interpolation, or when the weights of a
- * vertex do not sum to one. The caller destroys it. */
+/* Load a mesh that moves, as kiln_mesh_load and kiln_mesh_parse do. KILN_INVALID_INPUT also when
+ * nothing in the file moves, when something moves by other means than nodes and bones with linear
+ * interpolation, or when the weights of a vertex do not sum to one. The caller destroys the
+ * skin. */
 struct kiln_skin *kiln_skin_load(struct kiln_loader *loader, const char *path,
                                  struct kiln_error *error);
 struct kiln_skin *kiln_skin_parse(const void *bytes, size_t size, const char *name,
                                   struct kiln_error *error);
 void kiln_skin_destroy(struct kiln_skin **skin);
 
-/* Vertices where they are while no clip plays. Its triangles are those of every pose. */
+/* Returns the mesh in its rest pose, while no clip plays. Every pose has the same triangles. */
 const struct kiln_mesh *kiln_skin_mesh(const struct kiln_skin *skin);
 
-/* A clip by its name or, where none is called so, by its number from 0. KILN_INVALID_INPUT with the
- * clips that there are, after `name`, which stands for the file. */
+/* Finds a clip by its name or, if no clip has that name, by its number from 0. KILN_INVALID_INPUT
+ * with the list of clips after `name`, which stands for the file. */
 bool kiln_skin_find_clip(const struct kiln_skin *skin, const char *clip, const char *name,
                          uint32_t *number, struct kiln_error *error);
 
-/* From 0 to its last key, s. */
+/* Returns the length of a clip, from 0 to its last key, s. */
 float kiln_skin_clip_length(const struct kiln_skin *skin, uint32_t clip);
 
-/* Position and unit normal of every vertex of kiln_skin_mesh, in its order and in units of the
- * file, at a moment of a clip; before 0 and after the length, nothing moves. */
+/* Computes position and unit normal of every vertex of kiln_skin_mesh, in units of the file, at a
+ * moment of a clip. Before 0 and after the length, the pose stays that of the first and the last
+ * moment. */
 void kiln_skin_pose(const struct kiln_skin *skin, uint32_t clip, float seconds,
                     float (*vertices)[6]);
 
-/* kiln_skin_pose into the vertices of a mesh with as many, and the bounds that follow. */
+/* Writes a pose into the vertices of a mesh with as many vertices, and updates its bounds. */
 void kiln_skin_pose_mesh(const struct kiln_skin *skin, uint32_t clip, float seconds,
                          struct kiln_mesh *mesh);
 

@@ -1,4 +1,5 @@
-/* Declares what moves a mesh, on its way from kiln-decode: nodes, bones, clips and their keys. */
+/* Declares the data by which a mesh moves, as kiln-decode sends it: nodes, bones, clips and their
+ * keys. */
 #ifndef KILN_ASSET_GEOMETRY_SKIN_IN_H
 #define KILN_ASSET_GEOMETRY_SKIN_IN_H
 
@@ -9,14 +10,14 @@ enum { KILN_CHANNEL_MOVE, KILN_CHANNEL_TURN, KILN_CHANNEL_SCALE, KILN_CHANNEL_TR
 
 struct kiln_skin_key {
     float seconds;
-    vec4 value; /* of a turn a quaternion */
+    vec4 value; /* of a rotation: a quaternion */
 };
 
 struct kiln_skin_track {
-    uint32_t first, count; /* keys; none: it stays as it is without */
+    uint32_t first, count; /* range of keys; count 0: the node's own value stays */
 };
 
-/* What a clip does to a node, in place of the transform that it has at rest. */
+/* The tracks of a node in a clip, which replace its transform at rest. */
 struct kiln_skin_channel {
     uint32_t node;
     struct kiln_skin_track tracks[KILN_CHANNEL_TRACKS];
@@ -24,18 +25,18 @@ struct kiln_skin_channel {
 
 struct kiln_skin_clip {
     char name[KILN_MAX_CLIP_NAME];
-    uint32_t first, count; /* channels */
+    uint32_t first, count; /* range of channels */
 };
 
-/* The last row of each matrix of nodes and bones is (0, 0, 0, 1). */
+/* Nodes and bones. The last row of each of their matrices is (0, 0, 0, 1). */
 struct kiln_skin_node {
-    uint32_t parent; /* before it; of the first, itself */
-    mat4 rest;       /* to the parent */
+    uint32_t parent; /* a node before this one; the first node is its own parent */
+    mat4 rest;       /* transform to the parent's space */
 };
 
 struct kiln_skin_bone {
     uint32_t node;
-    mat4 offset; /* from the vertices to the bone */
+    mat4 offset; /* transform from the vertices' space to the bone's */
 };
 
 struct kiln_skin_weights {
@@ -43,7 +44,8 @@ struct kiln_skin_weights {
     float weights[KILN_SKIN_INFLUENCES];
 };
 
-/* Part of struct kiln_mesh_result, and as little to be believed. */
+/* The part of struct kiln_mesh_result for meshes that move. Nothing in it may be trusted before it
+ * is checked. */
 struct kiln_skin_result {
     bool has_normals;
     uint32_t node_count, bone_count, clip_count, channel_count, key_count;

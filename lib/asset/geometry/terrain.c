@@ -1,5 +1,5 @@
-/* This file makes terrain from a picture or from noise: its heights, slopes and ceilings, and a
- * mesh to draw. Heights use the arithmetic of the simulation, since particles collide with them. */
+/* Makes terrain from a picture or from noise: its heights, slopes and ceilings, and a mesh to draw.
+ * Heights use the arithmetic of the simulation, since particles collide with them. */
 #include "asset/geometry/terrain.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ static float channel(const struct kiln_asset_image *image, size_t at)
 {
     if (image->type == KILN_IMAGE_F32) {
         float value = ((const float *)image->pixels)[at];
-        return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f; /* NaN, too, is low */
+        return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f; /* a NaN becomes 0 */
     }
     if (image->type == KILN_IMAGE_U16)
         return (float)((const uint16_t *)image->pixels)[at] / 65535.0f;
@@ -39,12 +39,13 @@ static float pixel_height(const struct kiln_asset_image *image, uint32_t x, uint
 {
     const size_t at = ((size_t)y * image->width + x) * 4;
     const float r = channel(image, at), g = channel(image, at + 1), b = channel(image, at + 2);
-    if (r == g && g == b) /* whose weights do not quite add up to 1 */
+    if (r == g && g == b) /* equal channels are grey, which weights that do not quite add up to 1
+                           * would change */
         return r;
     return 0.2126f * r + 0.7152f * g + 0.0722f * b;
 }
 
-/* A point's place among the pixels of one axis. */
+/* The pixels around a point along one axis, and its place between them. */
 struct pixel_place {
     uint32_t before, after;
     float part;
@@ -81,7 +82,7 @@ static bool read_image(struct kiln_terrain *terrain, const struct kiln_terrain_p
 
 /* ---- noise ----------------------------------------------------------------------------------- */
 
-/* Gradient noise in the plane, about -1 to 1. */
+/* Computes gradient noise in the plane, about -1 to 1. */
 static float noise_flat(float x, float z, uint32_t seed)
 {
     if (!noise_reaches(FLOAT3(x, 0.0f, z)))
@@ -102,8 +103,8 @@ static float noise_flat(float x, float z, uint32_t seed)
     return sum * 0.45f;
 }
 
-/* Sums octaves of noise, each of half the size. With ridges, the height so far weighs the next
- * octave, so that low ground stays smooth. */
+/* Sums octaves of noise, each of half the size. With ridges, the height so far is the weight of the
+ * next octave, so that low ground stays smooth. */
 static float noise_height(const struct kiln_terrain_params *params, float x, float z)
 {
     float sum = 0.0f, amplitude = 1.0f, frequency = 1.0f / params->hills, weight = 1.0f;
@@ -142,7 +143,7 @@ static void make_noise(struct kiln_terrain *terrain, const struct kiln_terrain_p
             range > 0.0f ? (terrain->points[i].height - least) / range : 0.0f;
 }
 
-/* ---- what follows from the heights ----------------------------------------------------------- */
+/* ---- heights, slopes, ceilings --------------------------------------------------------------- */
 
 static void place_heights(struct kiln_terrain *terrain, const struct kiln_terrain_params *params)
 {
@@ -154,8 +155,8 @@ static void place_heights(struct kiln_terrain *terrain, const struct kiln_terrai
     }
 }
 
-/* Returns the slope along one axis from `before` to `after`, which are two cells apart, and one at
- * the edges. */
+/* Returns the slope along one axis from `before` to `after`, which are two cells apart, or one cell
+ * at the edges. */
 static float slope_between(const struct kiln_terrain_point *before,
                            const struct kiln_terrain_point *after, uint32_t cells, float spacing)
 {
@@ -279,7 +280,7 @@ static void add_ground(struct kiln_mesh *mesh, const struct kiln_terrain *terrai
     }
 }
 
-/* A wall along x from (0, z), or along z from (x, 0). */
+/* Adds a wall along x from (0, z), or along z from (x, 0). */
 static void add_wall(struct kiln_mesh *mesh, const struct kiln_terrain *terrain, uint32_t x,
                      uint32_t z, bool along_x, float3 normal)
 {

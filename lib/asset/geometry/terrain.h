@@ -1,52 +1,54 @@
-/* Terrain: heights on a lattice of points over a rectangle, out of a picture or of noise. Between
- * four points lie two triangles, which meet between the first and the last of the four: where the
- * ground is for those who draw it and for those who fall on it. */
+/* Declares terrain: heights on a lattice of points over a rectangle, from a picture or from noise.
+ * A cell of four points has two triangles, which share the diagonal from its first to its last
+ * point. Drawing and collision use these triangles. */
 #ifndef KILN_ASSET_GEOMETRY_TERRAIN_H
 #define KILN_ASSET_GEOMETRY_TERRAIN_H
 
 #include "asset/geometry/mesh.h"
 
 enum {
-    KILN_MAX_TERRAIN_EDGE = 513, /* points along an axis */
+    KILN_MAX_TERRAIN_EDGE = 513, /* most points along an axis */
     KILN_MAX_TERRAIN_OCTAVES = 10,
 };
 
 struct kiln_terrain_params {
-    struct kiln_loader *loader; /* of the image; may be NULL */
+    struct kiln_loader *loader; /* opens the image; may be NULL */
     const char *image;          /* an absolute path, or NULL: noise */
     uint32_t samples[2];        /* along x and z: 2 to KILN_MAX_TERRAIN_EDGE */
-    float position[3];          /* m: the middle, and the lowest height */
+    float position[3];          /* m: centre of the rectangle, and the lowest height */
     float size[3];              /* m: above 0 */
-    /* of noise: */
-    float hills;     /* m: size of the largest; above 0 */
-    float roughness; /* height of an octave, in parts of the one before */
+    /* of noise only: */
+    float hills;     /* m: size of the largest hills; above 0 */
+    float roughness; /* height of each octave, as a part of the one before */
     float ridges;    /* 0: round hills; 1: crests between valleys */
     uint32_t octaves, seed;
 };
 
 struct kiln_terrain_point {
-    float slope_x, height, slope_z; /* m a metre, m */
-    float ceiling; /* m: above all ground up to a whole cell beyond those that begin here */
+    float slope_x, height, slope_z; /* slopes in m a metre, height in m */
+    float ceiling; /* m: above all ground of the cell that begins here and of the cells around it */
 };
 
 struct kiln_terrain {
     uint32_t samples[2];
-    float origin[3];                   /* m: first point, and lowest height that there may be */
-    float spacing[2];                  /* m: along x and z */
-    float top;                         /* m: of the highest point */
+    /* m: place of the first point; y is the lowest possible height */
+    float origin[3];
+    float spacing[2];                  /* m: distances of points along x and z */
+    float top;                         /* m: height of the highest point */
     struct kiln_terrain_point *points; /* rows along x, from low to high z */
 };
 
-/* The same bits on every machine, for the same picture. An image's top lies towards -z, its first
- * and last pixels at the edges; white is `size` above black, with what is between as it is encoded.
- * Noise reaches from the lowest to the highest height. NULL: as kiln_asset_image_load, or
- * KILN_DEVICE_FAILED when memory is short. The caller destroys it. */
+/* Makes a terrain; the same picture gives the same bits on every machine. An image's top lies
+ * towards -z, its first and last pixels at the edges. White is `size` above black; values between
+ * are linear in the encoded value. Noise reaches from the lowest to the highest height. NULL:
+ * errors of kiln_asset_image_load, or KILN_DEVICE_FAILED when memory is short. The caller destroys
+ * the terrain. */
 struct kiln_terrain *kiln_terrain_create(const struct kiln_terrain_params *params,
                                          struct kiln_error *error);
 void kiln_terrain_destroy(struct kiln_terrain **terrain);
 
-/* The ground, and walls around it down to the lowest height, from `origin` on. NULL with
- * KILN_DEVICE_FAILED when memory is short. The caller destroys it. */
+/* Makes a mesh of the ground and of walls around it down to the lowest height, relative to
+ * `origin`. NULL with KILN_DEVICE_FAILED when memory is short. The caller destroys the mesh. */
 struct kiln_mesh *kiln_terrain_mesh(const struct kiln_terrain *terrain, struct kiln_error *error);
 
 #endif

@@ -15,7 +15,7 @@
 
 enum { HEAD_SIZE = 21 };
 
-/* '?' stands for any byte. */
+/* Signatures of the formats; '?' stands for any byte. */
 static const struct signature {
     const char *bytes;
     size_t length;
@@ -31,11 +31,11 @@ static const struct signature {
     {"v/1\x01", 4, KILN_PICTURE_EXR, "EXR"},
 };
 
-/* ---- what it is ------------------------------------------------------------------------------ */
+/* ---- format ---------------------------------------------------------------------------------- */
 
 struct head {
     unsigned char bytes[HEAD_SIZE];
-    size_t size; /* of them, fewer in a short file */
+    size_t size; /* number of bytes, fewer than HEAD_SIZE in a short file */
 };
 
 static const struct signature *find_signature(const struct head *head)
@@ -63,21 +63,23 @@ static bool refuse_unknown(const struct head *head, const char *name, struct kil
         "%s: not an image: it starts with the bytes%s; allowed are " ALLOWED " files", name, found);
 }
 
-/* Is it an animated WebP, by its extended header? FFmpeg has no decoder for these. */
+/* Returns whether a file is an animated WebP, by its extended header. FFmpeg has no decoder for
+ * these. */
 static bool is_animated_webp(const struct head *head)
 {
     return head->size > 20 && memcmp(head->bytes + 12, "VP8X", 4) == 0 &&
            (head->bytes[20] & 2) != 0;
 }
 
-/* Is it an OpenEXR file of one part in tiles? These go to FFmpeg, layers to OpenEXR's core. After
- * the signature come version and flags, of which bit 9 is for tiles. */
+/* Returns whether a file is an OpenEXR file of one part in tiles. FFmpeg decodes these, and
+ * OpenEXR's core decodes layers. After the signature come version and flags, of which bit 9 is for
+ * tiles. */
 static bool is_tiled_exr(const struct head *head)
 {
     return head->size >= 8 && (head->bytes[5] & 0x02) != 0;
 }
 
-/* Chooses the process that is asked for a layer of a file, or for the whole picture if that is
+/* Chooses the kind of process that decodes a layer of a file, or the whole picture if `name` is
  * NULL. */
 static bool choose_kind(const struct head *head, const char *name, const char *layer,
                         enum kiln_decode_kind *kind, struct kiln_decode_request *request,
@@ -104,9 +106,9 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
                                     name, layer, signature->name);
 }
 
-/* ---- asking for it --------------------------------------------------------------------------- */
+/* ---- decoding -------------------------------------------------------------------------------- */
 
-/* Decodes the picture in an open file of that name. */
+/* Decodes the picture in an open file; name stands for it in messages. */
 static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, const char *name,
                                        const char *layer, struct kiln_error *error)
 {

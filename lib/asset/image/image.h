@@ -1,6 +1,6 @@
-/* Pictures in: textures and figures, decoded by kiln-decode. The format is told by the file's first
- * bytes, never by its name, and an image can not make anybody open anything else. A loader of NULL
- * stands for one that opens any file and ends its process after each. */
+/* Declares pictures for textures and figures, and loads them from files by kiln-decode. A file's
+ * first bytes tell its format, never its name. An image cannot make kiln or kiln-decode open
+ * another file. A loader of NULL may open any file, and starts a process for each. */
 #ifndef KILN_ASSET_IMAGE_IMAGE_H
 #define KILN_ASSET_IMAGE_IMAGE_H
 
@@ -9,7 +9,7 @@
 enum {
     KILN_MAX_IMAGE_EDGE = 16384,      /* pixels a side */
     KILN_MAX_IMAGE_PIXELS = 1 << 26,  /* width * height */
-    KILN_MAX_IMAGE_BYTES = 256 << 20, /* of the file */
+    KILN_MAX_IMAGE_BYTES = 256 << 20, /* bytes of the file */
 };
 
 enum kiln_image_type {
@@ -18,17 +18,19 @@ enum kiln_image_type {
     KILN_IMAGE_F32, /* float */
 };
 
-/* RGBA, rows from the top, tightly packed. Sources without alpha get the full value. */
+/* Holds RGBA pixels, rows from the top, tightly packed. Sources without alpha get the full
+ * value. */
 struct kiln_asset_image {
     uint32_t width, height;
-    uint32_t channels; /* of the source: 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha */
+    /* channels of the source: 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha */
+    uint32_t channels;
     enum kiln_image_type type;
     bool srgb;          /* encoded with sRGB's transfer function; else linear */
     bool premultiplied; /* colour is already multiplied by alpha (EXR) */
     void *pixels;
 };
 
-/* Bytes of all pixels, of which each has four values. */
+/* Returns the bytes of all pixels, of which each has four values. */
 static inline size_t kiln_asset_image_bytes(const struct kiln_asset_image *image)
 {
     static const size_t pixel_bytes[] = {
@@ -36,28 +38,28 @@ static inline size_t kiln_asset_image_bytes(const struct kiln_asset_image *image
     return (size_t)image->width * image->height * pixel_bytes[image->type];
 }
 
-/* Decodes a PNG, JPEG, WebP, TIFF, BMP or EXR file, or returns NULL: KILN_IO when it cannot be
- * read, KILN_INVALID_INPUT with what was found and what is allowed
- * when it is not a regular file, not such an image, broken or truncated, or beyond the limits above
- * (found before memory is taken for its pixels), KILN_OVER_LIMIT beyond the loader's budget,
- * KILN_DEVICE_FAILED when memory is short or the decoder is not installed. Floats are finite. The
- * caller destroys it. */
+/* Decodes a PNG, JPEG, WebP, TIFF, BMP or EXR file. Floats are finite. The caller destroys the
+ * image. NULL: KILN_IO when the file cannot be read; KILN_INVALID_INPUT, with what was found and
+ * what is allowed, when it is no regular file, no such image, broken or truncated, or beyond the
+ * limits above (which are checked before memory is taken for its pixels); KILN_OVER_LIMIT beyond
+ * the loader's budget; KILN_DEVICE_FAILED when memory is short or the decoder is not installed. */
 struct kiln_asset_image *kiln_asset_image_load(struct kiln_loader *loader, const char *path,
                                                struct kiln_error *error);
 
-/* The same for one layer of a file: EXR files have several, of which "beauty" is the picture; other
- * formats have that one alone. KILN_INVALID_INPUT, too, when there is no such layer. Floats are as
- * they are in the file. */
+/* Decodes one layer of a file. EXR files have several layers, of which "beauty" is the picture;
+ * other formats have only "beauty". KILN_INVALID_INPUT also when there is no such layer. Floats are
+ * not made finite. */
 struct kiln_asset_image *kiln_asset_image_load_layer(struct kiln_loader *loader, const char *path,
                                                      const char *layer, struct kiln_error *error);
 
-/* As the first, from bytes in memory; name stands for the file in messages. */
+/* Decodes an image as kiln_asset_image_load does, from bytes in memory; name stands for the file in
+ * messages. */
 struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, const char *name,
                                                 struct kiln_error *error);
 void kiln_asset_image_destroy(struct kiln_asset_image **image);
 
-/* Whether load would succeed, and the size, width and height: decodes the whole image, unless the
- * loader has done so before. */
+/* Returns whether kiln_asset_image_load would succeed, and the size of the image. Decodes the whole
+ * image, unless the loader knows its size from before. */
 bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
 bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
                            struct kiln_error *error);

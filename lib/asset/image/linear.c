@@ -4,7 +4,7 @@
 
 #include "shared/exact.h"
 
-static const float MOST = 65504.0f; /* of a half float */
+static const float MOST = 65504.0f; /* largest half float */
 
 float kiln_decode_srgb(float x)
 {
@@ -28,7 +28,7 @@ void kiln_linear_row(const struct kiln_asset_image *image, uint32_t y, float *rg
         for (size_t c = 0; c < 3; c++) {
             float value = decode(image, at + c);
             value = alpha * (image->srgb ? kiln_decode_srgb(value) : value);
-            rgb[c] = value > 0.0f ? fminf(value, MOST) : 0.0f; /* NaN, too, is dark */
+            rgb[c] = value > 0.0f ? fminf(value, MOST) : 0.0f; /* a NaN becomes 0 */
         }
     }
 }

@@ -16,7 +16,7 @@
 static uint16_t to_half(float x)
 {
     uint bits = FLOAT_BITS(x);
-    if (bits < 0x38800000u) /* 2^-14: below, steps are even */
+    if (bits < 0x38800000u) /* below 2^-14 half floats are subnormal, with even steps */
         return (uint16_t)(FLOAT_BITS(x + 0.5f) - 0x3f000000u);
     bits += 0xfffu + (bits >> 13 & 1u);
     return (uint16_t)((bits - 0x38000000u) >> 13);
@@ -27,7 +27,7 @@ static float from_half(uint16_t half)
     return BITS_FLOAT((uint)half << 13) * 0x1p112f;
 }
 
-/* The sizes of the levels; returns their texels. */
+/* Computes the sizes of the levels; returns the number of their texels. */
 static size_t lay_out(struct kiln_pyramid *p)
 {
     size_t texels = 0;
@@ -62,7 +62,7 @@ static bool fill_finest(struct kiln_pyramid *p, const struct kiln_asset_image *i
     return row != NULL;
 }
 
-/* The two rows or columns of the finer level that a texel lies between, and its part of the way. */
+/* The two rows or columns of the finer level around a texel, and the texel's place between them. */
 struct between {
     uint32_t a, b;
     float part;

@@ -50,7 +50,8 @@ static bool receive_pixels(const struct kiln_received *received, struct kiln_ass
                           "the image is cut short or has pixels that are not finite numbers");
 }
 
-/* Counts a picture; of a video, whose frames are in memory one at a time, the largest frame. */
+/* Counts the pixels of a picture in the budget. Of a video, whose frames are in memory one at a
+ * time, only the largest frame counts. */
 static bool count_pixels(struct kiln_received *received, uint64_t pixels, struct kiln_error *reason)
 {
     const uint64_t more = pixels > received->counted ? pixels - received->counted : 0;
@@ -84,7 +85,8 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
              receive_pixels(received, image, reason);
     }
     if (!ok) {
-        kiln_helper_break(received->helper); /* there may be pixels that nobody has read */
+        /* pixels may be left in the socket, so the process cannot be asked again */
+        kiln_helper_break(received->helper);
         kiln_asset_image_destroy(&image);
     }
     return image;
@@ -93,7 +95,8 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
 bool kiln_received_fail(const struct kiln_received *received, const struct kiln_error *reason,
                         struct kiln_error *error)
 {
-    /* The helper kept to what was left; how much that is, and of what, the budget says. */
+    /* The helper stopped at the number of pixels that the budget had left. The budget makes the
+     * error message. */
     if (received->refused > 0 &&
         !kiln_budget_take(kiln_loader_budget(received->loader), KILN_LIMIT_asset_pixels,
                           received->refused, received->name, error))

@@ -7,21 +7,22 @@
 struct kiln_received {
     struct kiln_loader *loader; /* counts pixels; may be NULL */
     struct kiln_helper *helper;
-    const char *name; /* of the file, for messages */
-    bool finite;      /* floats that are none are refused */
-    uint64_t counted; /* pixels that the budget has already: those of the largest frame so far */
-    uint64_t refused; /* set: pixels of a picture that has more than the budget has left */
+    const char *name; /* name of the file, for messages */
+    bool finite;      /* true: pixels that are not finite are an error */
+    /* pixels that the budget has counted already: those of the largest frame so far */
+    uint64_t counted;
+    uint64_t refused; /* result: pixels of a picture that the budget has no room for */
 };
 
-/* How many pixels the budget of a scene has left, at most those of an image. */
+/* Returns how many pixels the budget of a scene has left, at most the limit of one image. */
 uint64_t kiln_received_most_pixels(const struct kiln_loader *loader);
 
-/* Waits for a picture, or for another of the expected answers (bits): NULL then, and no error. */
+/* Waits for a picture, or for another of the expected answers (a bit mask). Returns NULL without an
+ * error for another expected answer. */
 struct kiln_asset_image *kiln_received_image(struct kiln_received *received, unsigned expected,
                                              struct kiln_error *reason);
 
-/* Says what is wrong with the file of that name: "NAME: reason", or the budget's own words. Returns
- * false. */
+/* Reports the fault of the named file: "NAME: reason", or the budget's message. Returns false. */
 bool kiln_received_fail(const struct kiln_received *received, const struct kiln_error *reason,
                         struct kiln_error *error);
 

@@ -67,8 +67,8 @@ void kiln_texture_finish(struct kiln_texture *texture)
     *texture = (struct kiln_texture){.gl = 0};
 }
 
-/* Weighted sums over the rows of a sky: light that falls on a horizontal plane, and light near the
- * horizon. */
+/* Weighted sums over the rows of a sky picture: for the light on a horizontal plane, and for the
+ * light near the horizon. */
 struct sky_sums {
     double up[3], horizon[3];
     double up_weight, horizon_weight;
@@ -76,7 +76,8 @@ struct sky_sums {
 
 static void add_row(struct sky_sums *sums, const float *rgb, uint32_t width, float elevation)
 {
-    const float low = -0.1f, high = 0.2f; /* rad, about 6 degrees below to 11 above */
+    /* radians, about 6 degrees below to 11 degrees above the horizon */
+    const float low = -0.1f, high = 0.2f;
     double mean[3] = {0};
     for (uint32_t x = 0; x < width; x++) {
         for (int c = 0; c < 3; c++)
@@ -111,7 +112,7 @@ bool kiln_sky_light_measure(struct kiln_sky_light *light, struct kiln_loader *lo
         light->up[c] = (float)(sums.up[c] / fmax(sums.up_weight, 1e-12));
         light->horizon[c] = (float)(sums.horizon[c] / fmax(sums.horizon_weight, 1e-12));
     }
-    /* A picture of few rows has none at the horizon. */
+    /* A picture with few rows may have none near the horizon. */
     if (sums.horizon_weight <= 0.0) {
         for (int c = 0; c < 3; c++)
             light->horizon[c] = light->up[c];

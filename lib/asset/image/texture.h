@@ -10,16 +10,16 @@ struct kiln_texture {
     uint32_t width, height;
 };
 
-/* Loads an image file (asset/image/image.h says which); transparent parts are black, light is at
- * most 65504. wrap_y is GL_REPEAT or GL_CLAMP_TO_EDGE. KILN_INVALID_INPUT, too, when it is larger
- * than the device's textures. */
+/* Loads an image file of a format of asset/image/image.h. Transparent parts are black, light is at
+ * most 65504. wrap_y is GL_REPEAT or GL_CLAMP_TO_EDGE. Errors are those of kiln_asset_image_load,
+ * and KILN_INVALID_INPUT when the picture is larger than the device's textures. */
 bool kiln_texture_init(struct kiln_texture *texture, struct kiln_device *device,
                        struct kiln_loader *loader, const char *path, GLint wrap_y,
                        struct kiln_error *error);
 void kiln_texture_finish(struct kiln_texture *texture);
 
-/* What an equirectangular picture sheds on surfaces: the mean radiance that one facing up receives,
- * and that of the band around the horizon. */
+/* Light of an equirectangular picture on surfaces: the mean radiance that a surface facing up
+ * receives, and that of the band around the horizon. */
 struct kiln_sky_light {
     float up[3], horizon[3];
 };

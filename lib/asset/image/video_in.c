@@ -16,7 +16,7 @@
 struct kiln_video_in {
     char *path;
     struct kiln_received received;
-    uint32_t frames; /* read */
+    uint32_t frames; /* number of frames read */
     bool has_ended;
 };
 

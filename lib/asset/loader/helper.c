@@ -23,20 +23,23 @@
 #include "base/clock.h"
 #include "base/error.h"
 
-/* A process that sleeps takes no processor time, so waiting is limited in real time, too. */
+/* Limits of waiting. A process that sleeps takes no processor time, so waiting is limited in real
+ * time, too. */
 enum { WAIT_MS = 20, WALL_SECONDS = 10 * KILN_DECODE_SECONDS };
 
 struct kiln_helper {
     enum kiln_decode_kind kind;
     pid_t process;   /* 0: it has ended */
-    bool is_limited; /* the job limits its memory */
-    int handle;      /* of the process, which no other one can take over; -1: an older kernel */
+    bool is_limited; /* the job limits the process's memory */
+    /* pidfd of the process, so that no other process is meant by its number; -1: the kernel has
+     * none */
+    int handle;
     int socket;
-    double cpu_s; /* that it had taken when it was asked for what it is at */
+    double cpu_s; /* processor time that the process had taken when the present request began */
     bool is_broken;
 };
 
-/* ---- where it is ----------------------------------------------------------------------------- */
+/* ---- finding the program --------------------------------------------------------------------- */
 
 static bool is_program(const char *path)
 {
@@ -49,7 +52,7 @@ static bool find_own_folder(char folder[KILN_PATH_SIZE])
     static const char here = 0;
     Dl_info info;
     struct link_map *map = NULL;
-    /* A program has no name here; where it is, the kernel knows. */
+    /* The dynamic linker has no name for the main program; the kernel has its path. */
     const bool is_library =
         dladdr1(&here, &info, (void **)&map, RTLD_DL_LINKMAP) != 0 && map && *map->l_name;
     char *real = realpath(is_library ? map->l_name : "/proc/self/exe", NULL);
@@ -69,8 +72,8 @@ static bool put_path(char path[KILN_PATH_SIZE], const char *folder, const char *
 
 bool kiln_helper_find(char path[KILN_PATH_SIZE], struct kiln_error *error)
 {
-    /* From the folder of a program as built, of a test as built, of an installed program, of an
-     * installed library of one or several architectures. */
+    /* Paths from the folder of a program as built, of a test as built, of an installed program, of
+     * an installed library of one or several architectures. */
     static const char *const ways[] = {"libexec/kiln/", "../libexec/kiln/", "../../libexec/kiln/"};
     char folder[KILN_PATH_SIZE];
     const char *set = getenv("KILN_LIBEXEC_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
@@ -103,9 +106,9 @@ static const char *word_of(enum kiln_decode_kind kind)
     return words[kind];
 }
 
-/* Chooses what the process gets of the environment: where libraries are, and what is kiln's or a
- * sanitizer's. Keys and passwords that a service has there are none of its business. The caller
- * frees the array. */
+/* Chooses the environment of the process: the folders of libraries, and the variables of kiln and
+ * of sanitizers. Variables with keys and passwords of a service do not reach it. The caller frees
+ * the array. */
 static char **choose_environment(void)
 {
     static const char *const prefixes[] = {"LD_", "KILN_", "ASAN_", "LSAN_", "UBSAN_", "LANG="};
@@ -161,7 +164,7 @@ static int spawn(pid_t *process, const char *path, enum kiln_decode_kind kind, u
     return status;
 }
 
-/* Returns the processor time that the process has taken; 0 where that cannot be known. */
+/* Returns the processor time that the process has taken; 0 where it is not known. */
 static double cpu_seconds(const struct kiln_helper *helper)
 {
     clockid_t clock;
@@ -172,7 +175,7 @@ static double cpu_seconds(const struct kiln_helper *helper)
     return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
 }
 
-/* A pair of sockets, of which neither is one of the three standard descriptors. */
+/* Opens a pair of sockets, neither of which gets the number of a standard descriptor. */
 static bool open_pair(int pair[2])
 {
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
@@ -193,8 +196,8 @@ static bool open_pair(int pair[2])
     return true;
 }
 
-/* Did the caller cancel, or is its limit exceeded? Then neither the file nor the process is at
- * fault. */
+/* Returns whether the caller cancelled or a limit of the job is exceeded. Then neither the file nor
+ * the process is at fault. */
 static bool is_of_caller(const struct kiln_error *reason)
 {
     return reason->code == KILN_INTERRUPTED || reason->code == KILN_OVER_LIMIT;
@@ -263,7 +266,8 @@ static void kill_process(const struct kiln_helper *helper)
         kill(helper->process, SIGKILL);
 }
 
-/* Ends the process. Returns its status, or 0 when somebody else has asked the system for that. */
+/* Ends the process. Returns its status, or 0 when other code has already taken it from the
+ * system. */
 static int end(struct kiln_helper *helper)
 {
     int status = 0;
@@ -302,7 +306,7 @@ bool kiln_helper_is_broken(const struct kiln_helper *helper)
     return helper->is_broken;
 }
 
-/* A process that waits for a request sends nothing. */
+/* A process that waits for a request sends nothing, so there must be nothing to read. */
 bool kiln_helper_is_waiting(const struct kiln_helper *helper)
 {
     struct pollfd socket = {.fd = helper->socket, .events = POLLIN};
@@ -319,22 +323,23 @@ void kiln_helper_break(struct kiln_helper *helper)
     helper->is_broken = true;
 }
 
-/* ---- speaking -------------------------------------------------------------------------------- */
+/* ---- sending and receiving ------------------------------------------------------------------- */
 
-/* Signals that a decoder gets for what a file made it do; others come from elsewhere. */
+/* Returns whether a signal is one that a decoder gets because of the file that it decodes. */
 static bool is_own_fault(int signal)
 {
     return signal == SIGSEGV || signal == SIGBUS || signal == SIGILL || signal == SIGFPE ||
            signal == SIGABRT || signal == SIGXCPU || signal == SIGSYS || signal == SIGXFSZ;
 }
 
-/* Says why the process is gone. It may be about to end by itself: its status says more than that it
- * was killed now. */
+/* Reports why the process is gone. It may be about to end by itself, so this waits for its own
+ * status before killing it. */
 static bool fail_gone(struct kiln_helper *helper, const struct kiln_caller *caller,
                       struct kiln_error *error)
 {
     helper->is_broken = true;
-    if (!kiln_may_go_on(caller, error)) /* which is why, as when a whole group got a signal */
+    /* The caller is asked first, since a signal may have ended its whole process group. */
+    if (!kiln_may_go_on(caller, error))
         return false;
     siginfo_t info = {.si_pid = 0};
     const double start_s = kiln_clock_seconds();
@@ -385,7 +390,7 @@ bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size
         sent =
             helper->is_broken ? -1 : sendmsg(helper->socket, &message, MSG_NOSIGNAL | MSG_DONTWAIT);
     } while (sent < 0 && !helper->is_broken && errno == EINTR);
-    /* Messages are far smaller than what a socket holds: it is full of what nobody reads. */
+    /* Messages are far smaller than a socket's buffer. If it is full, the process does not read. */
     if (sent != (ssize_t)size && !helper->is_broken && (errno == EAGAIN || errno == EWOULDBLOCK)) {
         helper->is_broken = true;
         return kiln_error_set(error, KILN_INVALID_INPUT,

@@ -1,4 +1,5 @@
-/* A process of kiln-decode, which decodes what strangers have made: started, spoken to, ended. */
+/* Declares a process of kiln-decode, which decodes files from untrusted sources, and the functions
+ * to start, ask and end it. */
 #ifndef KILN_ASSET_LOADER_HELPER_H
 #define KILN_ASSET_LOADER_HELPER_H
 
@@ -7,54 +8,54 @@
 
 struct kiln_helper;
 
-/* Starts one and waits until it is locked in and ready. NULL with KILN_DEVICE_FAILED when
- * the program is missing (with its path), is of another version or lacks a library, or the system
- * refuses a process.
- * most_memory: bytes that it may take, if that is less than what it gives itself.
- * The caller is asked while kiln waits here and below; then KILN_INTERRUPTED or its own error. */
+/* Starts a process and waits until it is confined and ready. NULL with KILN_DEVICE_FAILED when the
+ * program is missing (with its path), is of another version or lacks a library, or the system
+ * refuses a process. most_memory: bytes that it may take, if that is less than its own limit. The
+ * caller is asked whether to go on while this function and those below wait; if not, they fail with
+ * KILN_INTERRUPTED or the caller's error. */
 struct kiln_helper *kiln_helper_start(enum kiln_decode_kind kind, uint64_t most_memory,
                                       const struct kiln_caller *caller, struct kiln_error *error);
 
-/* Ends the process, whatever it does, and waits for that. */
+/* Kills the process and waits until it has ended. */
 void kiln_helper_end(struct kiln_helper **helper);
 
 enum kiln_decode_kind kiln_helper_kind(const struct kiln_helper *helper);
 
-/* Sends bytes, and a descriptor unless that is -1, which stays the caller's. */
+/* Sends bytes, and a descriptor unless it is -1. The descriptor stays owned by the caller. */
 bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size, int file,
                       struct kiln_error *error);
 
-/* Waits for that many bytes. False when the process ended or took longer than allowed
- * (KILN_INVALID_INPUT: the file is beyond it; KILN_DEVICE_FAILED when it lacked memory), or the
- * caller wants no more. The helper can only be ended then. */
+/* Waits for `size` bytes. False when the process ended or took longer than allowed
+ * (KILN_INVALID_INPUT: the file is too hard to decode; KILN_DEVICE_FAILED when the process lacked
+ * memory), or the caller wants no more. After that, the helper can only be ended. */
 bool kiln_helper_receive(struct kiln_helper *helper, const struct kiln_caller *caller, void *bytes,
                          size_t size, struct kiln_error *error);
 
-/* Receives an answer with a text that ends. One that failed is an error, with its message; of any
- * other kind than `expected` (a bit each, 1 << what), the helper is broken. */
+/* Receives an answer and ends its text. An answer of failure becomes an error with its message.
+ * After an answer that is not in `expected` (a bit mask, 1 << what) the helper counts as broken. */
 bool kiln_helper_answer(struct kiln_helper *helper, const struct kiln_caller *caller,
                         unsigned expected, struct kiln_decode_answer *answer,
                         struct kiln_error *error);
 
-/* Says why a file of that name is not decoded: "NAME: reason", or what the caller said, which is
- * not of the file. Returns false. */
+/* Reports why the named file was not decoded: "NAME: reason". An error of the caller is passed on
+ * without the name. Returns false. */
 bool kiln_helper_fail(const char *name, const struct kiln_error *reason, struct kiln_error *error);
 
-/* Whether there was a failure after which nothing can be asked of it any more; whoever finds one in
- * what the helper sent says so by the second. */
+/* kiln_helper_is_broken returns whether a failure makes further requests impossible.
+ * kiln_helper_break marks a helper so, after an invalid answer. */
 bool kiln_helper_is_broken(const struct kiln_helper *helper);
 void kiln_helper_break(struct kiln_helper *helper);
 
-/* Whether it can be asked for another file: it is there, and has sent nothing that nobody wanted.
- */
+/* Returns whether the process can be asked for another file: it is running, and has sent nothing
+ * that was not asked for. */
 bool kiln_helper_is_waiting(const struct kiln_helper *helper);
 
-/* The time that a decoder may take begins anew, as it does with each file. */
+/* Restarts the limit of the time that the decoder may take, as each new file does. */
 void kiln_helper_begin_frame(struct kiln_helper *helper);
 
-/* The path of kiln-decode: below the folder of environment variable KILN_LIBEXEC_DIR, if that is
- * set, else beside the program or library that this code is in (as built, as installed), else where
- * it was to be installed to. KILN_DEVICE_FAILED with the first of these when it is nowhere. */
+/* Finds kiln-decode: below the folder in environment variable KILN_LIBEXEC_DIR, if that is set;
+ * else beside the program or library that contains this code (as built, as installed); else in its
+ * installation folder. KILN_DEVICE_FAILED with the first of these paths when it is in none. */
 bool kiln_helper_find(char path[KILN_PATH_SIZE], struct kiln_error *error);
 
 #endif

@@ -1,6 +1,6 @@
-/* This file opens the files that a scene names, below the asset root and nowhere else, and lends
- * out the processes that decode them. It opens by openat2, which the kernel resolves below the root
- * even if links are swapped meanwhile. */
+/* Opens the files that a scene names, below the asset root and nowhere else, and hands out the
+ * processes that decode them. It opens by openat2, which the kernel resolves below the root even if
+ * links are swapped meanwhile. */
 #include "asset/loader/loader.h"
 
 #include <errno.h>
@@ -28,13 +28,13 @@ struct known {
 struct kiln_loader {
     struct kiln_loader_params params;
     struct kiln_caller caller;
-    bool is_counted;       /* the budget has all files */
-    pthread_mutex_t mutex; /* of what follows */
+    bool is_counted;       /* true: files are not counted any more */
+    pthread_mutex_t mutex; /* guards the members below */
     struct kiln_helper *idle[KILN_DECODE_KIND_COUNT];
     struct known *known;
 };
 
-/* ---- life ------------------------------------------------------------------------------------ */
+/* ---- creating and destroying ----------------------------------------------------------------- */
 
 static bool ask(void *user, struct kiln_error *error)
 {
@@ -104,8 +104,8 @@ struct kiln_budget *kiln_loader_budget(const struct kiln_loader *loader)
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
-/* Opens a path step by step, through no link at all. It stands in for openat2 on an older kernel or
- * in a container that forbids the call. */
+/* Opens a path component by component and follows no link. It replaces openat2 on an older kernel,
+ * or in a container that forbids the call. */
 static int open_steps(int folder, const char *relative)
 {
     char path[KILN_PATH_SIZE];
@@ -257,7 +257,7 @@ void kiln_loader_give_back(struct kiln_loader *loader, struct kiln_helper **help
     kiln_helper_end(helper);
 }
 
-/* ---- what is known --------------------------------------------------------------------------- */
+/* ---- sizes of pictures ----------------------------------------------------------------------- */
 
 bool kiln_loader_knows(struct kiln_loader *loader, const char *path, uint32_t size[2])
 {
@@ -273,7 +273,7 @@ bool kiln_loader_knows(struct kiln_loader *loader, const char *path, uint32_t si
     return one != NULL;
 }
 
-/* If memory is short the size is forgotten, and the picture is decoded once more. */
+/* If memory is short, the size is not kept, and the picture will be decoded once more. */
 void kiln_loader_remember(struct kiln_loader *loader, const char *path, const uint32_t size[2])
 {
     const size_t length = strlen(path) + 1;

@@ -1,71 +1,72 @@
-/* What reads the files that a scene names: it opens them below the asset root and nowhere else,
- * counts them in the scene's budget, and has those that strangers' formats are in decoded by
- * processes of kiln-decode, which it starts when they are needed and keeps for the next file. */
+/* Reads the files that a scene names. A loader opens them below the asset root and nowhere else,
+ * and counts them in the scene's budget. Formats of untrusted files are decoded by processes of
+ * kiln-decode, which the loader starts when they are needed and keeps for the next file. */
 #ifndef KILN_ASSET_LOADER_LOADER_H
 #define KILN_ASSET_LOADER_LOADER_H
 
 #include "asset/loader/helper.h"
 
 struct kiln_loader_params {
-    const char *root;         /* absolute folder, as realpath gives it; NULL: any file */
-    bool (*stop)(void *user); /* asked while something is decoded; NULL: nobody */
+    const char *root;         /* absolute folder, as from realpath; NULL: any file may be opened */
+    bool (*stop)(void *user); /* is asked while a file is decoded; true: stop; NULL: never */
     void *user;
     const struct kiln_cancel *cancel;
     struct kiln_budget *budget; /* NULL: nothing is counted */
 };
 
-/* For any threads. NULL when memory is short. What params point to must outlive it. */
+/* Creates a loader, which any threads may use at once. NULL when memory is short. All that params
+ * points to must outlive it. */
 struct kiln_loader;
 struct kiln_loader *kiln_loader_create(const struct kiln_loader_params *params);
 void kiln_loader_destroy(struct kiln_loader **loader);
 
-/* Ends the processes that wait; more may be started later. Does nothing for NULL. */
+/* Ends the processes that wait for requests; more may be started later. Does nothing for NULL. */
 void kiln_loader_rest(struct kiln_loader *loader);
 
-/* Counts no file from now on: what is loaded once more, for drawing, was counted before. The
- * budget, or NULL, is from now on that of the job: its memory and its time. Does nothing for a
- * loader of NULL. */
+/* Stops counting files, since files that are loaded again for drawing were counted before. From now
+ * on, the budget (or NULL) is that of the job, for memory and time. Does nothing for NULL. */
 void kiln_loader_stop_counting(struct kiln_loader *loader, struct kiln_budget *budget);
 
-/* Never NULL, and never forgetting: what kiln_loader_params had. */
+/* Returns the caller made of kiln_loader_params; never NULL, also for a loader of NULL. */
 const struct kiln_caller *kiln_loader_caller(const struct kiln_loader *loader);
 struct kiln_budget *kiln_loader_budget(const struct kiln_loader *loader);
 
-/* Describes a file as it is given by people. */
+/* Describes a file for opening and for messages. */
 struct kiln_loader_file {
-    const char *path;    /* absolute where there is a root */
-    const char *what;    /* for messages: "image" */
-    const char *allowed; /* "PNG or EXR" */
+    const char *path;    /* absolute if there is a root */
+    const char *what;    /* kind of file for messages: "image" */
+    const char *allowed; /* allowed formats for messages: "PNG or EXR" */
     size_t most_bytes;
 };
 
-/* Opens a regular file for reading, without waiting for what is a FIFO or device. Its descriptor,
- * which the caller closes, or -1: KILN_IO when it cannot be opened, KILN_INVALID_INPUT when it is
- * something else, too large, or leads out of the root by a link or "..", KILN_OVER_LIMIT. A loader
- * of NULL opens any file and counts nothing. */
+/* Opens a regular file for reading, without waiting if it is a FIFO or a device. Returns its
+ * descriptor, which the caller closes, or -1: KILN_IO when it cannot be opened; KILN_INVALID_INPUT
+ * when it is no regular file, too large, or outside of the root by a link or ".."; KILN_OVER_LIMIT.
+ * A loader of NULL opens any file and counts nothing. */
 int kiln_loader_open(struct kiln_loader *loader, const struct kiln_loader_file *file, size_t *size,
                      struct kiln_error *error);
 
-/* The bytes of such a file, which the caller frees, or NULL. */
+/* Reads a file that kiln_loader_open would open. The caller frees the bytes. NULL with an error. */
 unsigned char *kiln_loader_read(struct kiln_loader *loader, const struct kiln_loader_file *file,
                                 size_t *size, struct kiln_error *error);
 
-/* A file in memory with a copy of these bytes: its descriptor, which the caller closes, or -1 with
- * KILN_DEVICE_FAILED. name is for messages. */
+/* Makes a file in memory with a copy of these bytes. Returns its descriptor, which the caller
+ * closes, or -1 with KILN_DEVICE_FAILED. name is for messages. */
 int kiln_loader_file_of(const void *bytes, size_t size, const char *name, struct kiln_error *error);
 
-/* SHA-256 of such a file, in hex. */
+/* Computes the SHA-256, in hex, of a file that kiln_loader_open would open. */
 bool kiln_loader_hash(struct kiln_loader *loader, const struct kiln_loader_file *file, char hex[65],
                       struct kiln_error *error);
 
-/* A process of that kind, which waits for a request, for the caller alone; NULL: as
- * kiln_helper_start. It goes back to the loader or, if it is broken or the loader NULL, ends. */
+/* kiln_loader_take lends a process of a kind that waits for a request; NULL with the errors of
+ * kiln_helper_start. Only the caller may use it. kiln_loader_give_back returns it to the loader; a
+ * broken process, or one taken from a loader of NULL, is ended. */
 struct kiln_helper *kiln_loader_take(struct kiln_loader *loader, enum kiln_decode_kind kind,
                                      struct kiln_error *error);
 void kiln_loader_give_back(struct kiln_loader *loader, struct kiln_helper **helper);
 
-/* The size of a picture that was checked before, so that it need not be decoded, or counted, again
- * to know it. False: it was not. */
+/* kiln_loader_knows returns the size of a picture that was checked before, so that it need not be
+ * decoded or counted again. False: it was not checked. */
 bool kiln_loader_knows(struct kiln_loader *loader, const char *path, uint32_t size[2]);
 void kiln_loader_remember(struct kiln_loader *loader, const char *path, const uint32_t size[2]);
 
