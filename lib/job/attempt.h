@@ -13,8 +13,8 @@
 struct kiln_attempt {
     const char *const *command; /* the words of the command line */
     size_t command_count;
-    const char *build;                     /* version and commit, "0.2.0 (254e4dc)"; NULL: the
-                                            * version alone */
+    /* version and commit, "0.2.0 (254e4dc)"; NULL: the version alone */
+    const char *build;
     const struct kiln_device_info *device; /* NULL: no device was used */
     const char *techniques;                /* "simulate=cpu sort=cpu ..." */
     struct kiln_shard shard;               /* count 0: the whole job */

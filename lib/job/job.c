@@ -28,11 +28,11 @@ struct kiln_job {
     struct kiln_output_params files; /* complete; path NULL when nothing is written */
     struct kiln_output *output;      /* NULL when nothing is to be written */
     struct kiln_manifest *manifest;  /* NULL when none is wanted */
-    struct kiln_records records;     /* records of the frames; filled if there is a manifest or a
-                                      * journal */
-    char *scene_json;                /* the scene's text, for manifest and journal */
-    char made_by[512];               /* device and techniques, for the journal */
-    struct kiln_attempt run;         /* description of this run, for manifest and journal */
+    /* records of the frames; filled if there is a manifest or a journal */
+    struct kiln_records records;
+    char *scene_json;        /* the scene's text, for manifest and journal */
+    char made_by[512];       /* device and techniques, for the journal */
+    struct kiln_attempt run; /* description of this run, for manifest and journal */
     bool resumes, is_described;
     struct kiln_resume resume;
     bool draws;                 /* false: no frame is missing, nor the state of one */
@@ -42,8 +42,8 @@ struct kiln_job {
     struct kiln_states *states; /* NULL: the run starts from no saved state */
 
     double started_s;
-    struct kiln_picture *kept; /* the last drawn frame's picture, until the caller takes it; NULL:
-                                * none */
+    /* the last drawn frame's picture, until the caller takes it; NULL: none */
+    struct kiln_picture *kept;
     uint32_t total_frames;
     uint32_t written;              /* the number of files of frames that are whole */
     struct kiln_progress progress; /* progress at the present frame */
@@ -532,8 +532,8 @@ bool kiln_job_finish(struct kiln_job *job, struct kiln_render_stats *stats,
 void kiln_job_fail(struct kiln_job *job, const struct kiln_error *failure)
 {
     struct kiln_error ignored = {0};
-    kiln_output_close(&job->output); /* this waits for the last files, so no file becomes whole
-                                      * later */
+    /* this waits for the last files, so no file becomes whole later */
+    kiln_output_close(&job->output);
     sum_up(job);
     describe(job, failure, &ignored);
 }

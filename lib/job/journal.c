@@ -174,8 +174,8 @@ static bool read_journal(const struct kiln_journal *journal, const struct kiln_j
     char *text = kiln_journal_read_text(journal, error);
     if (!text)
         return false;
-    if (kiln_journal_has_head_alone(text)) { /* the journal lists no file, so it may be of another
-                                              * job */
+    /* the journal lists no file, so it may be of another job */
+    if (kiln_journal_has_head_alone(text)) {
         free(text);
         return ftruncate(journal->file, 0) == 0 ||
                kiln_error_set_errno(error, KILN_IO, errno, "%s: the journal cannot be written",

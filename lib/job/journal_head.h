@@ -12,11 +12,11 @@
 enum { KILN_JOURNAL_VERSION = 1 };
 
 struct kiln_journal_head {
-    struct kiln_output_params output; /* complete except for the members that the caller sets:
-                                       * threads, log... */
-    char job[65];                     /* the job's hash, as kiln_clip_hash makes it */
-    const char *made_by;              /* program, device and techniques as text */
-    const char *scene;                /* the scene as JSON, as in the manifest */
+    /* complete except for the members that the caller sets: threads, log... */
+    struct kiln_output_params output;
+    char job[65];        /* the job's hash, as kiln_clip_hash makes it */
+    const char *made_by; /* program, device and techniques as text */
+    const char *scene;   /* the scene as JSON, as in the manifest */
 };
 
 /* Fills a head. False when memory is short. */

@@ -11,8 +11,8 @@
 struct kiln_manifest_params {
     const char *path;
     bool overwrite;
-    bool again;         /* true: any older manifest is replaced; false: only that of a run that
-                         * failed */
+    /* true: any older manifest is replaced; false: only that of a run that failed */
+    bool again;
     const char *scene;  /* JSON made by kiln_manifest_scene */
     const char *output; /* path as the user gave it; NULL: nothing was written */
     const struct kiln_output_params *files; /* complete; NULL: nothing was written */

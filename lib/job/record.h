@@ -24,16 +24,16 @@ struct kiln_records {
     size_t clip_count;
     struct kiln_record *items; /* one record a frame */
     uint32_t count;
-    struct kiln_clip_file { /* the file with all frames of a clip, and the files written beside
-                             * it */
+    /* the file with all frames of a clip, and the files written beside it */
+    struct kiln_clip_file {
         char path[KILN_PATH_SIZE];
         uint64_t bytes;
         char sha256[65];
     } files[3];
     uint32_t file_count;
-    struct kiln_text runs; /* the runs that the journals list: objects of JSON with ",\n    "
-                              between them */
-    bool anew;             /* true: files that were there before the job started do not count */
+    /* the runs that the journals list: objects of JSON with ",\n    " between them */
+    struct kiln_text runs;
+    bool anew; /* true: files that were there before the job started do not count */
 };
 
 /* Makes a record for each frame. False when memory is short. */

@@ -8,16 +8,17 @@ struct kiln_resume {
     struct kiln_output_params output; /* output of the whole job, complete; `parts` is `folder` */
     struct kiln_journal_head head;
     struct kiln_shard shard;
-    uint32_t first_part, end_part; /* the parts that this run answers for: first_part to end_part -
-                                    * 1 */
+    /* the parts that this run answers for: first_part to end_part - 1 */
+    uint32_t first_part, end_part;
     struct kiln_records *records;
     struct kiln_journal *journal;
     char folder[KILN_PATH_SIZE]; /* folder of the parts of a clip */
-    bool was_begun;   /* true: there was a journal, or shards' journals were merged; false: a job
-                       * without result removes its journal */
-    bool may_replace; /* true: files under final names may be replaced, because the caller allows
-                       * it, or because a journal lists them (for a clip, the journal of the whole
-                       * job) */
+    /* true: there was a journal, or shards' journals were merged; false: a job without result
+     * removes its journal */
+    bool was_begun;
+    /* true: files under final names may be replaced, because the caller allows it, or because a
+     * journal lists them (for a clip, the journal of the whole job) */
+    bool may_replace;
     bool clip_is_whole;
     struct kiln_frame_range *missing; /* frames to be drawn, ascending; of a clip, whole parts */
     size_t missing_count;
@@ -25,13 +26,13 @@ struct kiln_resume {
 };
 
 struct kiln_resume_params {
-    const struct kiln_output_params *output; /* output of the whole job, complete, without
-                                              * `parts` */
-    const char *made_by;                     /* device and techniques */
-    const char *scene;                       /* the scene for manifests, made by
-                                              * kiln_manifest_scene */
-    struct kiln_shard shard;                 /* the shard whose frames are drawn; count 0: all
-                                              * frames */
+    /* output of the whole job, complete, without `parts` */
+    const struct kiln_output_params *output;
+    const char *made_by; /* device and techniques */
+    /* the scene for manifests, made by kiln_manifest_scene */
+    const char *scene;
+    /* the shard whose frames are drawn; count 0: all frames */
+    struct kiln_shard shard;
     bool restart;       /* true: the journal and all files that are there are discarded */
     bool keep_journals; /* true: journals of shards stay; false: they are merged into the job's */
 };

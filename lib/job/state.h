@@ -9,26 +9,26 @@
 /* Identifies a state. scene/motion.h makes the hashes. */
 struct kiln_state_info {
     char motion[65];
-    char order[65]; /* hash of the order that a spread sort keeps, with its technique; "": no order
-                     * is kept */
+    /* hash of the order that a spread sort keeps, with its technique; "": no order is kept */
+    char order[65];
     char kiln[17];  /* the version of kiln that saved the state */
     uint32_t step;  /* the step after which the state was saved */
     uint32_t frame; /* the number of the next frame, if an order is saved */
     struct kiln_state_hash hash;
-    uint64_t alive;                                   /* number of living particles */
-    bool spins[KILN_MAX_SYSTEMS];                     /* set when a state is read: the systems whose
-                                                       * particles spin */
-    struct kiln_canvas_shape shapes[KILN_MAX_MESHES]; /* set when a state is read: the sizes of the
-                                                       * painted canvases */
+    uint64_t alive; /* number of living particles */
+    /* set when a state is read: the systems whose particles spin */
+    bool spins[KILN_MAX_SYSTEMS];
+    /* set when a state is read: the sizes of the painted canvases */
+    struct kiln_canvas_shape shapes[KILN_MAX_MESHES];
     uint32_t shape_count;
 };
 
 struct kiln_state {
     struct kiln_state_info info;
     struct kiln_pool *pool;
-    uint32_t *slots; /* the order of a spread sort, all slots of the pool; NULL: none is saved or
-                      * wanted */
-    uint32_t turn;   /* the part of the spread sort that runs next */
+    /* the order of a spread sort, all slots of the pool; NULL: none is saved or wanted */
+    uint32_t *slots;
+    uint32_t turn; /* the part of the spread sort that runs next */
 };
 
 /* Writes a state to a temporary file and renames it to its path. An existing file is replaced only

@@ -82,8 +82,8 @@ static int compare_steps(const void *a, const void *b)
 
 static bool add_step(struct kiln_states *states, uint32_t step, struct kiln_error *error)
 {
-    if ((states->count & (states->count - 1)) == 0) { /* the array is full when count is a power of
-                                                       * two */
+    /* the array is full when count is a power of two */
+    if ((states->count & (states->count - 1)) == 0) {
         const size_t room = states->count ? 2 * states->count : 1;
         uint32_t *steps = realloc(states->steps, room * sizeof *steps);
         if (!steps)

@@ -10,8 +10,8 @@
 struct kiln_stop {
     bool (*stop)(void *user); /* asks the caller; NULL: the caller cannot cancel */
     void *user;
-    struct kiln_device *device; /* made current again after `stop`, which may have changed it; NULL:
-                                 * none */
+    /* made current again after `stop`, which may have changed it; NULL: none */
+    struct kiln_device *device;
     struct kiln_budget *budget;
     const struct kiln_cancel *cancel;
 };

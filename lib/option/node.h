@@ -33,9 +33,9 @@ struct kiln_node {
     uint32_t line, column;            /* from 1 */
     const struct kiln_origin *origin; /* outlives the node */
     const char *text;                 /* text of a scalar; valid UTF-8 */
-    struct kiln_node *key;            /* of an entry of a mapping: its key, the scalar before the
-                                       * colon */
-    struct kiln_node *first, *last;   /* entries of a list or mapping, in order */
+    /* of an entry of a mapping: its key, the scalar before the colon */
+    struct kiln_node *key;
+    struct kiln_node *first, *last; /* entries of a list or mapping, in order */
     struct kiln_node *next;
     uint32_t count;
 };

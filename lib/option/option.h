@@ -56,19 +56,19 @@ extern const struct kiln_option_type kiln_type_range;    /* [1, 2] or 1; struct 
 extern const struct kiln_option_type kiln_type_group;    /* a mapping of `members` */
 extern const struct kiln_option_type kiln_type_switch;   /* {members} or none; bool */
 extern const struct kiln_option_type kiln_type_map;      /* names to mappings of `members` */
-extern const struct kiln_option_type kiln_type_list;     /* list of `item`; an array and its
-                                                          * count */
-extern const struct kiln_option_type kiln_type_kind;     /* {kind: members}; `kinds` */
+/* list of `item`; an array and its count */
+extern const struct kiln_option_type kiln_type_list;
+extern const struct kiln_option_type kiln_type_kind; /* {kind: members}; `kinds` */
 
 /* Describes one kind of item that a value may be, with its own members. */
 struct kiln_option_kind {
-    const char *name;                  /* NULL ends a table */
-    const char *variant;               /* the kind is chosen by `field: variant` in the mapping;
-                                        * NULL: `name` alone chooses it */
+    const char *name; /* NULL ends a table */
+    /* the kind is chosen by `field: variant` in the mapping; NULL: `name` alone chooses it */
+    const char *variant;
     int value;                         /* value of the enum at kind_offset */
     const struct kiln_option *members; /* rows whose offsets count from the start of the item */
-    const char *shortcut;              /* the member that gets a value which is no mapping, or
-                                        * NULL */
+    /* the member that gets a value which is no mapping, or NULL */
+    const char *shortcut;
     const char *help;
 };
 
@@ -91,17 +91,18 @@ struct kiln_option {
     unsigned (*parts)(const void *source, const void *base);
     double min, max;               /* limits in SI units, both allowed */
     enum kiln_dimension dimension; /* of numbers: what they measure */
-    unsigned clocks;               /* KILN_ALLOW_* for keys over time or life; a constant is always
-                                    * allowed */
-    const char *const *choices;    /* words in the order of the enum, NULL at the end */
-    const char *word; /* a word that stands for 0/1 (rational) or for KILN_VALUE_BY_WORD (value,
-                       * whose min is at least 0) */
+    /* KILN_ALLOW_* for keys over time or life; a constant is always allowed */
+    unsigned clocks;
+    const char *const *choices; /* words in the order of the enum, NULL at the end */
+    /* a word that stands for 0/1 (rational) or for KILN_VALUE_BY_WORD (value, whose min is at least
+     * 0) */
+    const char *word;
     const struct kiln_option *members;
     const struct kiln_option_kind *kinds;
     const struct kiln_option *item; /* of a list: the row of its items */
     int kind_offset;                /* offset of the item's enum; KILN_KIND_NONE: it has none */
-    size_t item_size, count_offset; /* of arrays: size of an item, and offset of the count in the
-                                     * struct of the table */
+    /* of arrays: size of an item, and offset of the count in the struct of the table */
+    size_t item_size, count_offset;
     size_t max_count;
 };
 

@@ -7,8 +7,8 @@
 
 struct kiln_printer {
     struct kiln_text text;
-    const void *source; /* the struct that the whole table describes, for types that need other
-                         * parts of it */
+    /* the struct that the whole table describes, for types that need other parts of it */
+    const void *source;
     const float4 *keys; /* keys of the animated values in source */
     unsigned parts;     /* bit mask: only rows of one of these parts are printed; 0: all rows */
     unsigned indent;    /* spaces of the current block */

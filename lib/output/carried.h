@@ -7,9 +7,9 @@
 /* Holds the texts of a file; a text is "" where the file does not have it. */
 struct kiln_carried {
     char version[32], scene[65], seed[16], frame[16];
-    char fps[32];    /* "30" or "24000/1001" */
-    char alpha[2];   /* only EXR, which always has an alpha channel: "1", or "0" when all is
-                      * opaque */
+    char fps[32]; /* "30" or "24000/1001" */
+    /* only EXR, which always has an alpha channel: "1", or "0" when all is opaque */
+    char alpha[2];
     char quality[4]; /* only JPEG */
     uint32_t bits;   /* bits of a channel */
 };

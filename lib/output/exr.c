@@ -152,8 +152,8 @@ static exr_result_t write_metadata(const struct exr_encoder *encoder, uint32_t f
         {"software", "kiln " KILN_VERSION},
         {"kiln:version", KILN_VERSION},
         {"kiln:alpha", params->alpha ? "1" : "0"},
-        {"kiln:scene", params->scene_hash}, /* this key and all after it are written only where
-                                             * there is a scene */
+        /* this key and all after it are written only where there is a scene */
+        {"kiln:scene", params->scene_hash},
         {"kiln:seed", seed},
         {"kiln:frame", number},
     };

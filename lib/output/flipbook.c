@@ -22,8 +22,8 @@ enum {
     MAX_PADDING = 256,
     MAX_EDGE = 16384,      /* edge of the atlas; GPUs accept no more */
     MAX_MOTION_EDGE = 128, /* edge of a cell of the motion atlas */
-    FEATURES = 2,          /* channels that flow is estimated from: brightness over black, and
-                            * alpha */
+    /* channels that flow is estimated from: brightness over black, and alpha */
+    FEATURES = 2,
 };
 
 struct flipbook_encoder {
@@ -36,8 +36,8 @@ struct flipbook_encoder {
 
     uint32_t motion_width, motion_height; /* size of a cell of the motion atlas */
     float *features[2];                   /* features of this cell and of the one before */
-    float *flows;                         /* flow from each cell to the next, in pixels of the
-                                           * motion cell */
+    /* flow from each cell to the next, in pixels of the motion cell */
+    float *flows;
 };
 
 static uint32_t cell_count(const struct kiln_output_params *params)

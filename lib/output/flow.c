@@ -19,10 +19,10 @@ enum {
 };
 
 static const float smoothness = 0.15f;
-static const float least_difference = 1e-3f; /* below this, a difference is penalised like its
-                                              * square */
-static const float least_bend = 0.05f;       /* bend of the flow, in pixels a pixel, below which it
-                                              * is penalised like its square */
+/* below this, a difference is penalised like its square */
+static const float least_difference = 1e-3f;
+/* bend of the flow, in pixels a pixel, below which it is penalised like its square */
+static const float least_bend = 0.05f;
 static const float over_relaxation = 1.7f;
 static const float most_change = 1.0f; /* most change of the flow by one warp, pixels */
 

@@ -21,8 +21,8 @@ struct kiln_format {
     const char *name;
     const char *help;
     uint32_t uses; /* bit mask of KILN_USES_* */
-    bool one_file; /* all frames go into one file, in ascending order; frames may be missing only
-                    * with `gaps` */
+    /* all frames go into one file, in ascending order; frames may be missing only with `gaps` */
+    bool one_file;
     bool gaps;
     bool is_stream; /* params.stream gets the frames: there is no file to finish or to commit */
     const struct kiln_video_settings *video; /* settings of formats that FFmpeg writes, else NULL */

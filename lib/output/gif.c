@@ -200,8 +200,8 @@ static const struct kiln_video_settings settings = {
     .codec = "GIF",
     .kind = "a GIF animation",
     .packages = "libavcodec59",
-    .bits = 16, /* 8-bit frames are dithered with other noise in each frame, so still pixels would
-                 * flicker */
+    /* 8-bit frames are dithered with other noise in each frame, so still pixels would flicker */
+    .bits = 16,
     .pixels = {{AV_PIX_FMT_NONE, AV_PIX_FMT_PAL8}, {AV_PIX_FMT_NONE, AV_PIX_FMT_NONE}},
     .max_edge = 16384,
     .muxer_options = "loop=0",

@@ -44,9 +44,9 @@ static bool open_encoder(struct encoding *encoding, const AVCodec *codec,
     encoder->height = (int)jpeg->height;
     encoder->pix_fmt = AV_PIX_FMT_YUVJ444P;
     encoder->color_range = AVCOL_RANGE_JPEG;
-    encoder->time_base = (AVRational){1, 25};          /* the encoder needs one, any will do */
-    encoder->sample_aspect_ratio = (AVRational){1, 1}; /* without it, FFmpeg leaves out the JFIF
-                                                        * header */
+    encoder->time_base = (AVRational){1, 25}; /* the encoder needs one, any will do */
+    /* without it, FFmpeg leaves out the JFIF header */
+    encoder->sample_aspect_ratio = (AVRational){1, 1};
     encoder->thread_count = 1;
     encoder->dct_algo = FF_DCT_INT; /* other methods differ from processor to processor */
     encoder->flags |= AV_CODEC_FLAG_QSCALE | AV_CODEC_FLAG_BITEXACT;

@@ -20,15 +20,15 @@ enum { MAX_ENCODERS = 64, QUEUE_SIZE = MAX_ENCODERS + 1 };
 
 struct kiln_output {
     struct kiln_arena *arena;
-    struct kiln_output_params params; /* parameters whose texts and ranges are copied into the
-                                       * arena */
+    /* parameters whose texts and ranges are copied into the arena */
+    struct kiln_output_params params;
     const struct kiln_format *format;
     struct kiln_path_pattern pattern;
 
     struct kiln_temporary video_file; /* the file of formats with one_file */
     void *video_encoder;
-    struct kiln_part_writer *part; /* is written instead of video_file and encoder where the clip
-                                    * waits in parts */
+    /* is written instead of video_file and encoder where the clip waits in parts */
+    struct kiln_part_writer *part;
 
     size_t due_range; /* the range of the frame that is expected next */
     uint32_t due_frame;
@@ -43,8 +43,8 @@ struct kiln_output {
     uint32_t in_flight; /* pictures in the queue or being encoded */
     bool ending;        /* true: no more pictures come */
     bool failed;
-    uint32_t failed_frame;   /* the earliest frame of the clip that failed, for any number of
-                              * threads */
+    /* the earliest frame of the clip that failed, for any number of threads */
+    uint32_t failed_frame;
     struct kiln_error error; /* the error of that frame */
 };
 

@@ -24,10 +24,10 @@ struct kiln_picture {
     uint32_t frame;
     uint32_t width, height;
     bool has_alpha; /* display alpha is meaningful */
-    bool is_data;   /* the display pixels are numbers, not colours: files name no colour space for
-                     * them */
-    uint32_t bits;  /* bits of a channel of the display pixels: 8 or 16 */
-    void *display;  /* sRGB, RGBA, not premultiplied, rows from the top, host byte order */
+    /* the display pixels are numbers, not colours: files name no colour space for them */
+    bool is_data;
+    uint32_t bits; /* bits of a channel of the display pixels: 8 or 16 */
+    void *display; /* sRGB, RGBA, not premultiplied, rows from the top, host byte order */
     struct kiln_layer layers[KILN_MAX_LAYERS]; /* only the layers that the format needs */
     uint32_t layer_count;
 };
@@ -56,8 +56,9 @@ struct kiln_output_needs {
 struct kiln_whole {
     const char *path;
     struct kiln_frame_range frames; /* frames that the file holds; some in between may be missing */
-    bool is_part, is_clip;          /* is_part: a part of a clip; is_clip: the clip, or a file
-                                     * beside it; neither: the file of a frame */
+    /* is_part: a part of a clip; is_clip: the clip, or a file beside it; neither: the file of a
+     * frame */
+    bool is_part, is_clip;
     uint64_t bytes;
     char sha256[65];
 };
@@ -75,16 +76,16 @@ struct kiln_whole_listener {
 struct kiln_format;
 
 struct kiln_output_params {
-    const char *path;                 /* path as the user gave it; of a stream, its name in
-                                       * messages */
-    struct kiln_stream stream;        /* takes the frames instead of files, unless its format is
-                                       * none */
+    /* path as the user gave it; of a stream, its name in messages */
+    const char *path;
+    /* takes the frames instead of files, unless its format is none */
+    struct kiln_stream stream;
     const struct kiln_format *format; /* the path's format; kiln_output_complete finds it */
     uint32_t width, height;
     uint32_t fps_num, fps_den;
     bool alpha;
-    const struct kiln_frame_range *ranges; /* the frames that will be written, ascending,
-                                            * disjoint */
+    /* the frames that will be written, ascending, disjoint */
+    const struct kiln_frame_range *ranges;
     size_t range_count;
     /* The frames of the whole output, to which `ranges` belong. The place of a frame and the names
      * of files depend on it. Count 0: `ranges` are the whole output. */
@@ -94,15 +95,15 @@ struct kiln_output_params {
      * kiln_parts_join joins them. `ranges` are whole parts then. NULL: the clip is written at
      * once. */
     const char *parts;
-    bool parts_alone; /* another process joins the parts, so this one does not open libraries for
-                       * containers */
+    /* another process joins the parts, so this one does not open libraries for containers */
+    bool parts_alone;
     uint32_t threads; /* number of encoder threads; at least 1 */
     bool overwrite;
     uint32_t png_bits, exr_bits, quality;
     struct kiln_flipbook flipbook; /* columns 0: no flipbook */
-    const char *scene_hash; /* 64 hex digits, written into each file with seed, frame and version;
-                             * "": a clip without a scene; NULL: an encoder alone, without a
-                             * scene */
+    /* 64 hex digits, written into each file with seed, frame and version; "": a clip without a
+     * scene; NULL: an encoder alone, without a scene */
+    const char *scene_hash;
     uint32_t seed;
     struct kiln_log log;
     struct kiln_whole_listener whole;

@@ -9,12 +9,12 @@
 
 /* Describes the content of a file. Texts end in 0. */
 struct kiln_part_head {
-    uint32_t part, parts;   /* number of this part, from 0, and number of all parts */
-    uint32_t first, frames; /* position of the part's first frame in the clip; number of its
-                             * frames */
-    bool packets;           /* true: the file has packets; false: it has pictures */
-    char clip[65];          /* hash of the clip that the part belongs to (kiln_clip_hash) */
-    char made_by[128];      /* versions of kiln and of the encoder's library */
+    uint32_t part, parts; /* number of this part, from 0, and number of all parts */
+    /* position of the part's first frame in the clip; number of its frames */
+    uint32_t first, frames;
+    bool packets;      /* true: the file has packets; false: it has pictures */
+    char clip[65];     /* hash of the clip that the part belongs to (kiln_clip_hash) */
+    char made_by[128]; /* versions of kiln and of the encoder's library */
 };
 
 /* Hashes everything but the pictures that decides the bytes of a clip: SHA-256, in hex, of scene,

@@ -17,10 +17,10 @@ struct kiln_video_settings {
     enum AVPixelFormat pixels[2][2];
     bool even_sizes;
     uint32_t max_edge;
-    bool intra;                /* every frame is a key frame */
-    bool parts;                /* a clip is encoded part by part; else at once */
-    const char *later_packets; /* FFmpeg's bit stream filters for the packets of all parts but the
-                                * first; NULL: none */
+    bool intra; /* every frame is a key frame */
+    bool parts; /* a clip is encoded part by part; else at once */
+    /* FFmpeg's bit stream filters for the packets of all parts but the first; NULL: none */
+    const char *later_packets;
     const char *muxer_options; /* "key=value:key=value", or NULL */
     /* Sets options of the encoder; false when memory is short. NULL: there are none to set. */
     bool (*tune)(AVCodecContext *codec, const struct kiln_output_params *params);

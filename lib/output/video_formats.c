@@ -44,8 +44,8 @@ static const struct kiln_video_settings mp4 = {
     .even_sizes = true,
     .max_edge = MAX_EDGE,
     .parts = true,
-    .later_packets = "filter_units=remove_types=6", /* removes SEI with x264's version and
-                                                     * options */
+    /* removes SEI with x264's version and options */
+    .later_packets = "filter_units=remove_types=6",
     .muxer_options = "movflags=+faststart",
     .tune = tune_h264,
 };
@@ -166,9 +166,9 @@ static bool tune_apng(AVCodecContext *codec, const struct kiln_output_params *pa
 {
     (void)params;
     codec->compression_level = 3;
-    codec->sample_aspect_ratio = (AVRational){1, 1}; /* without it, the encoder writes an aspect
-                                                      * ratio of 0 */
-    return set_option(codec, "pred", "sub");         /* the same as in the single images of png.c */
+    /* without it, the encoder writes an aspect ratio of 0 */
+    codec->sample_aspect_ratio = (AVRational){1, 1};
+    return set_option(codec, "pred", "sub"); /* the same as in the single images of png.c */
 }
 
 /* Sets the delay between frames, which APNG stores as a fraction of 16-bit numbers. */

@@ -19,8 +19,8 @@ struct kiln_burst {
 /* Describes all that decides the births of a system. Step k = 1, 2, ... lasts from (k - 1 -
  * warmup_steps) to (k - warmup_steps) times steps_den / steps_num seconds of clip time. */
 struct kiln_births_source {
-    float (*rate)(const void *context, float time_s); /* returns the particles born a second, at a
-                                                       * clip time */
+    /* returns the particles born a second, at a clip time */
+    float (*rate)(const void *context, float time_s);
     const void *context;
     const struct kiln_burst *bursts; /* ascending in time */
     uint32_t burst_count;            /* below KILN_MAX_BIRTH_GROUPS */

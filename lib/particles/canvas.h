@@ -12,22 +12,22 @@
  * is none. */
 struct kiln_splat {
     float at[3];
-    float opacity;   /* opacity in the middle, 0..1 */
-    float normal[3]; /* points away from the surface, of any length; 0 0 0: the splat paints both
-                      * sides */
-    float square;    /* square of the radius; more than 0 */
-    float color[3];  /* linear colour */
-    float slope;     /* opacity falls smoothly to 0 over the outer 1 / slope of that square of the
-                      * radius */
+    float opacity; /* opacity in the middle, 0..1 */
+    /* points away from the surface, of any length; 0 0 0: the splat paints both sides */
+    float normal[3];
+    float square;   /* square of the radius; more than 0 */
+    float color[3]; /* linear colour */
+    /* opacity falls smoothly to 0 over the outer 1 / slope of that square of the radius */
+    float slope;
 };
 
 struct kiln_canvas {
-    uint32_t edge;       /* edge of the texture in texels */
-    float (*texels)[4];  /* premultiplied linear colour and alpha; rows go with v */
-    uint32_t changes;    /* number of steps that changed the texels */
-    uint32_t slot_count; /* slots of the systems that paint; 0: all splats are painted in their
-                          * step */
-    uint32_t next;       /* the slot whose splat is painted next */
+    uint32_t edge;      /* edge of the texture in texels */
+    float (*texels)[4]; /* premultiplied linear colour and alpha; rows go with v */
+    uint32_t changes;   /* number of steps that changed the texels */
+    /* slots of the systems that paint; 0: all splats are painted in their step */
+    uint32_t slot_count;
+    uint32_t next;              /* the slot whose splat is painted next */
     struct kiln_splat *waiting; /* a splat for each slot; NULL when slot_count is 0 */
 };
 

@@ -11,8 +11,8 @@
 enum {
     KILN_LANES = 128,
     KILN_RECORD_WORDS = sizeof(struct kiln_particle) / sizeof(uint32_t),
-    KILN_SHORT_CURVE = 12, /* keys of a curve that all lanes search together; in a longer one each
-                            * lane searches alone */
+    /* keys of a curve that all lanes search together; in a longer one each lane searches alone */
+    KILN_SHORT_CURVE = 12,
 };
 
 /* One number for each lane. */

@@ -17,10 +17,10 @@
 struct kiln_pool_system {
     uint32_t base, capacity; /* slots of this system in the record buffer */
     uint64_t next_serial;    /* the number of births so far */
-    uint64_t birth_wait;     /* the part of a birth that is carried to the next step; see `wait` in
-                              * births.h */
-    bool spins;              /* true: the system's particles have a spin */
-    uint32_t first_spin;     /* slots of this system in the buffer of spins */
+    /* the part of a birth that is carried to the next step; see `wait` in births.h */
+    uint64_t birth_wait;
+    bool spins;          /* true: the system's particles have a spin */
+    uint32_t first_spin; /* slots of this system in the buffer of spins */
 };
 
 struct kiln_pool {

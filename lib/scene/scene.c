@@ -28,8 +28,8 @@ uint32_t kiln_scene_moment_step(const struct kiln_scene *scene, uint32_t frame, 
 {
     const struct kiln_camera *camera = &scene->camera;
     double open_steps = scene->steps_per_frame * camera->shutter_angle / KILN_DEG(360);
-    double after = moment * open_steps / camera->shutter_samples + 1e-6; /* a whole number of steps
-                                                                          * stays one */
+    /* a whole number of steps stays one */
+    double after = moment * open_steps / camera->shutter_samples + 1e-6;
     return kiln_scene_frame_step(scene, frame) + (uint32_t)after;
 }
 
