@@ -1,11 +1,9 @@
 /* Declares option tables, one row per key of a file. The rows make the reader, its errors, --set,
- * the printed file,
- * the reference and the JSON schema. To add a key, add a field to the struct that a table fills and
- * a row to the table.
+ * the printed file, the reference and the JSON schema. To add a key, add a field to the struct that
+ * a table fills and a row to the table.
  *
  * A type is a table of functions. A room with values of its own (the assets of a scene, the metrics
- * of
- * a test) defines its own types beside the types declared here. */
+ * of a test) defines its own types beside the types declared here. */
 #ifndef KILN_OPTION_OPTION_H
 #define KILN_OPTION_OPTION_H
 

@@ -1,11 +1,10 @@
 /* Holds the particles of every system of a run in one buffer of records, each system owning a range
- * of
- * slots, and the host's count of births.
+ * of slots, and the host's count of births.
  *
  * Serial s of a system lives in slot base + s mod capacity. Capacity is at least the most births in
  * any window as long as the longest life, so that a slot is free when a birth needs it. Therefore
- * no atomic counter
- * decides an order (the thesis finds free slots with an atomic counter: 3.3.4). */
+ * no atomic counter decides an order (the thesis finds free slots with an atomic counter:
+ * 3.3.4). */
 #ifndef KILN_PARTICLES_POOL_H
 #define KILN_PARTICLES_POOL_H
 

@@ -1,4 +1,5 @@
-/* Declares the loop that sums up, on the host, what a bird of a flock sees of its neighbours. */
+/* Declares the vectorised loop that sums up, on the host, the neighbours that a particle of a flock
+ * sees. */
 #ifndef KILN_SIM_CROWD_FLOCK_H
 #define KILN_SIM_CROWD_FLOCK_H
 
@@ -6,17 +7,18 @@
 #include "shared/interact_flock.h"
 
 enum {
-    KILN_FLOCK_ROWS = 6, /* floats of each body */
-    KILN_FLOCK_ROOM = 64 /* bytes that may be read behind them */
+    KILN_FLOCK_ROWS = 6, /* floats of each body: place and velocity */
+    KILN_FLOCK_ROOM = 64 /* bytes behind the rows that may be read */
 };
 
-/* What a flock looks at. */
+/* The bodies of a flock, as the loop reads them. */
 struct kiln_flock_birds {
     struct kiln_crowd view;
-    const float *rows[KILN_FLOCK_ROWS]; /* of the bodies in their order: x, y, z, then velocities */
+    /* a row for each of x, y, z and the velocity's components, in the order of the bodies */
+    const float *rows[KILN_FLOCK_ROWS];
 };
 
-/* flock_look, for the body `self`. */
+/* Computes flock_look for the body `self`. */
 typedef struct flock_sums kiln_flock_look(const struct kiln_flock_birds *birds, uint32_t self);
 
 struct kiln_flock_loops {

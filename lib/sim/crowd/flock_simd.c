@@ -6,10 +6,10 @@
 
 enum { LANES = 16, BLOCK = 64 };
 
-/* The bodies that the bird sees, padded to a multiple of LANES. */
+/* The bodies that the particle sees, padded to a multiple of LANES. */
 struct seen {
     uint32_t count;
-    uint32_t others[BLOCK]; /* slots */
+    uint32_t others[BLOCK]; /* slots of these bodies */
     float apart[3][BLOCK], parting[3][BLOCK], square[BLOCK];
 };
 
@@ -19,7 +19,7 @@ struct look {
     uint32_t self, slot;
     struct seen seen;
     int count;
-    int parts[12][LANES]; /* of struct flock_sums, without its count */
+    int parts[12][LANES]; /* the members of struct flock_sums except its count */
 };
 
 static inline void add_parts(struct look *look, uint32_t lane, struct flock_sums parts)

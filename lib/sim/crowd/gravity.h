@@ -5,19 +5,20 @@
 #include "base/simd.h"
 #include "shared/interact_gravity.h"
 
-/* Slots that are pulled at a time, in multiples of which there is room. */
+/* Number of slots that are computed at a time. Arrays have room for a multiple of it. */
 enum { KILN_GRAVITY_BLOCK = 32 };
 
 struct kiln_gravity {
-    const float4 *sources; /* gravity_source of each that may pull */
+    const float4 *sources; /* gravity_source of each slot that may attract */
     size_t count;
-    const float4 *places;   /* x, y, z of each slot that is pulled, and w; up to a whole block */
+    /* x, y, z of each slot, and w unused; up to a multiple of KILN_GRAVITY_BLOCK */
+    const float4 *places;
     float softening_square; /* m^2 */
-    float3 *accelerations;  /* of each slot, and up to a multiple of a block */
+    float3 *accelerations;  /* one a slot, up to a multiple of KILN_GRAVITY_BLOCK */
 };
 
-/* Fills in the accelerations of slots begin to end, of the kiln_gravity that context points to, for
- * kiln_threads_for; begin is a multiple of a block. */
+/* Computes the accelerations of slots begin to end - 1, for kiln_threads_for; context points to a
+ * kiln_gravity, and begin is a multiple of KILN_GRAVITY_BLOCK. */
 typedef void kiln_gravity_run(void *context, size_t begin, size_t end, uint32_t worker);
 
 struct kiln_gravity_loops {

@@ -157,8 +157,8 @@ static void add_flock(struct kiln_interact_work *work, const struct kiln_scene *
     params->cells_per_metre = 1.0f / (params->flock.radius * CELL_SLACK);
 }
 
-/* Fills in the work of a system: its flock, or its collisions and gravity. A flock's cells have
- * another size than those of collisions, so it is a work of its own, after the other. */
+/* Fills in the work of a system: its flock, or its collisions and gravity. The cells of a flock
+ * have another size than those of collisions, so a system that has both has two works. */
 static struct kiln_interact_work work_of(const struct kiln_scene *scene,
                                          const struct kiln_sim_params *params, uint32_t system,
                                          bool flock)
@@ -273,8 +273,8 @@ void kiln_interact_finish(struct kiln_interact *interact)
     *interact = (struct kiln_interact){.device = NULL};
 }
 
-/* Sets how far ahead collisions are looked for: as the scene says, or as the velocities need, which
- * differ by up to `spread` m/s. Cells grow by as much, so this distance is limited. */
+/* Sets how far ahead collisions are searched: as the scene says, or as far as the velocities need,
+ * which differ by up to `spread` m/s. The distance is limited, since cells grow with it. */
 static void foresee(struct kiln_interact *interact, struct kiln_interact_work *work, float spread)
 {
     struct kiln_interact_params *params = &work->params;
@@ -305,9 +305,8 @@ static void foresee(struct kiln_interact *interact, struct kiln_interact_work *w
                  spread < most ? "auto or " : "", wanted);
 }
 
-/* Returns the most by which velocities of living particles differ, m/s. It is the diagonal of the
- * box around all velocities, since no two particles approach each other faster; it is rounded up.
- */
+/* Returns the largest difference of two velocities of living particles, m/s, rounded up. It is the
+ * diagonal of the box around all velocities, since no two particles approach each other faster. */
 static float spread_of(const uint32_t bounds[SPEEDS_BOUNDS])
 {
     double square = 0;
@@ -318,14 +317,15 @@ static float spread_of(const uint32_t bounds[SPEEDS_BOUNDS])
     return (float)(sqrt(square) * (1 + 1e-6));
 }
 
-/* Finds how far ahead collisions are looked for, if the system has any. */
+/* Finds how far ahead collisions are searched, if the system has collisions. */
 static bool find_ahead(struct kiln_interact *interact, struct kiln_interact_work *work,
                        struct kiln_pool *pool, struct kiln_buffer *keys, struct kiln_error *error)
 {
     if (!work->collides)
         return true;
     uint32_t bounds[SPEEDS_BOUNDS] = {0};
-    if (work->mode == KILN_CONTACT_STAGGERED) { /* it looks at present positions alone */
+    /* the staggered grids use present positions alone */
+    if (work->mode == KILN_CONTACT_STAGGERED) {
         foresee(interact, work, 0.0f);
         return true;
     }

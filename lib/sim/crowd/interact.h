@@ -1,6 +1,6 @@
-/* Gathers, before a step, what the particles of a system do to each other: pushes (shared/push.h).
- * The technique that steps the particles gathers them where their records lie, so that no record is
- * copied. All techniques give the same bits. */
+/* Computes, before a step, the forces of the particles of a system on each other, called pushes
+ * (shared/push.h). They are computed on the side where the records lie, host or GL, so that no
+ * record is copied. All techniques give the same bits. */
 #ifndef KILN_SIM_CROWD_INTERACT_H
 #define KILN_SIM_CROWD_INTERACT_H
 
@@ -10,7 +10,7 @@
 #include "sim/crowd/gravity.h"
 #include "sim/world/params.h"
 
-/* In the order of their use. */
+/* The kernels in the order in which they run. */
 enum kiln_interact_kernel {
     KILN_INTERACT_SPEEDS,
     KILN_INTERACT_COUNT,
@@ -32,67 +32,72 @@ enum kiln_interact_kernel {
     KILN_INTERACT_KERNELS
 };
 
-/* What is gathered for a system in a step. */
+/* What is computed for a system in a step. */
 struct kiln_interact_work {
-    const char *system; /* its name */
+    const char *system; /* the system's name */
     struct kiln_interact_params params;
-    struct kiln_interact_params sources; /* gravity: of the system that pulls, which may be this */
-    bool of_other;                       /* it is another one */
+    /* gravity: parameters of the system that attracts, which may be this one */
+    struct kiln_interact_params sources;
+    bool of_other; /* `sources` are of another system */
     bool collides, pulls, flocks;
-    enum kiln_contact_mode mode; /* of collisions, and what follows: */
+    enum kiln_contact_mode mode; /* collisions: this member and those below */
     uint32_t rounds;
-    float width_m; /* of the largest particle */
-    float fastest; /* m/s: approach that the scene wants foreseen; below 0: auto */
+    float width_m; /* m: diameter of the largest particle */
+    float fastest; /* m/s: approach for which the scene wants collisions searched; below 0: auto */
 };
 
 struct kiln_interact {
     const struct kiln_scene *scene;
-    struct kiln_device *device; /* NULL: on the host, in threads */
+    struct kiln_device *device; /* NULL: the pushes are computed on the host, in threads */
     struct kiln_threads *threads;
-    struct kiln_buffer pushes; /* of all systems: float4 [2 * push_count] */
-    /* scratch for one system at a time: */
-    struct kiln_buffer bodies, second;        /* struct kiln_body, of the largest system */
-    struct kiln_buffer cells;                 /* uint32_t, some a particle */
-    struct kiln_buffer partners;              /* uint32_t, one a body */
-    struct kiln_buffer entries;               /* staggered: what is sorted; gravity: two halves */
-    uint32_t half;                            /* of those: sources first, then what follows */
+    struct kiln_buffer pushes; /* pushes of all systems: float4 [2 * push_count] */
+    /* scratch memory for one system at a time: */
+    /* struct kiln_body, for the bodies of the largest system */
+    struct kiln_buffer bodies, second;
+    struct kiln_buffer cells;    /* uint32_t, several a particle */
+    struct kiln_buffer partners; /* uint32_t, one a body */
+    /* staggered: entries that are sorted; gravity: two halves */
+    struct kiln_buffer entries;
+    /* gravity: start of the second half; the first has the sources, the second the targets */
+    uint32_t half;
     struct kiln_buffer order;                 /* uint32_t, two a body */
-    struct kiln_buffer counts;                /* staggered, on the host: of a sort */
+    struct kiln_buffer counts;                /* staggered, on the host: counts of a sort */
     struct kiln_buffer accelerations;         /* gravity on the host: float3, one a slot */
-    const struct kiln_gravity_loops *gravity; /* on the host */
+    const struct kiln_gravity_loops *gravity; /* loops of gravity for this processor, on the host */
     const struct kiln_flock_loops *flock;
-    /* in GL: */
+    /* only in GL: */
     struct kiln_buffer block;               /* struct kiln_interact_params */
-    GLuint programs[KILN_INTERACT_KERNELS]; /* 0: not used by the scene */
+    GLuint programs[KILN_INTERACT_KERNELS]; /* 0: the scene does not use the kernel */
     uint32_t group_size;
-    bool spins; /* of some system, balls turn */
+    bool spins; /* true: the particles of some system spin */
 
-    char warning[512]; /* "": none */
+    char warning[512]; /* the first warning; "": none */
     bool warned;
 };
 
-/* Nothing is allocated while no system interacts. After a failure, too, kiln_interact_finish frees
- * what there is. */
+/* Prepares the pushes of a scene. Nothing is allocated if no system interacts. kiln_interact_finish
+ * frees everything, also after a failure. */
 bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *device,
                         const struct kiln_scene *scene, const struct kiln_sim_params *params,
                         struct kiln_threads *threads, struct kiln_error *error);
 void kiln_interact_finish(struct kiln_interact *interact);
 
-/* Gathers the pushes of a step whose parameters are these, from the state before it. keys: the
- * scene's values, in GL; NULL on the host. */
+/* Computes the pushes of a step with these parameters from the state before it. keys: the scene's
+ * keys, in GL; NULL on the host. */
 bool kiln_interact_gather(struct kiln_interact *interact, const struct kiln_sim_params *params,
                           struct kiln_pool *pool, struct kiln_buffer *keys,
                           struct kiln_error *error);
 
-/* A warning about the steps so far, the first of them alone; NULL: none. It is the interact's. */
+/* Returns the first warning about the steps so far; NULL: none. The interact owns the text. */
 const char *kiln_interact_warning(struct kiln_interact *interact);
 
-/* ---- for the two ways to gather -------------------------------------------------------------- */
+/* ---- shared by interact_cpu.c and interact_gl.c ---------------------------------------------- */
 
-/* Room for so many entries: a power of two, at least 64. */
+/* Returns the number of entries to allocate for `count`: a power of two, at least 64. */
 uint32_t kiln_interact_entries(uint32_t count);
 
-/* The bounds of the velocities of all that live, as shared/interact_speeds.h has them. */
+/* Computes the bounds of the velocities of all living particles, as shared/interact_speeds.h
+ * defines them. */
 bool kiln_interact_cpu_speeds(struct kiln_interact *interact, const struct kiln_interact_work *work,
                               struct kiln_pool *pool, uint32_t *bounds, struct kiln_error *error);
 bool kiln_interact_gl_speeds(struct kiln_interact *interact, const struct kiln_interact_work *work,

@@ -13,7 +13,7 @@ enum { BODIES_AT_A_TIME = 512 };
 /* ---- bounds of velocities -------------------------------------------------------------------- */
 
 struct speeds {
-    const struct kiln_particle *records; /* of the system */
+    const struct kiln_particle *records; /* records of the system */
     _Atomic uint32_t bounds[SPEEDS_BOUNDS];
 };
 
@@ -174,7 +174,8 @@ static bool collide(struct kiln_interact *interact, const struct kiln_interact_w
         atomic_store(&crowd.met, 0);
         crowd.later = round > 0;
         kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME, find, &crowd);
-        if (atomic_load(&crowd.met) == 0) /* no round will change anything */
+        if (atomic_load(&crowd.met) == 0) /* no body has a partner, so further rounds would change
+                                           * nothing */
             break;
         kiln_threads_for(interact->threads, crowd.count, BODIES_AT_A_TIME,
                          crowd.spins ? answer_turning : answer, &crowd);
@@ -188,8 +189,8 @@ static bool collide(struct kiln_interact *interact, const struct kiln_interact_w
 
 enum { TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK };
 
-/* Fills in a source for each slot, and sources of no mass up to a whole block. The buffer has room
- * for a power of two of them, at least 64. */
+/* Fills in a source for each slot, and sources without mass up to a whole block. The buffer has
+ * room for a power of two of them, at least 64. */
 static void fill_sources(const struct kiln_crowd *view, const struct kiln_particle *records,
                          float4 *sources)
 {

@@ -12,23 +12,24 @@
 struct kiln_interact_crowd {
     struct kiln_crowd view;
     struct kiln_threads *threads;
-    const struct kiln_particle *records; /* of the system */
+    const struct kiln_particle *records; /* records of the system */
     struct kiln_body *bodies, *after;
     uint32_t *cell_ends, *partners, *order;
-    struct kiln_interact_entry *entries; /* of the paper's grids, as the counts are */
+    struct kiln_interact_entry *entries; /* entries of the two staggered grids, as are the counts */
     uint32_t *counts;
-    float4 *pushes;          /* of the system */
-    struct kiln_spin *spins; /* likewise; NULL unless its balls turn */
-    uint32_t count;          /* of bodies */
+    float4 *pushes;          /* pushes of the system */
+    struct kiln_spin *spins; /* spins of the system; NULL unless its particles spin */
+    uint32_t count;          /* number of bodies */
     bool staggered;
-    bool later;      /* not the first round */
-    atomic_uint met; /* bodies that have a partner */
+    bool later;      /* true in all rounds but the first */
+    atomic_uint met; /* number of bodies that have a partner */
 };
 
-/* Fills bodies and count, and cell_ends: of each cell, where its bodies end; order is scratch. */
+/* Sorts bodies into cells. Fills bodies and count, and cell_ends with the index behind each cell's
+ * last body; order is scratch memory. */
 void kiln_interact_into_cells(struct kiln_interact_crowd *crowd);
 
-/* The same for the paper's grids: fills bodies, count and order. */
+/* Sorts bodies into the two staggered grids: fills bodies, count and order. */
 void kiln_interact_into_grids(struct kiln_interact_crowd *crowd);
 
 #endif

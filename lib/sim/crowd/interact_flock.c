@@ -1,6 +1,6 @@
-/* This file steers flocks on the host. It sorts the bodies into cells; then each thread computes
- * the steering of a stretch of them. What a bird sees is a sum of integers, so the order of the
- * others changes no bit. */
+/* Steers flocks on the host. It sorts the bodies into cells; then each thread computes the steering
+ * of some of them. What a particle sees is a sum of integers, so the order of the others changes no
+ * bit. */
 #include <string.h>
 
 #include "sim/crowd/flock.h"
@@ -11,7 +11,7 @@ enum { BIRDS_AT_A_TIME = 128 };
 struct flock {
     struct kiln_flock_birds birds;
     kiln_flock_look *look;
-    float4 *pushes; /* of the system */
+    float4 *pushes; /* pushes of the system */
     struct flock_means means;
 };
 

@@ -53,8 +53,8 @@ static int uses(const struct kiln_scene *scene)
     return all;
 }
 
-/* The most bodies that one body looks at on software GL, which silently ends loops after
- * KILN_SOFTWARE_ITERATIONS. The rest of these is for the loops over rows of cells. */
+/* The most bodies that one body may look at on software GL, which silently ends loops after
+ * KILN_SOFTWARE_ITERATIONS. The difference is left for the loops over rows of cells. */
 enum { MOST_AROUND = KILN_SOFTWARE_ITERATIONS - 535 };
 
 bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *error)
@@ -175,7 +175,7 @@ static void sort_into_cells(const struct kiln_interact *interact,
     run(interact, KILN_INTERACT_PLACE, params->used);
 }
 
-/* Sorts the entries by a bitonic network; count is a power of two. */
+/* Sorts the entries by a bitonic network; `count` is a power of two. */
 static void sort_entries(const struct kiln_interact *interact, uint32_t count)
 {
     glUseProgram(interact->programs[KILN_INTERACT_BITONIC]);
@@ -202,7 +202,8 @@ static void sort_into_grids(const struct kiln_interact *interact,
     run(interact, KILN_INTERACT_ORDER_SECOND, params->used);
 }
 
-/* Returns whether each body looked at all others near it; on software GL it may not have. */
+/* Returns whether each body looked at all others near it. On software GL a loop may have ended
+ * early. */
 static bool saw_all(const struct kiln_interact *interact, const struct kiln_interact_work *work,
                     struct kiln_error *error)
 {

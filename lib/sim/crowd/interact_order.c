@@ -83,8 +83,8 @@ void kiln_interact_into_cells(struct kiln_interact_crowd *crowd)
 /* ---- the paper's grids ------------------------------------------------------------------------
  */
 
-/* The number of living particles in a stretch of slots, and the range of their cells along each
- * axis. */
+/* Describes a range of slots: the number of living particles, and the range of their cells along
+ * each axis. */
 struct extent {
     uint32_t count;
     uint32_t low[3], high[3];
@@ -94,7 +94,7 @@ struct grids {
     struct kiln_interact_crowd *crowd;
     uint32_t stretches;
     struct extent extents[KILN_SORT_STRETCHES];
-    uint32_t low[3], shifts[3]; /* of a short key: see short_key */
+    uint32_t low[3], shifts[3]; /* lowest cells, and the shifts that short_key uses */
     uint32_t bits;
 };
 
@@ -144,8 +144,8 @@ static void measure(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* Combines the extents of all stretches into counts, and into the shifts of a short key. In the
- * second grid a cell's number may be one higher. */
+/* Combines the extents of all ranges of slots into counts, and into the shifts of a short key. In
+ * the second grid, the number of a cell may be higher by one. */
 static void add_up(struct grids *grids)
 {
     uint32_t high[3] = {0};
@@ -155,7 +155,7 @@ static void add_up(struct grids *grids)
         struct extent *extent = &grids->extents[s];
         const uint32_t before = grids->crowd->count;
         grids->crowd->count += extent->count;
-        extent->count = before; /* where the stretch begins */
+        extent->count = before; /* number of particles in earlier ranges */
         for (int c = 0; c < 3; c++) {
             grids->low[c] = extent->low[c] < grids->low[c] ? extent->low[c] : grids->low[c];
             high[c] = extent->high[c] > high[c] ? extent->high[c] : high[c];

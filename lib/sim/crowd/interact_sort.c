@@ -1,6 +1,6 @@
-/* This file sorts the entries of a grid by their cells: a radix sort from the lowest digit, in
- * threads. Each stretch of the entries counts its digits, and puts each digit behind those of the
- * stretches before it. The order is therefore the same for any number of stretches. */
+/* Sorts the entries of a grid by their cells: a radix sort from the lowest digit, in threads. The
+ * entries are cut into ranges. Each range counts its digits, and puts the entries of a digit behind
+ * those of earlier ranges. The order is therefore the same for any number of ranges. */
 #include "sim/crowd/interact_sort.h"
 
 #include <assert.h>
@@ -17,7 +17,8 @@ size_t kiln_sort_stretch(size_t count, uint32_t stretch, uint32_t stretches)
 
 uint32_t kiln_sort_stretches(const struct kiln_threads *threads)
 {
-    const uint32_t count = 2 * kiln_threads_count(threads); /* since some threads begin late */
+    /* more ranges than threads, since some threads begin late */
+    const uint32_t count = 2 * kiln_threads_count(threads);
     return count < KILN_SORT_STRETCHES ? count : KILN_SORT_STRETCHES;
 }
 
@@ -47,7 +48,7 @@ static void count_digits(void *context, size_t begin, size_t end, uint32_t worke
     }
 }
 
-/* Turns the counts into the place where each stretch puts its first entry of each digit. */
+/* Turns the counts into the place where each range puts its first entry of each digit. */
 static void find_places(const struct pass *pass)
 {
     uint32_t before = 0;

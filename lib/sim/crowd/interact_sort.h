@@ -6,31 +6,31 @@
 
 struct kiln_interact_entry {
     uint64_t cell;
-    uint32_t what; /* a slot or a body */
+    uint32_t what; /* number of a slot or of a body */
     uint32_t unused;
 };
 
 enum {
-    /* The most stretches that loops are cut into; each has counts of its own. */
+    /* The most ranges of entries; each has counts of its own. */
     KILN_SORT_STRETCHES = 16,
     KILN_SORT_DIGITS = 2048,
 };
 
 struct kiln_interact_sorting {
     struct kiln_threads *threads;
-    struct kiln_interact_entry *entries, *scratch; /* count each */
+    struct kiln_interact_entry *entries, *scratch; /* each has `count` entries */
     size_t count;
-    uint32_t bits;    /* of a cell, of which the rest is 0 */
-    uint32_t *counts; /* scratch: KILN_SORT_STRETCHES * KILN_SORT_DIGITS */
+    uint32_t bits;    /* used bits of a cell's number; all others are 0 */
+    uint32_t *counts; /* scratch memory: KILN_SORT_STRETCHES * KILN_SORT_DIGITS */
 };
 
-/* Sorts the entries by cells; what is in one keeps its order. */
+/* Sorts the entries by cells. Entries of one cell keep their order. */
 void kiln_interact_sort(const struct kiln_interact_sorting *sorting);
 
-/* Where stretch number `stretch` of so many begins in [0, count). */
+/* Returns where range number `stretch` of `stretches` begins in [0, count). */
 size_t kiln_sort_stretch(size_t count, uint32_t stretch, uint32_t stretches);
 
-/* Returns the number of stretches that suits the threads. */
+/* Returns the number of ranges that suits the threads. */
 uint32_t kiln_sort_stretches(const struct kiln_threads *threads);
 
 #endif

@@ -14,7 +14,7 @@
 enum { SLOTS_AT_A_TIME = 1024 };
 
 struct kiln_paint_mesh {
-    uint32_t object; /* of the scene */
+    uint32_t object; /* index of the object in the scene */
     struct kiln_chart *chart;
     struct kiln_paint_grid grid;
 };
@@ -79,7 +79,8 @@ void kiln_paint_finish(struct kiln_paint *paint)
 
 /* ---- splats ---------------------------------------------------------------------------------- */
 
-/* The pose of a mesh at a time, from the world to the mesh's frame, and its metres a unit. */
+/* The pose of a mesh at a time: the transform from the world to the mesh's frame, and metres in one
+ * of its units. */
 struct pose {
     mat4 to_local;
     float metres;
@@ -94,7 +95,8 @@ static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_obj
     float4 rows[3];
     struct pose pose = {.metres = kiln_scene_value(scene, &mesh->scale, time_s)};
     kiln_scene_rotation(kiln_scene_value3(scene, &mesh->rotation, time_s), rotation);
-    for (int i = 0; i < 3; i++) { /* the transposed rotation, shrunk, less the position */
+    /* the transposed rotation divided by the scale; then the position */
+    for (int i = 0; i < 3; i++) {
         vec3 row;
         glm_vec3_divs(rotation[i], pose.metres, row);
         rows[i] = FLOAT4(row[0], row[1], row[2], -glm_vec3_dot(row, at));
@@ -103,14 +105,14 @@ static struct pose pose_at(const struct kiln_scene *scene, const struct kiln_obj
     return pose;
 }
 
-/* The state while the splats of a system on a mesh are made. */
+/* The state while splats are made for one system and one mesh. */
 struct making {
     const struct kiln_scene *scene;
     const struct kiln_system *system;
     const struct kiln_step_params *step;
     const struct kiln_trace *traces;
     const struct kiln_chart *chart;
-    struct pose start, end; /* of the step */
+    struct pose start, end; /* poses at the start and the end of the step */
     struct kiln_splat *out;
 };
 
@@ -125,11 +127,11 @@ static float3 to_mesh(const struct making *m, float3 v, float w, float since)
     return FLOAT3(at[0], at[1], at[2]);
 }
 
-/* Finds the mark that a particle leaves, from its trace. */
+/* The mark that a particle leaves, as its trace tells. */
 struct mark {
     float3 at, normal; /* in the world */
-    float since;       /* part of the step */
-    float life;        /* progress then */
+    float since;       /* time, as a part of the step */
+    float life;        /* progress of the particle's life at that time */
 };
 
 static bool find_mark(const struct making *m, const struct kiln_trace *trace, struct mark *mark)
@@ -154,7 +156,7 @@ static bool find_mark(const struct making *m, const struct kiln_trace *trace, st
     return true;
 }
 
-/* May a splat of this radius reach the mesh? */
+/* Returns whether a splat of this radius may reach the mesh. */
 static bool is_near(const struct kiln_chart *chart, float3 at, float radius)
 {
     const float place[3] = {at.x, at.y, at.z};
@@ -185,7 +187,7 @@ static struct kiln_splat make_splat(const struct making *m, const struct kiln_tr
     const float3 normal = to_mesh(m, mark.normal, 0.0f, mark.since);
     const float3 color = value3_at(keys, m->system->look.color, time_s, mark.life);
     const float soft = value_at(keys, paint->soft, time_s, mark.life);
-    /* No edge is quite hard. */
+    /* A limit keeps the slope at the rim finite. */
     const float outer = exact_max(soft * (2.0f - soft), 1e-3f);
     splat = (struct kiln_splat){
         .at = {at.x, at.y, at.z},
@@ -236,7 +238,7 @@ static void make_all(const struct kiln_paint *paint, const struct kiln_sim_param
     }
 }
 
-/* Takes the splats whose turn it is in this step; returns how many. */
+/* Collects the splats that are painted in this step by their turn; returns their number. */
 static uint32_t take_turns(const struct kiln_paint *paint, struct kiln_canvas *canvas,
                            uint32_t per_step)
 {

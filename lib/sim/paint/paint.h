@@ -1,6 +1,6 @@
-/* Paints with particles (Drone 2007, 7.6.1): what the particles of a step leave on the meshes that
- * take paint, found from their traces (shared/trace.h). Threads of the host do it whatever
- * technique stepped the particles, so the bits are the same everywhere. */
+/* Paints meshes with the particles that hit them in a step (Drone 2007, 7.6.1). Splats are made
+ * from the particles' traces (shared/trace.h). Threads of the host paint for every technique, so
+ * the bits are the same everywhere. */
 #ifndef KILN_SIM_PAINT_PAINT_H
 #define KILN_SIM_PAINT_PAINT_H
 
@@ -15,25 +15,25 @@ struct kiln_paint {
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
     kiln_paint_block *block;
-    uint32_t mesh_count; /* that take paint; 0: all else is unused */
+    uint32_t mesh_count; /* number of meshes that take paint; 0: all other members are unused */
     struct kiln_paint_mesh *meshes;
-    uint32_t slot_count;      /* of the systems that paint, one after the other */
-    struct kiln_splat *made;  /* what each slot leaves on the mesh at hand */
-    struct kiln_splat *turns; /* those whose turn it is, in their order */
+    uint32_t slot_count;      /* slots of the systems that paint, in the order of the systems */
+    struct kiln_splat *made;  /* one splat a slot, for the mesh that is painted */
+    struct kiln_splat *turns; /* the splats that are painted by their turn, in order of slots */
 };
 
-/* Errors are those of kiln_chart_create; after one,
- * too, kiln_paint_finish frees what there is. */
+/* Prepares the meshes of a scene that take paint. Errors are those of kiln_chart_create.
+ * kiln_paint_finish frees everything, also after a failure. */
 bool kiln_paint_init(struct kiln_paint *paint, const struct kiln_scene *scene,
                      struct kiln_threads *threads, struct kiln_error *error);
 void kiln_paint_finish(struct kiln_paint *paint);
 
-/* After a step with these parameters, which left these traces: paints the pool's canvases, which it
- * makes in a run's first step. */
+/* Paints the pool's canvases after a step with these parameters, which left these traces. In a
+ * run's first step it creates the canvases. */
 bool kiln_paint_step(struct kiln_paint *paint, const struct kiln_sim_params *params,
                      struct kiln_pool *pool, struct kiln_buffer *traces, struct kiln_error *error);
 
-/* Whether canvases of these shapes are those of a run of the scene after its first step. */
+/* Returns whether canvases of these shapes are those of a run of the scene after its first step. */
 bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_canvas_shape *shapes,
                      uint32_t shape_count);
 

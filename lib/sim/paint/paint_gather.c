@@ -12,10 +12,11 @@
 #include "base/error.h"
 
 enum {
-    CELLS = 32,            /* at most, along an axis */
-    CHUNKS = 16,           /* of the splats */
-    LEAST_CHUNK = 256,     /* splats */
-    MOST_LISTED = 1 << 26, /* of splats in blocks; beyond, all blocks look at all splats */
+    CELLS = 32,        /* most cells along an axis */
+    CHUNKS = 16,       /* most chunks of the splats */
+    LEAST_CHUNK = 256, /* least splats of a chunk */
+    /* entries of all lists; if there were more, every block tests every splat */
+    MOST_LISTED = 1 << 26,
     BLOCKS_AT_A_TIME = 16
 };
 
@@ -74,7 +75,7 @@ bool kiln_paint_grid_init(struct kiln_paint_grid *grid, const struct kiln_chart 
         kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory");
         return false;
     }
-    uint32_t *ends = grid->first + 1; /* for now: where the next one of a cell goes */
+    uint32_t *ends = grid->first + 1; /* used at first as the place of a cell's next block */
     for (uint32_t b = 0; b < chart->block_count; b++)
         ends[cell_of(grid, grid->middle[b]) + 1]++;
     for (size_t cell = 0; cell < cells; cell++)
@@ -99,13 +100,13 @@ void kiln_paint_grid_finish(struct kiln_paint_grid *grid)
 struct gathering {
     const struct kiln_paint_gather *gather;
     const struct kiln_splat *splats;
-    uint32_t count, chunk; /* splats; of them in a chunk */
-    bool listed;           /* by blocks, in the grid */
+    uint32_t count, chunk; /* number of splats, and of splats in a chunk */
+    bool listed;           /* true: blocks have lists in the grid */
     float (*texels)[4];
     atomic_bool changed;
 };
 
-/* Whether a splat may reach a block. */
+/* Returns whether a splat may reach a block. */
 static bool may_reach(const struct kiln_chart *chart, uint32_t block,
                       const struct kiln_splat *splat)
 {
@@ -116,11 +117,11 @@ static bool may_reach(const struct kiln_chart *chart, uint32_t block,
         const float beside = at < low[c] ? low[c] - at : at > high[c] ? at - high[c] : 0.0f;
         square += beside * beside;
     }
-    return square * 0.9999f <= splat->square; /* of rounding */
+    return square * 0.9999f <= splat->square; /* the factor covers rounding */
 }
 
-/* Adds a splat to the ends of the blocks that it may reach, and to their lists, unless it counts.
- */
+/* Visits the blocks that a splat may reach. In the first pass it counts the splat in their ends, in
+ * the second it adds it to their lists. */
 static void deal(const struct gathering *g, uint32_t number, uint32_t *ends, uint32_t *list)
 {
     const struct kiln_paint_grid *grid = g->gather->grid;
@@ -169,7 +170,7 @@ static void write_chunks(void *context, size_t begin, size_t end, uint32_t worke
     deal_chunks(g, begin, end, g->gather->grid->list);
 }
 
-/* Makes the lists; afterwards, the ends of the last chunk are those of the blocks. */
+/* Makes the lists; afterwards, the ends of the last chunk are the ends of the blocks' lists. */
 static bool make_lists(struct gathering *g, struct kiln_error *error)
 {
     struct kiln_paint_grid *grid = g->gather->grid;

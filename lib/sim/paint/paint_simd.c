@@ -5,7 +5,7 @@
 
 #include "sim/paint/paint_gather.h"
 
-/* A block's paint, by channel. */
+/* Holds the paint of a block's texels, by channel. */
 struct layer {
     float channel[4][KILN_CHART_BLOCK];
 };

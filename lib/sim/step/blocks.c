@@ -102,7 +102,8 @@ bool kiln_sim_blocks_upload(struct kiln_sim_blocks *blocks, const struct kiln_si
 void kiln_sim_blocks_bind(const struct kiln_sim_blocks *blocks,
                           const struct kiln_sim_params *params, uint32_t system)
 {
-    if (params->systems[system].family.born_of != BORN_OF_CLOCK) /* its parent has left traces */
+    if (params->systems[system].family.born_of != BORN_OF_CLOCK) /* the system's parent has left
+                                                                  * traces */
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     glBindBufferRange(GL_UNIFORM_BUFFER, SIM_BIND_STEP, blocks->steps.gl,
                       (GLintptr)(system * blocks->step_stride), sizeof(struct kiln_step_params));
@@ -202,7 +203,7 @@ static bool has_depth_maps(const struct kiln_scene *scene)
     return any;
 }
 
-/* The defines of a kernel: the parts of its code that the scene needs. */
+/* The defines of a kernel, which choose the parts of its code that the scene needs. */
 struct defines {
     char text[512];
 };

@@ -48,10 +48,10 @@ bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads 
 }
 
 struct hash_work {
-    const struct kiln_particle *records; /* of the system */
-    const struct kiln_spin *spins;       /* likewise; NULL: they do not turn */
+    const struct kiln_particle *records; /* records of the system */
+    const struct kiln_spin *spins;       /* spins of the system; NULL: its particles do not spin */
     uint32_t system;
-    atomic_uint a, b, alive; /* sums of integers: their order is of no account */
+    atomic_uint a, b, alive; /* sums of integers, in which the order of threads changes no bit */
 };
 
 static void hash_slots(void *context, size_t begin, size_t end, uint32_t worker)

@@ -7,11 +7,11 @@
 struct kiln_sim_hash {
     struct kiln_device *device;
     GLuint program;
-    GLuint spins;            /* program for how particles turn; 0 until some do */
-    struct kiln_buffer sums; /* two lanes and the living */
+    GLuint spins;            /* program for spins; 0 before any particle spins */
+    struct kiln_buffer sums; /* the two sums of the hash, and the number of living particles */
 };
 
-/* After a failure, too, kiln_sim_hash_finish frees what there is. */
+/* Creates the programs. kiln_sim_hash_finish frees everything, also after a failure. */
 bool kiln_sim_hash_init(struct kiln_sim_hash *hash, struct kiln_device *device,
                         struct kiln_error *error);
 void kiln_sim_hash_finish(struct kiln_sim_hash *hash);

@@ -1,5 +1,5 @@
-/* Technique `pingpong`: the step in compute, from one buffer of records to another; the two change
- * places after each step. */
+/* Declares technique `pingpong`, which steps particles in compute from one buffer of records to
+ * another. The two buffers are exchanged after each step. */
 #ifndef KILN_SIM_STEP_PINGPONG_H
 #define KILN_SIM_STEP_PINGPONG_H
 
@@ -7,17 +7,17 @@
 
 struct kiln_pingpong {
     struct kiln_sim_programs programs;
-    struct kiln_buffer second; /* as the pool's records */
+    struct kiln_buffer second; /* as large as the pool's records */
 };
 
-/* After a failure, too, kiln_pingpong_finish frees what there is. */
+/* Creates the programs. kiln_pingpong_finish frees everything, also after a failure. */
 bool kiln_pingpong_init(struct kiln_pingpong *pingpong, struct kiln_device *device,
                         const struct kiln_scene *scene, const struct kiln_sim_params *params,
                         struct kiln_error *error);
 void kiln_pingpong_finish(struct kiln_pingpong *pingpong);
 
-/* The step's blocks have been uploaded. Always with the same pool: slots that were never born into
- * are empty in both buffers. */
+/* Runs a step, whose blocks have been uploaded. The pool must always be the same one, since slots
+ * that never had a birth have to be empty in both buffers. */
 bool kiln_pingpong_step(struct kiln_pingpong *pingpong, const struct kiln_sim_blocks *blocks,
                         const struct kiln_sim_params *params, struct kiln_pool *pool,
                         struct kiln_error *error);

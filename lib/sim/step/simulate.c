@@ -21,15 +21,16 @@ struct kiln_simulate {
     struct kiln_threads *threads;
     struct kiln_sim_params params;
     struct kiln_sim_grids grids;
-    struct kiln_buffer traces; /* of parents, within a step: no part of the state */
+    /* traces of parents within a step, which are not part of the state */
+    struct kiln_buffer traces;
     struct kiln_interact interact;
     struct kiln_paint paint;
-    /* of `cpu`: */
+    /* only for technique `cpu`: */
     const struct kiln_slots_step *loops;
-    /* of all techniques in GL: */
+    /* for all techniques in GL: */
     struct kiln_sim_blocks blocks;
     struct kiln_sim_hash hash;
-    /* of one of them: */
+    /* for one technique each: */
     struct kiln_sim_programs inplace;
     struct kiln_pingpong pingpong;
     struct kiln_feedback feedback;
@@ -104,7 +105,7 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
     struct kiln_simulate *s = *simulate;
     if (!s)
         return;
-    if (s->blocks.device) { /* else GL was never used */
+    if (s->blocks.device) { /* without blocks, GL was never used */
         kiln_texels_finish(&s->texels);
         kiln_feedback_finish(&s->feedback);
         kiln_pingpong_finish(&s->pingpong);

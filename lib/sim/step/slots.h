@@ -7,16 +7,16 @@
 
 struct kiln_slots {
     struct kiln_sim sim;
-    struct kiln_particle *records; /* of the system */
-    struct kiln_trace *traces;     /* of all systems */
+    struct kiln_particle *records; /* records of the system */
+    struct kiln_trace *traces;     /* traces of all systems */
 };
 
-/* One step of slots begin to end of the kiln_slots that context points to, for kiln_threads_for. */
+/* Steps slots begin to end - 1, for kiln_threads_for; context points to a kiln_slots. */
 typedef void kiln_slots_run(void *context, size_t begin, size_t end, uint32_t worker);
 
 struct kiln_slots_step {
-    kiln_slots_run *alone;  /* of systems without relations */
-    kiln_slots_run *family; /* of others; their parents' slots have been stepped before */
+    kiln_slots_run *alone;  /* for systems without relations */
+    kiln_slots_run *family; /* for families; the slots of parents have been stepped before */
 };
 KILN_SIMD_DECLARE(const struct kiln_slots_step, kiln_slots_step);
 

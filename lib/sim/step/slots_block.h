@@ -5,36 +5,36 @@
 #include "particles/lanes.h"
 #include "sim/step/slots.h"
 
-/* struct stages of each lane. */
+/* Holds struct stages for each lane. */
 struct stages_lanes {
     struct kiln_floats3 position, velocity, at, moving, acceleration, first, early, changed, flown;
     kiln_floats pull, quadratic, fastest, trust;
 };
 
-/* Who is not stepped with the others. */
+/* Why a lane is stepped alone, and not with its block. */
 enum alone {
     ALONE_NOT,
-    ALONE_TOUCHES, /* may have met something on the way that it has flown */
-    ALONE_BORN,    /* a case for step_slot */
+    ALONE_TOUCHES, /* it may have met a collider on its way */
+    ALONE_BORN,    /* step_slot has to step it, since it is born */
 };
 
 struct block {
     struct kiln_lanes lanes;
-    uint32_t alone[KILN_LANES];       /* enum alone */
-    uint32_t touching[KILN_LANES];    /* 1: may touch the collider at hand */
-    uint32_t lost[KILN_LANES];        /* 1: where particles may not be */
-    kiln_floats life;                 /* progress at the start of the step */
+    uint32_t alone[KILN_LANES];       /* one of enum alone */
+    uint32_t touching[KILN_LANES];    /* 1: the lane may touch the present collider */
+    uint32_t lost[KILN_LANES];        /* 1: the particle is in a place where it dies */
+    kiln_floats life;                 /* progress of life at the start of the step */
     struct kiln_floats3 start;        /* velocity at the start, pushes included */
-    kiln_floats radius;               /* of those that are pushed */
-    struct kiln_floats3 at;           /* where the forces are looked up */
-    struct kiln_floats3 acceleration; /* of the forces so far */
+    kiln_floats radius;               /* of particles with pushes */
+    struct kiln_floats3 at;           /* where the forces are evaluated */
+    struct kiln_floats3 acceleration; /* sum of the forces so far */
     kiln_floats pull, quadratic;
-    struct kiln_floats3 velocity, position; /* at the end */
-    struct kiln_floats3 vector, drift;      /* options of a force */
+    struct kiln_floats3 velocity, position; /* at the end of the step */
+    struct kiln_floats3 vector, drift;      /* options of the present force */
     kiln_floats strength, pulling, braking, scale;
     struct kiln_floats3 place, curl;
     struct stages_lanes stages;
-    struct kiln_floats3 rate; /* of balls that turn */
+    struct kiln_floats3 rate; /* spin of particles that collide as balls */
     kiln_floats pose[4];
 };
 

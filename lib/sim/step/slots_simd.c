@@ -319,7 +319,7 @@ static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint3
     }
 }
 
-/* Does step_particle for the slots that are not stepped alone. */
+/* Computes step_particle for the slots that are not stepped alone. */
 static inline void move(struct block *b)
 {
     for (uint32_t i = 0; i < KILN_LANES; i++) {
@@ -341,7 +341,7 @@ static inline void move(struct block *b)
     }
 }
 
-/* Does step_turn for the slots that are not stepped alone. */
+/* Computes step_turn for the slots that are not stepped alone. */
 static inline void turn(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
 {
     const uint32_t slots = slots_left(sim, first_slot);
@@ -376,7 +376,7 @@ static inline void turn(const struct kiln_sim *sim, struct block *b, uint32_t fi
 
 /* ---- loops ----------------------------------------------------------------------------------- */
 
-/* `records` is that of first_slot, and those behind it. */
+/* Steps a block. `records` points to the record of first_slot, which those of the block follow. */
 __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint32_t first_slot,
                                                 struct kiln_particle *records, struct block *b)
 {

@@ -1,13 +1,14 @@
-/* Finds which particles of a block may touch a collider on their way, by bounding boxes of ways and
- * colliders, in vectors, for slots_simd.c. No particle that touches may be left out; one too many
- * costs only time. */
+/* Finds which particles of a block may touch a collider on their way, for slots_simd.c. It compares
+ * bounding boxes of ways and colliders in vectors. A particle that touches a collider must be
+ * found; a particle that is found needlessly only costs time. */
 #ifndef KILN_SIM_STEP_SLOTS_TOUCHING_H
 #define KILN_SIM_STEP_SLOTS_TOUCHING_H
 
 #include "sim/step/slots_block.h"
 
-/* A half space has no bounds. What turns with it may be anywhere; else a way touches it only if an
- * end does, up to the rounding of places far from its centre. */
+/* Finds the lanes that may touch a half space, which has no bounding box. If it turns, all lanes
+ * may. Otherwise a way touches only if one of its ends does, up to the rounding of places far from
+ * the plane's centre. */
 static inline void find_touching_plane(struct block *b, const struct kiln_collider *c, bool pushed)
 {
     const float3 start = {c->center.x, c->center.y, c->center.z};
@@ -26,7 +27,8 @@ static inline void find_touching_plane(struct block *b, const struct kiln_collid
     }
 }
 
-/* `pushed`: by as much as their radii, lanes come less near. */
+/* Finds the lanes whose way may touch a collider's box. pushed: particles have radii, by which the
+ * box is larger. */
 static inline void find_touching(struct block *b, const struct kiln_collider *collider, bool pushed)
 {
     const struct kiln_collider c = *collider;
@@ -47,7 +49,7 @@ static inline void find_touching(struct block *b, const struct kiln_collider *co
                                     particle_position(record_at(b, i)), kiln_get3(&b->position, i));
 }
 
-/* What is well above ground does not touch it. */
+/* Unmarks lanes that stay well above the terrain. */
 static inline void find_touching_ground(const struct kiln_sim *sim, struct block *b,
                                         const struct kiln_collider *c)
 {
@@ -59,7 +61,7 @@ static inline void find_touching_ground(const struct kiln_sim *sim, struct block
     }
 }
 
-/* What is well away from a mesh does not touch it. */
+/* Unmarks lanes that stay well away from a mesh's surface. */
 static inline void find_touching_mesh(const struct kiln_sim *sim, struct block *b,
                                       const struct kiln_collider *c)
 {
@@ -76,7 +78,7 @@ static inline void find_touching_mesh(const struct kiln_sim *sim, struct block *
     }
 }
 
-/* What no plane is near to touches none. */
+/* Unmarks lanes that have no plane of the volume near. */
 static inline void find_touching_volume(const struct kiln_sim *sim, struct block *b,
                                         const struct kiln_collider *c)
 {
@@ -87,7 +89,7 @@ static inline void find_touching_volume(const struct kiln_sim *sim, struct block
     }
 }
 
-/* What stays on one side of its depth maps does not touch it. */
+/* Unmarks lanes that stay on one side of the mesh's depth maps. */
 static inline void find_touching_depths(const struct kiln_sim *sim, struct block *b,
                                         const struct kiln_collider *c)
 {

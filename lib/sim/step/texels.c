@@ -1,6 +1,6 @@
-/* This file steps particles in fragment shaders, with the state in textures. After each step the
- * state is copied into the pool's records, where the other stages and the hash look whatever the
- * technique. It is copied back from there when another technique did the step before. */
+/* Steps particles in fragment shaders, with the state in textures. After each step the state is
+ * copied into the pool's records, which the other stages and the hash read. It is copied back from
+ * the records when another technique has run the step before. */
 #include "sim/step/texels.h"
 
 bool kiln_texels_init(struct kiln_texels *texels, struct kiln_device *device,

@@ -13,7 +13,7 @@ static float4 to_float4(const float v[3])
     return FLOAT4(exact_canon(v[0]), exact_canon(v[1]), exact_canon(v[2]), 0.0f);
 }
 
-/* A box's lower and upper corner. */
+/* Computes a box's lower and upper corner. */
 static void box_corners(const struct kiln_scene *scene, const struct kiln_object *box, float time_s,
                         float4 *min, float4 *max)
 {
@@ -30,8 +30,7 @@ static float4 canon4(float3 v, float w)
     return FLOAT4(exact_canon(v.x), exact_canon(v.y), exact_canon(v.z), exact_canon(w));
 }
 
-/* A sphere or cylinder at a time: its centre and radius, half of its height, and its bounding box.
- */
+/* A sphere or cylinder at a time: centre, radius, half of the height, and the bounding box. */
 struct round_values {
     float4 center;
     float half_height;
@@ -59,7 +58,7 @@ static struct kiln_collider round_collider(const struct kiln_scene *scene,
                                            float end_s)
 {
     float3 axis = FLOAT3(0.0f, 0.0f, 0.0f);
-    if (object->kind == KILN_OBJECT_CYLINDER) /* it does not vary */
+    if (object->kind == KILN_OBJECT_CYLINDER) /* a cylinder's height does not vary */
         axis = float3_normalize(kiln_scene_value3(scene, &object->axis, start_s),
                                 FLOAT3(0.0f, 1.0f, 0.0f));
     struct round_values start = round_values(scene, object, axis, start_s);
@@ -87,7 +86,7 @@ static struct kiln_collider box_collider(const struct kiln_scene *scene,
     return box;
 }
 
-/* The floor is a box as wide and deep as the world. */
+/* Makes the floor's collider, a box as wide and deep as the world. */
 static struct kiln_collider floor_collider(float before_m, float after_m)
 {
     return (struct kiln_collider){
@@ -98,8 +97,8 @@ static struct kiln_collider floor_collider(float before_m, float after_m)
     };
 }
 
-/* Terrain reaches down without end. Its box ends just above its highest point, so that particles
- * higher up need no look-up. */
+/* Makes a terrain's collider, which has no lower end. Its box ends just above its highest point, so
+ * that particles higher up need no look-up. */
 static struct kiln_collider terrain_collider(const struct kiln_sim_grids *grids, uint32_t number)
 {
     const struct kiln_grid *grid = &grids->table[number];
@@ -118,7 +117,7 @@ static struct kiln_collider terrain_collider(const struct kiln_sim_grids *grids,
     return terrain;
 }
 
-/* The pose of a mesh at a time, from its frame to the world; scale: metres a unit. */
+/* The pose of a mesh at a time, from its frame to the world. scale: metres in one unit. */
 struct pose {
     mat3 rotation;
     vec3 position;
@@ -146,7 +145,7 @@ static float3 turn_between(struct pose a, struct pose b)
     const float sine = float3_length(skew);
     const float cosine = 0.5f * (glm_mat3_trace(turn) - 1.0f);
     float angle = 0.0f;
-    for (int i = 0; i < 4; i++) { /* what is left has this sine */
+    for (int i = 0; i < 4; i++) { /* the rest of the rotation has this sine */
         const struct exact_angle found = exact_sincos(angle);
         angle += sine * found.cosine - cosine * found.sine;
     }
@@ -164,7 +163,7 @@ static void invert(struct pose pose, float4 to_local[3])
     }
 }
 
-/* A grid's box, in the frame of its mesh. */
+/* A grid's bounding box, in the frame of its mesh. */
 struct extent {
     vec3 half, middle;
 };
@@ -207,8 +206,8 @@ static void bound(struct pose pose, const struct extent *extent, float factor, f
 }
 
 /* Makes the collider and the pose of a mesh. While a mesh turns, its frame is interpolated linearly
- * between both poses, so the mesh is larger on the way: by less than half for turns of less than 96
- * degrees a step. */
+ * between both poses, which enlarges the mesh on the way: by less than half for turns of less than
+ * 96 degrees a step. */
 static struct kiln_collider mesh_collider(const struct kiln_scene *scene,
                                           const struct kiln_sim_grids *grids, uint32_t index,
                                           float start_s, float end_s, float steps_per_s,

@@ -4,8 +4,8 @@
 
 #include "sim/world/grids.h"
 
-/* Fills in the colliders of a step between two clip times, their poses, and the steps a second.
- * What does not change during a run stays. */
+/* Fills in the colliders and poses of a step between two clip times; rate: steps a second. Members
+ * that do not change during a run are kept. */
 void kiln_sim_colliders_fill(struct kiln_surroundings *around, const struct kiln_scene *scene,
                              const struct kiln_sim_grids *grids, float start_s, float end_s);
 

@@ -182,7 +182,7 @@ static float find_steepest(const struct kiln_terrain *terrain)
     return 1.0001f * exact_sqrt(1.0f + most); /* the factor covers rounding */
 }
 
-/* Places the grids one after the other in the buffer. Returns the number of words of all. */
+/* Places the grids in the buffer, one after another. Returns the number of words of all. */
 static size_t place(struct kiln_sim_grids *grids, const struct sources *sources)
 {
     size_t total = 0;

@@ -1,5 +1,5 @@
-/* Loads the grids that a scene's forces and colliders look up. They lie in one buffer; a table says
- * where each begins. */
+/* Loads the grids that a scene's forces and colliders look up. All grids lie in one buffer; a table
+ * says where each begins. */
 #ifndef KILN_SIM_WORLD_GRIDS_H
 #define KILN_SIM_WORLD_GRIDS_H
 
@@ -9,29 +9,30 @@
 #include "sim/world/volumes.h"
 
 struct kiln_sim_grids {
-    uint32_t count; /* files of wind first, then the objects that collide */
+    /* number of grids: first those of wind files, then those of objects that collide */
+    uint32_t count;
     uint32_t wind_count;
-    const char *files[KILN_MAX_WINDS];    /* the scene's: what each shows */
-    uint32_t of_object[KILN_MAX_OBJECTS]; /* number of an object's grid; else of no account */
-    float top[KILN_MAX_GRIDS];            /* m: terrain's highest point */
-    float steepest[KILN_MAX_GRIDS];       /* terrain's: see struct kiln_collider */
+    const char *files[KILN_MAX_WINDS];    /* wind file of each grid; the scene owns the texts */
+    uint32_t of_object[KILN_MAX_OBJECTS]; /* number of an object's grid, if it needs one */
+    float top[KILN_MAX_GRIDS];            /* m: highest point of a terrain */
+    float steepest[KILN_MAX_GRIDS];       /* of a terrain: the value for struct kiln_collider */
     struct kiln_grid table[KILN_MAX_GRIDS];
-    struct kiln_buffer words; /* float4 */
+    struct kiln_buffer words; /* words of all grids, as float4 */
     struct kiln_volumes volumes;
 };
 
-/* Loads what the scene names, each file once, and makes its terrain, distance fields and depth
+/* Loads the wind files of the scene, each once, and makes its terrain, distance fields and depth
  * maps, on the threads. device NULL: for the host. Errors are those of loading and making them.
- * After a failure, too, kiln_sim_grids_finish frees what there is. */
+ * kiln_sim_grids_finish frees everything, also after a failure. */
 bool kiln_sim_grids_init(struct kiln_sim_grids *grids, struct kiln_device *device,
                          const struct kiln_scene *scene, struct kiln_threads *threads,
                          struct kiln_error *error);
 void kiln_sim_grids_finish(struct kiln_sim_grids *grids);
 
-/* Does the object need a grid that does not change during a run? */
+/* Returns whether an object needs a grid that does not change during a run. */
 bool kiln_sim_grids_needs(const struct kiln_object *object);
 
-/* The number of the grid of a file of wind that the scene names. */
+/* Returns the number of the grid of a wind file that the scene names. */
 uint32_t kiln_sim_grids_find(const struct kiln_sim_grids *grids, const char *file);
 
 #endif

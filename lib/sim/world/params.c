@@ -70,7 +70,8 @@ static_assert(ALIGN_WORLD == (uint)KILN_ALIGN_WORLD &&
                   ALIGN_NORMAL == (uint)KILN_ALIGN_NORMAL,
               "the shaders' names of enum kiln_align");
 
-/* The random key of the noise that all systems share; it is no system's number. */
+/* The random key of the noise that all systems share. It differs from the number of every
+ * system. */
 enum { NOISE_SYSTEM = KILN_MAX_SYSTEMS };
 
 static float4 to_float4(const float v[3])

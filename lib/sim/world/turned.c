@@ -6,7 +6,7 @@
 #include "base/matrix.h"
 #include "shared/exact.h"
 
-/* Smaller angles count as no turn, since the poses are rounded by as much, rad. */
+/* Turns by less than this angle, rad, count as none, since it is the rounding of the poses. */
 static const float LEAST_TURN = 4e-6f;
 
 bool kiln_turned_is(const struct kiln_object *object)
@@ -55,8 +55,8 @@ static void pose_of_angles(float3 angles, versor pose)
     make_unit(pose);
 }
 
-/* Makes the pose that takes y to a unit vector, the shortest way. A vector that points down is
- * reached from -y, since the shortest way from y is ill defined there. */
+/* Makes the pose that takes y to a unit vector by the smallest rotation. A vector that points down
+ * is reached from -y, since the smallest rotation from y is ill defined there. */
 static void pose_of_axis(float3 axis, versor pose)
 {
     const float sign = axis.y >= 0.0f ? 1.0f : -1.0f;
@@ -69,7 +69,8 @@ static void pose_of_axis(float3 axis, versor pose)
         glm_quat_mul(shortest, over, pose);
 }
 
-/* The angle of 0 to a quarter turn with this sine and cosine, up to a common factor. */
+/* Returns the angle from 0 to a quarter turn with this sine and cosine, which may have a common
+ * factor. */
 static float angle_of(float sine, float cosine)
 {
     const float eighth = 0.785398163f;
@@ -98,7 +99,8 @@ static float4 spin_of(versor turn)
 static float4 spin_between(float3 from, float3 to)
 {
     float3 across = float3_cross(from, to);
-    versor turn = {across.x, across.y, across.z, 1.0f + float3_dot(from, to)}; /* half the angle */
+    /* a rotation by the angle, before normalisation */
+    versor turn = {across.x, across.y, across.z, 1.0f + float3_dot(from, to)};
     make_unit(turn);
     return spin_of(turn);
 }
@@ -114,12 +116,12 @@ static float4 spin_from(versor from, versor to)
 
 /* ---- colliders ------------------------------------------------------------------------------- */
 
-/* The object at a time. */
+/* An object at a time. */
 struct place {
     float3 center;
     float radius;
     float3 extent;
-    float3 axis; /* of all but boxes */
+    float3 axis; /* axis of capsules, cylinders and planes */
     versor pose;
 };
 
@@ -146,7 +148,8 @@ static struct place place_at(const struct kiln_scene *scene, const struct kiln_o
 static float3 reach_of(const struct kiln_object *object, struct place place, bool turns)
 {
     const float3 e = place.extent;
-    const float margin = 1e-5f + 1e-6f * (place.radius + e.x + e.y + e.z); /* of rounding */
+    /* the margin covers rounding */
+    const float margin = 1e-5f + 1e-6f * (place.radius + e.x + e.y + e.z);
     if (object->kind == KILN_OBJECT_PLANE)
         return FLOAT3(KILN_WORLD, KILN_WORLD, KILN_WORLD);
     if (turns) {

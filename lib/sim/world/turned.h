@@ -1,5 +1,4 @@
-/* Makes the colliders that are given in frames of their own, which may turn
- * (shared/collide_turned.h). */
+/* Makes the colliders that have frames of their own, which may turn (shared/collide_turned.h). */
 #ifndef KILN_SIM_WORLD_TURNED_H
 #define KILN_SIM_WORLD_TURNED_H
 
@@ -9,7 +8,7 @@
 /* m: half the edge of the world. Particles farther out are lost; planes and floors end here. */
 #define KILN_WORLD 2097152.0f
 
-/* Whether an object collides in a frame of its own. */
+/* Returns whether an object collides in a frame of its own. */
 bool kiln_turned_is(const struct kiln_object *object);
 
 /* Makes the collider of a step between two clip times; kiln_turned_is(object) holds. */

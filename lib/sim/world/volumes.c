@@ -20,10 +20,10 @@ struct kiln_volume {
     float (*before)[3], (*after)[3]; /* m: vertices at the start and end of the step */
     float before_s, after_s;         /* the times of both, s */
     bool placed, made;
-    bool jumps; /* from the end of its clip to the start */
+    bool jumps; /* the clip restarts in this step from a pose unlike its last one */
     struct kiln_voxels voxels;
     bool two_sided;
-    size_t first; /* first word of its marks in the buffer; planes follow */
+    size_t first; /* index of the first word of its marks in the buffer; planes follow */
 };
 
 bool kiln_volumes_needs(const struct kiln_object *object)
@@ -34,8 +34,8 @@ bool kiln_volumes_needs(const struct kiln_object *object)
 
 /* ---- memory ---------------------------------------------------------------------------------- */
 
-/* Is a vertex at the end of the clip elsewhere than at the start, by more than a hundredth of the
- * mesh's size? */
+/* Returns whether a vertex at the end of the clip is elsewhere than at the start, by more than a
+ * hundredth of the mesh's size. */
 static bool jumps(const struct kiln_volume *volume, const struct kiln_object *object)
 {
     if (!volume->skin)
@@ -78,7 +78,7 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %zu vertices", object->file,
                        count);
         kiln_mesh_destroy(&volume->mesh);
-        return volume; /* its owner frees it */
+        return volume; /* the caller frees it */
     }
     volume->jumps = jumps(volume, object);
     return volume;
@@ -119,7 +119,7 @@ void kiln_volumes_finish(struct kiln_volumes *volumes)
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 
-/* Where the vertices are at a time, in the world. */
+/* Computes where the vertices are at a time, in the world. */
 static void place_vertices(const struct kiln_scene *scene, const struct kiln_volume *volume,
                            float time_s, float clip_s, float (*to)[3])
 {
@@ -161,7 +161,8 @@ static void place(const struct kiln_scene *scene, struct kiln_volume *volume, fl
     volume->placed = !jumps;
 }
 
-/* Returns the edge of a cell, m. The size of an animated mesh is that of its rest pose. */
+/* Returns the edge of a cell, m. For an animated mesh, it follows from the size of the rest
+ * pose. */
 static float spacing_of(const struct kiln_scene *scene, const struct kiln_volume *volume)
 {
     const struct kiln_object *object = &scene->backdrop.objects[volume->object];
@@ -173,7 +174,7 @@ static float spacing_of(const struct kiln_scene *scene, const struct kiln_volume
     return exact_max(longest * scale / (float)object->cells, 1e-4f);
 }
 
-/* Makes the voxels of a mesh. A mesh that has not moved for two steps keeps its voxels. */
+/* Makes the voxels of a mesh. A mesh that has not moved for two steps keeps them. */
 static bool make(const struct kiln_scene *scene, struct kiln_volume *volume, bool still,
                  struct kiln_threads *threads, bool *changed, struct kiln_error *error)
 {
@@ -256,7 +257,7 @@ bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *sc
                        struct kiln_threads *threads, struct kiln_error *error)
 {
     if (volumes->count == 0 || step == 0)
-        return true; /* kiln_sim_params_step refuses step 0 */
+        return true; /* there is no step 0, which kiln_sim_params_step refuses */
     const float start_s = kiln_scene_time(scene, step - 1), end_s = kiln_scene_time(scene, step);
     bool changed = false;
     for (uint32_t i = 0; i < volumes->count; i++) {
@@ -271,7 +272,7 @@ bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *sc
     return !changed || fill(volumes, error);
 }
 
-/* ---- what the step is told ------------------------------------------------------------------- */
+/* ---- colliders and table of grids ------------------------------------------------------------ */
 
 /* Finds the bounding box of the vertices at a time, a cell larger on each side. */
 static void bound(const struct kiln_volume *volume, float (*vertices)[3], float4 *min, float4 *max)

@@ -13,21 +13,22 @@ struct kiln_volume;
 struct kiln_volumes {
     uint32_t count;
     struct kiln_volume *items[KILN_MAX_MESHES];
-    uint32_t of_object[KILN_MAX_OBJECTS]; /* number of an object's; else of no account */
-    struct kiln_buffer words;             /* float4: what shared/collide_volume.h looks up */
+    uint32_t of_object[KILN_MAX_OBJECTS]; /* number of an object's volume, if it has one */
+    /* float4: marks and planes, which shared/collide_volume.h looks up */
+    struct kiln_buffer words;
 };
 
-/* Does the object need a volume? */
+/* Returns whether an object needs a volume. */
 bool kiln_volumes_needs(const struct kiln_object *object);
 
-/* device NULL: for the host. KILN_DEVICE_FAILED when memory is short; then, too,
- * kiln_volumes_finish frees what there is. */
+/* Creates the volumes of a scene. device NULL: for the host. KILN_DEVICE_FAILED when memory is
+ * short. kiln_volumes_finish frees everything, also after a failure. */
 bool kiln_volumes_init(struct kiln_volumes *volumes, struct kiln_device *device,
                        const struct kiln_scene *scene, struct kiln_error *error);
 void kiln_volumes_finish(struct kiln_volumes *volumes);
 
-/* Makes the volumes of a step, the same for any number of threads. Meshes that do not move keep
- * theirs. KILN_DEVICE_FAILED when memory is short. */
+/* Makes the volumes of a step; the result is the same for any number of threads. Meshes that do not
+ * move keep their volume. KILN_DEVICE_FAILED when memory is short. */
 bool kiln_volumes_step(struct kiln_volumes *volumes, const struct kiln_scene *scene, uint32_t step,
                        struct kiln_threads *threads, struct kiln_error *error);
 

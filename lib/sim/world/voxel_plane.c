@@ -24,8 +24,8 @@ static bool plane_normal(const float *const p[3], float3 *normal)
     return true;
 }
 
-/* Finds the barycentric weights of a point's foot on the triangle's plane; outside of the triangle,
- * those of a place on an edge nearby. */
+/* Computes the barycentric weights of the foot of a point on the triangle's plane. If the foot is
+ * outside of the triangle, the weights are those of a place on an edge nearby. */
 static void find_weights(const float *const p[3], float3 unit, const double at[3],
                          double weights[3])
 {
@@ -66,7 +66,7 @@ struct kiln_voxel kiln_voxel_plane(const struct kiln_voxels_input *in, uint32_t 
     }
     struct kiln_voxel plane = {.triangle = triangle};
     double weights[3];
-    if (!plane_normal(after, &plane.normal_end)) /* it has an area only after rounding */
+    if (!plane_normal(after, &plane.normal_end)) /* the triangle has an area only after rounding */
         plane.normal_end = FLOAT3(0.0f, 1.0f, 0.0f);
     if (!plane_normal(before, &plane.normal))
         plane.normal = plane.normal_end;

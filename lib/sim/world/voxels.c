@@ -19,13 +19,13 @@
 #include "sim/world/voxel_plane.h"
 
 enum {
-    UNIT_BITS = 10, /* of a cell: corners are rounded to its 1024th parts */
+    UNIT_BITS = 10, /* corners are rounded to this power of two of a cell */
     UNITS = 1 << UNIT_BITS,
-    MARGIN = 2,         /* units that cells are larger on every side */
-    SLAB_LAYERS = 2,    /* that one piece of work has */
-    TRIANGLES = 512,    /* that one piece of work has */
-    MOST_AXES = 20,     /* of a triangle at two times */
-    MOST_CLEARANCE = 7, /* cells */
+    MARGIN = 2,         /* units by which cells are enlarged on every side */
+    SLAB_LAYERS = 2,    /* layers of one piece of work */
+    TRIANGLES = 512,    /* triangles of one piece of work */
+    MOST_AXES = 20,     /* separating axes of a triangle at two times */
+    MOST_CLEARANCE = 7, /* in cells */
 };
 
 /* A triangle that touches a cell, and its rank there; a cell keeps the triangle of lowest order. */
@@ -37,18 +37,19 @@ static const uint32_t NOBODY = UINT32_MAX;
 
 struct kiln_voxels_scratch {
     int32_t (*before)[3], (*after)[3]; /* vertices in units from the origin */
-    uint8_t (*layers)[2];              /* first and last of each triangle; 1, 0: in none */
+    uint8_t (*layers)[2];              /* first and last layer of each triangle; 1, 0: in none */
     size_t vertex_capacity, triangle_capacity, cell_capacity, plane_capacity;
-    struct claim *claims; /* of the cells */
-    uint8_t *near;        /* of the cells: 1 where a plane is not far */
+    struct claim *claims; /* one a cell */
+    uint8_t *near;        /* one a cell: 1 where a plane is near */
     uint8_t *nearer;
-    uint32_t slab_planes[KILN_MAX_VOXEL_EDGE / SLAB_LAYERS + 1]; /* planes before each */
+    /* number of planes before each slab */
+    uint32_t slab_planes[KILN_MAX_VOXEL_EDGE / SLAB_LAYERS + 1];
 };
 
 struct work {
     struct kiln_voxels *voxels;
     const struct kiln_voxels_input *in;
-    int32_t heading[3]; /* 1024 long */
+    int32_t heading[3]; /* heading as integers, 1024 long */
     _Atomic uint64_t visits;
 };
 
@@ -188,17 +189,17 @@ static void round_corners(void *context, size_t begin, size_t end, uint32_t work
     }
 }
 
-/* ---- a triangle ------------------------------------------------------------------------------ */
+/* ---- cells of a triangle --------------------------------------------------------------------- */
 
 struct axis {
-    int64_t x, y, z;   /* x is not below 0 */
-    int64_t low, high; /* a cell overlaps if its middle is between these */
+    int64_t x, y, z;   /* axis, with x at least 0 */
+    int64_t low, high; /* a cell overlaps if its middle projects between these */
 };
 
 struct sweep {
-    int32_t corners[6][3]; /* at the end, then at the start */
-    uint32_t corner_count; /* 3 where it stands still */
-    int64_t normal[3];     /* at the end, twice the area long */
+    int32_t corners[6][3]; /* corners at the end, then at the start of the step */
+    uint32_t corner_count; /* 3 if the triangle does not move */
+    int64_t normal[3];     /* normal at the end, twice the area long */
     int32_t first[3], last[3];
     struct axis axes[MOST_AXES];
     uint32_t axis_count;
@@ -225,7 +226,7 @@ static void find_corners(struct sweep *t, const struct work *work, uint32_t tria
     t->corner_count = moves ? 6 : 3;
 }
 
-/* Finds the range of cells around the triangle and its way. */
+/* Finds the range of cells around the triangle and its way through the step. */
 static void find_range(struct sweep *t, const uint32_t size[3])
 {
     for (int c = 0; c < 3; c++) {
@@ -281,7 +282,7 @@ static int64_t floor_div(int64_t a, int64_t b)
 }
 
 /* Narrows the cells first to last, in a row along x, to those that no axis separates from the
- * triangle. False: none is left. */
+ * triangle. False: no cell remains. */
 static bool find_row(const struct sweep *t, int32_t y, int32_t z, int32_t *first, int32_t *last)
 {
     const int64_t middle_y = (int64_t)y * UNITS + UNITS / 2;
@@ -328,13 +329,13 @@ static void find_layers(void *context, size_t begin, size_t end, uint32_t worker
     work->visits += visits;
 }
 
-/* ---- the most important (Drone 2007, 7.5.2.3) ------------------------------------------------ */
+/* ---- rank of a triangle in a cell (Drone 2007, 7.5.2.3) -------------------------------------- */
 
 /* The values by which triangles are ranked, in the units of their normals. */
 struct rank {
-    int64_t facing;  /* how it meets the heading */
-    int64_t at;      /* where its plane is */
-    uint32_t before; /* its class, which counts first; lower is better */
+    int64_t facing;  /* component of the normal along the heading */
+    int64_t at;      /* distance of the plane from the origin along the normal */
+    uint32_t before; /* its class, which is compared first; lower is better */
 };
 
 enum { RANK_BITS = 24 };
@@ -351,8 +352,9 @@ static struct rank find_rank(const struct sweep *t, const struct work *work)
     return rank;
 }
 
-/* Does the line along the heading through the middle of a cell meet the triangle, depth units on
- * and within the cell? It meets the triangle if it is on the same side of all edges. */
+/* Returns whether the line along the heading through the middle of a cell meets the triangle inside
+ * the cell, `depth` units from the middle. It meets the triangle if it is on the same side of all
+ * edges. */
 static bool meets_line(const struct sweep *t, const int32_t heading[3], const int64_t middle[3],
                        int64_t depth)
 {
@@ -406,7 +408,8 @@ static void claim_cells(const struct work *work, const struct sweep *t, uint32_t
                 v->scratch->claims + ((size_t)z * v->size[1] + (size_t)y) * v->size[0];
             for (int32_t x = first; x <= last; x++) {
                 const uint32_t order = order_in(t, &rank, work->heading, x, y, z);
-                /* Triangles come in the order of their numbers: of equal ones, the first stays. */
+                /* Triangles come in ascending order of their numbers; among equal ranks the first
+                 * stays. */
                 if (row[x].triangle == NOBODY || order < row[x].order)
                     row[x] = (struct claim){order, triangle};
             }
@@ -434,7 +437,8 @@ static void claim_slabs(void *context, size_t begin, size_t end, uint32_t worker
             find_corners(&t, work, i);
             find_normal((const int32_t(*)[3])t.corners, t.normal);
             find_range(&t, v->size);
-            if (memcmp(t.first, t.last, sizeof t.first) != 0) /* else it is in one cell */
+            if (memcmp(t.first, t.last, sizeof t.first) != 0) /* otherwise the triangle is in one
+                                                               * cell */
                 add_axes(&t, (const int32_t(*)[3])t.corners);
             if (t.axis_count > 0 && t.corner_count > 3)
                 add_axes(&t, (const int32_t(*)[3])t.corners + 3);
@@ -479,9 +483,9 @@ static void fill_slabs(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* ---- how far planes are ---------------------------------------------------------------------- */
+/* ---- distance to the next plane -------------------------------------------------------------- */
 
-/* Sets each element of `to` to that of `from` or of its neighbours, `apart` elements before and
+/* Sets each element of `to` if it or a neighbour is set in `from`: the elements `apart` before and
  * after it, in rows of `row` elements. */
 static void spread(uint8_t *restrict to, const uint8_t *restrict from, size_t count, size_t apart,
                    size_t row)
@@ -513,7 +517,7 @@ static void find_clearance(struct kiln_voxels *v)
     }
 }
 
-/* ---- all of it ------------------------------------------------------------------------------- */
+/* ---- building -------------------------------------------------------------------------------- */
 
 bool kiln_voxels_build(struct kiln_voxels *voxels, const struct kiln_voxels_input *input,
                        struct kiln_threads *threads, struct kiln_error *error)
