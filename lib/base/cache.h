@@ -1,27 +1,29 @@
-/* Files that can be made again, kept from one run to the next. A file that is not as it was written
- * counts for nothing, and what cannot be written is no failure. */
+/* Keeps files from one run to the next that can be made again. A damaged file is ignored, and a
+ * file that cannot be written is no failure. */
 #ifndef KILN_BASE_CACHE_H
 #define KILN_BASE_CACHE_H
 
 #include "kiln.h"
 
-/* What all files of a cache have together, at most: the ones that nobody has read for longest make
- * room for a new one. */
+/* Limit of the size of all files of a cache. For a new file, those that were not read for the
+ * longest time are removed. */
 enum { KILN_CACHE_BYTES = 512 << 20 };
 
-/* Where they are: $XDG_CACHE_HOME/kiln, or $HOME/.cache/kiln. False: nowhere. */
+/* Finds the folder of the cache: $XDG_CACHE_HOME/kiln, or $HOME/.cache/kiln. False: neither
+ * variable is set. */
 bool kiln_cache_folder(char folder[KILN_PATH_SIZE]);
 
-/* Fills `bytes` with what was written under this name, if it is so many bytes. False: there is no
- * such file, or it is not whole; then bytes may hold anything. */
+/* Reads the file of a name into `bytes` if it has this size. False: there is no such file, or it is
+ * damaged; then bytes may hold anything. */
 bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, size_t size);
 
-/* Returns what was written under this name in memory that the caller frees. NULL where there is no
- * such file, or it is not whole, or memory is short. */
+/* Reads the file of a name into memory that the caller frees. NULL when there is no such file, it
+ * is damaged, or memory is short. */
 void *kiln_cache_read(const char *folder, const char *name, size_t size);
 
-/* Makes missing folders, and removes what killed processes left. A name is 64 hexadecimal digits
- * and an ending, ".field": no other file makes room. */
+/* Writes a file. Makes missing folders, and removes temporary files of killed processes. A name is
+ * 64 hexadecimal digits and an ending such as ".field"; only files with such names are removed to
+ * make room. */
 void kiln_cache_write(const char *folder, const char *name, const void *bytes, size_t size);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "kiln.h"
 
-/* The sanitizers want files and threads when they please: programs with them confine nothing. */
+/* Sanitizers need files and threads at any time, so programs with them confine nothing. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define KILN_UNCONFINED 1
 #elif defined(__has_feature)
@@ -19,7 +19,7 @@
 #define KILN_UNCONFINED 0
 #endif
 
-/* What may be done at a place and below it. */
+/* Rights at a place and below it. */
 enum { KILN_MAY_READ = 1, KILN_MAY_WRITE = 2, KILN_MAY_EXECUTE = 4 };
 
 struct kiln_place {
@@ -27,41 +27,42 @@ struct kiln_place {
     unsigned may;
 };
 
-/* The version of Landlock's interface that the kernel has; 0: it has none, or it is switched off.
- */
+/* Returns the version of the kernel's Landlock interface; 0: the kernel has none, or it is switched
+ * off. */
 int kiln_landlock_version(void);
 
-/* Whether the kernel has seccomp filters, and the machine libseccomp, which makes them. */
+/* Returns whether the kernel has seccomp filters, and the machine libseccomp, which makes them. */
 bool kiln_has_seccomp(void);
 
-/* Opens libseccomp, which kiln_seccomp_confine needs, and cannot open any more after Landlock.
+/* Opens libseccomp, which kiln_seccomp_confine needs. Call it before Landlock, which prevents it.
  * KILN_IO where it is not installed. */
 bool kiln_seccomp_open(struct kiln_error *error);
 
-/* From now on, this thread and those that it starts can open files at these places alone, open no
- * TCP connections, and send signals to no other processes but their own children, as far as the
- * kernel knows how. A place that does not exist is passed over. Does nothing where there is no
- * Landlock; KILN_DEVICE_FAILED when the kernel refuses. */
+/* Restricts this thread and the threads that it starts. From now on they can open files only at
+ * these places, open no TCP connections, and send signals only to their own children, as far as the
+ * kernel's version supports it. A place that does not exist is skipped. Does nothing where there is
+ * no Landlock; KILN_DEVICE_FAILED when the kernel refuses. */
 bool kiln_landlock_confine(const struct kiln_place *places, size_t count, struct kiln_error *error);
 
-/* A system call: with any arguments, or only where (argument & mask) == value and another argument
- * has none of some bits; or only where the argument is another than the value. */
+/* A system call with any arguments. With a mask: only where (argument & mask) == value and another
+ * argument has none of some bits. With `differs`: only where the argument is not the value. */
 struct kiln_system_call {
     int number; /* SCMP_SYS(read) of <seccomp.h> */
     unsigned argument;
-    uint64_t mask; /* 0: any */
+    uint64_t mask; /* 0: any argument */
     uint64_t value;
     unsigned and_argument;
-    uint64_t and_mask; /* 0: any */
+    uint64_t and_mask; /* 0: any second argument */
     bool differs;      /* the argument is not the value */
-    int refusal;       /* errno of one that is refused; 0: EPERM */
+    int refusal;       /* errno of the refused call; 0: EPERM */
 };
 
 enum kiln_calls { KILN_ONLY_THESE_CALLS, KILN_ALL_BUT_THESE_CALLS };
 
-/* From now on, all threads of this process, and what they start, can make some system calls and no
- * others, which fail: as unknown ones (ENOSYS) where only some are named, as forbidden ones (EPERM)
- * else. Does nothing where there is no seccomp; KILN_DEVICE_FAILED when the kernel refuses. */
+/* Restricts the system calls of all threads of this process and of what they start. Calls that are
+ * not allowed fail: with ENOSYS where the list names the allowed ones, with EPERM where it names
+ * the forbidden ones. Does nothing where there is no seccomp; KILN_DEVICE_FAILED when the kernel
+ * refuses. */
 bool kiln_seccomp_confine(enum kiln_calls which, const struct kiln_system_call *calls, size_t count,
                           struct kiln_error *error);
 

@@ -7,17 +7,18 @@
 
 #include "kiln.h"
 
-/* A member of a struct that points to the function of a header with that name. */
+/* Declares a struct member that points to the header's function of the same name. */
 #define KILN_LIBRARY_POINTER(function) __typeof__(function) *function;
 
 struct kiln_library_function {
     const char *name;
-    void *pointer; /* to a function pointer, which is set */
+    void *pointer; /* address of the function pointer to set */
 };
 
 /* Opens a library ("libassimp.so.5"), which stays open until the program ends, and finds functions
- * in it. KILN_IO with the package of Debian that brings it when there is none; or when it lacks a
- * function, and then pointers are in an unknown state. For one thread at a time. */
+ * in it. KILN_IO, with the Debian package that has it, when there is no such library. KILN_IO also
+ * when it lacks a function; then the pointers are in an unknown state. Only one thread may call at
+ * a time. */
 bool kiln_library_open(const char *file, const char *package,
                        const struct kiln_library_function *functions, size_t count,
                        struct kiln_error *error);

@@ -1,20 +1,21 @@
-/* The host's matrices and quaternions: cglm, in its plain C paths alone.
+/* Includes cglm for the host's matrices and quaternions, restricted to its plain C code.
  *
- * Its paths for SSE, AVX and NEON add in another order than its plain C does, and round otherwise.
- * It picks them by macros of the compiler and has no switch for that, so those macros are hidden
- * while its headers are read: its results are the same bits on every machine and in files that are
- * compiled for wide vectors, and its types have the same alignment there.
+ * cglm's code for SSE, AVX and NEON adds in another order than its plain C code, and rounds
+ * otherwise. cglm chooses it by macros of the compiler and has no switch for that, so this header
+ * hides those macros while it reads cglm's headers. Then cglm's results are the same bits on every
+ * machine and in files that are compiled for wide vectors, and its types have the same alignment
+ * there.
  *
- * What calls the C library's mathematics (angles, perspective, rotations by an angle, slerp) must
- * not be called; shared/exact.h has sine and cosine. tests/tree/mathematics.sh keeps it out.
+ * Functions of cglm that call the C library's mathematics (angles, perspective, rotations by an
+ * angle, slerp) must not be called; shared/exact.h has sine and cosine. tests/tree/mathematics.sh
+ * checks that.
  *
  * Matrices are columns, quaternions x, y, z, w. In plain C, glm_quat_mul and glm_mat4_transpose_to
- * write their result while they still read: it must be none of the operands.
- */
+ * write their result while they still read, so it must not be one of the operands. */
 #ifndef KILN_BASE_MATRIX_H
 #define KILN_BASE_MATRIX_H
 
-/* Headers of the C library that cglm includes are read here first, with the macros as they are. */
+/* Headers of the C library that cglm includes are read here first, while the macros are defined. */
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -37,7 +38,7 @@
 #undef __AVX__
 #undef __ARM_NEON
 
-/* Vectors of four may lie anywhere: rows of a block, keys of a track. */
+/* Vectors of four need no alignment: rows of a block, keys of a track. */
 #define CGLM_ALL_UNALIGNED
 
 #include <cglm/affine.h>
@@ -61,8 +62,8 @@
 
 #include "shared/platform.h"
 
-/* Between a matrix whose fourth row is (0, 0, 0, 1) and the three others, as blocks of std140 have
- * them. */
+/* Convert between a matrix whose fourth row is (0, 0, 0, 1) and its three other rows, as std140
+ * blocks have them. */
 static inline void kiln_matrix_from_rows(const float4 rows[3], mat4 out)
 {
     const float4 x = rows[0], y = rows[1], z = rows[2];

@@ -1,8 +1,8 @@
-/* Code for wide vectors, and which of it this process runs.
+/* Chooses code for wide vectors by the machine that the process runs on.
  *
  * A file lib/ROOM/NAME_simd.c is compiled once for each level that the processor's kind may have
- * (CMakeLists.txt), with KILN_SIMD_LEVEL as a number for the preprocessor. It exports one thing, a
- * table of functions or a function, named by KILN_SIMD_NAME:
+ * (CMakeLists.txt), with KILN_SIMD_LEVEL as a number for the preprocessor. It exports one table of
+ * functions, or one function, named by KILN_SIMD_NAME:
  *
  *     rows.h:       struct rows { void (*blur)(...); void (*shrink)(...); };
  *                   KILN_SIMD_DECLARE(const struct rows, kiln_rows);
@@ -12,11 +12,10 @@
  *                       return NULL;
  *                   stage->rows = KILN_SIMD_PICK(kiln_rows, simd);
  *
- * All levels must give the same bits: nothing is contracted or reordered, so plain loops do, and
- * what is written for one level rounds as the others do. All other functions of such a file, and
- * those of headers that it includes, are static: of two copies of an inline one the linker would
- * take either, and that may hold instructions which the machine lacks.
- */
+ * All levels must give the same bits. The compiler neither contracts nor reorders operations, so a
+ * plain loop rounds alike at every level. All other functions of such a file, and of headers that
+ * it includes, are static: of two copies of an inline function the linker would keep either, and
+ * that may have instructions which the machine lacks. */
 #ifndef KILN_BASE_SIMD_H
 #define KILN_BASE_SIMD_H
 
@@ -99,7 +98,7 @@ enum kiln_simd {
                                     [KILN_SIMD_AVX512] = KILN_SIMD_OF_AVX512(name),                \
                                     [KILN_SIMD_NEON] = KILN_SIMD_OF_NEON(name)})[simd])
 
-/* "plain", "sse4.1", "avx2", "avx512", "neon". */
+/* Returns a level's name: "plain", "sse4.1", "avx2", "avx512", "neon". */
 const char *kiln_simd_name(enum kiln_simd simd);
 
 /* Returns whether this machine and this build have a level. */
