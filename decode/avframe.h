@@ -5,13 +5,12 @@
 #include "asset/image/image.h"
 #include "base/ffmpeg.h"
 
-/* Makes a picture of a decoded frame; the caller destroys it. Another code than KILN_OK comes with
- * what went wrong, as static text: KILN_INVALID_INPUT or, when memory is short, KILN_DEVICE_FAILED.
- */
+/* Makes a picture of a decoded frame; the caller destroys it. A code other than KILN_OK comes with
+ * the fault as static text: KILN_INVALID_INPUT, or KILN_DEVICE_FAILED when memory is short. */
 enum kiln_code decode_avframe(const AVFrame *frame, struct kiln_asset_image **image,
                               const char **problem);
 
-/* Before a decoder is opened: makes its pixels the same on every machine. */
+/* Sets up a decoder, before it is opened, so that its pixels are the same on every machine. */
 void decode_same_everywhere(AVCodecContext *decoder);
 
 #endif

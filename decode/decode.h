@@ -1,6 +1,6 @@
-/* kiln-decode: a process that reads files of strangers for kiln, locked in so that one that takes
- * it over can do no more than send wrong pictures. Messages here do without the file's name, which
- * only kiln knows. */
+/* Declares kiln-decode, a process that decodes files from untrusted sources for kiln. It confines
+ * itself, so that a malicious file that takes it over can do no more than send wrong pictures. Its
+ * messages do not have the file's name, which only kiln knows. */
 #ifndef KILN_DECODE_H
 #define KILN_DECODE_H
 
@@ -8,35 +8,37 @@
 #include "asset/image/image.h"
 #include "asset/loader/protocol.h"
 
-/* ---- locked in (confine.c) ------------------------------------------------------------------- */
+/* ---- confinement (confine.c) ----------------------------------------------------------------- */
 
-/* Gives up every right but those to compute, to take memory and to read and write what is open.
- * What the kernel is too old for is left out. False when it refuses what it should know. */
+/* Gives up every right except to compute, to take memory and to use the descriptors that are open.
+ * What the kernel is too old for is left out. False when the kernel refuses what its version
+ * supports. */
 bool decode_confine(enum kiln_decode_kind kind, uint64_t most_memory, struct kiln_error *error);
 
-/* An allocation failed: KILN_INVALID_INPUT when that was because of the process's own limit, which
+/* Reports a failed allocation: KILN_INVALID_INPUT when the process's own limit caused it, which
  * only a file that asks for too much reaches, else KILN_DEVICE_FAILED. Returns false. */
 bool decode_out_of_memory(struct kiln_error *error);
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
 struct decode_picture {
-    const unsigned char *bytes; /* of the file */
+    const unsigned char *bytes; /* content of the file */
     size_t size;
     enum kiln_picture_format format;
-    const char *layer; /* of an EXR: "beauty" is R, G, B (and A), or Y, without a name before them,
-                        * "depth" is Z, any other one "NAME.R" and so on, or its one channel */
+    /* of an EXR: "beauty" is R, G, B (and A), or Y, without a prefix; "depth" is Z; any other layer
+     * is "NAME.R" and so on, or a single channel NAME */
+    const char *layer;
     uint64_t most_pixels;
-    uint32_t width, height; /* set when they are known */
+    uint32_t width, height; /* set when the size is known */
     struct kiln_error *error;
 };
 
-/* Whether a picture is within the limits of image.h, and has no more than most_pixels, then
- * KILN_OVER_LIMIT; sets the size. Called before memory is taken for pixels. name: "PNG". */
+/* Checks a picture's size against the limits of image.h and most_pixels (KILN_OVER_LIMIT), and
+ * stores it. It is called before memory is taken for pixels. name: "PNG". */
 bool decode_allows_size(struct decode_picture *picture, const char *name, int64_t width,
                         int64_t height);
 
-/* Each decodes a whole file, or returns NULL with what is wrong. The caller destroys the image. */
+/* Decode a whole file, or return NULL with the fault. The caller destroys the image. */
 struct kiln_asset_image *decode_png(struct decode_picture *picture);
 struct kiln_asset_image *decode_by_ffmpeg(struct decode_picture *picture);
 struct kiln_asset_image *decode_exr(struct decode_picture *picture);

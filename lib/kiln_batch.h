@@ -1,4 +1,5 @@
-/* Many jobs out of one file: part of kiln_program.h, which includes it. */
+/* Declares batches: many jobs that one file lists. This header is part of kiln_program.h, which
+ * includes it. */
 #ifndef KILN_BATCH_H
 #define KILN_BATCH_H
 

@@ -1,4 +1,4 @@
-/* Measuring: part of kiln.h, which includes it. */
+/* Declares benchmarks. This header is part of kiln_program.h, which includes it. */
 #ifndef KILN_BENCH_H
 #define KILN_BENCH_H
 

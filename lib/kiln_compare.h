@@ -1,4 +1,4 @@
-/* Comparing pictures. Part of kiln.h. */
+/* Declares the comparison of pictures. This header is part of kiln.h, which includes it. */
 #ifndef KILN_COMPARE_H
 #define KILN_COMPARE_H
 

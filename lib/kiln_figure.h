@@ -1,4 +1,4 @@
-/* Figures for documents. Part of kiln.h. */
+/* Declares figures for documents. This header is part of kiln_program.h, which includes it. */
 #ifndef KILN_FIGURE_H
 #define KILN_FIGURE_H
 

@@ -1,4 +1,5 @@
-/* Jobs in parts, and what outlives them: part of kiln.h, which includes it. */
+/* Declares jobs that are done in parts, and the files that outlive a job. This header is part of
+ * kiln.h, which includes it. */
 #ifndef KILN_JOB_H
 #define KILN_JOB_H
 

@@ -1,4 +1,4 @@
-/* Writing JSON. Part of kiln.h. */
+/* Declares a writer of JSON. This header is part of kiln_program.h, which includes it. */
 #ifndef KILN_JSON_H
 #define KILN_JSON_H
 

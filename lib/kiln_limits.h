@@ -1,5 +1,5 @@
-/* Limits of what a job may take, for scenes that come from people one does not know. Part of
- * kiln.h. */
+/* Declares limits of what a job may take, for scenes from untrusted sources. This header is part of
+ * kiln.h, which includes it. */
 #ifndef KILN_LIMITS_H
 #define KILN_LIMITS_H
 

@@ -1,5 +1,5 @@
-/* What the program kiln has beside the library: the one header that cmd/ includes. It is not
- * installed, and may change with every version. */
+/* Declares the functions that the program kiln has in addition to the library's. It is the one
+ * header that cmd/ includes. It is not installed, and may change with every version. */
 #ifndef KILN_PROGRAM_H
 #define KILN_PROGRAM_H
 

@@ -1,5 +1,5 @@
-/* A process that can do no more than its job: for programs that render scenes of people whom they
- * do not know. Part of kiln.h. */
+/* Declares how a process confines itself to its job, for programs that render scenes from untrusted
+ * sources. This header is part of kiln.h, which includes it. */
 #ifndef KILN_SANDBOX_H
 #define KILN_SANDBOX_H
 

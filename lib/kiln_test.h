@@ -1,4 +1,5 @@
-/* Golden-image tests and their reports: part of kiln.h, which includes it. */
+/* Declares golden-image tests and their reports. This header is part of kiln_program.h, which
+ * includes it. */
 #ifndef KILN_TEST_H
 #define KILN_TEST_H
 
