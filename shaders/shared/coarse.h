@@ -1,18 +1,22 @@
-/* How particles of a coarse picture are told apart by the depth of the scene: for GLSL and for C,
- * which agree to rounding. Depths are view-space metres, the sky far away.
- */
+/* Decides, for GLSL and for C, which pixels of a coarse picture of particles belong to a place of
+ * the frame, by the depths of the scene. Both languages agree to rounding. Depths are view-space
+ * metres, and the sky is far away. */
 #ifndef KILN_SHARED_COARSE_H
 #define KILN_SHARED_COARSE_H
 
 #include "shared/exact.h"
 
-#define COARSE_ALIKE  0.03f  /* part of a depth by which another may differ to count half */
-#define COARSE_BENT   0.04f  /* part of a reciprocal depth that a plane's does not leap */
-#define COARSE_REMOTE 0.001f /* 1/m: leaps of less are far off */
-#define COARSE_APART  0.001f /* weight of places that are not neighbours */
+/* COARSE_ALIKE: relative difference of two depths at which the weight is one half. COARSE_BENT:
+ * relative second difference of reciprocal depths above which there is an edge. COARSE_REMOTE, 1/m:
+ * smaller differences of reciprocal depths are far away and do not count. COARSE_APART: weight of
+ * places that are not neighbours. */
+#define COARSE_ALIKE  0.03f
+#define COARSE_BENT   0.04f
+#define COARSE_REMOTE 0.001f
+#define COARSE_APART  0.001f
 
-/* Whether three depths in a row are not those of a plane, whose reciprocal depth is linear in the
- * picture: 1/a - 2/b + 1/c, times all of them. */
+/* Returns whether three depths in a row do not lie on a plane. On a plane, the reciprocal depth is
+ * linear in the picture: 1/a - 2/b + 1/c, times all of them, is 0. */
 FN bool coarse_is_bent(float a, float b, float c)
 {
     EXACT float bc = b * c, ac = a * c, ab = a * b;
@@ -22,7 +26,7 @@ FN bool coarse_is_bent(float a, float b, float c)
     return leap > limit;
 }
 
-/* Weight of a coarse pixel so many of its widths away, along one axis. */
+/* Returns the weight of a coarse pixel by its distance along one axis, in coarse pixels. */
 FN float coarse_near(float away)
 {
     EXACT float near = 1.0f - exact_abs(away);
@@ -30,8 +34,9 @@ FN float coarse_near(float away)
     return weight;
 }
 
-/* Weights of four pixels in a row for a place between the middle two, t on the way from the one to
- * the other: the cubic spline of Catmull and Rom, which is sharper than a straight line. */
+/* Returns the weights of four pixels in a row at a place between the middle two, a fraction t after
+ * the first of these. It is the cubic spline of Catmull and Rom, which is sharper than linear
+ * interpolation. */
 FN float4 coarse_spline(float t)
 {
     EXACT float t2 = t * t, t3 = t2 * t;
@@ -43,7 +48,7 @@ FN float4 coarse_spline(float t)
     return weights;
 }
 
-/* Weight of one depth for another. */
+/* Returns the weight of a depth by its similarity to another. */
 FN float coarse_alike(float depth, float other)
 {
     EXACT float between = exact_abs(depth - other), least = exact_min(depth, other);

@@ -1,26 +1,26 @@
-/* Collision with axis-aligned boxes and the floor (Heinz 2019, 3.5), which is one more box, high at
- * its top and without end in all other directions; with round shapes (shared/collide_round.h); with
- * what may turn (shared/collide_turned.h); and with surfaces out of grids (shared/collide_field.h).
+/* Computes collisions with all kinds of colliders: with axis-aligned boxes and the floor (Heinz
+ * 2019, 3.5), where the floor is a box that is infinite except at its top; with round shapes
+ * (shared/collide_round.h); with shapes that may turn (shared/collide_turned.h); and with surfaces
+ * from grids (shared/collide_field.h).
  *
- * Swept (shared/sweep.h): a piece of a path is a segment, and each of a box's six faces moves
- * evenly in its time, so the distance to it changes evenly along the piece; the particle is inside
- * while all six distances are positive. The earliest entry is the impact: the position is set
- * there, the velocity relative to the box answers as in the thesis, and the way goes on from there.
- * Nothing can be fast enough to tunnel.
- */
+ * In the swept mode (shared/sweep.h), a piece of a path is a segment. Each of a box's six faces
+ * moves evenly in that time, so its distance from the particle changes evenly along the segment.
+ * The particle is inside while all six distances are positive. The earliest entry is the impact.
+ * The particle is set there, its velocity relative to the box is answered as in the thesis, and its
+ * way continues from there. So no particle is fast enough to tunnel. */
 #ifndef KILN_SHARED_COLLIDE_H
 #define KILN_SHARED_COLLIDE_H
 
 #include "shared/collide_answer.h"
 
-/* Shaders of scenes without round colliders are spared their code. */
+/* Shaders of scenes without round colliders are compiled without their code. */
 #if defined(GL_core_profile) && !defined(COLLIDE_ROUND)
 #define COLLIDE_IS_ROUND(collider) false
 #else
 #define COLLIDE_IS_ROUND(collider) ((collider).kind != COLLIDER_BOX)
 #endif
 
-/* The same for shapes in frames of their own. */
+/* Shaders of scenes without shapes in frames of their own are compiled without their code. */
 #if defined(GL_core_profile) && !defined(COLLIDE_TURNED)
 #define COLLIDE_IS_TURNED(collider) false
 #else
@@ -28,7 +28,8 @@
     ((collider).kind >= COLLIDER_TURNED_BOX && (collider).kind < COLLIDER_TERRAIN)
 #endif
 
-/* Likewise those of scenes without colliders out of grids; this is asked first. */
+/* Shaders of scenes without colliders from grids are compiled without their code. This kind is
+ * tested first. */
 #if defined(GL_core_profile) && !defined(COLLIDE_FIELD) && !defined(COLLIDE_VOLUME)
 #define COLLIDE_HAS_FIELDS         0
 #define COLLIDE_HAS_VOLUMES        0
@@ -39,14 +40,14 @@
 #include "shared/collide_field.h"
 #endif
 
-/* Kinds that balls meet with their centres. */
+/* Kinds of colliders that a ball meets with its centre. */
 #define COLLIDE_MEETS_CENTRES(kind) ((kind) == COLLIDER_VOLUME || (kind) == COLLIDER_DEPTH)
 
-/* Impacts in one step; after the last, a particle rests for the remainder of the step: on what may
- * turn, which else could pass over it; or in space. */
+/* Impacts in one step. After the last, a particle rests for the remainder of the step: on a
+ * collider that may turn, which could otherwise pass over it, or else in space. */
 #define COLLIDE_BOUNCES 4u
 
-/* Metres a second of a box; across a face, that of the face. */
+/* Returns the velocity of a face of a box, m/s. */
 FN float3 collide_box_velocity(S(kiln_collider) c, uint face, float steps_per_s)
 {
     EXACT float3 low = FLOAT3(c.min_end.x - c.min.x, c.min_end.y - c.min.y, c.min_end.z - c.min.z);
@@ -107,7 +108,7 @@ FN S(collide_state) collide_field_impact(SIM_PARAM S(collide_state) s, S(kiln_co
     after.position = ground.position;
     EXACT float3 still = collide_not_turning();
     after = collide_leave(answer, after, relative, bounced, ground.normal, ground.velocity, still);
-    if (COLLIDE_SPINS(answer)) { /* its change is along the surface as interpolated */
+    if (COLLIDE_SPINS(answer)) { /* the velocity changes along the interpolated surface */
         EXACT float3 left = float3_sub(after.velocity, ground.velocity);
         EXACT float3 clear = collide_clear_of(left, ground.facet);
         after.velocity = float3_add(ground.velocity, clear);
@@ -115,7 +116,7 @@ FN S(collide_state) collide_field_impact(SIM_PARAM S(collide_state) s, S(kiln_co
     return after;
 }
 
-/* As collide_clamp has it. */
+/* Does collide_clamp for colliders from grids. */
 FN S(collide_state) collide_field_clamp(SIM_PARAM S(collide_state) s, S(kiln_collider) c,
                                         S(collide_answer) answer)
 {
@@ -130,7 +131,7 @@ FN S(collide_state) collide_field_clamp(SIM_PARAM S(collide_state) s, S(kiln_col
 
 #endif
 
-/* The state after an impact on a face of a collider. */
+/* Returns the state after an impact on a face of a collider. */
 FN S(collide_state) collide_impact(SIM_PARAM S(collide_state) s, uint number, uint face,
                                    S(collide_answer) of_all)
 {
@@ -162,17 +163,17 @@ FN S(collide_state) collide_impact(SIM_PARAM S(collide_state) s, uint number, ui
     return after;
 }
 
-/* The first impact of a step, for whoever asks. */
+/* The first impact of a step, for traces. */
 struct collide_touch {
     float3 position; /* just outside of the face */
     float3 velocity; /* after the impact */
-    float since;     /* part of the step that had passed */
-    float reach;     /* m: from the surface to the position */
-    uint face;       /* for collide_normal_of */
+    float since;     /* part of the step before the impact */
+    float reach;     /* m: distance from the surface to the position */
+    uint face;       /* face, for collide_normal_of */
     bool happened;
 };
 
-/* How a particle's way through a step ends, and how it began to bounce. */
+/* The end of a particle's way through a step, and its first impact. */
 struct collide_way {
     S(collide_state) end;
     S(collide_touch) first;
@@ -203,12 +204,12 @@ FN S(collide_touch) collide_touched(S(collide_state) s, uint face)
 }
 
 struct collide_hit {
-    float part; /* of the segment; below 0: no hit */
+    float part; /* part of the segment before the impact; below 0: no impact */
     uint box;
     uint face;
 };
 
-/* The way of a segment through a box or a round shape, between two parts of the step. */
+/* Intersects a segment with a box or a round shape, between two parts of the step. */
 FN_CLOSE S(collide_span) collide_solid_through(S(kiln_collider) c, float since, float until,
                                                float3 from, float3 end)
 {
@@ -225,13 +226,14 @@ FN_CLOSE S(collide_span) collide_solid_through(S(kiln_collider) c, float since, 
     return span;
 }
 
-/* The same of any collider. */
+/* Intersects a segment with a collider of any kind. */
 FN S(collide_span) collide_through(SIM_PARAM uint number, float radius, float since, float until,
                                    float3 from, float3 end)
 {
     EXACT S(collide_span) span;
 #ifndef GL_core_profile
-    if (radius == 0.0f && AROUND(colliders[number].kind) <= COLLIDER_CYLINDER) { /* not copied */
+    /* the collider is not copied */
+    if (radius == 0.0f && AROUND(colliders[number].kind) <= COLLIDER_CYLINDER) {
         span = collide_solid_through(AROUND(colliders[number]), since, until, from, end);
         return span;
     }
@@ -250,7 +252,7 @@ FN S(collide_span) collide_through(SIM_PARAM uint number, float radius, float si
     return span;
 }
 
-/* The face that a point inside is nearest to when the part `since` of the step has passed. */
+/* Returns the face that a point inside is nearest to after the part `since` of the step. */
 FN uint collide_nearest(SIM_PARAM uint number, float radius, float since, float3 p)
 {
     EXACT S(kiln_collider) c = collide_around(SIM number, radius);
@@ -271,7 +273,7 @@ FN uint collide_nearest(SIM_PARAM uint number, float radius, float since, float3
     return face;
 }
 
-/* Is a point inside when the part `until` of the step has passed? */
+/* Returns whether a point is inside after the part `until` of the step. */
 FN bool collide_is_inside(SIM_PARAM uint number, float radius, float until, float3 p)
 {
     EXACT S(kiln_collider) c = collide_around(SIM number, radius);
@@ -294,7 +296,7 @@ FN bool collide_is_inside(SIM_PARAM uint number, float radius, float until, floa
     return inside;
 }
 
-/* The face of an impact, for whoever asks for its normal later (collide_normal_of). */
+/* Returns the face of an impact, from which collide_normal_of computes the normal later. */
 FN uint collide_face_met(SIM_PARAM uint number, float radius, S(collide_state) s, uint face)
 {
     EXACT S(kiln_collider) c = collide_around(SIM number, radius);
@@ -317,8 +319,9 @@ FN uint collide_face_met(SIM_PARAM uint number, float radius, S(collide_state) s
     return met;
 }
 
-/* The first impact on the way from s to `end` when the part `until` of the step has passed. A start
- * inside a box (born there) is an impact at once on its nearest face. */
+/* Finds the first impact on the way from s to `end`, which is reached after the part `until` of the
+ * step. If a particle starts inside a box because it was born there, the impact is at once, on the
+ * nearest face. */
 FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float until, float radius)
 {
     EXACT S(collide_hit) hit;
@@ -347,8 +350,9 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float 
     return hit;
 }
 
-/* The last resort, when the bounces of a step are used up between boxes that close in: up, until no
- * box is around. Each pass leaves at least one box below. What may turn is left by its surface. */
+/* Moves a particle up until it is in no box. It is the last resort, when the impacts of a step are
+ * used up between boxes that close in. Each pass leaves at least one box below. A collider that may
+ * turn is left through its surface. */
 FN float3 collide_rise(SIM_PARAM float3 position, float until, float radius)
 {
     EXACT float3 p = position;
@@ -375,14 +379,15 @@ FN float3 collide_rise(SIM_PARAM float3 position, float until, float radius)
     return p;
 }
 
-/* Of the random numbers of an impact, of at most 8 in a step. */
+/* Returns the purpose of the random numbers of an impact; there are at most 8 impacts in a step. */
 FN uint collide_purpose(SIM_PARAM uint bounce)
 {
     return RANDOM_BOUNCE + (STEP(step) << 4u) + (bounce << 1u);
 }
 
-/* From where a surface that has put somebody in front of it is found: a volume's cells know the
- * plane behind which that was, others where it is now. */
+/* Returns the state from which the face at a particle is found after the particle was put in front
+ * of a surface. The cells of a volume know the plane at the earlier place; all other colliders use
+ * the present place. */
 FN S(collide_state) collide_seen_from(S(kiln_collider) c, S(collide_state) before,
                                       S(collide_state) now)
 {
@@ -391,7 +396,7 @@ FN S(collide_state) collide_seen_from(S(kiln_collider) c, S(collide_state) befor
     return now;
 }
 
-/* Onto the face of a box. */
+/* Puts a point onto the face of a box. */
 FN S(collide_state) collide_box_clamp(S(collide_box) box, S(collide_state) s, uint face,
                                       S(collide_answer) answer)
 {
@@ -406,7 +411,8 @@ FN S(collide_state) collide_box_clamp(S(collide_box) box, S(collide_state) s, ui
     return now;
 }
 
-/* The thesis's way: whoever ends inside a box is put on the nearest face. Fast particles tunnel. */
+/* Collides as the thesis does: a particle that ends inside a box is put onto the nearest face. Fast
+ * particles tunnel. */
 FN S(collide_way) collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float until,
                                 S(collide_answer) answer)
 {

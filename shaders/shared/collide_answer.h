@@ -1,6 +1,6 @@
-/* How a particle answers an impact on a surface: as in the thesis (Heinz 2019, 3.5), with
- * restitution and friction; and balls that turn, with friction on their skin (shared/spin.h).
- */
+/* Computes how a particle's velocity changes at an impact on a surface: as in the thesis (Heinz
+ * 2019, 3.5), or with restitution and friction. Balls that spin have friction on their surface
+ * (shared/spin.h). */
 #ifndef KILN_SHARED_COLLIDE_ANSWER_H
 #define KILN_SHARED_COLLIDE_ANSWER_H
 
@@ -8,21 +8,21 @@
 #include "shared/random.h"
 #include "shared/spin.h"
 
-/* Shaders of scenes without restitution and friction are spared their code. */
+/* Shaders of scenes without restitution and friction are compiled without their code. */
 #if defined(GL_core_profile) && !defined(COLLIDE_RUB)
 #define COLLIDE_RUBS(answer) false
 #else
 #define COLLIDE_RUBS(answer) ((answer).rubs)
 #endif
 
-/* And for balls that turn. */
+/* Shaders of scenes without balls that spin are compiled without their code. */
 #if defined(GL_core_profile) && !defined(SPINS)
 #define COLLIDE_SPINS(answer) false
 #else
 #define COLLIDE_SPINS(answer) ((answer).spins)
 #endif
 
-/* Outwards, from a face that collide_face_met gave. */
+/* Returns the outward normal of a face that collide_face_met returned. */
 FN float3 collide_normal_of(uint face)
 {
     EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
@@ -33,22 +33,22 @@ FN float3 collide_normal_of(uint face)
     return y;
 }
 
-/* How a particle answers an impact. */
+/* Options for the answer to an impact. */
 struct collide_answer {
     float randomness; /* 0 mirror .. 1 any direction of the hemisphere */
     float slowdown;   /* factor on the speed */
-    uint stream;      /* the particle's */
-    uint purpose;     /* of two numbers for this impact */
-    bool rubs;        /* whether the rest matters */
+    uint stream;      /* random stream of the particle */
+    uint purpose;     /* purpose of the two random numbers of this impact */
+    bool rubs;        /* 1: restitution and friction, the members below, count */
     float restitution;
     float friction;
-    float radius; /* m: how near its centre comes */
-    bool spins;   /* a ball that turns: friction acts on its skin, as grip, and not as above */
+    float radius; /* m: distance of its centre from a surface that it touches */
+    bool spins;   /* a ball that spins: friction acts on its surface at the contact */
     float grip;
-    float rolling; /* resistance, a part of what the surface gives */
+    float rolling; /* rolling resistance: its lever arm, in radii */
 };
 
-/* On a collider with factors of its own. */
+/* Applies the factors of a collider to the options of a particle. */
 FN S(collide_answer) collide_answer_of(S(collide_answer) answer, S(kiln_collider) c)
 {
     EXACT S(collide_answer) y = answer;
@@ -60,9 +60,9 @@ FN S(collide_answer) collide_answer_of(S(collide_answer) answer, S(kiln_collider
     return y;
 }
 
-/* What restitution leaves of a mirrored velocity along the normal, and Coulomb's friction of the
- * rest: it takes as much as its factor on what the surface gives along the normal, but turns
- * nothing around. */
+/* Applies restitution to the normal part of a mirrored velocity, and Coulomb's friction to the
+ * rest. Friction reduces the tangential velocity by at most its coefficient times the change of the
+ * normal velocity, and never reverses it. */
 FN_APART float3 collide_rubbed(float restitution, float friction, float3 mirrored, float3 normal,
                                float outwards)
 {
@@ -79,9 +79,10 @@ FN_APART float3 collide_rubbed(float restitution, float friction, float3 mirrore
     return y;
 }
 
-/* The velocity (relative to the box) after an impact: a linear combination of the mirrored and a
- * random direction, with the slowed speed. The random direction is of the hemisphere about the
- * face's normal, so that it never points inwards; with `literal`, about the mirrored direction. */
+/* Returns the velocity, relative to the box, after an impact: a linear combination of the mirrored
+ * and a random direction, with the slowed speed. The random direction lies in the hemisphere about
+ * the face's normal, so that it never points inwards; with `literal`, about the mirrored
+ * direction. */
 FN float3 collide_bounce(S(collide_answer) answer, float3 velocity, uint face, bool literal)
 {
     uint axis = face >> 1u;
@@ -114,7 +115,7 @@ FN float3 collide_bounce(S(collide_answer) answer, float3 velocity, uint face, b
     return y;
 }
 
-/* The same for a surface of any direction. */
+/* Returns the velocity after an impact, as collide_bounce, for a surface of any direction. */
 FN_CLOSE float3 collide_bounce_off(S(collide_answer) answer, float3 velocity, float3 normal,
                                    bool literal)
 {
@@ -148,11 +149,11 @@ struct collide_state {
     float3 position;
     float3 velocity;
     float since; /* part of the step that has passed */
-    float3 spin; /* rad/s, of balls that turn */
+    float3 spin; /* rad/s, of balls that spin */
 };
 
-/* What rolling costs a ball that turns at a rate, relative to the surface that gives it so many
- * m/s along the normal: no more than all. */
+/* Returns the change of a ball's spin by rolling resistance, for a rate relative to the surface
+ * that changed its normal velocity by `given` m/s. It never reverses the rate. */
 FN float3 collide_rolling(S(collide_answer) answer, float3 rate, float given)
 {
     EXACT float speed = float3_length(rate);
@@ -165,9 +166,9 @@ FN float3 collide_rolling(S(collide_answer) answer, float3 rate, float given)
     return y;
 }
 
-/* How a ball that turns leaves a surface, from its velocities relative to it before and after the
- * bounce: friction acts against the slip of its skin. The surface turns by `turning` rad/s; its
- * velocity, `ground`, is that where the ball's centre is. */
+/* Returns how a ball that spins leaves a surface, from its velocities relative to the surface
+ * before and after the bounce. Friction acts against the slip of the ball's surface. The collider
+ * turns by `turning` rad/s; `ground` is its velocity at the ball's centre. */
 FN_APART S(collide_state) collide_roll(S(collide_answer) answer, S(collide_state) s,
                                        float3 relative, float3 bounced, float3 normal,
                                        float3 ground, float3 turning)
@@ -197,14 +198,14 @@ FN_APART S(collide_state) collide_roll(S(collide_answer) answer, S(collide_state
     return after;
 }
 
-/* Of a surface that does not turn, or whose velocity is known where it is touched. */
+/* Returns no rotation, for surfaces that do not turn, or whose velocity is known at the contact. */
 FN float3 collide_not_turning(void)
 {
     EXACT float3 y = FLOAT3(0.0f, 0.0f, 0.0f);
     return y;
 }
 
-/* How a particle leaves a surface. */
+/* Returns how a particle leaves a surface. */
 FN S(collide_state) collide_leave(S(collide_answer) answer, S(collide_state) s, float3 relative,
                                   float3 bounced, float3 normal, float3 ground, float3 turning)
 {
@@ -217,7 +218,7 @@ FN S(collide_state) collide_leave(S(collide_answer) answer, S(collide_state) s, 
     return after;
 }
 
-/* The same where surfaces are taken to rest (collide_clamp). */
+/* Returns how a particle leaves a surface that counts as resting (collide_clamp). */
 FN S(collide_state) collide_stay(S(collide_answer) answer, S(collide_state) s, float3 bounced,
                                  float3 normal)
 {

@@ -1,5 +1,5 @@
-/* Colliders by their numbers, as balls meet them.
- */
+/* Enlarges colliders by the radius of a ball that meets them, and tests whether a way may meet them
+ * at all. */
 #ifndef KILN_SHARED_COLLIDE_AROUND_H
 #define KILN_SHARED_COLLIDE_AROUND_H
 
@@ -11,8 +11,8 @@ FN float4 collide_shifted(float4 v, float by)
     return y;
 }
 
-/* The same of one that looks up a grid: its bounds, and the radius for whoever looks up. The walls
- * of terrain and depth maps are met with the centre. */
+/* Enlarges a collider from a grid: its bounds by the radius, and the radius itself for its
+ * look-ups. The walls of terrain and depth maps are met with the ball's centre. */
 FN S(kiln_collider) collide_field_around(S(kiln_collider) collider, float radius)
 {
     EXACT S(kiln_collider) c = collider;
@@ -21,14 +21,14 @@ FN S(kiln_collider) collide_field_around(S(kiln_collider) collider, float radius
         c.max.y = c.max.y + raised;
         c.max_end.y = c.max_end.y + raised;
         c.center.w = radius;
-    } else if (c.kind == COLLIDER_SDF) { /* its grid is as much wider */
+    } else if (c.kind == COLLIDER_SDF) { /* its grid covers the largest radius */
         c.center.w = radius;
     }
     return c;
 }
 
-/* By how much the bounds of what lies askew grow for a radius, whichever way it is turned: a box's
- * corners by the root of three, a cylinder's edges by the root of two. */
+/* Returns the factor on a radius by which bounds grow in any orientation: by the root of three for
+ * a box's corners, by the root of two for a cylinder's edges. */
 FN float collide_askew_growth(uint kind)
 {
     EXACT float y = 1.0f;
@@ -39,8 +39,8 @@ FN float collide_askew_growth(uint kind)
     return y;
 }
 
-/* A collider as a ball of a radius meets it with its centre: as much larger as the ball is. Edges
- * and corners stay sharp. Shaders of scenes without interaction are spared this. */
+/* Returns a collider, enlarged by a ball's radius, so that the ball's centre is tested against it.
+ * Edges and corners stay sharp. Shaders of scenes without interaction are compiled without this. */
 FN S(kiln_collider) collide_around(SIM_PARAM uint number, float radius)
 {
     EXACT S(kiln_collider) c = AROUND(colliders[number]);
@@ -60,7 +60,7 @@ FN S(kiln_collider) collide_around(SIM_PARAM uint number, float radius)
             c.axis.w = c.axis.w + radius;
             c.half_height_end = c.half_height_end + radius;
         }
-        if (c.kind != COLLIDER_CAPSULE) { /* it grows by its radius alone */
+        if (c.kind != COLLIDER_CAPSULE) { /* a capsule grows by its radius alone */
             c.extent = collide_shifted(c.extent, radius);
             c.extent_end = collide_shifted(c.extent_end, radius);
         }
@@ -71,8 +71,8 @@ FN S(kiln_collider) collide_around(SIM_PARAM uint number, float radius)
 
 #ifndef GL_core_profile
 
-/* Along one axis: whether a way from a to b may be between two faces. What is on one side of a face
- * at both ends never meets the collider (collide_face). */
+/* Returns whether, along one axis, a way from a to b may be between two faces. If both ends are
+ * outside of the same face, the way does not meet the collider (collide_face). */
 FN_CLOSE uint collide_is_between(float a, float b, float low, float low_end, float high,
                                  float high_end)
 {
@@ -81,9 +81,9 @@ FN_CLOSE uint collide_is_between(float a, float b, float low, float low_end, flo
     return above & below;
 }
 
-/* Whether a way may be between the ends of a cylinder, whose bounds are those of a ball about
- * either end: of a flat one, much too high. Far from its centre, heights are as good as their
- * places. */
+/* Returns whether a way may be between the ends of a cylinder. A cylinder's bounds are those of
+ * balls about its ends, which are much too high for a flat one. Far from its centre, heights have
+ * the rounding of their places. */
 FN_CLOSE uint collide_is_between_ends(const S(kiln_collider) *c, float larger, float3 a, float3 b)
 {
     float3 axis = FLOAT3(c->axis.x, c->axis.y, c->axis.z);
@@ -97,8 +97,8 @@ FN_CLOSE uint collide_is_between_ends(const S(kiln_collider) *c, float larger, f
     return collide_is_between(height, height_end, -limit, -limit_end, limit, limit_end);
 }
 
-/* How much farther than its bounds a collider may be met: those of a round shape are computed apart
- * from its surface, which is as good as its place and size are. */
+/* Returns how far outside of its bounds a collider may be met by rounding: the bounds of a round
+ * shape are computed apart from its surface, which has the rounding of its place and size. */
 FN_CLOSE float collide_bounds_gap(const S(kiln_collider) *c)
 {
     if (c->kind == COLLIDER_BOX)
@@ -108,7 +108,8 @@ FN_CLOSE float collide_bounds_gap(const S(kiln_collider) *c)
     return 0.01f + 1e-6f * (place + size);
 }
 
-/* By how much its bounds grow for a radius: a cylinder's edges by what its side and its ends do. */
+/* Returns the factor on a radius by which a collider's bounds grow: the edges of a cylinder grow
+ * with its side and its ends. */
 FN_CLOSE float collide_bounds_growth(const S(kiln_collider) *c)
 {
     return c->kind == COLLIDER_TERRAIN    ? c->steepest
@@ -116,7 +117,7 @@ FN_CLOSE float collide_bounds_growth(const S(kiln_collider) *c)
                                           : collide_askew_growth(c->kind);
 }
 
-/* Whether a way may be within bounds that are farther out by r and a gap. */
+/* Returns whether a way may be within bounds that are enlarged by r and a gap. */
 FN_CLOSE uint collide_is_within(const S(kiln_collider) *c, float r, float gap, float3 a, float3 b)
 {
     return collide_is_between(a.x, b.x, (c->min.x - r) - gap, (c->min_end.x - r) - gap,
@@ -127,8 +128,8 @@ FN_CLOSE uint collide_is_within(const S(kiln_collider) *c, float r, float gap, f
                               (c->max.z + r) + gap, (c->max_end.z + r) + gap);
 }
 
-/* Of a ball's way through the whole step: whether it may meet the collider, of any kind but planes.
- * For those who then look closer. */
+/* Returns whether a ball's way through the whole step may meet a collider of any kind but a plane.
+ * It is a test before the exact one. */
 FN_CLOSE bool collide_may_meet(const S(kiln_collider) *c, float radius, float3 a, float3 b)
 {
     float gap = collide_bounds_gap(c);

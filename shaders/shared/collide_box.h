@@ -1,12 +1,12 @@
-/* Moving boxes and segments: the geometry of shared/collide.h. */
+/* Intersects segments with moving boxes: the geometry of shared/collide.h. */
 #ifndef KILN_SHARED_COLLIDE_BOX_H
 #define KILN_SHARED_COLLIDE_BOX_H
 
 #include "shared/exact.h"
 #include "shared/layout.h"
 
-/* In place of FN: what most impacts take becomes part of its callers in C, and what few need is
- * kept out of the way of the rest. */
+/* Stand in place of FN. In C, FN_CLOSE functions are inlined into their callers, since most impacts
+ * use them; FN_APART functions are not, since few impacts do. */
 #ifdef GL_core_profile
 #define FN_CLOSE
 #define FN_APART
@@ -15,7 +15,7 @@
 #define FN_APART static __attribute__((noinline, unused))
 #endif
 
-/* Faces: 0 and 1 of x, the lower and the upper, 2 and 3 of y, 4 and 5 of z. */
+/* Faces: 0 is the lower and 1 the upper face in x, 2 and 3 are those in y, 4 and 5 those in z. */
 #define COLLIDE_FACES 6u
 
 FN float collide_component(float3 v, uint axis)
@@ -31,7 +31,8 @@ FN float3 collide_with_component(float3 v, uint axis, float value)
     return y;
 }
 
-/* Between a at the start and b at the end of the step; exactly b at the end. */
+/* Interpolates between a at the start and b at the end of the step; the result is exactly b at the
+ * end. */
 FN float collide_moving(float a, float b, float since)
 {
     EXACT float y = a + (b - a) * since;
@@ -43,7 +44,7 @@ struct collide_box {
     float3 min, max;
 };
 
-/* The box when the part `since` of the step has passed. */
+/* Returns the box after the part `since` of the step. */
 FN S(collide_box) collide_box_at(S(kiln_collider) c, float since)
 {
     EXACT S(collide_box) box;
@@ -62,16 +63,17 @@ FN bool collide_inside(S(collide_box) box, float3 p)
            p.z > box.min.z && p.z < box.max.z;
 }
 
-/* What is known of a segment and a box after some of the faces. */
+/* The result of testing a segment against some faces of a box. */
 struct collide_span {
     float enter; /* parts of the segment */
     float leave;
-    uint face;    /* of the entry */
+    uint face;    /* face of the entry */
     bool misses;  /* outside of one face all the way */
     bool outside; /* starts outside of some face */
 };
 
-/* One face more: d0 and d1 are the distances to it, positive inside, at the segment's ends. */
+/* Adds one face to a result. d0 and d1 are the distances from the face, positive inside, at the
+ * segment's ends. */
 FN_CLOSE S(collide_span) collide_face(S(collide_span) before, uint face, float d0, float d1)
 {
     EXACT S(collide_span) span = before;
@@ -93,7 +95,7 @@ FN_CLOSE S(collide_span) collide_face(S(collide_span) before, uint face, float d
     return span;
 }
 
-/* The segment from a (when the box is at `start`) to b (when it is at `end`). */
+/* Intersects the segment from a, when the box is at `start`, to b, when it is at `end`. */
 FN S(collide_span) collide_segment(S(collide_box) start, S(collide_box) end, float3 a, float3 b)
 {
     EXACT S(collide_span) span;
@@ -115,7 +117,7 @@ FN S(collide_span) collide_segment(S(collide_box) start, S(collide_box) end, flo
     return span;
 }
 
-/* The face that a point inside is nearest to. */
+/* Returns the face that a point inside is nearest to. */
 FN uint collide_nearest_face(S(collide_box) box, float3 p)
 {
     uint face = 0u;
@@ -137,8 +139,8 @@ FN uint collide_nearest_face(S(collide_box) box, float3 p)
     return face;
 }
 
-/* The coordinate just outside of a face: 0.06 mm, or the two units in the last place that make a
- * difference far from the origin. */
+/* Returns the coordinate just outside of a face: by 0.06 mm, or by two units in the last place
+ * where these are larger. */
 FN float collide_beside(float at, bool upper)
 {
     EXACT float gap = 6.103515625e-5f + exact_abs(at) * 2.384185791015625e-7f;

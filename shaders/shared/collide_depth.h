@@ -1,17 +1,17 @@
-/* Collision with the depth maps of a mesh (Kolb et al. 2004, as Heinz 2019, 2.5.1 tells of it);
- * shared/collide.h says when. What is between front and back in every map is inside; that fills
- * hollows that no direction looks into.
+/* Intersects segments with the depth maps of a mesh (Kolb et al. 2004, as described in Heinz 2019,
+ * 2.5.1), for shared/collide.h. A point between front and back in every map is inside; so hollows
+ * are filled that no direction looks into.
  *
- * As over terrain (shared/collide_terrain.h), four samples make a cell of two triangles, of the
- * front and of the back, so that a path enters and leaves a map at very points: nothing is too fast
- * or too thin. The mesh moves as one with a distance field does (shared/collide_sdf.h).
- */
+ * As over terrain (shared/collide_terrain.h), four samples make a cell of two triangles of the
+ * front and two of the back. The points at which a path enters and leaves a map are therefore
+ * exact, and no particle is too fast and no part too thin. The mesh moves rigidly, as a mesh with a
+ * distance field does (shared/collide_sdf.h). */
 #ifndef KILN_SHARED_COLLIDE_DEPTH_H
 #define KILN_SHARED_COLLIDE_DEPTH_H
 
 #include "shared/collide_sdf.h"
 
-/* Its rows, and the word of its first sample. */
+/* Rows of a depth map, and the word of its first sample. */
 struct depth_map {
     float4 column, row, height;
     uint first;
@@ -61,7 +61,7 @@ FN S(depth_cell) depth_cell_at(SIM_PARAM S(kiln_grid) g, S(depth_map) map, uint 
     return cell;
 }
 
-/* A path over the map: columns along x, rows along z, and height. */
+/* Makes the path over a map: columns along x, rows along z, and height. */
 FN S(terrain_path) depth_path_of(S(depth_map) map, float3 a, float3 b)
 {
     EXACT S(terrain_path) path;
@@ -77,12 +77,12 @@ FN S(terrain_path) depth_path_of(S(depth_map) map, float3 a, float3 b)
     return path;
 }
 
-/* Where a path is within a cell. */
+/* A place of a path within a cell. */
 struct depth_place {
-    float part;   /* of the path */
-    float aside;  /* of the line between the triangles */
-    float behind; /* the front, and */
-    float before; /* the back: units; both above 0: inside */
+    float part;   /* part of the path */
+    float aside;  /* distance from the line between the triangles */
+    float behind; /* distance behind the front, and */
+    float before; /* distance before the back, in units; inside if both are above 0 */
 };
 
 FN S(depth_place) depth_place_at(S(terrain_path) path, S(depth_cell) cell, float x, float z,
@@ -103,13 +103,13 @@ FN S(depth_place) depth_place_at(S(terrain_path) path, S(depth_cell) cell, float
     return place;
 }
 
-/* A piece of a path that is inside, by parts of the path; nothing if it does not enter before it
- * leaves. */
+/* The part of a path that is inside, from `enter` to `leave`; it is empty if it does not enter
+ * before it leaves. */
 struct depth_inside {
     float enter, leave;
 };
 
-/* Narrowed by one surface, over a triangle; d0 and d1 are above 0 on its inner side. */
+/* Narrows a part by one surface over one triangle; d0 and d1 are above 0 on the inner side. */
 FN S(depth_inside) depth_within(S(depth_inside) before, S(depth_place) a, S(depth_place) b,
                                 float d0, float d1)
 {
@@ -129,7 +129,7 @@ FN S(depth_inside) depth_within(S(depth_inside) before, S(depth_place) a, S(dept
     return y;
 }
 
-/* Over one triangle. */
+/* Returns the part that is inside over one triangle. */
 FN S(depth_inside) depth_inside_between(S(depth_place) a, S(depth_place) b)
 {
     EXACT S(depth_inside) y;
@@ -140,7 +140,7 @@ FN S(depth_inside) depth_inside_between(S(depth_place) a, S(depth_place) b)
     return y;
 }
 
-/* The first piece of a path within one map, and whether it is known where that ends. */
+/* The first part of a path within one map, and whether its end is known. */
 struct depth_found {
     S(depth_inside) inside;
     bool begun, ended;
@@ -165,7 +165,7 @@ FN S(depth_found) depth_go_on(S(depth_found) before, S(depth_inside) next, S(dep
     return found;
 }
 
-/* The same over a whole cell. */
+/* Extends the first part within one map over a whole cell. */
 FN S(depth_found) depth_go_through(S(depth_found) before, S(terrain_path) path, S(depth_cell) cell,
                                    float x, float z, float from, float to)
 {
@@ -186,8 +186,8 @@ FN S(depth_found) depth_go_through(S(depth_found) before, S(terrain_path) path, 
     return found;
 }
 
-/* From cell to cell, from the part `from` of a path to the part `to`: the first piece inside. What
- * does not end before `to` ends at 2; where there is none, it begins at 2. */
+/* Follows a path from cell to cell, between its parts `from` and `to`, and returns the first part
+ * inside. If it does not end before `to`, its end is 2; if there is none, its start is 2. */
 FN S(depth_inside) depth_march(SIM_PARAM S(kiln_grid) g, S(depth_map) map, S(terrain_path) path,
                                float from, float to)
 {
@@ -228,10 +228,10 @@ FN S(depth_inside) depth_march(SIM_PARAM S(kiln_grid) g, S(depth_map) map, S(ter
     return found.inside;
 }
 
-/* The part of a path at which it first is inside all maps, or 2. */
+/* Returns the part of a path at which it first is inside all maps, or 2. */
 FN float depth_first_inside(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float from, float to)
 {
-    EXACT float leaves[KILN_MAX_DEPTH_DIRECTIONS]; /* of what each map has found last */
+    EXACT float leaves[KILN_MAX_DEPTH_DIRECTIONS]; /* the last end that was found in each map */
     for (uint m = 0u; m < g.size.z; m++)
         leaves[m] = from;
     EXACT float at = from;
@@ -254,7 +254,7 @@ FN float depth_first_inside(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float 
     return at;
 }
 
-/* Is a way on the outer side of one of the faces of the box around all maps? */
+/* Returns whether a way is outside of one face of the box around all maps. */
 FN bool depth_is_clear(S(kiln_grid) g, float3 a, float3 b)
 {
     return (a.x < g.low.x && b.x < g.low.x) || (a.y < g.low.y && b.y < g.low.y) ||
@@ -270,14 +270,14 @@ FN S(collide_box) depth_box(S(kiln_grid) g)
     return box;
 }
 
-/* A point against a map: the nearer of its surfaces, and how far outside of that it is along the
- * direction. */
+/* The test of a point against a map: the nearer of its surfaces, and the distance outside of that
+ * along the direction. */
 struct depth_look {
     float outside;       /* units; below 0: inside */
     float side;          /* 1: the front, -1: the back */
-    float far_out;       /* units: how little inside, less what steepness takes from its worth */
-    float3 facet;        /* of that surface, as long as it is steep */
-    float3 interpolated; /* its normal, of any length */
+    float far_out;       /* units: distance outside, with a penalty for a steep surface */
+    float3 facet;        /* normal of the triangle, not normalised */
+    float3 interpolated; /* interpolated normal, of any length */
 };
 
 FN S(depth_look) depth_look_at(SIM_PARAM S(kiln_grid) g, S(depth_map) map, float3 q)
@@ -319,7 +319,7 @@ FN S(depth_look) depth_look_at(SIM_PARAM S(kiln_grid) g, S(depth_map) map, float
     return look;
 }
 
-/* Is a point between front and back in all maps? */
+/* Returns whether a point is between front and back in all maps. */
 FN bool depth_is_within(SIM_PARAM S(kiln_grid) g, float3 q)
 {
     bool within = true;
@@ -331,7 +331,7 @@ FN bool depth_is_within(SIM_PARAM S(kiln_grid) g, float3 q)
     return within;
 }
 
-/* The way of a segment between two parts of the step, as collide_segment has it. */
+/* Intersects a segment between two parts of the step, as collide_segment does. */
 FN S(collide_span) depth_segment(SIM_PARAM S(kiln_collider) c, float since, float until, float3 a,
                                  float3 b)
 {
@@ -373,9 +373,9 @@ FN bool depth_is_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p)
     return collide_inside(bounds, p) && collide_inside(box, q) && depth_is_within(SIM g, q);
 }
 
-/* At a point of the surface, or near it, by the map in which that is nearest; of maps that are
- * about as near, by the one that looks at it straight. Off along its direction, the point is
- * outside. */
+/* Returns the surface at a point on it or near it, by the map in which the surface is nearest; of
+ * maps with about the same distance, by the one that sees the surface least obliquely. The result's
+ * position lies outside along that map's direction. */
 FN S(collide_ground) depth_ground(SIM_PARAM S(kiln_collider) c, float since, float3 p)
 {
     EXACT S(kiln_pose) pose = AROUND(poses[c.mesh]);

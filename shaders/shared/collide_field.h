@@ -1,9 +1,9 @@
-/* Colliders that look up lattices, for shared/collide.h: terrain, and meshes by their distance
- * fields, depth maps, or volumes of their planes. */
+/* Chooses among the colliders that look up lattices, for shared/collide.h: terrain, and meshes by
+ * their distance fields, depth maps, or volumes of planes. */
 #ifndef KILN_SHARED_COLLIDE_FIELD_H
 #define KILN_SHARED_COLLIDE_FIELD_H
 
-/* Shaders have the code of those alone that their scene has. */
+/* Shaders have only the code of the kinds that their scene has. */
 #if defined(GL_core_profile) && !defined(COLLIDE_FIELD)
 #define COLLIDE_HAS_GRIDS 0
 #else
@@ -17,7 +17,7 @@
 #include "shared/collide_volume.h"
 #endif
 
-/* Shaders of scenes without depth maps are spared their code. */
+/* Shaders of scenes without depth maps are compiled without their code. */
 #if defined(GL_core_profile) && !defined(COLLIDE_DEPTH)
 #define COLLIDE_HAS_DEPTH 0
 #else
@@ -25,7 +25,7 @@
 #include "shared/collide_depth.h"
 #endif
 
-/* The way of a segment between two parts of the step, as collide_through has it. */
+/* Intersects a segment between two parts of the step, as collide_through does. */
 FN S(collide_span) collide_field_segment(SIM_PARAM S(kiln_collider) c, float since, float until,
                                          float3 a, float3 b)
 {
@@ -102,8 +102,8 @@ FN S(collide_ground) collide_field_ground(SIM_PARAM S(kiln_collider) c, uint fac
     return ground;
 }
 
-/* What collide_rise goes up to the top of: of terrain, the ground at a point; of a volume, nothing,
- * because what is behind a plane is put in front of it in the next step. */
+/* Returns the box whose top collide_rise moves to: for terrain, the ground at a point; for a
+ * volume, nothing, since a particle behind a plane is put in front of it in the next step. */
 FN S(collide_box) collide_field_below(SIM_PARAM S(kiln_collider) c, S(collide_box) box, float3 p)
 {
     EXACT S(collide_box) below = box;
@@ -120,7 +120,7 @@ FN S(collide_box) collide_field_below(SIM_PARAM S(kiln_collider) c, S(collide_bo
     return below;
 }
 
-/* A velocity relative to a surface, less what goes against it. */
+/* Returns a velocity relative to a surface, without its part towards the surface. */
 FN float3 collide_clear_of(float3 velocity, float3 facet)
 {
     EXACT float outwards = float3_dot(velocity, facet);

@@ -1,16 +1,15 @@
-/* Collision with spheres and capped cylinders; shared/collide.h says when.
+/* Intersects segments with spheres and capped cylinders, for shared/collide.h.
  *
- * Centre, radius and height move evenly during the step, so with q(t) the way from the centre to
- * the particle, or across the axis, |q(t)|^2 - r(t)^2 is a quadratic in the part t of the path: its
- * roots are where the path enters and leaves. A cylinder is what a round side and two faces have in
- * common, like a box its six.
- */
+ * Centre, radius and height change evenly during the step. With q(t) the vector from the centre
+ * (for a cylinder, from the axis) to the particle, |q(t)|^2 - r(t)^2 is a quadratic in the part t
+ * of the path. Its roots are where the path enters and leaves. A cylinder is the intersection of a
+ * round side and two faces, as a box is that of six. */
 #ifndef KILN_SHARED_COLLIDE_ROUND_H
 #define KILN_SHARED_COLLIDE_ROUND_H
 
 #include "shared/collide_box.h"
 
-/* Faces of round shapes, after those of boxes. */
+/* Faces of round shapes, numbered after those of boxes. */
 #define COLLIDE_SIDE  6u
 #define COLLIDE_LOWER 7u /* the end at the start of the axis */
 #define COLLIDE_UPPER 8u
@@ -22,7 +21,7 @@ struct collide_round {
     float half_height;
 };
 
-/* The shape when the part `since` of the step has passed. */
+/* Returns the shape after the part `since` of the step. */
 FN S(collide_round) collide_round_at(S(kiln_collider) c, float since)
 {
     EXACT S(collide_round) shape;
@@ -35,9 +34,9 @@ FN S(collide_round) collide_round_at(S(kiln_collider) c, float since)
     return shape;
 }
 
-/* A point from the centre, taken apart. */
+/* A point relative to the centre, split across and along the axis. */
 struct collide_place {
-    float3 across; /* of a sphere, all of it */
+    float3 across; /* for a sphere, the whole vector */
     float height;
 };
 
@@ -55,7 +54,7 @@ FN S(collide_place) collide_round_place(uint kind, S(collide_round) shape, float
     return place;
 }
 
-/* |across|^2 - radius^2: below 0 inside. */
+/* Returns |across|^2 - radius^2, which is below 0 inside. */
 FN float collide_round_excess(float3 across, float radius)
 {
     EXACT float square = float3_dot(across, across);
@@ -74,8 +73,8 @@ FN bool collide_round_inside(uint kind, S(collide_round) shape, float3 p)
     return excess < 0.0f && between;
 }
 
-/* The round side as one more face: from a with radius r0 to b with radius r1. Most ways miss it,
- * which is known before roots are. */
+/* Adds the round side as one more face to a result, for a segment from a with radius r0 to b with
+ * radius r1. Most ways miss it, which is known before roots are computed. */
 FN_CLOSE S(collide_span) collide_side(S(collide_span) before, float3 a, float3 b, float r0,
                                       float r1)
 {
@@ -150,7 +149,7 @@ FN_CLOSE S(collide_span) collide_round_segment(uint kind, S(collide_round) start
     return span;
 }
 
-/* The part of the surface that a point inside is nearest to. */
+/* Returns the part of the surface that a point inside is nearest to. */
 FN uint collide_round_nearest(uint kind, S(collide_round) shape, float3 p)
 {
     uint face = COLLIDE_SIDE;
@@ -167,8 +166,8 @@ FN uint collide_round_nearest(uint kind, S(collide_round) shape, float3 p)
     return face;
 }
 
-/* Outwards, at a point near the surface. A point on the axis has no side: up, or across the axis.
- */
+/* Returns the outward normal at a point near the surface. A point on the axis gets up, or a
+ * direction across the axis. */
 FN_CLOSE float3 collide_round_normal(uint kind, S(collide_round) shape, uint face, float3 p)
 {
     EXACT float3 back = float3_scale(shape.axis, -1.0f);
@@ -190,7 +189,7 @@ FN_CLOSE float3 collide_round_normal(uint kind, S(collide_round) shape, uint fac
     return y;
 }
 
-/* A direction in 3 x 10 bits, with a mark that no number of a face has. */
+/* Packs a direction into 3 x 10 bits, with a mark that no number of a face has. */
 FN uint collide_pack_normal(float3 normal)
 {
     EXACT float x = normal.x * 511.0f + 512.5f;
@@ -213,7 +212,7 @@ FN float3 collide_unpack_normal(uint bits)
     return unit;
 }
 
-/* The point of the surface above p, `gap` outside of it. */
+/* Returns the point of the surface nearest to p, moved outwards by `gap`. */
 FN float3 collide_round_put(uint kind, S(collide_round) shape, uint face, float3 p, float gap)
 {
     EXACT S(collide_place) place = collide_round_place(kind, shape, p);
@@ -229,7 +228,8 @@ FN float3 collide_round_put(uint kind, S(collide_round) shape, uint face, float3
     return y;
 }
 
-/* As collide_beside, for the lengths that a place on the surface is computed from. */
+/* Returns the gap, as collide_beside does, for the lengths from which a place on the surface is
+ * computed. */
 FN float collide_round_gap(S(collide_round) shape)
 {
     EXACT float x = exact_abs(shape.center.x);
@@ -240,7 +240,7 @@ FN float collide_round_gap(S(collide_round) shape)
     return gap;
 }
 
-/* Metres a second of the surface where its normal is so. */
+/* Returns the velocity of the surface where it has this normal, m/s. */
 FN float3 collide_round_velocity(S(kiln_collider) c, uint face, float3 normal, float steps_per_s)
 {
     EXACT float3 motion = FLOAT3(c.center_end.x - c.center.x, c.center_end.y - c.center.y,

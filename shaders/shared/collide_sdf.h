@@ -1,12 +1,12 @@
-/* Collision with the signed distance field of a mesh (UberFlow 2004, 4.6); shared/collide.h says
- * when.
+/* Intersects segments with the signed distance field of a mesh (UberFlow 2004, 4.6), for
+ * shared/collide.h.
  *
- * A word of its grid is (direction of growth, distance), below 0 inside. The mesh moves rigidly: a
- * point's place in its frame is found at the start and at the end of the step and goes evenly
- * between them, so that a path is a segment there, too. It is followed in strides that are no
- * longer than the way to the surface, and where that is near, a quarter of a cell. A ball's centre
- * meets a surface that is farther out by its radius.
- */
+ * A word of its grid is (gradient, distance); the distance is below 0 inside. The mesh moves
+ * rigidly. A particle's places in the mesh's frame are computed at the start and at the end of the
+ * step, and interpolated linearly, so that a path is a segment in that frame, too. The segment is
+ * followed in strides no longer than the distance to the surface, and near it in strides of a
+ * quarter of a cell. For a ball, the surface is farther out by its radius, and the centre is
+ * tested. */
 #ifndef KILN_SHARED_COLLIDE_SDF_H
 #define KILN_SHARED_COLLIDE_SDF_H
 
@@ -18,7 +18,7 @@ FN float sdf_row(float4 row, float3 p)
     return y;
 }
 
-/* A point in the frame of the mesh, when the part `since` of the step has passed. */
+/* Returns a point in the frame of the mesh after the part `since` of the step. */
 FN float3 sdf_local(S(kiln_pose) pose, float since, float3 p)
 {
     EXACT float x0 = sdf_row(pose.to_local[0], p);
@@ -39,7 +39,7 @@ FN float4 sdf_moving_row(float4 a, float4 b, float since)
     return y;
 }
 
-/* From a slope in the mesh's frame to one in the world: the transposed rows. */
+/* Transforms a gradient from the mesh's frame to the world, by the transposed rows. */
 FN float3 sdf_slope_to_world(S(kiln_pose) pose, float since, float3 v)
 {
     EXACT float4 r0 = sdf_moving_row(pose.to_local[0], pose.to_local_end[0], since);
@@ -51,7 +51,7 @@ FN float3 sdf_slope_to_world(S(kiln_pose) pose, float since, float3 v)
     return y;
 }
 
-/* The distances at the corners of a cell, by x, y and z, and a place in it. */
+/* The distances at the corners of a cell, by x, y and z, and a place in the cell. */
 struct sdf_cell {
     float d000, d100, d010, d110, d001, d101, d011, d111;
     float x, y, z;
@@ -90,7 +90,7 @@ FN float sdf_mix(float a, float b, float t)
     return y;
 }
 
-/* Trilinear. */
+/* Interpolates the distance trilinearly. */
 FN float sdf_distance(S(sdf_cell) c)
 {
     EXACT float d00 = sdf_mix(c.d000, c.d100, c.x);
@@ -103,7 +103,7 @@ FN float sdf_distance(S(sdf_cell) c)
     return y;
 }
 
-/* How it grows along x, y and z, for cubic cells, in any unit. */
+/* Returns the gradient of the distance along x, y and z, in any unit; cells are cubes. */
 FN float3 sdf_slope(S(sdf_cell) c)
 {
     EXACT float x0 = sdf_mix(c.d100 - c.d000, c.d110 - c.d010, c.y);
@@ -123,7 +123,7 @@ FN float sdf_distance_at(SIM_PARAM S(kiln_grid) g, float3 q)
     return y;
 }
 
-/* A segment and the box of a grid, both in the frame of the mesh. */
+/* Intersects a segment with the box of a grid, both in the frame of the mesh. */
 FN S(collide_span) sdf_box_segment(S(kiln_grid) g, float3 a, float3 b)
 {
     EXACT float cell = exact_rcp(g.per_metre.x);
@@ -153,8 +153,8 @@ FN float sdf_radius(S(kiln_pose) pose, float since, float radius)
     return y;
 }
 
-/* The part of a segment at which a distance of 0 begins, between two parts of a segment: within a
- * mesh as thin as a cell, whose two sides lie on samples, all distances are 0. */
+/* Returns where distances of 0 begin before a part of a segment, between two parts of it. In a mesh
+ * as thin as a cell, whose two sides lie on samples, all distances are 0. */
 FN float sdf_march_back(SIM_PARAM S(kiln_grid) g, float3 a, float3 way, S(sdf_reach) reach,
                         float from, float to)
 {
@@ -170,7 +170,7 @@ FN float sdf_march_back(SIM_PARAM S(kiln_grid) g, float3 a, float3 way, S(sdf_re
     return hit;
 }
 
-/* Along a segment in the frame of the mesh, from a part of it to another: the part at which it
+/* Follows a segment in the frame of the mesh from one part to another; returns the part at which it
  * first gets inside, or 2. */
 FN float sdf_march(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, S(sdf_reach) reach, float from,
                    float to)
@@ -200,7 +200,7 @@ FN float sdf_march(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, S(sdf_reach) re
             return 2.0f;
         before = at;
         distance_before = distance;
-        /* Between samples it changes at most by the root of 3 a unit. */
+        /* Between samples the distance changes by at most the root of 3 a unit. */
         EXACT float stride = exact_max(distance * 0.57f, least);
         EXACT float next = at + stride * per_length;
         at = per_length == 0.0f ? to : exact_min(next, to);
@@ -208,10 +208,10 @@ FN float sdf_march(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, S(sdf_reach) re
     return 2.0f;
 }
 
-/* May no path from a to b, in the frame of the mesh, touch it? The distance at the first sample of
- * a's cell differs from that at a by less than the diagonal of the cell; around the grid's edges
- * there is no mesh for two cells, and as far as the largest ball reaches. larger: that of a ball.
- */
+/* Returns whether no path from a to b, in the frame of the mesh, can touch it. The distance at the
+ * first sample of a's cell differs from that at a by less than the diagonal of the cell. Outside of
+ * the grid there is no mesh within two cells and the reach of the largest ball. larger: radius of
+ * the ball. */
 FN bool sdf_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float larger)
 {
     EXACT S(grid_place) place = grid_find(g, a);
@@ -226,7 +226,7 @@ FN bool sdf_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float larger)
     return cells < reach && (FLOAT_BITS(cells) & EXACT_SIZE_BITS) < EXACT_VAST_BITS;
 }
 
-/* The way of a segment between two parts of the step, as collide_segment has it. */
+/* Intersects a segment between two parts of the step, as collide_segment does. */
 FN S(collide_span) sdf_segment(SIM_PARAM S(kiln_collider) c, float since, float until, float3 a,
                                float3 b)
 {
@@ -269,8 +269,7 @@ FN bool sdf_is_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p)
     return collide_inside(bounds, p) && !span.misses && distance <= 0.0f;
 }
 
-/* Metres a second of what is at a point of the mesh when the part `since` of the step has passed.
- */
+/* Returns the velocity, m/s, of the mesh at a point after the part `since` of the step. */
 FN float3 sdf_velocity(S(kiln_pose) pose, float since, float3 p, float steps_per_s)
 {
     EXACT float3 center = FLOAT3(collide_moving(pose.center.x, pose.center_end.x, since),
@@ -290,7 +289,7 @@ FN float3 sdf_velocity(S(kiln_pose) pose, float since, float3 p, float steps_per
     return y;
 }
 
-/* At a point of the surface, or near it. */
+/* Returns the surface at a point on it or near it. */
 FN S(collide_ground) sdf_ground(SIM_PARAM S(kiln_collider) c, float since, float3 p)
 {
     EXACT S(kiln_pose) pose = AROUND(poses[c.mesh]);

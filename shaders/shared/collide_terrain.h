@@ -1,21 +1,21 @@
-/* Collision with a height field (UberFlow 2004, 4.6); shared/collide.h says when.
+/* Intersects segments with a height field (UberFlow 2004, 4.6), for shared/collide.h.
  *
  * A word of its grid is (slope along x, height, slope along z, ceiling). Four points make a cell of
- * two triangles, which meet along the line from the first to the last: over each, the height above
- * ground changes evenly along a path, so that the paper's p0 + d0 / (d0 + d1) * (p1 - p0) is the
- * very point of impact. A path is followed from cell to cell; nothing is too fast or too thin. What
- * lies below is solid without end, and so are the sides.
+ * two triangles, which share the diagonal from the first to the last point. Over each triangle, the
+ * height above ground changes linearly along a path, so that the paper's p0 + d0 / (d0 + d1) * (p1
+ * - p0) is exactly the point of impact. A path is followed from cell to cell, so no particle is too
+ * fast and no crest too thin. All below the surface, and below its sides, is solid.
  *
- * For a ball, each point is higher by what the ball's centre is above a slope as steep as there, so
- * that what its centre meets is a lattice again; in dents narrower than the ball it goes too deep.
- */
+ * For a ball, each point is raised by the height at which the centre of the ball is above a slope
+ * as steep as at that point. So its centre meets a lattice again; in dents narrower than the ball,
+ * it goes too deep. */
 #ifndef KILN_SHARED_COLLIDE_TERRAIN_H
 #define KILN_SHARED_COLLIDE_TERRAIN_H
 
 #include "shared/collide_ground.h"
 #include "shared/grid.h"
 
-/* A point's height, for the centre of a ball. */
+/* Returns a point's height, raised for the centre of a ball. */
 FN float terrain_point(float4 word, float radius)
 {
 #if !defined(GL_core_profile) || defined(PUSHES)
@@ -29,7 +29,7 @@ FN float terrain_point(float4 word, float radius)
 }
 
 struct terrain_cell {
-    uint first; /* word */
+    uint first; /* index of the first word */
     uint row;   /* words from one row to the next */
     float h00, h10, h01, h11;
 };
@@ -50,7 +50,7 @@ FN S(terrain_cell) terrain_cell_at(SIM_PARAM S(kiln_grid) g, uint x, uint z, flo
     return cell;
 }
 
-/* At the part u along x and v along z of the cell. */
+/* Returns the height at the part u along x and v along z of the cell. */
 FN float terrain_height(S(terrain_cell) cell, float u, float v)
 {
     bool lower = u >= v;
@@ -61,8 +61,8 @@ FN float terrain_height(S(terrain_cell) cell, float u, float v)
     return y;
 }
 
-/* May no path from a to b touch the ground? So it is when both lie above the ceiling of a's cell,
- * raised for a ball, and at most a cell apart. */
+/* Returns whether no path from a to b can touch the ground: both points lie above the ceiling of
+ * a's cell, raised for a ball, and at most a cell apart. */
 FN bool terrain_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b, float raised)
 {
     EXACT S(grid_axis) x = grid_along(a.x, g.origin.x, g.per_metre.x, g.size.x);
@@ -95,10 +95,10 @@ FN S(terrain_path) terrain_path_of(S(kiln_grid) g, float3 a, float3 b)
     return path;
 }
 
-/* Where a path is within a cell, and how high above its ground. */
+/* A place of a path within a cell, and its height above the ground. */
 struct terrain_place {
-    float part;  /* of the path */
-    float aside; /* of the line between the triangles */
+    float part;  /* part of the path */
+    float aside; /* distance from the line between the triangles */
     float above; /* m */
 };
 
@@ -118,8 +118,8 @@ FN S(terrain_place) terrain_place_at(S(terrain_path) path, S(terrain_cell) cell,
     return place;
 }
 
-/* The part of the path at which it goes from above ground to below it over one triangle; 2: it does
- * not (UberFlow 2004, 4.6). */
+/* Returns the part of the path at which it goes from above ground to below it over one triangle; 2:
+ * it does not (UberFlow 2004, 4.6). */
 FN float terrain_impact_between(S(terrain_place) a, S(terrain_place) b)
 {
     EXACT float fall = a.above - b.above;
@@ -132,7 +132,7 @@ FN float terrain_impact_between(S(terrain_place) a, S(terrain_place) b)
     return hit;
 }
 
-/* The same over a whole cell. */
+/* Returns the part of the path of an impact in a whole cell, or 2. */
 FN float terrain_impact_in(S(terrain_path) path, S(terrain_cell) cell, float x, float z, float from,
                            float to)
 {
@@ -152,8 +152,8 @@ FN float terrain_impact_in(S(terrain_path) path, S(terrain_cell) cell, float x, 
     return y;
 }
 
-/* From cell to cell, from the part `from` of the path to the part `to`: that of the first impact,
- * or 2. */
+/* Follows a path from cell to cell, between its parts `from` and `to`; returns the part of the
+ * first impact, or 2. */
 FN float terrain_march(SIM_PARAM S(kiln_grid) g, S(terrain_path) path, float from, float to,
                        float radius)
 {
@@ -191,7 +191,7 @@ FN float terrain_march(SIM_PARAM S(kiln_grid) g, S(terrain_path) path, float fro
     return 2.0f;
 }
 
-/* Is a point below ground? */
+/* Returns whether a point is below ground. */
 FN bool terrain_is_inside(SIM_PARAM S(kiln_collider) c, float3 p)
 {
     EXACT S(kiln_grid) g = AROUND(grids[c.grid]);
@@ -202,7 +202,7 @@ FN bool terrain_is_inside(SIM_PARAM S(kiln_collider) c, float3 p)
     return p.x > c.min.x && p.x < c.max.x && p.z > c.min.z && p.z < c.max.z && p.y <= ground;
 }
 
-/* The way of a segment, as collide_segment has it. */
+/* Intersects a segment, as collide_segment does. */
 FN S(collide_span) terrain_segment(SIM_PARAM S(kiln_collider) c, float3 a, float3 b)
 {
     EXACT S(collide_span) span;
@@ -234,7 +234,7 @@ FN S(collide_span) terrain_segment(SIM_PARAM S(kiln_collider) c, float3 a, float
     return span;
 }
 
-/* At a point of the surface, or above or below it. */
+/* Returns the surface at a point on it, above or below it. */
 FN S(collide_ground) terrain_ground(SIM_PARAM S(kiln_collider) c, float3 p)
 {
     EXACT S(kiln_grid) g = AROUND(grids[c.grid]);
@@ -268,7 +268,7 @@ FN S(collide_ground) terrain_ground(SIM_PARAM S(kiln_collider) c, float3 p)
     return ground;
 }
 
-/* At one of the walls. */
+/* Returns the surface at a point of one of the walls. */
 FN S(collide_ground) terrain_wall(S(kiln_collider) c, uint face, float3 p)
 {
     EXACT S(collide_box) box = collide_box_at(c, 0.0f);

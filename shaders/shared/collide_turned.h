@@ -1,12 +1,11 @@
-/* Collision with shapes that lie in a frame of their own, which may move and turn: boxes of any
- * direction, cylinders whose axis turns, capsules along the frame's y, and the half space below its
- * y = 0; shared/collide.h says when.
+/* Intersects segments with shapes that have a frame of their own, which may move and turn, for
+ * shared/collide.h: boxes of any direction, cylinders whose axis turns, capsules along the frame's
+ * y, and the half space below its y = 0.
  *
- * At any time of the step the frame is known, and in it the shape only grows: there a path is taken
- * from where the particle is at one time to where it is at another. Where the frame turns, the path
- * between is not straight, so the step is divided into pieces of at most 1/32 rad. They hang
- * together, and the ends of each are exact: nothing slips through.
- */
+ * The frame is known at any time of the step. In it, the shape only grows, and a particle's path is
+ * a segment between its places at two times. Where the frame turns, the true path between these is
+ * curved, so the step is divided into pieces of at most 1/32 rad. The pieces are connected and
+ * their ends are exact, so no particle slips through. */
 #ifndef KILN_SHARED_COLLIDE_TURNED_H
 #define KILN_SHARED_COLLIDE_TURNED_H
 
@@ -23,7 +22,7 @@ struct collide_frame {
     float radius;
 };
 
-/* The pose when the part `since` of the step has passed. */
+/* Returns the pose after the part `since` of the step. */
 FN float4 collide_pose_at(S(kiln_collider) c, float since)
 {
     EXACT float4 p = c.pose;
@@ -70,7 +69,7 @@ FN float3 collide_from_frame(S(collide_frame) frame, float3 q)
     return y;
 }
 
-/* ---- in the frame ---------------------------------------------------------------------------- */
+/* ---- tests in the frame of a collider -------------------------------------------------------- */
 
 FN S(collide_box) collide_frame_box(S(collide_frame) frame)
 {
@@ -80,7 +79,7 @@ FN S(collide_box) collide_frame_box(S(collide_frame) frame)
     return box;
 }
 
-/* From the axis, or from a capsule's nearest centre. */
+/* Returns the vector from the axis, or from a capsule's nearest centre. */
 FN float3 collide_frame_across(uint kind, S(collide_frame) frame, float3 q)
 {
     EXACT float low = -frame.extent.y;
@@ -126,7 +125,8 @@ FN bool collide_span_meets(S(collide_span) span)
     return !span.misses && (!span.outside || span.enter < span.leave);
 }
 
-/* Of two shapes together; both are met on the same face, and where they are left is left open. */
+/* Unites the results of two shapes that are hit on the same face. Where they are left is not
+ * computed. */
 FN S(collide_span) collide_either(S(collide_span) one, S(collide_span) other)
 {
     bool first = collide_span_meets(one);
@@ -142,7 +142,7 @@ FN S(collide_span) collide_either(S(collide_span) one, S(collide_span) other)
     return span;
 }
 
-/* The ball at one of a capsule's ends. */
+/* Intersects a segment with the ball at one of a capsule's ends. */
 FN S(collide_span) collide_ball(S(collide_frame) start, S(collide_frame) end, float3 a, float3 b,
                                 float upwards)
 {
@@ -168,7 +168,7 @@ FN S(collide_span) collide_barrel(S(collide_frame) start, S(collide_frame) end, 
     return span;
 }
 
-/* From a in the frame at one time to b in it at another. */
+/* Intersects the segment from a, in the frame at one time, to b, in the frame at another. */
 FN S(collide_span) collide_frame_segment(uint kind, S(collide_frame) start, S(collide_frame) end,
                                          float3 a, float3 b)
 {
@@ -194,7 +194,7 @@ FN S(collide_span) collide_frame_segment(uint kind, S(collide_frame) start, S(co
     return span;
 }
 
-/* The part of the surface that a point inside is nearest to. */
+/* Returns the part of the surface that a point inside is nearest to. */
 FN uint collide_frame_nearest(uint kind, S(collide_frame) frame, float3 q)
 {
     uint face = COLLIDE_SIDE;
@@ -216,7 +216,7 @@ FN uint collide_frame_nearest(uint kind, S(collide_frame) frame, float3 q)
     return face;
 }
 
-/* Outwards, at a point near the surface. */
+/* Returns the outward normal at a point near the surface. */
 FN float3 collide_frame_normal(uint kind, S(collide_frame) frame, uint face, float3 q)
 {
     EXACT float3 normal = FLOAT3(0.0f, 0.0f, 0.0f);
@@ -233,7 +233,7 @@ FN float3 collide_frame_normal(uint kind, S(collide_frame) frame, uint face, flo
     return normal;
 }
 
-/* The point of the surface above q, `gap` outside of it. */
+/* Returns the point of the surface nearest to q, moved outwards by `gap`. */
 FN float3 collide_frame_put(uint kind, S(collide_frame) frame, uint face, float3 q, float gap)
 {
     EXACT float3 y = q;
@@ -255,10 +255,11 @@ FN float3 collide_frame_put(uint kind, S(collide_frame) frame, uint face, float3
     return y;
 }
 
-/* ---- in the world: colliders by their number, and by how much they are larger (m) ------------ */
+/* ---- tests in the world, for colliders by their number, enlarged by a radius (m)
+ * -------------- */
 
-/* May the way between two parts of the step touch the collider? Not where one face of its bounds
- * has it outside at both ends, so that all but the nearest are spared the rest. */
+/* Returns whether the way between two parts of the step may touch the collider. It does not if both
+ * ends are outside of one face of its bounds. This spares most particles the exact test. */
 FN bool collide_is_near(S(kiln_collider) c, float since, float until, float3 a, float3 b)
 {
     EXACT S(collide_box) start = collide_box_at(c, since);
@@ -272,7 +273,7 @@ FN bool collide_is_near(S(kiln_collider) c, float since, float until, float3 a, 
     return near_x && near_y && near_z;
 }
 
-/* As collide_through. */
+/* Intersects a segment with the collider, as collide_through does. */
 FN_APART S(collide_span) collide_turned_through(SIM_PARAM uint number, float larger, float since,
                                                 float until, float3 from, float3 end)
 {
@@ -304,7 +305,7 @@ FN_APART S(collide_span) collide_turned_through(SIM_PARAM uint number, float lar
         span = collide_frame_segment(c.kind, before, after, a, b);
         if (collide_span_meets(span)) {
             bool within = collide_span_is_inside(span);
-            if (within && i > 0u) /* by a rounding only */
+            if (within && i > 0u) /* only by rounding */
                 span.face = collide_frame_nearest(c.kind, before, a);
             EXACT float sum = FLOAT(i) + span.enter;
             EXACT float enter = sum * share;
@@ -338,14 +339,15 @@ FN_APART bool collide_turned_inside(SIM_PARAM uint number, float larger, float u
     return inside;
 }
 
-/* A point of the surface, the way out of it, and how fast it goes. */
+/* A point of the surface, its normal, and its velocity. */
 struct collide_contact {
     float3 position; /* just outside */
     float3 normal;
     float3 velocity; /* m/s */
 };
 
-/* As collide_beside, for the lengths that a place on the surface is computed from. */
+/* Returns the gap, as collide_beside does, for the lengths from which a place on the surface is
+ * computed. */
 FN float collide_turned_gap(S(collide_frame) frame, float3 q)
 {
     EXACT float x = exact_abs(frame.center.x) + exact_abs(q.x);
@@ -356,7 +358,7 @@ FN float collide_turned_gap(S(collide_frame) frame, float3 q)
     return gap;
 }
 
-/* What a face grows by along its normal in a step. */
+/* Returns by how much a face grows along its normal in a step. */
 FN float collide_turned_growth(S(kiln_collider) c, uint face)
 {
     EXACT float growth = c.center_end.w - c.center.w;
@@ -368,7 +370,8 @@ FN float collide_turned_growth(S(kiln_collider) c, uint face)
     return growth;
 }
 
-/* Where a particle at p meets a face; `spacing`: 1, or 0 for a place on the face itself. */
+/* Returns the contact of a particle at p with a face; `spacing`: 1, or 0 for a place exactly on the
+ * face. */
 FN_APART S(collide_contact) collide_turned_contact(SIM_PARAM uint number, float larger, float since,
                                                    uint face, float3 p, float steps_per_s,
                                                    float spacing)
@@ -385,7 +388,7 @@ FN_APART S(collide_contact) collide_turned_contact(SIM_PARAM uint number, float 
 
     EXACT float growth = collide_turned_growth(c, face);
     EXACT float3 grown = float3_scale(normal, growth);
-    if (c.kind == COLLIDER_CAPSULE) { /* its ends go apart */
+    if (c.kind == COLLIDER_CAPSULE) { /* its ends move apart */
         EXACT float longer = c.extent_end.y - c.extent.y;
         EXACT float beyond = exact_abs(beside.y) - frame.extent.y;
         EXACT float apart = beside.y < 0.0f ? -longer : longer;
@@ -404,7 +407,8 @@ FN_APART S(collide_contact) collide_turned_contact(SIM_PARAM uint number, float 
     return contact;
 }
 
-/* Out of the collider by the nearest part of its surface, since a half space has no upper end. */
+/* Moves a point out of the collider through the nearest part of its surface, since a half space has
+ * no upper end. */
 FN_APART float3 collide_turned_rise(SIM_PARAM uint number, float larger, float until, float3 p)
 {
     uint face = collide_turned_nearest(SIM number, larger, until, p);
@@ -414,7 +418,8 @@ FN_APART float3 collide_turned_rise(SIM_PARAM uint number, float larger, float u
     return y;
 }
 
-/* Where a point that rests on the collider is carried from one part of the step to another. */
+/* Returns where a point that rests on the collider is carried from one part of the step to
+ * another. */
 FN_APART float3 collide_turned_carry(SIM_PARAM uint number, float since, float until, float3 p)
 {
     EXACT S(kiln_collider) c = AROUND(colliders[number]);

@@ -1,22 +1,22 @@
-/* Collision with a volume of planes (Drone 2007, 7.5.2.2); shared/collide.h says when.
+/* Intersects segments with a volume of planes (Drone 2007, 7.5.2.2), for shared/collide.h.
  *
- * The host puts a mesh into a lattice of cells in each step, as it is at both ends of it: a cell
- * that some triangle touches in between has a plane that moves with that triangle. A path is
- * followed from cell to cell, and tested against the plane of each over its part in the cell, so
- * that nothing is too fast. Of a closed mesh, planes have a front alone: what gets into a cell
- * behind its plane has come in past a plane that was not kept, and is put in front at once. Of an
- * open one they have two sides, and a path stays on its side while it goes through cells with
- * planes.
- */
+ * In each step, the host puts a mesh into a lattice of cells, as it is at the step's start and end.
+ * A cell that a triangle touches in between has a plane that moves with that triangle. A path is
+ * followed from cell to cell, and tested against each cell's plane over its part in the cell, so
+ * that no particle is too fast. If the mesh is closed, planes have only a front. A particle that
+ * gets into a cell behind its plane has passed a triangle whose plane was not kept; it is put in
+ * front at once. If the mesh is open, planes have two sides, and a path stays on its side while it
+ * goes through cells with planes. */
 #ifndef KILN_SHARED_COLLIDE_VOLUME_H
 #define KILN_SHARED_COLLIDE_VOLUME_H
 
 #include "shared/collide_ground.h"
 
-/* A face is a plane's number, and whether it was met from behind. */
+/* A face is the number of a plane, and whether it was hit from behind. */
 #define VOLUME_FIRST_FACE 64u
 
-/* Cells: what is farther behind a plane of its cell is behind what it is a plane of. */
+/* Cells: a particle that is farther behind a plane of its cell is not inside the part of the mesh
+ * that the plane stands for. */
 #define VOLUME_DEPTH 1.75f
 
 /* A plane at both ends of the step: a place on it, and its unit normal. */
@@ -39,7 +39,7 @@ FN S(volume_plane) volume_plane_at(SIM_PARAM S(kiln_collider) c, uint number)
     return plane;
 }
 
-/* What is known of a cell, by its place in the lattice: see sim/world/voxels.h. */
+/* Returns the mark of a cell by its place in the lattice; sim/world/voxels.h describes marks. */
 FN float volume_mark(SIM_PARAM S(kiln_grid) g, uint x, uint y, uint z)
 {
     uint cell = (z * g.size.y + y) * g.size.x + x;
@@ -58,7 +58,7 @@ FN float3 volume_moving(float3 a, float3 b, float since)
     return y;
 }
 
-/* How far in front of a plane a point is when the part `since` of the step has passed. */
+/* Returns the distance of a point in front of a plane after the part `since` of the step. */
 FN float volume_height(S(volume_plane) plane, float since, float3 p)
 {
     EXACT float3 normal = volume_moving(plane.normal, plane.normal_end, since);
@@ -68,7 +68,7 @@ FN float volume_height(S(volume_plane) plane, float since, float3 p)
     return y;
 }
 
-/* A point in cells. */
+/* Converts a point to units of cells. */
 FN float3 volume_cells(S(kiln_grid) g, float3 p)
 {
     EXACT float3 y = FLOAT3((p.x - g.origin.x) * g.per_metre.x, (p.y - g.origin.y) * g.per_metre.y,
@@ -76,7 +76,7 @@ FN float3 volume_cells(S(kiln_grid) g, float3 p)
     return y;
 }
 
-/* The nearest cell along an axis. */
+/* Returns the nearest cell along an axis. */
 FN float volume_cell(float at, uint size)
 {
     EXACT float last = FLOAT(size) - 1.0f;
@@ -85,10 +85,10 @@ FN float volume_cell(float at, uint size)
     return y;
 }
 
-/* A path, and its parts of the step. */
+/* A path, and the parts of the step in which it is flown. */
 struct volume_path {
     float3 from, way;     /* m */
-    float3 start, across; /* the same in cells */
+    float3 start, across; /* the same vectors in cells */
     float since, until;
 };
 
@@ -106,7 +106,7 @@ FN S(volume_path) volume_path_of(S(kiln_grid) g, float since, float until, float
     return path;
 }
 
-/* A path at a part of it, in front of a plane. */
+/* Returns the height in front of a plane at a part of a path. */
 FN float volume_height_on(S(volume_path) path, S(volume_plane) plane, float part)
 {
     EXACT float3 p = float3_add_scaled(path.from, path.way, part);
@@ -116,12 +116,12 @@ FN float volume_height_on(S(volume_path) path, S(volume_plane) plane, float part
 }
 
 struct volume_hit {
-    float part; /* of the path; 2: none */
+    float part; /* part of the path; 2: none */
     uint face;
-    int side; /* on which the path is: 1 in front, -1 behind, 0 not known */
+    int side; /* side on which the path is: 1 in front, -1 behind, 0 not known */
 };
 
-/* Between two parts of a path, which lie in a cell with a plane of that number. */
+/* Tests a path between two of its parts, which lie in a cell with the plane of this number. */
 FN S(volume_hit) volume_hit_in(SIM_PARAM S(kiln_collider) c, S(volume_path) path, int side,
                                uint number, float deep, float from, float to)
 {
@@ -146,14 +146,14 @@ FN S(volume_hit) volume_hit_in(SIM_PARAM S(kiln_collider) c, S(volume_path) path
     return hit;
 }
 
-/* A cell on the way of a path, and the part of the path at which it comes there. */
+/* A cell on a path, and the part of the path at which it enters the cell. */
 struct volume_walk {
     float x, y, z;
     float at;
-    bool ends; /* nothing is left of the path, or it leaves the grid */
+    bool ends; /* the path ends here, or leaves the grid */
 };
 
-/* The parts at which a path leaves its cell by each axis. */
+/* Returns the parts at which a path leaves its cell along each axis. */
 FN float3 volume_exits(S(volume_path) path, S(volume_walk) w)
 {
     EXACT float3 y = FLOAT3(collide_leaves(path.start.x, path.across.x, w.x),
@@ -162,7 +162,7 @@ FN float3 volume_exits(S(volume_path) path, S(volume_walk) w)
     return y;
 }
 
-/* Into the neighbour by which a path leaves, at this part. */
+/* Steps into the neighbour by which a path leaves at this part. */
 FN S(volume_walk) volume_step(S(volume_path) path, S(volume_walk) w, float3 exits, float at)
 {
     bool along_x = exits.x <= exits.y && exits.x <= exits.z;
@@ -179,7 +179,7 @@ FN S(volume_walk) volume_step(S(volume_path) path, S(volume_walk) w, float3 exit
     return y;
 }
 
-/* The cell after one with this mark: where no plane is near, several cells on. */
+/* Walks to the next cell, or several cells on where the cell's mark says that no plane is near. */
 FN S(volume_walk) volume_walk_on(S(kiln_grid) g, S(volume_path) path, S(volume_walk) w, float mark,
                                  float per_cell, float to)
 {
@@ -205,7 +205,7 @@ FN S(volume_walk) volume_walk_on(S(kiln_grid) g, S(volume_path) path, S(volume_w
     return y;
 }
 
-/* Where a path first meets a plane of the cells that it goes through. */
+/* Finds where a path first meets a plane of the cells that it goes through. */
 FN S(volume_hit) volume_march(SIM_PARAM S(kiln_collider) c, S(kiln_grid) g, S(volume_path) path,
                               float from, float to)
 {
@@ -246,7 +246,7 @@ FN S(volume_hit) volume_march(SIM_PARAM S(kiln_collider) c, S(kiln_grid) g, S(vo
     return hit;
 }
 
-/* May no path from a to b touch a plane? */
+/* Returns whether no path from a to b can touch a plane. */
 FN bool volume_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b)
 {
     EXACT float3 from = volume_cells(g, a);
@@ -262,7 +262,7 @@ FN bool volume_is_clear(SIM_PARAM S(kiln_grid) g, float3 a, float3 b)
     return far <= -mark;
 }
 
-/* The way of a segment between two parts of the step, as collide_segment has it. */
+/* Intersects a segment between two parts of the step, as collide_segment does. */
 FN S(collide_span) volume_segment(SIM_PARAM S(kiln_collider) c, float since, float until, float3 a,
                                   float3 b)
 {
@@ -285,8 +285,7 @@ FN S(collide_span) volume_segment(SIM_PARAM S(kiln_collider) c, float since, flo
     return span;
 }
 
-/* The plane of the cell around a point that is in the box of the collider; 0: none, else 1 + its
- * number. */
+/* Returns 1 + the number of the plane of the cell at a point in the collider's box; 0: none. */
 FN uint volume_find(SIM_PARAM S(kiln_collider) c, float3 p)
 {
     EXACT S(kiln_grid) g = AROUND(grids[c.grid]);
@@ -298,7 +297,8 @@ FN uint volume_find(SIM_PARAM S(kiln_collider) c, float3 p)
     return mark > 0.0f ? UINT(mark) : 0u;
 }
 
-/* Behind the plane of its cell? That is all that can be known without the way of a particle. */
+/* Returns whether a point is behind the plane of its cell. Without a particle's way, no more can be
+ * known. */
 FN bool volume_is_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p)
 {
     EXACT S(collide_box) bounds = collide_box_at(c, until);
@@ -311,7 +311,7 @@ FN bool volume_is_inside(SIM_PARAM S(kiln_collider) c, float until, float3 p)
     return height <= 0.0f && height > -deep;
 }
 
-/* At a point of the plane that a face names, or near it. */
+/* Returns the surface at a point of the plane that a face names, or near it. */
 FN S(collide_ground) volume_ground(SIM_PARAM S(kiln_collider) c, uint face, float since, float3 p)
 {
     uint number = (face - VOLUME_FIRST_FACE) >> 1u;
@@ -341,7 +341,8 @@ FN S(collide_ground) volume_ground(SIM_PARAM S(kiln_collider) c, uint face, floa
     return ground;
 }
 
-/* Where a particle is at the end of the step that rests before a plane in between: in front. */
+/* Returns where a particle is at the end of the step that rests on a plane for a part of it: in
+ * front of the plane. */
 FN float3 volume_carry(SIM_PARAM S(kiln_collider) c, uint face, float until, float3 p)
 {
     EXACT S(collide_ground) ground = volume_ground(SIM c, face, until, p);

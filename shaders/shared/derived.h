@@ -1,6 +1,5 @@
-/* What a particle has besides its record, recomputed from its serial and its birth
- * (docs/determinism.md, 4): shared by the simulation and by whatever draws.
- */
+/* Recomputes the values of a particle that its record does not have from its serial and its birth
+ * (docs/determinism.md, 4). Simulation and drawing share it. */
 #ifndef KILN_SHARED_DERIVED_H
 #define KILN_SHARED_DERIVED_H
 
@@ -8,13 +7,13 @@
 #include "shared/particle.h"
 #include "shared/random.h"
 
-/* The particle's stream of random numbers. */
+/* Returns the particle's stream of random numbers. */
 FN uint particle_stream(S(kiln_derived_params) d, S(kiln_particle) p)
 {
     return random_stream(d.random_key, p.position_serial.w);
 }
 
-/* Clip time at which it was born. */
+/* Returns the clip time of its birth. */
 FN float particle_birth_time(S(kiln_derived_params) d, S(kiln_particle) p)
 {
     EXACT float before = FLOAT(particle_birth_step(p) - 1u) - FLOAT(d.warmup_steps);
@@ -23,7 +22,7 @@ FN float particle_birth_time(S(kiln_derived_params) d, S(kiln_particle) p)
     return time_s;
 }
 
-/* Seconds that it lives in all. */
+/* Returns its life in seconds. */
 FN float particle_life_s(VALUE_KEYS_PARAM S(kiln_derived_params) d, S(kiln_particle) p)
 {
     EXACT float born_s = particle_birth_time(d, p);
@@ -33,7 +32,7 @@ FN float particle_life_s(VALUE_KEYS_PARAM S(kiln_derived_params) d, S(kiln_parti
     return life_s;
 }
 
-/* The part of its life that has passed at an age: 0 at birth, 1 at death. */
+/* Returns the part of its life that has passed at an age: 0 at birth, 1 at death. */
 FN float particle_progress(float age_s, float life_s)
 {
     EXACT float part = exact_div(age_s, life_s);

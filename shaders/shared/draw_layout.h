@@ -1,6 +1,5 @@
-/* What the drawing stages read: uniform blocks shared by C and GLSL. Every member is 16 bytes or a
- * group of 16, so that std140 and C agree on the offsets.
- */
+/* Declares the uniform blocks that the drawing stages read, for C and GLSL. Every member is 16
+ * bytes or a group of 16, so that std140 and C agree on the offsets. */
 #ifndef KILN_SHARED_DRAW_LAYOUT_H
 #define KILN_SHARED_DRAW_LAYOUT_H
 
@@ -17,26 +16,27 @@
 #define KILN_BIND_CORNERS  2
 #define KILN_BIND_SPINS    3
 
-/* Edge of the tiles in which the backdrop is antialiased, px. */
+/* Edge in pixels of the tiles in which the backdrop is antialiased. */
 #define KILN_EDGE_TILE 8
 
-/* Edge of an atlas's cells, px. */
+/* Edge in pixels of an atlas's cells. */
 #define KILN_ATLAS_CELL 128
 
-/* Least edge of a billboard in a picture smaller than the frame, px: less would flicker. */
+/* Least edge in pixels of a billboard in a picture smaller than the frame; a smaller one would
+ * flicker. */
 #define KILN_COARSE_LEAST 1.5f
 
-/* Textures that the particles of a system may have. */
+/* The most textures of the particles of a system. */
 #define KILN_MAX_TEXTURES 8
 
-/* How cells of an atlas are read. */
+/* Kinds of cells of an atlas. */
 #define KILN_CELL_MASK  0u /* normal x, y, heat, density: coloured by the look */
 #define KILN_CELL_COLOR 1u /* premultiplied colour under a square root: tinted by the look */
 #define KILN_CELL_PLAIN 2u /* no texture: a rectangle... */
 #define KILN_CELL_DISC  3u /* ...or a disc, whose edges are as sharp as pixels allow */
 
-/* What each particle sees of the sun past the backdrop (lib/draw/light/sun_shade.h), by its slot: a
- * texture unit, and the slots in a row of the texture. */
+/* The part of the sun that each particle sees past the backdrop (lib/draw/light/sun_shade.h), by
+ * its slot: a texture unit, and the slots in a row of the texture. */
 #define KILN_UNIT_SUN_SHADE 10
 #define KILN_SUN_SHADE_ROW  1024
 
@@ -46,8 +46,10 @@ struct kiln_view {
     float4 world_to_view[3]; /* rows */
     float4 eye;              /* world position, m; w: near plane, m */
     float4 frustum;          /* tan of half the field, x and y; width, height of the image, px */
-    float4 clock;            /* clip time, s; step, s; frame, s; width in parts of the frame's */
-    uint4 clock_step;        /* steps done; seed; unused; unused */
+    /* clip time, s; duration of a step, s; of a frame, s; picture's width as a part of the
+     * frame's */
+    float4 clock;
+    uint4 clock_step; /* number of steps; seed; unused; unused */
 };
 
 struct kiln_draw_light {
@@ -55,15 +57,16 @@ struct kiln_draw_light {
     float4 color;            /* radiance at 1 m */
 };
 
-/* Sky, floor, boxes, sun and lights: what lies behind the particles, and what lights them. */
+/* Sky, floor, boxes, sun and lights: all that lies behind the particles and lights them. */
 struct kiln_draw_backdrop {
     float4 sky_top;
     float4 sky_horizon;
     float4 floor_color;   /* w: height, m */
-    float4 floor_params;  /* 1 if there is one; edge of its squares, m; haze, 1/m; unused */
+    float4 floor_params;  /* 1 if there is a floor; edge of its squares, m; haze, 1/m; unused */
     float4 sun_direction; /* unit, towards the sun */
-    float4 sun_color;     /* irradiance; w: 1 if each particle has a shade, or 0 */
-    uint4 counts;         /* boxes; lights; 1: a transparent background; 1: smoke in the grids */
+    float4 sun_color;     /* irradiance; w: 1 if each particle has a value of shade, or 0 */
+    /* boxes; lights; 1 if the background is transparent; 1 if there is smoke in the grids */
+    uint4 counts;
     float4 box_center[KILN_MAX_OBJECTS];
     float4 box_half[KILN_MAX_OBJECTS];
     float4 box_color[KILN_MAX_OBJECTS];

@@ -1,13 +1,12 @@
-/* Births (Heinz 2019, 2.1.2): when in the step, where on the emitter's shape, how fast and where
- * to. Everything is taken at the particle's own birth time, so a moving emitter leaves an even
- * trail.
- */
+/* Computes births (Heinz 2019, 2.1.2): the time in the step, the place on the emitter's shape, and
+ * the velocity. All values are taken at the particle's own birth time, so that a moving emitter
+ * leaves an even trail. */
 #ifndef KILN_SHARED_EMIT_H
 #define KILN_SHARED_EMIT_H
 
 #include "shared/derived.h"
 
-/* 64ths of the step that have passed at birth number `index` of this step. */
+/* Returns the 64ths of the step that have passed at birth number `index` of this step. */
 FN uint emit_birth_fraction(SIM_PARAM uint index)
 {
     uint j = index;
@@ -20,12 +19,12 @@ FN uint emit_birth_fraction(SIM_PARAM uint index)
 }
 
 struct emit_place {
-    float3 axis;      /* the shape's direction, unit length */
-    float3 offset;    /* from the origin, m */
-    float3 direction; /* of flight, unit length */
+    float3 axis;      /* direction of the shape, unit length */
+    float3 offset;    /* place relative to the origin, m */
+    float3 direction; /* direction of flight, unit length */
 };
 
-/* Uniform in the box, or on its six faces by their area. */
+/* Returns a place uniform in the box, or on its six faces by their area. */
 FN float3 emit_in_box(SIM_PARAM uint stream, float time_s)
 {
     EXACT float3 size = value3_at(SIM_KEYS STEP(emit.size), time_s, 0.0f);
@@ -46,7 +45,8 @@ FN float3 emit_in_box(SIM_PARAM uint stream, float time_s)
     return y;
 }
 
-/* Uniform on the disc about the unit vector `axis`, or on its rim; takes 2 numbers. */
+/* Returns a place uniform on the disc about the unit vector `axis`, or on its rim; takes 2 random
+ * numbers. */
 FN float3 emit_on_disc(uint stream, uint purpose, float3 axis, float radius, bool rim)
 {
     EXACT float part = exact_sqrt(random_unit(stream, purpose));
@@ -61,7 +61,7 @@ FN float3 emit_on_disc(uint stream, uint purpose, float3 axis, float radius, boo
     return y;
 }
 
-/* On the line: at the nozzle whose turn it is, or anywhere. */
+/* Returns a place on the line: at the nozzle that is next in turn, or anywhere. */
 FN float3 emit_on_line(SIM_PARAM uint stream, uint serial, float time_s)
 {
     EXACT float3 span = value3_at(SIM_KEYS STEP(emit.size), time_s, 0.0f);
@@ -98,9 +98,9 @@ FN S(emit_place) emit_place_at(SIM_PARAM uint stream, uint serial, float time_s)
     } else if (shape == EMIT_DISC) {
         place.offset = emit_on_disc(stream, RANDOM_PLACE, axis, radius, surface);
     } else if (shape == EMIT_CONE) {
-        /* A nozzle whose stream widens by the angle: with the direction's own numbers, the farther
-         * from the middle a particle starts, the farther from the axis it flies, as if all came
-         * from one point behind. */
+        /* A nozzle's stream widens by the angle. Place and direction share their random numbers:
+         * the farther from the middle a particle starts, the farther from the axis it flies, as if
+         * all came from one point behind. */
         place.offset = emit_on_disc(stream, RANDOM_DIRECTION, axis, radius, false);
     } else if (shape == EMIT_LINE) {
         place.offset = emit_on_line(SIM stream, serial, time_s);
@@ -113,7 +113,7 @@ struct emit_state {
     float3 velocity; /* m/s */
 };
 
-/* A birth at a clip time as the shape says, from a resting emitter. */
+/* Returns a birth at a clip time as the shape says, from an emitter at rest. */
 FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, uint serial, float time_s)
 {
     EXACT S(emit_place) place = emit_place_at(SIM stream, serial, time_s);
@@ -130,7 +130,7 @@ FN S(emit_state) emit_at_rest(SIM_PARAM uint stream, uint serial, float time_s)
     return born;
 }
 
-/* Where a particle born at a clip time starts, and how fast. */
+/* Returns place and velocity of a particle born at a clip time. */
 FN S(emit_state) emit_particle(SIM_PARAM uint stream, uint serial, float time_s)
 {
     EXACT S(emit_state) born = emit_at_rest(SIM stream, serial, time_s);
@@ -142,7 +142,7 @@ FN S(emit_state) emit_particle(SIM_PARAM uint stream, uint serial, float time_s)
     return born;
 }
 
-/* v of a space whose y axis points along the unit vector `axis`. */
+/* Rotates v from a space whose y axis is y to one whose y axis is the unit vector `axis`. */
 FN float3 emit_turned(float3 v, float3 axis)
 {
     EXACT S(random_frame) frame = random_frame_about(axis);
@@ -152,8 +152,8 @@ FN float3 emit_turned(float3 v, float3 axis)
     return y;
 }
 
-/* The same of a particle that is born of another: `parent` at that moment is the origin of the
- * shape's space and `axis` its y axis. */
+/* Returns place and velocity of a particle that is born of another: `parent` at that moment is the
+ * origin of the shape's space, and `axis` its y axis. */
 FN S(emit_state) emit_child(SIM_PARAM uint stream, uint serial, float time_s, S(emit_state) parent,
                             float3 axis)
 {

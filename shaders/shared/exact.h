@@ -1,11 +1,11 @@
-/* The arithmetic of the simulation: the same bits on every device (docs/determinism.md, 1).
+/* Defines the arithmetic of the simulation, which gives the same bits on every device
+ * (docs/determinism.md, 1).
  *
- * Built from + - * on floats, comparisons, floor and integer operations, which every IEEE machine
- * rounds alike; division, roots and the rest are our own, since drivers round theirs differently.
- * Denormals, which some stages flush, are taken as zero wherever they could matter: below 2^-100 a
- * number is tiny. Every function is defined for every argument, NaN and infinities included; what
- * keeps NaN out are tests of its bits, since a compiler may turn !(x < y) into x >= y.
- */
+ * It is built from + - * on floats, comparisons, floor and integer operations, which every IEEE
+ * machine rounds alike. Division, roots and other functions are defined here, since drivers round
+ * theirs differently. Denormals, which some stages flush, count as zero wherever they could matter:
+ * below 2^-100 a number is tiny. Every function is defined for every argument, including NaN and
+ * infinities. NaN is tested by its bits, since a compiler may turn !(x < y) into x >= y. */
 #ifndef KILN_SHARED_EXACT_H
 #define KILN_SHARED_EXACT_H
 
@@ -18,13 +18,14 @@
 
 #define EXACT_TWO_PI 6.28318548f
 
-/* |x| < 2^-100: counts as zero. */
+/* Returns whether |x| < 2^-100, which counts as zero. */
 FN bool exact_is_tiny(float x)
 {
     return (FLOAT_BITS(x) & EXACT_SIZE_BITS) < EXACT_TINY_BITS;
 }
 
-/* x, with +0 for tiny numbers and for -0: what may be stored or compared with zero. */
+/* Returns x, or +0 for tiny numbers and for -0. Values that are stored or compared with zero go
+ * through it. */
 FN float exact_canon(float x)
 {
     EXACT float y = exact_is_tiny(x) ? 0.0f : x;
@@ -56,7 +57,7 @@ FN float exact_clamp(float x, float low, float high)
     return y;
 }
 
-/* a at t = 0, b at t = 1; within a and b for t from 0 to 1. */
+/* Interpolates from a at t = 0 to b at t = 1; the result is within a and b for t from 0 to 1. */
 FN float exact_lerp(float a, float b, float t)
 {
     EXACT float difference = b - a;
@@ -68,8 +69,8 @@ FN float exact_lerp(float a, float b, float t)
     return inside;
 }
 
-/* 1 / x within 1.5 ulp for 2^-100 <= |x| <= 2^100; 0 for anything else, zero included. A first
- * guess from the exponent (off by at most 5.1 %) and three Newton steps. */
+/* Returns 1 / x within 1.5 ulp for 2^-100 <= |x| <= 2^100; 0 for any other x, including zero. It
+ * starts with a guess from the exponent (off by at most 5.1 %) and makes three Newton steps. */
 FN float exact_rcp(float x)
 {
     uint bits = FLOAT_BITS(x);
@@ -88,7 +89,7 @@ FN float exact_rcp(float x)
     return signed_y;
 }
 
-/* a / b within 2 ulp while the result is no denormal; 0 where exact_rcp(b) is. */
+/* Returns a / b within 2 ulp while the result is no denormal; 0 where exact_rcp(b) is 0. */
 FN float exact_div(float a, float b)
 {
     EXACT float r = exact_rcp(b);
@@ -96,11 +97,13 @@ FN float exact_div(float a, float b)
     return y;
 }
 
-/* 1 / sqrt(x) within 1.5 ulp for 2^-100 <= x <= 2^100; 0 for anything else, zero included. */
+/* Returns 1 / sqrt(x) within 1.5 ulp for 2^-100 <= x <= 2^100; 0 for any other x, including
+ * zero. */
 FN float exact_rsqrt(float x)
 {
     uint bits = FLOAT_BITS(x);
-    if (bits < EXACT_TINY_BITS || bits > EXACT_VAST_BITS) /* a sign makes it vast */
+    if (bits < EXACT_TINY_BITS || bits > EXACT_VAST_BITS) /* as an unsigned number, a negative x is
+                                                           * beyond the range, too */
         return 0.0f;
     EXACT float y = BITS_FLOAT(0x5f375a86u - (bits >> 1));
     EXACT float h = 0.5f * x;
@@ -113,7 +116,7 @@ FN float exact_rsqrt(float x)
     return y;
 }
 
-/* sqrt(x) within 2 ulp for 2^-100 <= x <= 2^100; 0 for anything else. */
+/* Returns sqrt(x) within 2 ulp for 2^-100 <= x <= 2^100; 0 for any other x. */
 FN float exact_sqrt(float x)
 {
     EXACT float r = exact_rsqrt(x);
@@ -127,9 +130,9 @@ struct exact_angle {
     float sine, cosine;
 };
 
-/* Sine and cosine of x radians, each within 1e-7 for |x| <= 8192; those of 0 for anything else.
- * x is brought to [-pi/4, pi/4] by subtracting quarter turns in three parts, so short that the
- * first two products are exact; there a minimax polynomial serves. */
+/* Returns sine and cosine of x radians, each within 1e-7 for |x| <= 8192; those of 0 for any other
+ * x. x is brought to [-pi/4, pi/4] by subtracting quarter turns in three parts, so short that the
+ * first two products are exact. There a minimax polynomial is evaluated. */
 FN S(exact_angle) exact_sincos(float x)
 {
     EXACT S(exact_angle) result;
@@ -155,7 +158,7 @@ FN S(exact_angle) exact_sincos(float x)
     return result;
 }
 
-/* e^x within 1e-7 of its size for |x| <= 69; 0 below, e^69 above; 1 for NaN. */
+/* Returns e^x with a relative error of 1e-7 for |x| <= 69; 0 below, e^69 above; 1 for NaN. */
 FN float exact_exp(float x)
 {
     uint bits = FLOAT_BITS(x);
@@ -179,14 +182,16 @@ FN float exact_exp(float x)
     return scaled;
 }
 
-/* log2(x) within 2e-7 of the greater of 1 and its size for 2^-100 <= x <= 2^100; beyond, infinity
- * included, that of the nearer end; -100 for negative numbers and NaN. */
+/* Returns log2(x) within 2e-7 of the greater of 1 and its size for 2^-100 <= x <= 2^100. Beyond
+ * that range, including infinity, it returns the value at the nearer end; -100 for negative numbers
+ * and NaN. */
 FN float exact_log2(float x)
 {
     uint bits = FLOAT_BITS(x);
     bits = bits > 0x7f800000u || bits < EXACT_TINY_BITS ? EXACT_TINY_BITS : bits;
     bits = bits > EXACT_VAST_BITS ? EXACT_VAST_BITS : bits;
-    int exponent = (INT(bits) - 0x3f3504f3) >> 23; /* so that the rest is 0.707 to 1.414 */
+    /* so that the remaining factor is 0.707 to 1.414 */
+    int exponent = (INT(bits) - 0x3f3504f3) >> 23;
     uint rest = bits - (UINT(exponent) << 23);
     EXACT float f = BITS_FLOAT(rest) - 1.0f;
     EXACT float high = -0.239169881f + f * (0.216078226f + f * (-0.205861881f + f * 0.123109685f));
@@ -196,7 +201,7 @@ FN float exact_log2(float x)
     return y;
 }
 
-/* 2^x within 2e-7 of its size for |x| <= 100; 0 below, 2^100 above; 1 for NaN. */
+/* Returns 2^x with a relative error of 2e-7 for |x| <= 100; 0 below, 2^100 above; 1 for NaN. */
 FN float exact_exp2(float x)
 {
     uint size = FLOAT_BITS(x) & EXACT_SIZE_BITS;
@@ -213,8 +218,8 @@ FN float exact_exp2(float x)
     return scaled;
 }
 
-/* x^y, as 2^(y log2 x): within 2e-7 of its size times the greater of 1 and |y log2 x|, and as those
- * two limit it; 0 for no positive x and a y > 1. */
+/* Returns x^y, as 2^(y log2 x), with a relative error of 2e-7 times the greater of 1 and |y log2
+ * x|, within the limits of exact_log2 and exact_exp2; 0 if x is not positive and y > 1. */
 FN float exact_pow(float x, float y)
 {
     EXACT float exponent = y * exact_log2(x);
@@ -242,7 +247,7 @@ FN float3 float3_scale(float3 a, float factor)
     return y;
 }
 
-/* a + b * factor */
+/* Returns a + b * factor. */
 FN float3 float3_add_scaled(float3 a, float3 b, float factor)
 {
     EXACT float3 part = float3_scale(b, factor);
@@ -275,7 +280,7 @@ FN float float3_length(float3 a)
     return y;
 }
 
-/* a with length 1; `otherwise` when a is shorter than 2^-50. */
+/* Returns a with length 1; `otherwise` when a is shorter than 2^-50. */
 FN float3 float3_normalize(float3 a, float3 otherwise)
 {
     EXACT float square = float3_dot(a, a);
@@ -286,7 +291,7 @@ FN float3 float3_normalize(float3 a, float3 otherwise)
     return y;
 }
 
-/* v turned by a unit quaternion. */
+/* Returns v rotated by a unit quaternion. */
 FN float3 float3_turn(float4 pose, float3 v)
 {
     EXACT float3 u = FLOAT3(pose.x, pose.y, pose.z);

@@ -1,14 +1,14 @@
-/* Particles that are born of particles (docs/determinism.md, 3). Child j of a parent in slot p
- * lives in slot p * n + j and has the serial n * parent's + j, n being the slots that a parent's
- * children have reserved: no counter hands anything out, so no order decides anything.
- */
+/* Computes births of particles from other particles (docs/determinism.md, 3). A parent's children
+ * have n reserved slots. Child j of a parent in slot p lives in slot p * n + j and has the serial n
+ * * (parent's serial) + j. Therefore no counter assigns slots, and the result depends on no
+ * order. */
 #ifndef KILN_SHARED_FAMILY_H
 #define KILN_SHARED_FAMILY_H
 
 #include "shared/trace.h"
 
-/* 64ths of the step that have passed at the part `since` of it, and at least `least`: what a birth
- * word can say. */
+/* Returns the 64ths of the step that have passed at the part `since` of it, at least `least`: the
+ * form in which a birth word has a time. */
 FN uint family_sixty_fourths(float since, uint least)
 {
     EXACT float whole = FLOOR(since * 64.0f);
@@ -17,14 +17,14 @@ FN uint family_sixty_fourths(float since, uint least)
     return y > least ? y : least;
 }
 
-/* What of the parent's step makes one of its children. */
+/* The event of a parent's step at which one of its children is born. */
 struct family_event {
-    float since; /* part of the step that had passed */
+    float since; /* part of the step before the event */
     bool happens;
 };
 
-/* Child j of a trail is born when the integral of the rate over the parent's life passes j: in the
- * step that begins before and ends behind, and within it evenly. */
+/* Finds the birth of child j of a trail. It is born when the integral of the rate over the parent's
+ * life passes j: in the step in which this happens, at a linearly interpolated time. */
 FN S(family_event) family_trail(SIM_PARAM S(kiln_trace) t, uint j)
 {
     EXACT float life_s = BITS_FLOAT(t.serial_event.w);
@@ -62,7 +62,7 @@ FN S(family_event) family_event_of(SIM_PARAM S(kiln_trace) t, uint j)
     return e;
 }
 
-/* The parent at the event. */
+/* Returns the parent's place and velocity at the event. */
 FN S(emit_state) family_parent_at(SIM_PARAM S(kiln_trace) t, float since)
 {
     EXACT S(emit_state) s;
@@ -88,7 +88,7 @@ FN float3 family_axis(SIM_PARAM S(kiln_trace) t, float3 velocity)
     return axis;
 }
 
-/* The parent slot's trace, among all. */
+/* Returns the index of the parent slot's trace among all traces. */
 FN uint family_parent_trace(SIM_PARAM uint slot)
 {
     return STEP(family.parent_traces) + slot / STEP(family.slots);

@@ -1,11 +1,10 @@
-/* What every force is made of. A force changes a velocity by dv/dt = acceleration - pull * v: what
- * drags is given as a pull, so that the sum of all forces is integrated exactly over a step and no
- * pull, however strong, makes a particle overshoot. Drag by the square of the speed adds
- * - quadratic * |v| * v.
+/* Declares the input and the result of every force. A force changes a velocity by dv/dt =
+ * acceleration - pull * v. Drag is given as a pull, so that the sum of all forces is integrated
+ * exactly over a step, and no pull, however strong, makes a particle overshoot. Drag by the square
+ * of the speed adds - quadratic * |v| * v.
  *
- * In GLSL a kernel with FORCES_ALL knows all forces and integrators; one with FORCES_PLAIN, most of
- * them by a shorter way, compiles several times as fast.
- */
+ * A GLSL kernel with FORCES_ALL has all forces and integrators. One with FORCES_PLAIN has most
+ * forces in a shorter form and compiles several times as fast. */
 #ifndef KILN_SHARED_FORCE_H
 #define KILN_SHARED_FORCE_H
 
@@ -25,7 +24,7 @@ struct force_effect {
     float quadratic;     /* 1/m, not negative */
 };
 
-/* The options of one force at this time of one particle's life, and where the particle is. */
+/* The options of one force at this time of one particle's life, and the place of the particle. */
 struct force_input {
     float3 position;
     float time_s;
@@ -33,7 +32,7 @@ struct force_input {
     float strength;
     float3 drift;
     float pull;
-    float quadratic; /* with FORCES_ALL */
+    float quadratic; /* with FORCES_ALL only */
     float scale;
     float inward;
     float lift;
@@ -53,9 +52,10 @@ FN S(force_effect) force_none(void)
     return effect;
 }
 
-/* What air of a velocity, times the force's strength, does: it pulls towards itself; or, where
- * `added` is the number of steps a second, with no pull then, it is added to the velocity in each
- * step (UberFlow 2004, 4.2, equation 1). */
+/* Returns the effect of air with a velocity, times the force's strength: the particle is pulled
+ * towards the air's velocity. If `added`, the number of steps a second, is not 0, there is no pull,
+ * and the air's velocity is added to the particle's in each step (UberFlow 2004, 4.2, equation
+ * 1). */
 FN S(force_effect) force_air(S(force_input) f, float3 air)
 {
     EXACT float per_s = f.pull + f.added;
@@ -66,8 +66,8 @@ FN S(force_effect) force_air(S(force_input) f, float3 air)
     return effect;
 }
 
-/* (1 - e^-z) / z for z >= 0 within 4e-7: by how much less than its time a pull of strength z acts.
- */
+/* Returns (1 - e^-z) / z for z >= 0 within 4e-7: the factor by which a pull shortens the time that
+ * forces act, z being pull times time. */
 FN float forces_damping(float z)
 {
     if (z < 0.25f) {

@@ -1,13 +1,14 @@
-/* A point that particles seek, or flee where the strength is negative (Drone 2007, 7.5.1). The
- * strength is what acts at a distance of 1 m without a radius; the radius `scale` softens it at all
- * distances, as in Plummer's sphere, so that nothing is thrown out by what is closer than a step.
- */
+/* Computes the attraction of particles by a point, or their repulsion if the strength is negative
+ * (Drone 2007, 7.5.1). The strength is the acceleration at a distance of 1 m without a radius. The
+ * radius `scale` softens it at all distances, as in Plummer's sphere, so that no particle is thrown
+ * out when it comes very close. */
 #ifndef KILN_SHARED_FORCE_ATTRACT_H
 #define KILN_SHARED_FORCE_ATTRACT_H
 
 #include "shared/force.h"
 
-/* An acceleration of strength * d * (d^2 + radius^2)^(-n/2): n is 3, 2, 1 or 0 by the falloff. */
+/* Returns an acceleration of strength * d * (d^2 + radius^2)^(-n/2), where n is 3, 2, 1 or 0 by the
+ * falloff. */
 FN S(force_effect) force_attract(S(force_input) f)
 {
     EXACT float3 way = float3_sub(f.vector, f.position);

@@ -1,12 +1,12 @@
-/* Turbulent wind: a pull towards air that moves as curl noise, a field that drifts through space.
- */
+/* Computes turbulent wind: a pull towards air that moves as curl noise, a field that drifts through
+ * space. */
 #ifndef KILN_SHARED_FORCE_CURL_H
 #define KILN_SHARED_FORCE_CURL_H
 
 #include "shared/force.h"
 #include "shared/noise.h"
 
-/* Of a particle in the field, whose lattice points lie one unit apart. */
+/* Returns a particle's place in the field, whose lattice points lie one unit apart. */
 FN float3 force_curl_place(S(force_input) f)
 {
     EXACT float3 moved = float3_add_scaled(f.position, f.drift, -f.time_s);

@@ -1,5 +1,5 @@
-/* Drag towards rest: a speed falls by e every 1 / pull seconds; what grows with the square of
- * the speed halves it every 1 / (quadratic * speed) seconds. */
+/* Computes drag towards rest. A linear drag reduces a speed by the factor e every 1 / pull seconds.
+ * A quadratic drag halves it in 1 / (quadratic * speed) seconds. */
 #ifndef KILN_SHARED_FORCE_DRAG_H
 #define KILN_SHARED_FORCE_DRAG_H
 

@@ -1,6 +1,5 @@
-/* A wind field: a pull towards air whose velocity is looked up in a grid (UberFlow 2004, 4.2, whose
- * 3D texture is filtered by the hardware).
- */
+/* Computes a wind field: a pull towards air whose velocity is looked up in a grid (UberFlow 2004,
+ * 4.2, whose 3D texture is filtered by the hardware). */
 #ifndef KILN_SHARED_FORCE_FIELD_H
 #define KILN_SHARED_FORCE_FIELD_H
 

@@ -1,4 +1,4 @@
-/* A constant acceleration: gravity, or the lift of hot air. */
+/* Computes a constant acceleration: gravity, or the lift of hot air. */
 #ifndef KILN_SHARED_FORCE_GRAVITY_H
 #define KILN_SHARED_FORCE_GRAVITY_H
 

@@ -1,6 +1,6 @@
-/* A speed that no particle exceeds, over its life if need be: what is above it is taken off, in the
- * direction of flight, after all forces have acted. Those add up; of limits, the lowest counts.
- */
+/* Limits the speed of particles. The limit may vary over a particle's life. After all forces have
+ * acted, a faster particle is slowed in its direction of flight. Forces add up; of several limits,
+ * the lowest counts. */
 #ifndef KILN_SHARED_FORCE_LIMIT_H
 #define KILN_SHARED_FORCE_LIMIT_H
 

@@ -1,19 +1,18 @@
-/* A vortex: air that turns around an axis, rises along it and is drawn to it. `vector` is a point
- * of the axis, `drift` its direction, `scale` the radius of the core, where the air is fastest and
- * has the speed `strength`.
- */
+/* Computes a vortex: air that turns around an axis, rises along it and is drawn to it. `vector` is
+ * a point of the axis, `drift` its direction, `scale` the radius of the core, where the air is
+ * fastest and has the speed `strength`. */
 #ifndef KILN_SHARED_FORCE_VORTEX_H
 #define KILN_SHARED_FORCE_VORTEX_H
 
 #include "shared/force.h"
 
-/* Where the speed of Lamb and Oseen's vortex, (1 - e^(-a s^2)) / s, is greatest is s = 1 for this
- * a: e^a = 1 + 2 a. */
+/* The factor a at which the speed of Lamb and Oseen's vortex, (1 - e^(-a s^2)) / s, is greatest at
+ * s = 1: e^a = 1 + 2 a. */
 #define VORTEX_OSEEN 1.25643121f
 
-/* The speed a metre from the axis, in parts of that at the core's edge over its radius, by the
- * square of the distance over that of the radius. Rankine's core turns like a solid body, and the
- * rest has one angular momentum; Lamb and Oseen's has no edge. */
+/* Returns the speed divided by the distance from the axis, in units of its value at the core's
+ * edge. `square` is the square of the distance in core radii. Rankine's core turns like a solid
+ * body, and outside of it angular momentum is constant; Lamb and Oseen's vortex has no edge. */
 FN float force_vortex_turn(float square, uint profile)
 {
     EXACT float beyond = exact_rcp(square);
@@ -24,8 +23,8 @@ FN float force_vortex_turn(float square, uint profile)
     return turn;
 }
 
-/* The air is drawn inwards by the same law as it turns; it rises fastest on the axis, half as fast
- * at the core's edge. */
+/* Computes the force. The inward speed follows the same law as the rotation. The air rises fastest
+ * on the axis, half as fast at the core's edge. */
 FN S(force_effect) force_vortex(S(force_input) f)
 {
     EXACT float3 axis = float3_normalize(f.drift, FLOAT3(0.0f, 1.0f, 0.0f));

@@ -1,4 +1,4 @@
-/* Uniform wind: what air of one velocity, `vector`, does. */
+/* Computes uniform wind: a pull towards air of one velocity, `vector`. */
 #ifndef KILN_SHARED_FORCE_WIND_H
 #define KILN_SHARED_FORCE_WIND_H
 

@@ -1,7 +1,6 @@
-/* The forces of a system, added up and integrated. A new force is a file force_name.h with one
- * function, and a row here; a limit adds nothing up and has none. Forces that look up grids have
- * rows of their own, which shaders of scenes without grids are spared.
- */
+/* Sums up the forces of a system and integrates them. A new force is a file force_NAME.h with one
+ * function, and a row here; a limit is not summed and has no row. Forces that look up grids have
+ * separate rows, since shaders of scenes without grids are compiled without them. */
 #ifndef KILN_SHARED_FORCES_H
 #define KILN_SHARED_FORCES_H
 
@@ -60,8 +59,9 @@ FN S(force_effect) forces_add(S(force_effect) sum, S(force_effect) effect)
     return y;
 }
 
-/* When the forces of a step that starts at `time_s` are looked up: by integrators that do so at
- * several places, halfway through it, where the host takes what is keyed over time. */
+/* Returns the time at which the forces of a step that starts at `time_s` are evaluated. Integrators
+ * that evaluate them at several places use the middle of the step for all, where the host evaluates
+ * values over time. */
 FN float forces_time_s(SIM_PARAM float time_s)
 {
 #ifdef FORCES_ALL
@@ -101,7 +101,7 @@ FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
     return sum;
 }
 
-/* The part of a time for which forces act that are up against a pull. */
+/* Returns the part of a time for which forces act against a pull. */
 FN float forces_acting_s(float pull, float time_s)
 {
     EXACT float z = pull * time_s;
@@ -109,8 +109,9 @@ FN float forces_acting_s(float pull, float time_s)
     return acting_s;
 }
 
-/* The velocity after `time_s`: the exact solution of dv/dt = acceleration - pull * v for constant
- * forces, v + (acceleration - pull * v) * (1 - e^(-pull * time)) / pull. It cannot overshoot. */
+/* Returns the velocity after `time_s`: the exact solution of dv/dt = acceleration - pull * v for
+ * constant forces, v + (acceleration - pull * v) * (1 - e^(-pull * time)) / pull. It cannot
+ * overshoot. */
 FN float3 forces_apply(S(force_effect) sum, float3 velocity, float time_s)
 {
     EXACT float acting_s = forces_acting_s(sum.pull, time_s);
@@ -122,9 +123,9 @@ FN float3 forces_apply(S(force_effect) sum, float3 velocity, float time_s)
 
 #ifdef FORCES_ALL
 
-/* A velocity of which drag by the square of the speed takes its part over `acting_s`: the solution
- * v of v + acting_s * quadratic * |v| * v = velocity. After forces_apply with the same acting time
- * its rest is exactly where drag balances the other forces; faster or slower, it nears that without
+/* Applies quadratic drag over `acting_s` to a velocity: the solution v of v + acting_s * quadratic
+ * * |v| * v = velocity. After forces_apply with the same acting time, its equilibrium is exactly
+ * where drag balances the other forces. A faster or slower particle approaches that speed without
  * passing it, however strong the drag. */
 FN float3 forces_slow(float3 velocity, float quadratic, float acting_s)
 {
