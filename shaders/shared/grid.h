@@ -1,18 +1,18 @@
-/* Grids: samples are fetched whole and interpolated here, because filters of textures differ from
- * device to device (docs/determinism.md, 8).
- */
+/* Looks up grids. Samples are fetched whole and interpolated here, because texture filters differ
+ * from device to device (docs/determinism.md, 8). */
 #ifndef KILN_SHARED_GRID_H
 #define KILN_SHARED_GRID_H
 
 #include "shared/exact.h"
 #include "shared/layout.h"
 
-/* A place along one axis: the first of the two samples around it, and the part of the
- * way to the other one. */
+/* A place along one axis: the first of the two samples around it, and the part of the way to the
+ * second. */
 struct grid_axis {
     uint first;
     float part;
-    bool inside; /* of the grid; what is not has its nearest place in it */
+    /* the place is inside of the grid; otherwise the others describe the nearest place that is */
+    bool inside;
 };
 
 FN S(grid_axis) grid_along(float metres, float origin, float per_metre, uint size)
@@ -43,7 +43,8 @@ FN S(grid_place) grid_find(S(kiln_grid) g, float3 p)
     return place;
 }
 
-/* Words lie by z, y, x: neighbours along x are neighbours. */
+/* Returns the index of a word. Words lie by z, y, x, so neighbours along x are neighbours in
+ * memory. */
 FN uint grid_index(S(kiln_grid) g, uint x, uint y, uint z)
 {
     return g.size.w + (z * g.size.y + y) * g.size.x + x;
@@ -56,7 +57,7 @@ FN float4 grid_lerp(float4 a, float4 b, float t)
     return y;
 }
 
-/* Between the samples of a row along x. */
+/* Interpolates between two samples of a row along x. */
 FN float4 grid_row(SIM_PARAM S(kiln_grid) g, S(grid_axis) x, uint row_y, uint row_z)
 {
     uint at = grid_index(g, x.first, row_y, row_z);
@@ -74,7 +75,8 @@ FN float4 grid_layer(SIM_PARAM S(kiln_grid) g, S(grid_place) p, uint layer)
     return y;
 }
 
-/* Trilinear, between the eight samples around a point, m; beyond the edges as at the edges. */
+/* Interpolates trilinearly between the eight samples around a point, m. Beyond the edges, the
+ * values at the edges continue. */
 FN float4 grid_at(SIM_PARAM S(kiln_grid) g, float3 p)
 {
     EXACT S(grid_place) place = grid_find(g, p);

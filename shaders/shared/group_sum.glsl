@@ -1,10 +1,12 @@
-/* The sum of all earlier invocations of a work group of GROUP_SIZE invocations in a row. */
+/* Sums up the values of all earlier invocations of a work group of GROUP_SIZE invocations in a
+ * row. */
 #ifndef KILN_SHARED_GROUP_SUM_GLSL
 #define KILN_SHARED_GROUP_SUM_GLSL
 
 shared uint group_sums[GROUP_SIZE];
 
-/* Doubling distances; every invocation must come here. group_total is right thereafter. */
+/* Adds values over doubling distances. Every invocation must call it. Afterwards group_total is the
+ * sum of all. */
 uint group_sum_before(uint value)
 {
     uint me = gl_LocalInvocationID.x;

@@ -1,6 +1,5 @@
-/* How a particle that is a mesh lies in the world (Drone 2007, 7.4.4). The mesh's own z axis is
- * ahead and y is up. Pictures alone depend on it.
- */
+/* Computes how a particle that is a mesh is oriented in the world (Drone 2007, 7.4.4). The mesh's
+ * own z axis is ahead and y is up. Only pictures depend on it, not the state. */
 #ifndef KILN_SHARED_INSTANCE_H
 #define KILN_SHARED_INSTANCE_H
 
@@ -11,13 +10,13 @@
 #define ORIENT_VELOCITY 0u
 #define ORIENT_SPIN     1u
 
-/* Where the mesh's axes point: unit vectors, right-handed. */
+/* The directions of the mesh's axes: unit vectors, right-handed. */
 struct instance_axes {
     float3 x, y, z;
 };
 
-/* How far it has turned, rad, of the rotations and of the mean spins so far (KILN_LOOK_TURN and
- * KILN_LOOK_SPREAD of the look). */
+/* Returns the angle, rad, by which a particle has turned, from its rotation and its mean spin so
+ * far (KILN_LOOK_TURN and KILN_LOOK_SPREAD of the look). */
 FN float instance_angle(uint stream, float4 turn, float4 spread, float age_s)
 {
     EXACT float angle = random_between(stream, RANDOM_ROTATION, turn.x, turn.y);
@@ -28,7 +27,7 @@ FN float instance_angle(uint stream, float4 turn, float4 spread, float age_s)
     return angle;
 }
 
-/* Ahead is along the velocity; the right is level, so that it does not roll. */
+/* Returns the axes with z along the velocity. x is level, so that the mesh does not roll. */
 FN S(instance_axes) instance_along(float3 velocity)
 {
     EXACT float3 ahead = FLOAT3(0.0f, 0.0f, 1.0f);
@@ -42,7 +41,7 @@ FN S(instance_axes) instance_along(float3 velocity)
     return axes;
 }
 
-/* A vector turned about a unit vector. */
+/* Rotates a vector about a unit vector. */
 FN float3 instance_turn(float3 v, float3 axis, float cosine, float sine)
 {
     EXACT float along = float3_dot(v, axis) * (1.0f - cosine);
@@ -66,7 +65,7 @@ FN S(instance_axes) instance_about(float3 axis, float angle)
     return axes;
 }
 
-/* How a ball lies in the world that collisions do not turn. */
+/* Returns the pose of a ball that collisions do not turn. */
 FN float4 instance_pose(uint stream, float angle)
 {
     EXACT float3 up = FLOAT3(0.0f, 1.0f, 0.0f);
@@ -74,7 +73,7 @@ FN float4 instance_pose(uint stream, float angle)
     return spin_about(axis, angle);
 }
 
-/* In a pose, as those have it that collisions turn. */
+/* Returns the axes of a pose of a ball that collisions turn. */
 FN S(instance_axes) instance_posed(float4 pose)
 {
     EXACT float3 right = FLOAT3(1.0f, 0.0f, 0.0f);

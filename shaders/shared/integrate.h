@@ -1,4 +1,4 @@
-/* A particle's motion under the forces of its system, from one part of a step to another. */
+/* Moves a particle under the forces of its system, from one part of a step to another. */
 #ifndef KILN_SHARED_INTEGRATE_H
 #define KILN_SHARED_INTEGRATE_H
 
@@ -10,7 +10,7 @@
 
 #ifdef FORCES_PLAIN
 
-/* integrate for forces that one look is enough for, and no drag by the square of the speed. */
+/* Does integrate for integrators that evaluate forces once, without quadratic drag. */
 FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, float life)
 {
     EXACT float time_s = (until - s.since) * STEP(derived.dt_s);
@@ -30,7 +30,7 @@ FN S(collide_state) integrate_plain(SIM_PARAM S(collide_state) s, float until, f
 #endif
 #ifdef FORCES_ALL
 
-/* integrate for all of them. */
+/* Does integrate for all integrators and forces. */
 FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float until, float life)
 {
     EXACT float time_s = (until - start.since) * STEP(derived.dt_s);
@@ -51,7 +51,7 @@ FN S(collide_state) integrate_stages(SIM_PARAM S(collide_state) start, float unt
 
 #endif
 
-/* Motion from the part `since` of the step to the part `until`, without collision. */
+/* Moves a particle from the part `since` of the step to the part `until`, without collision. */
 FN S(collide_state) integrate(SIM_PARAM S(collide_state) s, float until, float life)
 {
 #if defined(FORCES_ALL) && defined(FORCES_PLAIN)

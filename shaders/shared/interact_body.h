@@ -1,9 +1,10 @@
-/* Bodies: what neighbours know of a particle, and the cell that it is in.
+/* Declares bodies, which hold what other particles of a system need of a particle, and computes the
+ * cell that a body is in.
  *
- * Space is divided into cubes as wide as two particles may at most be apart and touch, and a little
- * more, so that whoever touches is in one of the 27 cells around. Cells are hashed into a table, so
- * particles may be anywhere; neighbours along x lie next to each other there.
- */
+ * Space is divided into cubes a little wider than the largest distance at which two particles
+ * touch, so that all particles that touch a particle are in the 27 cells around it. Cells are
+ * hashed into a table, so particles may be anywhere. Neighbours along x are neighbours in the
+ * table. */
 #ifndef KILN_SHARED_INTERACT_BODY_H
 #define KILN_SHARED_INTERACT_BODY_H
 
@@ -25,7 +26,8 @@ FN float3 body_velocity(S(kiln_body) b)
     return v;
 }
 
-/* 0 for what touches nothing, below 0 for what takes no more part in the step. */
+/* Returns a body's radius: 0 if it touches nothing, below 0 if it has no further part in the
+ * step. */
 FN float body_radius(S(kiln_body) b)
 {
     EXACT float y = BITS_FLOAT(b.position_radius.w);
@@ -51,7 +53,7 @@ FN S(kiln_body) body_with_motion(S(kiln_body) b, float3 position, float3 velocit
     return moved;
 }
 
-/* Progress through a particle's life at the start of the step. */
+/* Returns the progress of a particle's life at the start of the step. */
 FN float body_progress(CROWD_PARAM S(kiln_particle) p)
 {
     EXACT float life_s = particle_life_s(CROWD_KEYS INTERACT(derived), p);
@@ -60,7 +62,7 @@ FN float body_progress(CROWD_PARAM S(kiln_particle) p)
     return life;
 }
 
-/* The radius of a particle, as it is at the start of the step. */
+/* Returns the radius of a particle at the start of the step. */
 FN float body_radius_of(CROWD_PARAM S(kiln_particle) p)
 {
     EXACT float life = body_progress(CROWD p);
@@ -88,7 +90,7 @@ FN S(kiln_body) body_of(CROWD_PARAM S(kiln_particle) p, uint slot)
     return b;
 }
 
-/* The words of push.h. */
+/* The two words of push.h. */
 struct body_push {
     float4 velocity, position;
 };
@@ -101,7 +103,7 @@ FN float4 body_difference(float3 after, float3 before)
     return y;
 }
 
-/* What makes of a particle what its body has become. */
+/* Returns the push that changes a particle as its body was changed. */
 FN S(body_push) body_push_of(S(kiln_body) b, S(kiln_particle) p)
 {
     EXACT float3 velocity = body_velocity(b);
@@ -117,7 +119,8 @@ FN S(body_push) body_push_of(S(kiln_body) b, S(kiln_particle) p)
 
 /* ---- cells ---------------------------------------------------------------------------------- */
 
-/* No sane position is so many cells out; a number for whatever comes. */
+/* Returns the number of a cell along an axis. Valid positions are never so far out; the limit gives
+ * any other value a number, too. */
 FN int cell_along(float metres, float cells_per_metre)
 {
     EXACT float at = metres * cells_per_metre;
@@ -125,8 +128,9 @@ FN int cell_along(float metres, float cells_per_metre)
     return INT(FLOOR(held));
 }
 
-/* Where a row of cells along x begins in the table. No hash that mixes: along a row of bodies, the
- * rows around are then read in order, too, which makes up for cells that share a place. */
+/* Returns where a row of cells along x begins in the table. The hash does not mix: while a row of
+ * bodies is visited, the rows around it are read in order, too. That saves more time than cells
+ * that share a place cost. */
 FN uint cell_row(int y, int z)
 {
     return UINT(y) * 311u + UINT(z) * 96557u;

@@ -1,31 +1,30 @@
-/* Elastic collision of spheres (UberFlow 2004, 4.4 and 4.5).
+/* Computes elastic collisions of spheres (UberFlow 2004, 4.4 and 4.5).
  *
- * As in the paper, each particle looks for its closest partner among those that it touches; both
- * are backed up in time to their first contact, exchange momentum there, and fly on for the time
- * that they went back. The paper lets each particle answer for itself, so that of three that touch,
- * one may take an impulse that nobody gave. Here a pair collides only if each is the other's
- * closest, and both compute the same pair: momentum is kept whatever happens. Who is left over
- * collides in the next round of the same step, or in the next step, where it is still found, since
- * it overlaps; who touches nobody at the start of a step has no part in its rounds. Pairs are
- * ordered without ties, so that in every round at least the closest of all collides.
+ * As in the paper, each particle looks for its closest partner among the particles that it touches.
+ * Both are moved back in time to their first contact, exchange momentum there, and fly on for the
+ * same time. In the paper, each particle answers for itself, so that one of three particles may
+ * take an impulse that no other gave. Here a pair collides only if each is the other's closest, and
+ * both compute the same pair, so momentum is always kept. A particle without such a partner
+ * collides in the next round of the same step, or in the next step, where it still overlaps. A
+ * particle that touches none at the start of a step has no part in the step's rounds. Pairs are
+ * ordered without ties, so that in every round at least the closest of all pairs collides.
  *
- * Where the scene asks for it (`fastest`), a pair that does not touch yet, but will within the
- * step, collides ahead of time: it flies on as if it came from where its new way leads back to.
- * There it may be anywhere, so it has no part in further rounds.
- */
+ * If the scene asks for it (`fastest`), a pair that does not touch yet, but will within the step,
+ * collides ahead of time. Each particle is put where its new way, extended backwards, starts. It
+ * may overlap others there, so it has no part in further rounds. */
 #ifndef KILN_SHARED_INTERACT_COLLIDE_H
 #define KILN_SHARED_INTERACT_COLLIDE_H
 
 #include "shared/interact_body.h"
 #include "shared/spin.h"
 
-/* Two bodies, as the first one sees the second. */
+/* Two bodies, as the first sees the second. */
 struct contact {
     float3 apart;   /* from the first to the second, m */
-    float3 parting; /* the second's velocity less the first's */
-    float square;   /* of the distance */
+    float3 parting; /* velocity of the second minus that of the first */
+    float square;   /* square of the distance */
     float reach;    /* sum of the radii */
-    float opening;  /* apart times parting: below 0 they approach */
+    float opening;  /* apart times parting: below 0 they approach each other */
 };
 
 FN S(contact) contact_of(S(kiln_body) a, S(kiln_body) b)
@@ -47,7 +46,7 @@ FN S(contact) contact_of(S(kiln_body) a, S(kiln_body) b)
     return c;
 }
 
-/* Whether they touch, which few do: that alone. */
+/* Returns whether two bodies touch, which few do; it computes nothing else. */
 FN bool contact_is_near(S(kiln_body) a, S(kiln_body) b)
 {
     EXACT float3 from = body_position(a);
@@ -61,8 +60,8 @@ FN bool contact_is_near(S(kiln_body) a, S(kiln_body) b)
     return body_radius(a) > 0.0f && body_radius(b) > 0.0f && square < reach_square;
 }
 
-/* Seconds since two that approach began to touch, or, below 0, until they will: |apart - parting t|
- * = reach. The root wanted is the earlier one; ones that never touch have none. */
+/* Returns the seconds since two bodies that approach began to touch, or, below 0, until they will:
+ * |apart - parting t| = reach. It is the earlier root; bodies that never touch have none. */
 FN float contact_root(S(contact) c)
 {
     EXACT float speed_square = float3_dot(c.parting, c.parting);
@@ -73,7 +72,7 @@ FN float contact_root(S(contact) c)
     return y;
 }
 
-/* Will two that do not touch meet within the step? */
+/* Returns whether two bodies that do not touch will meet within the step. */
 FN bool contact_comes(CROWD_PARAM S(contact) c)
 {
     EXACT float speed_square = float3_dot(c.parting, c.parting);
@@ -85,7 +84,8 @@ FN bool contact_comes(CROWD_PARAM S(contact) c)
            since >= soonest;
 }
 
-/* Are two within the width of a cell, and come closer? Others do not meet within the step. */
+/* Returns whether two bodies are within the width of a cell and approach each other. Others do not
+ * meet within the step. */
 FN bool contact_closes(CROWD_PARAM S(kiln_body) a, S(kiln_body) b)
 {
     EXACT float3 from = body_position(a);
@@ -101,7 +101,7 @@ FN bool contact_closes(CROWD_PARAM S(kiln_body) a, S(kiln_body) b)
     return cells_square < 1.0f && opening < 0.0f;
 }
 
-/* The same, of bodies; few are. */
+/* Returns whether two bodies will meet within the step; few do. */
 FN bool contact_is_ahead(CROWD_PARAM S(kiln_body) a, S(kiln_body) b)
 {
     if (!(INTERACT(ahead_s) > 0.0f) || !contact_closes(CROWD a, b) || !(body_radius(a) > 0.0f) ||
@@ -112,8 +112,8 @@ FN bool contact_is_ahead(CROWD_PARAM S(kiln_body) a, S(kiln_body) b)
     return comes;
 }
 
-/* The lower, the sooner a pair is dealt with: those that approach before those that only overlap,
- * among them the closest, and then those that come. */
+/* Returns the rank of a pair; lower pairs collide first. First come pairs that approach, before
+ * pairs that only overlap, both by their distance. Pairs that will meet come last. */
 FN uint contact_rank(S(contact) c, float ahead_s)
 {
     EXACT float square = c.reach * c.reach;
@@ -129,8 +129,8 @@ FN uint contact_rank(S(contact) c, float ahead_s)
 /* The best partner so far. */
 struct contact_choice {
     uint rank;
-    uint low, high; /* slots of the pair: of equal ranks, the lower come first */
-    uint partner;   /* a body */
+    uint low, high; /* slots of the pair; of equal ranks, the pair with lower slots comes first */
+    uint partner;   /* index of a body */
 };
 
 FN S(contact_choice) contact_no_choice(void)
@@ -173,9 +173,9 @@ FN S(contact_choice) contact_choose_among(CROWD_PARAM S(contact_choice) best, S(
     return choice;
 }
 
-/* The closest of all that a body touches: in the 27 cells around it, nine rows of three that are
- * neighbours in the table, or at its two ends. A cell of the table may hold several of space, which
- * only costs time. */
+/* Finds the closest of all bodies that a body touches: in the 27 cells around it, which are nine
+ * rows of three neighbours in the table; a row may wrap around at the table's ends. A cell of the
+ * table may hold several cells of space, which only costs time. */
 FN uint contact_find(CROWD_PARAM uint self)
 {
     S(kiln_body) a = BODY(self);
@@ -199,7 +199,7 @@ FN uint contact_find(CROWD_PARAM uint self)
     return best.partner;
 }
 
-/* What a search says after the first round. */
+/* Returns the result of a search in a later round. */
 FN uint contact_later(uint partner)
 {
     return partner == INTERACT_NOBODY ? INTERACT_NOBODY_NOW : partner;
@@ -207,8 +207,8 @@ FN uint contact_later(uint partner)
 
 /* ---- response ------------------------------------------------------------------------------- */
 
-/* The part of a change that the first of two bodies gets: the mass of the second in that of both,
- * as of balls of one material. */
+/* Returns the part of a change that the first of two bodies gets: the mass of the second divided by
+ * that of both, for balls of one material. */
 FN float contact_share(S(kiln_body) a, S(kiln_body) b)
 {
     EXACT float mine = body_radius(a);
@@ -220,7 +220,7 @@ FN float contact_share(S(kiln_body) a, S(kiln_body) b)
     return y;
 }
 
-/* At most those of a step. */
+/* Returns the time since contact, at most a step. */
 FN float contact_since(S(contact) c, float dt_s)
 {
     EXACT float t = contact_root(c);
@@ -229,7 +229,8 @@ FN float contact_since(S(contact) c, float dt_s)
     return y;
 }
 
-/* Along which two bodies in one place part: each sees the other's opposite. */
+/* Returns the direction in which two bodies at one place part. Each gets the opposite of the
+ * other's. */
 FN float3 contact_any_normal(S(kiln_body) a, S(kiln_body) b)
 {
     EXACT float side = a.velocity_slot.w < b.velocity_slot.w ? 1.0f : -1.0f;
@@ -237,13 +238,13 @@ FN float3 contact_any_normal(S(kiln_body) a, S(kiln_body) b)
     return y;
 }
 
-/* Two when they touched, as the first one sees the second. */
+/* Two bodies at the time when they began to touch, as the first sees the second. */
 struct contact_blow {
     float3 apart;  /* from the first to the second, m */
-    float3 normal; /* the same, of length 1 */
-    float since_s; /* since then */
+    float3 normal; /* unit vector of `apart` */
+    float since_s; /* seconds since then */
     float towards; /* m/s along the normal */
-    float bounce;  /* m/s: how much of it changes */
+    float bounce;  /* m/s: change of that velocity */
 };
 
 FN S(contact_blow) contact_blow_of(S(contact) c, float3 otherwise, float restitution, float dt_s)
@@ -259,8 +260,8 @@ FN S(contact_blow) contact_blow_of(S(contact) c, float3 otherwise, float restitu
     return blow;
 }
 
-/* The first of two that touch after their collision. `restitution` 1 keeps all energy; of an
- * overlap that is left, the part `apart` is taken away. */
+/* Returns the first of two bodies that touch, after their collision. `restitution` 1 keeps all
+ * energy. Of a remaining overlap, the part `apart` is removed. */
 FN S(kiln_body) contact_answer(S(kiln_body) a, S(kiln_body) b, float restitution, float apart,
                                float dt_s)
 {
@@ -289,14 +290,14 @@ FN S(kiln_body) contact_answer(S(kiln_body) a, S(kiln_body) b, float restitution
 
 /* ---- spin (UberFlow 2004, 4.5) -------------------------------------------------------------- */
 
-/* A body, and how it turns, rad/s. */
+/* A body and its spin, rad/s. */
 struct contact_turning {
     S(kiln_body) body;
     float3 rate;
 };
 
-/* Friction between two that touch, as balls with rates: the change of velocity of the second, where
- * the first had all the mass. Each sees the other's opposite. */
+/* Returns the change of the second body's velocity by friction between two balls with these spins,
+ * as if the first had all the mass. Each gets the opposite of the other's. */
 FN float3 contact_rub(S(contact) c, S(contact_blow) blow, float3 skins, float friction)
 {
     EXACT float away = -float3_dot(c.parting, blow.normal);
@@ -308,8 +309,9 @@ FN float3 contact_rub(S(contact) c, S(contact_blow) blow, float3 skins, float fr
     return y;
 }
 
-/* The first of two that turn, after their collision: contact_answer, and friction at the point of
- * contact, which both get back there in time for, so that angular momentum is kept as well. */
+/* Returns the first of two bodies that spin, after their collision: contact_answer, and friction at
+ * the point of contact. Both are moved back in time to the contact for it, so that angular momentum
+ * is kept as well. */
 FN S(contact_turning) contact_answer_turning(CROWD_PARAM S(contact_turning) a, S(contact_turning) b)
 {
     EXACT S(contact_turning) after;
@@ -321,7 +323,8 @@ FN S(contact_turning) contact_answer_turning(CROWD_PARAM S(contact_turning) a, S
     EXACT float radius = body_radius(a.body);
     EXACT float3 mine = float3_scale(a.rate, radius);
     EXACT float3 other = float3_scale(b.rate, body_radius(b.body));
-    EXACT float3 skins = float3_add(mine, other); /* m/s, each about its own centre */
+    /* m/s: sum of the surface velocities about the two centres */
+    EXACT float3 skins = float3_add(mine, other);
     EXACT float3 rub = contact_rub(c, blow, skins, INTERACT(friction));
     EXACT float share = contact_share(a.body, b.body);
     EXACT float3 part = float3_scale(rub, share);
@@ -336,7 +339,7 @@ FN S(contact_turning) contact_answer_turning(CROWD_PARAM S(contact_turning) a, S
     return after;
 }
 
-/* contact_after, of bodies that turn. */
+/* Does contact_after for bodies that spin. */
 FN S(contact_turning) contact_after_turning(CROWD_PARAM uint self)
 {
     EXACT S(contact_turning) a;
@@ -356,7 +359,7 @@ FN S(contact_turning) contact_after_turning(CROWD_PARAM uint self)
 
 /* ---- rounds --------------------------------------------------------------------------------- */
 
-/* A body after a round: changed if it and its partner are each other's. */
+/* Returns a body after a round: it changes if it and its partner are each other's closest. */
 FN S(kiln_body) contact_after(CROWD_PARAM uint self)
 {
     S(kiln_body) a = BODY(self);

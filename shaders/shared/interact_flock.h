@@ -1,18 +1,17 @@
-/* Flocking (Drone 2007, 7.4.4; Reynolds 1987 and 1999): separation, avoidance of collisions,
- * cohesion and alignment, with those near by and with the averages of all.
+/* Computes flocking (Drone 2007, 7.4.4; Reynolds 1987 and 1999): separation, avoidance of
+ * collisions, cohesion and alignment, with the neighbours in view and with the averages of the
+ * whole system.
  *
- * What neighbours add up to is a sum of integers, so that nobody asks in which order they come:
- * each adds parts of 1/65536, of the radius, of twice the top speed, or of a direction. The
- * averages of all, which the paper takes from the last level of mip-maps, are sums of integers of
- * 64 bits.
- */
+ * The sums over neighbours are sums of integers, so that their order changes no bit. Their units
+ * are 1/65536 of the radius, of twice the top speed, or of a direction. The paper takes the
+ * averages of all from the last level of mip-maps; here they are sums of integers of 64 bits. */
 #ifndef KILN_SHARED_INTERACT_FLOCK_H
 #define KILN_SHARED_INTERACT_FLOCK_H
 
 #include "shared/interact_body.h"
 
-/* So many around one are looked at: rows of cells with more are left out, so that sums stay within
- * 31 bits, and loops within what every driver runs. */
+/* The most bodies around one that are looked at. Rows of cells beyond it are left out, so that sums
+ * stay within 31 bits, and loops within what every driver runs. */
 #define FLOCK_MOST 8000u
 
 /* ---- sums of integers ----------------------------------------------------------------------- */
@@ -21,13 +20,15 @@ struct flock_triple {
     int x, y, z;
 };
 
-/* Of all that a particle sees. */
+/* Sums over all particles that a particle sees. */
 struct flock_sums {
     int count;
-    S(flock_triple) apart;   /* of the radius: to where they are */
-    S(flock_triple) parting; /* of twice the top speed: their velocities less its own */
-    S(flock_triple) away;    /* directions, by how close they are */
-    S(flock_triple) aside;   /* directions, by how close they are going to pass */
+    S(flock_triple) apart;   /* in radii: vectors to them */
+    S(flock_triple) parting; /* in units of twice the top speed: their velocities minus its own */
+    /* directions away from those that are too close, weighted by closeness */
+    S(flock_triple) away;
+    /* directions away from those that will be too close, weighted likewise */
+    S(flock_triple) aside;
 };
 
 FN S(flock_triple) flock_no_triple(void)
@@ -87,7 +88,7 @@ FN S(flock_sums) flock_sums_add(S(flock_sums) a, S(flock_sums) b)
     return y;
 }
 
-/* A sum as a float, rounded alike by all: not every integer is one. */
+/* Converts a sum to a float, rounded alike on all devices; not every integer is a float. */
 FN float flock_float(int sum)
 {
     EXACT float high = FLOAT(sum >> 12) * 4096.0f;
@@ -96,7 +97,7 @@ FN float flock_float(int sum)
     return y;
 }
 
-/* A sum times its unit, in 65536ths. */
+/* Converts a sum to its unit, of which it counts 65536ths. */
 FN float3 flock_total(S(flock_triple) sum, float unit)
 {
     EXACT float part = unit * 1.52587890625e-5f;
@@ -105,20 +106,20 @@ FN float3 flock_total(S(flock_triple) sum, float unit)
     return y;
 }
 
-/* ---- averages of all ------------------------------------------------------------------------ */
+/* ---- averages of the whole system ----------------------------------------------------------- */
 
 /* A signed integer of 64 bits. */
 struct flock_wide {
     uint low, high;
 };
 
-/* In 2^-22; held to 2^20. */
+/* Converts a number, clamped to 2^20, to units of 2^-22. */
 FN S(flock_wide) flock_wide_of(float x)
 {
     EXACT float held = exact_clamp(x, -1048576.0f, 1048576.0f);
     EXACT float whole = FLOOR(held);
     EXACT float rest = (held - whole) * 4194304.0f;
-    EXACT float part = exact_min(rest, 4194303.0f); /* what is just below 0 rounds up to 1 */
+    EXACT float part = exact_min(rest, 4194303.0f); /* a value just below 0 rounds up to 1 */
     int units = INT(whole);
     S(flock_wide) y;
     y.low = (UINT(units) << 22u) | UINT(INT(FLOOR(part)));
@@ -134,7 +135,7 @@ FN S(flock_wide) flock_wide_add(S(flock_wide) a, S(flock_wide) b)
     return y;
 }
 
-/* The mean of `count` numbers with this sum, within 2^-21 of its size. */
+/* Returns the mean of `count` numbers with this sum, with a relative error of 2^-21. */
 FN float flock_wide_mean(S(flock_wide) sum, uint count)
 {
     bool negative = (sum.high & EXACT_SIGN_BIT) != 0u;
@@ -153,8 +154,8 @@ FN float flock_wide_mean(S(flock_wide) sum, uint count)
 
 /* Sums over all particles of a system. */
 struct flock_all {
-    S(flock_wide) x, y, z;          /* of positions */
-    S(flock_wide) to_x, to_y, to_z; /* of velocities */
+    S(flock_wide) x, y, z;          /* sums of positions */
+    S(flock_wide) to_x, to_y, to_z; /* sums of velocities */
 };
 
 FN S(flock_wide) flock_wide_zero(void)
@@ -207,7 +208,7 @@ struct flock_means {
     float3 position, velocity;
 };
 
-/* Of at least one. */
+/* Returns the means of a sum over at least one particle. */
 FN S(flock_means) flock_means_of(S(flock_all) all, uint count)
 {
     EXACT S(flock_means) means;
@@ -220,8 +221,8 @@ FN S(flock_means) flock_means_of(S(flock_all) all, uint count)
 
 /* ---- neighbours ----------------------------------------------------------------------------- */
 
-/* Whether who flies like this sees what is there. `view` is the square of the cosine of half the
- * angle, with the cosine's sign, and below -1 for all around. */
+/* Returns whether a particle with this velocity sees another. `view` is the square of the cosine of
+ * half the angle of view, with the cosine's sign, and below -1 for all around. */
 FN bool flock_sees(float3 velocity, float3 apart, float square, float view)
 {
     EXACT float along = float3_dot(velocity, apart);
@@ -237,7 +238,7 @@ FN bool flock_sees(float3 velocity, float3 apart, float square, float view)
     return (view >= 0.0f ? narrow : wide) != 0u;
 }
 
-/* How near to a distance: 1 at none, 0 from there on. */
+/* Returns the closeness: 1 at distance none, 0 from a distance of 1 / per_metre on. */
 FN float flock_closeness(float square, float per_metre)
 {
     EXACT float part = exact_sqrt(square) * per_metre;
@@ -246,7 +247,7 @@ FN float flock_closeness(float square, float per_metre)
     return y;
 }
 
-/* Where to from a place, of those in one place to opposite sides. */
+/* Returns the direction away from a place. Two particles at one place get opposite directions. */
 FN float3 flock_away(float3 from, uint mine, uint other)
 {
     EXACT float side = mine < other ? 1.0f : -1.0f;
@@ -256,7 +257,8 @@ FN float3 flock_away(float3 from, uint mine, uint other)
     return y;
 }
 
-/* Seconds until two are closest, if that is ahead of them and within the horizon; else 0. */
+/* Returns the seconds until two particles are closest, if that is in the future and within the
+ * horizon; else 0. */
 FN float flock_meet_s(float3 apart, float3 parting, float horizon_s)
 {
     EXACT float speed_square = float3_dot(parting, parting);
@@ -267,15 +269,15 @@ FN float flock_meet_s(float3 apart, float3 parting, float horizon_s)
     return y;
 }
 
-/* One that is seen, as another sees it. */
+/* A particle in view, as another sees it. */
 struct flock_seen {
-    float3 apart;     /* from that one to it, m */
-    float3 parting;   /* its velocity less that one's */
-    float square;     /* of the distance */
-    uint mine, other; /* slots of that one and of it */
+    float3 apart;     /* vector to it from the other, m */
+    float3 parting;   /* its velocity minus the other's */
+    float square;     /* square of the distance */
+    uint mine, other; /* slots of the other and of it */
 };
 
-/* What it adds to the sums. */
+/* Returns the terms that a particle in view adds to the sums. */
 FN S(flock_sums) flock_parts_of(CROWD_PARAM S(flock_seen) seen)
 {
     EXACT float closeness = flock_closeness(seen.square, INTERACT(flock.per_space));
@@ -298,8 +300,8 @@ FN S(flock_sums) flock_parts_of(CROWD_PARAM S(flock_seen) seen)
     return y;
 }
 
-/* Whether a bird sees one that is so far off: at `to`, in the row of cells y, z, since a place in
- * the table may be part of several rows around. */
+/* Returns whether a particle sees another at `to`, which has to be in the row of cells y, z, since
+ * a place in the table may belong to several rows around. */
 FN bool flock_is_seen(CROWD_PARAM float3 velocity, float3 apart, float square, float3 to, int y,
                       int z)
 {
@@ -312,7 +314,7 @@ FN bool flock_is_seen(CROWD_PARAM float3 velocity, float3 apart, float square, f
     return seen != 0u;
 }
 
-/* Sums, with one more that is there. */
+/* Adds a neighbour to the sums. */
 FN S(flock_sums) flock_add(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a, S(kiln_body) b, int y,
                            int z)
 {
@@ -346,14 +348,14 @@ FN S(flock_sums) flock_add_among(CROWD_PARAM S(flock_sums) sums, S(kiln_body) a,
     return more;
 }
 
-/* A row of three cells around a bird: bodies from begin to end, and those before behind. */
+/* A row of three cells around a particle: bodies from begin to end - 1. */
 struct flock_row {
     int y, z;
     uint begin, end;
-    uint behind; /* of a row that goes on at the table's start */
+    uint behind; /* further bodies at the table's start, for a row that wraps around */
 };
 
-/* Number 4 is the middle one. */
+/* Returns one of nine rows; number 4 is the middle one. */
 FN S(flock_row) flock_row_at(CROWD_PARAM int x, int y, int z, int number)
 {
     S(flock_row) row;
@@ -377,8 +379,7 @@ FN uint flock_row_size(S(flock_row) row)
     return (row.end - row.begin) + row.behind;
 }
 
-/* All that a body sees, in the 27 cells around it; its own row of them first.
- * lib/sim/crowd/flock_simd.c does the same in vectors. */
+/* Sums up all particles that a body sees, in the 27 cells around it, its own row of cells first. */
 FN S(flock_sums) flock_look(CROWD_PARAM uint self)
 {
     S(kiln_body) a = BODY(self);
@@ -401,7 +402,7 @@ FN S(flock_sums) flock_look(CROWD_PARAM uint self)
 
 /* ---- steering ------------------------------------------------------------------------------- */
 
-/* A vector, no shorter and no longer; ahead is z for none. */
+/* Limits a vector's length to a range; a zero vector becomes one along z. */
 FN float3 flock_within(float3 v, float shortest, float longest)
 {
     EXACT float3 along_z = FLOAT3(0.0f, 0.0f, 1.0f);
@@ -414,7 +415,7 @@ FN float3 flock_within(float3 v, float shortest, float longest)
     return y;
 }
 
-/* Towards the middle of a group and its velocity. */
+/* Returns the acceleration towards the middle of a group and towards its velocity. */
 FN float3 flock_join(float3 apart, float3 parting, float cohesion, float alignment)
 {
     EXACT float3 to = float3_scale(apart, cohesion);
@@ -431,7 +432,7 @@ FN float3 flock_acceleration(CROWD_PARAM S(kiln_body) a, S(flock_sums) sums, S(f
     EXACT float3 wish =
         flock_join(to_all, with_all, INTERACT(flock.all_cohesion), INTERACT(flock.all_alignment));
     EXACT float count = FLOAT(sums.count);
-    EXACT float share = exact_rcp(count); /* 0 of nobody */
+    EXACT float share = exact_rcp(count); /* 0 if there are none */
     EXACT float3 apart = flock_total(sums.apart, INTERACT(flock.radius) * share);
     EXACT float3 parting = flock_total(sums.parting, INTERACT(flock.speed) * share);
     EXACT float3 near =
@@ -445,7 +446,7 @@ FN float3 flock_acceleration(CROWD_PARAM S(kiln_body) a, S(flock_sums) sums, S(f
     return y;
 }
 
-/* A push's velocity, with what flocking adds to it in a step. */
+/* Returns a push's velocity plus the effect of flocking in a step. */
 FN float4 flock_push(CROWD_PARAM float4 push, S(kiln_body) a, float3 acceleration)
 {
     EXACT float3 velocity = body_velocity(a);

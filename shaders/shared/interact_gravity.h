@@ -1,5 +1,5 @@
-/* Gravity among all particles of a system (Drone 2007, 7.4.3): every pair, softened near by
- * (Plummer).
+/* Computes gravity among all pairs of particles of a system (Drone 2007, 7.4.3), softened at small
+ * distances (Plummer).
  *
  * The sources of a sum are added one by one in the order of their slots, so that it is the same
  * bits however they are cut into tiles; empty slots pull with strength 0.
@@ -11,7 +11,7 @@
 
 #include "shared/interact_body.h"
 
-/* Position, m, and strength: acceleration at 1 m, in m/s^2. */
+/* Returns position, m, and strength: acceleration at 1 m, in m/s^2. */
 FN float4 gravity_source(CROWD_PARAM S(kiln_particle) p)
 {
     EXACT float3 position = particle_position(p);
@@ -28,8 +28,9 @@ FN float4 gravity_no_source(void)
     return y;
 }
 
-/* 1 / sqrt(x) within 8e-7 of its size for 2^-30 <= x <= 2^60: a step less than exact_rsqrt, from a
- * better guess, since all of gravity is these (constants: J. Kadlec 2010). */
+/* Returns 1 / sqrt(x) with a relative error of 8e-7 for 2^-30 <= x <= 2^60. It has one step less
+ * than exact_rsqrt, from a better guess, since gravity spends most of its time here (constants: J.
+ * Kadlec 2010). */
 FN float gravity_rsqrt(float x)
 {
     EXACT float guess = BITS_FLOAT(0x5f1ffff9u - (FLOAT_BITS(x) >> 1u));
@@ -41,7 +42,7 @@ FN float gravity_rsqrt(float x)
     return y;
 }
 
-/* The acceleration at a place by one source more. */
+/* Adds the acceleration at a place by one more source. */
 FN float3 gravity_add(float3 sum, float3 at, float4 source, float softening_square)
 {
     EXACT float3 to = FLOAT3(source.x - at.x, source.y - at.y, source.z - at.z);
@@ -52,7 +53,7 @@ FN float3 gravity_add(float3 sum, float3 at, float4 source, float softening_squa
     return y;
 }
 
-/* A push's velocity, with what an acceleration adds to it in a step. */
+/* Returns a push's velocity plus the effect of an acceleration in a step. */
 FN float4 gravity_push(float4 velocity, float3 acceleration, float dt_s)
 {
     EXACT float3 change = float3_scale(acceleration, dt_s);

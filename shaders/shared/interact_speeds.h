@@ -1,6 +1,5 @@
-/* Bounds of velocities, as maxima of integers, which are the same in any order: of x and of -x,
- * then of y and z. Of nothing, they are 0.
- */
+/* Computes bounds of velocities as maxima of integers, which are the same in any order: of x and of
+ * -x, then of y and z. Without particles, they are 0. */
 #ifndef KILN_SHARED_INTERACT_SPEEDS_H
 #define KILN_SHARED_INTERACT_SPEEDS_H
 
@@ -8,7 +7,7 @@
 
 #define SPEEDS_BOUNDS 6u
 
-/* A number in an order of integers above 0; no number is the largest. */
+/* Maps a number to an integer above 0 of the same order; NaN is the largest. */
 FN uint speeds_key(float x)
 {
     uint bits = FLOAT_BITS(x);
@@ -22,7 +21,7 @@ FN float speeds_value(uint key)
     return BITS_FLOAT(below ? ~key : key & ~EXACT_SIGN_BIT);
 }
 
-/* Bound `bound` of one velocity. */
+/* Returns bound number `bound` of one velocity. */
 FN uint speeds_bound(float3 velocity, uint bound)
 {
     uint axis = bound >> 1u;

@@ -1,10 +1,10 @@
-/* The paper's way to find partners: two staggered grids (UberFlow 2004, 4.3 and 4.4, figure 3).
+/* Finds partners as the paper does, in two staggered grids (UberFlow 2004, 4.3 and 4.4, figure 3).
  *
- * Bodies are sorted by their cells in a grid, in ascending order of x, y, z, and once more by those
- * of a grid half a cell aside along all axes; in both orders, each looks at the 8 before it and the
- * 8 behind it (as in its experiment E4) and takes the closest. Who is farther off in both orders is
- * missed: across faces of cells other than along z, or where cells are crowded.
- */
+ * Bodies are sorted by their cells in a grid, in ascending order of x, y, z, and also by the cells
+ * of a grid that is shifted by half a cell along all axes. In both orders, each body looks at the 8
+ * bodies before it and the 8 behind it (as in experiment E4 of the paper) and takes the closest. A
+ * partner that is farther away in both orders is missed: across faces of cells other than along z,
+ * or where cells are crowded. */
 #ifndef KILN_SHARED_INTERACT_STAGGERED_H
 #define KILN_SHARED_INTERACT_STAGGERED_H
 
@@ -12,10 +12,10 @@
 
 #define STAGGER_WINDOW 8u
 
-/* Cells along an axis; who is farther out is at the edge. */
+/* Cells along an axis; bodies farther out count as in the outermost cell. */
 #define STAGGER_CELLS 2097152
 
-/* Of a cell, in 63 bits; all bits for nobody. */
+/* The key of a cell, in 63 bits; all bits are set for slots without a body. */
 struct stagger_key {
     uint high, low;
 };
@@ -27,7 +27,7 @@ FN uint stagger_along(CROWD_PARAM float metres, float aside)
     return UINT(INT(FLOOR(held)) + STAGGER_CELLS / 2);
 }
 
-/* aside: in cells, of the grid. */
+/* Returns the key of a place. aside: shift of the grid, in cells. */
 FN S(stagger_key) stagger_key_of(CROWD_PARAM float3 p, float aside)
 {
     uint x = stagger_along(CROWD p.x, aside);
@@ -39,8 +39,8 @@ FN S(stagger_key) stagger_key_of(CROWD_PARAM float3 p, float aside)
     return key;
 }
 
-/* Bodies lie in the order of the first grid. ORDER has the body at each place of the second, and
- * behind these, from `used` on, the place of each body. */
+/* Finds the partner of a body. Bodies lie in the order of the first grid. ORDER has the body at
+ * each place of the second grid and then, from `used` on, the place of each body. */
 FN uint stagger_find(CROWD_PARAM uint self, uint count)
 {
     S(kiln_body) a = BODY(self);

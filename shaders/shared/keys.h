@@ -1,13 +1,13 @@
-/* What particles are ordered by: the same bits in C and in GLSL, so that every technique of the
- * sort gives the same list.
- */
+/* Computes the keys by which particles are sorted, with the same bits in C and in GLSL, so that
+ * every technique of the sort gives the same list. */
 #ifndef KILN_SHARED_KEYS_H
 #define KILN_SHARED_KEYS_H
 
 #include "shared/exact.h"
 #include "shared/particle.h"
 
-/* Ascending for descending depth: the order of floats as unsigned integers, turned round. */
+/* Returns a key that ascends while the depth descends: the float's order as unsigned integers,
+ * reversed. */
 FN uint key_of_depth(float depth_m)
 {
     EXACT float canonical = exact_canon(depth_m);
@@ -15,8 +15,8 @@ FN uint key_of_depth(float depth_m)
     return (bits & EXACT_SIGN_BIT) != 0u ? bits : ~(bits | EXACT_SIGN_BIT);
 }
 
-/* The key of a particle seen from an eye in a direction of unit length: the farthest has the
- * least. No record holds a NaN, so no key comes from one. */
+/* Returns the key of a particle seen from an eye in a direction of unit length; the farthest has
+ * the least key. No record holds a NaN, so none gets here. */
 FN uint key_of_particle(S(kiln_particle) p, float3 eye, float3 forward)
 {
     EXACT float3 position = particle_position(p);

@@ -1,9 +1,8 @@
-/* What the host tells a simulation step, laid out alike in C and in a std140 block: every member is
- * a word, or a structure that starts at a multiple of 16 bytes and is one long.
+/* Declares the parameters of a simulation step, laid out alike in C and in a std140 block. Every
+ * member is a word, or a structure that starts at a multiple of 16 bytes and has such a size.
  *
- * The kernels read these as globals in GLSL and through pointers in C: SIM_PARAM and SIM pass them
- * on, SIM_KEYS is their VALUE_KEYS, STEP(x) and AROUND(x) name a member.
- */
+ * In GLSL the functions read these as globals, in C through pointers. SIM_PARAM and SIM pass them
+ * on, SIM_KEYS is their VALUE_KEYS, STEP(x) and AROUND(x) name a member. */
 #ifndef KILN_SHARED_LAYOUT_H
 #define KILN_SHARED_LAYOUT_H
 
@@ -11,8 +10,8 @@
 #include "shared/platform.h"
 #include "shared/value.h"
 
-/* Births of one step that follow one another at equal distances. Birth j of a group happens at
- * (first + j * spacing) / 2^32 of the step. */
+/* Births of one step at equal distances in time. Birth j of a group happens at (first + j *
+ * spacing) / 2^32 of the step. */
 struct kiln_birth_group {
     uint count;
     uint first;
@@ -20,7 +19,8 @@ struct kiln_birth_group {
     uint unused;
 };
 
-/* What is needed to recompute the rest of a particle from its record: see derived.h. */
+/* Parameters by which the values of a particle that its record lacks are recomputed: see
+ * derived.h. */
 struct kiln_derived_params {
     uint random_key;
     uint warmup_steps;
@@ -73,7 +73,7 @@ struct kiln_emit_params {
 struct kiln_force_params {
     uint kind;
     uint octaves;
-    uint grid;    /* number, of a field */
+    uint grid;    /* number of the grid of a field */
     uint profile; /* FALLOFF_* or VORTEX_* */
     S(kiln_value3) vector;
     S(kiln_value3) drift;
@@ -82,30 +82,30 @@ struct kiln_force_params {
     S(kiln_value) quadratic; /* 1/m */
     S(kiln_value) scale;
     float inward, lift; /* m/s */
-    float added; /* 1/s: steps a second where the air's velocity is added in each step, else 0 */
+    float added; /* 1/s: steps a second if the air's velocity is added in each step, else 0 */
     uint unused;
 };
 
 #define INTEGRATE_SEMI_IMPLICIT  0u
 #define INTEGRATE_POSITION_FIRST 1u
-#define INTEGRATE_TRAPEZOID      2u /* this and what follows: shared/stages.h */
+#define INTEGRATE_TRAPEZOID      2u /* this integrator and those below: shared/stages.h */
 #define INTEGRATE_RK4            3u
 
-/* What some force of a system does. */
-#define FORCES_LIMIT 1u /* the speed */
-#define FORCES_SLOW  2u /* by the square of the speed */
+/* Bits for effects of a system's forces. */
+#define FORCES_LIMIT 1u /* limit the speed */
+#define FORCES_SLOW  2u /* quadratic drag */
 
 #define COLLIDE_OFF   0u
 #define COLLIDE_SWEPT 1u
 #define COLLIDE_CLAMP 2u
 
-/* What a particle is born of: the clock, or an event of a particle of its parent system. */
+/* The origin of a particle: the clock, or an event of a particle of the parent system. */
 #define BORN_OF_CLOCK  0u
 #define BORN_OF_DEATH  1u
 #define BORN_OF_BOUNCE 2u
 #define BORN_OF_TRAIL  3u
 
-/* What an emitter's y axis becomes at a birth of a parent. */
+/* The direction of an emitter's y axis at a birth from a parent. */
 #define ALIGN_WORLD    0u
 #define ALIGN_VELOCITY 1u
 #define ALIGN_NORMAL   2u
@@ -114,11 +114,11 @@ struct kiln_force_params {
 struct kiln_family_params {
     uint born_of;
     uint align;
-    uint slots;         /* reserved for the children of one parent */
-    uint parent_traces; /* the first trace of the parent system */
-    uint traced;        /* 1: has children or paint, so it leaves traces */
-    uint traces;        /* its first trace */
-    uint dies;          /* 1: of its first impact */
+    uint slots;         /* slots reserved for the children of one parent */
+    uint parent_traces; /* index of the parent system's first trace */
+    uint traced;        /* 1: the system has children or paint, so it leaves traces */
+    uint traces;        /* index of its own first trace */
+    uint dies;          /* 1: particles die at their first impact */
     uint unused;
     S(kiln_value) rate; /* trail: children a second of the parent's life */
 };
@@ -129,9 +129,9 @@ struct kiln_step_params {
     uint step;
     uint base;         /* the system's first slot in the record buffer */
     uint capacity;     /* its slots */
-    uint used;         /* slots that were ever born into, this step's births included */
-    uint first_serial; /* of this step's births */
-    uint first_slot;   /* where it lives, from base */
+    uint used;         /* slots that ever had a birth, including this step's */
+    uint first_serial; /* serial of the first birth of this step */
+    uint first_slot;   /* slot of that birth, counted from base */
     uint birth_count;
     uint group_count;
     uint force_count;
@@ -141,19 +141,21 @@ struct kiln_step_params {
     uint bounded;
     uint noise_seed;
     float time_s;   /* clip time at the start of the step */
-    uint forces_do; /* bits FORCES_* */
+    uint forces_do; /* bit mask of FORCES_* */
     S(kiln_value) randomness;
     S(kiln_value) slowdown;
     S(kiln_value) restitution;
     S(kiln_value) friction;
-    uint rubs;                 /* 1: restitution and friction matter, its own or those of objects */
-    uint pushed;               /* 1: its particles interact, and have pushes */
-    uint first_push;           /* of its first slot: see push.h */
-    uint spins;                /* 1: its particles turn, and have words for it: see spin.h */
-    uint first_spin;           /* of its first slot */
+    /* 1: restitution and friction are not 1 and 0, of the system or of objects */
+    uint rubs;
+    uint pushed;               /* 1: particles of the system interact, and have pushes */
+    uint first_push;           /* push of its first slot: see push.h */
+    uint spins;                /* 1: particles of the system spin: see spin.h */
+    uint first_spin;           /* spin of its first slot */
     float spin_low, spin_high; /* rad/s at birth */
-    float rolling;             /* resistance: part of what a surface gives */
-    float4 spin_axis;          /* at birth, of any length; 0: drawn */
+    float rolling;             /* lever arm of rolling resistance, in radii */
+    /* axis of the spin at birth, of any length; 0: drawn for each particle */
+    float4 spin_axis;
     float4 bounds_min, bounds_max;
     float4 demitter_min[KILN_MAX_DEMITTERS];
     float4 demitter_max[KILN_MAX_DEMITTERS];
@@ -165,59 +167,62 @@ struct kiln_step_params {
 #define COLLIDER_BOX      0u
 #define COLLIDER_SPHERE   1u
 #define COLLIDER_CYLINDER 2u
-/* In a frame of their own, which may turn (collide_turned.h): */
+/* Shapes in frames of their own, which may turn (collide_turned.h): */
 #define COLLIDER_TURNED_BOX      3u
 #define COLLIDER_TURNED_CYLINDER 4u
 #define COLLIDER_CAPSULE         5u
 #define COLLIDER_PLANE           6u
 
-#define COLLIDER_TERRAIN 16u /* from here on, kinds that look up grids */
+#define COLLIDER_TERRAIN 16u /* this kind and those below look up grids */
 #define COLLIDER_SDF     17u
 #define COLLIDER_VOLUME  18u
 #define VOLUME_TWO_SIDED 0x80000000u
 #define COLLIDER_DEPTH   19u
 
-/* A collider at the start and at the end of the step; it moves and turns evenly in between. A box
- * along the axes has min and max alone; those of all others bound it. */
+/* A collider at the start and at the end of the step; it moves and turns evenly in between. min and
+ * max are the whole shape of a box along the axes, and bounds of all others. */
 struct kiln_collider {
     float4 min, max;
     float4 min_end, max_end;
-    float4 center, center_end; /* all but boxes along the axes: w: radius; what looks up grids has
-                                  but that of the ball that meets it (collide_around) */
-    float4 axis; /* cylinder: unit; w: half height at the start; plane: its normal then */
+    /* all but boxes along the axes; w: radius; of a collider with a grid, w is the radius of the
+     * ball that meets it (collide_around) */
+    float4 center, center_end;
+    float4 axis; /* cylinder: unit axis; w: half height at the start; plane: its normal then */
     uint kind;
     float half_height_end;
-    float restitution, friction; /* factors on a system's */
-    /* What follows is of those in a frame of their own. */
+    float restitution, friction; /* factors on the system's restitution and friction */
+    /* The members below are for shapes in frames of their own. */
     float4 extent, extent_end; /* m: half of the edges, or of the height in y */
     float4 pose;               /* from the frame to the world at the start: a unit quaternion */
     float4 spin;               /* unit; w: the angle by which the step turns it, rad */
-    uint grid;                 /* of terrain or of a mesh: its number */
-    uint mesh;                 /* likewise, of its pose */
-    float steepest;            /* of terrain: m of height for one across its steepest slope */
-    uint planes;               /* of a volume: the word of its first, and VOLUME_TWO_SIDED */
+    uint grid;                 /* number of the grid of terrain or of a mesh */
+    uint mesh;                 /* number of the pose of a mesh */
+    /* terrain: m by which a ball of radius 1 m is raised over its steepest slope */
+    float steepest;
+    uint planes; /* volume: the word of its first plane, and VOLUME_TWO_SIDED */
 };
 
-/* Where a mesh is at the start and at the end of the step: rows from the world to its frame. */
+/* A mesh's place at the start and at the end of the step: rows from the world to its frame. */
 struct kiln_pose {
     float4 to_local[3];
     float4 to_local_end[3];
-    float4 metres;             /* for a unit of its frame: at the start, at the end */
+    float4 metres;             /* metres in one unit of its frame: at the start, at the end */
     float4 center, center_end; /* m: its origin */
-    float4 turn;               /* rad/s, about its axis */
+    float4 turn;               /* rad/s, about an axis through the origin */
 };
 
-/* Samples on a lattice in space; GRID_WORD(i) is the i-th of all grids: see grid.h. Of a volume,
- * the lattice's cells, of which a VOLUME_WORD has four: see collide_volume.h. Of depth maps
- * (collide_depth.h), size has columns, rows, maps and the first word. */
+/* Samples on a lattice in space; GRID_WORD(i) is the i-th word of all grids: see grid.h. For a
+ * volume, the lattice is that of its cells, four of which share a VOLUME_WORD: see
+ * collide_volume.h. For depth maps (collide_depth.h), size has columns, rows, maps and the first
+ * word. */
 struct kiln_grid {
-    float4 origin;    /* m: where the first sample lies */
-    float4 per_metre; /* samples, along each axis */
-    float4 low, high; /* m: of depth maps: corners of the box around all */
-    uint4 size;       /* samples along each axis, at least 2; w: the word of the first */
+    float4 origin;    /* m: place of the first sample */
+    float4 per_metre; /* samples a metre, along each axis */
+    float4 low, high; /* m: depth maps only: corners of the box around all maps */
+    uint4 size;       /* samples along each axis, at least 2; w: index of the first word */
 };
 
-/* What all systems of a scene move among. */
+/* The colliders and grids around all systems of a scene. */
 struct kiln_surroundings {
     uint collider_count;
     float steps_per_s;
@@ -243,8 +248,8 @@ struct kiln_sim {
     const struct kiln_surroundings *surroundings;
     const float4 *value_keys;
     const float4 *grid_words;
-    const float4 *push_words; /* NULL where no system interacts */
-    uint4 *spin_words;        /* NULL where none turns; each slot writes its own */
+    const float4 *push_words; /* NULL if no system interacts */
+    uint4 *spin_words;        /* NULL if no system spins; each slot writes its own */
     const float4 *volume_words;
 };
 #define SIM            sim,

@@ -1,34 +1,34 @@
-/* Sizes of tables, and the binding points of the simulation, that host and shaders agree on. */
+/* Defines the sizes of tables and the binding points of the simulation, for host and shaders. */
 #ifndef KILN_SHARED_LIMITS_H
 #define KILN_SHARED_LIMITS_H
 
-/* The largest key table of a scene: 16 KiB, the least that every GL allows a uniform block. */
+/* The largest key table of a scene: 16 KiB, the size of a uniform block that every GL allows. */
 #define KILN_MAX_VALUE_KEYS 1024
 
 #define KILN_MAX_FORCES           16 /* a system */
 #define KILN_MAX_DEMITTERS        8  /* a system */
 #define KILN_MAX_BURSTS           64 /* a system */
 #define KILN_MAX_OBJECTS          32 /* a scene */
-#define KILN_MAX_MESHES           8  /* a scene, terrain among them; they count as objects, too */
+#define KILN_MAX_MESHES           8  /* a scene, including terrain; meshes also count as objects */
 #define KILN_MAX_LIGHTS           16 /* a scene */
-#define KILN_MAX_DEPTH_DIRECTIONS 6  /* of a mesh: each a front and a back */
+#define KILN_MAX_DEPTH_DIRECTIONS 6  /* a mesh; each direction has a front and a back */
 
-/* Systems from a first parent to its last descendants. */
+/* Generations from a first parent to its last descendants. */
 #define KILN_MAX_GENERATIONS 4
 
-/* Lights that fire sheds, besides those. */
+/* Lights of fire, in addition to a scene's lights. */
 #define KILN_MAX_FIRE_LIGHTS 16
 
 /* The groups of births of a step: one of the rate and one of each burst. */
 #define KILN_MAX_BIRTH_GROUPS 65
 
-/* Objects and the floor. */
+/* Colliders: objects and the floor. */
 #define KILN_MAX_COLLIDERS 33
 
-#define KILN_MAX_WINDS 8                                  /* a scene: files of wind */
-#define KILN_MAX_GRIDS (KILN_MAX_WINDS + KILN_MAX_MESHES) /* those, and what collides */
+#define KILN_MAX_WINDS 8                                  /* wind files of a scene */
+#define KILN_MAX_GRIDS (KILN_MAX_WINDS + KILN_MAX_MESHES) /* wind and colliders */
 
-/* Ways in which the particles of a system interact, of each kind one. */
+/* Kinds of interaction; a system has at most one of each. */
 #define KILN_MAX_INTERACTIONS 4
 
 /* Uniform blocks of a step. */
@@ -40,23 +40,23 @@
 #define SIM_BIND_RECORDS 0
 #define SIM_BIND_SUMS    1
 #define SIM_BIND_TRACES  2
-#define SIM_BIND_SECOND  3 /* records, of techniques with two buffers */
+#define SIM_BIND_SECOND  3 /* records of techniques with two buffers */
 #define SIM_BIND_GRIDS   4
 #define SIM_BIND_PUSHES  5
 #define SIM_BIND_SPINS   6
 #define SIM_BIND_VOLUMES 7
 
-/* Of the kernels that gather pushes; SIM_BIND_KEYS, _RECORDS and _PUSHES serve them, too. */
+/* Blocks of the kernels that compute pushes, which also use SIM_BIND_KEYS, _RECORDS and _PUSHES. */
 #define INTERACT_BIND_PARAMS   3 /* uniform block */
 #define INTERACT_BIND_BODIES   1
 #define INTERACT_BIND_SECOND   2 /* bodies after a round */
 #define INTERACT_BIND_CELLS    3
 #define INTERACT_BIND_PARTNERS 4
-#define INTERACT_BIND_ENTRIES  6 /* of the two grids: what is sorted */
-#define INTERACT_BIND_ORDER    7 /* of the second grid */
-#define INTERACT_BIND_SPINS    8 /* of those that turn: every device in use has so many */
+#define INTERACT_BIND_ENTRIES  6 /* entries of the two grids, which are sorted */
+#define INTERACT_BIND_ORDER    7 /* order of the second grid */
+#define INTERACT_BIND_SPINS    8 /* spins of bodies; every device in use has this binding point */
 
-/* Invocations of the work group that adds up all cells. */
+/* Invocations of the work group that sums up all cells. */
 #define INTERACT_SCAN_GROUP 256
 
 /* Invocations of a work group; kernels may be compiled for another size. */
@@ -64,12 +64,12 @@
 #define SIM_GROUP_SIZE 64
 #endif
 
-/* Slots that one invocation of the hash adds up. */
+/* Slots that one invocation of the hash sums up. */
 #define SIM_HASH_SLOTS 16
 
-/* Births that one emitter spawns; 8 words each, of 1024 that every geometry shader may write. On
- * software GL it is one, as others step one slot: all loops of an emitter together run so often and
- * no more (gpu/device.h). */
+/* Births that one emitter makes, of 8 words each; every geometry shader may write 1024 words. On
+ * software GL it is one: other invocations step one slot, and there the loops of an emitter
+ * together have a limit (gpu/device.h). */
 #ifndef SIM_EMITTER_BIRTHS
 #define SIM_EMITTER_BIRTHS 32
 #endif

@@ -1,27 +1,26 @@
-/* The looks of the systems as drawing reads them: a uniform block, and a table of everything that
- * may vary over life, sampled evenly from birth to death. The table is made on the host for each
- * frame in which it changes, so that shaders evaluate no keys (their many loops, inlined, keep a
- * compiler busy for minutes) and every rasteriser reads the same numbers.
- */
+/* Declares the looks of the systems for drawing: a uniform block, and a table of all values that
+ * may vary over life, sampled evenly from birth to death. The host makes the table for each frame
+ * in which it changes. So shaders evaluate no keys (whose many inlined loops take compilers
+ * minutes), and every rasteriser reads the same numbers. */
 #ifndef KILN_SHARED_LOOK_LAYOUT_H
 #define KILN_SHARED_LOOK_LAYOUT_H
 
 #include "shared/draw_layout.h"
 #include "shared/layout.h"
 
-/* Samples over life; a key between two of them is smoothed over a 127th of the life. */
+/* Samples over life. A key between two samples is smoothed over a 127th of the life. */
 #define KILN_LOOK_SAMPLES 128
 
 /* Rows of a system's part of the table: one RGBA texel a sample. */
 #define KILN_LOOK_SHAPE  0 /* size, m; stretch, s; opacity with fades; soft fade, 1/m */
 #define KILN_LOOK_COVER  1 /* colour that covers, rgb; lit */
 #define KILN_LOOK_HOT    2 /* light emitted where a cell's heat is 1, rgb; near fade, m */
-#define KILN_LOOK_COOL   3 /* light emitted where it is 0, rgb; passes through the atlas */
-#define KILN_LOOK_BLOOM  4 /* weights, rgb; thickness in parts of the size */
+#define KILN_LOOK_COOL   3 /* light emitted where the heat is 0, rgb; passes through the atlas */
+#define KILN_LOOK_BLOOM  4 /* bloom weights, rgb; thickness in units of the size */
 #define KILN_LOOK_SPREAD 5 /* scale, least and most; mean spin so far, least and most, rad/s */
 #define KILN_LOOK_TURN   6 /* rotation, least and most, rad; point, line width, px */
 #define KILN_LOOK_AXIS   7 /* unit vector in the world; unused */
-#define KILN_LOOK_OTHER  8 /* the other colour of spheres, rgb; lit */
+#define KILN_LOOK_OTHER  8 /* second colour of a sphere's pattern, rgb; lit */
 #define KILN_LOOK_ROWS   9
 
 /* enum kiln_shape and enum kiln_facing of the scene. */
@@ -33,18 +32,18 @@
 #define LOOK_AXIAL     3u
 #define LOOK_VELOCITY  4u
 
-/* Patterns of spheres: none, a stripe, or so many segments of each colour. */
+/* Patterns of spheres: none, a stripe, or segments of each colour. */
 #define LOOK_PLAIN    0u
 #define LOOK_STRIPE   1u
-#define LOOK_SEGMENTS 2u /* and this plus their number */
+#define LOOK_SEGMENTS 2u /* plus the number of segments */
 
-/* The rest of a look, the same at any age. */
+/* The part of a look that is the same at any age. */
 struct kiln_draw_look {
-    S(kiln_derived_params) derived; /* for the progress through life */
+    S(kiln_derived_params) derived; /* parameters for the progress of life */
     uint4 flags; /* additive; random start; literal soft formula (equation 3.3); textures */
     uint4 form;  /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame */
-    uint4 turn; /* 1: collisions turn it; what its slots are less than those of spins; pattern of */
-                /* spheres, LOOK_* or segments; 1: a mesh lies as that */
+    uint4 turn;  /* 1: collisions turn it; offset of its slots to those of spins; pattern of */
+                 /* spheres, LOOK_*; 1: a mesh is oriented by its spin */
     uint4 textures[KILN_MAX_TEXTURES]; /* first layer; cells; KILN_CELL_*; bits of the float that */
                                        /* scales the motion */
 };

@@ -1,15 +1,14 @@
-/* Curl noise: a divergence-free field that looks like turbulence, for wind (Bridson et al., "Curl-
- * Noise for Procedural Fluid Flow", 2007). It is the curl of a vector potential whose three parts
- * are gradient noises; here the curl is taken analytically, corner by corner, so that the three
- * share hashes and weights.
- */
+/* Computes curl noise, a divergence-free field that looks like turbulence, for wind (Bridson et
+ * al., "Curl-Noise for Procedural Fluid Flow", 2007). It is the curl of a vector potential of three
+ * gradient noises. The curl is taken analytically, corner by corner, so that the three noises share
+ * hashes and weights. */
 #ifndef KILN_SHARED_NOISE_H
 #define KILN_SHARED_NOISE_H
 
 #include "shared/random.h"
 
-/* Coordinates beyond this have too few bits left between lattice points: the field is zero there.
- */
+/* Limit of coordinates: beyond it, too few bits are left between lattice points, and the field is
+ * zero. */
 #define NOISE_REACH_BITS 0x49800000u /* 2^20 */
 
 /* Odd numbers that spread the lattice points over the hash's arguments. */
@@ -20,8 +19,8 @@
 /* Brings the root of the mean square speed of one octave to 1. */
 #define NOISE_CURL_UNIT 0.20658f
 
-/* The weight of the upper lattice point along one axis at fraction t, C2-continuous, and its slope.
- */
+/* The weight of the upper lattice point along one axis at fraction t, C2-continuous, and the
+ * weight's slope. */
 struct noise_fade {
     float weight, slope;
 };
@@ -35,7 +34,7 @@ FN S(noise_fade) noise_fade_at(float t)
     return fade;
 }
 
-/* A gradient from 9 bits: each component one of -3.5, -2.5 .. 3.5. */
+/* Returns a gradient from 9 bits: each component is one of -3.5, -2.5 .. 3.5. */
 FN float3 noise_gradient(uint bits)
 {
     EXACT float3 g = FLOAT3(FLOAT(INT(bits & 7u)) - 3.5f, FLOAT(INT((bits >> 3u) & 7u)) - 3.5f,
@@ -43,8 +42,8 @@ FN float3 noise_gradient(uint bits)
     return g;
 }
 
-/* One corner's part of the curl of the potential (n1, n2, n3), each a sum of weight * (g . r): with
- * V the three products g . r it is weight * curl(V) + grad(weight) x V. */
+/* Returns one corner's part of the curl of the potential (n1, n2, n3), whose components are sums of
+ * weight * (g . r). With V the three products g . r, it is weight * curl(V) + grad(weight) x V. */
 FN float3 noise_curl_corner(uint bits, float3 r, float weight, float3 slope)
 {
     EXACT float3 g1 = noise_gradient(bits);
@@ -60,7 +59,7 @@ FN float3 noise_curl_corner(uint bits, float3 r, float weight, float3 slope)
 /* A point's place in its lattice cell. */
 struct noise_cell {
     uint lattice; /* hash argument of the lowest corner */
-    float3 part;  /* of the way to the highest */
+    float3 part;  /* part of the way to the highest corner */
     S(noise_fade) x, y, z;
 };
 
@@ -77,7 +76,7 @@ FN S(noise_cell) noise_cell_at(float3 p, uint seed)
     return cell;
 }
 
-/* The fade as a corner sees it: mirrored when the corner is the lower one. */
+/* Returns the fade of a corner: mirrored for a lower corner. */
 FN S(noise_fade) noise_fade_of_corner(S(noise_fade) fade, bool upper)
 {
     EXACT S(noise_fade) own;
@@ -86,7 +85,7 @@ FN S(noise_fade) noise_fade_of_corner(S(noise_fade) fade, bool upper)
     return own;
 }
 
-/* The part of corner 0 to 7: bit 0 is the upper one in x, bit 1 in y, bit 2 in z. */
+/* Returns the part of corner 0 to 7: bit 0 is the upper one in x, bit 1 in y, bit 2 in z. */
 FN float3 noise_curl_of_corner(S(noise_cell) cell, uint corner)
 {
     uint ux = corner & 1u;
@@ -111,7 +110,8 @@ FN bool noise_reaches(float3 p)
            (FLOAT_BITS(p.z) & EXACT_SIZE_BITS) <= NOISE_REACH_BITS;
 }
 
-/* Written out, so that in C a loop over particles becomes vectors of particles. */
+/* Sums up all corners. The sum is written out, so that in C a loop over particles becomes vectors
+ * of particles. */
 FN float3 noise_curl_of_corners(S(noise_cell) cell)
 {
     EXACT float3 sum = FLOAT3(0.0f, 0.0f, 0.0f);
@@ -134,7 +134,8 @@ FN float3 noise_curl_of_corners(S(noise_cell) cell)
     return sum;
 }
 
-/* One octave with lattice points one unit apart, root of mean square speed about 1. */
+/* Returns one octave with lattice points one unit apart; the root of its mean square speed is about
+ * 1. */
 FN float3 noise_curl_octave(float3 p, uint seed)
 {
     bool reached = noise_reaches(p);

@@ -1,20 +1,19 @@
-/* The record of a particle: 32 bytes that a simulation step reads and writes. Whatever else a
- * particle has (life, size, spin, texture) is recomputed from its serial and its birth, where the
- * thesis stores 44 bytes (Heinz 2019, 3.2.2).
+/* Declares the record of a particle, 32 bytes that a simulation step reads and writes. All other
+ * values of a particle (life, size, spin, texture) are recomputed from its serial and its birth;
+ * the thesis stores 44 bytes (Heinz 2019, 3.2.2).
  *
- * Records travel as integers: a driver may flush a denormal float or quieten a NaN on its way
- * through a register, but never changes an integer.
- */
+ * Records are stored as integers. A driver may flush a denormal float or quieten a NaN when it
+ * passes through a register, but it never changes an integer. */
 #ifndef KILN_SHARED_PARTICLE_H
 #define KILN_SHARED_PARTICLE_H
 
 #include "shared/platform.h"
 
-/* Particle systems of a scene: fewer than the 8 bits of a draw entry name, enough to show. */
+/* The most systems of a scene. It is below the 256 that the 8 bits of a draw entry can name. */
 #define KILN_MAX_SYSTEMS 16
 
-/* Of what the steps make of a scene: raised with every change of any state, since states that were
- * saved before must not be taken for what the scene comes to now. */
+/* The version of the steps. It is raised with every change of the state that steps compute, so that
+ * states saved by earlier versions are not used. */
 #define KILN_STATE_VERSION 1
 
 struct kiln_particle {
@@ -22,16 +21,16 @@ struct kiln_particle {
     uint4 velocity_birth;  /* velocity as float bits, metres a second; birth word */
 };
 
-/* Beside it, how a particle turns, in systems that ask for it: part of the state, too. */
+/* The spin of a particle, which is part of the state of systems that have spins. */
 struct kiln_spin {
     uint4 rate; /* float bits, rad/s, in the world; w: 0 */
     uint4 pose; /* float bits: a unit quaternion, from the ball to the world */
 };
 
-/* The birth word: step of birth (22 bits), 64ths of that step that had passed (6), flags (4).
- * A run of more steps than 22 bits hold is refused. */
+/* The birth word: step of birth (22 bits), 64ths of that step before the birth (6), flags (4). A
+ * run of more steps than 22 bits hold is refused. */
 #define KILN_PARTICLE_ALIVE       1u
-#define KILN_PARTICLE_BOUNCED     2u /* of systems with children: has met a surface */
+#define KILN_PARTICLE_BOUNCED     2u /* systems with children: has hit a surface */
 #define KILN_BIRTH_STEP_SHIFT     10u
 #define KILN_BIRTH_FRACTION_SHIFT 4u
 #define KILN_BIRTH_FRACTION_MASK  63u
@@ -47,7 +46,7 @@ FN uint particle_birth_step(S(kiln_particle) p)
     return p.velocity_birth.w >> KILN_BIRTH_STEP_SHIFT;
 }
 
-/* The part of the birth step that had passed when the particle was born: 0 to 63/64. */
+/* Returns the part of the birth step before the birth: 0 to 63/64. */
 FN float particle_birth_fraction(S(kiln_particle) p)
 {
     uint sixty_fourths =
@@ -56,8 +55,8 @@ FN float particle_birth_fraction(S(kiln_particle) p)
     return fraction;
 }
 
-/* Age in seconds at the end of step `step` (steps count from 1; a particle born in that step has
- * lived for the rest of it). */
+/* Returns the age in seconds at the end of step `step`. Steps count from 1; a particle born in that
+ * step has lived for the rest of it. */
 FN float particle_age(S(kiln_particle) p, uint step, float dt_s)
 {
     EXACT float steps = FLOAT(step - particle_birth_step(p)) + 1.0f;

@@ -1,6 +1,5 @@
-/* What the exactness probe computes from one vector of bits, on the device and in C: every rule of
- * arithmetic that the simulation relies on, each result as a word.
- */
+/* Computes the exactness probe from one vector of bits, on the device and in C: every rule of
+ * arithmetic that the simulation relies on, each result as a word. */
 #ifndef KILN_SHARED_PROBE_H
 #define KILN_SHARED_PROBE_H
 
@@ -9,17 +8,17 @@
 #define PROBE_WORDS 32
 
 struct probe_result {
-    uint4 sums;   /* a + b, a - b, a * b, a * b + c, of plain numbers */
+    uint4 sums;   /* a + b, a - b, a * b, a * b + c, of numbers from probe_plain */
     uint4 orders; /* min, max, floor, comparisons */
-    uint4 roots;  /* rcp, div, sqrt, rsqrt, of anything */
-    uint4 curves; /* sine, cosine, exp, canon, of anything */
+    uint4 roots;  /* rcp, div, sqrt, rsqrt, of any bits */
+    uint4 curves; /* sine, cosine, exp, canon, of any bits */
     uint4 unit;   /* normalised vector, its square */
     uint4 cross;  /* cross product, lerp */
     uint4 noise;  /* curl noise, hash */
     uint4 around; /* random direction, random number */
 };
 
-/* A result as a word: denormals and -0 are 0, and one NaN is like another. */
+/* Returns a result as a word: denormals and -0 become 0, and all NaNs are alike. */
 FN uint probe_word(float x)
 {
     uint bits = FLOAT_BITS(x);
@@ -28,8 +27,8 @@ FN uint probe_word(float x)
     return exact_is_tiny(x) ? 0u : bits;
 }
 
-/* A number between 2^-60 and 2^60 with the sign and the digits of the bits: state is never a
- * denormal, and what overflows dies. */
+/* Returns a number between 2^-60 and 2^60 with the sign and the digits of the bits. The state has
+ * no denormals, and a particle whose numbers overflow dies. */
 FN float probe_plain(uint bits)
 {
     uint exponent = 67u + ((bits >> 23u) & 255u) % 120u;

@@ -1,8 +1,8 @@
-/* What the others of its system do to a particle (docs/determinism.md, 8): gathered from the
- * state at the start of a step, before any particle moves, and applied within the step to what
- * lived before it. Two words a slot, and only of systems that interact; shaders of scenes without
- * any are spared it.
- */
+/* Declares pushes, the effect of the other particles of its system on a particle
+ * (docs/determinism.md, 8). They are computed from the state at the start of a step, before any
+ * particle moves, and applied within the step to particles that lived before it. A slot has two
+ * words, but only in systems that interact; shaders of scenes without them are compiled without
+ * pushes. */
 #ifndef KILN_SHARED_PUSH_H
 #define KILN_SHARED_PUSH_H
 
@@ -10,10 +10,10 @@
 #include "shared/layout.h"
 
 struct step_push {
-    float3 velocity; /* m/s: change of it before the step */
-    float3 position; /* m: added to where the step leads, so that no collider is passed */
-    float radius;    /* m: how near its centre comes to colliders */
-    uint slot;       /* whose it is */
+    float3 velocity; /* m/s: change of the velocity before the step */
+    float3 position; /* m: added to the place where the step leads, so that no collider is passed */
+    float radius;    /* m: distance of its centre from colliders that it touches */
+    uint slot;       /* slot of the particle */
     bool happens;
 };
 
@@ -28,7 +28,7 @@ FN S(step_push) push_none(void)
     return push;
 }
 
-/* Of a slot in which nothing lived, it is zero. */
+/* Returns the push of a slot; it is zero if the slot had no living particle. */
 FN S(step_push) push_of(SIM_PARAM uint slot)
 {
     EXACT S(step_push) push = push_none();

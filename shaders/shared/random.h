@@ -1,12 +1,11 @@
-/* Random numbers without state (docs/determinism.md, 2): a hash of (seed, system, serial,
- * purpose), so that any stage can draw a particle's numbers again.
- */
+/* Makes random numbers without state (docs/determinism.md, 2). A number is a hash of (seed, system,
+ * serial, purpose), so that any stage can draw a particle's numbers again. */
 #ifndef KILN_SHARED_RANDOM_H
 #define KILN_SHARED_RANDOM_H
 
 #include "shared/exact.h"
 
-/* What a number is drawn for. A purpose that takes several numbers owns the following ones. */
+/* Purposes of numbers. A purpose that takes several numbers owns the following ones, too. */
 #define RANDOM_LIFE      0u
 #define RANDOM_SPEED     1u
 #define RANDOM_DIRECTION 2u /* 2 numbers */
@@ -22,8 +21,8 @@
 #define RANDOM_WHIRL     27u         /* 3 numbers: rate and direction */
 #define RANDOM_BOUNCE    0x40000000u /* + step << 4 + bounce << 1: 2 numbers */
 
-/* A hash of 32 bits that changes half of the bits when one changes (the finaliser with the
- * constants found by C. Wellons' search, bias 0.1). */
+/* Hashes 32 bits so that half of the bits change when one changes (a finaliser with the constants
+ * of C. Wellons' search, bias 0.1). */
 FN uint random_mix(uint x)
 {
     x ^= x >> 16u;
@@ -34,13 +33,13 @@ FN uint random_mix(uint x)
     return x;
 }
 
-/* Of a system: one a run. */
+/* Returns the key of a system in a run. */
 FN uint random_key(uint seed, uint system)
 {
     return random_mix(random_mix(seed) + system * 0x9e3779b9u);
 }
 
-/* Of a particle; no two of one system share it. */
+/* Returns the stream of a particle; no two particles of a system share one. */
 FN uint random_stream(uint key, uint serial)
 {
     return random_mix(serial + key);
@@ -51,7 +50,7 @@ FN uint random_bits(uint stream, uint purpose)
     return random_mix(stream ^ random_mix(purpose + 0x9e3779b9u));
 }
 
-/* In [0, 1): a multiple of 2^-24. Processors convert signed numbers faster. */
+/* Maps bits to [0, 1), a multiple of 2^-24. Processors convert signed numbers faster. */
 FN float random_to_unit(uint bits)
 {
     EXACT float y = FLOAT(INT(bits >> 8u)) * 5.9604644775390625e-8f;
@@ -64,7 +63,7 @@ FN float random_unit(uint stream, uint purpose)
     return y;
 }
 
-/* In [low, high]. */
+/* Returns a number in [low, high]. */
 FN float random_between(uint stream, uint purpose, float low, float high)
 {
     EXACT float u = random_unit(stream, purpose);
@@ -72,13 +71,13 @@ FN float random_between(uint stream, uint purpose, float low, float high)
     return y;
 }
 
-/* Two unit vectors that make a right-handed frame with the unit vector w. */
+/* Two unit vectors that form a right-handed frame with the unit vector w. */
 struct random_frame {
     float3 u, v;
 };
 
-/* The frame of Duff et al., "Building an Orthonormal Basis, Revisited" (2017): no branch but a
- * sign, no point where it fails. */
+/* Computes the frame of Duff et al., "Building an Orthonormal Basis, Revisited" (2017). It has no
+ * branch except for a sign, and fails nowhere. */
 FN S(random_frame) random_frame_about(float3 w)
 {
     EXACT float side = w.z >= 0.0f ? 1.0f : -1.0f;
@@ -91,14 +90,14 @@ FN S(random_frame) random_frame_about(float3 w)
     return frame;
 }
 
-/* A direction uniform on the part of the unit sphere within the angle of `axis` (unit length) whose
- * cosine is given: -1 is the whole sphere. Takes numbers purpose and purpose + 1; the height over
- * the axis grows with the first: cosine of the angle = 1 - u (1 - cos_angle). */
+/* Returns a direction that is uniform on a part of the unit sphere: within the angle of `axis`
+ * (unit length) whose cosine is given; -1 is the whole sphere. Takes numbers purpose and purpose +
+ * 1. The angle grows with the first: its cosine is 1 - u (1 - cos_angle). */
 FN float3 random_direction(uint stream, uint purpose, float3 axis, float cos_angle)
 {
     EXACT float u = random_unit(stream, purpose);
     EXACT float turn = random_unit(stream, purpose + 1u);
-    EXACT float depth = u * (1.0f - cos_angle); /* 1 - cosine */
+    EXACT float depth = u * (1.0f - cos_angle); /* 1 - cosine of the angle */
     EXACT float square = depth * (2.0f - depth);
     EXACT float radius = exact_sqrt(square);
     EXACT float angle = turn * EXACT_TWO_PI;
@@ -113,8 +112,8 @@ FN float3 random_direction(uint stream, uint purpose, float3 axis, float cos_ang
     return y;
 }
 
-/* A point uniform in the unit ball, or on its surface. Takes 5 numbers: the largest of three is
- * distributed as the radius, which saves a cube root. */
+/* Returns a point that is uniform in the unit ball, or on its surface. Takes 5 numbers: the largest
+ * of three is distributed like the radius, which saves a cube root. */
 FN float3 random_in_ball(uint stream, uint purpose, bool surface)
 {
     EXACT float a = random_unit(stream, purpose + 2u);

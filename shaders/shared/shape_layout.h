@@ -1,6 +1,6 @@
-/* What the backdrop has beyond sky, floor and boxes: one more uniform block, laid out like those of
- * draw_layout.h. Scenes without any of it run shaders without it.
- */
+/* Declares a uniform block with the parts of the backdrop other than sky, floor and axis-aligned
+ * boxes, laid out like the blocks of draw_layout.h. Scenes without such parts use shaders without
+ * it. */
 #ifndef KILN_SHARED_SHAPE_LAYOUT_H
 #define KILN_SHARED_SHAPE_LAYOUT_H
 
@@ -11,14 +11,14 @@
 
 /* Texture units of the backdrop. */
 #define KILN_UNIT_SURFACES    0
-#define KILN_UNIT_MESH_HITS   1 /* what the rays of a pixel hit: its centre, then its samples */
+#define KILN_UNIT_MESH_HITS   1 /* hits of a pixel's rays: centre, then samples */
 #define KILN_UNIT_FLOOR       3
-#define KILN_UNIT_SKY         6 /* 4 and 5 are those of smoke */
-#define KILN_UNIT_MESH_SHADOW 7 /* a layer a mesh, as the sun sees it */
-#define KILN_UNIT_SOLID_BINS  8 /* of particles that are solid */
+#define KILN_UNIT_SKY         6 /* units 4 and 5 are those of smoke */
+#define KILN_UNIT_MESH_SHADOW 7 /* a layer for each mesh, as the sun sees it */
+#define KILN_UNIT_SOLID_BINS  8 /* bins of solid particles */
 #define KILN_UNIT_SOLID_LIST  9
-#define KILN_UNIT_MESH_PAINT  11 /* a layer a mesh that takes paint; 10 is in draw_layout.h */
-#define KILN_UNIT_SOLID_TILES 13 /* particles that are meshes: 12 is in tiled_layout.h */
+#define KILN_UNIT_MESH_PAINT  11 /* a layer a mesh with paint; 10: draw_layout.h */
+#define KILN_UNIT_SOLID_TILES 13 /* particles that are meshes; 12: tiled_layout.h */
 #define KILN_UNIT_SILHOUETTES 14
 
 /* Rays of a pixel at an edge: a rotated grid, in which no two share a row or a column. */
@@ -42,19 +42,20 @@
 
 /* Edge of a mesh's shadow map, texels; a mesh fills all of them but a border. */
 #define KILN_SHADOW_EDGE   1024
-#define KILN_SHADOW_MARGIN 0.01f /* border, in parts of the half edge */
+#define KILN_SHADOW_MARGIN 0.01f /* border, as a part of the half edge */
 
-/* Solids throw their shadows by lists: at most so many bins along each edge; entries in a row of
- * the list's texture. A shadow is gone where the penumbra is so many times as wide as the sphere.
- */
+/* Sizes of the shadow lists of solid particles: the most bins along each edge, and entries in a row
+ * of the lists' texture. A shadow ends where the penumbra is this many times as wide as the
+ * sphere. */
 #define KILN_SOLID_BINS       128
 #define KILN_SOLID_ROW        1024
 #define KILN_SOLID_FADE       16.0f
-#define KILN_SOLIDS_AT_A_TIME 4 /* of a list, when shaders read it */
+#define KILN_SOLIDS_AT_A_TIME 4 /* entries of a list that shaders read at once */
 
-/* Meshes throw theirs by tiles of an atlas, so many texels square, with levels of half the size and
- * so on, until the largest of the tiles is a texel (lib/draw/light/instance_tiles.h). Where the
- * penumbra is wider than parts of their reach, they do as spheres. */
+/* Sizes of the shadow tiles of particles that are meshes: the edge of an atlas in texels, which has
+ * levels of half the size down to the one in which the largest tile is one texel
+ * (lib/draw/light/instance_tiles.h). If the penumbra is wider than a part of the mesh's reach, the
+ * mesh throws the shadow of a sphere. */
 #define KILN_INSTANCE_ATLAS  2048
 #define KILN_INSTANCE_LEVELS 7
 #define KILN_INSTANCE_SHARP  0.3f
@@ -62,18 +63,19 @@
 
 struct kiln_draw_mesh {
     float4 to_world[3]; /* rows */
-    /* w: 1 + its layer of the textures of paint, and 16 times the first level of that; 0: it takes
-     * none */
+    /* w: 1 + its layer of the textures of paint, plus 16 times the first level of its paint; 0: it
+     * takes none */
     float4 color;
-    float4 center; /* of its bounds in the world, m; w: radius of the sphere around them */
-    float4
-        half_size; /* m; w: seconds into its animation, by which pictures and maps of it differ */
+    float4 center; /* centre of its bounds in the world, m; w: radius of the sphere around them */
+    /* half of the bounds, m; w: seconds into its animation, which tell its pictures and maps of two
+     * times apart */
+    float4 half_size;
 };
 
 /* A box that does not lie along the axes. */
 struct kiln_draw_turned_box {
     float4 center;
-    float4 rows[3]; /* the world's directions in its frame */
+    float4 rows[3]; /* axes of the world in its frame */
     float4 half_size;
     float4 color;
 };
@@ -82,7 +84,7 @@ struct kiln_draw_shapes {
     uint4 counts;           /* spheres, cylinders, meshes; bins of particles along an edge, or 0 */
     uint4 more;             /* capsules, turned boxes, planes; unused */
     float4 sun_right;       /* unit, across the sun's direction; w: tangent of the sun's radius */
-    float4 sun_up;          /* the same */
+    float4 sun_up;          /* unit, across sun_right and the sun's direction */
     float4 world_to_bin[2]; /* rows: world positions to bins of particles */
     float4 floor_map;       /* repetitions a metre in x and z, texels a metre in x; unused */
     float4 floor_gloss;     /* factor; roughness; slope of each wave; unused */
@@ -99,7 +101,7 @@ struct kiln_draw_shapes {
     float4 capsules[KILN_MAX_OBJECTS];     /* centre; w: radius */
     float4 capsule_axis[KILN_MAX_OBJECTS]; /* unit; w: half of the height without the ends */
     float4 capsule_color[KILN_MAX_OBJECTS];
-    float4 planes[KILN_MAX_OBJECTS]; /* normal, unit; w: along it, from the origin */
+    float4 planes[KILN_MAX_OBJECTS]; /* unit normal; w: distance from the origin along it */
     float4 plane_color[KILN_MAX_OBJECTS];
     S(kiln_draw_turned_box) turned[KILN_MAX_OBJECTS];
 };

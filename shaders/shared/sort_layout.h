@@ -1,20 +1,21 @@
-/* Sizes and binding points of the sort on the device. A pair is a key and what it belongs to. */
+/* Defines the sizes and binding points of the sort on the device. A pair is a key and the entry
+ * that it belongs to. */
 #ifndef KILN_SHARED_SORT_LAYOUT_H
 #define KILN_SHARED_SORT_LAYOUT_H
 
 /* Storage blocks. */
 #define SORT_BIND_RECORDS   0
-#define SORT_BIND_COUNTS    1 /* of blocks or digits; scanned in place */
+#define SORT_BIND_COUNTS    1 /* counts of blocks or digits; scanned in place */
 #define SORT_BIND_ENTRIES   2
 #define SORT_BIND_PAIRS     3
 #define SORT_BIND_PAIRS_OUT 4
-#define SORT_BIND_SUMS      5 /* of blocks of counts */
+#define SORT_BIND_SUMS      5 /* sums of blocks of counts */
 #define SORT_BIND_TOTAL     6
 
-/* Invocations of a work group, where nothing else is said. */
+/* Invocations of a work group, unless another size is given. */
 #define SORT_GROUP_SIZE 256
 
-/* Slots, or counts, that one invocation takes; a work group takes a block of them. */
+/* Slots, or counts, that one invocation processes; a work group processes a block of them. */
 #define SORT_ITEMS 8
 #define SORT_BLOCK (SORT_GROUP_SIZE * SORT_ITEMS)
 

@@ -10,11 +10,11 @@
 #include "shared/particle.h"
 #include "shared/random.h"
 
-/* 5/2 and 2/7: of solid balls. */
+/* Factors of solid balls: 5/2 and 2/7. */
 #define SPIN_PER_PUSH 2.5f
 #define SPIN_OF_SLIP  0.285714298f
 
-/* rad/s: as STEP_ABSURD_BITS has it of velocities, but who turns so fast is only held at it. */
+/* rad/s: limit of spins. A ball that would spin faster is held at it. */
 #define SPIN_FASTEST 1048576.0f
 
 FN uint4 spin_words_of(float3 v)
@@ -23,7 +23,7 @@ FN uint4 spin_words_of(float3 v)
     return UINT4(FLOAT_BITS(c.x), FLOAT_BITS(c.y), FLOAT_BITS(c.z), 0u);
 }
 
-/* 0 for NaN. */
+/* Limits one component of a spin; NaN becomes 0. */
 FN float spin_held_along(float rate)
 {
     EXACT float number = (FLOAT_BITS(rate) & EXACT_SIZE_BITS) > 0x7f800000u ? 0.0f : rate;
@@ -45,8 +45,8 @@ FN float3 spin_rate(uint4 bits)
     return y;
 }
 
-/* The change of velocity across a contact, against the slip: all that takes away the slip, 2/7 of
- * it, but at most `most` m/s. */
+/* Returns the change of velocity across a contact by friction: 2/7 of the slip, which stops it, but
+ * at most `most` m/s. */
 FN float3 spin_grip(float3 slip, float most)
 {
     EXACT float speed = float3_length(slip);
@@ -58,8 +58,8 @@ FN float3 spin_grip(float3 slip, float most)
     return y;
 }
 
-/* rad/s that a ball gets from such a change where a surface of that normal, away from it, or a
- * ball on the side of -normal touches it. */
+/* Returns the spin, rad/s, that a ball gets from such a change. `normal` is that of the touching
+ * surface, away from it, or points away from the touching ball. */
 FN float3 spin_from(float3 change, float3 normal, float radius)
 {
     EXACT float3 across = float3_cross(change, normal);
@@ -77,7 +77,7 @@ FN float4 spin_pose(uint4 bits)
     return q;
 }
 
-/* One that lies straight where there is none. */
+/* Normalises a pose; a zero pose becomes one without rotation. */
 FN float4 spin_unit(float4 q)
 {
     EXACT float square = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
@@ -88,7 +88,7 @@ FN float4 spin_unit(float4 q)
     return y;
 }
 
-/* A pose turned by a rate, rad/s, for a time. */
+/* Returns a pose after turning at a rate, rad/s, for a time. */
 FN float4 spin_turned(float4 p, float3 rate, float time_s)
 {
     EXACT float speed = float3_length(rate);
@@ -106,7 +106,7 @@ FN float4 spin_turned(float4 p, float3 rate, float time_s)
     return unit;
 }
 
-/* The pose that a turn about a unit vector leads to. */
+/* Returns the pose of a rotation about a unit vector. */
 FN float4 spin_about(float3 axis, float angle)
 {
     EXACT float half_angle = 0.5f * angle;
@@ -122,7 +122,7 @@ FN uint4 spin_pose_words(float4 q)
                  FLOAT_BITS(exact_canon(q.z)), FLOAT_BITS(exact_canon(q.w)));
 }
 
-/* Any pose, each as likely (Shoemake, "Uniform Random Rotations", 1992). */
+/* Returns a random pose, all being equally likely (Shoemake, "Uniform Random Rotations", 1992). */
 FN float4 spin_any_pose(uint stream)
 {
     EXACT float part = random_unit(stream, RANDOM_POSE);
@@ -138,7 +138,8 @@ FN float4 spin_any_pose(uint stream)
     return unit;
 }
 
-/* rad/s at birth, about the axis, or about one drawn for each where that is none. */
+/* Returns the spin at birth, rad/s, about `axis`, or about an axis drawn for each particle where
+ * `axis` is zero. */
 FN float3 spin_at_birth(uint stream, float low, float high, float3 axis)
 {
     EXACT float speed = random_between(stream, RANDOM_WHIRL, low, high);

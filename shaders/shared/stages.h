@@ -1,19 +1,19 @@
-/* Integrators that look up the forces at more than one place of a step, in stages: each says where
- * the next is to look, and the last where the step ends. In kernels that know them the others are
- * here, too, as one stage: what step.h does with them, to the last bit.
+/* Implements integrators that evaluate the forces at several places of a step, in stages. Each
+ * stage gives the place of the next evaluation, and the last gives the end of the step. Kernels
+ * that have these integrators run the other integrators here, too, as one stage, with the same bits
+ * as step.h.
  *
- * Pulls are integrated exactly by all of them: a step under forces that stay as they are gives the
- * exact solution, and a pull of any strength cannot overshoot (Cox and Matthews, "Exponential time
- * differencing for stiff systems", 2002). Without a pull
+ * All of them integrate pulls exactly: a step under constant forces gives the exact solution, and a
+ * pull of any strength cannot overshoot (Cox and Matthews, "Exponential time differencing for stiff
+ * systems", 2002). Without a pull
  * - `trapezoid` is UberFlow's (2004, 4.2, equation 2): a particle moves by the mean of its
- *   velocities before and after the step. The paper takes the force where the step starts; here it
- *   is the mean of those at the start and where this leads to, which makes it second order where
- *   forces depend on places, and changes nothing where they do not;
+ *   velocities before and after the step. The paper takes the force at the start of the step. Here
+ *   it is the mean of the forces at the start and at the place where that leads. This makes it
+ *   second order where forces depend on places, and changes nothing where they do not;
  * - `rk4` is the classical Runge-Kutta method of fourth order.
  *
- * Drag by the square of the speed is one of the forces that are looked up. It is stiff, so as its
- * part of the velocity in a step nears the whole, the result goes over to that of forces_slow.
- */
+ * Quadratic drag is evaluated as one of the forces. It is stiff, so the result changes over to that
+ * of forces_slow as drag takes more of the velocity in a step. */
 #ifndef KILN_SHARED_STAGES_H
 #define KILN_SHARED_STAGES_H
 
@@ -21,17 +21,18 @@
 
 struct stages {
     float3 position, velocity;  /* at the start of the step */
-    float3 at, moving;          /* where the forces are looked up next, and the velocity there */
-    float3 acceleration, first; /* at the start; and less the drag by the square of the speed */
-    float3 early;               /* velocity at the first place halfway */
-    float3 changed;             /* by how much more than at the start acts halfway, added up */
-    float3 flown;               /* velocities of the stages, by their weights in sixths */
-    float pull, quadratic;      /* at the start */
-    float fastest;              /* of the stages: m/s */
-    float trust;                /* of the last stage: see stages_trust */
+    float3 at, moving;          /* place of the next evaluation of forces, and the velocity there */
+    float3 acceleration, first; /* at the start; `first` is less the quadratic drag */
+    float3 early;               /* velocity at the first evaluation in the middle */
+    /* sum of the differences of the forces in the middle from those at the start */
+    float3 changed;
+    float3 flown;          /* velocities of the stages, weighted in sixths */
+    float pull, quadratic; /* at the start */
+    float fastest;         /* m/s: fastest of the stages */
+    float trust;           /* trust in the last stage: see stages_trust */
 };
 
-/* Looks at the forces in a step. */
+/* Returns the number of evaluations of forces in a step. */
 FN uint stages_count(uint integration)
 {
     if (integration == INTEGRATE_RK4)
@@ -58,19 +59,19 @@ FN S(stages) stages_start(float3 position, float3 velocity)
     return s;
 }
 
-/* How far to trust what is not made for stiff drag: 1 for small parts z of the velocity that drag
- * takes in the step, 0 from 1 on, and too close to 1 in between to change an order of accuracy. 0
- * for NaN. */
+/* Returns the trust in results that are not made for stiff drag. It is 1 for small parts z of the
+ * velocity that drag takes in the step, 0 from 1 on, and in between close enough to 1 to keep the
+ * order of accuracy. 0 for NaN. */
 FN float stages_trust(float z)
 {
     EXACT float square = z * z;
     EXACT float left = 1.0f - square * square;
-    bool below_one = FLOAT_BITS(z) < 0x3f800000u; /* by its bits: no number is not */
+    bool below_one = FLOAT_BITS(z) < 0x3f800000u; /* compares bits, so that NaN is not below one */
     EXACT float trust = below_one ? left : 0.0f;
     return trust;
 }
 
-/* b, as far as it is trusted; else a. Not just a sum of both, since b may be no number. */
+/* Returns b as far as it is trusted, else a. It is not a plain weighted sum, since b may be NaN. */
 FN float3 stages_mix(float3 a, float3 b, float trust)
 {
     EXACT float3 difference = float3_sub(b, a);
@@ -81,7 +82,7 @@ FN float3 stages_mix(float3 a, float3 b, float trust)
 }
 
 /* Weights of the forces over a step with a pull of z: (1 - e^-z) / z, then each (1/n! - the one
- * before) / z, with the limits 1, 1/2 and 1/6 for z = 0. Within 2e-6 of their size. */
+ * before) / z, with the limits 1, 1/2 and 1/6 for z = 0. Their relative error is 2e-6. */
 struct stages_weights {
     float one, two, three;
 };
@@ -104,7 +105,7 @@ FN S(stages_weights) stages_weigh(float z)
     return w;
 }
 
-/* What the forces at s.at do, beside the pull at the start. */
+/* Returns the effect of the forces at s.at, except the pull at the start. */
 FN float3 stages_rest(S(stages) s, S(force_effect) e)
 {
     EXACT float speed = float3_length(s.moving);
@@ -114,8 +115,8 @@ FN float3 stages_rest(S(stages) s, S(force_effect) e)
     return y;
 }
 
-/* To the place of the next stage. For rk4: half of the step by the first velocity, then by the one
- * found there, then all of it by the next. */
+/* Moves to the place of the next stage. For rk4: half of the step by the first velocity, then half
+ * by the one found there, then all of it by the next. */
 FN S(stages) stages_onward(S(stages) s, float3 rest, uint stage, uint count, float time_s)
 {
     bool rk4 = count == 4u;
@@ -143,7 +144,7 @@ FN S(stages) stages_onward(S(stages) s, float3 rest, uint stage, uint count, flo
     return s;
 }
 
-/* To the velocity at the end of the step. */
+/* Computes the velocity at the end of the step. */
 FN S(stages) stages_finish(S(stages) s, float3 rest, uint count, float time_s)
 {
     bool rk4 = count == 4u;
@@ -152,7 +153,7 @@ FN S(stages) stages_finish(S(stages) s, float3 rest, uint count, float time_s)
     EXACT S(stages_weights) w = stages_weigh(z);
     EXACT float slowing = -s.pull;
 
-    EXACT float acting_s = time_s * w.one; /* forces_acting_s */
+    EXACT float acting_s = time_s * w.one; /* as forces_acting_s */
     EXACT float3 change = float3_add_scaled(s.acceleration, s.velocity, slowing);
     EXACT float3 stiff = float3_add_scaled(s.velocity, change, acting_s);
     stiff = forces_slow(stiff, s.quadratic, acting_s);
@@ -175,8 +176,8 @@ FN S(stages) stages_finish(S(stages) s, float3 rest, uint count, float time_s)
     return s;
 }
 
-/* Takes in what the forces at s.at do. After the last stage, s.moving is the particle's velocity.
- */
+/* Adds the effect of the forces at s.at. After the last stage, s.moving is the particle's
+ * velocity. */
 FN S(stages) stages_take(S(stages) s, S(force_effect) e, uint stage, uint count, float time_s)
 {
     if (stage == 0u) {
@@ -194,7 +195,7 @@ FN S(stages) stages_take(S(stages) s, S(force_effect) e, uint stage, uint count,
     return stages_finish(s, rest, count, time_s);
 }
 
-/* Where the step ends. */
+/* Returns the place at the end of the step. */
 FN float3 stages_arrive(S(stages) s, uint integration, float time_s)
 {
     bool first = integration == INTEGRATE_POSITION_FIRST;

@@ -1,6 +1,5 @@
-/* The state hash (docs/determinism.md, 5): two sums over the living particles of a hash of
- * (system, serial, words), so that neither layout nor order nor the dead matter.
- */
+/* Computes the state hash (docs/determinism.md, 5): two sums over the living particles of a hash of
+ * (system, serial, words). Layout, order and dead particles do not change it. */
 #ifndef KILN_SHARED_STATE_HASH_H
 #define KILN_SHARED_STATE_HASH_H
 
@@ -19,7 +18,7 @@ FN S(state_hash_lanes) state_hash_word(S(state_hash_lanes) lanes, uint word)
     return mixed;
 }
 
-/* What a particle adds to the two sums: nothing when it is dead. */
+/* Returns what a particle adds to the two sums: nothing if it is dead. */
 FN S(state_hash_lanes) state_hash_particle(uint system, S(kiln_particle) p)
 {
     S(state_hash_lanes) lanes;
@@ -40,7 +39,7 @@ FN S(state_hash_lanes) state_hash_particle(uint system, S(kiln_particle) p)
     return lanes;
 }
 
-/* What it adds besides if it turns. */
+/* Returns what its spin adds, if it has one. */
 FN S(state_hash_lanes) state_hash_spin(uint system, S(kiln_particle) p, S(kiln_spin) s)
 {
     S(state_hash_lanes) lanes;

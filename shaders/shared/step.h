@@ -1,6 +1,5 @@
-/* One step of one slot: birth, forces, motion, collision, death. Every simulation technique runs
- * this very code and only moves data around it (docs/determinism.md, 1).
- */
+/* Runs one step of one slot: birth, forces, motion, collision, death. Every simulation technique
+ * runs this code and only moves data around it (docs/determinism.md, 1). */
 #ifndef KILN_SHARED_STEP_H
 #define KILN_SHARED_STEP_H
 
@@ -9,7 +8,7 @@
 #include "shared/push.h"
 #include "shared/sweep.h"
 
-/* Farther out, or faster, or not a number: the particle is lost. 2^20 m, m/s. */
+/* Limit of places, m, and velocities, m/s: 2^20. A particle beyond it, or with a NaN, is lost. */
 #define STEP_ABSURD_BITS 0x49800000u
 
 FN bool step_is_sane(float3 v)
@@ -25,7 +24,8 @@ FN bool step_is_between(float3 p, float4 low, float4 high)
            p.z <= high.z;
 }
 
-/* Outside of the bounding volume, or in a demitter (Heinz 2019, 2.1.2). */
+/* Returns whether a place is outside of the bounding volume, or in a demitter (Heinz 2019,
+ * 2.1.2). */
 FN bool step_is_removed(SIM_PARAM float3 p)
 {
     bool removed = STEP(bounded) != 0u && !step_is_between(p, STEP(bounds_min), STEP(bounds_max));
@@ -54,7 +54,7 @@ FN S(kiln_particle) step_with_motion(S(kiln_particle) p, float3 position, float3
     return moved;
 }
 
-/* Birth number `index` of this step, as it is at the time of its birth. */
+/* Returns the particle of birth number `index` of this step at the time of its birth. */
 FN S(kiln_particle) step_birth(SIM_PARAM uint index)
 {
     S(kiln_particle) p = step_dead();
@@ -68,7 +68,7 @@ FN S(kiln_particle) step_birth(SIM_PARAM uint index)
     return step_with_motion(p, born.position, born.velocity);
 }
 
-/* How a particle answers impacts in this step, at a part of its life. */
+/* Returns the options for impacts in this step, at a part of the particle's life. */
 FN S(collide_answer) step_answer(SIM_PARAM uint stream, float life, float radius)
 {
     EXACT S(collide_answer) answer;
@@ -96,13 +96,14 @@ FN S(collide_answer) step_answer(SIM_PARAM uint stream, float life, float radius
 struct step_way {
     S(collide_state) start;
     S(collide_state) end;
-    S(collide_touch) first; /* impact */
-    bool lost;              /* where particles may not be */
+    S(collide_touch) first; /* first impact */
+    bool lost;              /* the particle has reached a place where it dies */
 };
 
 #if !defined(GL_core_profile) || defined(SPINS)
 
-/* Of those that turn: what they have been given, or are born with. */
+/* Returns the spin of a particle: its present one plus its push, or the one that it is born
+ * with. */
 FN float3 step_spin(SIM_PARAM S(kiln_particle) p, uint slot)
 {
     uint at = (STEP(first_spin) + slot) * 2u;
@@ -115,7 +116,8 @@ FN float3 step_spin(SIM_PARAM S(kiln_particle) p, uint slot)
     return rate;
 }
 
-/* Turns by the rate at the end of the step, and notes both. Of a ball, the pose decides nothing. */
+/* Turns a ball by its spin at the end of the step, and stores pose and spin. The pose affects no
+ * motion. */
 FN void step_turn(SIM_PARAM S(kiln_particle) p, uint slot, float3 rate)
 {
     uint at = (STEP(first_spin) + slot) * 2u;
@@ -133,7 +135,7 @@ FN void step_turn(SIM_PARAM S(kiln_particle) p, uint slot, float3 rate)
 
 #endif
 
-/* A way among the colliders, and how its first impact was. */
+/* Follows a way among the colliders, and records its first impact. */
 FN S(collide_way) step_collide(SIM_PARAM S(step_way) way, float3 push, float life,
                                S(collide_answer) answer)
 {
@@ -153,8 +155,7 @@ FN S(collide_way) step_collide(SIM_PARAM S(step_way) way, float3 push, float lif
     return bounced;
 }
 
-/* What is met on a way that is known as it would be without colliders; it has met nothing so far,
- * and counts as lost. */
+/* Collides on a way that is already known without colliders. */
 FN S(step_way) step_meet(SIM_PARAM S(kiln_particle) p, S(step_way) flown, S(step_push) push,
                          float life)
 {
@@ -203,7 +204,7 @@ FN S(step_way) step_move(SIM_PARAM S(kiln_particle) p, S(step_push) push, float 
     return way;
 }
 
-/* A particle, new ones included, at the end of this step: moved, or dead. */
+/* Returns a particle, which may be new, at the end of this step: moved, or dead. */
 FN S(kiln_particle) step_particle(SIM_PARAM S(kiln_particle) p, S(step_push) push)
 {
     EXACT float life_s = particle_life_s(SIM_KEYS STEP(derived), p);
@@ -216,14 +217,14 @@ FN S(kiln_particle) step_particle(SIM_PARAM S(kiln_particle) p, S(step_push) pus
     return step_with_motion(p, way.end.position, way.end.velocity);
 }
 
-/* Which birth of this step a slot is for; none if that is not below birth_count. */
+/* Returns the birth of this step that a slot is for; none if the index is not below birth_count. */
 FN uint step_birth_index(SIM_PARAM uint slot)
 {
     return slot >= STEP(first_slot) ? slot - STEP(first_slot)
                                     : slot + (STEP(capacity) - STEP(first_slot));
 }
 
-/* Slot `slot` of the system after this step; `old` is what lies there before it. */
+/* Returns the content of slot `slot` of the system after this step; `old` is its content before. */
 FN S(kiln_particle) step_slot(SIM_PARAM uint slot, S(kiln_particle) old)
 {
     uint index = step_birth_index(SIM slot);

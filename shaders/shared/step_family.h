@@ -1,7 +1,6 @@
-/* The step of systems that have children, are children, or die of an impact: what step.h does, and
- * births out of the parents' traces, an own trace, and a last step that ends with the life. A
- * kernel of its own, because every other system would pay for it.
- */
+/* Runs the step of systems that have children, are children, or die of an impact. Beyond step.h, it
+ * computes births from the parents' traces, writes traces, and ends a step with the particle's
+ * life. It is a kernel of its own, since it would slow down every other system. */
 #ifndef KILN_SHARED_STEP_FAMILY_H
 #define KILN_SHARED_STEP_FAMILY_H
 
@@ -20,8 +19,8 @@ FN S(step_result) step_result_dead(void)
     return r;
 }
 
-/* The part of the step at which a life ends that does so in it, in whole 64ths: as births do, so
- * that a child born of it begins where its parent ended. */
+/* Returns the part of the step at which a life ends that does so in it, in whole 64ths as births
+ * have, so that a child born of this event begins where its parent ended. */
 FN float step_end_of_life(SIM_PARAM S(kiln_particle) p, float age_s, float life_s)
 {
     EXACT float over_s = age_s - life_s;
@@ -34,7 +33,7 @@ FN float step_end_of_life(SIM_PARAM S(kiln_particle) p, float age_s, float life_
     return y;
 }
 
-/* Progress through life where the step starts. */
+/* Returns the progress of life at the start of the step. */
 FN float step_progress_before(SIM_PARAM S(kiln_particle) p, float life_s)
 {
     if (particle_birth_step(p) == STEP(step))
@@ -59,7 +58,7 @@ FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint 
     return t;
 }
 
-/* Like step_particle. */
+/* Does step_particle for such a system. */
 FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push) push)
 {
     EXACT S(step_result) r = step_result_dead();
@@ -103,8 +102,8 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push
     return r;
 }
 
-/* The child for which a slot is reserved, if the parent's step has the event of its birth; else
- * what lies there. */
+/* Returns the child for which a slot is reserved, if the parent's step has the event of its birth;
+ * else the slot's content. */
 FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln_trace) parent)
 {
     uint j = slot % STEP(family.slots);
@@ -126,8 +125,9 @@ FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln
     return step_with_motion(p, born.position, born.velocity);
 }
 
-/* Like step_slot; `parent` is the trace at family_parent_trace, of no account to a system without
- * a parent. The result's trace belongs to this slot and counts if the system is traced. */
+/* Does step_slot for such a system. `parent` is the trace at family_parent_trace; a system without
+ * a parent ignores it. The result's trace belongs to this slot, and is used if the system is
+ * traced. */
 FN S(step_result) step_family_slot(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln_trace) parent)
 {
     S(kiln_particle) p = old;

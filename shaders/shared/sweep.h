@@ -1,27 +1,26 @@
-/* A particle's way through a step among colliders: to an impact, and from it on, by the integrator
- * of the scene.
+/* Follows a particle's way through a step among colliders by the integrator of the scene, from
+ * impact to impact.
  *
- * With `semi_implicit` it is a straight line at the velocity after the step's forces, and a surface
- * answers that velocity. What a bounce gives or takes by that does not add up.
+ * With `semi_implicit` the way is a straight line at the velocity after the step's forces, and a
+ * surface answers that velocity. The errors of energy at bounces do not add up.
  *
  * With `position_first`, its mirror image, the line is flown and answered at the velocity before
- * the forces, which then act on what the impacts have left.
+ * the forces. These then act on the velocity after the impacts.
  *
- * With `trapezoid` and `rk4` it is a curve. Where one meets a surface is found by regula falsi,
- * each guess being a shorter step of the integrator; the surface answers the velocity there, and
- * another step of the integrator leads from it to the next impact or the end. So both keep their
- * orders. What lies on a surface is struck by less than the forces give in the step: it flies the
- * rest of the step as with semi_implicit, so that surfaces bear what the forces give, also in their
- * edges. What a curve meets between two places whose straight connection meets nothing is not seen;
- * it is at most acceleration * time^2 / 8 deep.
- */
+ * With `trapezoid` and `rk4` the way is a curve. The impact is found by regula falsi, where each
+ * guess is a shorter step of the integrator. The surface answers the velocity there, and another
+ * step of the integrator leads to the next impact or the end. So both integrators keep their
+ * orders. A particle that lies on a surface hits it with less than the velocity that the forces
+ * give in the step. It flies the rest of the step as with semi_implicit, so that surfaces carry it,
+ * also in their edges. A surface is missed if the curve passes it between two places whose straight
+ * connection does not; it is at most acceleration * time^2 / 8 deep. */
 #ifndef KILN_SHARED_SWEEP_H
 #define KILN_SHARED_SWEEP_H
 
 #include "shared/collide.h"
 #include "shared/integrate.h"
 
-/* Shaders of scenes that move by semi_implicit are spared the code of the others. */
+/* Shaders of scenes that use semi_implicit are compiled without the code of the others. */
 #if defined(GL_core_profile) && !defined(SWEEP_ALL)
 #define SWEEP_IS_CURVED      false
 #define SWEEP_POSITION_FIRST false
@@ -30,28 +29,28 @@
 #define SWEEP_POSITION_FIRST (STEP(integration) == INTEGRATE_POSITION_FIRST)
 #endif
 
-/* Guesses of the time of an impact. Each is off by less than the one before, by a factor of the
- * velocity that the forces give in a step to twice that of the impact. */
+/* Guesses of the time of an impact. The error of each is that of the one before, times the velocity
+ * that the forces give in a step, divided by twice the velocity of the impact. */
 #define SWEEP_GUESSES 3u
 
-/* m: what a guess may be off by. */
+/* m: allowed error of a guess. */
 #define SWEEP_CLOSE 3.814697265625e-6f
 
-/* Pieces of a way that are looked at: two for a guess, the one that meets, and the one behind it.
- */
+/* The most pieces of a way: for each impact two for a guess, the one with the impact, and the one
+ * behind it. */
 #define SWEEP_PIECES (COLLIDE_BOUNCES * (2u * SWEEP_GUESSES + 2u))
 
-/* A particle on its way. Between `now` and `ahead` is the piece that is looked at. */
+/* A particle on its way. The present piece goes from `now` to `ahead`. */
 struct sweep_path {
     S(collide_state) now;
     S(collide_state) ahead;
     S(collide_hit) hit; /* the last impact */
     float until;        /* the part of the step at which the way ends */
-    float later;        /* by when the curve is known to have met something */
-    float aim;          /* where the next piece is to end */
-    float3 push;        /* m in a whole step, from the others of its system */
+    float later;        /* time by which the curve is known to have hit a surface */
+    float aim;          /* end of the next piece */
+    float3 push;        /* m in a whole step, by other particles of its system */
     uint bounces;
-    uint guesses; /* of the time of the next impact */
+    uint guesses; /* guesses so far of the time of the next impact */
     bool curved;
 };
 
@@ -76,7 +75,7 @@ FN S(sweep_path) sweep_start(SIM_PARAM S(collide_state) start, S(collide_state) 
     return path;
 }
 
-/* To the end of the next piece: of a curve, or of a straight line. */
+/* Returns the end of the next piece of a curve or of a straight line. */
 FN S(collide_state) sweep_ahead(SIM_PARAM S(sweep_path) path, float life)
 {
     EXACT S(collide_state) ahead = path.now;
@@ -92,14 +91,14 @@ FN S(collide_state) sweep_ahead(SIM_PARAM S(sweep_path) path, float life)
     return ahead;
 }
 
-/* The change of the velocity that the forces make along the piece. */
+/* Returns the change of the velocity by forces along the piece. */
 FN float3 sweep_change(S(sweep_path) path)
 {
     EXACT float3 change = float3_sub(path.ahead.velocity, path.now.velocity);
     return change;
 }
 
-/* The state at which the piece meets something, after this part of it. */
+/* Returns the state at the impact, after this part of the piece. */
 FN S(collide_state) sweep_meeting(S(sweep_path) path, float part)
 {
     EXACT S(collide_state) y = path.now;
@@ -113,7 +112,8 @@ FN S(collide_state) sweep_meeting(S(sweep_path) path, float part)
     return y;
 }
 
-/* Is a blow less than what the forces give in the piece? So it is to what lies on a surface. */
+/* Returns whether a blow is less than what the forces give in the piece, as for a particle that
+ * lies on a surface. */
 FN bool sweep_is_gentle(S(sweep_path) path, float3 blow)
 {
     EXACT float3 change = sweep_change(path);
@@ -122,8 +122,8 @@ FN bool sweep_is_gentle(S(sweep_path) path, float3 blow)
     return taken <= given;
 }
 
-/* Is the time of a meeting to be found more closely? Not where the bend of the curve makes no
- * difference. */
+/* Returns whether the time of an impact must be found more closely. It need not if the curve's bend
+ * makes no difference. */
 FN bool sweep_is_rough(SIM_PARAM S(sweep_path) path, float part)
 {
     EXACT float3 change = sweep_change(path);
@@ -133,9 +133,10 @@ FN bool sweep_is_rough(SIM_PARAM S(sweep_path) path, float part)
     return path.guesses < SWEEP_GUESSES && bend > SWEEP_CLOSE;
 }
 
-/* What leaves a surface has been put a little in front of it. It climbs there under the forces that
- * it has on the way, or each bounce would give it the energy of that height. What leaves slowly is
- * left as it is: it would take long. */
+/* Corrects the energy of a particle that leaves a surface. The impact has put it a little in front
+ * of the surface, at a height that it climbs against the forces; without the correction, each
+ * bounce would add the energy of that height. A slow particle is left as it is, since the climb
+ * would take long. */
 FN S(collide_state) sweep_climb(SIM_PARAM S(collide_state) left, S(sweep_path) path, float3 from,
                                 float3 blow)
 {
@@ -156,7 +157,7 @@ FN S(collide_state) sweep_climb(SIM_PARAM S(collide_state) left, S(sweep_path) p
     return y;
 }
 
-/* Past a piece that meets nothing. */
+/* Moves past a piece without an impact. */
 FN S(sweep_path) sweep_past(S(sweep_path) before)
 {
     EXACT S(sweep_path) path = before;
@@ -172,7 +173,7 @@ FN S(sweep_path) sweep_past(S(sweep_path) before)
     return path;
 }
 
-/* From an impact, to the end if nothing else is met. */
+/* Moves on from an impact, to the end if no other impact follows. */
 FN S(sweep_path) sweep_off(S(sweep_path) before, S(collide_hit) hit, S(collide_state) left)
 {
     EXACT S(sweep_path) path = before;
@@ -186,7 +187,7 @@ FN S(sweep_path) sweep_off(S(sweep_path) before, S(collide_hit) hit, S(collide_s
     return path;
 }
 
-/* The first impact of a step, from the state behind it. */
+/* Returns the first impact of a step, from the state behind it. */
 FN S(collide_touch) sweep_touch(SIM_PARAM S(collide_state) s, S(collide_hit) hit, float radius)
 {
     uint kind = AROUND(colliders[hit.box].kind);
@@ -196,7 +197,8 @@ FN S(collide_touch) sweep_touch(SIM_PARAM S(collide_state) s, S(collide_hit) hit
     return touch;
 }
 
-/* The rest of a step after the last impact that it may have: carried by what was met last. */
+/* Returns the end of a step after its last possible impact: the particle is carried by the surface
+ * that it hit last. */
 FN S(collide_state) sweep_stay(SIM_PARAM S(sweep_path) path, float radius)
 {
     EXACT S(collide_state) now = path.now;
@@ -212,7 +214,7 @@ FN S(collide_state) sweep_stay(SIM_PARAM S(sweep_path) path, float radius)
     return now;
 }
 
-/* sweep, by the kind of way. */
+/* Does sweep for the given kind of way. */
 FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
                               float life, S(collide_answer) answer, bool curved)
 {
@@ -237,7 +239,7 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
             if (path.curved && path.guesses == 0u && sweep_is_gentle(path, blow)) {
                 path.curved = false;
                 path.now.velocity = path.ahead.velocity;
-                continue; /* along the same piece */
+                continue; /* continues along the same piece */
             }
             if (path.curved && sweep_is_rough(SIM path, hit.part)) {
                 path.later = path.ahead.since;
@@ -257,13 +259,13 @@ FN S(collide_way) sweep_along(SIM_PARAM S(collide_state) start, S(collide_state)
     return way;
 }
 
-/* From `start` to the time of `end`, which is where it would be without colliders; with `push`, m,
- * from the others of its system in that. The result is outside of every collider. */
+/* Follows a particle from `start` to the time of `end`, its place without colliders. `push`, m, is
+ * the part of that by other particles of its system. The result is outside of every collider. */
 FN S(collide_way) sweep(SIM_PARAM S(collide_state) start, S(collide_state) end, float3 push,
                         float life, S(collide_answer) answer)
 {
     EXACT S(collide_way) way;
-#ifndef GL_core_profile /* where compilers make two loops of it */
+#ifndef GL_core_profile /* in C, where compilers then make two loops */
     if (!SWEEP_IS_CURVED) {
         way = sweep_along(SIM start, end, push, life, answer, false);
         return way;

@@ -1,20 +1,20 @@
-/* What host and kernels of the technique `tiled` share. The host also defines TILED_EDGE, the edge
- * of a tile in pixels. */
+/* Declares what host and kernels of the technique `tiled` share. The host also defines TILED_EDGE,
+ * the edge of a tile in pixels. */
 #ifndef KILN_SHARED_TILED_LAYOUT_H
 #define KILN_SHARED_TILED_LAYOUT_H
 
 #include "shared/platform.h"
 
-/* Storage blocks, besides KILN_BIND_RECORDS and KILN_BIND_ENTRIES. Those of one number are of
- * kernels that do not meet. */
+/* Storage blocks, besides KILN_BIND_RECORDS and KILN_BIND_ENTRIES. Blocks of one number belong to
+ * different kernels. */
 #define TILED_BIND_BOXES     2
 #define TILED_BIND_SPRITES   3
-#define TILED_BIND_BIN_MASKS 4 /* by bin, a bit for each sprite of a chunk */
+#define TILED_BIND_BIN_MASKS 4 /* for each bin, a bit for each sprite of a chunk */
 #define TILED_BIND_FARTHEST  4 /* depth of the scene in each tile, m: bits of a float */
-#define TILED_BIND_CARRY     4 /* pixels between two chunks */
-#define TILED_BIND_COUNTS    5 /* of sprites in each bin */
+#define TILED_BIND_CARRY     4 /* pixels between two chunks of sprites */
+#define TILED_BIND_COUNTS    5 /* number of sprites in each bin */
 #define TILED_BIND_BINS      5
-#define TILED_BIND_LISTS     6 /* of sprites: bins start at multiples of TILED_PIECE */
+#define TILED_BIND_LISTS     6 /* lists of sprites: bins start at multiples of TILED_PIECE */
 #define TILED_BIND_MASKS     7 /* for each bin, by tile, a bit for each sprite of its list */
 
 /* Images; texture units of the sprites and of the glow of an earlier pass. */
@@ -23,32 +23,34 @@
 #define TILED_UNIT_SPRITES 11
 #define TILED_UNIT_BEFORE  12
 
-/* Invocations of a work group, where nothing else is said. */
+/* Invocations of a work group, unless another size is given. */
 #ifndef TILED_GROUP_SIZE
 #define TILED_GROUP_SIZE 256
 #endif
 
-/* Tiles along the edge of a bin, and in it. */
+/* Tiles along the edge of a bin, and in a bin. */
 #define TILED_BIN_TILES 8
 #define TILED_TILES     (TILED_BIN_TILES * TILED_BIN_TILES)
 
-/* Sprites of a list that one work group marks in the tiles; no bin shares a piece with another. */
+/* Sprites of a list that one work group marks in the tiles; two bins never share a piece. */
 #define TILED_PIECE 64
 
-/* Words of a tile's mask, of 32 sprites each, that its work group takes at a time. */
+/* Words of a tile's mask, of 32 sprites each, that a work group processes at once. */
 #define TILED_ROUND_WORDS 32
 
-/* A square of 8 x 8 tiles: its list, and what that could add to a pixel. */
+/* A bin, a square of 8 x 8 tiles: its list, and bounds of what a sprite of it can add to a
+ * pixel. */
 struct tiled_bin {
-    uint first, count; /* in the lists */
-    uint adding;       /* sprites of it that cover nothing */
-    uint cover, add;   /* most that one that covers adds, or one that does not; bits of floats */
+    uint first, count; /* range of the list in all lists */
+    uint adding;       /* number of its sprites that cover nothing */
+    /* most light that a covering sprite adds, and one that does not cover; bits of floats */
+    uint cover, add;
 };
 
-/* A sprite is so many float4 (shaders/draw/sprites/tiled.glsl). */
+/* Rows of float4 of a sprite (shaders/draw/sprites/tiled.glsl). */
 #define TILED_SPRITE_ROWS 14
 
-/* A pixel between two chunks. */
+/* Bytes of a pixel between two chunks. */
 #define TILED_CARRY_BYTES 32
 
 #endif

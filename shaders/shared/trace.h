@@ -1,7 +1,7 @@
-/* What a particle of a system with children or paint did in the step at hand: enough to find where
- * it was, and how fast, at any time of the step. Written when the parent is stepped and read when
- * its children are, or paint is, in the same step, so that it is no part of the state.
- */
+/* Declares traces: what a particle of a system with children or paint did in the present step. A
+ * trace tells place and velocity at any time of the step. It is written when the parent is stepped,
+ * and read in the same step when its children are stepped, or paint is applied, so it is not part
+ * of the state. */
 #ifndef KILN_SHARED_TRACE_H
 #define KILN_SHARED_TRACE_H
 
@@ -9,18 +9,18 @@
 #include "shared/derived.h"
 #include "shared/emit.h"
 
-/* Events of the step; 0 where no particle was alive. */
+/* Events of the step; 0 if the slot had no living particle. */
 #define TRACE_ALIVE  1u
-#define TRACE_TURN   2u /* it met a surface in this step */
-#define TRACE_BOUNCE 4u /* for the first time in its life */
-#define TRACE_DEATH  8u /* its life came to its end */
+#define TRACE_TURN   2u /* it hit a surface in this step */
+#define TRACE_BOUNCE 4u /* its first hit in its life */
+#define TRACE_DEATH  8u /* its life ended */
 
 struct kiln_trace {
     float4 start;          /* position, m; part of the step that had passed */
-    float4 turn;           /* the first impact, just outside of the surface */
-    float4 end;            /* of the step or the life */
+    float4 turn;           /* place of the first impact, just outside of the surface */
+    float4 end;            /* end of the step or of the life */
     float4 start_velocity; /* m/s; progress through life */
-    float4 turn_velocity;  /* after the impact; m from the surface */
+    float4 turn_velocity;  /* velocity after the impact; w: m from the surface */
     float4 end_velocity;   /* m/s; progress through life */
     uint4 serial_event;    /* serial; TRACE_*; face of the impact; life in seconds as float bits */
 };
@@ -52,9 +52,9 @@ FN S(kiln_trace) trace_nothing(void)
     return t;
 }
 
-/* Where the particle was when the part `since` of the step had passed: on the straight lines from
- * its start over the first impact to its end. Its velocity changes evenly from start to end, or at
- * the impact. */
+/* Returns place and velocity after the part `since` of the step. The place is on the straight lines
+ * from the start over the first impact to the end. The velocity changes evenly from start to end,
+ * or at the impact. */
 FN S(emit_state) trace_at(S(kiln_trace) t, float since)
 {
     bool turned = (t.serial_event.y & TRACE_TURN) != 0u;
@@ -82,7 +82,7 @@ FN S(emit_state) trace_at(S(kiln_trace) t, float since)
     return s;
 }
 
-/* The normal of the surface that it met. */
+/* Returns the normal of the surface that it hit. */
 FN float3 trace_normal(S(kiln_trace) t)
 {
     EXACT float3 y = collide_normal_of(t.serial_event.z);

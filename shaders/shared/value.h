@@ -1,24 +1,25 @@
-/* An animated number: a constant, or keys over a clock, joined by straight lines and held before
- * the first and after the last key. All keys of a scene lie in one table, so a value is 16 bytes.
+/* Evaluates animated numbers. A number is a constant, or keys over a clock, joined by straight
+ * lines and constant before the first and after the last key. All keys of a scene lie in one table,
+ * so a value is 16 bytes.
  *
- * In GLSL the including shader declares the table `float4 value_keys[]` in a uniform block (many
- * reads of one storage-buffer address are slow on llvmpipe); in C it is passed along.
- */
+ * In GLSL the including shader declares the table `float4 value_keys[]` in a uniform block, since
+ * many reads of one address of a storage buffer are slow on llvmpipe. In C it is passed as a
+ * parameter. */
 #ifndef KILN_SHARED_VALUE_H
 #define KILN_SHARED_VALUE_H
 
 #include "shared/limits.h"
 #include "shared/platform.h"
 
-/* What the x of a key means. A constant has count 0. */
+/* The clocks that the x of a key may count. A constant has count 0. */
 #define KILN_CLOCK_CONSTANT 0u
-#define KILN_CLOCK_TIME     1u /* seconds; 0 is the first frame of the clip, warm-up is before */
+#define KILN_CLOCK_TIME     1u /* seconds; 0 is the first frame of the clip, warm-up is before it */
 #define KILN_CLOCK_LIFE     2u /* 0 at birth, 1 at death */
 
 struct kiln_value {
-    float constant; /* of clock KILN_CLOCK_CONSTANT */
+    float constant; /* value if the clock is KILN_CLOCK_CONSTANT */
     uint first;     /* index of the first key */
-    uint count;     /* keys */
+    uint count;     /* number of keys */
     uint clock;
 };
 
@@ -26,7 +27,7 @@ struct kiln_value3 {
     S(kiln_value) x, y, z;
 };
 
-/* A number drawn per particle, uniformly between two (animated) ends. */
+/* A number drawn for each particle, uniformly between two animated ends. */
 struct kiln_range {
     S(kiln_value) min, max;
 };
@@ -41,7 +42,7 @@ struct kiln_range {
 
 #ifndef VALUE_UNROLLED
 
-/* Index of the last key at or before x, or of the first. */
+/* Returns the index of the last key at or before x, or of the first. */
 FN uint value_find(VALUE_KEYS_PARAM S(kiln_value) v, float x)
 {
     uint k = v.first;
@@ -55,7 +56,7 @@ FN uint value_find(VALUE_KEYS_PARAM S(kiln_value) v, float x)
     return k;
 }
 
-#else /* GLSL for compilers that take very long over many loops */
+#else /* GLSL, for compilers that take very long over many loops */
 
 uint value_try(uint k, uint distance, uint last, float x)
 {
@@ -81,8 +82,8 @@ uint value_find(kiln_value v, float x)
 
 #endif
 
-/* A key is (x, y, slope to the next key, integral from 0 to x); the host works out the last two,
- * once. */
+/* Returns a value by its key, which is (x, y, slope to the next key, integral from 0 to x); the
+ * host computes the last two. */
 FN float value_at_key(VALUE_KEYS_PARAM S(kiln_value) v, float x)
 {
     uint last = v.first + v.count - 1u;
@@ -96,7 +97,8 @@ FN float value_at_key(VALUE_KEYS_PARAM S(kiln_value) v, float x)
     return y;
 }
 
-/* The value at a time (seconds) and a life progress (0 to 1); it uses whichever its clock names. */
+/* Returns the value at a time (seconds) and a progress of life (0 to 1); the value's clock decides
+ * which counts. */
 FN float value_at(VALUE_KEYS_PARAM S(kiln_value) v, float time_s, float life)
 {
     if (v.count == 0u)
@@ -113,10 +115,10 @@ FN float3 value3_at(VALUE_KEYS_PARAM S(kiln_value3) v, float time_s, float life)
     return y;
 }
 
-/* The integral of a curve over life (or of a constant) from 0 to x >= 0. While the values are not
- * negative it never falls as x rises, in floats as well: of a piece that rises, the area from its
- * left end is a product of two factors that both grow; of one that falls, the area to its right end
- * is one of two that both shrink. */
+/* Returns the integral of a curve over life, or of a constant, from 0 to x >= 0. If no value is
+ * negative, it never falls as x rises, also in floats. For a rising piece, the area from its left
+ * end is a product of two factors that both grow. For a falling piece, the area to its right end is
+ * a product of two factors that both shrink. */
 FN float value_sum_at(VALUE_KEYS_PARAM S(kiln_value) v, float x)
 {
     if (v.count == 0u) {
@@ -145,7 +147,8 @@ FN float value_sum_at(VALUE_KEYS_PARAM S(kiln_value) v, float x)
     return sum;
 }
 
-/* How fast a value over time changes, per second: 0 before the first and from the last key on. */
+/* Returns how fast a value over time changes, per second: 0 before the first and from the last key
+ * on. */
 FN float value_rate_at(VALUE_KEYS_PARAM S(kiln_value) v, float time_s)
 {
     if (v.count == 0u || v.clock != KILN_CLOCK_TIME)
