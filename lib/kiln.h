@@ -1,4 +1,5 @@
-/* kiln: a headless batch renderer for particle effects. The one header that a program includes.
+/* Declares the library of kiln, a headless batch renderer for particle effects. It is the one
+ * header that a program includes.
  *
  * A program loads a scene, opens a device and renders a job:
  *

@@ -1,4 +1,4 @@
-/* Small text helpers beside those of kiln_program.h: writing numbers, growing buffers. */
+/* Declares small text helpers beside those of kiln_program.h: writing numbers, growing buffers. */
 #ifndef KILN_BASE_TEXT_H
 #define KILN_BASE_TEXT_H
 

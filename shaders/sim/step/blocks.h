@@ -1,4 +1,4 @@
-/* What the shared step reads as globals in GLSL. */
+/* Declares the globals that the shared step reads in GLSL. */
 #ifndef KILN_SIM_STEP_BLOCKS_H
 #define KILN_SIM_STEP_BLOCKS_H
 
