@@ -83,8 +83,7 @@ struct kiln_emitter {
     struct kiln_value3 size;      /* m: box, full edges; line, from its first end to its last */
     uint32_t nozzles;             /* line: places that births take in turn; 0: anywhere on it */
     struct kiln_value turn;       /* rad/s: of the shape about its direction */
-    /* part of the emitter's (or parent's) velocity that is added at birth */
-    struct kiln_value inherit;
+    struct kiln_value inherit;    /* part of the velocity of emitter or parent */
 };
 
 /* ---- forces: each kind also has a row in shared/forces.h and an option list ------------------ */
@@ -96,8 +95,7 @@ enum kiln_force_kind {
     KILN_FORCE_CURL,    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift,
                          * pull 1/s towards the air, octaves */
     KILN_FORCE_LIMIT,   /* strength: m/s, limit of the speed */
-    /* file: air velocities, m/s; strength: factor on them; pull 1/s towards the air */
-    KILN_FORCE_FIELD,
+    KILN_FORCE_FIELD,   /* file: air velocities, m/s; strength: factor; pull 1/s */
     KILN_FORCE_ATTRACT, /* vector: a point, m; strength: m/s^2 at 1 m from it, negative to flee;
                          * scale: m, radius within which it is softened; falloff */
     KILN_FORCE_VORTEX,  /* vector: a point of the axis, m; drift: its direction; strength: m/s at
@@ -197,21 +195,17 @@ enum kiln_shape {
 
 /* How a mesh that is a particle is oriented. Its own z axis is ahead and y is up. */
 enum kiln_orient {
-    /* ahead is the direction of flight, up is as near to the world's as possible */
-    KILN_ORIENT_VELOCITY,
-    /* turned by collisions with `spins`; else about an axis drawn for each particle */
-    KILN_ORIENT_SPIN,
-    KILN_ORIENT_UPRIGHT, /* turned about the world's up */
+    KILN_ORIENT_VELOCITY, /* ahead is the velocity, up near to the world's */
+    KILN_ORIENT_SPIN,     /* turned by collisions, or about a random axis */
+    KILN_ORIENT_UPRIGHT,  /* turned about the world's up */
 };
 
-/* The mesh that particles of a system are drawn as. The members marked "follows" are filled when
- * shape is mesh. */
+/* The mesh that particles of a system are drawn as. "follows": filled when shape is mesh. */
 struct kiln_look_mesh {
     const char *file; /* an absolute path; NULL: none */
     enum kiln_orient orient;
     const struct kiln_mesh *shown; /* follows: the content of the file */
-    /* follows: radius, in units of size, of a sphere whose shadow is as large as the mesh's mean
-     * shadow */
+    /* follows: radius, in sizes, of a sphere whose shadow is as large as the mesh's mean shadow */
     float shade;
 };
 
@@ -265,19 +259,16 @@ struct kiln_look {
     struct kiln_value fade_in, fade_out; /* parts of the life over which opacity rises and falls */
     struct kiln_value soft;              /* 1/m: softness by equation 3.3; 0: hard edges */
     enum kiln_soft_formula soft_formula;
-    /* thickness of a billboard in units of its size, for KILN_COMPOSE_OIT */
-    struct kiln_value thickness;
-    /* m: distance from the camera's near plane over which the particle fades to transparent */
-    struct kiln_value near_fade;
-    struct kiln_value3 bloom; /* weights of equation 3.2, per channel */
-    struct kiln_value lit;    /* 0 unlit .. 1 lit by sun, sky and lights */
-    struct kiln_value shadow; /* of particles that cover: factor on the shadow that they cast */
-    struct kiln_value3 light; /* factor on the light that they shed on other objects; 0: none */
-    uint32_t light_count;     /* number of point lights for that light */
+    struct kiln_value thickness; /* in units of size, for KILN_COMPOSE_OIT */
+    struct kiln_value near_fade; /* m: fades over this distance to the near plane */
+    struct kiln_value3 bloom;    /* weights of equation 3.2, per channel */
+    struct kiln_value lit;       /* 0 unlit .. 1 lit by sun, sky and lights */
+    struct kiln_value shadow;    /* of particles that cover: factor on the shadow that they cast */
+    struct kiln_value3 light;    /* factor on the light that they shed on other objects; 0: none */
+    uint32_t light_count;        /* number of point lights for that light */
 };
 
-/* Returns whether particles are solid, so that other particles are drawn in front of or behind
- * them. */
+/* Returns whether particles are solid, with other particles in front of or behind them. */
 static inline bool kiln_look_is_opaque(const struct kiln_look *look)
 {
     return look->shape == KILN_SHAPE_SPHERE || look->shape == KILN_SHAPE_MESH;
@@ -328,8 +319,7 @@ struct kiln_animation {
 
 /* How particles collide with a mesh. */
 enum kiln_collider_kind {
-    /* with its signed distance field: the mesh is closed and moves rigidly */
-    KILN_COLLIDER_FIELD,
+    KILN_COLLIDER_FIELD,      /* with its distance field: closed, moves rigidly */
     KILN_COLLIDER_VOLUME,     /* with planes in a lattice of cells, which are made in each step */
     KILN_COLLIDER_DEPTH_MAPS, /* with all between its fronts and backs, seen from some directions */
 };
@@ -355,41 +345,35 @@ struct kiln_object_paint {
 /* Values have the clock constant or time. */
 struct kiln_object {
     enum kiln_object_kind kind;
-    /* m; mesh: where the origin of its file lies; terrain: its middle and lowest height,
-     * constant */
+    /* m; mesh: place of its file's origin; terrain: middle and lowest height, constant */
     struct kiln_value3 center;
-    struct kiln_value3 color; /* albedo */
-    struct kiln_value3 size;  /* m: box, full edges; terrain, constant */
-    struct kiln_value radius; /* m: sphere, cylinder, capsule */
-    struct kiln_value height; /* m: along the axis; of a capsule, without its caps */
-    /* cylinder, capsule: axis; plane: normal; not zero, of any length */
-    struct kiln_value3 axis;
+    struct kiln_value3 color;    /* albedo */
+    struct kiln_value3 size;     /* m: box, full edges; terrain, constant */
+    struct kiln_value radius;    /* m: sphere, cylinder, capsule */
+    struct kiln_value height;    /* m: along the axis; of a capsule, without its caps */
+    struct kiln_value3 axis;     /* of a plane: normal; not zero, of any length */
     const char *file;            /* mesh: an absolute path; terrain: that of an image, or NULL */
     struct kiln_value3 rotation; /* rad: box, mesh: about x, then y, then z */
     struct kiln_value scale;     /* mesh: metres in one unit of the file */
     struct kiln_animation animation; /* mesh */
-    /* mesh, follows: what is drawn; unwrapped if it takes paint; of a mesh that moves, in its rest
-     * pose */
+    /* mesh, follows: what is drawn, unwrapped if it takes paint; if it moves, at rest */
     const struct kiln_mesh *shown;
     const struct kiln_mesh *met;  /* mesh that collides, follows: the same mesh, not unwrapped */
     const struct kiln_skin *skin; /* mesh that moves, follows */
-    /* terrain, constant (asset/geometry/terrain.h); also the members up to `cells` */
-    uint32_t samples[2];
+    uint32_t samples[2];          /* terrain, constant; also the members up to cells */
     struct kiln_value hills, roughness, ridges;
     uint32_t octaves, seed;
     uint32_t cells;                   /* mesh: cells of its collision grid along its longest edge */
     enum kiln_collider_kind collider; /* mesh, and the members up to depth_resolution */
-    /* volume: the direction in which most particles fly; not zero, of any length */
-    struct kiln_value3 heading;
-    enum kiln_sides sides; /* volume: which sides of its planes are solid */
+    struct kiln_value3 heading;       /* volume: where most particles fly; not zero */
+    enum kiln_sides sides;            /* volume: which sides of its planes are solid */
     /* depth maps: directions of view */
     struct kiln_value3 depth_directions[KILN_MAX_DEPTH_DIRECTIONS];
     uint32_t depth_direction_count, depth_resolution; /* (asset/geometry/depth_maps.h) */
     struct kiln_object_paint paint;                   /* mesh */
     bool collide;
-    bool visible; /* plane: drawn */
-    /* factors on the restitution and friction of the particles that bounce off it */
-    struct kiln_value restitution;
+    bool visible;                  /* plane: drawn */
+    struct kiln_value restitution; /* factors on those of the particles */
     struct kiln_value friction;
 };
 
@@ -402,28 +386,23 @@ struct kiln_light {
 struct kiln_backdrop {
     bool transparent; /* true: there is neither sky nor floor, and the output has alpha */
     struct kiln_value3 sky_top, sky_horizon;
-    /* equirectangular image, an absolute path; NULL: the gradient */
-    const char *sky_image;
+    const char *sky_image;           /* equirectangular, absolute path; NULL: gradient */
     struct kiln_value sky_rotation;  /* rad: rotation of the image about y */
     struct kiln_value sky_intensity; /* factor on the image */
     bool floor_enabled, floor_collide;
     struct kiln_value3 floor_color;
-    /* m; must be constant if particles collide with the floor */
-    struct kiln_value floor_height;
+    struct kiln_value floor_height; /* m; constant if particles collide with it */
     struct kiln_value floor_restitution, floor_friction; /* factors, as of an object */
     struct kiln_value floor_checker;                     /* m: edge of the squares; 0: plain */
-    /* image that repeats, an absolute path; NULL: the floor's colour */
-    const char *floor_image;
+    const char *floor_image;       /* repeated, absolute path; NULL: the colour */
     struct kiln_value floor_tile;  /* m: width of the image */
     struct kiln_value floor_gloss; /* factor on the reflection; 0: matt */
     struct kiln_value floor_roughness;
     struct kiln_value floor_wave_height, floor_wave_length; /* m: height and length of waves */
     struct kiln_value3 sun_direction;                       /* direction towards the sun */
     struct kiln_value3 sun_color;                           /* irradiance; 0 0 0: none */
-    /* rad: angular diameter of the sun; 0: hard shadows */
-    struct kiln_value sun_size;
-    /* 1/m: density of the haze by which the floor fades into the horizon */
-    struct kiln_value haze;
+    struct kiln_value sun_size;                             /* rad: diameter; 0: hard shadows */
+    struct kiln_value haze;                                 /* 1/m: density */
     struct kiln_object objects[KILN_MAX_OBJECTS];
     uint32_t object_count;
     struct kiln_light lights[KILN_MAX_LIGHTS];
@@ -435,17 +414,15 @@ struct kiln_camera {
     struct kiln_value fov;               /* rad, vertical */
     struct kiln_value roll;              /* rad */
     struct kiln_value near_plane;        /* m */
-    /* moments of a frame that are drawn and averaged; 1: no motion blur */
-    uint32_t shutter_samples;
-    double shutter_angle; /* rad; with a full turn, the shutter is always open */
+    uint32_t shutter_samples;            /* moments of a frame that are averaged */
+    double shutter_angle;                /* rad; with a full turn, the shutter is always open */
 };
 
 enum kiln_compose {
     KILN_COMPOSE_MERGED,   /* fire and smoke are sorted together, premultiplied */
     KILN_COMPOSE_SEPARATE, /* smoke is drawn onto the scene, then fire over it (figure 3.1) */
-    /* fire and smoke are sorted together, and fire covers like smoke (Heinz 2019, 2.3.1) */
-    KILN_COMPOSE_ALPHA,
-    KILN_COMPOSE_OIT, /* as merged, but sorted in each pixel by the depth there */
+    KILN_COMPOSE_ALPHA,    /* sorted together, fire covers like smoke (Heinz 2019, 2.3.1) */
+    KILN_COMPOSE_OIT,      /* as merged, but sorted in each pixel by the depth there */
 };
 
 /* Resolution of the pictures that particles are drawn into. */
@@ -520,8 +497,7 @@ struct kiln_scene {
     uint32_t system_count;
     struct kiln_post post;
 
-    /* follows: number of samples of the grids that move particles (scene/samples.h) */
-    uint64_t samples;
+    uint64_t samples; /* follows: samples of grids (scene/samples.h) */
 
     float4 *keys; /* keys: x, y, slope, integral from 0 */
     uint32_t key_count;
@@ -580,8 +556,7 @@ bool kiln_object_is_mesh(const struct kiln_object *object);
 void kiln_object_depth_directions(const struct kiln_object *mesh,
                                   float directions[KILN_MAX_DEPTH_DIRECTIONS][3]);
 
-/* Returns the position in its clip, s, of a mesh that moves, at a clip time; kiln_skin_pose takes
- * it. */
+/* Returns how far into its clip, s, a moving mesh is at a clip time; kiln_skin_pose takes it. */
 float kiln_scene_animation_s(const struct kiln_animation *animation, float time_s);
 /* Returns whether a clip restarts between two times, of which the second is later. Then *end_s
  * becomes the position in it where it ends. */
@@ -595,8 +570,7 @@ bool kiln_object_takes_paint(const struct kiln_object *object);
 /* Returns the parameters of a terrain; the image's path stays owned by the scene. */
 struct kiln_terrain_params kiln_scene_terrain(const struct kiln_scene *scene,
                                               const struct kiln_object *terrain);
-/* Returns the largest radius of the particles of a system as balls, m; 0: they do not collide with
- * each other. */
+/* Returns the largest radius of a system's particles as balls, m; 0: they do not collide. */
 float kiln_scene_contact_radius(const struct kiln_scene *scene, uint32_t system);
 
 /* Return whether the particles of a system, or of any system, spin by collisions. */
@@ -608,8 +582,7 @@ const struct kiln_interaction *kiln_scene_interaction(const struct kiln_scene *s
                                                       uint32_t system,
                                                       enum kiln_interaction_kind kind);
 
-/* Returns the parameters by which a particle of a system is recomputed from its record
- * (shared/derived.h). */
+/* Returns the parameters that recompute a particle from its record (shared/derived.h). */
 struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system);
 
 /* Holds the births of a system for lib/particles. source.context points into the struct, which must
