@@ -356,6 +356,32 @@ static void turns_add_up(void **state)
     assert_same_paint(NULL, 5, "backdrop.objects.0.mesh.paint.gather=all", 5, true);
 }
 
+/* Drops paint when they hit and never again: no splat that had its turn waits for another. */
+static void splats_have_one_turn(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "kiln: 1\n"
+        "output: {frames: 90}\n"
+        "backdrop: {objects: [{mesh: {file: meshes/slab.obj, paint: {size: 128, per_step: 1}}}]}\n"
+        "systems:\n"
+        "  drops:\n"
+        "    emit: {bursts: {0 s: 9}, life: 9 s, speed: 2, from: {box: {origin: [0, 1, 0],\n"
+        "        size: [4, 0.1, 4], direction: [0, -1, 0]}}}\n"
+        "    collide: {dies: true}\n"
+        "    paint: {radius: 30 cm, opacity: 0.5}\n";
+    uint32_t edge;
+    float(*once)[4] = paint_run(text, NULL, 60, &edge); /* nine turns after the last hit */
+    float(*later)[4] = paint_run(text, NULL, 80, &edge);
+    double painted = 0;
+    for (uint32_t i = 0; i < edge * edge; i++)
+        painted += (double)once[i][3];
+    assert_true(painted > 100);
+    assert_memory_equal(once, later, (size_t)edge * edge * sizeof *once);
+    free(once);
+    free(later);
+}
+
 /* A drop that falls on a slab which moved, turned and grew leaves its mark where it hit, in its
  * colour, and nowhere else: on the slab's surface, if it is a ball, too. */
 static void check_mark(const char *setting, double across)
@@ -402,6 +428,8 @@ static void marks_are_where_drops_hit(void **state)
     /* After 0.75 s, when the slab's middle is at [1.5, 2, -1]: 2 m from it along z, -0.5 along x.
      */
     check_mark(NULL, -0.5);
+    /* After 0.765 s, near the end of a step. */
+    check_mark("systems.drops.emit.from.point.origin=[1, 3.53, 1]", -0.53);
     /* A ball of 20 cm after 0.65 s. */
     check_mark("systems.drops.interact=[{collide: 20 cm}]", -0.3);
 }
@@ -487,15 +515,11 @@ static void bad_scenes_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quad_is_linear),
-        cmocka_unit_test(quad_has_border),
-        cmocka_unit_test(ball_is_round),
-        cmocka_unit_test(bad_places_are_refused),
-        cmocka_unit_test(gathers_agree),
-        cmocka_unit_test(turns_add_up),
-        cmocka_unit_test(marks_are_where_drops_hit),
-        cmocka_unit_test(paint_is_state),
-        cmocka_unit_test(needles_without_end_are_refused),
+        cmocka_unit_test(quad_is_linear),         cmocka_unit_test(quad_has_border),
+        cmocka_unit_test(ball_is_round),          cmocka_unit_test(bad_places_are_refused),
+        cmocka_unit_test(gathers_agree),          cmocka_unit_test(turns_add_up),
+        cmocka_unit_test(splats_have_one_turn),   cmocka_unit_test(marks_are_where_drops_hit),
+        cmocka_unit_test(paint_is_state),         cmocka_unit_test(needles_without_end_are_refused),
         cmocka_unit_test(bad_scenes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
