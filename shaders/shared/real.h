@@ -64,8 +64,8 @@
 #define real                        float
 #define real3                       float3
 #define truth                       bool
-#define truth_and(a, b)             ((a) & (b))
-#define truth_or(a, b)              ((a) | (b))
+#define truth_and(a, b)             ((int)(a) & (int)(b))
+#define truth_or(a, b)              ((int)(a) | (int)(b))
 #define truth_not(a)                (!(a))
 #define real_all(x)                 (x)
 #define real_abs(x)                 fabsf(x)

@@ -1,5 +1,5 @@
-/* This header reads pictures of the floor and the sky along vectors of rays. A texel is a vector of its
- * own, fetched for one lane after the other. */
+/* This header reads pictures of the floor and the sky along vectors of rays. A texel is a vector of
+ * its own, fetched for one lane after the other. */
 #ifndef KILN_DRAW_BACKDROP_RAY_PICTURE_H
 #define KILN_DRAW_BACKDROP_RAY_PICTURE_H
 

@@ -49,7 +49,7 @@ $ for shard in 1/3 3/3 2/2 9/9; do kiln render scenes/tiny.yaml --fps 10 --set o
 1|c.mp4.journal
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 --seed 2 -q -o c.mp4 --resume --shard 1/3
 2|kiln: c.mp4.journal: is the journal of another scene, or of this one with other values or another size (--force starts anew)
-= 6
+= 2
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --force --shard 3/3 --progress none | tail -n 1; ls -d c.mp4*
 1|c.mp4: part 4: 1 frame in <s> s
 1|c.mp4
