@@ -373,10 +373,10 @@ static void splats_have_one_turn(void **state)
     uint32_t edge;
     float(*once)[4] = paint_run(text, NULL, 60, &edge); /* nine turns after the last hit */
     float(*later)[4] = paint_run(text, NULL, 80, &edge);
-    double painted = 0;
+    double cover = 0;
     for (uint32_t i = 0; i < edge * edge; i++)
-        painted += (double)once[i][3];
-    assert_true(painted > 100);
+        cover += (double)once[i][3];
+    assert_true(cover > 100);
     assert_memory_equal(once, later, (size_t)edge * edge * sizeof *once);
     free(once);
     free(later);
