@@ -79,22 +79,15 @@ FN_APART float3 collide_rubbed(float restitution, float friction, float3 mirrore
     return y;
 }
 
-/* Returns the velocity, relative to the box, after an impact: a linear combination of the mirrored
- * and a random direction, with the slowed speed. The random direction lies in the hemisphere about
- * the face's normal, so that it never points inwards; with `literal`, about the mirrored
- * direction. */
-FN float3 collide_bounce(S(collide_answer) answer, float3 velocity, uint face, bool literal)
+/* Returns the velocity, relative to the surface, after an impact that mirrored it: a linear
+ * combination of the mirrored and a random direction, with the slowed speed. The random direction
+ * lies in the hemisphere about the surface's normal, so that it never points inwards; with
+ * `literal`, about the mirrored direction. outwards: of the velocity before, below 0. */
+FN float3 collide_scatter(S(collide_answer) answer, float3 velocity, float3 reflected,
+                          float3 normal, float outwards, bool literal)
 {
-    uint axis = face >> 1u;
-    EXACT float out_sign = (face & 1u) != 0u ? 1.0f : -1.0f;
-    EXACT float across = collide_component(velocity, axis);
-    EXACT float outwards = across * out_sign;
-    if (outwards >= 0.0f)
-        return velocity;
-    EXACT float3 mirrored = collide_with_component(velocity, axis, -across);
+    EXACT float3 mirrored = reflected;
     EXACT float square = float3_dot(velocity, velocity);
-    EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
-    EXACT float3 normal = collide_with_component(zero, axis, out_sign);
     if (COLLIDE_RUBS(answer)) {
         EXACT float returned = -outwards;
         mirrored = collide_rubbed(answer.restitution, answer.friction, mirrored, normal, returned);
@@ -115,6 +108,22 @@ FN float3 collide_bounce(S(collide_answer) answer, float3 velocity, uint face, b
     return y;
 }
 
+/* Returns the velocity, relative to the box, after an impact on one of its faces. */
+FN float3 collide_bounce(S(collide_answer) answer, float3 velocity, uint face, bool literal)
+{
+    uint axis = face >> 1u;
+    EXACT float out_sign = (face & 1u) != 0u ? 1.0f : -1.0f;
+    EXACT float across = collide_component(velocity, axis);
+    EXACT float outwards = across * out_sign;
+    if (outwards >= 0.0f)
+        return velocity;
+    EXACT float3 mirrored = collide_with_component(velocity, axis, -across);
+    EXACT float3 zero = FLOAT3(0.0f, 0.0f, 0.0f);
+    EXACT float3 normal = collide_with_component(zero, axis, out_sign);
+    EXACT float3 y = collide_scatter(answer, velocity, mirrored, normal, outwards, literal);
+    return y;
+}
+
 /* Returns the velocity after an impact, as collide_bounce, for a surface of any direction. */
 FN_CLOSE float3 collide_bounce_off(S(collide_answer) answer, float3 velocity, float3 normal,
                                    bool literal)
@@ -124,24 +133,7 @@ FN_CLOSE float3 collide_bounce_off(S(collide_answer) answer, float3 velocity, fl
         return velocity;
     EXACT float twice = -2.0f * outwards;
     EXACT float3 mirrored = float3_add_scaled(velocity, normal, twice);
-    EXACT float square = float3_dot(velocity, velocity);
-    if (COLLIDE_RUBS(answer)) {
-        EXACT float returned = -outwards;
-        mirrored = collide_rubbed(answer.restitution, answer.friction, mirrored, normal, returned);
-        square = float3_dot(mirrored, mirrored);
-    }
-    EXACT float speed = exact_sqrt(square);
-    EXACT float3 straight = float3_normalize(mirrored, normal);
-    EXACT float3 pole = normal;
-    if (literal)
-        pole = straight;
-    EXACT float3 astray = random_direction(answer.stream, answer.purpose, pole, 0.0f);
-    EXACT float kept = 1.0f - answer.randomness;
-    EXACT float3 part = float3_scale(straight, kept);
-    EXACT float3 mixed = float3_add_scaled(part, astray, answer.randomness);
-    EXACT float3 direction = float3_normalize(mixed, straight);
-    EXACT float slowed = speed * answer.slowdown;
-    EXACT float3 y = float3_scale(direction, slowed);
+    EXACT float3 y = collide_scatter(answer, velocity, mirrored, normal, outwards, literal);
     return y;
 }
 
