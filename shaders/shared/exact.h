@@ -69,8 +69,40 @@ FN float exact_lerp(float a, float b, float t)
     return inside;
 }
 
-/* Returns 1 / x within 1.5 ulp for 2^-100 <= |x| <= 2^100; 0 for any other x, including zero. It
- * starts with a guess from the exponent (off by at most 5.1 %) and makes three Newton steps. */
+/* exact_NAME_within: NAME for arguments within the range where its polynomial serves. */
+#define ELEMENT             float
+#define ELEMENT_INT         int
+#define ELEMENT_FN          FN
+#define ELEMENT_BITS(x)     INT(FLOAT_BITS(x))
+#define ELEMENT_OF_BITS(i)  BITS_FLOAT(UINT(i))
+#define ELEMENT_TRUNCATE(x) INT(x)
+#define ELEMENT_WHOLE(i)    FLOAT(i)
+#define ELEMENT_FLOOR(x)    FLOOR(x)
+#define ELEMENT_RCP         exact_rcp_within
+#define ELEMENT_RSQRT       exact_rsqrt_within
+#define ELEMENT_EXP         exact_exp_within
+#define ELEMENT_LOG2        exact_log2_within
+#define ELEMENT_REST        exact_rest_within
+#define ELEMENT_SINE        exact_sine_within
+#define ELEMENT_COSINE      exact_cosine_within
+#include "shared/elementary.h"
+#undef ELEMENT
+#undef ELEMENT_INT
+#undef ELEMENT_FN
+#undef ELEMENT_BITS
+#undef ELEMENT_OF_BITS
+#undef ELEMENT_TRUNCATE
+#undef ELEMENT_WHOLE
+#undef ELEMENT_FLOOR
+#undef ELEMENT_RCP
+#undef ELEMENT_RSQRT
+#undef ELEMENT_EXP
+#undef ELEMENT_LOG2
+#undef ELEMENT_REST
+#undef ELEMENT_SINE
+#undef ELEMENT_COSINE
+
+/* Returns 1 / x within 1.5 ulp for 2^-100 <= |x| <= 2^100; 0 for any other x, including zero. */
 FN float exact_rcp(float x)
 {
     uint bits = FLOAT_BITS(x);
@@ -78,13 +110,7 @@ FN float exact_rcp(float x)
     if (size < EXACT_TINY_BITS || size > EXACT_VAST_BITS)
         return 0.0f;
     EXACT float a = BITS_FLOAT(size);
-    EXACT float y = BITS_FLOAT(0x7ef311c7u - size);
-    EXACT float e = 2.0f - a * y;
-    y = y * e;
-    e = 2.0f - a * y;
-    y = y * e;
-    e = 1.0f - a * y;
-    y = y + y * e;
+    EXACT float y = exact_rcp_within(a);
     EXACT float signed_y = BITS_FLOAT(FLOAT_BITS(y) | (bits & EXACT_SIGN_BIT));
     return signed_y;
 }
@@ -105,14 +131,7 @@ FN float exact_rsqrt(float x)
     if (bits < EXACT_TINY_BITS || bits > EXACT_VAST_BITS) /* as an unsigned number, a negative x is
                                                            * beyond the range, too */
         return 0.0f;
-    EXACT float y = BITS_FLOAT(0x5f375a86u - (bits >> 1));
-    EXACT float h = 0.5f * x;
-    EXACT float e = 1.5f - (h * y) * y;
-    y = y * e;
-    e = 1.5f - (h * y) * y;
-    y = y * e;
-    e = 0.5f - (h * y) * y;
-    y = y + y * e;
+    EXACT float y = exact_rsqrt_within(x);
     return y;
 }
 
@@ -142,14 +161,10 @@ FN S(exact_angle) exact_sincos(float x)
         return result;
     EXACT float turns = x * 0.636619772f + 0.5f;
     EXACT float quarter = FLOOR(turns);
-    EXACT float r = x - quarter * 1.5703125f;
-    r = r - quarter * 0.000483751297f;
-    r = r - quarter * 7.54978995e-8f;
+    EXACT float r = exact_rest_within(x, quarter);
     EXACT float z = exact_canon(r * r);
-    EXACT float ps = -0.166666646f + z * (0.00833273656f + z * -0.000195853732f);
-    EXACT float s = r + r * (z * ps);
-    EXACT float pc = 0.0416666646f + z * (-0.00138882913f + z * 2.45454191e-5f);
-    EXACT float c = (1.0f - 0.5f * z) + (z * z) * pc;
+    EXACT float s = exact_sine_within(r, z);
+    EXACT float c = exact_cosine_within(z);
     uint q = UINT(INT(quarter)) & 3u;
     EXACT float sine = (q & 1u) != 0u ? c : s;
     EXACT float cosine = (q & 1u) != 0u ? s : c;
@@ -169,16 +184,7 @@ FN float exact_exp(float x)
     if (far && bits != size)
         return 0.0f;
     EXACT float limited = far ? 69.0f : x;
-    EXACT float halves = limited * 1.44269504f + 0.5f;
-    EXACT float n = FLOOR(halves);
-    EXACT float r = limited - n * 0.693115234375f;
-    r = r - n * 3.19461833e-5f;
-    EXACT float high = 0.0416665501f + r * (0.00836377387f + r * 0.00139269266f);
-    EXACT float p = 0.5f + r * (0.166665734f + r * high);
-    EXACT float y = 1.0f + (r + (r * r) * p);
-    uint exponent = UINT(INT(n) + 127);
-    EXACT float power = BITS_FLOAT(exponent << 23);
-    EXACT float scaled = y * power;
+    EXACT float scaled = exact_exp_within(limited);
     return scaled;
 }
 
@@ -191,13 +197,8 @@ FN float exact_log2(float x)
     bits = bits > 0x7f800000u || bits < EXACT_TINY_BITS ? EXACT_TINY_BITS : bits;
     bits = bits > EXACT_VAST_BITS ? EXACT_VAST_BITS : bits;
     /* so that the remaining factor is 0.707 to 1.414 */
-    int exponent = (INT(bits) - 0x3f3504f3) >> 23;
-    uint rest = bits - (UINT(exponent) << 23);
-    EXACT float f = BITS_FLOAT(rest) - 1.0f;
-    EXACT float high = -0.239169881f + f * (0.216078226f + f * (-0.205861881f + f * 0.123109685f));
-    EXACT float middle = 0.480910753f + f * (-0.360693268f + f * (0.287903261f + f * high));
-    EXACT float p = f * (1.44269502f + f * (-0.721347468f + f * middle));
-    EXACT float y = FLOAT(exponent) + p;
+    EXACT float limited = BITS_FLOAT(bits);
+    EXACT float y = exact_log2_within(limited);
     return y;
 }
 

@@ -11,10 +11,7 @@ SIMD vf vf_rcp(vf x)
 {
     vi size = (vi)x & (int32_t)EXACT_SIZE_BITS;
     vi usual = (size >= (int32_t)EXACT_TINY_BITS) & (size <= (int32_t)EXACT_VAST_BITS);
-    vf a = (vf)size, y = (vf)(0x7ef311c7 - size);
-    y = y * (2.0f - a * y);
-    y = y * (2.0f - a * y);
-    y = y + y * (1.0f - a * y);
+    vf y = vf_rcp_within((vf)size);
     return (vf)(((vi)y | ((vi)x & (int32_t)EXACT_SIGN_BIT)) & usual);
 }
 

@@ -148,40 +148,29 @@ SIMD vi vi_gather(const int32_t *from, vi index)
     return (vi)vf_gather((const float *)(const void *)from, index);
 }
 
-/* 1 / sqrt(x) within 1.5 ulp, as exact_rsqrt has it, for x >= 2^-100; of zero, a large number. */
-SIMD vf vf_rsqrt(vf x)
-{
-    vf y = (vf)(0x5f375a86 - ((vi)x >> 1));
-    vf h = 0.5f * x;
-    y = y * (1.5f - (h * y) * y);
-    y = y * (1.5f - (h * y) * y);
-    return y + y * (0.5f - (h * y) * y);
-}
+/* The functions have the ranges that elementary.h says: vf_rsqrt and vf_log2 for 2^-100 and more;
+ * of zero, vf_rsqrt is a large number. */
+#define ELEMENT             vf
+#define ELEMENT_INT         vi
+#define ELEMENT_FN          SIMD
+#define ELEMENT_BITS(x)     ((vi)(x))
+#define ELEMENT_OF_BITS(i)  ((vf)(i))
+#define ELEMENT_TRUNCATE(x) vi_of(x)
+#define ELEMENT_WHOLE(i)    vf_of(i)
+#define ELEMENT_FLOOR(x)    round_down(x)
+#define ELEMENT_RCP         vf_rcp_within
+#define ELEMENT_RSQRT       vf_rsqrt
+#define ELEMENT_EXP         vf_exp_within
+#define ELEMENT_LOG2        vf_log2
+#define ELEMENT_REST        vf_rest_within
+#define ELEMENT_SINE        vf_sine_within
+#define ELEMENT_COSINE      vf_cosine_within
+#include "shared/elementary.h"
 
 /* e^x as exact_exp has it; below -69 it is 0. */
 SIMD vf vf_exp(vf x)
 {
-    vf limited = vf_clamp(x, -69.0f, 69.0f);
-    vf n = round_down(limited * 1.44269504f + 0.5f);
-    vf r = limited - n * 0.693115234375f;
-    r = r - n * 3.19461833e-5f;
-    vf high = 0.0416665501f + r * (0.00836377387f + r * 0.00139269266f);
-    vf p = 0.5f + r * (0.166665734f + r * high);
-    vf y = 1.0f + (r + (r * r) * p);
-    vf power = (vf)((vi_of(n) + 127) << 23);
-    return vf_where(x >= -69.0f, y * power);
-}
-
-/* log2(x) as exact_log2 has it, for 2^-100 <= x <= 2^100. */
-SIMD vf vf_log2(vf x)
-{
-    vi bits = (vi)x;
-    vi exponent = (bits - 0x3f3504f3) >> 23;
-    vf f = (vf)(bits - (vi)((vu)exponent << 23)) - 1.0f;
-    vf high = -0.239169881f + f * (0.216078226f + f * (-0.205861881f + f * 0.123109685f));
-    vf middle = 0.480910753f + f * (-0.360693268f + f * (0.287903261f + f * high));
-    vf p = f * (1.44269502f + f * (-0.721347468f + f * middle));
-    return vf_of(exponent) + p;
+    return vf_where(x >= -69.0f, vf_exp_within(vf_clamp(x, -69.0f, 69.0f)));
 }
 
 struct vf_angle {
@@ -193,14 +182,8 @@ SIMD struct vf_angle vf_sincos(vf x)
 {
     x = vf_where(vf_abs(x) <= 8192.0f, x);
     vf quarter = round_down(x * 0.636619772f + 0.5f);
-    vf r = x - quarter * 1.5703125f;
-    r = r - quarter * 0.000483751297f;
-    r = r - quarter * 7.54978995e-8f;
-    vf z = r * r;
-    vf ps = -0.166666646f + z * (0.00833273656f + z * -0.000195853732f);
-    vf s = r + r * (z * ps);
-    vf pc = 0.0416666646f + z * (-0.00138882913f + z * 2.45454191e-5f);
-    vf c = (1.0f - 0.5f * z) + (z * z) * pc;
+    vf r = vf_rest_within(x, quarter), z = r * r;
+    vf s = vf_sine_within(r, z), c = vf_cosine_within(z);
     vi q = vi_of(quarter);
     vi odd = -(q & 1), lower = (q & 2) << 30, left = ((q + 1) & 2) << 30;
     return (struct vf_angle){(vf)((vi)vf_select(odd, c, s) ^ lower),
