@@ -1,5 +1,9 @@
-/* Runs kiln check, which tells whether a scene is right, and prints it on request with every
- * default spelled out. */
+/* Runs kiln check, which tells whether scenes are right, and prints each with every default spelled
+ * out, unless --quiet or --hash is given.
+ *
+ * The main function finds check_command in the table of commands and calls its `run`; the parser,
+ * the help, the man page, the completion and the sandbox read its options. What is printed of a
+ * scene must stay a scene file, so anything else is printed as a YAML comment. */
 #include <inttypes.h>
 #include <stdlib.h>
 
@@ -24,7 +28,7 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-/* Prints the work of a clip as a comment, so that all of it stays a scene file. */
+/* Prints the work that a clip takes, as a YAML comment after the scene. */
 static bool print_work(const struct kiln_scene_info *info)
 {
     return printf("# work: %" PRIu32 " frame%s of %" PRIu32 " x %" PRIu32 " pixels, %" PRIu64
@@ -33,7 +37,8 @@ static bool print_work(const struct kiln_scene_info *info)
                   info->steps, info->particle_capacity, info->memory_bytes >> 20) >= 0;
 }
 
-/* Writes what was asked for to standard output; false when that failed. */
+/* Prints the hash of a scene, or the scene and its work. `several`: there are other scenes, so the
+ * path is printed, too. Returns false when that failed. */
 static bool print_scene(const struct kiln_scene *scene, const char *path, bool hash, bool several)
 {
     struct kiln_scene_info info = kiln_scene_info_empty();
@@ -69,7 +74,7 @@ static int run(const struct arguments *arguments)
             int failure = report_scene_error(&error);
             code = code ? code : failure;
         } else if (!quiet && !print_scene(scene, path, hash, arguments->operand_count > 1)) {
-            /* report_finish tells of a failure of standard output; else memory was short. */
+            /* Either standard output failed, of which report_finish tells, or memory was short. */
             int failure = ferror(stdout) ? KILN_IO : report_no_memory();
             code = code ? code : failure;
         }

@@ -1,4 +1,11 @@
-/* Reads the command line by the rows of the option tables. */
+/* Reads the words behind a command's name by the command's table of options. Options that were used
+ * and operands end up in a struct arguments; a wrong option or value is reported with what is
+ * allowed. It also answers commands that ask for the value of an option by its name.
+ *
+ * The main function calls arguments_parse before it runs a command, and kiln figure --check does
+ * for the command that a figure came from. So all values have been checked before a command does
+ * any work. This file knows no option by name: a new option is a row of a command's table. A new
+ * kind of value is a member of enum option_kind and a case of read_value. */
 #include "options.h"
 
 #include <fnmatch.h>
@@ -8,9 +15,10 @@
 #include "foreign.h"
 #include "report.h"
 
+/* The most names of a table that are compared with a misspelled option. */
 enum { MAX_OPTIONS = 64 };
 
-/* A table being applied to a command line. */
+/* Holds the state of arguments_parse. */
 struct parser {
     struct arguments *arguments;
     const struct option *options;
@@ -116,7 +124,7 @@ static int read_time(const struct parser *parser, struct option_use *use)
     return wrong_value(parser, use, expected);
 }
 
-/* Reads two positive whole numbers around a separator. */
+/* Reads two positive whole numbers with a separator between them. */
 static bool read_two(const char *text, char separator, uint64_t numbers[2])
 {
     char first[24] = "";
@@ -128,7 +136,7 @@ static bool read_two(const char *text, char separator, uint64_t numbers[2])
            kiln_text_to_uint64(middle + 1, &numbers[1]) && numbers[1] > 0;
 }
 
-/* Reads X,Y,WxH, each of which fits a picture. */
+/* Reads X,Y,WxH, four whole numbers of 32 bits; W and H are positive. */
 static bool read_rect(const char *text, uint64_t numbers[4])
 {
     for (int i = 0; i < 2; i++) {
@@ -151,7 +159,8 @@ static bool is_ratio(const char *text)
     return read_two(text, '/', ratio) || (kiln_text_to_double(text, &number) && number > 0);
 }
 
-/* Every piece between commas must have a key before its '='. */
+/* Returns whether a text is KEY=VALUE, or with `commas` several of them with commas between them.
+ * A key has at least one character. */
 static bool are_pairs(const char *text, bool commas)
 {
     for (;;) {
@@ -177,7 +186,7 @@ static int read_grid(const struct parser *parser, struct option_use *use)
     return wrong_value(parser, use, expected);
 }
 
-/* Checks a value of several pieces; the message names the piece that is wrong. */
+/* Reads ranges of frames with commas between them. The message names the range that is wrong. */
 static int read_frames(const struct parser *parser, struct option_use *use)
 {
     struct frame_piece_place wrong;
@@ -253,7 +262,8 @@ static bool value_follows(const struct parser *parser, const struct option *opti
            (strcmp(next, "-") == 0 || fnmatch(option->files, next, 0) == 0);
 }
 
-/* Records a use; joined is the value that came with the option in one argument, or NULL. */
+/* Records the use of an option and reads its value. `joined` is the value if it came in the same
+ * word as the option, else NULL; then the value is the next word. */
 static int use_option(struct parser *parser, const struct option *option, const char *joined)
 {
     struct option_use *use = &parser->arguments->uses[parser->arguments->use_count++];
@@ -309,8 +319,9 @@ const struct option *option_of_letter(const struct option *options, size_t count
     return NULL;
 }
 
-/* Names the letter of a bundle that is no option, unless the whole word is one of another program
- * or close to a name of ours: "-crf", "-quiet". */
+/* Reports a word of letters after one dash, of which `letter` is no option. The message is about
+ * the whole word if that is an option of another program ("-crf") or nearly the name of one of this
+ * command's options ("-quiet"); otherwise it names the letter. */
 static int unknown_letter(const struct parser *parser, const char *argument, char letter)
 {
     char advice[FOREIGN_SIZE];
@@ -326,15 +337,16 @@ static int unknown_letter(const struct parser *parser, const char *argument, cha
                   advice);
 }
 
-/* Letters may follow one dash together, as POSIX has it: flags, and last an option with a value,
- * which is the rest of the word or the next one. "-qo r.png" and "-qor.png" are the same. */
+/* Reads options by their letters. As POSIX says, several letters may follow one dash: flags, and at
+ * the end an option with a value. The value is the rest of the word or the next word: "-qo r.png"
+ * and "-qor.png" are the same. No option is used before all letters of the word are known. */
 static int read_short(struct parser *parser, const char *argument)
 {
     for (size_t i = 0; i < parser->option_count; i++) {
         if (strcmp(parser->options[i].name, argument + 1) == 0) /* "-output" is not "-o utput" */
             return unknown_option(parser, argument);
     }
-    size_t count = 0; /* of letters; all are checked before the first one counts */
+    size_t count = 0; /* letters of the word that are options */
     const struct option *option;
     do {
         const char letter = argument[1 + count++];
@@ -354,7 +366,8 @@ static int read_short(struct parser *parser, const char *argument)
 int arguments_parse(struct arguments *arguments, const struct option *options, size_t option_count,
                     const char *place, int argc, char **argv)
 {
-    size_t most = 1; /* of options, with those that share a word */
+    /* The most options that the words can have: every letter of a word may be one. */
+    size_t most = 1;
     for (int i = 0; i < argc; i++)
         most += argv[i][0] == '-' ? strlen(argv[i]) : 1;
     *arguments = (struct arguments){.uses = calloc(most, sizeof *arguments->uses),

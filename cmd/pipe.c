@@ -1,5 +1,9 @@
 /* Prepares `--output -`: frames go to a copy of standard output's descriptor, and standard output
- * itself becomes standard error, so that nothing but frames goes to the reader. */
+ * itself becomes standard error, so that nothing but frames goes to the reader.
+ *
+ * kiln render calls pipe_read before it loads scenes, since jobs depend on whether there is a
+ * stream, and pipe_open after that, before it prints the device. pipe_open must stay before the
+ * first line of output, which would otherwise be the start of the video. */
 #include "pipe.h"
 
 #include <errno.h>

@@ -1,5 +1,11 @@
-/* Runs kiln render, which draws the frames of scenes and writes them. All scenes of a call share
- * one device. */
+/* Runs kiln render, which draws the frames of scenes and writes them. One scene with its output is
+ * a job (jobs.c). All jobs of a call share one device, and run one after another; --batch starts
+ * processes instead (batch.c).
+ *
+ * The main function finds render_command in the table of commands and calls its `run`; the parser,
+ * the help, the man page, the completion and the sandbox read its options. kiln_render does the
+ * drawing, and calls back the functions under "While a job runs". It calls tell_written on any
+ * thread, so that function must only read. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,7 +156,7 @@ struct render {
     const char **command; /* the command's words, for manifests */
     struct shard shard;
     bool quiet, stats;
-    bool tells_frames, tells_stats; /* by --json */
+    bool tells_frames, tells_stats; /* whether lines of JSON tell of frames, and of statistics */
     enum progress_mode progress_mode;
     double frame_timeout_s;
 
@@ -159,12 +165,13 @@ struct render {
     struct watchdog *watchdog;
     double began_s; /* when the job began, by now_s */
     uint32_t frames_done, frames_total;
-    int64_t last_frame; /* the last frame with a time; -1: none of the job */
+    int64_t last_frame; /* the last frame that was given a time limit; -1: no frame of the job */
 };
 
 /* ---- While a job runs ----------------------------------------------------------------------- */
 
-/* Gives a frame its time, longer by the frames that are stepped over before it. */
+/* Starts the time limit of a frame (--frame-timeout). Every frame that is stepped over since the
+ * last limit adds the same time again. */
 static void allow_frame(struct render *render, uint32_t frame)
 {
     if (!render->watchdog)
@@ -177,11 +184,12 @@ static void allow_frame(struct render *render, uint32_t frame)
 static void begin_frame(void *user, uint32_t frame)
 {
     struct render *render = user;
-    if (frame != render->last_frame) /* else set-up has started its time */
+    if (frame != render->last_frame) /* run_job has started the first frame's time before set-up */
         allow_frame(render, frame);
 }
 
-/* Stops the frame's clock while the output waits, for instance for a slow reader. */
+/* Stops the time limit when a frame is drawn: waiting for the output, such as a slow reader, does
+ * not count. */
 static void end_frame(void *user, uint32_t frame)
 {
     const struct render *render = user;
@@ -190,7 +198,8 @@ static void end_frame(void *user, uint32_t frame)
         watchdog_disarm(render->watchdog);
 }
 
-/* Returns whether each frame has a file, which gets an event. */
+/* Returns whether each frame has a file of its own. Then the event of the file tells of the frame,
+ * and show_frame sends none. */
 static bool has_files(const struct render *render)
 {
     return render->job->output && !render->list.stream.format &&
@@ -215,7 +224,7 @@ static void show_frame(void *user, const struct kiln_progress *frame)
         tell_frame(render, frame, NULL);
 }
 
-/* Prints the event of a file that is whole, on a thread of the output. */
+/* Prints the event of a file that is whole. It may be called on any thread, one call at a time. */
 static void tell_written(void *user, const struct kiln_written *file)
 {
     const struct render *render = user;
@@ -243,7 +252,8 @@ static void tell_written(void *user, const struct kiln_written *file)
 
 /* ---- From options to parameters ------------------------------------------------------------- */
 
-/* Opens the stream of JSON, if one is asked for, in whichever spelling. */
+/* Opens the stream of JSON if --json asks for it, or an older spelling: --progress ndjson or
+ * --stats=json. */
 static int open_json(struct render *render, const struct arguments *arguments)
 {
     const bool frames = arguments_choice(arguments, "progress", PROGRESS_NONE) == PROGRESS_NDJSON;
@@ -263,6 +273,8 @@ static int open_json(struct render *render, const struct arguments *arguments)
     return code;
 }
 
+/* Fills in what does not depend on the job. Call it after open_json, whose decisions it uses.
+ * Returns false when memory is short. */
 static bool read_options(struct render *render, const struct arguments *arguments)
 {
     struct kiln_render_params *params = &render->params;

@@ -1,5 +1,10 @@
-/* Confines a command to the files of its arguments. The rows of options and operands say which of
- * them a command reads and which it writes. */
+/* Confines the process of a command to the files that its arguments name. The `reach` of an
+ * option's row and of a command says whether the command reads or writes the file that stands
+ * there; so an option that names a file needs its `reach`, or the sandbox refuses the file.
+ *
+ * The main function calls sandbox_enter before it runs a command that has --sandbox. That must come
+ * before the first thread starts and before any file of the arguments is read, and after the file
+ * of events is opened, which may lie elsewhere. */
 #include "sandbox.h"
 
 #include <stdlib.h>
@@ -14,14 +19,16 @@ enum mode { MODE_ON, MODE_REQUIRE, MODE_OFF };
 struct reached {
     const char **readable, **writable;
     size_t readable_count, writable_count;
-    char **folders; /* the folders of files that are read */
+    char **folders; /* the names in `readable` that must be freed: folders of files */
     size_t folder_count;
 };
 
 /* ---- what the arguments name ----------------------------------------------------------------- */
 
-/* Adds the folder of a file, in which a scene's pictures are, or the file alone where an option
- * names that folder. A link is not followed: whatever wrote the folder could lead it anywhere. */
+/* Makes a file that an operand names readable. Pictures that a scene uses lie in the scene's
+ * folder, so normally the whole folder becomes readable. With `alone` only the file does, because
+ * --asset-root names the folder of the pictures. Then a file that is a symbolic link is left out:
+ * whoever made the link could lead it to any file. */
 static bool add_file(struct reached *reached, const char *path, bool alone)
 {
     struct stat status;
@@ -42,12 +49,14 @@ static bool add_file(struct reached *reached, const char *path, bool alone)
     return true;
 }
 
-/* Returns whether --output stands for standard output, or for no output. */
+/* Returns whether the value of an option that names a file to write means no file: "-" is standard
+ * output, and "none" is no output. */
 static bool is_no_file(const char *path)
 {
     return strcmp(path, "-") == 0 || strcmp(path, "none") == 0;
 }
 
+/* Collects the files of all arguments. Returns false when memory is short. */
 static bool collect(struct reached *reached, const struct command *command,
                     const struct arguments *arguments)
 {
@@ -89,6 +98,7 @@ static void free_reached(struct reached *reached)
 
 /* ---- entering -------------------------------------------------------------------------------- */
 
+/* Reads the mode that KILN_SANDBOX sets; --sandbox may replace it. */
 static bool read_environment(enum mode *mode)
 {
     static const char *const words[] = {"on", "require", "off"};

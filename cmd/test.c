@@ -1,6 +1,11 @@
 /* Runs kiln test, which tells whether scenes still give the accepted pictures. It finds the tests,
  * runs each in a process of its own, prints their results in the order of their names, and writes
- * reports. */
+ * reports.
+ *
+ * The main function finds test_command in the table of commands and calls its `run`; the parser,
+ * the help, the man page and the completion read its options. A test's process is a fork of this
+ * one that runs no other program (test_pool.c), so this process must start no thread and open no
+ * device while tests run. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,13 +103,13 @@ struct test_run {
     const struct kiln_suite *suite;
     size_t count;
     struct kiln_test_params params;
-    double time_limit_s; /* 0: the tests' own */
+    double time_limit_s; /* of every test; 0: each test's own limit holds */
     uint32_t jobs;
-    char log[KILN_PATH_SIZE]; /* of the task that was started last */
+    char log[KILN_PATH_SIZE]; /* the log's name, as task_of wrote it last */
     struct kiln_test_summary *summaries;
     bool *ended;
     size_t ended_count, printed; /* tests 0 to printed-1 have had their line */
-    enum kiln_code code;         /* the worst so far */
+    enum kiln_code code;         /* the worst code of a test so far */
     struct test_lines lines;
 };
 
@@ -112,7 +117,7 @@ struct test_run {
 
 struct test_task {
     const char *log;     /* the file that gets what its process prints */
-    double time_limit_s; /* of the wall clock */
+    double time_limit_s; /* seconds of real time after which the process is ended */
 };
 
 /* Describes a task; the log's name is valid until the next call. */
@@ -125,13 +130,13 @@ static struct test_task task_of(struct test_run *run, size_t index)
                                   run->time_limit_s > 0 ? run->time_limit_s : test.time_limit_s};
 }
 
-/* Runs a test, in the test's own process. */
+/* Runs a test. It is called in the test's own process, whose exit code it returns. */
 static int run_test(void *user, size_t index)
 {
     const struct test_run *run = user;
     char threads[16];
     snprintf(threads, sizeof threads, "%u", run->params.threads);
-    setenv("LP_NUM_THREADS", threads, 0); /* of Mesa's software device */
+    setenv("LP_NUM_THREADS", threads, 0); /* threads of Mesa's OpenGL on the CPU */
     struct kiln_test_summary summary;
     struct kiln_error error = {0};
     if (kiln_test_run(run->suite, index, &run->params, &summary, &error))
@@ -148,7 +153,8 @@ static pid_t start_test(void *user, size_t index, struct pool_start *start)
     return test_pool_start(start, task.log, run_test, run, index);
 }
 
-/* Says why the process of a test has left no valid result; false when it has left one. */
+/* Describes how the process of a test failed. Returns false if it ended well, so that it should
+ * have left a result. */
 static bool describe_failure(const struct pool_end *end, double time_limit_s,
                              char text[KILN_MESSAGE_SIZE])
 {
@@ -171,7 +177,7 @@ static bool describe_failure(const struct pool_end *end, double time_limit_s,
     return true;
 }
 
-/* Records an error for a test whose process did not report one itself. */
+/* Records an error as the result of a test whose process left no result that can be read. */
 static void record_failure(struct test_run *run, size_t index, const struct pool_end *end,
                            const char *cause)
 {
@@ -192,7 +198,8 @@ static void record_failure(struct test_run *run, size_t index, const struct pool
     snprintf(summary->message, sizeof summary->message, "%s", message);
 }
 
-/* Prints the lines of tests in the order of their names, though tests end in any order. */
+/* Prints a line for each test whose turn it is. Tests end in any order, but lines come in the order
+ * of the tests' names, so the line of a test waits for the lines before it. */
 static void print_ended(struct test_run *run)
 {
     for (; run->printed < run->count && run->ended[run->printed]; run->printed++)
@@ -216,8 +223,9 @@ static void end_test(void *user, size_t index, const struct pool_end *end)
 
 /* ---- The run -------------------------------------------------------------------------------- */
 
-/* Writes what programs and people read later; summary is filled where that is possible. Returns the
- * worse of the code and what went wrong here. */
+/* Writes the files of the whole run and the reports that were asked for. Fills in the summary if
+ * the results of all tests can be read. Returns the worse one of the tests' code and the code of
+ * what went wrong here. */
 static enum kiln_code write_results(const struct test_run *run, struct test_outputs *outputs,
                                     const char *folder, double total_s,
                                     struct kiln_results_summary *summary)
@@ -274,7 +282,7 @@ static int run_tests(struct test_run *run, struct test_outputs *outputs)
                : report_error(&error);
 }
 
-/* How many tests run at a time, and how many threads each has. */
+/* Decides how many tests run at a time, and how many threads each test has. */
 static void share_cores(struct test_run *run, const struct arguments *arguments)
 {
     uint32_t cores = pool_cores();

@@ -1,5 +1,10 @@
-/* Runs kiln test calibrate, which measures how much pictures differ for reasons that are no change
- * of the scene. */
+/* Runs kiln test calibrate, which measures how much pictures of an unchanged scene differ between
+ * threads, techniques and devices, and proposes limits for expect.yaml from that. It writes
+ * expect.yaml only with --write.
+ *
+ * The main function finds test_calibrate_command in the table of commands and calls its `run`; the
+ * parser, the help, the man page and the completion read its options. The measuring itself is
+ * kiln_test_calibrate; this file reads options and prints. */
 #include <stdlib.h>
 
 #include "command.h"
@@ -43,6 +48,7 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
+/* Prints a line about one render. kiln_test_calibrate calls it while it works. */
 static void print_render(void *user, const char *line)
 {
     const bool *quiet = user;
@@ -66,7 +72,7 @@ static void print_calibration(const struct kiln_calibration *calibration, bool w
     fflush(stdout);
 }
 
-/* Returns the exit code of a test. */
+/* Calibrates one test and returns its exit code. */
 static enum kiln_code calibrate(const struct kiln_suite *suite, size_t index,
                                 const struct kiln_calibrate_params *params, bool quiet)
 {

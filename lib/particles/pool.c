@@ -1,5 +1,11 @@
-/* This file creates and copies the pool: the records of all particles, and the range of slots that
- * each system owns. */
+/* This file creates, copies and frees the pool, which is the state of a simulation: the records of
+ * all particles, the slots that each system owns, spins, and painted textures (canvases).
+ *
+ * The frame loop (lib/frame/loop.c) makes a pool at its set-up, and copies one when it goes on from
+ * the state of another loop. Spins come later, with the first step or a saved state, and only for
+ * systems that spin; lib/sim/paint and lib/job/state.c add the canvases. Shaders read records and
+ * spins by the std430 layout, so both structs must keep their size, and whatever a later step
+ * depends on must be copied by kiln_pool_copy. */
 #include "particles/pool.h"
 
 #include <assert.h>

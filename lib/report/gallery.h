@@ -1,12 +1,16 @@
-/* Plans and writes the pictures of a report page, which are inside the page or linked. */
+/* Plans and writes the pictures of a report page. Each picture is inside the page or linked.
+ *
+ * lib/report/html.c plans them before it writes the page, test_data.c asks where those of a frame
+ * are, and html.c writes the pictures inside at last. The page's script finds a picture by its
+ * number, so the id that kiln_gallery_write gives it must be the number of the plan. */
 #ifndef KILN_REPORT_GALLERY_H
 #define KILN_REPORT_GALLERY_H
 
 #include "kiln_program.h"
 #include "report/report.h"
 
-/* The most bytes of pictures inside a page. A page with more takes a browser seconds and gigabytes,
- * so the pictures of least concern are linked then. */
+/* The most bytes of pictures inside a page. A browser takes seconds and gigabytes for a page with
+ * more. So a picture that would exceed it is linked; tests with the worst results come first. */
 enum { KILN_GALLERY_BYTES = 160 << 20 };
 
 enum kiln_gallery_role {
@@ -25,15 +29,16 @@ struct kiln_gallery_place {
         KILN_GALLERY_BROKEN, /* it cannot be shown; the text says why */
     } kind;
     uint32_t number;
-    const char *text; /* a path, or why not; of the arena */
+    const char *text; /* LINKED: the path; BROKEN: the reason; it lives in the results' arena */
 };
 
 struct kiln_gallery;
 
-/* Decides for every picture whether it is inside or linked, in the given order of tests (count
- * indices) and the worst frame of each first. Pictures that a browser cannot show get a preview
- * beside them when they are linked. Equal pictures of one frame are in the page once. The gallery
- * lives in results->arena. NULL with KILN_DEVICE_FAILED when memory is short. */
+/* Decides for every picture whether it is inside or linked. `order` has the index of each test,
+ * the most important test first; of a test, its worst frame comes first. When a picture that a
+ * browser cannot show is linked, this writes a preview beside it. A result with the same bytes as
+ * its reference shares its place. The gallery lives in results->arena. Returns NULL with
+ * KILN_DEVICE_FAILED when memory is short. */
 struct kiln_gallery *kiln_gallery_plan(const struct kiln_results *results, const size_t *order,
                                        const struct kiln_results_output *output,
                                        struct kiln_error *error);
@@ -42,7 +47,7 @@ struct kiln_gallery *kiln_gallery_plan(const struct kiln_results *results, const
 const struct kiln_gallery_place *kiln_gallery_places(const struct kiln_gallery *gallery,
                                                      size_t test, size_t frame);
 
-/* The number of pictures inside, and of those that are linked for want of space. */
+/* Return the number of pictures inside, and of those that are linked because the page is full. */
 uint32_t kiln_gallery_inside(const struct kiln_gallery *gallery);
 uint32_t kiln_gallery_crowded_out(const struct kiln_gallery *gallery);
 

@@ -1,5 +1,10 @@
-/* This file answers questions about a loaded scene: times, values at a time, and what follows from
- * its options. */
+/* This file answers questions about a scene: the times of its steps and frames, animated values at
+ * a time, and what follows from its options, such as whether particles spin. It also frees a scene.
+ *
+ * Validation, the simulation, drawing and jobs call it on the host, from any thread: it changes no
+ * scene, except that kiln_scene_destroy frees one. Times, values and rotations reach particles,
+ * whose states must be equal to the bit on every machine (docs/determinism.md), so they use IEEE
+ * arithmetic and shared/exact.h; sinf or cosf must not replace exact_sincos. */
 #include "scene/scene.h"
 
 #include <math.h>
@@ -14,7 +19,8 @@
 
 float kiln_scene_time(const struct kiln_scene *scene, uint32_t step)
 {
-    /* Both factors are below 2^32 and 2^21: the product is exact, and the quotient is IEEE's. */
+    /* The factors are below 2^32 and 2^21, so a double holds the product exactly. The division is
+     * rounded as IEEE 754 says. So every machine gets the same time. */
     double steps = (double)step - (double)scene->warmup_steps;
     return (float)(steps * (double)scene->rate.den / (double)scene->rate.num);
 }
@@ -28,7 +34,7 @@ uint32_t kiln_scene_moment_step(const struct kiln_scene *scene, uint32_t frame, 
 {
     const struct kiln_camera *camera = &scene->camera;
     double open_steps = scene->steps_per_frame * camera->shutter_angle / KILN_DEG(360);
-    /* a whole number of steps stays one */
+    /* The small addend keeps a whole number of steps from being rounded down to the one before. */
     double after = moment * open_steps / camera->shutter_samples + 1e-6;
     return kiln_scene_frame_step(scene, frame) + (uint32_t)after;
 }
@@ -109,6 +115,8 @@ void kiln_object_depth_directions(const struct kiln_object *mesh,
     }
 }
 
+/* Returns how many whole lengths of its clip an animation has gone through at a time, or 0 if it
+ * does not repeat. Sets how many seconds of the clip it has gone through in all. */
 static float rounds_of(const struct kiln_animation *animation, float time_s, float *seconds)
 {
     const float length = animation->length;
@@ -225,6 +233,7 @@ bool kiln_scene_spins(const struct kiln_scene *scene)
     return any;
 }
 
+/* Returns the rate of births at a time, for lib/particles/births.c. */
 static float rate_at(const void *context, float time_s)
 {
     const struct kiln_scene_births *births = context;

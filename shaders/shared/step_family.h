@@ -1,11 +1,18 @@
-/* Runs the step of systems that have children, are children, or die of an impact. Beyond step.h, it
- * computes births from the parents' traces, writes traces, and ends a step with the particle's
- * life. It is a kernel of its own, since it would slow down every other system. */
+/* Runs one step of one slot for systems whose particles have children, are children, paint meshes,
+ * or die of an impact. It does more than step.h: it computes births from the parents' traces, makes
+ * traces, and ends a particle's step where its life ends. Other systems use step.h alone, since
+ * this would slow them down.
+ *
+ * Kernels of all GPU techniques call step_family_slot by way of shaders/sim/step/slot.glsl, and the
+ * host does in lib/sim/step/slots_simd.c, for parents before their children. Host and GPU must get
+ * the same bits, so every float is EXACT and the order of operations must stay as it is
+ * (docs/determinism.md). */
 #ifndef KILN_SHARED_STEP_FAMILY_H
 #define KILN_SHARED_STEP_FAMILY_H
 
 #include "shared/step.h"
 
+/* What a step makes of a slot. */
 struct step_result {
     S(kiln_particle) particle;
     S(kiln_trace) trace;
@@ -19,8 +26,9 @@ FN S(step_result) step_result_dead(void)
     return r;
 }
 
-/* Returns the part of the step at which a life ends that does so in it, in whole 64ths as births
- * have, so that a child born of this event begins where its parent ended. */
+/* Returns the part of the step that has passed when a particle's life ends, for a life that ends in
+ * this step. It is a whole number of 64ths, as the times of births are, so that a child that is
+ * born of this event begins where its parent ended. It is not before the particle's own birth. */
 FN float step_end_of_life(SIM_PARAM S(kiln_particle) p, float age_s, float life_s)
 {
     EXACT float over_s = age_s - life_s;
@@ -33,7 +41,7 @@ FN float step_end_of_life(SIM_PARAM S(kiln_particle) p, float age_s, float life_
     return y;
 }
 
-/* Returns the progress of life at the start of the step. */
+/* Returns the progress of life at the start of the step; 0 for a particle that is born in it. */
 FN float step_progress_before(SIM_PARAM S(kiln_particle) p, float life_s)
 {
     if (particle_birth_step(p) == STEP(step))
@@ -43,6 +51,7 @@ FN float step_progress_before(SIM_PARAM S(kiln_particle) p, float life_s)
     return y;
 }
 
+/* Packs a particle's way through the step and its events (TRACE_*) into a trace. */
 FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint events,
                             float life_s, float progress_after)
 {
@@ -58,7 +67,8 @@ FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint 
     return t;
 }
 
-/* Does step_particle for such a system. */
+/* Returns a particle, which may be new, at the end of this step, as step_particle of step.h does,
+ * and its trace. */
 FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push) push)
 {
     EXACT S(step_result) r = step_result_dead();
@@ -102,8 +112,8 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push
     return r;
 }
 
-/* Returns the child for which a slot is reserved, if the parent's step has the event of its birth;
- * else the slot's content. */
+/* Returns the child for which a slot is reserved if the event of its birth happens in the parent's
+ * step. Otherwise returns the slot's content before the step. */
 FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln_trace) parent)
 {
     uint j = slot % STEP(family.slots);
@@ -125,9 +135,9 @@ FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln
     return step_with_motion(p, born.position, born.velocity);
 }
 
-/* Does step_slot for such a system. `parent` is the trace at family_parent_trace; a system without
- * a parent ignores it. The result's trace belongs to this slot, and is used if the system is
- * traced. */
+/* Returns the content of a slot after this step, as step_slot of step.h does, and the slot's trace,
+ * which the caller stores if the system is traced. `old` is the content before the step. `parent`
+ * is the trace at family_parent_trace; a system without a parent ignores it. */
 FN S(step_result) step_family_slot(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln_trace) parent)
 {
     S(kiln_particle) p = old;

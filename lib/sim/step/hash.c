@@ -1,5 +1,12 @@
-/* This file hashes the state of all particles in a compute shader. Only three sums come back to the
- * host; the records stay in GL. */
+/* This file hashes the state of all particles by a compute shader (shaders/sim/step/hash.comp), so
+ * that the records stay in GL. Three sums come back to the host: the two of the hash, and the
+ * number of living particles.
+ *
+ * kiln_simulate_hash calls it when the hash of a state is wanted, for every technique that keeps
+ * the particles in GL, and adds the painted textures to the hash itself. On the host,
+ * kiln_sim_cpu_hash takes the place of this file. Both must give equal sums, since goldens and
+ * saved states have the same hash whatever the technique: what a particle adds is written once, in
+ * shared/state_hash.h. */
 #include "sim/step/hash.h"
 
 #include "gpu/program.h"
@@ -24,6 +31,7 @@ void kiln_sim_hash_finish(struct kiln_sim_hash *hash)
     *hash = (struct kiln_sim_hash){.device = NULL};
 }
 
+/* Adds the particles of a system, or their spins if that program is in use, to the sums. */
 static void add_system(const struct kiln_sim_hash *hash, const struct kiln_pool *pool,
                        uint32_t system)
 {
@@ -35,6 +43,7 @@ static void add_system(const struct kiln_sim_hash *hash, const struct kiln_pool 
                          SIM_GROUP_SIZE);
 }
 
+/* Adds the spins of all systems that have them. Their program is made when it is first used. */
 static bool add_spins(struct kiln_sim_hash *hash, struct kiln_pool *pool, struct kiln_error *error)
 {
     const GLuint spins = kiln_buffer_gl(&pool->spins, KILN_READ, error);

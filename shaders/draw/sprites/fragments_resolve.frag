@@ -1,17 +1,27 @@
-/* Sorts the list of a pixel, farthest first, where that has not been done (fragments_merge.comp), and
- * blends it, or a stretch of it. */
+/* Blends the fragments in a pixel's list, farthest first, and sorts the list before that if it is
+ * short. fragments_merge.comp has sorted long lists already.
+ *
+ * resolve of lib/draw/sprites/fragments_gl.c draws a triangle over the picture with it, after the
+ * lists are filled (post.compose: oit). On software GL, which limits the iterations of a shader's
+ * loops, it draws once for each stretch of the lists; an assertion there counts the iterations of
+ * the loops here. is_behind must tell any two fragments of a list apart, so that the picture does
+ * not depend on the order in which fragments arrived. */
 #include "draw/sprites/fragments.glsl"
 #include "draw/sprites/fragments_pixel.glsl"
 
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
 
-uniform uvec2 stretch; /* of each list: from, until; later ones are blended over this one */
+/* The fragments of each list to blend: from the first number until before the second. GL blends the
+ * next stretch over this one. */
+uniform uvec2 stretch;
 
-/* Shell's sort: short, and quick on what is almost in order. */
+/* Sorts a list by Shell's sort, which is short code, and quick for a list that is almost in order.
+ * The gaps are 121, 40, 13, 4 and 1: the next one of that sequence, 364, exceeds
+ * KILN_FRAGMENT_SHORT. */
 void sort_list(uint first, uint count)
 {
-    for (uint gap = 121u; gap > 0u; gap /= 3u) { /* the largest below KILN_FRAGMENT_SHORT */
+    for (uint gap = 121u; gap > 0u; gap /= 3u) {
         for (uint i = gap; i < count; i++) {
             uvec4 key = list_keys[first + i];
             uint to = i;
@@ -27,6 +37,7 @@ void sort_list(uint first, uint count)
 void main()
 {
     uint pixel = pixel_number(), first = places[pixel].first, count = list_length(pixel);
+    /* An earlier stretch has sorted a short list, and fragments_merge.comp a long one. */
     bool sorted = stretch.x > 0u || counts[pixel] > KILN_FRAGMENT_SHORT;
     sort_list(first, sorted ? 0u : count);
     vec4 color = vec4(0.0);

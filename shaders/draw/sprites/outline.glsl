@@ -1,23 +1,29 @@
-/* The outline in the picture of what draw/sprites/particle.glsl has made (Heinz 2019, 3.2.3, equation
- * 3.1): points and lines are quads of the picture, billboards lie in the plane that was chosen.
- */
+/* Finds the outline of a particle in the picture (Heinz 2019, 3.2.3, equation 3.1): four corners,
+ * and the rows by which place.glsl finds the place of a pixel on the particle. A point or a line is
+ * a rectangle in the picture; a billboard lies in the plane that was chosen for it.
+ *
+ * corner.glsl includes it, for quads that GL draws, and particles_tiled_make.comp, for sprites of
+ * compute shaders. Both first declare the view and the variables center, right, up and particle,
+ * which particle.glsl fills in. The rows must be the same for all techniques, so that they cover
+ * the same pixels; lib/draw/sprites/sprite_place.h computes them on the host. */
 #include "draw/sprites/place.glsl"
 
 struct outline {
     place rows;
-    vec2 corners[4]; /* px from the top left; of what is not before the eye, anywhere */
-    float least;     /* of its depths, m */
-    bool before;     /* all of it is before the eye */
+    vec2 corners[4]; /* px from the top left; without a meaning unless `before` */
+    float least;     /* the smallest of its depths, m */
+    bool before;     /* all corners are before the eye */
     bool seen;       /* it has an area */
 };
 
-/* To the right and up: corner i of a strip of two triangles. */
+/* Returns corner i of a strip of two triangles, as -1 or 1 to the right and up. */
 vec2 outline_corner(int i)
 {
     return vec2(i < 2 ? -1.0 : 1.0, (i & 1) == 0 ? 1.0 : -1.0);
 }
 
-/* Pixels from the top left, of a point before the eye. */
+/* Returns where a point of view space is in the picture, px from the top left. It must be before
+ * the eye. */
 vec2 to_pixels(vec3 v)
 {
     return view.frustum.zw * (0.5 + vec2(v.x, -v.y) / view.frustum.xy * (0.5 / -v.z));
@@ -25,15 +31,18 @@ vec2 to_pixels(vec3 v)
 
 #if SHAPES
 
-/* A linear function of view space, as one of the pixels about the anchor. */
+/* Turns a linear function of the direction in view space into one of the pixels around the anchor:
+ * its value at the anchor, and its change per pixel to the right and down. `w` becomes the fourth
+ * number. */
 vec4 plane_of(vec3 row, vec2 anchor, float w)
 {
     vec2 slope = row.xy * 2.0 * view.frustum.xy / view.frustum.zw * vec2(1.0, -1.0);
     return vec4(dot(slope, anchor - 0.5 * view.frustum.zw) - row.z, slope, w);
 }
 
-/* A billboard in any plane: a point of the picture is a direction d, and with the inverse of the
- * matrix of right, up and centre, (a, b, 1) / depth = inverse * d. */
+/* Finds the outline of a billboard in any plane. A point of the picture is a direction d from the
+ * eye, and the billboard's point there is depth * d = a * right + b * up + center. So (a, b, 1) /
+ * depth is the inverse of the matrix of right, up and center, times d: linear in the pixel. */
 outline find_outline()
 {
     outline s;
@@ -60,8 +69,9 @@ outline find_outline()
     return s;
 }
 
-/* A line, or a point as a line of no length: its ends reach out by half of its width, and half a pixel
- * around it is for soft edges. */
+/* Finds the outline of a line, or of a point, which is a line of no length. The ends reach out by
+ * half of its width, and half a pixel is added all around for soft edges; fragment.glsl adds the
+ * same half pixel. It stores the half edges without that in particle.cells.xy, for shade.glsl. */
 outline find_plain_outline()
 {
     outline s;
@@ -76,7 +86,7 @@ outline find_plain_outline()
     vec2 edge = extent + 0.5;
     s.rows.u = vec4(0.0, along, middle.x);
     s.rows.v = vec4(0.0, -along.y, along.x, middle.y);
-    /* From end to end, rims and all, the reciprocal of the depth changes evenly. */
+    /* The reciprocal of the depth changes evenly from one end of the rectangle to the other. */
     float first = 1.0 / -tail.z, last = 1.0 / -head.z;
     s.rows.q = vec4(0.5 * (first + last), along * (0.5 * (last - first) / edge.x), 0.0);
     s.rows.edge = edge;
@@ -93,7 +103,7 @@ outline find_plain_outline()
 
 #else
 
-/* A billboard parallel to the picture. */
+/* Finds the outline of a billboard that is parallel to the picture. */
 outline find_outline()
 {
     outline s;
@@ -119,6 +129,7 @@ outline find_outline()
 
 #endif
 
+/* Finds the outline of a particle of any shape. */
 outline find_any_outline()
 {
 #if SHAPES
