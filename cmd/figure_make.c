@@ -1,4 +1,10 @@
-/* Makes a figure from the options of `kiln figure sheet`, `triptych` and `strip`. */
+/* Reads the options of `kiln figure sheet`, `triptych` and `strip`, and has the library draw the
+ * figure. The functions of these commands call figure_make. `kiln figure --check` and `--update`
+ * (cmd/figure.c) call it with the words that a figure's sidecar has kept, and with `check` set.
+ *
+ * So a figure must follow from the words that list_command keeps and the files that they name, and
+ * from nothing else: standard input is refused. An option that is renamed or gone breaks the
+ * sidecars that name it. */
 #include "figure_make.h"
 
 #include <stdlib.h>
@@ -9,7 +15,7 @@
 #include "report.h"
 #include "signals.h"
 
-/* The lists that the parameters point to. */
+/* Owns the lists that struct kiln_figure_params points to while a figure is drawn. */
 struct lists {
     struct overrides overrides;
     struct value_list techniques, labels;
@@ -42,7 +48,8 @@ static bool lists_create(struct lists *lists, const struct arguments *arguments)
            value_list_create(&lists->labels, arguments, "label");
 }
 
-/* Reads X,Y,WxH. With a decimal point anywhere in it, all four numbers are parts of the picture. */
+/* Reads an inset, X,Y,WxH. The four numbers are pixels; if any of them has a decimal point, all
+ * four are fractions of the picture. */
 static bool read_inset(const char *text, struct kiln_figure_inset *inset)
 {
     char copy[96];
@@ -60,6 +67,8 @@ static bool read_inset(const char *text, struct kiln_figure_inset *inset)
     return true;
 }
 
+/* Reads the options that may be given several times, in the order in which they are given. Returns
+ * an exit code, as the other functions do that report. */
 static int read_repeated(const struct command *command, const struct arguments *arguments,
                          struct lists *lists, struct kiln_figure_params *params)
 {
@@ -171,9 +180,10 @@ static struct kiln_figure_params make_params(const struct arguments *arguments,
     return params;
 }
 
-/* Lists the words of the command that the sidecar keeps. "figure sheet" are two words. --force is
- * left out, since it says nothing of the figure; a value cannot be mistaken for it, since it is
- * joined by '='. */
+/* Lists the words of the command, which the sidecar keeps for `kiln figure --check`. The name of a
+ * command, such as "figure sheet", becomes two words. --force is left out, since it says nothing
+ * about the figure. A value that reads "--force" is not left out: arguments_parse accepts it only
+ * joined to its option, as in --title=--force. */
 static void list_command(const struct command *command, const struct arguments *arguments,
                          struct lists *lists, struct kiln_figure_params *params)
 {
@@ -191,8 +201,9 @@ static void list_command(const struct command *command, const struct arguments *
     params->command_count = count;
 }
 
-/* Finds the last frame of the scenes, where all have the same. Sweeps may change it; the library
- * checks again what is drawn. */
+/* Finds the last frame of the scenes, for a range of frames without an end. It is an error if they
+ * have different last frames. A sweep may change a scene's last frame, so the library checks the
+ * frames again. */
 static int find_last_frame(const struct command *command, const struct arguments *arguments,
                            const struct lists *lists, uint32_t *last)
 {
@@ -260,7 +271,7 @@ int figure_make(const struct command *command, enum kiln_figure_kind kind,
     int code = read_repeated(command, arguments, &lists, &params);
     code = code ? code : read_frames(command, arguments, &lists, &params);
     code = code ? code : read_lengths(command, arguments, &params);
-    struct kiln_figure_result made;
+    struct kiln_figure_result made; /* filled, but of no use to a figure that is written */
     struct kiln_error error = {0};
     signals_install_for_job();
     if (code == 0 && !kiln_figure_make(&params, check ? check->result : &made, &error))

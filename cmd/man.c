@@ -1,11 +1,19 @@
-/* Writes the manual pages, in the man macros of roff, from the same tables as --help. */
+/* Writes the manual pages kiln(1) and kiln-scene(5), in the man macros of roff. cmd/help.c calls it
+ * for `kiln help man` and `kiln help man-scene`; the build runs both to make the pages that are
+ * installed (docs/CMakeLists.txt).
+ *
+ * Commands, options, exit codes, variables and the keys of scenes come from the tables that --help
+ * and the readers use, so a new one appears here by itself. Only the description, the files and the
+ * examples are written here. The pages have no date, so that the same kiln always writes the same
+ * page. The pages must please the linters of tests/docs/man.sh. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
 
-/* Writes text so that roff prints it as it stands. */
+/* Writes text so that roff prints it as it stands; an empty line in it begins a paragraph. A line
+ * may not begin with '.' or an apostrophe in roff, so \& goes before these. */
 static void put(FILE *out, const char *text)
 {
     bool line_start = true;
@@ -32,7 +40,8 @@ static void put_heading(FILE *out, const char *title)
     fputc('\n', out);
 }
 
-/* Writes a text of paragraphs, in which lines that start with blanks stay as they are. */
+/* Writes a text of paragraphs. Lines that start with a blank are not filled, as examples are not. A
+ * line has at most 511 bytes; roff would not see the rest. */
 static void put_text(FILE *out, const char *text)
 {
     bool verbatim = false, parted = false, at_start = true;
@@ -61,7 +70,8 @@ static void put_text(FILE *out, const char *text)
         fputs(".fi\n", out);
 }
 
-/* Writes what a topic of `kiln help` prints. False when memory is short. */
+/* Writes a section that has the text of a topic of `kiln help`. Returns false when memory is
+ * short. */
 static bool put_topic(FILE *out, const char *title, bool (*write)(FILE *out))
 {
     char *text = NULL;
@@ -216,6 +226,7 @@ bool man_print(FILE *out)
 
 /* ---- kiln-scene(5) -------------------------------------------------------------------------- */
 
+/* Writes a line of its own below the help of a key. */
 static void put_line(FILE *out, const char *label, const char *text)
 {
     fputs(".br\n", out);
@@ -224,6 +235,7 @@ static void put_line(FILE *out, const char *label, const char *text)
     fputc('\n', out);
 }
 
+/* Writes the paragraph of a key of scene files; kiln_scene_visit_keys calls it for each key. */
 static void put_key(void *user, const struct kiln_option_key *key)
 {
     FILE *out = user;

@@ -1,4 +1,7 @@
-/* Runs kiln new, which writes a scene to begin with. */
+/* Runs `kiln new`, which writes a small scene for a person to begin with. main calls its function
+ * through the table of commands. The text is one of the templates that are built into the program
+ * (lib/start/template.c); this file only reads the options, chooses between a file and standard
+ * output, and prints what to do next. With '-', nothing but the scene may go to standard output. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,13 +22,13 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-/* Prints what to do with the scene: a command to copy. */
+/* Prints the command that renders the scene, for a person to copy. */
 static void print_next(const char *path)
 {
     char name[KILN_PATH_SIZE];
     kiln_shown(name, sizeof name, path);
     printf("%s: a scene to begin with", name);
-    if (strcmp(name, path) != 0) { /* the command would act on a terminal */
+    if (strcmp(name, path) != 0) { /* the path has characters that control a terminal */
         printf("\n");
         return;
     }
@@ -49,7 +52,7 @@ static int run(const struct arguments *arguments)
                                         : report_error(&error);
     const bool prints = strcmp(path, "-") == 0;
     if (prints)
-        fputs(scene, stdout); /* report_finish tells of a failure */
+        fputs(scene, stdout); /* main calls report_finish, which reports a failed write */
     free(scene);
     if (!prints && !kiln_template_write(template, path, arguments_flag(arguments, "force"), &error))
         return report_error(&error);

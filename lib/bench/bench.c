@@ -1,5 +1,11 @@
-/* Holds the table of suites, and runs those that the caller asks for, or all of them. Parameters
- * are checked before a device is opened. Scenes of the caller are measured after the suites. */
+/* Holds the table of the suites of `kiln bench`, and runs them. cmd/bench.c calls kiln_bench_run
+ * once. It runs the suites that are asked for and then measures the caller's scenes; if neither is
+ * asked for, it runs every suite. The suite `jobs` takes the caller's scene as its input, so the
+ * scene is not measured by itself then.
+ *
+ * Parameters are checked before a device is opened, since a run takes minutes and a misspelt name
+ * should not cost them. A new suite needs a row here and a function in bench/suite.h. Names are
+ * words of the command line and of results, so a new name makes older results hard to compare. */
 #include <string.h>
 
 #include "base/clock.h"
@@ -10,6 +16,8 @@
 
 #define JOBS "jobs"
 
+/* A row has a suite's name, its help, about how many minutes it takes on two cores without a GPU,
+ * and its function. Suites run in this order if all of them run. */
 static const struct kiln_suite_row SUITES[] = {
     {{"seed", "the first techniques against auto: whole frames with PNG, and stages", 2},
      kiln_suite_seed},
@@ -90,7 +98,8 @@ static bool check_stage(const char *stage, struct kiln_error *error)
                           nearest ? "'?)" : "");
 }
 
-/* Checks all that can be known before a device is opened. */
+/* Checks the parameters as far as that is possible without a device. Scenes are loaded for it, and
+ * loaded again when they are measured. */
 static bool check(const struct kiln_bench_params *params, struct kiln_error *error)
 {
     if (params->repetitions < KILN_BENCH_MIN_REPETITIONS ||

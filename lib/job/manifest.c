@@ -1,6 +1,14 @@
-/* Writes the manifest of a job as JSON, with one line a frame. It goes piece by piece to a
- * temporary file, so that the text in memory is never longer than one piece. Nothing in it depends
- * on the locale. */
+/* Writes the manifest of a job as JSON, with one line for each frame. job/job.c opens it before the
+ * first frame, and finishes it when the job has ended or failed. job/join.c does both for a job
+ * whose shards are joined.
+ *
+ * The member `result` must be the same, byte for byte, for every run that completes the job. So
+ * what describes a run (its machine, techniques and times) belongs into `run` and not into
+ * `result`. A manifest replaces an older one only if that begins as kiln_manifest_finish writes it,
+ * so the members "kiln" and "failed" must stay the first two.
+ *
+ * The text goes to a temporary file piece by piece, so that memory never holds more than one piece.
+ * Nothing in the manifest depends on the locale. */
 #include "job/manifest.h"
 
 #include <fcntl.h>
@@ -21,7 +29,7 @@ struct kiln_manifest {
     struct kiln_json json; /* writes into the text */
 };
 
-/* Sends the piece to the file. */
+/* Writes the piece in memory to the temporary file, and empties it. */
 static bool flush(struct kiln_manifest *manifest, struct kiln_error *error)
 {
     struct kiln_text *text = &manifest->text;
@@ -79,8 +87,9 @@ char *kiln_manifest_scene(const struct kiln_scene *scene)
     return NULL;
 }
 
-/* Returns whether a file begins as kiln_manifest_finish writes it. failed: only the manifest of a
- * run that failed counts. */
+/* Returns whether a file begins as kiln_manifest_finish writes it. With `failed`, only the manifest
+ * of a run that failed counts, and only if this version of kiln wrote it; otherwise the manifest of
+ * any version counts. */
 static bool is_manifest(const char *path, bool failed)
 {
     static const char start[] = "{\n  \"kiln\": \"" KILN_VERSION "\",\n  \"failed\": true";
@@ -117,7 +126,7 @@ struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *para
     return manifest;
 }
 
-/* Adds a frame's line to the result. */
+/* Adds the line of a frame to the result, and writes it to the file. */
 static bool add_frame(struct kiln_manifest *manifest, const struct kiln_records *records,
                       uint32_t index, struct kiln_error *error)
 {
@@ -183,6 +192,7 @@ static bool add_result(struct kiln_manifest *manifest, const struct kiln_records
     return true;
 }
 
+/* Adds the times of the frames that this run drew to the member `run`. */
 static bool add_times(struct kiln_manifest *manifest, const struct kiln_records *records,
                       struct kiln_error *error)
 {

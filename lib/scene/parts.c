@@ -1,7 +1,17 @@
-/* This file says which rows of a scene's option tables decide how particles move, and which only
- * how they look. */
+/* This file says of an option in a scene file what it decides: how particles move, the order that a
+ * spread sort keeps, or only how the picture looks. Each row of the option tables
+ * (scene/options*.c) names one of these functions. The printer calls it for each row while
+ * kiln_scene_part_hash prints one part of a scene to hash it. kiln_scene_part_hash also asks for
+ * each object whether the content of its file belongs to the hash.
+ *
+ * A saved state carries these hashes. A scene takes up only states of its own motion hash and, if
+ * it keeps an order, of its own order hash. So a row that can change a particle's state must return
+ * BOTH; otherwise a scene takes up states of another motion. A row that returns BOTH without need
+ * makes states useless that would have served. tests/unit/test_motion.c changes every row and
+ * checks this. */
 #include "scene/parts.h"
 
+/* What decides the motion also decides the order, so no row belongs to the motion alone. */
 enum { NEITHER = 0, BOTH = KILN_PART_MOTION | KILN_PART_ORDER };
 
 unsigned kiln_row_look(const void *scene, const void *base)
@@ -25,7 +35,8 @@ unsigned kiln_row_motion(const void *scene, const void *base)
     return BOTH;
 }
 
-/* Returns the number of the system that a look belongs to. */
+/* Returns the number of the system that a look belongs to. The look must be that of a system of the
+ * scene. */
 static uint32_t system_of(const struct kiln_scene *scene, const struct kiln_look *look)
 {
     uint32_t system = 0;
@@ -34,6 +45,7 @@ static uint32_t system_of(const struct kiln_scene *scene, const struct kiln_look
     return system;
 }
 
+/* Where contacts are as drawn, the size of what is drawn decides when particles touch. */
 unsigned kiln_row_if_contacts_are_as_drawn(const void *scene, const void *look)
 {
     const struct kiln_interaction *collide =

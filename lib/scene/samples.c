@@ -1,5 +1,10 @@
-/* This file counts the samples of each grid of a scene without making the grid, from what its size
- * follows from. */
+/* This file counts the samples of the grids of a scene: wind files, terrain, distance fields and
+ * depth maps. kiln_validate calls it while a scene is loaded, so that a scene with too many samples
+ * is refused before its grids are made. scene/work.c computes the memory for them from the sum.
+ *
+ * Wind files are read, since only the files know their sizes. The other sizes follow from the
+ * options and the meshes. sim/world/grids.c makes the grids later, and must find the sizes that are
+ * counted here; it takes the reach of a distance field from this file for that reason. */
 #include "scene/samples.h"
 
 #include <inttypes.h>
@@ -11,7 +16,8 @@
 #include "asset/geometry/grid_in.h"
 #include "scene/asset_path.h"
 
-/* Holds the sums while grids are counted. Errors point at the largest grid. */
+/* Holds the sum while grids are counted. An error points at the key of the largest grid, which is
+ * the one to make smaller. */
 struct count {
     uint64_t samples, largest;
     char path[128]; /* path of the largest grid's key */
@@ -28,6 +34,7 @@ static void add(struct count *count, uint64_t samples, const char *path)
 
 /* ---- wind ------------------------------------------------------------------------------------ */
 
+/* Lists the wind files that have been counted. A file that several forces name is one grid. */
 struct winds {
     const char *files[KILN_MAX_WINDS];
     uint32_t count;
@@ -87,6 +94,7 @@ float kiln_scene_field_reach(const struct kiln_scene *scene, const struct kiln_o
     return largest > 0.0f ? largest / (smallest > 1e-6f ? smallest : 1e-6f) : 0.0f;
 }
 
+/* Counts the samples of a distance field, and refuses a mesh that can have none. */
 static bool count_field(struct kiln_reader *reader, const struct kiln_node *root, const char *path,
                         const struct kiln_object *mesh, struct count *count)
 {
@@ -100,6 +108,8 @@ static bool count_field(struct kiln_reader *reader, const struct kiln_node *root
     return true;
 }
 
+/* Counts the grid of an object. A mesh of collider `volume` has none: its cells are made anew in
+ * each step. */
 static bool count_object(struct kiln_reader *reader, const struct kiln_node *root, uint32_t index,
                          struct count *count)
 {

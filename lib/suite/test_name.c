@@ -1,5 +1,11 @@
-/* Checks names of tests, and mends those that are not good. Which characters are letters follows
- * from the blocks of Unicode that have no letters, not from a locale. */
+/* Checks the names of tests, and mends names that are not good. kiln_suite_load does both once it
+ * has found the tests (suite/suite.c). A test with an odd name ends as an error, and the mended
+ * name stands for it in the results.
+ *
+ * A name becomes a folder of goldens and of results, and an argument of the commands that reports
+ * print. So none of its parts may be hidden or be "..", and it may not look like an option. A rule
+ * that is made stricter renames tests whose goldens exist. Which characters are letters follows
+ * from a table and not from the locale, so that a name is good on every machine or on none. */
 #include "suite/test_name.h"
 
 #include <stdint.h>
@@ -15,7 +21,8 @@ static const uint32_t no_letters[][2] = {
     {0xfeff, 0xfeff}, {0xfff0, 0xffff}, {0xe0000, 0x10ffff},
 };
 
-/* Decodes a character of `length` bytes, 2 to 4, as kiln_text_utf8_length says. */
+/* Returns the code of a character of 2 to 4 bytes. kiln_text_utf8_length has found its length, so
+ * its bytes are valid UTF-8. */
 static uint32_t decode(const char *text, size_t length)
 {
     uint32_t code = (unsigned char)text[0] & (0x7fu >> length);
@@ -57,6 +64,7 @@ bool kiln_test_name_is_good(const char *name)
 
 const char *kiln_test_name_mended(struct kiln_arena *arena, const char *name)
 {
+    /* The arena's bytes are zero, so the text always ends. */
     char *mended = kiln_arena_alloc(arena, KILN_TEST_MAX_NAME + 1, 1);
     size_t used = 0;
     for (const char *c = name; mended && *c;) {

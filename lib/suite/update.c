@@ -1,6 +1,11 @@
-/* Accepts what a run rendered. Other runs may accept pictures of the same test for other devices at
- * the same time. So what was accepted is read again under the lock, and only this device's entries
- * and the frames in question change. */
+/* Accepts what a run of a test has rendered, as `kiln test --update` asks for: it writes goldens,
+ * expect.yaml and the accepted scene. In a dry run it only notes what it would write. suite/run.c
+ * calls kiln_trial_update once for each test, after all frames have been judged.
+ *
+ * Other processes may accept pictures of the same test for other devices at the same time. So
+ * everything is written under the lock of the test's goldens, and expect.yaml is read again under
+ * that lock. Of what was read, only the accepted scene and this device's entries of the frames in
+ * question change. Nothing here may be written from the expect.yaml that the trial read before. */
 #include <string.h>
 
 #include "base/error.h"
@@ -13,11 +18,13 @@ enum action {
     ACCEPT_PICTURE, /* the picture becomes a golden */
 };
 
+/* Chooses what is done about a frame. A frame is left alone if two renders of it differed, or if it
+ * could not be judged for another reason than a golden that cannot be decoded. */
 static enum action choose_action(const struct kiln_trial *trial, size_t index)
 {
     const struct kiln_result_frame *frame = &trial->result->frames[index];
     const struct kiln_trial_frame *own = &trial->frames[index];
-    enum kiln_update least = KILN_UPDATE_ALL;
+    enum kiln_update least = KILN_UPDATE_ALL; /* the weakest --update that accepts this frame */
     if (own->unsteady || (frame->status == KILN_TEST_ERROR && !own->broken_golden))
         return LEAVE;
     if (frame->status == KILN_TEST_NEW)
@@ -26,16 +33,19 @@ static enum action choose_action(const struct kiln_trial *trial, size_t index)
         least = KILN_UPDATE_FAILED;
     if (trial->params->update < least)
         return LEAVE;
+    /* These pixels are accepted already; only the hash of the state may be missing. */
     if (frame->judged_by == KILN_JUDGED_BY_PIXELS && frame->status == KILN_TEST_PASS)
         return *frame->state_expected || !own->equals_golden ? LEAVE : ACCEPT_HASHES;
     if (trial->test->kept == KILN_GOLDEN_HASH)
         return ACCEPT_HASHES;
+    /* A golden with these pixels stays. So does one that only lacks an entry in expect.yaml, and
+     * that is like the picture, but not with --update all. */
     bool keeps = own->equals_golden || (own->unlisted && trial->params->update != KILN_UPDATE_ALL);
     return keeps ? ACCEPT_HASHES : ACCEPT_PICTURE;
 }
 
-/* Whether the scene or the techniques have changed although all pictures pass: then --update all
- * brings up to date all that is accepted. */
+/* Returns whether `--update all` must accept the scene although no picture asks for it: all
+ * pictures pass, but the scene or the techniques are not those that were accepted. */
 static bool is_scene_new(const struct kiln_trial *trial)
 {
     const struct kiln_expect *expect = trial->expect;
@@ -110,8 +120,9 @@ static bool accept(struct kiln_trial *trial, size_t index, enum action action,
     return true;
 }
 
-/* Accepts the scene, which goes with all pictures. While a picture is not accepted, the scene of
- * before stays, so that a report tells what changed since. */
+/* Accepts the scene, which goes with all pictures. While a picture is still new or fails, the scene
+ * that was accepted before stays, so that a report can tell what has changed since. If none was
+ * accepted before, this one is accepted in any case. */
 static bool accept_scene(struct kiln_trial *trial, struct kiln_error *error)
 {
     for (size_t i = 0; i < trial->result->frame_count; i++) {

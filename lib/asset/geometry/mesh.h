@@ -1,6 +1,11 @@
-/* Declares meshes and loads them from OBJ, glTF and GLB files. kiln-decode imports them, so that a
- * file on which the importer crashes gives an error and does not end kiln. It gets the file itself
- * and the buffers that a glTF file names, and nothing else. A loader of NULL may open any file. */
+/* Declares meshes, and loads them from OBJ, glTF and GLB files. The mesh library
+ * (asset/geometry/mesh_library.h) loads each file that a scene names once, and its meshes stay as
+ * they are. Code that poses or turns a mesh (draw/moment/meshes.c, sim/world/volumes.c) works on a
+ * copy.
+ *
+ * A process of kiln-decode imports the file, so that a file on which the importer crashes gives an
+ * error and does not end kiln. That process gets the file itself and the buffers that a glTF file
+ * names, and nothing else. With a loader of NULL, any file may be opened. */
 #ifndef KILN_ASSET_GEOMETRY_MESH_H
 #define KILN_ASSET_GEOMETRY_MESH_H
 
@@ -26,21 +31,23 @@ struct kiln_mesh {
     /* texture coordinates of the vertices of an unwrapped mesh, else NULL */
     float (*uvs)[2];
     float min[3], max[3]; /* bounds of the positions */
-    char hash[65];        /* SHA-256 of the bytes that were read, in hex */
+    /* SHA-256, in hex, of the hashes of the files that were read. Hashes of scenes and of their
+     * motion contain it, so it may depend on nothing but the content of the files. */
+    char hash[65];
 };
 
 /* Loads a file whose name ends in .obj, .gltf or .glb. Files that it names must lie in its folder
- * or below, and below the loader's root. NULL: KILN_IO when it cannot be read or there is no
- * importer; KILN_INVALID_INPUT, with what was found and what is allowed, when it is no mesh,
- * broken, cut short, beyond the limits above or names files elsewhere; KILN_DEVICE_FAILED when
- * memory is short; KILN_OVER_LIMIT; KILN_INTERRUPTED when the loader is told to stop. The caller
- * destroys the mesh. */
+ * or below, and below the loader's root. The caller destroys the mesh. Returns NULL with an error:
+ * KILN_IO when the file cannot be read or there is no importer; KILN_INVALID_INPUT, with what was
+ * found and what is allowed, when the file is no mesh, broken, cut short, beyond the limits above
+ * or names files elsewhere; KILN_DEVICE_FAILED when memory is short; KILN_OVER_LIMIT when the
+ * scene's budget is spent; KILN_INTERRUPTED when the loader is told to stop. */
 struct kiln_mesh *kiln_mesh_load(struct kiln_loader *loader, const char *path,
                                  struct kiln_error *error);
 
-/* Loads a mesh with the first set of texture coordinates of every vertex; KILN_INVALID_INPUT where
- * there are none. Vertices that differ only in texture coordinates stay separate, so the mesh may
- * have more of them. */
+/* Loads a mesh as kiln_mesh_load does, with the first set of texture coordinates of every vertex.
+ * A file without texture coordinates is KILN_INVALID_INPUT. Vertices that differ only in texture
+ * coordinates stay separate, so this mesh may have more vertices than kiln_mesh_load gives it. */
 struct kiln_mesh *kiln_mesh_load_unwrapped(struct kiln_loader *loader, const char *path,
                                            struct kiln_error *error);
 
@@ -51,8 +58,8 @@ void kiln_mesh_face_outwards(struct kiln_mesh *mesh);
 /* Copies a mesh. NULL when memory is short. The caller destroys the copy. */
 struct kiln_mesh *kiln_mesh_copy(const struct kiln_mesh *mesh);
 
-/* Loads a mesh as kiln_mesh_load does, from bytes in memory, which may name no other files. name
- * stands for the file in messages. */
+/* Loads a mesh as kiln_mesh_load does, from bytes in memory, which may name no other files. The end
+ * of `name` tells the format, and `name` stands for the file in messages. Only tests call this. */
 struct kiln_mesh *kiln_mesh_parse(const void *bytes, size_t size, const char *name,
                                   struct kiln_error *error);
 void kiln_mesh_destroy(struct kiln_mesh **mesh);

@@ -1,4 +1,11 @@
-/* The part of the light that gets through the smoke to a place (lib/draw/light/smoke_shadow.h). */
+/* Finds the part of the light, 0 to 1, that gets through the smoke to a world position: of the sun's
+ * light, and of the sky's light from straight above. Shaders that light particles, meshes, spheres
+ * and the backdrop include it; they must declare `backdrop` before.
+ *
+ * The host has filled grids with the optical depth that light crosses (lib/draw/light/smoke_shadow.h);
+ * their third axis points to the light. lib/draw/light/lighting_gl.c binds them to these units.
+ * lib/draw/light/ray_smoke.h computes the same on the processor, so both must change together. The
+ * grids are undefined where there is no smoke, that is where backdrop.counts.w is 0. */
 layout(binding = 4) uniform sampler3D smoke_to_sun;
 layout(binding = 5) uniform sampler3D smoke_to_sky;
 

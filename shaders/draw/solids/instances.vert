@@ -1,6 +1,13 @@
-/* A triangle of a mesh that is one particle, from the record, the look and the clock (Drone 2007,
- * 7.4.4). An instance is an entry; those of other systems are not drawn. It cannot fade, so it grows
- * and shrinks by its opacity. */
+/* Places one corner of a triangle of a particle that is drawn as a mesh (Drone 2007, 7.4.4). The
+ * particle's position, size and rotation follow from its record, its look and the clock.
+ * lib/draw/solids/instances_gl.c makes one instanced draw call for each system with a mesh. An
+ * instance is an entry of the drawing order, which has the particles of all systems, so instances of
+ * other systems are moved out of view. A mesh is opaque and cannot fade; its opacity scales it
+ * instead.
+ *
+ * Every corner computes the whole triangle, since the fragment shader needs all three corners. The
+ * outputs must be the inputs of instances.frag. The processor places particles by the same functions
+ * of shared/instance.h. */
 #include "shared/draw_layout.h"
 
 // variant:
@@ -8,13 +15,16 @@
 #include "draw/moment/record.glsl"
 #include "draw/solids/pose.glsl"
 
-/* Of the meshes, three a triangle: position; normal. */
+/* Corners of the meshes of all systems, three for each triangle; a corner is a position and a
+ * normal. */
 layout(std430, binding = KILN_BIND_CORNERS) readonly buffer corner_block { vec4 corners[]; };
 
-uniform uint drawn_system;
-uniform uint first_corner;
+uniform uint drawn_system; /* the system whose particles this draw call draws */
+uniform uint first_corner; /* of the system's mesh */
 uniform uint orient; /* ORIENT_* */
-uniform vec2 extent; /* of the mesh: from the middle to the farthest corner; of its shadow's sphere */
+/* x: distance from the mesh's middle to its farthest corner; y: radius of the sphere that throws its
+ * shadow. Both are in sizes of the particle. */
+uniform vec2 extent;
 
 layout(location = 0) flat out vec4 a; /* corners in view space, m */
 layout(location = 1) flat out vec4 b;
@@ -22,10 +32,12 @@ layout(location = 2) flat out vec4 c;
 layout(location = 3) flat out vec4 normal_a;
 layout(location = 4) flat out vec4 normal_b;
 layout(location = 5) flat out vec4 normal_c;
-layout(location = 6) flat out vec4 middle;        /* in view space; w: radius of its shadow, m */
-layout(location = 7) flat out vec4 reflected;     /* albedo; a: 1 lit .. 0 shows it as it is */
+layout(location = 6) flat out vec4 middle;        /* of the particle, in view space; w: radius of
+                                                   * the sphere that throws its shadow, m */
+layout(location = 7) flat out vec4 reflected;     /* albedo; a: from 1, which is lit, to 0, which
+                                                   * shows the albedo as it is */
 layout(location = 8) flat out vec4 emitted;       /* radiance */
-layout(location = 9) flat out vec4 bloom_weights; /* of equation 3.2 */
+layout(location = 9) flat out vec4 bloom_weights; /* rgb: weights of the light in the bloom target */
 
 vec3 world_to_view_vector(vec3 v)
 {
@@ -33,7 +45,8 @@ vec3 world_to_view_vector(vec3 v)
                 dot(view.world_to_view[2].xyz, v));
 }
 
-/* Seen from its side, a triangle has no pixels and no depth. */
+/* Returns whether a triangle is seen from its front or its back. Seen edge on, it covers no pixel, and
+ * its depth cannot be computed. */
 bool is_seen(vec3 p, vec3 q, vec3 r)
 {
     vec3 face = cross(q - p, r - p);
@@ -54,7 +67,8 @@ void main()
 
     vec3 center = world_to_view_point(particle_position(record));
     float size = shape.x * mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE)) * shape.z;
-    /* No smaller than a pixel, or it would twinkle between the samples. */
+    /* A mesh is at least as wide as a pixel. A smaller one would flicker, since it would lie between
+     * the samples of some frames. */
     float pixel_m = 2.0 * view.frustum.y * max(-center.z, 1e-3) / view.frustum.w;
     float scale = max(size * extent.x, 0.5 * pixel_m) / extent.x;
     float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread, age);
@@ -80,9 +94,10 @@ void main()
 
     int k = gl_VertexID % 3;
     vec3 place = k == 0 ? a.xyz : k == 1 ? b.xyz : c.xyz;
-    /* Clipped at the near plane; a far plane without end. */
+    /* The near plane clips the triangle; the far plane is at infinity. */
     gl_Position = vec4(place.x / view.frustum.x, -place.y / view.frustum.y,
                        -place.z - 2.0 * view.eye.w, -place.z);
+    /* This position is before the near plane, so that nothing is drawn. */
     if (system != drawn_system || !(size > 0.0) || !is_seen(a.xyz, b.xyz, c.xyz))
         gl_Position = vec4(0.0, 0.0, -2.0, 1.0);
 }

@@ -1,6 +1,10 @@
-/* A fragment of a billboard, counted or put on its pixel's list. One program does both, so that what
- * is kept is decided once: two may round differently.
- */
+/* Counts a fragment of a billboard, or puts it on the list of its pixel, for post.compose: oit.
+ * lib/draw/sprites/fragments_gl.c draws all particles with it several times: once without `fills`, to
+ * count the fragments of each pixel, and then with `fills`, for each part of the picture whose lists
+ * fit into memory. fragments_merge.comp and fragments_resolve.frag sort and blend the lists.
+ *
+ * One program does both, since two programs may round differently and then keep different fragments.
+ * So whether a fragment is kept, and in how many pieces, must not depend on `fills`. */
 // variant: SHAPES=0
 // variant: SHAPES=1
 #include "shared/draw_layout.h"
@@ -11,9 +15,11 @@ layout(early_fragment_tests) in;
 #include "draw/sprites/fragments.glsl"
 #include "draw/sprites/fragments_pixel.glsl"
 
-uniform bool fills;
+uniform bool fills; /* false: count fragments; true: put them on lists */
 
-/* number: on the list. None is longer than counted, lest it writes into the next one's place. */
+/* Puts a fragment on its pixel's list, at the place `number`. half_ is 1 for the front one of two
+ * sheets, or 0. A fragment beyond the count is dropped, since it would overwrite the list of the next
+ * pixel. */
 void put(uint number, float depth, uint half_, vec4 color)
 {
     uint pixel = pixel_number(), next = places[pixel].first + number;
@@ -39,6 +45,8 @@ void main()
     shade(quad, at, depth, scene, color, bloom);
     if (color == vec4(0.0))
         return;
+    /* A round billboard becomes two sheets, one before and one behind its plane, so that an object
+     * between them is covered by one sheet only (shared/fragment_layout.h). */
     vec2 from_middle = at * 2.0 - 1.0;
     float half_depth = 0.5 * bulge * sqrt(max(1.0 - dot(from_middle, from_middle), 0.0));
     uint pieces = half_depth > 0.0 ? 2u : 1u;
