@@ -6,7 +6,7 @@
 #include "bench/contest.h"
 #include "kiln_program.h"
 
-/* A suite: a row of the table in suite.c. */
+/* A suite: a row of the table in bench.c. */
 struct kiln_suite_row {
     struct kiln_bench_suite info;
     bool (*run)(const struct kiln_bench_run *run, struct kiln_error *error);

@@ -1,6 +1,6 @@
-/* Meshes as the rays of backdrop.frag find them: rasterised beforehand (mesh.frag), one layer for
+/* Meshes as the rays of backdrop.frag find them: rasterised beforehand (meshes.frag), one layer for
  * the centres of pixels and one for each sample; their shadows from maps that the sun sees
- * (mesh_shadow.frag). */
+ * (meshes_shadow.frag). */
 #include "draw/backdrop/mesh_hit.glsl"
 
 layout(binding = KILN_UNIT_MESH_HITS) uniform usampler2DArray mesh_hits;
