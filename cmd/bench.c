@@ -1,4 +1,12 @@
-/* Runs kiln bench, which measures how long techniques take on this machine. */
+/* This file is the subcommand `kiln bench`, which measures how long techniques, scenes and suites
+ * take on this machine. It reads the options, lets the library measure (kiln_bench.h), and prints
+ * or saves the results.
+ *
+ * main.c runs it through bench_command, which its table of commands lists; help and completion read
+ * the same struct. What is measured is decided in lib/bench. The words of --format must keep the
+ * order of enum kiln_bench_format, since the number of the word is used as the format. Scripts use
+ * the names of options, so these must not be renamed. An option that has no effect on what is
+ * measured must be refused by check_options. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,7 +105,7 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-/* The lists that the parameters point to. */
+/* Holds the lists that struct kiln_bench_params points to. They are freed after the bench. */
 struct lists {
     struct overrides overrides;
     struct value_list techniques, stages;
@@ -178,7 +186,7 @@ static int check_options(const struct arguments *arguments, const struct kiln_be
 {
     static const struct {
         const char *name;
-        bool of_jobs; /* the suite jobs takes it, too */
+        bool of_jobs; /* the suite `jobs` takes the option, too */
     } options_of_scenes[] = {
         {"stage", false}, {"frame", false}, {"size", true}, {"set", true}, {"asset-root", true}};
     const bool jobs = kiln_bench_renders_scene(params), scenes = params->scene_count > 0 && !jobs;
@@ -207,7 +215,7 @@ static int write_results(const struct kiln_bench *bench, const struct arguments 
     enum kiln_bench_format format =
         (enum kiln_bench_format)arguments_choice(arguments, "format", KILN_BENCH_TEXT);
     if (!kiln_bench_write(bench, format, stdout, &error))
-        return KILN_READER_GONE; /* main reports it */
+        return KILN_READER_GONE; /* main.c reports that standard output failed */
     const char *folder = arguments_text(arguments, "output", NULL);
     char unplotted[KILN_MESSAGE_SIZE];
     if (folder && !kiln_bench_save(bench, folder, unplotted, &error))

@@ -1,5 +1,10 @@
 /* Prints the results of kiln compare: tables for people, lines of JSON for programs. Both have the
- * columns of the library's metrics. */
+ * columns of the library's metrics.
+ *
+ * compare.c calls compare_report_frame after each compared frame, and compare_report_result once at
+ * the end, also after an error. The tables may change, with the expected outputs of
+ * tests/cli/cases/compare.t. Programs read the JSON by its names: members may be added but not
+ * renamed or removed, and each one is listed in event_table.c. */
 #include "compare_report.h"
 
 #include <math.h>
@@ -15,14 +20,17 @@ static const char *value_text(char out[32], double value)
     return out;
 }
 
+/* Returns the column that the line of a frame shows: the first one with a limit, or the last one
+ * where none has a limit. */
 static size_t find_column(const struct kiln_compare_result *result)
 {
-    size_t first = 0; /* the first with a limit, which a frame's line shows */
+    size_t first = 0;
     while (first + 1 < result->column_count && !result->columns[first].limited)
         first++;
     return first;
 }
 
+/* Prints the line of a frame of a sequence, and before the first frame the heads of the columns. */
 static void print_frame_line(const struct kiln_compare_result *result,
                              const struct kiln_compare_frame *frame)
 {
@@ -117,7 +125,7 @@ static void print_result_text(const struct compare_report *report,
 
 /* ---- JSON --------------------------------------------------------------------------------- */
 
-/* Adds a value, which is null where it was not measured or is infinite. */
+/* Adds a number; it is null in JSON where the value was not measured (NaN) or is infinite. */
 static void add_number(struct kiln_json *json, const char *key, double value)
 {
     kiln_json_rounded(json, key, value, 9);
@@ -208,14 +216,15 @@ void compare_report_frame(struct compare_report *report, const struct kiln_compa
                           const struct kiln_compare_frame *frame)
 {
     report->only = *frame;
-    report->only.name = report->only.message = ""; /* the frame's texts do not outlive it */
+    report->only.name = report->only.message = ""; /* they may be freed after this call */
     if (report->json)
         print_frame_json(result, frame);
     if (report->quiet)
         return;
     if (result->sequence)
         print_frame_line(result, frame);
-    else if (!frame->measured && frame->verdict != KILN_COMPARE_UNREADABLE) /* that is an error */
+    else if (!frame->measured && frame->verdict != KILN_COMPARE_UNREADABLE)
+        /* Why a frame is unreadable is in the error that compare.c reports. */
         printf("%s\n", frame->message);
     fflush(stdout);
 }

@@ -1,14 +1,20 @@
-/* Suggests kiln's spelling for options of ffmpeg, Blender, Houdini's husk and other renderers. A
- * row is used only where the command has no option of that name itself, since its own tables are
- * searched first. */
+/* Suggests kiln's spelling for options of ffmpeg, Blender, Houdini's husk and other renderers.
+ *
+ * The parser of options (options.c) asks for a suggestion when a command has no option of the name
+ * that was typed. So a row never hides an option of kiln's own.
+ *
+ * The first row is used whose `typed` is the argument and whose `option` the command has. A row
+ * without an option suits every command, so it must be the last of the rows with the same `typed`
+ * ("--out" has two). Apart from that, rows may be added anywhere. A hint and the "; " before it
+ * must fit into FOREIGN_SIZE, or the hint is cut off. tests/cli/cases/foreign.t has messages. */
 #include "foreign.h"
 
 #include <string.h>
 
 struct foreign {
-    const char *typed;  /* as other programs spell it */
-    const char *option; /* kiln's option, which the command must have; NULL: every command */
-    const char *hint;   /* a sentence instead of the bare name, or NULL */
+    const char *typed;  /* the option as another program spells it, with its dashes */
+    const char *option; /* kiln's option, which the command must have; NULL: any command */
+    const char *hint;   /* a sentence to print; NULL prints "did you mean '--OPTION'?" */
 };
 
 #define FRAMES_HINT "frames are chosen by '--frames', such as --frames 10-50"

@@ -1,5 +1,14 @@
-/* Reads the options of reports, checks that no report replaces what the run reads, and writes the
- * reports. */
+/* Handles the reports that `kiln test` (test.c) and `kiln test report` (test_report.c) write: it
+ * reads their options (--report, --json, --junit, --tap, --github), checks that no report replaces
+ * a file that the command reads, and writes the reports.
+ *
+ * Both commands call test_outputs_read first and test_outputs_write last, when the results are
+ * loaded. `kiln test` also calls test_outputs_claim before the run, so that a wrong path is
+ * reported before any time is spent. test_outputs_write checks again, because only then the files
+ * of the results are known; the check must stay before the first report is written.
+ *
+ * A new format needs an option in test_outputs.h, a row in `all` below, one more in MAX_OUTPUTS,
+ * and a row in lib/report/report.c under the same name. */
 #include "test_outputs.h"
 
 #include <string.h>
@@ -31,7 +40,7 @@ int test_outputs_read(struct test_outputs *outputs, const struct arguments *argu
         outputs->files[outputs->count++] = all[i];
         bool takes_it = strcmp(all[i].path, "-") == 0;
         on_standard_output += takes_it;
-        /* Annotations are lines that may stand among other lines. */
+        /* GitHub finds its annotations among other lines, so they leave standard output free. */
         outputs->standard_output |= takes_it && strcmp(all[i].format, "github") != 0;
     }
     if (on_standard_output > 1)
@@ -52,6 +61,8 @@ int test_outputs_claim(const struct test_outputs *outputs, struct kiln_claims *c
     return 0;
 }
 
+/* Checks that no report replaces a file of the results. Returns 0, or the exit code after
+ * reporting. */
 static int claim_results(const struct test_outputs *outputs, const struct kiln_results *results,
                          const char *const *folders, size_t folder_count)
 {
@@ -66,7 +77,8 @@ static int claim_results(const struct test_outputs *outputs, const struct kiln_r
     return code;
 }
 
-/* Tells what --json has, by events: one a test, and the result. */
+/* Writes the events of --events: one event for each test and one for the result. They hold what
+ * the document of --json holds. */
 static void tell_results(const struct kiln_results *results)
 {
     if (!events_are_wanted())

@@ -1,5 +1,13 @@
 /* This file imports meshes by assimp, which is opened here and nowhere else. Assimp reads through
- * callbacks, which serve the file itself and, for glTF, the buffers that kiln opens. */
+ * callbacks, which serve the file itself and, for glTF, the buffers that kiln opens.
+ *
+ * It is a part of the process kiln-decode. main.c calls decode_mesh_begin once and then confines
+ * the process, since a mesh may be malicious. After that it calls decode_mesh for each mesh that
+ * kiln sends. So decode_mesh must not open a file or a library: another file comes only through
+ * mesh->open, which asks kiln for it. surface.c and skin.c turn assimp's scene into kiln's arrays.
+ *
+ * The checks before the import find files for which assimp would take too much time or memory, or
+ * would give no message that helps. They must stay before the import. */
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -14,7 +22,8 @@
 #include "base/library.h"
 #include "decode.h"
 
-/* The version that the headers describe; any 5.x has this name. */
+/* The library of the version that the included headers describe. Every version 5.x has this name.
+ */
 #define LIBRARY "libassimp.so.5"
 
 /* ---- the library ----------------------------------------------------------------------------- */
@@ -27,7 +36,7 @@
     F(aiReleaseImport)                                                                             \
     F(aiGetErrorString)
 
-/* Set once, before a file is read. */
+/* Assimp's functions. decode_mesh_begin finds them, before a file is read. */
 static struct {
     FUNCTIONS(KILN_LIBRARY_POINTER)
 } ai;
@@ -40,7 +49,7 @@ bool decode_mesh_begin(struct kiln_error *error)
                              error);
 }
 
-/* ---- what it is ------------------------------------------------------------------------------ */
+/* ---- checks of the contents ------------------------------------------------------------------ */
 
 enum { GLB_HEADER = 12, CHUNK_HEADER = 8 };
 
@@ -52,7 +61,7 @@ const char *decode_mesh_json(const struct decode_mesh *mesh, size_t *size)
     const size_t start = mesh->format == KILN_MESH_GLB ? GLB_HEADER + CHUNK_HEADER : 0;
     *size = mesh->size - start;
     if (start > 0) {
-        const unsigned char *b = bytes + GLB_HEADER; /* the length of the first chunk, its type */
+        const unsigned char *b = bytes + GLB_HEADER; /* header of the first chunk: length, type */
         const size_t length = b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
         *size = length < *size ? length : *size;
     }
@@ -61,7 +70,8 @@ const char *decode_mesh_json(const struct decode_mesh *mesh, size_t *size)
     return (const char *)bytes + start;
 }
 
-/* Assimp copies what is nested in "extras" twice for each level: 64 levels take for ever. */
+/* Checks how deep the JSON of a glTF file is nested. Assimp copies what is nested in "extras" twice
+ * for each level, so the time doubles with each level, and an import of 64 levels never ends. */
 static bool check_depth(const struct decode_mesh *mesh, struct kiln_error *error)
 {
     enum { MOST = 20 };
@@ -85,7 +95,8 @@ static bool check_depth(const struct decode_mesh *mesh, struct kiln_error *error
                           MOST);
 }
 
-/* An OBJ has a line for each vertex and each polygon: too many are found before they take time. */
+/* Checks the size of an OBJ, which has a line for each vertex and each polygon, so that one that is
+ * too large is refused before assimp spends time on it. */
 static bool check_lines(const struct decode_mesh *mesh, struct kiln_error *error)
 {
     const char *line = mesh->bytes, *end = line + mesh->size;
@@ -107,7 +118,8 @@ static bool check_lines(const struct decode_mesh *mesh, struct kiln_error *error
 static const char *const extensions[] = {
     [KILN_MESH_OBJ] = ".obj", [KILN_MESH_GLTF] = ".gltf", [KILN_MESH_GLB] = ".glb"};
 
-/* The importer goes by the name's end; the contents must at least begin as that says. */
+/* Checks that the contents fit the format. Assimp picks its importer by the suffix of the name that
+ * it is given, so the contents must at least begin as that format does. */
 static bool check_contents(const struct decode_mesh *mesh, struct kiln_error *error)
 {
     const unsigned char *bytes = mesh->bytes;
@@ -181,7 +193,8 @@ static enum aiReturn on_seek(struct aiFile *file, size_t offset, enum aiOrigin o
 {
     struct reading *reading = (struct reading *)file->UserData;
     size_t base = origin == aiOrigin_CUR ? reading->at : origin == aiOrigin_END ? reading->size : 0;
-    /* From the end, assimp counts backwards or forwards, by importer: both are 0 in use. */
+    /* Some importers count the offset from the end backwards, others forwards. They only ever use 0
+     * there, so both are right. */
     size_t at = base + offset;
     if (at > reading->size)
         return aiReturn_FAILURE;
@@ -223,14 +236,16 @@ static struct aiFile *open_bytes(const void *bytes, size_t size, unsigned char *
     return file;
 }
 
+/* Returns whether a number such as ".5" starts at byte i, which is not the first one. */
 static bool lacks_zero(const char *bytes, size_t i)
 {
     return bytes[i] == '.' && (bytes[i - 1] == ' ' || bytes[i - 1] == '\t');
 }
 
-/* An OBJ whose numbers below 1 begin with a zero: assimp takes ".5" for no number, and a line with
- * it for no vertex. The bytes themselves where none lacks it; else *owned is a copy. NULL: no
- * memory. */
+/* Returns the bytes of an OBJ in which numbers such as ".5" are written "0.5": assimp does not read
+ * ".5" as a number, and skips a vertex with such a number. If there is no such number, these are
+ * the bytes of the mesh itself; otherwise they are a copy, which *owned also points to. NULL when
+ * memory is short. */
 static const char *spell_numbers(const struct decode_mesh *mesh, size_t *size,
                                  unsigned char **owned)
 {
@@ -250,6 +265,7 @@ static const char *spell_numbers(const struct decode_mesh *mesh, size_t *size,
     return (const char *)*owned;
 }
 
+/* Opens the mesh file itself. */
 static struct aiFile *open_main(const struct decode_mesh *mesh)
 {
     unsigned char *owned = NULL;
@@ -259,6 +275,7 @@ static struct aiFile *open_main(const struct decode_mesh *mesh)
     return bytes ? open_bytes(bytes, size, owned) : NULL;
 }
 
+/* Opens a file for assimp: the mesh under its made-up name, or a buffer of a glTF through kiln. */
 static struct aiFile *on_open(struct aiFileIO *io, const char *name, const char *mode)
 {
     const struct files *files = (const struct files *)io->UserData;
@@ -268,7 +285,7 @@ static struct aiFile *on_open(struct aiFileIO *io, const char *name, const char 
     if (strcmp(name, files->main_name) == 0)
         return open_main(mesh);
     if (mesh->format != KILN_MESH_GLTF || !mesh->open)
-        return NULL; /* an OBJ's materials: they are left out */
+        return NULL; /* such as the materials of an OBJ, which kiln does not use */
     size_t size = 0;
     unsigned char *bytes = mesh->open(mesh->user, name, &size);
     return bytes ? open_bytes(bytes, size, bytes) : NULL;
@@ -295,6 +312,7 @@ static bool put_scene(const struct decode_mesh *wanted, const struct aiScene *sc
     return !lacks || kiln_error_set(error, KILN_INVALID_INPUT, "the mesh has %s", lacks);
 }
 
+/* Tells assimp which components of the file to drop, because kiln does not use them. */
 static struct aiPropertyStore *make_properties(const struct decode_mesh *wanted)
 {
     struct aiPropertyStore *properties = ai.aiCreatePropertyStore();

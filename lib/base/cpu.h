@@ -1,8 +1,12 @@
-/* Names the processor of this machine, for reports. */
+/* Declares the function that names the processor of this machine. `kiln bench` writes the name into
+ * its results (lib/bench/result.c), and `kiln figure` into the record beside a figure
+ * (lib/figure/panels.c). A check of a figure compares the name with the recorded one, so the same
+ * processor must keep its name. */
 #ifndef KILN_BASE_CPU_H
 #define KILN_BASE_CPU_H
 
-/* Fills in the processor's name as the system gives it, or its architecture where it gives none. */
+/* Writes the processor's name as the system gives it ("AMD EPYC 7763"), or the machine's
+ * architecture ("aarch64") where the system gives no name; "" where it gives neither. */
 void kiln_cpu_name(char name[128]);
 
 #endif

@@ -1,5 +1,10 @@
-/* This file adds moments to the sums of the shutter in GL, by additive blending into float
- * targets. */
+/* This file adds the pictures of moments to the sums of the shutter in GL. Each picture is drawn,
+ * times its weight, with additive blending into a sum, whose image has float channels.
+ *
+ * shutter.c owns the images of the sums. It calls this file for each moment of a frame if the
+ * composite runs in GL, and otherwise adds on the host. Both must give the same sums but for
+ * rounding. The first moment of a frame is drawn without blending and so replaces the sum of the
+ * frame before; the pass must therefore write every pixel. */
 #include "post/shutter_gl.h"
 
 #include <stdlib.h>
@@ -59,13 +64,15 @@ void kiln_shutter_gl_destroy(struct kiln_shutter_gl **gl)
         return;
     for (int i = 0; i < KILN_SHUTTER_SUM_COUNT; i++)
         kiln_framebuffer_finish(&s->sums[i]);
-    glDeleteProgram(s->compose); /* 0 is ignored */
+    glDeleteProgram(s->compose); /* GL ignores 0 */
     glDeleteProgram(s->add);
     glDeleteVertexArrays(1, &s->vertex_array);
     free(s);
     *gl = NULL;
 }
 
+/* Binds images to texture units from 0 on, in the order in which the shader numbers them. An image
+ * that is NULL leaves its unit empty. */
 static bool bind_images(struct kiln_image *const *images, GLuint count, struct kiln_error *error)
 {
     for (GLuint unit = 0; unit < count; unit++) {
@@ -78,7 +85,8 @@ static bool bind_images(struct kiln_image *const *images, GLuint count, struct k
     return true;
 }
 
-/* Draws into a sum with the program in use; its images are bound. */
+/* Draws the picture of a moment into a sum. The caller has chosen the program and bound its images.
+ */
 static bool add_pass(struct kiln_shutter_gl *gl, enum kiln_shutter_sum sum, bool first,
                      struct kiln_error *error)
 {

@@ -1,19 +1,26 @@
-/* Writes reports as workflow commands of GitHub's runners: lines on standard output that become
- * annotations. GitHub shows only so many annotations of a step, so tests that did not pass come
- * first. */
+/* Writes the report of a run as workflow commands of GitHub's runners: lines on standard output
+ * that become annotations.
+ *
+ * report.c lists kiln_report_github in its table of formats, and calls write_github after the run
+ * when `kiln test` or `kiln test report` was given --github. GitHub shows a limited number of
+ * annotations of a step, so the errors must come first (tests that fail, break or lack a golden),
+ * then the warnings, then the summary. Titles may be reworded. Texts of results come from scenes
+ * and goldens, which others may have written. So each of them must be written escaped, or a line
+ * end in it would start a command of its own. */
 #include <string.h>
 
 #include "base/shown.h"
 #include "report/words.h"
 
-/* Writes a text with its special characters escaped. Those of a message are special in a property,
- * too, which has also characters that end it. */
+/* Writes a text with the characters in `special` escaped, as GitHub reads them (%0A). Characters
+ * outside ASCII that would act on the text around them are written as \uXXXX, and other control
+ * characters, except for the tab, are left out. */
 static void write_escaped(FILE *out, const char *text, const char *special)
 {
     uint32_t character;
     for (; *text; text++) {
         const size_t length = kiln_shown_character(text, &character);
-        if (length > 1 && kiln_shown_acts(character)) { /* overrides of direction, C1 */
+        if (length > 1 && kiln_shown_acts(character)) { /* such as an override of direction */
             fprintf(out, "\\u%04x", (unsigned)character);
             text += length - 1;
             continue;
@@ -30,12 +37,14 @@ static void write_message(FILE *out, const char *text)
     write_escaped(out, text, "%\r\n");
 }
 
+/* Writes a text of a property, which ':' and ',' would end. */
 static void write_property(FILE *out, const char *text)
 {
     write_escaped(out, text, "%\r\n:,");
 }
 
-/* Writes the command up to its message; file "" for none. */
+/* Writes the command up to its message, with the file that the annotation is for; file is "" where
+ * there is none. */
 static void open_command(FILE *out, const char *command, const char *file, const char *title,
                          const char *name)
 {
@@ -82,6 +91,8 @@ static void write_test(FILE *out, const struct kiln_result *result, const char *
     fputs("\n", out);
 }
 
+/* Writes the notes of stale limits as warnings. The text " is stale" is the one of
+ * lib/suite/notes.c, which makes these notes, so both must change together. */
 static void write_stale_notes(FILE *out, const struct kiln_result *result)
 {
     for (size_t i = 0; i < result->note_count; i++) {

@@ -1,5 +1,13 @@
-/* Defines what a result is: the names in it, its score and its worst frame, the members of its
- * file, and an empty result. */
+/* Holds what all code that handles the result of a test shares: the names of what judged a frame,
+ * the score, the worst frame, the tables of the members of result.json, and empty results.
+ *
+ * The run of a test (run.c, summary.c) starts with an empty result. result_write.c and
+ * result_read.c go through the tables, and the reports (lib/report) use the tables and the score.
+ *
+ * A row of a table is a member of the struct and of result.json under the same name, and the order
+ * of rows is the order in the file. result_read.c refuses a result that lacks a member or has
+ * another one. So whoever adds, removes or renames a row must increase KILN_RESULT_VERSION, and
+ * must look for the member in the scripts of the report page (lib/report/page). */
 #include "suite/result.h"
 
 #include <math.h>
@@ -31,6 +39,8 @@ double kiln_result_score(const struct kiln_result *result)
     return score;
 }
 
+/* Returns how soon a person should see a frame among frames of the same status: by its score; a
+ * frame without a score comes first, unless it passed. */
 static double urgency(const struct kiln_result_frame *frame)
 {
     if (frame->measured)
@@ -51,6 +61,7 @@ size_t kiln_result_worst_frame(const struct kiln_result *result)
 
 /* ---- Members ------------------------------------------------------------------------------ */
 
+/* A row of a table: the name, the kind, and where the member is in the struct. */
 #define MEMBER(type, kind, name)                                                                   \
     {                                                                                              \
 #name, KILN_MEMBER_##kind, offsetof(struct type, name)                                     \
@@ -142,6 +153,7 @@ const struct kiln_member kiln_result_change_members[] = {
 
 /* ---- Empty results ------------------------------------------------------------------------ */
 
+/* Sets all texts of an object to "", since no text of a result is ever NULL. */
 static void clear_texts(const struct kiln_member *members, void *object)
 {
     for (const struct kiln_member *m = members; m->name; m++) {

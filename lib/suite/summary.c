@@ -1,5 +1,14 @@
-/* Sums up results, starts results, and writes those of tests that could not write their own. The
- * process of a test hands over nothing but its result.json, so one that crashed has left none. */
+/* Starts the result of a test, sums up a result in a few numbers, and writes the result of a test
+ * whose process could not do so.
+ *
+ * `kiln test` (cmd/test.c) runs each test in a process of its own. In that process, run.c starts
+ * the result here; calibrate.c starts one for `kiln test calibrate`. The process hands its result
+ * to `kiln test` only as the file result.json, from which cmd/test.c reads the summary here, and
+ * cmd/test_lines.c the notes. A process that crashed or ran too long has left no such file, so
+ * cmd/test.c records the error here.
+ *
+ * kiln_result_start must not set anything that only a run can know. A result that was recorded for
+ * an error must be one that result_read.c accepts, because the reports read it like any other. */
 #include "suite/summary.h"
 
 #include <string.h>
@@ -10,11 +19,13 @@
 #include "base/file.h"
 #include "suite/trial.h"
 
+/* Returns "" for NULL, since no text of a result is NULL. */
 static const char *text_or_empty(const char *text)
 {
     return text ? text : "";
 }
 
+/* Returns the present time in UTC, such as "2026-01-31T12:00:00Z", or "" where that fails. */
 static const char *time_text(struct kiln_arena *arena)
 {
     char text[32] = "";

@@ -1,7 +1,14 @@
 /* This file paints splats onto the texels of a mesh in threads. A grid holds the blocks of texels
  * by the cells that their middles lie in, and gives each splat to the blocks that it may reach. The
  * lists of splats are counted first and then written, by chunks of the splats, so that a block's
- * list keeps their order for any number of threads. Then each block is painted by one thread. */
+ * list keeps their order for any number of threads. Then each block is painted by one thread.
+ *
+ * kiln_paint_step (paint.c) calls kiln_paint_gather for each painted mesh in each step of the
+ * simulation; `kiln bench` calls it, too. The canvas is part of the state hash, so the texels must
+ * have the same bits for any number of threads, and with lists as without. Therefore each list must
+ * be ascending, and it may have splats that do not reach the block, which the loop over the block
+ * skips, but it must not lack one that does. The numbers below change only speed and memory. The
+ * factors next to 1 make up for rounding and must not be removed. */
 #include "sim/paint/paint_gather.h"
 
 #include <math.h>
@@ -15,9 +22,10 @@ enum {
     CELLS = 32,        /* most cells along an axis */
     CHUNKS = 16,       /* most chunks of the splats */
     LEAST_CHUNK = 256, /* least splats of a chunk */
-    /* entries of all lists; if there were more, every block tests every splat */
+    /* Most entries of all lists together. If there would be more, no lists are written, and every
+     * block tests every splat. */
     MOST_LISTED = 1 << 26,
-    BLOCKS_AT_A_TIME = 16
+    BLOCKS_AT_A_TIME = 16 /* blocks that a thread takes at once */
 };
 
 /* ---- the grid -------------------------------------------------------------------------------- */
@@ -75,7 +83,9 @@ bool kiln_paint_grid_init(struct kiln_paint_grid *grid, const struct kiln_chart 
         kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory");
         return false;
     }
-    uint32_t *ends = grid->first + 1; /* used at first as the place of a cell's next block */
+    /* While blocks are placed, ends[cell] is the place of the cell's next block. When all are
+     * placed it is the end of the cell, which is where the next cell starts. */
+    uint32_t *ends = grid->first + 1;
     for (uint32_t b = 0; b < chart->block_count; b++)
         ends[cell_of(grid, grid->middle[b]) + 1]++;
     for (size_t cell = 0; cell < cells; cell++)
@@ -120,8 +130,9 @@ static bool may_reach(const struct kiln_chart *chart, uint32_t block,
     return square * 0.9999f <= splat->square; /* the factor covers rounding */
 }
 
-/* Visits the blocks that a splat may reach. In the first pass it counts the splat in their ends, in
- * the second it adds it to their lists. */
+/* Visits the blocks that a splat may reach. The first pass, in which list is NULL, adds 1 to each
+ * such block's entry of `ends`. The second pass also writes the splat's number into the list, at
+ * the index that the entry has before. */
 static void deal(const struct gathering *g, uint32_t number, uint32_t *ends, uint32_t *list)
 {
     const struct kiln_paint_grid *grid = g->gather->grid;
@@ -170,7 +181,8 @@ static void write_chunks(void *context, size_t begin, size_t end, uint32_t worke
     deal_chunks(g, begin, end, g->gather->grid->list);
 }
 
-/* Makes the lists; afterwards, the ends of the last chunk are the ends of the blocks' lists. */
+/* Makes the lists, or leaves g->listed false where they would be too long. Afterwards, the ends of
+ * the last chunk are the ends of the blocks' lists. */
 static bool make_lists(struct gathering *g, struct kiln_error *error)
 {
     struct kiln_paint_grid *grid = g->gather->grid;
@@ -207,6 +219,8 @@ static bool make_lists(struct gathering *g, struct kiln_error *error)
 
 /* ---- the gather ------------------------------------------------------------------------------ */
 
+/* Paints a range of blocks on one thread: each with its list, or with all splats if there are no
+ * lists. */
 static void paint_blocks(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;

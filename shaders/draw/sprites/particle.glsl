@@ -1,13 +1,23 @@
-/* One particle: all that its billboard needs, from the record, the look and the clock. Who includes
- * this declares what is filled in:
- *     vec4 center;        in view space; w: LOOK_* shape
- *     vec4 right;         half of the billboard's edge in view space; w: half of a point's or line's
- *                         width, px
- *     vec4 up;            the other edge; of a line: all of the way to its end
- *     billboard particle;
- * SHAPES: of a scene that has more than billboards parallel to the picture; others do not pay for it,
- * nor for SUN_SHADE, which objects of the backdrop throw.
- */
+/* Makes one particle: make_particle computes all that its billboard needs from the particle's record,
+ * the look of its system and the clock.
+ *
+ * Shaders that turn particles into billboards include it: particles_geometry.vert and
+ * particles_instanced.vert for quads that GL draws, and particles_tiled_make.comp for sprites of the
+ * technique `tiled`. They first include draw/moment/record.glsl and billboard.glsl, and declare the
+ * variables that make_particle fills in:
+ *     vec4 center;        the particle's place in view space; w: LOOK_* shape
+ *     vec4 right;         half an edge of the billboard in view space; w: half the width of a point or
+ *                         line, px
+ *     vec4 up;            half of the other edge; of a line, the whole way from its head to its tail
+ *     billboard particle; what the shading reads
+ *
+ * The host defines SHAPES as 1 for a scene with points, lines or billboards that are not parallel to
+ * the picture, and SUN_SHADE for one whose backdrop shades particles (kiln_geometry_defines in
+ * lib/draw/sprites/particles_geometry.c); other scenes get a faster shader without that code.
+ *
+ * lib/draw/sprites/sprite_simd.c computes the same for technique `cpu`, and tests/support/true_sprite.h
+ * is the definition that tests compare with. All must change together, since every technique makes the
+ * same picture but for rounding. */
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 
 #include "draw/light/smoke_shadow.glsl"
@@ -29,8 +39,8 @@ vec3 world_to_view_vector(vec3 v)
                 dot(view.world_to_view[2].xyz, v));
 }
 
-/* Smoke scatters: a sprite's far side is dimmer, not black. Light from a direction is half ambient,
- * half along the normal. */
+/* Adds a light to the particle. Smoke scatters light, so the side of a sprite that faces away from the
+ * light is dimmer but not black: half of the light counts as ambient, and half depends on the normal. */
 void add_light(vec3 radiance, vec3 direction, plane p)
 {
     vec3 v = world_to_view_vector(direction);
@@ -40,7 +50,7 @@ void add_light(vec3 radiance, vec3 direction, plane p)
     particle.light_z.rgb += 0.5 * radiance * dot(v, p.normal);
 }
 
-/* The part of the sun that a particle sees past the backdrop. */
+/* Returns the part of the sun, 0 to 1, that objects of the backdrop do not hide from a particle. */
 float sunlight_past_backdrop(uint slot)
 {
 #ifdef SUN_SHADE
@@ -51,13 +61,15 @@ float sunlight_past_backdrop(uint slot)
     return 1.0;
 }
 
+/* Computes the light on a particle: the part `lit` is that of the sky, the sun and the lights of the
+ * backdrop; the rest is light of strength 1 from all sides. */
 void light_particle(float lit, uint slot, vec3 position, plane p)
 {
     particle.light_0 = vec4(1.0 - lit);
     particle.light_x = particle.light_y = particle.light_z = vec4(0.0);
     if (lit <= 0.0)
         return;
-    /* The horizon's light comes from all sides and crosses less of the smoke than that from above. */
+    /* The light of the horizon crosses less smoke than the light from above. */
     float sky = skylight_through_smoke(position);
     float sun = sunlight_through_smoke(position) * sunlight_past_backdrop(slot);
     particle.light_0.rgb += backdrop.sky_horizon.rgb * lit * sqrt(sky);
@@ -72,7 +84,7 @@ void light_particle(float lit, uint slot, vec3 position, plane p)
     }
 }
 
-/* Which of the system's textures a particle has. */
+/* Chooses one of the system's textures at random; a particle always gets the same one. */
 uint4 choose_texture(uint system, uint stream)
 {
     uint count = looks[system].flags.w;
@@ -80,7 +92,9 @@ uint4 choose_texture(uint system, uint stream)
     return looks[system].textures[min(chosen, count - 1u)];
 }
 
-/* Equation 3.2: two adjacent cells and the mix between them, by the progress through life. */
+/* Chooses two adjacent cells of the atlas and the mix between them (Heinz 2019, equation 3.2). `passes`
+ * is how often the particle has gone through its cells until now. The last number is the level of
+ * detail. */
 vec4 choose_cells(uint4 atlas, float passes, bool random_start, uint stream, float diameter_px)
 {
     float cells = float(atlas.y);
@@ -93,8 +107,9 @@ vec4 choose_cells(uint4 atlas, float passes, bool random_start, uint stream, flo
     return vec4(base + mod(first, cells), base + mod(first + 1.0, cells), position - first, level);
 }
 
-/* The billboard's upward direction in its plane, and its half length: a stretched particle lies
- * along its velocity there. Slow ones keep their turn. */
+/* Returns the upward direction of the billboard in its plane, as a unit vector in xy, and half its
+ * length in z. A stretched particle points along its velocity; one that is slow keeps the direction of
+ * its angle. */
 vec3 point_up(float angle, float half_size, float stretch, vec2 moving, uint facing)
 {
     vec3 up = vec3(-sin(angle), cos(angle), half_size);
@@ -109,7 +124,8 @@ vec3 point_up(float angle, float half_size, float stretch, vec2 moving, uint fac
     return up;
 }
 
-/* Makes the half edges of a billboard no less than a length; returns what it is then fainter by. */
+/* Makes each half edge of a billboard at least as long as `least`. Returns the factor for its opacity
+ * that makes up for the larger area. */
 float widen(inout float half_width, inout float half_length, float least)
 {
     float area = half_width * half_length;
@@ -120,8 +136,8 @@ float widen(inout float half_width, inout float half_length, float least)
 
 #if SHAPES
 
-/* The plane that a billboard turns in (Heinz 2019, 2.1.1). Where the direction that says what is up
- * points at the eye, the picture's right is the billboard's. */
+/* Returns the plane that a billboard turns in (Heinz 2019, 2.1.1). Where the direction that is to be
+ * up points at the eye, the billboard's right is the picture's. */
 plane facing_plane(uint facing, vec3 axis, vec3 center)
 {
     bool to_eye = facing == LOOK_VIEWPOINT || facing == LOOK_AXIAL;
@@ -137,8 +153,8 @@ plane facing_plane(uint facing, vec3 axis, vec3 center)
     return plane(sideways, upward, cross(sideways, upward));
 }
 
-/* A point or a line, which has no texture. What is narrower than a pixel is drawn as wide as one,
- * and the fainter. */
+/* Turns the particle into a point or a line, which has no texture. If it is narrower than a pixel, it
+ * is drawn one pixel wide, with less opacity instead. */
 void make_plain(uint4 form, vec2 widths_px, float size_px, vec3 moving, float stretch)
 {
     bool is_line = form.x == LOOK_LINE;
@@ -153,6 +169,7 @@ void make_plain(uint4 form, vec2 widths_px, float size_px, vec3 moving, float st
 
 #endif
 
+/* Makes the particle of a draw entry: the system in its highest 8 bits, the slot in the other 24. */
 void make_particle(uint entry)
 {
     uint system = entry >> 24;
@@ -192,8 +209,8 @@ void make_particle(uint entry)
     float opacity = shape.z;
     if (view.clock.w < 1.0 && form.x == 0u)
         opacity *= widen(half_size, upward.z, 0.5 * KILN_COARSE_LEAST / pixels_per_m);
-    vec2 sideways = backwards ? vec2(-upward.y, upward.x) : vec2(upward.y, -upward.x); /* half are
-                                                                                       * mirrored */
+    /* The particles that spin backwards, which are half of all, are also mirrored. */
+    vec2 sideways = backwards ? vec2(-upward.y, upward.x) : vec2(upward.y, -upward.x);
     plane turned = plane(facing.right * sideways.x + facing.up * sideways.y,
                          facing.right * upward.x + facing.up * upward.y, facing.normal);
     right = vec4(turned.right * half_size, 0.0);

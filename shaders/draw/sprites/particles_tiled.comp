@@ -1,6 +1,15 @@
-/* A tile of the picture: what touches it is drawn from front to back in registers, until nothing that
- * is behind could be seen, and written once. An invocation has one pixel; or several below each other,
- * where fetching a sprite costs as much as drawing a pixel of it. */
+/* Draws a tile of the picture with the sprites that touch it. A work group has one tile. It draws from
+ * front to back with its pixels in registers, stops when nothing behind could be seen, and writes each
+ * pixel once. An invocation has one pixel or, on software, several below each other, because fetching
+ * a sprite costs as much there as drawing a pixel of it.
+ *
+ * It is the last kernel of technique `tiled`. lib/draw/sprites/particles_tiled.c runs it for each chunk
+ * of particles, after particles_tiled_make, _count, _list and _mark, and more than once where the
+ * driver limits loops. Between two runs the pixels are kept in `carry`.
+ *
+ * Every invocation of a group must reach each barrier, so all must take the same way through the loop
+ * in main. Sprites must be drawn in the order of the list. Whoever changes a loop must change
+ * round_iterations in particles_tiled.c, which counts iterations for drivers that limit them. */
 // variant: SHAPES=0 TILED_EDGE=16 TILED_ROWS=16
 // variant: SHAPES=1 TILED_EDGE=8 TILED_ROWS=2
 #include "shared/draw_layout.h"
@@ -29,7 +38,7 @@ layout(std430, binding = TILED_BIND_MASKS) readonly buffer mask_block
 
 layout(std430, binding = TILED_BIND_CARRY) buffer carry_block
 {
-    vec4 carry[]; /* colour and alpha; glow and transmittance */
+    vec4 carry[]; /* two for each pixel: colour and alpha; glow and transmittance */
 };
 
 layout(binding = 2) uniform sampler2D scene_depth;
@@ -39,21 +48,23 @@ layout(binding = TILED_IMAGE_COLOR) writeonly uniform image2D color_image;
 layout(binding = TILED_IMAGE_BLOOM) writeonly uniform image2D bloom_image;
 
 layout(location = 1) uniform uint bin_columns;
-layout(location = 2) uniform bvec2 ends;   /* pixels start here; they are done hereafter */
-layout(location = 3) uniform bool keeps;   /* the glow of an earlier pass */
+layout(location = 2) uniform bvec2 ends;   /* x: the first run of the picture; y: the last run */
+layout(location = 3) uniform bool keeps;   /* the glow of an earlier pass is kept */
 layout(location = 4) uniform float over;   /* 1: what covers hides what is behind; 0: it is summed */
-layout(location = 5) uniform float unseen; /* what may be left out of the chunk */
-layout(location = 6) uniform uvec2 span;   /* words of masks that are drawn now, from a whole round on */
+layout(location = 5) uniform float unseen; /* the least light of a chunk that must not be left out */
+layout(location = 6) uniform uvec2 span;   /* first and end of the words of masks that this run draws; */
+                                           /* the first is a multiple of TILED_ROUND_WORDS */
 
 #include "draw/sprites/place.glsl"
 #include "draw/sprites/shade.glsl"
 
 const uint WORDS = uint(TILED_ROUND_WORDS);
-shared uint touching[WORDS];
+shared uint touching[WORDS]; /* the words of the tile's mask in this round */
 shared uint hits[WORDS * 32u]; /* the sprites that touch the tile, in order */
-shared uint hit_count, left_bits;
+shared uint hit_count, left_bits; /* left_bits: most_left's maximum over the group, bits of a float */
 
-/* Lists what the masks of a tile have from a word on; returns how many. */
+/* Puts the sprites of one round of the tile's mask, from word `first` on, into `hits`, in order.
+ * Returns how many there are. */
 uint list_hits(tiled_bin bin, uint tile, uint first)
 {
     for (uint i = gl_LocalInvocationIndex; i < WORDS; i += GROUP_SIZE) {
@@ -76,15 +87,16 @@ uint list_hits(tiled_bin bin, uint tile, uint first)
     return hit_count;
 }
 
-/* A pixel on its way from front to back. */
+/* A pixel while it is drawn from front to back. */
 struct pixel {
-    float scene; /* its depth, m */
+    float scene; /* depth of the scene there, m */
     vec4 color, glow; /* glow.a: transmittance */
 };
 
 pixel pixels[PIXELS];
 
-/* Starts the pixels; returns the most that an earlier pass has left in a channel of the glow. */
+/* Starts the invocation's pixels, empty or from `carry`. A pixel outside the picture gets transmittance
+ * 0, so that nothing is drawn for it. Returns the largest channel of the glow of an earlier pass. */
 float open_pixels(uvec2 first, uvec2 size)
 {
     vec4 before = vec4(0.0);
@@ -106,6 +118,7 @@ float open_pixels(uvec2 first, uvec2 size)
     return max(max(before.r, before.g), before.b);
 }
 
+/* Fetches the billboard of a sprite, in the order in which particles_tiled_make.comp writes it. */
 billboard fetch_quad(int row)
 {
     return billboard(texelFetch(sprites, row), texelFetch(sprites, row + 1),
@@ -115,7 +128,7 @@ billboard fetch_quad(int row)
                      texelFetch(sprites, row + 8), texelFetch(sprites, row + 9));
 }
 
-/* Draws a sprite into the invocation's pixels, the first of which has its middle there, px. */
+/* Draws sprite i into the invocation's pixels. `first` is the middle of the first one, px. */
 void draw(uint i, vec2 first)
 {
     int row = int(i) * TILED_SPRITE_ROWS;
@@ -139,7 +152,8 @@ void draw(uint i, vec2 first)
     }
 }
 
-/* The most that any pixel of the tile could still get of so many sprites of a bin. */
+/* Returns the most light that any pixel of the tile could still get from the last sprites_left sprites
+ * of the bin and from the glow of an earlier pass. */
 float most_left(tiled_bin bin, float before, uint sprites_left)
 {
     if (gl_LocalInvocationIndex == 0u)
@@ -155,17 +169,19 @@ float most_left(tiled_bin bin, float before, uint sprites_left)
     return uintBitsToFloat(left_bits);
 }
 
+/* Returns the first pixel of this invocation. */
 uvec2 first_pixel()
 {
     uvec2 me = gl_LocalInvocationID.xy;
 #if TILED_ROWS == TILED_EDGE
-    /* Blocks of 8 x 4 pixels lie together, which often take the same branches. */
+    /* 32 neighbouring invocations have a block of 8 x 4 pixels, which often take the same branches. */
     uint i = gl_LocalInvocationIndex, block = i / 32u, blocks_a_row = uint(TILED_EDGE / 8);
     me = uvec2(i % 8u + 8u * (block % blocks_a_row), i / 8u % 4u + 4u * (block / blocks_a_row));
 #endif
     return gl_WorkGroupID.xy * uint(TILED_EDGE) + me;
 }
 
+/* Writes the pixels: into the images after the last run, into `carry` otherwise. */
 void close_pixels(uvec2 first, uvec2 size)
 {
     for (uint k = 0u; k < PIXELS; k++) {

@@ -1,4 +1,11 @@
-/* The farthest that the scene is in each tile. */
+/* Finds the largest depth of the scene in each tile of the picture. A work group has one tile, and an
+ * invocation one pixel.
+ *
+ * lib/draw/sprites/particles_tiled.c runs it once for a pass of particles, before any sprites are made.
+ * particles_tiled_mark.comp then leaves a sprite out of the tiles in which all of the scene is before
+ * it. So a result may be too large, which costs time only, but never too small. Depths are compared as
+ * the bits of floats, whose order is right only for numbers that are not negative; therefore the
+ * kernel clamps them at 0. */
 // variant: TILED_EDGE=16
 #include "shared/tiled_layout.h"
 
@@ -11,7 +18,7 @@ layout(std430, binding = TILED_BIND_FARTHEST) writeonly buffer farthest_block
 
 layout(binding = 2) uniform sampler2D scene_depth;
 
-shared uint most;
+shared uint most; /* the largest depth so far: bits of a float */
 
 void main()
 {

@@ -1,15 +1,24 @@
-/* A particle's place in the picture: by these rows every technique finds the place of a pixel on it,
- * so all cover the same pixels, however thin it is. GL itself may move corners by a part of a pixel.
- */
+/* Decides whether a particle covers a pixel, and where on the particle the pixel is.
+ *
+ * outline.glsl computes the rows of a particle. fragment.glsl, for quads that GL draws, and
+ * particles_tiled.comp call place_covers for each pixel. All techniques decide by the same formula, so
+ * that they cover the same pixels, however thin the particle is; the corners of GL's quads would not
+ * do, because GL may move them by a part of a pixel. lib/draw/sprites/sprite_place.h has the rows on
+ * the host, so a change of the formula must be made there, too. */
+
+/* Linear functions of the pixel. x is the value at the anchor, which is a fixed place in the picture; y
+ * and z are the change per pixel to the right and down. */
 struct place {
-    vec4 u, v; /* 0..1 over the texture, of points and lines px from the middle: at the anchor, and */
-               /* its change per pixel right and down; w: the anchor, px from the top left */
-    vec4 q;    /* likewise, one over the depth; of SHAPES only */
+    vec4 u, v; /* texture coordinates, 0..1, or of points and lines px from the middle, with SHAPES
+                * divided by the depth unless a point or line; w: the anchor's x in u and y in v, px from
+                * the top left */
+    vec4 q;    /* 1 / depth, 1/m; has a meaning only with SHAPES; w: unused */
     vec2 edge; /* half edges of a point or line with its soft rim, px; 0, 0 for billboards */
 };
 
-/* Does it cover the middle of a pixel, px from the top left? Where that is on it, and how far from
- * the eye, m, where that changes over it. */
+/* Returns whether the particle covers a pixel, given by its middle, px from the top left. `at` becomes
+ * the texture coordinates there. `depth` comes in as the particle's; with SHAPES it becomes the depth
+ * of that place on it, m. */
 bool place_covers(place p, vec2 pixel, inout float depth, out vec2 at)
 {
     vec2 from_anchor = pixel - vec2(p.u.w, p.v.w);

@@ -1,29 +1,38 @@
-/* Sprites: particles brought to the picture. The places of a sprite's texture are linear in those of
- * the picture; or, where it is not parallel to it, become so when they are divided by its depth.
- */
+/* Declares the layout of sprites, and of the masks of tiles, for the kernels of technique `tiled`. A
+ * sprite is a particle that is projected into the picture. Its texture coordinates are linear functions
+ * of the pixel; where the particle is not parallel to the picture, the coordinates divided by the depth
+ * are linear.
+ *
+ * particles_tiled_make.comp writes sprites, particles_tiled_mark.comp and particles_tiled.comp read
+ * them, and the latter two share the masks. The host sizes the buffers by shared/tiled_layout.h: a row
+ * more or less needs TILED_SPRITE_ROWS there, and fetch_quad and write in those kernels. The rows u, v
+ * and q are those of place.glsl. */
 #include "shared/tiled_layout.h"
 
 #include "draw/sprites/billboard.glsl"
 
 #define TILED_BIN_EDGE uint(TILED_EDGE * TILED_BIN_TILES)
 
-/* Rows of a sprite. */
-#define SPRITE_U 0    /* 0..1 over the texture, of points and lines px from the middle: at the anchor, */
-#define SPRITE_V 1    /* and its change per pixel right and down; w: the anchor, px from the top left */
-#define SPRITE_Q 2    /* likewise, one over the depth; of SHAPES only */
-#define SPRITE_MOST 3 /* half edges of a point or line with its soft rim, px, or 0; least depth, m; */
-                      /* most that it adds to a channel, negative if it covers nothing */
+/* Rows of a sprite, each a vec4. */
+#define SPRITE_U 0    /* `u`, `v` and `q` of struct place */
+#define SPRITE_V 1
+#define SPRITE_Q 2    /* has a meaning only with SHAPES */
+#define SPRITE_MOST 3 /* x, y: `edge` of struct place; z: the least depth, m; w: the most light that */
+                      /* the sprite adds to a channel, negative if it covers nothing */
 #define SPRITE_QUAD 4 /* the billboard, ten rows */
 
-/* The squares of the picture that a sprite may touch, as tiles or bins of an edge: the first and the
- * last. */
+/* Returns the squares of the picture, which are tiles or bins with an edge of so many pixels, that a
+ * sprite's box touches: column and row of the first, then of the last one. A box has left and top, then
+ * right and bottom, with 16 bits each; it must not be empty. */
 uvec4 squares_of(uvec2 box, uint edge)
 {
     uvec2 from = uvec2(box.x & 0xffffu, box.x >> 16), to = uvec2(box.y & 0xffffu, box.y >> 16);
     return uvec4(from / edge, (to - 1u) / edge);
 }
 
-/* Of a bin's masks: bit i of the word is of sprite 32 * word + i of the list. */
+/* Returns where in all masks a word of a tile's mask is. Bit i of word k stands for sprite 32 * k + i
+ * of the bin's list. The masks of a bin have whole pieces of the list, since a work group of
+ * particles_tiled_mark.comp writes a piece. */
 uint mask_word(tiled_bin bin, uint tile, uint word)
 {
     uint words = (bin.count + uint(TILED_PIECE) - 1u) / uint(TILED_PIECE) * uint(TILED_PIECE / 32);
