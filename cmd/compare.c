@@ -1,4 +1,10 @@
-/* Runs kiln compare, which tells whether two pictures, folders or videos look the same. */
+/* Runs kiln compare, which tells whether two pictures, folders or videos look the same. main.c
+ * finds compare_command in its table and calls run once.
+ *
+ * This file turns options into parameters. The comparison itself is lib/compare/ and what is
+ * printed is compare_report.c. Scripts depend on the exit codes in the description below. The
+ * choices of --range stand in the order of enum kiln_compare_mode, since a choice's number is used
+ * as the mode. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,6 +104,7 @@ static void show_frame(void *user, const struct kiln_compare_result *result,
     compare_report_frame(user, result, frame);
 }
 
+/* Stops the comparison also when standard output cannot be written: nobody would see its result. */
 static bool wants_stop(void *user)
 {
     return signals_wants_stop(user) || ferror(stdout);
@@ -135,12 +142,14 @@ static int report_failure(const struct kiln_error *error)
     int number = signals_received();
     if (error->code != KILN_INTERRUPTED)
         return report_error(error);
-    if (number == 0) /* no reader is left: main reports it */
+    if (number == 0) /* wants_stop found no reader; main.c reports that by report_finish */
         return KILN_READER_GONE;
     return report((enum kiln_code)(128 + number), "compare: %s", error->message);
 }
 
-/* The options that repeat. Each has room for every use. */
+/* Reads --limit, --ignore and --mask, which may be repeated. --limit is the only option of kind
+ * OPTION_PAIRS, and --ignore the only one of OPTION_RECT. Both arrays have room for as many items
+ * as options were given. */
 static void read_lists(const struct arguments *arguments, const char **limits,
                        struct kiln_compare_mask *masks, struct kiln_compare_params *params)
 {

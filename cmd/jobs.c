@@ -1,5 +1,11 @@
-/* Makes the list of jobs of kiln render from its operands and options, and checks their files and
- * frames. */
+/* Makes the list of jobs of kiln render, one a scene, from its operands and options. cmd/render.c
+ * calls job_list_create once, before it opens a device. batch_check.c uses job_file_name, and
+ * encode.c uses quality_check.
+ *
+ * It exists so that mistakes are found before minutes of work are done. The checks stand in the
+ * order of their cost: options and names of files first, then the scenes are loaded, and the files
+ * of all jobs are claimed last, because that needs the scenes. A claim only notes that a file will
+ * be read or written; nothing is written here. */
 #include "jobs.h"
 
 #include <stdlib.h>
@@ -11,7 +17,7 @@
 #include "report.h"
 #include "scene_in.h"
 
-static const char mark[] = "{scene}";
+static const char mark[] = "{scene}"; /* stands for the scene's name in --output and --manifest */
 
 /* Returns the scene file's name without folder and suffix, or a word for standard input. */
 static const char *scene_stem(const char *path, size_t *length)
@@ -80,8 +86,9 @@ char *job_file_name(const char *pattern, const char *scene, const char *suffix, 
     return NULL;
 }
 
-/* Refuses jobs that write the same file. Equal names are found here, so that the message can say
- * what to do; other paths to one file are found once the scenes are loaded. */
+/* Refuses two jobs that write files of the same name, with a message that says what to do. Two
+ * different names can still lead to one file: claim_files finds that, once the scenes are
+ * loaded. */
 static int check_clash(const struct job *a, const struct job *b)
 {
     bool output = a->output && b->output && strcmp(a->output, b->output) == 0;
@@ -95,7 +102,8 @@ static int check_clash(const struct job *a, const struct job *b)
                   output ? a->output : a->manifest);
 }
 
-/* Declares the files of a job beside those of the jobs before it. */
+/* Adds the files that a job reads and writes to the claims. Refuses the job if a file would then be
+ * written twice, or be both read and written, by this job or those before it. */
 static int claim_files_of(const struct job_list *list, const struct job *job,
                           struct kiln_claims *claims)
 {
@@ -112,7 +120,7 @@ static int claim_files_of(const struct job_list *list, const struct job *job,
     return kiln_render_claim(job->scene, &params, claims, &error) ? 0 : report_error(&error);
 }
 
-/* The files of all jobs together. */
+/* Claims the files of all jobs and of --json together. */
 static int claim_files(struct job_list *list, const struct arguments *arguments)
 {
     struct kiln_claims *claims = kiln_claims_create();
@@ -199,7 +207,8 @@ static int name_files(struct job_list *list, const struct arguments *arguments)
     return code;
 }
 
-/* Resolves the frames that were asked for, all of which must exist. */
+/* Finds the frames that a job draws: those of --frames, which must all exist, or every frame of the
+ * scene. */
 static int choose_frames(struct job *job, const struct arguments *arguments)
 {
     const struct option_use *frames = arguments_last(arguments, "frames");

@@ -1,5 +1,12 @@
-/* Prints messages to the person on standard error. Nothing else in cmd/ writes there but the
- * progress line. */
+/* Prints a command's errors and warnings on standard error, one line each, and tells the same to
+ * the stream of --events. Commands call report or report_error where they fail and return its code,
+ * which becomes the exit code. main.c calls report_finish last of all, for every command.
+ *
+ * A message starts with "kiln: ", which batch.c removes from the lines of its jobs. The exception
+ * is a message about an input file, which starts with the file's name, and line and column where
+ * they are known: editors look for those at the start of a line. Text from files may hold control
+ * characters, so it passes through kiln_shown before it is printed; the library's own messages have
+ * passed through it already. */
 #include "report.h"
 
 #include <errno.h>
@@ -23,8 +30,7 @@ int report(enum kiln_code code, const char *format, ...)
     return (int)code;
 }
 
-/* Prints a message that starts with a place in a file. The place comes first in the line, where
- * editors look for it. */
+/* Prints a message that starts with an input file's name and place, without "kiln: " before it. */
 static int report_place(const struct kiln_error *error)
 {
     fprintf(stderr, "%s\n", error->message);
@@ -88,8 +94,8 @@ int report_finish(int code)
     bool failed = ferror(stdout) != 0 || events_failed_on_stdout();
     if (fflush(stdout) == 0 && !failed)
         return code;
-    /* The reason may be long gone: a stream remembers only that it failed. Writing finds it again.
-     */
+    /* A stream remembers that it failed, but not why. One more write fails for the same reason and
+     * sets errno to it. */
     errno = EIO;
     ssize_t again = write(STDOUT_FILENO, "\n", 1);
     if (again < 0 && errno == EPIPE && code == KILN_READER_GONE)

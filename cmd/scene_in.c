@@ -1,6 +1,14 @@
-/* Reads a scene from a file or from a descriptor that is open already. For a descriptor, textures
- * are looked for in the working directory, since /dev holds none. A FIFO with a name of its own is
- * refused, so that no command waits for its writer. */
+/* Loads the scene that an operand names: a file, or a descriptor that is open already. Commands
+ * that take scenes (render, check, plan, bake) call scene_in_load for each, on the main thread.
+ *
+ * A file is loaded by kiln_scene_load, which refuses a named FIFO: opening it would wait for a
+ * writer that may never come. "-", /dev/stdin and /dev/fd/N name a descriptor that is open when
+ * kiln starts, so the scene is read from it here and then parsed. Such a scene has no folder, so
+ * the paths in it start at the working directory, or at the folder of --asset-root.
+ *
+ * Two other threads look at `loading`: those of watchdog.c and limits.c end the program and name
+ * the scene in their last line. So it is atomic, and it points to an operand or a constant, which
+ * stays valid after the scene is loaded. */
 #include "scene_in.h"
 
 #include <errno.h>
@@ -42,8 +50,8 @@ static const char *name_of(const char *path)
     return strcmp(path, "-") == 0 ? "standard input" : path;
 }
 
-/* Returns whether to repeat a read that failed: a signal that stops nothing interrupted it, or the
- * descriptor is one that does not wait. */
+/* Returns whether to repeat a read that failed. Yes after a signal that does not stop the program,
+ * and yes for a descriptor in non-blocking mode, once it has something to read. */
 static bool may_try_again(int file, const struct kiln_scene_params *params)
 {
     if (errno == EAGAIN && poll(&(struct pollfd){.fd = file, .events = POLLIN}, 1, -1) > 0)
@@ -51,7 +59,8 @@ static bool may_try_again(int file, const struct kiln_scene_params *params)
     return errno == EINTR && !(params->stop && params->stop(params->user));
 }
 
-/* Reads to the end, but at most one byte more than a scene may have. False with errno. */
+/* Reads to the end, but at most one byte more than a scene may have: kiln_scene_parse then refuses
+ * the scene as too large. Returns false with errno when reading fails. */
 static bool read_all(int file, char *text, size_t *size, const struct kiln_scene_params *params)
 {
     while (*size <= KILN_MAX_SCENE_SIZE) {

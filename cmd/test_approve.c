@@ -1,4 +1,10 @@
-/* Runs kiln test approve, which accepts the pictures of the last run as the new references. */
+/* Runs kiln test approve, which accepts the pictures of the last run as the new goldens. main.c
+ * finds test_approve_command in its table and calls run once.
+ *
+ * This file only chooses tests, by name, by pattern or by --all, and calls kiln_test_approve for
+ * each. What may be accepted, and how goldens are written, is decided in lib/suite/approve.c. The
+ * choices of --as stand in the order of enum kiln_approve_as, since a choice's number is used as
+ * its value. */
 #include <fnmatch.h>
 #include <string.h>
 
@@ -40,9 +46,9 @@ static const struct option options[] = {
 struct approval {
     struct kiln_approve_params params;
     bool quiet;
-    uint32_t count; /* files written for the present test */
-    uint32_t all;   /* tests of which something was accepted */
-    enum kiln_code code;
+    uint32_t count;      /* files written for the present test */
+    uint32_t all;        /* tests of which something was accepted */
+    enum kiln_code code; /* the worst failure so far; the tests after it are still tried */
 };
 
 static void print_change(void *user, const char *line)
@@ -53,8 +59,8 @@ static void print_change(void *user, const char *line)
         printf("%s\n", line);
 }
 
-/* Accepts the pictures of a test. named: the user named the test, and is told when there is nothing
- * to accept. */
+/* Accepts the pictures of a test. With `named`, the user has named this test; only then is it said
+ * that there is nothing to accept. */
 static void approve(struct approval *approval, const char *name, bool named)
 {
     struct kiln_error error = {0};
@@ -74,7 +80,7 @@ static bool is_pattern(const char *operand)
     return operand[strcspn(operand, "*?[")] != '\0';
 }
 
-/* Accepts the tests of the last run that a pattern matches; without a pattern, all. */
+/* Accepts the tests of the last run that a pattern matches, or all tests if pattern is NULL. */
 static int approve_matching(struct approval *approval, const char *pattern)
 {
     struct kiln_error error = {0};
@@ -115,7 +121,7 @@ static int run(const struct arguments *arguments)
     if (all == (arguments->operand_count > 0))
         return report(KILN_USAGE, all ? "test approve: --all takes no names"
                                       : "test approve: which tests? name them, or --all");
-    signals_end_at_once(); /* whole pictures only */
+    signals_end_at_once(); /* no loop checks for signals, and no file is left half-written */
     int code = all ? approve_matching(&approval, NULL) : 0;
     for (size_t i = 0; i < arguments->operand_count; i++) {
         const char *operand = arguments->operands[i];

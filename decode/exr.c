@@ -1,5 +1,14 @@
-/* This file decodes layers of OpenEXR files by OpenEXR's C core. The file lies in memory, and each
- * chunk is decoded straight into the picture. */
+/* This file decodes one layer of an OpenEXR file by OpenEXR's C core. decode/main.c calls
+ * decode_exr once a request of kind KILN_DECODE_EXR, in the process kiln-decode, which has confined
+ * itself. choose_kind in lib/asset/image/image.c decides which files come here: of tiled files,
+ * FFmpeg decodes the layer "beauty" instead (picture.c).
+ *
+ * A confined process can open no file, so OpenEXR reads the file from memory, through on_read. Each
+ * chunk of scan lines is decoded straight into the picture, as four floats a pixel.
+ *
+ * The file may be malicious, so the picture's size is checked before memory is taken for the
+ * pixels. Only parts in scan lines are read, and only channels of full resolution: read_pixels
+ * knows no other. */
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,13 +20,13 @@ struct reading {
     struct decode_picture *picture;
     exr_context_t file;
     int part;
-    const char *channels[4]; /* by component, names in the file; NULL: without */
-    int32_t left, top;       /* of the data window */
+    const char *channels[4]; /* name in the file for R, G, B and A; NULL: the layer has none */
+    int32_t left, top;       /* first pixel of the data window, which need not be at 0 */
     struct kiln_asset_image *image;
 };
 
-/* Ignores messages: the code that is returned says enough, and without a handler the library would
- * print. */
+/* Ignores OpenEXR's messages. The code that its functions return says enough, and without a handler
+ * the library would print. */
 static void on_failure(exr_const_context_t context, exr_result_t code, const char *message)
 {
     (void)context;
@@ -68,8 +77,8 @@ static bool fail(const struct reading *reading, exr_result_t code)
 
 /* ---- The layer ---------------------------------------------------------------------------- */
 
-/* Returns the component of the layer that a channel is, or -1. Y and Z stand for all colours of a
- * grey layer. */
+/* Returns which component of the layer a channel holds: 0 to 3 for R, G, B and A, or -1 if it is
+ * not of the layer. Y, luminance, and Z, depth, are the one component of a grey layer: 0. */
 static int component_of(const char *channel, const char *layer)
 {
     static const char names[] = "RGBAYZ";
@@ -87,6 +96,8 @@ static int component_of(const char *channel, const char *layer)
     return *last == 'Y' || *last == 'Z' ? 0 : (int)(found - names);
 }
 
+/* Finds the layer's channels in a part. Returns whether it has them: one, or all three colours.
+ * Alpha may be missing. */
 static bool find_channels(struct reading *reading, const exr_attr_chlist_t *list)
 {
     memset(reading->channels, 0, sizeof reading->channels);

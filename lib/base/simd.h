@@ -1,8 +1,9 @@
 /* Chooses code for wide vectors by the machine that the process runs on.
  *
- * A file lib/ROOM/NAME_simd.c is compiled once for each level that the processor's kind may have
- * (CMakeLists.txt), with KILN_SIMD_LEVEL as a number for the preprocessor. It exports one table of
- * functions, or one function, named by KILN_SIMD_NAME:
+ * A file in a folder of lib/ whose name ends in _simd.c is compiled once for each level that the
+ * processor's kind may have (CMakeLists.txt), with KILN_SIMD_LEVEL as a number for the
+ * preprocessor. It exports one table of functions, or one function, named by KILN_SIMD_NAME. For
+ * example, with made-up names:
  *
  *     rows.h:       struct rows { void (*blur)(...); void (*shrink)(...); };
  *                   KILN_SIMD_DECLARE(const struct rows, kiln_rows);

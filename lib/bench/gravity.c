@@ -1,6 +1,14 @@
-/* Measures N-body gravity (Drone 2007, 7.4.3): pairs a second by width of vectors, and by the
- * paper's way to add up forces, which is to splat them; then whole frames, and how well energy is
- * kept. */
+/* Runs the suite `gravity` of `kiln bench`: gravity of particles that all attract each other (Drone
+ * 2007, 7.4.3). The table in lib/bench/bench.c names kiln_suite_gravity, which is called once a
+ * run.
+ *
+ * The suite has three parts. The first measures pairs of bodies a second, without a scene: the
+ * host's loop (sim/crowd/gravity.h) at each width of vectors that the machine has, and the paper's
+ * way, which splats forces into a texture (bench/force_splat.h) and needs GL. The second measures
+ * whole frames of a scene. The third, in drift.c, measures how well bodies keep their energy.
+ *
+ * Saved results hold the names of parts and rows. After a change of a name, or of what is measured
+ * under it, new results cannot be compared with older ones. */
 #include "sim/crowd/gravity.h"
 
 #include <stdio.h>
@@ -18,22 +26,25 @@ static const char SCENE[] = "bench/stars.yaml";
 /* ---- Pairs ----------------------------------------------------------------------------------- */
 
 enum {
-    SPLATS = 2, /* these ways follow the widths of vectors */
+    SPLATS = 2, /* formats of the texture into which forces are splatted */
+    /* The ways to compute gravity that are compared: the first KILN_SIMD_COUNT are the widths of
+     * vectors, numbered as enum kiln_simd, and the splats follow. */
     WAYS = KILN_SIMD_COUNT + SPLATS,
-    TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK,
-    /* of bodies: llvmpipe blends for seconds beyond */
+    TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK, /* bodies that a thread takes */
+    /* With more bodies than these, llvmpipe would blend for seconds in each turn. */
     MOST_SPLATTED_IN_SOFTWARE = 4096,
 };
 
+/* Holds the bodies of one size and what was measured with them. */
 struct pull {
     const struct kiln_bench_run *run;
     struct kiln_threads *threads;
-    uint32_t count, room;
+    uint32_t count, room; /* bodies; the same rounded up to a multiple of KILN_GRAVITY_BLOCK */
     float4 *sources;
     float3 *accelerations;
-    struct kiln_force_splat *splats[SPLATS];
-    const char *problems[SPLATS];
-    struct kiln_samples *samples; /* [WAYS] */
+    struct kiln_force_splat *splats[SPLATS]; /* NULL: not measured */
+    const char *problems[SPLATS];            /* why not */
+    struct kiln_samples *samples;            /* [WAYS] */
 };
 
 static bool is_splat(size_t way)
@@ -102,7 +113,8 @@ static bool can_run(const struct pull *pull, size_t way)
                          : kiln_simd_has((enum kiln_simd)way);
 }
 
-/* The first turn warms up. */
+/* Runs all ways by turns, so that a change of the machine's speed affects them alike. The first
+ * turn only warms up. */
 static bool take_turns(struct pull *pull, struct kiln_error *error)
 {
     const struct kiln_bench_params *params = pull->run->params;
@@ -127,8 +139,8 @@ static bool take_turns(struct pull *pull, struct kiln_error *error)
     return true;
 }
 
-/* Adds a row of one way, whose times become thousands of millions of pairs a second. A body and
- * itself count as a pair. */
+/* Adds a row of one way: its times as thousands of millions of pairs a second. A body and itself
+ * count as a pair, because the loops compute that pair, too. */
 static bool add_row(const struct pull *pull, size_t way, const char *name, struct kiln_error *error)
 {
     const double pairs = (double)pull->count * (double)pull->count;

@@ -1,11 +1,19 @@
-/* This file sorts the living particles by depth in threads, with three loops. The first lists the
- * living of each block as pairs with keys; the second distributes these to cells of depth; in the
- * third, one thread sorts each cell, in its caches. Blocks come in the order of serials, so each
- * cell keeps that order. Where most particles are in few cells, cells are not used and all pairs
- * are sorted at once (pairs.c).
+/* This file sorts the living particles by depth in threads. lib/sort/cpu.c (technique sort=cpu)
+ * calls kiln_sort_depth_run for each list of particles that is drawn in order of depth.
  *
- * Sorting needs the pairs twice, 16 bytes a particle: the list takes the place of one of the
- * two. */
+ * It runs three loops. The first lists the living particles of each block as pairs of a key, which
+ * is made from the depth, and a draw entry. The second moves the pairs into cells, which are
+ * intervals of depth. In the third, one thread sorts each cell, within its caches. Without cells,
+ * pairs.c sorts all pairs at once: where there are few slots, where the depths span no useful
+ * interval, or where a cell would get more pairs than the scratch of a thread holds.
+ *
+ * Particles of equal depth stay in the order of their serials, or in its reverse if the nearest
+ * comes first, however the work is divided. This holds because blocks come in the order of serials,
+ * a cell keeps the order of its blocks, and both sorts are stable. The numbers in the enum below
+ * change how long sorting takes, and no order.
+ *
+ * Sorting needs the pairs twice, 16 bytes a particle. The sorted list of entries is written over
+ * one of the two, `scratch`, whose pairs are not needed any more by then. */
 #include "sort/depth.h"
 
 #include <stdlib.h>
@@ -16,19 +24,20 @@
 #include "sort/cells.h"
 
 enum {
-    FEWEST_SLOTS = 16384, /* from which cells are worth their cost */
-    SLOTS_A_CELL = 1024,  /* 8 KiB of pairs and of scratch fit a first cache */
-    MOST_IN_CELL = 32768, /* 256 KiB of pairs and of scratch fit a second cache */
-    CELLS_AT_A_TIME = 4,
-    SAMPLES = 512,
-    OUTLIERS = 2, /* of the samples, on either side */
+    FEWEST_SLOTS = 16384, /* with fewer slots, cells cost more than they save */
+    SLOTS_A_CELL = 1024,  /* 8 KiB of pairs and as much scratch fit a first-level cache */
+    MOST_IN_CELL = 32768, /* 256 KiB of pairs and as much scratch fit a second-level cache */
+    CELLS_AT_A_TIME = 4,  /* that a thread takes */
+    SAMPLES = 512,        /* of depth, from which cells are chosen */
+    OUTLIERS = 2,         /* samples that are ignored at either end */
 };
 
 /* Describes the pairs that were listed for a block. */
 struct listed {
-    size_t place, count; /* of its pairs in scratch */
-    struct kiln_sort_span span;
-    uint32_t *counts; /* of each cell, then places */
+    size_t place, count;        /* range of the block's pairs in scratch */
+    struct kiln_sort_span span; /* of their keys */
+    /* for each cell, how many of the pairs it gets; after sum_cells, the place of the next one */
+    uint32_t *counts;
 };
 
 struct kiln_sort_depth {
@@ -92,9 +101,9 @@ struct work {
     struct kiln_sort_cells cells;
     struct listed *listed;
     kiln_sort_pair *scratch, *pairs;
-    uint32_t *list; /* where scratch is */
+    uint32_t *list; /* the result; the same memory as scratch */
     uint32_t count;
-    uint32_t starts[KILN_SORT_MOST_CELLS + 1]; /* of the cells in pairs */
+    uint32_t starts[KILN_SORT_MOST_CELLS + 1]; /* where each cell begins in pairs */
 };
 
 /* ---- cells ----------------------------------------------------------------------------------- */

@@ -1,30 +1,37 @@
-/* Declares a mesh as kiln-decode sends it: its arrays, and functions that check and convert
- * them. */
+/* Declares a mesh as kiln-decode sends it through its socket. Two programs include this:
+ * kiln-decode fills the arrays from a file and sends them (decode/), and kiln receives them
+ * (mesh_in.c). The arrays cross as they lie in memory, so both programs must be of one version.
+ *
+ * kiln-decode reads untrusted files, so kiln trusts no number that it sends: mesh_in.c checks the
+ * counts before it receives an array, and then checks the contents. */
 #ifndef KILN_ASSET_GEOMETRY_MESH_IN_H
 #define KILN_ASSET_GEOMETRY_MESH_IN_H
 
 #include "asset/geometry/mesh.h"
 #include "asset/geometry/skin_in.h"
 
-/* Holds the arrays in their largest sizes. Pages that are never touched take no memory. */
+/* Holds the arrays in their largest sizes. It comes from calloc: pages that are never touched take
+ * no memory. */
 struct kiln_mesh_result {
     uint32_t vertex_count, triangle_count;
-    float vertices[KILN_MAX_MESH_VERTICES][6];
+    float vertices[KILN_MAX_MESH_VERTICES][6]; /* position and normal */
     uint32_t triangles[KILN_MAX_MESH_TRIANGLES][3];
-    struct kiln_skin_result skin;         /* of a mesh that moves */
-    float uvs[KILN_MAX_MESH_VERTICES][2]; /* if they were asked for */
+    struct kiln_skin_result skin;         /* filled for a mesh that moves */
+    float uvs[KILN_MAX_MESH_VERTICES][2]; /* filled if they were asked for */
 };
 
-/* Calls `visit` for each array that follows an answer, in their order, with the counts of the
- * result. Both sides of the socket use this order. Stops where visit returns false. */
+/* Calls `visit` for each array that crosses the socket, in the order in which it does, with its
+ * size by the counts of the result. `uvs` and `moving` say whether those arrays are sent. Both
+ * programs use it (mesh_arrays.c), so their orders agree. Returns false as soon as visit does. */
 bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result, bool uvs, bool moving,
                             bool (*visit)(void *user, void *array, size_t bytes), void *user);
 
-/* Computes min and max from the positions of the vertices. */
+/* Computes a mesh's bounding box, min and max, from the positions of its vertices (mesh.c). */
 void kiln_mesh_bound(struct kiln_mesh *mesh);
 
-/* Checks a result and makes a skin of it. The skin takes ownership of the mesh, also on failure.
- * name is for messages. */
+/* Checks the part `skin` of a result and makes a skin of it (skin.c). The mesh is made from the
+ * rest of the same result, which mesh_in.c has checked. This takes ownership of the mesh, also on
+ * failure: then it is destroyed, and NULL is returned with an error. name is for messages. */
 struct kiln_skin *kiln_skin_take(const char *name, const struct kiln_mesh_result *result,
                                  struct kiln_mesh *mesh, struct kiln_error *error);
 

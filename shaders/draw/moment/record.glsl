@@ -1,5 +1,11 @@
-/* What vertex shaders know of a particle: its record, the table of its look, the camera. Drawing call
- * n is of entries[n], which names system and slot. */
+/* Declares what a shader reads to draw a particle: its record, the table of its look, and the camera.
+ * Vertex shaders and compute shaders that make particles for drawing include it, after
+ * shared/draw_layout.h. kiln_moment_bind (lib/draw/moment/moment_gl.c) binds the buffers, and
+ * kiln_draw_blocks_bind binds view_block.
+ *
+ * The n-th particle that is drawn is entries[n]: the system's number in the upper 8 bits, and the
+ * slot in records in the lower 24. shared/derived.h reads value_keys as a global, so that block must
+ * stand before it. */
 layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_MAX_VALUE_KEYS]; };
 #include "shared/derived.h"
 #include "shared/look_layout.h"
@@ -10,7 +16,9 @@ layout(std430, binding = KILN_BIND_RECORDS) readonly buffer record_block { kiln_
 layout(std430, binding = KILN_BIND_ENTRIES) readonly buffer entry_block { uint entries[]; };
 layout(binding = 0) uniform sampler2D look_table; /* see shared/look_layout.h */
 
-/* A row of the system's table at the particle's progress through life. */
+/* Returns a row of the system's table (KILN_LOOK_*) at a part of life, 0 at birth and 1 at death. It
+ * interpolates between two samples as the host does (kiln_look_place_at); a sampler's filter may be
+ * less precise. */
 vec4 look_at(uint system, int row, float life)
 {
     float x = life * float(KILN_LOOK_SAMPLES - 1);

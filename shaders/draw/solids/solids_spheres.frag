@@ -1,5 +1,15 @@
-/* A sphere, cast by one ray a pixel and lit like the backdrop. Its silhouette is found at the four
- * samples of a pixel, whose nearest spheres a depth test keeps. */
+/* Draws one opaque sphere particle for technique backdrop=gl. lib/draw/solids/solids_gl.c draws all
+ * spheres with it into textures of four samples a pixel: solids_spheres.vert finds a sphere's place
+ * and look, solids_spheres.geom makes the rectangle that it covers, and this shader casts rays.
+ *
+ * One ray through the middle of the pixel finds depth and light, so that lighting is computed once a
+ * pixel. Four more rays find which of the pixel's samples the sphere covers, so that silhouettes are
+ * smooth. A depth test for each sample keeps the nearest sphere, and solids_resolve.frag puts the
+ * mean of the samples over the backdrop. A sphere is lit by the functions that light the backdrop.
+ *
+ * Where the middle misses the sphere but a sample hits it, depth and light are those of the point of
+ * the middle ray that is nearest to the centre. lib/draw/solids/solid_simd.c draws the same picture on
+ * the host, with samples at the same places. */
 // variant: SOLIDS=1
 // variant: SOLIDS=1 PATTERN=1
 // variant: SOLIDS=1 ROUND=1 TURNED=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
@@ -26,19 +36,21 @@ layout(location = 5) flat in vec4 pose;
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
 
-/* A rotated grid: no two samples share a row or a column. */
+/* Where a pixel's samples are, px from its middle: a rotated grid, in which no two samples share a row
+ * or a column. The driver may place its own samples elsewhere; only their number must be four. */
 const vec2 SAMPLE_OFFSETS[4] =
     vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
 
-/* The ray through a pixel position in view space, with z of -1: its t is depth. */
+/* Returns the ray from the eye through a position in the picture, px, in view space. Its z is -1, so
+ * the t of a point on it is the point's depth. */
 vec3 view_ray(vec2 pixel)
 {
     vec2 ndc = pixel / view.frustum.zw * 2.0 - 1.0;
     return vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0);
 }
 
-/* The t at which a ray passes the centre most closely, and the square of the radius less that of the
- * distance there: negative for a miss. */
+/* Returns the t at which a ray is nearest to the sphere's centre, and the square of the radius minus
+ * the square of that distance, which is negative if the ray misses the sphere. */
 vec2 approach(vec3 ray)
 {
     float t = dot(ray, sphere.xyz) / dot(ray, ray);
@@ -48,6 +60,8 @@ vec2 approach(vec3 ray)
 
 #ifdef PATTERN
 
+/* Returns the albedo of the sphere's pattern where its normal is `normal`. pose turns the ball into the
+ * world, so its conjugate turns the normal into the ball's own axes. */
 vec3 painted(vec3 normal, vec3 direction, float t)
 {
     vec3 twice = -2.0 * cross(pose.xyz, normal);
@@ -83,7 +97,8 @@ void main()
     vec3 rgb = glow.rgb + mix(reflected, lit, albedo.a);
 
     gl_SampleMask[0] = mask;
-    gl_FragDepth = 1.0 / (1.0 + t); /* a float has its precision near 0: far away */
+    /* Near is 1 and far is 0, since floats are most precise near 0. solids_resolve.frag inverts it. */
+    gl_FragDepth = 1.0 / (1.0 + t);
     out_color = vec4(rgb, 1.0);
     out_bloom = vec4(bloom.rgb * rgb, 1.0);
 }

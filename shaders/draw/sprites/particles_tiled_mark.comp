@@ -1,5 +1,15 @@
-/* Which tiles of its bin each sprite of a list touches, before what is farthest in them: a piece of
- * a list a work group. Also gathers what the bin could add to a pixel. */
+/* Marks in which tiles of its bin each sprite could be seen: in those that it touches, unless it is
+ * behind all of the scene there. Also gathers, for each bin, bounds of what its sprites can add to a
+ * pixel.
+ *
+ * lib/draw/sprites/particles_tiled.c runs it for raster=tiled, once a chunk, after
+ * particles_tiled_list.comp has made the lists. particles_tiled.comp then draws the marked sprites, and
+ * stops in a tile when the bounds say that nothing more could be seen. A work group takes TILED_PIECE
+ * sprites of one list: an invocation marks one sprite, and clears and writes the marks of one tile,
+ * so TILED_PIECE and TILED_TILES must be equal.
+ *
+ * A mark too many only costs time. Without a mark that is needed, or with a bound that is too low, a
+ * part of the picture is missing. */
 // variant: SHAPES=0 TILED_EDGE=16
 // variant: SHAPES=1 TILED_EDGE=8
 #include "shared/draw_layout.h"
@@ -10,7 +20,7 @@ layout(local_size_x = TILED_PIECE) in;
 
 layout(std430, binding = TILED_BIND_BOXES) readonly buffer box_block
 {
-    uvec2 boxes[];
+    uvec2 boxes[]; /* pixels that each sprite may touch, as particles_tiled_make.comp writes them */
 };
 
 layout(std430, binding = TILED_BIND_SPRITES) readonly buffer sprite_block
@@ -20,7 +30,7 @@ layout(std430, binding = TILED_BIND_SPRITES) readonly buffer sprite_block
 
 layout(std430, binding = TILED_BIND_FARTHEST) readonly buffer farthest_block
 {
-    uint farthest[];
+    uint farthest[]; /* for each tile of the picture, the scene's greatest depth, m: bits of a float */
 };
 
 layout(std430, binding = TILED_BIND_BINS) buffer bin_block
@@ -30,24 +40,25 @@ layout(std430, binding = TILED_BIND_BINS) buffer bin_block
 
 layout(std430, binding = TILED_BIND_LISTS) readonly buffer list_block
 {
-    uint lists[];
+    uint lists[]; /* numbers of sprites in the chunk, nearest first */
 };
 
 layout(std430, binding = TILED_BIND_MASKS) writeonly buffer mask_block
 {
-    uint masks[];
+    uint masks[]; /* the result; see mask_word */
 };
 
-layout(location = 0) uniform uint pieces;
+layout(location = 0) uniform uint pieces; /* of all lists */
 layout(location = 1) uniform uint bin_count;
-layout(location = 2) uniform uint bin_columns;
-layout(location = 3) uniform uint tile_columns;
+layout(location = 2) uniform uint bin_columns;  /* in a row of the picture */
+layout(location = 3) uniform uint tile_columns; /* in a row of the picture */
 
 const uint WORDS = uint(TILED_PIECE / 32);
-shared uint marks[TILED_TILES * WORDS];
-shared uint adding, cover, add;
+shared uint marks[TILED_TILES * WORDS]; /* for each tile, a bit for each sprite of the piece */
+shared uint adding, cover, add;         /* of the piece, as in tiled_bin */
 
-/* Whose list an entry is in: the last that starts no later. */
+/* Returns the bin in whose list an entry is: the last bin whose list starts at the entry or before
+ * it. A bin without sprites starts where the next one does, so it is never the last. */
 uint bin_of(uint entry)
 {
     uint low = 0u, high = bin_count;
@@ -61,7 +72,9 @@ uint bin_of(uint entry)
     return low;
 }
 
-/* The least and most of a linear function over the middles of a tile's pixels. */
+/* Returns the least and the greatest value of a linear function over the middles of a tile's pixels.
+ * plane: its value at the anchor, and its change per pixel right and down; from_anchor: the tile's
+ * middle, px. */
 vec2 range_of(vec3 plane, vec2 from_anchor)
 {
     float middle = plane.x + dot(plane.yz, from_anchor);
@@ -69,7 +82,9 @@ vec2 range_of(vec3 plane, vec2 from_anchor)
     return vec2(middle - reach, middle + reach);
 }
 
-/* Does a tile lie on the inner side of each edge, somewhere? */
+/* Returns whether a tile may touch a sprite: false only if all of the tile lies outside of one of the
+ * sprite's four edges. u, v, q, most: rows of the sprite (tiled.glsl); corner: of the tile, px.
+ * inner holds how far inside of each edge the tile reaches. */
 bool touches(vec4 u, vec4 v, vec4 q, vec4 most, vec2 corner)
 {
     vec2 from_anchor = corner + 0.5 * float(TILED_EDGE) - vec2(u.w, v.w);
@@ -88,6 +103,8 @@ bool touches(vec4 u, vec4 v, vec4 q, vec4 most, vec2 corner)
     return all(greaterThanEqual(inner, vec4(-slack)));
 }
 
+/* Marks sprite i of the chunk in the tiles of a bin, and adds to the piece's bounds. The bits of
+ * floats that are not negative are ordered as the floats, so atomicMax takes them. */
 void mark_tiles(uint i, uvec2 bin_corner)
 {
     uint row = i * uint(TILED_SPRITE_ROWS);

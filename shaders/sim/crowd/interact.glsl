@@ -1,4 +1,11 @@
-/* What the kernels that gather pushes read: see shared/interact_layout.h. */
+/* Declares the buffers and parameters of the kernels shaders/sim/crowd/interact_*.comp, which compute
+ * what the particles of a system do to each other: collisions, gravity, flocking. Those kernels
+ * include it first; interact_scan.comp and interact_bitonic.comp need one buffer each and declare it
+ * themselves. lib/sim/crowd/interact_gl.c binds the buffers and runs the kernels.
+ *
+ * A body is a living particle of the system, copied into order of cells. The functions in
+ * shared/interact_*.h read these globals by the macros of shared/interact_layout.h, and the host's
+ * loops run the same functions: so names here must stay those that the macros use. */
 #ifndef KILN_SIM_INTERACT_GLSL
 #define KILN_SIM_INTERACT_GLSL
 
@@ -29,32 +36,39 @@ layout(std430, binding = INTERACT_BIND_BODIES) buffer body_block
 
 layout(std430, binding = INTERACT_BIND_SECOND) buffer second_block
 {
-    kiln_body bodies_after[];
+    kiln_body bodies_after[]; /* the bodies after a round; the host swaps the two buffers then */
 };
 
 layout(std430, binding = INTERACT_BIND_CELLS) buffer cell_block
 {
-    uint cell_ends[]; /* while they are counted: their bodies, then where each begins */
+    /* For each cell of the table: how many bodies it has (interact_count.comp), then where it begins
+     * (interact_scan.comp), then where it ends (interact_place.comp). Collisions in the staggered mode
+     * use only the last cell's word: how many bodies there are. interact_speeds.comp keeps its bounds
+     * in the first words, before the cells are filled. The word behind the cells is that of
+     * interact_find.comp with COUNTED. */
+    uint cell_ends[];
 };
 
 layout(std430, binding = INTERACT_BIND_PARTNERS) buffer partner_block
 {
-    uint partners[]; /* of each body, another body */
+    uint partners[]; /* for each body, the one that it chose for this round; INTERACT_NOBODY: none */
 };
 
 layout(std430, binding = INTERACT_BIND_ENTRIES) buffer entry_block
 {
-    uvec4 entries[]; /* key of a cell (high, low), then a slot or a body */
+    /* Of collisions in the staggered mode: the key of a cell (high, low word), by which entries are
+     * sorted, then a slot or a body. Gravity keeps its sources and sums here, and a flock its means. */
+    uvec4 entries[];
 };
 
 layout(std430, binding = INTERACT_BIND_ORDER) buffer order_block
 {
-    uint body_order[];
+    uint body_order[]; /* order of the second grid, as in stagger_find */
 };
 
 layout(std430, binding = SIM_BIND_PUSHES) buffer push_block
 {
-    float4 push_words[];
+    float4 push_words[]; /* the result, two words a slot; the simulation's step adds it */
 };
 
 #ifdef SPINS
@@ -63,13 +77,14 @@ layout(std430, binding = INTERACT_BIND_SPINS) buffer spin_block
     uvec4 spin_words[];
 };
 
-/* The word with a slot's rate. */
+/* Returns which of spin_words holds how fast a slot's ball spins. A slot has two words. */
 uint spin_word(uint slot)
 {
     return (interact_params.first_spin + slot) * 2u;
 }
 
-/* Of a body, how it turns lies behind all bodies. */
+/* Copies how fast a body spins from its slot to TURNING(body), which lies behind all bodies. Does
+ * nothing in a system whose balls do not spin. */
 void note_turning(uint body, uint slot)
 {
     if (interact_params.spins != 0u)
@@ -77,13 +92,16 @@ void note_turning(uint body, uint slot)
 }
 #endif
 
+/* Returns the number of this invocation. Work groups are dispatched in rows, since GL limits how many
+ * there may be in one direction. */
 uint invocation()
 {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     return group * SIM_GROUP_SIZE + gl_LocalInvocationID.x;
 }
 
-/* All that there are. */
+/* Returns how many bodies the system has. In the staggered mode interact_count.comp has counted them;
+ * otherwise this is where the last cell ends, which is known only after interact_place.comp. */
 uint body_count()
 {
     return cell_ends[interact_params.cell_mask];
