@@ -26,7 +26,7 @@ struct decode_picture {
     size_t size;
     enum kiln_picture_format format;
     /* of an EXR: "beauty" is R, G, B (and A), or Y, without a prefix; "depth" is Z; any other layer
-     * is "NAME.R" and so on, or a single channel NAME */
+     * is "NAME.R" and so on, or "NAME.Y" alone */
     const char *layer;
     uint64_t most_pixels;
     uint32_t width, height; /* set when the size is known */
