@@ -358,7 +358,7 @@ static void results_of_before_are_removed_and_nothing_else(void **state)
     test_write_file("out/test/spark/frame_0099.png", "mine");
     struct kiln_suite *suite = spark_suite();
     assert_false(kiln_suite_begin(suite, &error));
-    assert_int_equal(error.code, KILN_IO);
+    assert_int_equal(error.code, KILN_USAGE);
     assert_non_null(strstr(error.message, "frame_0099.png: kiln did not write this file"));
     assert_int_equal(access("out/test/spark/frame_0000.png", F_OK), 0);
     kiln_suite_destroy(&suite);
