@@ -17,7 +17,7 @@ struct frame_spec {
     size_t count;
 };
 
-/* What is expected where a text makes no sense. */
+/* Names the spellings that are allowed, for errors. */
 #define FRAMES_EXPECTED "frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10"
 
 /* The piece that makes no sense, in bytes of the text. */

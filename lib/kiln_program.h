@@ -35,7 +35,7 @@ bool kiln_compare_beside(const struct kiln_compare_params *params, const char *f
                          const char *option, struct kiln_compare_result *result,
                          struct kiln_error *error);
 
-/* What the names of states end in, of which no other file is written. */
+/* The suffix of files of saved states. Commands write no other file under such a name. */
 #define KILN_STATE_SUFFIX ".kilnstate"
 
 /* ---- Words for people ----------------------------------------------------------------------- */

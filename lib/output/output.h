@@ -46,7 +46,7 @@ void kiln_picture_destroy(struct kiln_picture **picture);
  * drawn separately. */
 enum kiln_layers { KILN_LAYERS_NONE, KILN_LAYERS_BEAUTY, KILN_LAYERS_ALL };
 
-/* What a format needs of each frame. */
+/* Describes the pictures that a format takes of each frame. */
 struct kiln_output_needs {
     uint32_t bits; /* bits of the display pixels: 0 (none), 8, 16 */
     enum kiln_layers layers;

@@ -11,7 +11,7 @@
  * checks this. */
 #include "scene/parts.h"
 
-/* What decides the motion also decides the order, so no row belongs to the motion alone. */
+/* A row that decides the motion also decides the order, so no row belongs to the motion alone. */
 enum { NEITHER = 0, BOTH = KILN_PART_MOTION | KILN_PART_ORDER };
 
 unsigned kiln_row_look(const void *scene, const void *base)
@@ -45,7 +45,8 @@ static uint32_t system_of(const struct kiln_scene *scene, const struct kiln_look
     return system;
 }
 
-/* Where contacts are as drawn, the size of what is drawn decides when particles touch. */
+/* A row of a look decides the motion if contacts are as drawn: its size then decides when particles
+ * touch. */
 unsigned kiln_row_if_contacts_are_as_drawn(const void *scene, const void *look)
 {
     const struct kiln_interaction *collide =

@@ -430,7 +430,7 @@ enum kiln_resolution { KILN_RESOLUTION_FULL, KILN_RESOLUTION_HALF, KILN_RESOLUTI
 
 enum kiln_bloom_kind { KILN_BLOOM_NONE, KILN_BLOOM_GAUSSIAN, KILN_BLOOM_PYRAMID };
 
-/* What the bloom is made of. */
+/* Names the light that blooms. */
 enum kiln_bloom_source {
     KILN_BLOOM_WEIGHTS, /* particles, by the bloom weights of their looks */
     KILN_BLOOM_BRIGHT,  /* all light above a threshold */

@@ -12,7 +12,7 @@
 
 #include "shared/step.h"
 
-/* What a step makes of a slot. */
+/* Holds a slot after a step. */
 struct step_result {
     S(kiln_particle) particle;
     S(kiln_trace) trace;

@@ -60,7 +60,8 @@ REAL_FN real sky_beside_capsule(real3 towards, float radius, float4 axis, real3 
     return sky_beside_ball(real3_along(towards, real3_all(axis), along), radius, normal);
 }
 
-/* As for a box. axis: unit, w: half of the cylinder's height. */
+/* Returns whether a cylinder hides any sky, as sky_meets_box does for a box. axis: unit, w: half of
+ * the cylinder's height. */
 REAL_FN truth sky_meets_cylinder(real3 towards, float radius, float4 axis, real3 normal)
 {
     real climb = real3_dot_all(normal, axis);

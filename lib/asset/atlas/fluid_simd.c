@@ -111,8 +111,8 @@ static void turn(struct kiln_fluid *fluid, float dt)
  * last. */
 enum { PADDED = EDGE + 3 };
 
-/* Where the gas of a row of samples was before the step: the lower left of the four samples around,
- * and the weights of four columns and rows. */
+/* Holds where the gas of a row of samples was before the step: the first of the samples around each
+ * place, and the weights of four columns and rows. */
 struct origins {
     int32_t at[EDGE]; /* index of the first of 4 x 4 padded samples */
     float wx[4][EDGE], wy[4][EDGE];

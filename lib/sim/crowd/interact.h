@@ -32,7 +32,7 @@ enum kiln_interact_kernel {
     KILN_INTERACT_KERNELS
 };
 
-/* What is computed for a system in a step. */
+/* Describes the interactions of a system in a step. */
 struct kiln_interact_work {
     const char *system; /* the system's name */
     struct kiln_interact_params params;

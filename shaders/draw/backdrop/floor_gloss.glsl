@@ -27,7 +27,7 @@ struct mirror {
     float weight; /* part of what the ray finds there that is seen */
 };
 
-/* Of the floor along a ray from the eye, whether or not something is before it. */
+/* Returns what the floor mirrors along a ray from the eye, whether or not something is before it. */
 mirror mirror_along(vec3 direction)
 {
     float t = max(view.eye.y - backdrop.floor_color.w, 0.0) / max(-direction.y, 1e-6);
