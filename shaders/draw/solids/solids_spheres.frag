@@ -36,8 +36,9 @@ layout(location = 5) flat in vec4 pose;
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
 
-/* The positions of a pixel's samples, px from its middle, form a rotated grid, in which no two samples share a row
- * or a column. The driver may place its own samples elsewhere; only their number must be four. */
+/* The positions of a pixel's samples, px from its middle, form a rotated grid, in which no two
+ * samples share a row or a column. The driver may place its own samples elsewhere; only their number
+ * must be four. */
 const vec2 SAMPLE_OFFSETS[4] =
     vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
 

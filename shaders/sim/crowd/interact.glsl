@@ -57,7 +57,8 @@ layout(std430, binding = INTERACT_BIND_PARTNERS) buffer partner_block
 layout(std430, binding = INTERACT_BIND_ENTRIES) buffer entry_block
 {
     /* In the staggered mode, collisions keep entries here: the key of a cell (high, low word), by which
-     * they are sorted, then a slot or a body. Gravity keeps its sources and sums here, and a flock its means. */
+     * they are sorted, then a slot or a body. Gravity keeps its sources and sums here, and a flock its
+     * means. */
     uvec4 entries[];
 };
 
