@@ -6,6 +6,7 @@
 
 #include "shared/limits.h"
 #include "shared/platform.h"
+#include "shared/sun_edges.h"
 
 #define KILN_BIND_SHAPES 4 /* a uniform block */
 
@@ -104,6 +105,9 @@ struct kiln_draw_shapes {
     float4 planes[KILN_MAX_OBJECTS]; /* unit normal; w: distance from the origin along it */
     float4 plane_color[KILN_MAX_OBJECTS];
     S(kiln_draw_turned_box) turned[KILN_MAX_OBJECTS];
+    S(sun_edges) edges; /* of boxes along the axes */
+    S(sun_edges) turned_edges[KILN_MAX_OBJECTS];
+    S(sun_band) bands[KILN_MAX_OBJECTS]; /* of cylinders */
 };
 
 #endif

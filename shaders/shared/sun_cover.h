@@ -40,12 +40,12 @@ struct sun_crossed {
 };
 
 /* near_a to far_b: the t at which light enters and leaves the slabs of the strip's two axes. */
-REAL_FN S(sun_crossed) sun_cross_strip(S(sun_strip) strip, real near_a, real near_b, real far_a,
+REAL_FN S(sun_crossed) sun_cross_strip(float4 strip, real near_a, real near_b, real far_a,
                                        real far_b, float spread, float radius)
 {
-    real one = (far_b - near_a) * strip.scale, other = (far_a - near_b) * strip.scale;
-    real one_at = (near_a * strip.square_b + far_b * strip.square_a) * strip.sum;
-    real other_at = (near_b * strip.square_a + far_a * strip.square_b) * strip.sum;
+    real one = (far_b - near_a) * strip.w, other = (far_a - near_b) * strip.w;
+    real one_at = (near_a * strip.y + far_b * strip.x) * strip.z;
+    real other_at = (near_b * strip.x + far_a * strip.y) * strip.z;
     real cover = disc_cover(one / sun_penumbra(one_at, spread, radius)) +
                  disc_cover(other / sun_penumbra(other_at, spread, radius)) - 1.0f;
     S(sun_crossed) crossed;
@@ -78,7 +78,7 @@ REAL_FN S(sun_hidden) sun_cross_box(S(ray_slabs) s, S(sun_edges) e, float margin
     real outside = real_max(real_max(xy.outside, real_all(0.0f)), real_max(yz.outside, xz.outside));
     real aside = outside + margin;
     S(sun_hidden) box;
-    box.cover = both_strips(both_strips(yz.cover, xz.cover, e.alike_xy), xy.cover, e.alike_z);
+    box.cover = both_strips(both_strips(yz.cover, xz.cover, e.alike.x), xy.cover, e.alike.y);
     box.way = real_min(real_min(s.far.x + aside * e.later.x, s.far.y + aside * e.later.y),
                        s.far.z + aside * e.later.z);
     return box;
@@ -111,16 +111,16 @@ REAL_FN real cylinder_cover(real3 towards, float radius, float4 axis, float4 sun
                             float spread)
 {
     real x = real3_dot_all(towards, band.right), y = real3_dot_all(towards, band.up);
-    real along = real_clamp(-y * (1.0f / (band.slant * band.tilt)), -axis.w, axis.w);
-    real t = real_max(real3_dot_all(towards, sun) + along * band.climb, real_all(0.0f));
+    real along = real_clamp(-y * (1.0f / (band.lean.y * band.lean.z)), -axis.w, axis.w);
+    real t = real_max(real3_dot_all(towards, sun) + along * band.lean.x, real_all(0.0f));
     real inside = real_sqrt(real_max(radius * radius - x * x, real_all(0.0f)));
-    real end = axis.w * band.slant + exact_abs(band.climb) * inside;
+    real end = axis.w * band.lean.y + exact_abs(band.lean.x) * inside;
     real sides = strip_cover(radius - real_abs(x), radius + real_abs(x), t * spread);
     real ends = strip_cover(end - real_abs(y), end + real_abs(y), t * spread);
     /* Light that starts beside the cylinder or beyond an end may only lead away from it. */
     real height = -real3_dot_all(towards, axis);
     real3 aside = real3_along(towards, real3_all(axis), height);
-    truth beyond = truth_and(real_abs(height) >= axis.w, height * band.climb > 0.0f);
+    truth beyond = truth_and(real_abs(height) >= axis.w, height * band.lean.x > 0.0f);
     truth beside =
         truth_and(real3_dot(aside, aside) >= radius * radius, real3_dot_all(aside, sun) < 0.0f);
     return real_where(truth_not(truth_or(beyond, beside)), sides * ends);

@@ -95,24 +95,11 @@ void kiln_backdrop_cpu_pictures(const struct kiln_backdrop_cpu *cpu,
 /* ---- objects that rays may hit
  * ------------------------------------------------------------------ */
 
-static void fill_turned_suns(float4 sun, const struct kiln_draw_shapes *shapes,
-                             struct sun_edges suns[KILN_MAX_OBJECTS])
-{
-    for (uint32_t i = 0; i < shapes->more.y; i++) {
-        const float4 *rows = shapes->turned[i].rows;
-        float way[3];
-        for (int k = 0; k < 3; k++)
-            way[k] = rows[k].x * sun.x + rows[k].y * sun.y + rows[k].z * sun.z;
-        suns[i] = sun_edges_of((float3){way[0], way[1], way[2]});
-    }
-}
-
 static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
                                         const struct kiln_backdrop_inputs *inputs,
                                         const struct kiln_lighting *lighting)
 {
     const struct kiln_shape_features features = kiln_shape_features(cpu->scene);
-    const float4 sun = inputs->block.sun_direction;
     struct kiln_ray_frame frame = {
         .view = &inputs->view,
         .backdrop = &inputs->block,
@@ -125,9 +112,7 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
         .meshes = cpu->meshes ? kiln_meshes_cpu_view(cpu->meshes) : NULL,
         .floor_gloss = features.floor_gloss && inputs->block.floor_params.x > 0.0f,
         .soft_sun = features.soft_sun,
-        .edges = sun_edges_of((float3){sun.x, sun.y, sun.z}),
     };
-    fill_turned_suns(sun, &inputs->shapes, frame.turned);
     return frame;
 }
 

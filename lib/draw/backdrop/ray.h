@@ -9,7 +9,6 @@
 #include "draw/light/lighting.h"
 #include "draw/light/smoke_shadow.h"
 #include "draw/moment/shapes.h"
-#include "shared/sun_edges.h"
 
 struct kiln_ray_frame {
     const struct kiln_view *view;
@@ -20,8 +19,6 @@ struct kiln_ray_frame {
     struct kiln_solid_bins solids;
     const struct kiln_mesh_view *meshes; /* NULL: none */
     bool floor_gloss, soft_sun;
-    struct sun_edges edges;                    /* of boxes along the axes */
-    struct sun_edges turned[KILN_MAX_OBJECTS]; /* of rotated boxes */
 };
 
 /* Holds the objects that rays may hit, a bit for each. */

@@ -23,16 +23,11 @@ SIMD vf box_cover(const struct ray_slabs *s, const struct sun_edges *edges, floa
     return vf_where(hidden.way > 0.0f, hidden.cover);
 }
 
-SIMD struct vf3 sun_inverses(const struct sun_edges *edges)
-{
-    const float3 inverse = edges->inverse;
-    return (struct vf3){vf_all(inverse.x), vf_all(inverse.y), vf_all(inverse.z)};
-}
-
 SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
-    const struct vf3 inverses = sun_inverses(&frame->edges);
+    const struct sun_edges *edges = &frame->shapes->edges;
+    const struct vf3 inverses = vf3_all(edges->inverse);
     vf visible = vf_all(1.0f);
     for (uint32_t i = 0; i < b->counts.x; i++) {
         struct ray_slabs s =
@@ -41,7 +36,7 @@ SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_s
             vi hidden = shade->wanted & ray_is_blocked(ray_slabs_interval(s));
             visible = vf_where(~hidden, visible);
         } else {
-            vf cover = box_cover(&s, &frame->edges, frame->shapes->sun_right.w);
+            vf cover = box_cover(&s, edges, frame->shapes->sun_right.w);
             visible *= 1.0f - vf_where(shade->wanted, cover);
         }
     }
@@ -52,12 +47,10 @@ SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_s
 
 SIMD vf cylinder_of_sun(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
 {
-    const float4 sun = frame->backdrop->sun_direction, aside = frame->shapes->sun_right;
-    const float4 cylinder = frame->shapes->cylinders[i], axis = frame->shapes->cylinder_axis[i];
-    const struct sun_band band =
-        sun_band_of((float3){axis.x, axis.y, axis.z}, (float3){sun.x, sun.y, sun.z},
-                    (float3){aside.x, aside.y, aside.z});
-    return cylinder_cover(vf3_towards(cylinder, origin), cylinder.w, axis, sun, band, aside.w);
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const float4 cylinder = shapes->cylinders[i];
+    return cylinder_cover(vf3_towards(cylinder, origin), cylinder.w, shapes->cylinder_axis[i],
+                          frame->backdrop->sun_direction, shapes->bands[i], shapes->sun_right.w);
 }
 
 SIMD vf round_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
@@ -111,8 +104,9 @@ SIMD vf turned_let_through(const struct kiln_ray_frame *frame, const struct ray_
                          visible);
     }
     for (int i = 0; i < (int)shapes->more.y; i++) {
-        const struct sun_edges *edges = &frame->turned[i];
-        struct ray_slabs s = cross_turned(&shapes->turned[i], shade->origin, sun_inverses(edges));
+        const struct sun_edges *edges = &shapes->turned_edges[i];
+        struct ray_slabs s =
+            cross_turned(&shapes->turned[i], shade->origin, vf3_all(edges->inverse));
         if (frame->soft_sun)
             visible *= 1.0f - box_cover(&s, edges, shapes->sun_right.w);
         else

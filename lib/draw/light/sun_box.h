@@ -32,8 +32,8 @@ static inline float kiln_sun_box_cover(const struct kiln_sun_box *box, struct ki
                                        const struct kiln_sun_frame *sun)
 {
     bool misses = kiln_sun_misses(box->center, box->size, ball, sun);
-    const struct ray_slabs slabs =
-        ray_cross_slabs(float3_sub(box->center, ball.center), box->half_size, box->edges.inverse);
+    const struct ray_slabs slabs = ray_cross_slabs(float3_sub(box->center, ball.center),
+                                                   box->half_size, real3_all(box->edges.inverse));
     const struct sun_hidden hidden =
         sun_cross_box(slabs, box->edges, 1e-3f * box->size, sun->spread, ball.radius);
     float seen = hidden.cover * kiln_sun_behind(hidden.way, ball);

@@ -21,7 +21,7 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
 {
     float3 to = float3_sub(center, ball.center);
     const struct sun_band band = sun_band_of(axis, sun->towards, sun->right);
-    const float climb = band.climb, slant = band.slant;
+    const float climb = band.lean.x, slant = band.lean.y;
     float x = real3_dot_all(to, band.right), y = real3_dot_all(to, band.up);
     float ahead = float3_dot(to, sun->towards);
     float inside = sqrtf(exact_max(radius * radius - x * x, 0.0f));
@@ -33,7 +33,7 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
         return 0.0f;
     /* The ray at the nearest place inside of the outline leaves the cylinder through its side or
      * its end. */
-    float at = exact_clamp(y, -end, end) * band.tilt;
+    float at = exact_clamp(y, -end, end) * band.lean.z;
     float height = -ahead * climb - at * slant; /* of that place above the middle */
     float beside = -ahead * slant + at * climb; /* away from the axis, on the sun's side */
     float side = (inside - beside) / slant;

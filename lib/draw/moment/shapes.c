@@ -18,8 +18,8 @@ static_assert(sizeof(struct kiln_draw_turned_box) == 96, "std140");
 static_assert(offsetof(struct kiln_draw_shapes, spheres) == FIRST_SPHERE, "std140");
 static_assert(offsetof(struct kiln_draw_shapes, meshes) == FIRST_SPHERE + 80 * KILN_MAX_OBJECTS,
               "std140");
-static_assert(sizeof(struct kiln_draw_shapes) ==
-                  FIRST_SPHERE + (80 + 80 + 96) * KILN_MAX_OBJECTS + 96 * KILN_MAX_MESHES,
+static_assert(sizeof(struct kiln_draw_shapes) == FIRST_SPHERE + 96 * (KILN_MAX_MESHES + 1) +
+                                                     (80 + 80 + 96 + 96 + 48) * KILN_MAX_OBJECTS,
               "std140, and no padding, which the backdrop would compare");
 
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
@@ -219,6 +219,24 @@ static void fill_more(const struct kiln_scene *scene, const struct kiln_object *
     }
 }
 
+/* Fills in how boxes and cylinders look from the sun. */
+static void fill_sun(const struct kiln_sun_frame *sun, struct kiln_draw_shapes *shapes)
+{
+    shapes->edges = sun_edges_of(sun->towards);
+    for (uint32_t i = 0; i < shapes->more.y; i++) {
+        float way[3];
+        for (int k = 0; k < 3; k++) {
+            const float4 row = shapes->turned[i].rows[k];
+            way[k] = float3_dot((float3){row.x, row.y, row.z}, sun->towards);
+        }
+        shapes->turned_edges[i] = sun_edges_of((float3){way[0], way[1], way[2]});
+    }
+    for (uint32_t i = 0; i < shapes->counts.y; i++) {
+        const float4 axis = shapes->cylinder_axis[i];
+        shapes->bands[i] = sun_band_of((float3){axis.x, axis.y, axis.z}, sun->towards, sun->right);
+    }
+}
+
 void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,
                       const struct kiln_sun_frame *sun, float time_s,
                       struct kiln_draw_shapes *shapes)
@@ -251,5 +269,6 @@ void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *co
             fill_more(scene, object, time_s, shapes);
         }
     }
+    fill_sun(sun, shapes);
     fill_paint(scene, shapes);
 }

@@ -66,11 +66,9 @@ float round_sun_visibility(vec3 origin)
     float visible = 1.0;
     for (int i = 0; i < int(shapes.counts.x); i++)
         visible *= 1.0 - ball_cover(shapes.spheres[i].xyz - origin, shapes.spheres[i].w, sun, spread);
-    for (int i = 0; i < int(shapes.counts.y); i++) {
-        sun_band band = sun_band_of(shapes.cylinder_axis[i].xyz, sun.xyz, shapes.sun_right.xyz);
+    for (int i = 0; i < int(shapes.counts.y); i++)
         visible *= 1.0 - cylinder_cover(shapes.cylinders[i].xyz - origin, shapes.cylinders[i].w,
-                                        shapes.cylinder_axis[i], sun, band, spread);
-    }
+                                        shapes.cylinder_axis[i], sun, shapes.bands[i], spread);
     return visible;
 }
 

@@ -59,11 +59,11 @@ float box_sun_visibility(ray_slabs slabs, sun_edges edges)
 
 float boxes_sun_visibility(vec3 origin)
 {
-    sun_edges edges = sun_edges_of(backdrop.sun_direction.xyz);
     float visible = 1.0;
     for (int i = 0; i < int(backdrop.counts.x); i++)
         visible *= box_sun_visibility(ray_cross_slabs(backdrop.box_center[i].xyz - origin,
-                                                      backdrop.box_half[i], edges.inverse), edges);
+                                                      backdrop.box_half[i],
+                                                      shapes.edges.inverse.xyz), shapes.edges);
     return visible;
 }
 

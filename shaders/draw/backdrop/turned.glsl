@@ -113,9 +113,8 @@ float turned_sun_visibility(vec3 origin)
             return 0.0;
 #endif
     }
-    for (int i = 0; i < int(shapes.more.y); i++) {
-        sun_edges edges = sun_edges_of(into_box(i, sun.xyz));
-        visible *= box_sun_visibility(cross_turned(i, origin, edges.inverse), edges);
-    }
+    for (int i = 0; i < int(shapes.more.y); i++)
+        visible *= box_sun_visibility(cross_turned(i, origin, shapes.turned_edges[i].inverse.xyz),
+                                      shapes.turned_edges[i]);
     return visible;
 }
