@@ -81,16 +81,14 @@ hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
     vec3 inverse = ray_inverse3(direction);
     int found = -1;
     for (int i = 0; i < int(backdrop.counts.x); i++) {
-        ray_slabs slabs =
-            ray_cross_slabs(backdrop.box_center[i].xyz - origin, backdrop.box_half[i], inverse);
-        ray_interval at = ray_slabs_interval(slabs);
+        ray_interval at = ray_slabs_interval(cross_box(i, origin, inverse));
         if (ray_meets(at, nearest.t)) {
             nearest.t = at.near;
-            nearest.normal = ray_slabs_normal(slabs, inverse);
             found = i;
         }
     }
     if (found >= 0) {
+        nearest.normal = ray_slabs_normal(cross_box(found, origin, inverse), inverse);
         nearest.albedo = backdrop.box_color[found].rgb;
         nearest.surface = KILN_SURFACE_BOX(KILN_SURFACE_BOXES, found) +
                           int(ray_face_number(nearest.normal));

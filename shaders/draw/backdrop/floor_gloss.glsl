@@ -3,7 +3,8 @@
 floor_water find_water(vec2 position, floor_extent extent)
 {
     floor_water water = floor_water(position.x, position.y, 0.0, 0.0, 0.0);
-    for (int i = 0; i < KILN_WAVES; i++)
+    int count = shapes.floor_gloss.z > 0.0 ? KILN_WAVES : 0;
+    for (int i = 0; i < count; i++)
         water = floor_add_wave(water, shapes.waves[i], shapes.wave_shift[i], shapes.floor_gloss.z,
                                extent);
     return water;

@@ -29,6 +29,12 @@ vec3 ray_direction(vec2 pixel)
     return view_to_world(vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0));
 }
 
+/* Intersects the slabs of a box along the axes. inverse: ray_inverse3 of the ray's direction. */
+ray_slabs cross_box(int i, vec3 origin, vec3 inverse)
+{
+    return ray_cross_slabs(backdrop.box_center[i].xyz - origin, backdrop.box_half[i], inverse);
+}
+
 /* The sun's light that a box lets through, 0 to 1. slabs: of a ray towards the sun. */
 float box_sun_visibility(ray_slabs slabs, sun_edges edges)
 {
@@ -61,9 +67,7 @@ float boxes_sun_visibility(vec3 origin)
 {
     float visible = 1.0;
     for (int i = 0; i < int(backdrop.counts.x); i++)
-        visible *= box_sun_visibility(ray_cross_slabs(backdrop.box_center[i].xyz - origin,
-                                                      backdrop.box_half[i],
-                                                      shapes.edges.inverse.xyz), shapes.edges);
+        visible *= box_sun_visibility(cross_box(i, origin, shapes.edges.inverse.xyz), shapes.edges);
     return visible;
 }
 

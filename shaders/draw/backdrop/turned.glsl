@@ -49,18 +49,17 @@ ray_slabs cross_turned(int i, vec3 origin, vec3 inverse)
 void trace_turned(vec3 origin, vec3 direction, inout hit nearest)
 {
     int found = -1;
-    vec3 normal = vec3(0.0);
     for (int i = 0; i < int(shapes.more.y); i++) {
         vec3 inverse = ray_inverse3(into_box(i, direction));
-        ray_slabs slabs = cross_turned(i, origin, inverse);
-        ray_interval at = ray_slabs_interval(slabs);
+        ray_interval at = ray_slabs_interval(cross_turned(i, origin, inverse));
         if (ray_meets(at, nearest.t)) {
             nearest.t = at.near;
             found = i;
-            normal = ray_slabs_normal(slabs, inverse);
         }
     }
     if (found >= 0) {
+        vec3 inverse = ray_inverse3(into_box(found, direction));
+        vec3 normal = ray_slabs_normal(cross_turned(found, origin, inverse), inverse);
         nearest.normal = out_of_box(found, normal);
         nearest.albedo = shapes.turned[found].color.rgb;
         nearest.surface =
