@@ -1,4 +1,4 @@
-/* Allocates memory for large arrays that are read in no order. */
+/* Allocates memory for large arrays, such as images and particles. */
 #ifndef KILN_BASE_PAGES_H
 #define KILN_BASE_PAGES_H
 

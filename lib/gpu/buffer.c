@@ -9,8 +9,9 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/pages.h"
 
-enum { HOST_ALIGNMENT = 64, LEAST_SIZE = 64 };
+enum { LEAST_SIZE = 64 };
 
 void kiln_buffer_init(struct kiln_buffer *buffer, struct kiln_device *device, size_t size,
                       const char *label)
@@ -46,9 +47,7 @@ static size_t storage_size(const struct kiln_buffer *buffer)
 static bool allocate_host(struct kiln_buffer *buffer, struct kiln_error *error)
 {
     const size_t size = storage_size(buffer);
-    if (size <= PTRDIFF_MAX - HOST_ALIGNMENT)
-        buffer->host = aligned_alloc(HOST_ALIGNMENT,
-                                     (size + HOST_ALIGNMENT - 1) / HOST_ALIGNMENT * HOST_ALIGNMENT);
+    buffer->host = kiln_alloc_pages(size);
     if (!buffer->host)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %zu bytes on the host",
                               buffer->label, buffer->size);

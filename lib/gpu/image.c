@@ -6,8 +6,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-
-enum { HOST_ALIGNMENT = 64 };
+#include "base/pages.h"
 
 void kiln_image_init(struct kiln_image *image, struct kiln_device *device, uint32_t width,
                      uint32_t height, GLenum gl_format, const char *label)
@@ -41,10 +40,9 @@ static bool allocate_host(struct kiln_image *image, struct kiln_error *error)
 {
     size_t size = image->channels * sizeof(float);
     bool overflow = __builtin_mul_overflow(size, image->width, &size) ||
-                    __builtin_mul_overflow(size, image->height, &size) ||
-                    size > PTRDIFF_MAX - HOST_ALIGNMENT;
+                    __builtin_mul_overflow(size, image->height, &size);
     if (!overflow)
-        image->host = aligned_alloc(HOST_ALIGNMENT, (size / HOST_ALIGNMENT + 1) * HOST_ALIGNMENT);
+        image->host = kiln_alloc_pages(size);
     return image->host || refuse_memory(image, "on the host", error);
 }
 
