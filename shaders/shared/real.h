@@ -38,6 +38,7 @@
 #define real_pow(x, y)              pow(max(x, 0.0f), y)
 #define real_sin(x)                 sin(x)
 #define real_cos(x)                 cos(x)
+#define real_atan2(y, x)            atan(y, x)
 #define real_select(holds, yes, no) ((holds) ? (yes) : (no))
 #define real_where(holds, x)        ((holds) ? (x) : 0.0f)
 #define real_sign_one(x)            ((x) < 0.0f ? -1.0f : 1.0f)
@@ -103,6 +104,24 @@
 REAL_FN real real_clamp01(real x)
 {
     return real_clamp(x, 0.0f, 1.0f);
+}
+
+/* Returns a at part 0, b at part 1. */
+REAL_FN real real_mix(real a, real b, real part)
+{
+    return a + (b - a) * part;
+}
+
+/* Returns 0 up to `from`, 1 from `to` on, and Hermite's cubic between. */
+REAL_FN real real_smoothstep(float from, float to, real x)
+{
+    real t = real_clamp01((x - from) * (1.0f / (to - from)));
+    return t * t * (3.0f - 2.0f * t);
+}
+
+REAL_FN real3 real3_cross(real3 a, real3 b)
+{
+    return REAL3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
 #endif

@@ -28,8 +28,10 @@ SIMD struct vf3 floor_albedo(const struct kiln_ray_frame *frame, const struct ra
     const struct kiln_draw_backdrop *b = frame->backdrop;
     vf x = ray->origin.x + ray->direction.x * t, z = ray->origin.z + ray->direction.z * t;
     if (frame->floor_image) {
-        const struct ray_patch patch = find_patch(frame, ray->direction, t, x, z);
-        return floor_picture(frame, &patch, wanted);
+        const float4 *rows = frame->view->world_to_view;
+        const struct floor_patch patch = floor_patch_of(
+            ray->direction, t, rows[0], rows[1], frame->view->frustum, frame->shapes->floor_map.z);
+        return floor_picture(frame, &patch, x, z, wanted);
     }
     if (b->floor_params.y <= 0.0f)
         return vf3_all(b->floor_color);

@@ -4,9 +4,8 @@
 #define KILN_DRAW_BACKDROP_RAY_PICTURE_H
 
 #include "draw/backdrop/ray.h"
-#include "draw/vector/ray_math.h"
-
-enum { RAY_FLOOR_TAPS = 8 };
+#include "draw/vector/real.h"
+#include "shared/picture_map.h"
 
 typedef float ray_texel __attribute__((vector_size(16)));
 
@@ -83,44 +82,9 @@ SIMD void set_lane(struct vf3 *color, int lane, ray_texel texel)
 
 /* ---- the floor ------------------------------------------------------------------------------- */
 
-/* Holds a place on the floor, and the longer edge of the area that a pixel covers there. */
-struct ray_patch {
-    vf x, z, longer_x, longer_z, level;
-};
-
-/* Returns how far a place on the floor moves with the ray's direction. */
-SIMD void shift_on_floor(struct vf3 direction, float4 row, float factor, vf t, vf *x, vf *z)
-{
-    vf climb = (row.y * factor) / direction.y;
-    *x = t * (row.x * factor - direction.x * climb);
-    *z = t * (row.z * factor - direction.z * climb);
-}
-
-/* Finds the area that a pixel covers. Several fetches lie along its longer edge; the shorter one
- * chooses their level. */
-SIMD struct ray_patch find_patch(const struct kiln_ray_frame *frame, struct vf3 direction, vf t,
-                                 vf x, vf z)
-{
-    const struct kiln_view *view = frame->view;
-    vf ux, uz, vx, vz;
-    shift_on_floor(direction, view->world_to_view[0], 2.0f * view->frustum.x / view->frustum.z, t,
-                   &ux, &uz);
-    shift_on_floor(direction, view->world_to_view[1], 2.0f * view->frustum.y / view->frustum.w, t,
-                   &vx, &vz);
-    vf u2 = ux * ux + uz * uz, v2 = vx * vx + vz * vz;
-    vi along_u = u2 > v2;
-    vf length2 = vf_max(vf_select(along_u, u2, v2), vf_all(1e-18f));
-    vf inverse = vf_rsqrt(length2);
-    /* The width is the area over the length, since the two edges need not be perpendicular. */
-    vf width = vf_abs(ux * vz - uz * vx) * inverse;
-    vf covered = vf_max(width, length2 * inverse * (1.0f / (float)RAY_FLOOR_TAPS));
-    vf texels = vf_min(vf_max(covered * frame->shapes->floor_map.z, vf_all(1e-6f)), vf_all(1e9f));
-    return (struct ray_patch){x, z, vf_select(along_u, ux, vx), vf_select(along_u, uz, vz),
-                              vf_log2(texels)};
-}
-
-SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame, const struct ray_patch *patch,
-                              vi wanted)
+/* Reads the floor's picture at (x, z) on the floor, m. */
+SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame, const struct floor_patch *patch,
+                              vf x, vf z, vi wanted)
 {
     const struct kiln_pyramid *picture = frame->floor_image;
     const float4 map = frame->shapes->floor_map;
@@ -130,20 +94,20 @@ SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame, const struct r
             continue;
         const struct ray_levels levels = choose_levels(picture, patch->level[lane]);
         ray_texel sum = {0};
-        for (int i = 0; i < RAY_FLOOR_TAPS; i++) {
-            float way = ((float)i + 0.5f) / (float)RAY_FLOOR_TAPS - 0.5f;
-            float u = fraction((patch->x[lane] + patch->longer_x[lane] * way) * map.x);
-            float v = fraction((patch->z[lane] + patch->longer_z[lane] * way) * map.y);
+        for (int i = 0; i < FLOOR_TAPS; i++) {
+            float way = floor_tap_of(i);
+            float u = fraction((x[lane] + patch->longer_x[lane] * way) * map.x);
+            float v = fraction((z[lane] + patch->longer_z[lane] * way) * map.y);
             sum += read_picture(picture, &levels, u, v, true);
         }
-        set_lane(&color, lane, sum * (1.0f / (float)RAY_FLOOR_TAPS));
+        set_lane(&color, lane, sum * (1.0f / (float)FLOOR_TAPS));
     }
     return color;
 }
 
 /* ---- the sky --------------------------------------------------------------------------------- */
 
-/* Reads the sky, averaged over at least `angle` radians. The picture's middle lies towards -z. */
+/* Reads the sky's picture, averaged over at least `angle` radians. */
 SIMD struct vf3 sky_picture(const struct kiln_ray_frame *frame, struct vf3 direction, float angle,
                             vi wanted)
 {
@@ -151,15 +115,13 @@ SIMD struct vf3 sky_picture(const struct kiln_ray_frame *frame, struct vf3 direc
     const float4 map = frame->shapes->sky_map;
     const struct ray_levels levels =
         choose_levels(picture, exact_log2(exact_max(angle * map.z, 1e-6f)));
-    vf flat2 = direction.x * direction.x + direction.z * direction.z;
-    vf flat_length = flat2 * vf_rsqrt(flat2);
-    vf u = vf_atan2(direction.x, -direction.z) * (0.5f / RAY_PI) + (0.5f + map.x);
-    vf v = vf_atan2(flat_length, direction.y) * (1.0f / RAY_PI);
-    u -= vf_floor(u);
+    const struct sky_place at = sky_place_of(direction, map.x);
+    vf u = at.u - vf_floor(at.u);
     struct vf3 color = {{0}, {0}, {0}};
     for (int lane = 0; lane < LANES; lane++) {
         if (wanted[lane])
-            set_lane(&color, lane, read_picture(picture, &levels, u[lane], v[lane], false) * map.y);
+            set_lane(&color, lane,
+                     read_picture(picture, &levels, u[lane], at.v[lane], false) * map.y);
     }
     return color;
 }

@@ -5,6 +5,7 @@
 #define KILN_DRAW_BACKDROP_RAY_SUN_H
 
 #include "draw/backdrop/ray_turned.h"
+#include "shared/shadow_map.h"
 #include "shared/sun_cover.h"
 
 /* Describes points that the sun is looked for from, and the lanes that need it. */
@@ -164,60 +165,32 @@ SIMD struct ray_seen read_shadow(const uint32_t *map, vf u, vf v, vf level)
     return seen;
 }
 
-/* Describes a place in the shadow map of a mesh. */
-struct ray_shadow_place {
-    vf u, v, depth;
-    vf slope_u, slope_v; /* of the receiver's plane: what its depth is a step aside */
-};
-
-SIMD struct ray_shadow_place place_in_shadow(const struct kiln_ray_frame *frame, int i,
-                                             const struct ray_shade *shade)
-{
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    const float4 sun = frame->backdrop->sun_direction, center = shapes->meshes[i].center;
-    struct vf3 from = vf3_sub(shade->origin, vf3_all(center));
-    float scale = 0.5f / (center.w * (1.0f + KILN_SHADOW_MARGIN));
-    vf facing = 1.0f / vf_max(vf3_dot_all(shade->normal, sun), vf_all(0.05f));
-    return (struct ray_shadow_place){
-        .u = 0.5f + vf3_dot_all(from, shapes->sun_right) * scale,
-        .v = 0.5f + vf3_dot_all(from, shapes->sun_up) * scale,
-        .depth = 0.5f - vf3_dot_all(from, sun) * scale,
-        .slope_u = vf3_dot_all(shade->normal, shapes->sun_right) * facing,
-        .slope_v = vf3_dot_all(shade->normal, shapes->sun_up) * facing,
-    };
-}
-
-/* Returns the cover of a mesh. A first fetch looks for a blocker over a larger area than the others
- * reach; four bilinear fetches half a step aside then make a tent filter, as nine would. */
+/* Returns the part of the sun that a mesh covers. */
 SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct ray_shade *shade)
 {
+    const struct kiln_draw_shapes *shapes = frame->shapes;
     const uint32_t *map = frame->meshes->shadows[i];
-    const float texel = 1.0f / (float)KILN_SHADOW_EDGE, spread = frame->shapes->sun_right.w;
-    const struct ray_shadow_place at = place_in_shadow(frame, i, shade);
-    vf slack = 1.5f * texel * (1.0f + 0.5f * (vf_abs(at.slope_u) + vf_abs(at.slope_v)));
-    vf widest = vf_max(spread * at.depth, vf_all(texel)); /* penumbra of what is nearest the sun */
-    vf reach = 4.0f * widest;
+    const float spread = shapes->sun_right.w;
+    const struct shadow_receiver at =
+        shadow_receiver_of(shapes->meshes[i].center, shade->origin, shade->normal,
+                           frame->backdrop->sun_direction, shapes->sun_right, shapes->sun_up);
+    vf widest = shadow_widest(at, spread), reach = 4.0f * widest;
     vi near = shade->wanted & (at.u > -reach) & (at.v > -reach) & (at.u < 1.0f + reach) &
               (at.v < 1.0f + reach);
     if (!any(near))
         return vf_all(0.0f);
 
-    struct ray_seen seen = read_shadow(map, at.u, at.v, vf_log2(widest * (1.0f / texel)) + 1.0f);
+    struct ray_seen seen = read_shadow(map, at.u, at.v, shadow_level(widest) + 1.0f);
     near &= seen.cover > 0.0f;
     if (!any(near))
         return vf_all(0.0f);
-    vf middle = seen.distance / vf_max(seen.cover, vf_all(1e-4f));
-    /* The gap to the blocker gives the width of the penumbra. */
-    vf gap = at.depth - vf_min(middle, at.depth);
-    vf width = vf_max(0.75f * spread * gap, vf_all(texel));
-    vf level = vf_log2(width * (1.0f / texel)), stride = 0.5f * width, cover = vf_all(0.0f);
-    vf ramp = 1.0f / (slack + stride);
+    vf width = shadow_width(at, spread, seen.cover, seen.distance);
+    vf level = shadow_level(width), stride = 0.5f * width, cover = vf_all(0.0f);
+    vf ramp = 1.0f / (at.slack + stride);
     for (int k = 0; k < 4; k++) {
         vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
         seen = read_shadow(map, at.u + aside_u, at.v + aside_v, level);
-        middle = seen.distance / vf_max(seen.cover, vf_all(1e-4f));
-        vf before = at.depth + (at.slope_u * aside_u + at.slope_v * aside_v) - middle;
-        cover += 0.25f * seen.cover * real_clamp01(before * ramp - 0.5f);
+        cover += shadow_tap(at, aside_u, aside_v, seen.cover, seen.distance, ramp);
     }
     return vf_where(near, cover);
 }
@@ -269,28 +242,21 @@ SIMD vf silhouette_level(const float *texels, const struct ray_tile *tile, vf u,
     return sum;
 }
 
-/* The part of the sun that silhouettes cover: silhouette_cover of solid_shadow.glsl in vectors.
- * ball is the cover of the sphere that stands for each mesh. */
+/* Returns the part of the sun that meshes cover. ball: the part that the bounding sphere of each
+ * mesh covers. */
 SIMD vf silhouette_cover(const struct kiln_ray_frame *frame, struct vf3 center,
                          const struct ray_tile *tile, struct vf3 origin, vf ball)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const float *texels = frame->solids.silhouettes;
-    struct vf3 towards = vf3_sub(center, origin);
-    vf t = vf3_dot_all(towards, frame->backdrop->sun_direction), half = 0.5f / tile->reach;
-    vf u = 0.5f - vf3_dot_all(towards, shapes->sun_right) * half;
-    vf v = 0.5f - vf3_dot_all(towards, shapes->sun_up) * half;
-    vf radius = vf_max(t * shapes->sun_right.w, vf_all(1e-5f));
-    vf most = vf_floor(vf_log2(vf_of(tile->edge)) + 0.5f);
-    vf level = vf_log2(vf_max(radius * vf_of(tile->edge) * half, vf_all(1.0f)));
-    level = vf_max(vf_min(level, most), vf_all(0.0f));
-    vf fine = vf_floor(level), coarse = vf_min(fine + 1.0f, most);
-    vf cover = silhouette_level(texels, tile, u, v, vi_of(fine));
-    cover += (silhouette_level(texels, tile, u, v, vi_of(coarse)) - cover) * (level - fine);
-    vf wide = real_clamp01((radius / tile->reach - KILN_INSTANCE_SHARP) *
-                           (1.0f / (KILN_INSTANCE_ROUND - KILN_INSTANCE_SHARP)));
-    cover = vf_where(t > 0.0f, cover);
-    return cover + (ball - cover) * wide;
+    const struct silhouette_place at = silhouette_place_of(
+        vf3_sub(center, origin), vf_of(tile->edge), tile->reach, frame->backdrop->sun_direction,
+        shapes->sun_right, shapes->sun_up, shapes->sun_right.w);
+    vf fine = vf_floor(at.level), coarse = vf_min(fine + 1.0f, at.last);
+    vf cover = silhouette_level(texels, tile, at.u, at.v, vi_of(fine));
+    cover +=
+        (silhouette_level(texels, tile, at.u, at.v, vi_of(coarse)) - cover) * (at.level - fine);
+    return silhouette_covers(at, cover, ball);
 }
 
 /* Holds an entry of the list of solids, read for each lane. */

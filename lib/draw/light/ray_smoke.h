@@ -1,10 +1,11 @@
-/* This header computes the light that smoke lets through to vectors of points, as
- * shaders/draw/light/smoke_shadow.glsl does in GL. */
+/* This header computes the light that smoke lets through to vectors of points: it gathers cells of
+ * the grids that shared/smoke_grid.h describes. */
 #ifndef KILN_DRAW_LIGHT_RAY_SMOKE_H
 #define KILN_DRAW_LIGHT_RAY_SMOKE_H
 
 #include "draw/light/smoke_shadow.h"
-#include "draw/vector/ray_math.h"
+#include "draw/vector/real.h"
+#include "shared/smoke_grid.h"
 
 /* Describes points that light is computed for. */
 struct ray_point {
@@ -50,17 +51,12 @@ SIMD vf smoke_lets_through(const float *depth, const float4 to_grid[3], const st
     vf one = vf_all(1.0f);
     if (!depth)
         return one;
-    vf x = vf3_map(to_grid[0], p->at), y = vf3_map(to_grid[1], p->at);
-    vf z = vf3_map(to_grid[2], p->at);
-    /* Points beside the smoke, or between it and the light, are not in its shadow. */
-    vi inside = p->wanted & (x >= 0.0f) & (y >= 0.0f) & (x <= 1.0f) & (y <= 1.0f) & (z <= 1.0f);
-    if (!any(inside))
+    struct vf3 at = smoke_grid_place(to_grid[0], to_grid[1], to_grid[2], p->at);
+    vi shaded = p->wanted & smoke_grid_shades(at);
+    if (!any(shaded))
         return one;
-    vf zero = vf_all(0.0f);
-    x = vf_select(inside, x, zero);
-    y = vf_select(inside, y, zero);
-    z = vf_select(inside, z, zero);
-    return vf_select(inside, vf_exp(-read_grid(depth, x, y, z)), one);
+    vf x = vf_where(shaded, at.x), y = vf_where(shaded, at.y), z = vf_where(shaded, at.z);
+    return vf_select(shaded, smoke_transmittance(read_grid(depth, x, y, z)), one);
 }
 
 #endif

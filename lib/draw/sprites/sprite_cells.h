@@ -99,7 +99,7 @@ static void choose_cells(struct subjects *p)
     p->w[WORD_OF(cell)] = (vf)cells;
     p->w[WORD_OF(edge_u)] = p->w[WORD_OF(edge_v)] = edge;
     p->flags |= mixed & KILN_SPRITE_MIXED;
-    if (lie_in_picture(p))
+    if (billboard_is_flat(p->look->form.y))
         p->flags |=
             p->few & (motion == 0.0f) & (p->level >= KILN_CELL_FINE_LEVEL) & KILN_SPRITE_FINE;
     read_hulls(p, chosen.layer);

@@ -1,9 +1,10 @@
-/* This file makes sprites of vectors of particles, as shaders/draw/sprites/particle.glsl and
- * corner.glsl do in GL. Its arithmetic does not depend on the machine's mathematics, so that
- * pictures do not either. */
+/* This file makes sprites of vectors of particles for the rasteriser of the device `cpu`. What a
+ * particle looks like is computed by shared/billboard.h and its neighbours, which GL has, too; the
+ * results are the same bits on every machine. */
 #include "draw/sprites/sprite_cells.h"
 #include "draw/sprites/sprite_light.h"
 #include "draw/sprites/sprite_place.h"
+#include "draw/vector/real.h"
 
 enum {
     AT_A_TIME = 512, /* particles that are put in order of systems */
@@ -12,95 +13,54 @@ enum {
 
 /* ---- form ------------------------------------------------------------------------------------ */
 
-/* Returns the plane that billboards turn in (Heinz 2019, 2.1.1). Where the up direction points at
- * the eye, the picture's right is the billboard's. */
-static struct plane facing_plane(const struct subjects *p)
+static struct billboard_plane find_plane(const struct subjects *p)
 {
-    const vf zero = vf_all(0.0f), one = vf_all(1.0f);
-    const struct vf3 x = {one, zero, zero}, y = {zero, one, zero}, z = {zero, zero, one};
-    if (lie_in_picture(p))
-        return (struct plane){x, y, z};
-    uint32_t facing = p->look->form.y;
-    bool to_eye = facing == LOOK_VIEWPOINT || facing == LOOK_AXIAL;
-    struct vf3 towards = z, axis = y;
-    if (to_eye)
-        towards = vf3_scale(p->center, -vf_rsqrt(vf3_dot(p->center, p->center)));
+    const uint32_t facing = p->look->form.y;
+    if (billboard_is_flat(facing))
+        return billboard_plane_of_picture();
+    struct vf3 axis = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)};
     if (facing == LOOK_AXIAL) {
         struct columns row = look_row(p, KILN_LOOK_AXIS);
         axis = (struct vf3){row.c[0], row.c[1], row.c[2]};
     }
-    struct vf3 upward = to_view(p->pass->view, axis), sideways = vf3_cross(upward, towards);
-    sideways = vf3_select(vf3_dot(sideways, sideways) < 1e-8f, vf3_along(x, towards, -towards.x),
-                          sideways);
-    vf square = vf3_dot(sideways, sideways);
-    sideways = vf3_select(square < 1e-30f, x, vf3_scale(sideways, vf_rsqrt(square)));
-    if (facing != LOOK_AXIAL)
-        return (struct plane){sideways, vf3_cross(towards, sideways), towards};
-    return (struct plane){sideways, upward, vf3_cross(sideways, upward)};
+    return billboard_plane_facing(facing, to_view(p->pass->view, axis), p->center);
 }
 
-/* Holds the direction of a billboard's upward edge in its plane. */
-struct upward {
-    vf x, y;
-};
-
-/* Turns stretched billboards along their velocity, and makes them longer. Slow ones keep their
- * turn. */
-static void stretch_billboards(struct subjects *p, const struct plane *plane, struct upward *up)
+/* Returns whether the velocity of some billboard turns or lengthens it. */
+SIMD bool some_stretch(const struct subjects *p)
 {
-    vf stretch = p->shape.c[1];
-    bool along_axis = p->look->form.y == LOOK_AXIAL;
-    vi stretched = stretch > 0.0f;
-    if (along_axis || p->look->form.y == LOOK_VELOCITY)
-        stretched = vi_all(-1);
-    if (!any(stretched))
-        return;
-    struct vf3 moving = to_view(p->pass->view, p->record.velocity);
-    vf x = vf3_dot(moving, plane->right), y = vf3_dot(moving, plane->up);
-    if (along_axis) {
-        *up = (struct upward){vf_all(0.0f), vf_all(1.0f)};
-        p->half_length += 0.5f * vf_abs(y) * stretch;
-        return;
-    }
-    vf speed = vf_sqrt(x * x + y * y), scale = 1.0f / vf_max(speed, vf_all(1e-4f));
-    vf part = vf_smoothstep(0.05f, 0.2f, speed);
-    vf up_x = vf_lerp(up->x, x * scale, part), up_y = vf_lerp(up->y, y * scale, part) + 1e-5f;
-    vf shorter = vf_rsqrt(up_x * up_x + up_y * up_y);
-    up->x = vf_select(stretched, up_x * shorter, up->x);
-    up->y = vf_select(stretched, up_y * shorter, up->y);
-    p->half_length += vf_where(stretched, 0.5f * speed * stretch);
+    const uint32_t facing = p->look->form.y;
+    return facing == LOOK_AXIAL || facing == LOOK_VELOCITY || any(p->shape.c[1] > 0.0f);
 }
 
-/* Turns billboards in their plane: by their angle, or along their velocity. Half of them are
- * mirrored. */
+/* Turns billboards in their plane by their angle, or along their velocity. */
 static void turn_billboards(struct subjects *p)
 {
-    const struct plane plane = facing_plane(p);
+    const struct billboard_plane plane = find_plane(p);
     vf angle = vf_lerp(p->turn.c[0], p->turn.c[1], vu_unit(p->stream, RANDOM_ROTATION));
     vf spin = vf_lerp(p->spread.c[2], p->spread.c[3], vu_unit(p->stream, RANDOM_SPIN));
-    vi backwards = vu_unit(p->stream, RANDOM_SPIN + 1u) < 0.5f;
-    vi mirror = backwards & INT32_MIN;
-    angle += (vf)((vi)spin ^ mirror) * p->age_s;
-    const struct vf_angle turned = vf_sincos(angle);
-    struct upward up = {-turned.sine, turned.cosine};
-    p->half_length = p->half_size;
-    stretch_billboards(p, &plane, &up);
-    vf right_x = (vf)((vi)up.y ^ mirror), right_y = (vf)((vi)up.x ^ mirror ^ INT32_MIN);
-    p->plane =
-        (struct plane){vf3_along(vf3_scale(plane.right, right_x), plane.up, right_y),
-                       vf3_along(vf3_scale(plane.right, up.x), plane.up, up.y), plane.normal};
+    vf side = billboard_side(vu_unit(p->stream, RANDOM_SPIN + 1u));
+    const struct vf_angle turned = vf_sincos(angle + spin * side * p->age_s);
+    struct billboard_edge edge = {-turned.sine, turned.cosine, p->half_size};
+    if (some_stretch(p)) {
+        struct vf3 moving = to_view(p->pass->view, p->record.velocity);
+        edge = billboard_stretched(p->look->form.y, edge, p->shape.c[1],
+                                   vf3_dot(moving, plane.right), vf3_dot(moving, plane.up));
+    }
+    p->half_length = edge.half_length;
+    p->plane = billboard_turned(plane, edge, side);
 }
 
-/* Widens small billboards in a picture smaller than the frame to a least size and makes them
- * fainter by as much: otherwise they would flicker. */
+/* Widens small billboards of a picture smaller than the frame. */
 SIMD void widen(struct subjects *p, vf pixels_per_m)
 {
     if (!(p->pass->view->clock.w < 1.0f) || p->look->form.x != 0)
         return;
-    vf least = 0.5f * KILN_COARSE_LEAST / pixels_per_m, area = p->half_size * p->half_length;
-    p->half_size = vf_max(p->half_size, least);
-    p->half_length = vf_max(p->half_length, least);
-    p->w[WORD_OF(opacity)] *= area / (p->half_size * p->half_length);
+    const struct billboard_size size =
+        billboard_widened(p->half_size, p->half_length, pixels_per_m);
+    p->half_size = size.half_width;
+    p->half_length = size.half_length;
+    p->w[WORD_OF(opacity)] *= size.opacity;
 }
 
 /* ---- colour ---------------------------------------------------------------------------------- */
@@ -124,22 +84,28 @@ static void color_sprites(struct subjects *p)
 {
     const vf zero = vf_all(0.0f);
     vi lit = p->shade == KILN_SHADE_LIT, glows = p->shade == KILN_SHADE_GLOW, emits = vi_all(0);
-    struct sprite_light light;
+    struct light_sum light;
     memset(&light, 0, sizeof light);
     if (any(p->seen & reflecting(p)))
         light_sprites(p, &light);
     bool some_lit = any(lit & p->seen);
+    const struct light_channel *channels[3] = {&light.red, &light.green, &light.blue};
     for (size_t c = 0; c < 3; c++) {
+        const struct light_channel *channel = channels[c];
         vf albedo = p->cover.c[c], hot = p->hot.c[c], cool = p->cool.c[c];
         /* The light on a sprite without normals in its cell does not change along the axes. */
-        vf flat = vf_max(light.parts[0][c] + light.parts[3][c], zero) * albedo;
+        vf flat = vf_max(channel->all + channel->along.z, zero) * albedo;
         vf base = vf_select(lit, cool, vf_select(glows, cool, hot) + flat);
         vf slope = vf_where(lit | glows, hot - cool);
         emits |= (base != 0.0f) | (slope != 0.0f);
         p->w[WORD_OF(base) + c] = base;
         p->w[WORD_OF(slope) + c] = slope;
-        for (size_t i = 0; some_lit && i < 4; i++)
-            p->w[WORD_OF(light) + 3 * i + c] = vf_where(lit, light.parts[i][c] * albedo);
+        if (!some_lit)
+            continue;
+        p->w[WORD_OF(light) + c] = vf_where(lit, channel->all * albedo);
+        p->w[WORD_OF(light) + 3 + c] = vf_where(lit, channel->along.x * albedo);
+        p->w[WORD_OF(light) + 6 + c] = vf_where(lit, channel->along.y * albedo);
+        p->w[WORD_OF(light) + 9 + c] = vf_where(lit, channel->along.z * albedo);
     }
     p->flags |= emits & KILN_SPRITE_EMITS;
     const struct columns bloom = look_row(p, KILN_LOOK_BLOOM);
@@ -206,7 +172,7 @@ static void place_sprites(struct subjects *p)
     }
     p->level = level_of(diameter_px);
     choose_cells(p);
-    if (lie_in_picture(p))
+    if (billboard_is_flat(p->look->form.y))
         place_flat(p);
     else
         place_deep(p);

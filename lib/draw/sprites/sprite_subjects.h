@@ -7,16 +7,13 @@
 
 #include "draw/sprites/sprite.h"
 #include "draw/vector/particle_math.h"
+#include "draw/vector/real.h"
+#include "shared/billboard.h"
 
 enum { SPRITE_WORDS = sizeof(struct kiln_sprite) / sizeof(float) };
 
 /* Returns the word of a sprite at which a field is. */
 #define WORD_OF(field) (offsetof(struct kiln_sprite, field) / sizeof(float))
-
-/* The plane of a billboard: unit vectors in view space. */
-struct plane {
-    struct vf3 right, up, normal;
-};
 
 struct subjects {
     const struct kiln_sprite_pass *pass;
@@ -37,20 +34,13 @@ struct subjects {
     vf scale; /* random */
     vf half_size;
     vf half_length; /* of the billboard along plane.up */
-    struct plane plane;
+    struct billboard_plane plane;
     struct columns texture; /* bits of a texture of struct kiln_draw_look */
     vi level;
     struct columns hull_from, hull_to; /* of their cells */
     vi shade, flags;                   /* as a sprite has them */
     _Alignas(64) vf w[SPRITE_WORDS];   /* the sprites, word by word */
 };
-
-/* Returns whether the billboards turn in the picture's own plane. */
-SIMD bool lie_in_picture(const struct subjects *p)
-{
-    uint32_t facing = p->look->form.y;
-    return facing == LOOK_SCREEN || facing == LOOK_VELOCITY;
-}
 
 /* Returns a row of the look at the particles' age. */
 SIMD struct columns look_row(const struct subjects *p, uint32_t row)

@@ -27,17 +27,6 @@ SIMD vf vf_lerp_within(vf a, vf b, vf t)
     return vf_min(vf_max(vf_lerp(a, b, t), vf_min(a, b)), vf_max(a, b));
 }
 
-SIMD vf vf_smoothstep(float from, float to, vf x)
-{
-    vf t = vf_clamp01((x - from) * (1.0f / (to - from)));
-    return t * t * (3.0f - 2.0f * t);
-}
-
-SIMD struct vf3 vf3_cross(struct vf3 a, struct vf3 b)
-{
-    return (struct vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 /* ---- random numbers -------------------------------------------------------------------------- */
 
 /* random_mix */

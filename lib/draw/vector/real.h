@@ -24,6 +24,7 @@
 #define real_log2(x)                vf_log2(x)
 #define real_sin(x)                 vf_sincos(x).sine
 #define real_cos(x)                 vf_sincos(x).cosine
+#define real_atan2(y, x)            vf_atan2(y, x)
 #define real_select(holds, yes, no) vf_select(holds, yes, no)
 #define real_where(holds, x)        vf_where(holds, x)
 #define real_sign_one(x)            vf_sign_one(x)

@@ -2,6 +2,7 @@
  * the centres of pixels and one for each sample; their shadows from maps that the sun sees
  * (meshes_shadow.frag). */
 #include "draw/backdrop/mesh_hit.glsl"
+#include "shared/shadow_map.h"
 
 layout(binding = KILN_UNIT_MESH_HITS) uniform usampler2DArray mesh_hits;
 layout(binding = KILN_UNIT_MESH_SHADOW) uniform sampler2DArray mesh_shadow;
@@ -59,52 +60,29 @@ int mark_mesh_edge(int surface)
     return edge && surface >= KILN_SURFACE_MESHES ? surface + 1 + (pixel.x + pixel.y & 1) : surface;
 }
 
-/* The map has coverage and depth of a mesh as the sun sees it, averaged over texels of a level; the
- * second is 0 nearest to the sun and 1 farthest, and weighted by the first. How much of the sun the
- * mesh covers: the part of the texels around that lies before the receiver by more than `slack`. */
+/* Returns the part of the sun that a mesh covers. A texel of its map has the coverage and, weighted by
+ * that, the depth of the mesh as the sun sees it. The first fetch looks for anything between that the
+ * others could find; where there is nothing, or the surface is turned away, it is the only one. A
+ * branch would not save the others on a processor, where both sides of it run; a loop does. */
 float mesh_sun_cover(int i, vec3 point, vec3 normal)
 {
-    vec3 from = point - shapes.meshes[i].center.xyz;
-    float radius = shapes.meshes[i].center.w * (1.0 + KILN_SHADOW_MARGIN);
-    vec3 sun = backdrop.sun_direction.xyz;
-    vec2 uv = 0.5 + 0.5 * vec2(dot(from, shapes.sun_right.xyz), dot(from, shapes.sun_up.xyz)) / radius;
-    float depth = 0.5 - 0.5 * dot(from, sun) / radius;
-
-    /* The receiver's plane: what its depth is a step aside. */
-    float facing = max(dot(normal, sun), 0.05);
-    vec2 slope = vec2(dot(normal, shapes.sun_right.xyz), dot(normal, shapes.sun_up.xyz)) / facing;
-    float texel = 1.0 / float(KILN_SHADOW_EDGE);
-    float slack = 1.5 * texel * (1.0 + 0.5 * (abs(slope.x) + abs(slope.y)));
-    /* The first fetch looks for anything between that the others could find, over more than they
-     * reach; where there is nothing, or the surface is turned away, it is the only one. A branch
-     * would not save them on a processor, where both sides of it run; a loop does. */
-    int taps = dot(normal, sun) > 0.0 ? 5 : 1;
-#ifdef SOFT_SUN
+    vec4 sun = backdrop.sun_direction;
     float spread = shapes.sun_right.w;
-    float level = log2(max(spread * max(depth, 0.0) / texel, 1.0)) + 1.0;
-#else
-    float level = 1.0;
-#endif
+    shadow_receiver at = shadow_receiver_of(shapes.meshes[i].center, point, normal, sun,
+                                            shapes.sun_right, shapes.sun_up);
+    int taps = dot(normal, sun.xyz) > 0.0 ? 5 : 1;
+    float level = shadow_level(shadow_widest(at, spread)) + 1.0;
     float stride = 0.0, cover = 0.0;
     for (int k = 0; k < taps; k++) {
-        /* Four bilinear fetches half a step aside make a tent, as nine would. */
         vec2 aside = vec2(k & 1, k >> 1 & 1) * 2.0 * stride - stride;
-        vec2 seen = textureLod(mesh_shadow, vec3(uv + aside, i), level).rg;
-        float middle = seen.g / max(seen.r, 1e-4);
+        vec2 seen = textureLod(mesh_shadow, vec3(vec2(at.u, at.v) + aside, i), level).rg;
         if (k == 0) {
             taps = seen.r > 0.0 ? taps : 1;
-            /* How far the sun's disc spreads at the distance of what is between. */
-#ifdef SOFT_SUN
-            float gap = depth - min(middle, depth);
-            float width = max(0.75 * spread * gap, texel);
-#else
-            float width = texel;
-#endif
-            level = log2(width / texel);
+            float width = shadow_width(at, spread, seen.r, seen.g);
+            level = shadow_level(width);
             stride = 0.5 * width;
         } else {
-            float before = depth + dot(slope, aside) - middle;
-            cover += 0.25 * seen.r * clamp(before / (slack + stride) - 0.5, 0.0, 1.0);
+            cover += shadow_tap(at, aside.x, aside.y, seen.r, seen.g, 1.0 / (at.slack + stride));
         }
     }
     return cover;

@@ -6,6 +6,8 @@ layout(binding = KILN_UNIT_SOLID_LIST) uniform sampler2D solid_list;
 layout(binding = KILN_UNIT_SOLID_TILES) uniform sampler2D solid_tiles;
 layout(binding = KILN_UNIT_SILHOUETTES) uniform sampler2D silhouettes;
 
+#include "shared/shadow_map.h"
+
 float silhouette_texel(ivec2 first, int edge, ivec2 at, int level, float weight)
 {
     bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(edge)));
@@ -26,24 +28,15 @@ float silhouette_level(vec4 tile, vec2 at, int level)
            silhouette_texel(first, edge, i + ivec2(1, 1), level, part.x * part.y);
 }
 
-/* A mesh's, blurred as widely as the sun is, by levels whose texels are as large as its radius; one
- * that is blurred more than it is large is as round as a sphere. */
-float silhouette_cover(vec4 sphere, vec4 tile, vec3 origin, vec4 sun, float spread)
+/* The part of the sun that a mesh covers. ball: the part that its bounding sphere covers. */
+float silhouette_cover(vec4 sphere, vec4 tile, vec3 origin, vec4 sun, float spread, float ball)
 {
-    vec3 towards = sphere.xyz - origin;
-    float t = dot(towards, sun.xyz);
-    vec2 aside = vec2(dot(towards, shapes.sun_right.xyz), dot(towards, shapes.sun_up.xyz));
-    vec2 at = 0.5 - aside * (0.5 / tile.z);
-    float radius = max(t * spread, 1e-5);
-    float level = log2(max(radius * tile.w * 0.5 / tile.z, 1.0));
-    float most = floor(log2(tile.w) + 0.5);
-    level = min(level, most);
-    float fine = floor(level), coarse = min(fine + 1.0, most);
-    float cover = mix(silhouette_level(tile, at, int(fine)), silhouette_level(tile, at, int(coarse)),
-                      level - fine);
-    float wide = clamp((radius / tile.z - KILN_INSTANCE_SHARP) /
-                           (KILN_INSTANCE_ROUND - KILN_INSTANCE_SHARP), 0.0, 1.0);
-    return mix(t > 0.0 ? cover : 0.0, speck_cover(towards, sphere.w, sun, spread, KILN_SOLID_FADE), wide);
+    silhouette_place at = silhouette_place_of(sphere.xyz - origin, tile.w, tile.z, sun,
+                                              shapes.sun_right, shapes.sun_up, spread);
+    float fine = floor(at.level), coarse = min(fine + 1.0, at.last);
+    float cover = mix(silhouette_level(tile, vec2(at.u, at.v), int(fine)),
+                      silhouette_level(tile, vec2(at.u, at.v), int(coarse)), at.level - fine);
+    return silhouette_covers(at, cover, ball);
 }
 #endif
 
@@ -56,7 +49,7 @@ float listed_cover(int entry, int end, vec3 origin, vec4 sun, float spread)
 #ifdef INSTANCES
     vec4 tile = texelFetch(solid_tiles, place, 0);
     if (tile.w > 0.0)
-        cover = silhouette_cover(sphere, tile, origin, sun, spread);
+        cover = silhouette_cover(sphere, tile, origin, sun, spread, cover);
 #endif
     return entry < end ? cover : 0.0;
 }

@@ -3,8 +3,7 @@
  * outline.glsl computes the rows of a particle. fragment.glsl, for quads that GL draws, and
  * particles_tiled.comp call place_covers for each pixel. All techniques decide by the same formula, so
  * that they cover the same pixels, however thin the particle is; the corners of GL's quads would not
- * do, because GL may move them by a part of a pixel. lib/draw/sprites/sprite_place.h has the rows on
- * the host, so a change of the formula must be made there, too. */
+ * do, because GL may move them by a part of a pixel. */
 
 /* Linear functions of the pixel. x is the value at the anchor, which is a fixed place in the picture; y
  * and z are the change per pixel to the right and down. */

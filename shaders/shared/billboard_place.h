@@ -1,0 +1,183 @@
+/* Computes where the pixels of the picture lie on a particle (Heinz 2019, 3.2.3, equation 3.1): on
+ * a billboard that is parallel to the picture, on one in any plane, and on a point or a line. Every
+ * rasteriser decides by these functions of the pixel which pixels a particle covers. The device
+ * `cpu` reads them from lib/draw/sprites/sprite_place.h, GL from shaders/draw/sprites/outline.glsl.
+ *
+ * frustum: that of struct kiln_view. Positions and directions are in view space, m. */
+#ifndef KILN_SHARED_BILLBOARD_PLACE_H
+#define KILN_SHARED_BILLBOARD_PLACE_H
+
+#include "shared/real.h"
+
+/* A place in the picture, px from the top left. */
+struct picture_point {
+    real x, y;
+};
+
+/* A linear function of the pixel: its value at the anchor, and its change per pixel to the right
+ * and down. */
+struct picture_slope {
+    real at, x, y;
+};
+
+/* The texture coordinates u and v of a pixel. Where the depth changes over the particle, they are
+ * divided by the depth, and q is 1 / depth, 1/m. */
+struct billboard_place {
+    S(picture_point) anchor;
+    S(picture_slope) u, v, q;
+    truth seen; /* the particle has an area */
+};
+
+/* Returns where a position before the eye is in the picture. */
+REAL_FN S(picture_point) picture_point_of(float4 frustum, real3 position)
+{
+    real near = -1.0f / position.z;
+    S(picture_point) point;
+    point.x = 0.5f * frustum.z + position.x * near * (0.5f * frustum.z / frustum.x);
+    point.y = 0.5f * frustum.w - position.y * near * (0.5f * frustum.w / frustum.y);
+    return point;
+}
+
+REAL_FN S(picture_slope) picture_slope_of(real at, real x, real y)
+{
+    S(picture_slope) slope;
+    slope.at = at;
+    slope.x = x;
+    slope.y = y;
+    return slope;
+}
+
+/* ---- billboards parallel to the picture ------------------------------------------------------ */
+
+/* The place of a flat billboard, and its half edges in the picture, px, y down. */
+struct billboard_flat {
+    S(billboard_place) place;
+    S(picture_point) right, up;
+};
+
+/* Places a billboard whose edges are parallel to the picture. right, up: directions of its edges;
+ * half_width, half_length: half of their lengths; edge: the texture coordinate at the far edges. q
+ * is 0. */
+REAL_FN S(billboard_flat) billboard_place_flat(float4 frustum, real3 center, real3 right,
+                                               real half_width, real3 up, real half_length,
+                                               real edge)
+{
+    real near = -1.0f / center.z;
+    real scale_x = near * (0.5f * frustum.z / frustum.x);
+    real scale_y = near * (0.5f * frustum.w / frustum.y);
+    real width_x = half_width * scale_x, width_y = half_width * -scale_y;
+    real length_x = half_length * scale_x, length_y = half_length * -scale_y;
+    S(billboard_flat) placed;
+    placed.right.x = right.x * width_x;
+    placed.right.y = right.y * width_y;
+    placed.up.x = up.x * length_x;
+    placed.up.y = up.y * length_y;
+    real det = placed.right.x * placed.up.y - placed.up.x * placed.right.y;
+    real middle = 0.5f * edge;
+    placed.place.seen = real_abs(det) > 1e-12f;
+    real half_edge = middle / real_select(placed.place.seen, det, real_all(1.0f));
+    placed.place.anchor.x = 0.5f * frustum.z + center.x * scale_x;
+    placed.place.anchor.y = 0.5f * frustum.w - center.y * scale_y;
+    placed.place.u = picture_slope_of(middle, placed.up.y * half_edge, -placed.up.x * half_edge);
+    placed.place.v = /* grows downwards */
+        picture_slope_of(middle, placed.right.y * half_edge, -placed.right.x * half_edge);
+    placed.place.q = picture_slope_of(real_all(0.0f), real_all(0.0f), real_all(0.0f));
+    return placed;
+}
+
+/* ---- billboards in any plane ----------------------------------------------------------------- */
+
+/* Returns a linear function of the direction from the eye, given by a row, as one of the pixels
+ * around the anchor. */
+REAL_FN S(picture_slope) picture_slope_along(float4 frustum, real3 row, S(picture_point) anchor)
+{
+    real x = row.x * (2.0f * frustum.x / frustum.z), y = row.y * (-2.0f * frustum.y / frustum.w);
+    real at = x * (anchor.x - 0.5f * frustum.z) + y * (anchor.y - 0.5f * frustum.w) - row.z;
+    return picture_slope_of(at, x, y);
+}
+
+/* Places a billboard in any plane. right, up: its half edges; edge: the texture coordinate at the
+ * far edges. A point of the picture is a direction d from the eye, and the billboard's point there
+ * is depth * d = a * right + b * up + center. So (a, b, 1) / depth is the inverse of the matrix of
+ * right, up and center, times d: it is linear in the pixel. Then u = edge (1 + a) / 2 and
+ * v = edge (1 - b) / 2. */
+REAL_FN S(billboard_place) billboard_place_deep(float4 frustum, real3 center, real3 right, real3 up,
+                                                real edge)
+{
+    real3 normal = real3_cross(right, up);
+    real det = real3_dot(normal, center);
+    S(billboard_place) place;
+    place.seen = real_abs(det) > 1e-12f;
+    place.anchor = picture_point_of(frustum, center);
+    real scale = 1.0f / real_select(place.seen, det, real_all(1.0f)), half_edge = 0.5f * edge;
+    real3 a = real3_scale(real3_cross(up, center), scale);
+    real3 b = real3_scale(real3_cross(center, right), scale);
+    real3 q = real3_scale(normal, scale);
+    place.u = picture_slope_along(frustum, real3_scale(real3_add(q, a), half_edge), place.anchor);
+    place.v = picture_slope_along(frustum, real3_scale(real3_sub(q, b), half_edge), place.anchor);
+    place.q = picture_slope_along(frustum, q, place.anchor);
+    return place;
+}
+
+/* ---- points and lines ------------------------------------------------------------------------ */
+
+/* Half the width of a point or a line, px, and a factor for its opacity. */
+struct stroke_width {
+    real half_width, opacity;
+};
+
+/* Returns how a point or a line of a width, px, is drawn: one that is narrower than a pixel is a
+ * pixel wide, and fainter by the part of the pixel that it covers. */
+REAL_FN S(stroke_width) stroke_width_of(bool is_line, real width)
+{
+    real one = real_all(1.0f), thin = real_min(width, one);
+    S(stroke_width) stroke;
+    stroke.half_width = 0.5f * real_max(width, one);
+    stroke.opacity = thin;
+    if (!is_line)
+        stroke.opacity = thin * thin;
+    return stroke;
+}
+
+/* Returns the rear end of a line, cut at a plane before the eye. near_m: the plane's distance. */
+REAL_FN real3 stroke_tail(real3 head, real3 tail, float near_m)
+{
+    real part = (-head.z - near_m) / (tail.z - head.z);
+    return real3_select(-tail.z < near_m, real3_along(head, real3_sub(tail, head), part), tail);
+}
+
+/* A rectangle in the picture along a line. u and v count pixels from its middle, and only the depth
+ * changes along it, so they are not divided by it. */
+struct stroke_place {
+    S(billboard_place) place;
+    real edge_u, edge_v; /* half of the rectangle, px, without the half pixel of its soft rim */
+};
+
+/* Places a line between two positions before the eye, or a point, whose head and tail are the same.
+ * Its ends reach out by half of its width, px. 1 / depth changes evenly from one end of the
+ * rectangle and its rim to the other. */
+REAL_FN S(stroke_place) stroke_place_of(float4 frustum, real3 head, real3 tail, real half_width)
+{
+    S(picture_point) to = picture_point_of(frustum, head);
+    S(picture_point) from = picture_point_of(frustum, tail);
+    real way_x = to.x - from.x, way_y = to.y - from.y;
+    real way = real_sqrt(way_x * way_x + way_y * way_y);
+    truth moves = way > 1e-3f;
+    real shorter = 1.0f / real_select(moves, way, real_all(1.0f));
+    real x = real_select(moves, way_x * shorter, real_all(1.0f));
+    real y = real_where(moves, way_y * shorter);
+    S(stroke_place) stroke;
+    stroke.edge_u = 0.5f * real_where(moves, way) + half_width;
+    stroke.edge_v = half_width;
+    real q_head = -1.0f / head.z, q_tail = -1.0f / tail.z;
+    real along = 0.5f * (q_head - q_tail) / (stroke.edge_u + 0.5f);
+    stroke.place.anchor.x = 0.5f * (from.x + to.x);
+    stroke.place.anchor.y = 0.5f * (from.y + to.y);
+    stroke.place.u = picture_slope_of(real_all(0.0f), x, y);
+    stroke.place.v = picture_slope_of(real_all(0.0f), -y, x);
+    stroke.place.q = picture_slope_of(0.5f * (q_head + q_tail), along * x, along * y);
+    stroke.place.seen = half_width > 0.0f;
+    return stroke;
+}
+
+#endif

@@ -1,0 +1,117 @@
+/* Computes which texels of the sun's shadow maps a receiver reads, and what they hide of the sun:
+ * the maps of the backdrop's meshes, and the tiles of silhouettes of mesh particles. GL samples the
+ * maps as textures (draw/backdrop/mesh_trace.glsl, draw/light/solid_shadow.glsl); the device `cpu`
+ * gathers their texels (draw/backdrop/ray_sun.h). sun: unit, towards the sun; right, up: unit,
+ * across it; spread: tangent of the angle that the sun's radius has in the sky. */
+#ifndef KILN_SHARED_SHADOW_MAP_H
+#define KILN_SHARED_SHADOW_MAP_H
+
+#include "shared/shape_layout.h"
+#include "shared/sun_cover.h"
+
+/* ---- meshes of the backdrop ------------------------------------------------------------------ */
+
+#define SHADOW_TEXEL (1.0f / FLOAT(KILN_SHADOW_EDGE))
+
+/* A receiver in a mesh's map: texture coordinates and depth, 0 nearest to the sun and 1 farthest,
+ * how the depth of its plane changes with the coordinates, and by how much a blocker lies before it
+ * at least. */
+struct shadow_receiver {
+    real u, v, depth;
+    real slope_u, slope_v;
+    real slack;
+};
+
+/* center: the mesh's bounding sphere; point, normal: of the receiver. */
+REAL_FN S(shadow_receiver) shadow_receiver_of(float4 center, real3 point, real3 normal, float4 sun,
+                                              float4 right, float4 up)
+{
+    real3 from = real3_sub(point, real3_all(center));
+    float scale = 0.5f / (center.w * (1.0f + KILN_SHADOW_MARGIN));
+    real facing = 1.0f / real_max(real3_dot_all(normal, sun), real_all(0.05f));
+    S(shadow_receiver) at;
+    at.u = 0.5f + real3_dot_all(from, right) * scale;
+    at.v = 0.5f + real3_dot_all(from, up) * scale;
+    at.depth = 0.5f - real3_dot_all(from, sun) * scale;
+    at.slope_u = real3_dot_all(normal, right) * facing;
+    at.slope_v = real3_dot_all(normal, up) * facing;
+    at.slack = 1.5f * SHADOW_TEXEL * (1.0f + 0.5f * (real_abs(at.slope_u) + real_abs(at.slope_v)));
+    return at;
+}
+
+/* Returns the width, in texture coordinates, of the penumbra of a blocker that is nearest to the
+ * sun. A first fetch looks for any blocker over twice this width. */
+REAL_FN real shadow_widest(S(shadow_receiver) at, float spread)
+{
+    return real_max(spread * at.depth, real_all(SHADOW_TEXEL));
+}
+
+/* Returns the level of the map whose texels have a width. */
+REAL_FN real shadow_level(real width)
+{
+    return real_log2(width * (1.0f / SHADOW_TEXEL));
+}
+
+/* Returns the mean depth of what is in the map, from the two numbers of a fetch: cover, and depth
+ * times cover. */
+REAL_FN real shadow_depth(real cover, real distance)
+{
+    return distance / real_max(cover, real_all(1e-4f));
+}
+
+/* Returns the width of the penumbra from the gap between the blocker, of the first fetch, and the
+ * receiver. Four bilinear fetches half of it aside make a tent filter, as nine would. */
+REAL_FN real shadow_width(S(shadow_receiver) at, float spread, real cover, real distance)
+{
+    real gap = at.depth - real_min(shadow_depth(cover, distance), at.depth);
+    return real_max(0.75f * spread * gap, real_all(SHADOW_TEXEL));
+}
+
+/* Returns what a fetch aside of the receiver adds to the covered part of the sun. ramp: 1 over the
+ * slack and the way aside. */
+REAL_FN real shadow_tap(S(shadow_receiver) at, real aside_u, real aside_v, real cover,
+                        real distance, real ramp)
+{
+    real before =
+        at.depth + (at.slope_u * aside_u + at.slope_v * aside_v) - shadow_depth(cover, distance);
+    return 0.25f * cover * real_clamp01(before * ramp - 0.5f);
+}
+
+/* ---- silhouettes of mesh particles ----------------------------------------------------------- */
+
+/* Where a receiver reads a tile: texture coordinates in it, the level whose texels are as large as
+ * the sun's radius there, the last level, and how far the mesh is as round as its bounding sphere,
+ * 0 to 1, since it is blurred more than it is large. */
+struct silhouette_place {
+    real u, v, level, last, round;
+    truth before; /* the mesh is on the sun's side of the receiver */
+};
+
+/* towards: from the receiver to the mesh's centre, m; edge: of its tile, texels; reach: half of
+ * what the tile shows, m. */
+REAL_FN S(silhouette_place) silhouette_place_of(real3 towards, real edge, real reach, float4 sun,
+                                                float4 right, float4 up, float spread)
+{
+    real t = real3_dot_all(towards, sun), scale = 0.5f / reach;
+    real radius = real_max(t * spread, real_all(1e-5f));
+    S(silhouette_place) at;
+    at.u = 0.5f - real3_dot_all(towards, right) * scale;
+    at.v = 0.5f - real3_dot_all(towards, up) * scale;
+    at.last = real_floor(real_log2(edge) + 0.5f);
+    real level = real_log2(real_max(radius * edge * scale, real_all(1.0f)));
+    at.level = real_max(real_min(level, at.last), real_all(0.0f));
+    at.round = real_clamp01((radius / reach - KILN_INSTANCE_SHARP) *
+                            (1.0f / (KILN_INSTANCE_ROUND - KILN_INSTANCE_SHARP)));
+    at.before = t > 0.0f;
+    return at;
+}
+
+/* Returns the part of the sun that a mesh covers. cover: of the tile; ball: of the bounding sphere.
+ */
+REAL_FN real silhouette_covers(S(silhouette_place) at, real cover, real ball)
+{
+    real seen = real_where(at.before, cover);
+    return seen + (ball - seen) * at.round;
+}
+
+#endif

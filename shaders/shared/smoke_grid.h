@@ -1,0 +1,32 @@
+/* Reads the grids of the smoke's optical depth, whose third axis points to a light
+ * (lib/draw/light/smoke_shadow.h), for light on surfaces and on sprites. GL samples a grid as a
+ * texture (draw/light/smoke_shadow.glsl), the device `cpu` gathers its cells
+ * (draw/light/ray_smoke.h); what is here is the same for both. */
+#ifndef KILN_SHARED_SMOKE_GRID_H
+#define KILN_SHARED_SMOKE_GRID_H
+
+#include "shared/real.h"
+
+/* Returns where a world position is in a grid, 0 to 1 along each axis. x, y, z: rows of the map. */
+REAL_FN real3 smoke_grid_place(float4 x, float4 y, float4 z, real3 position)
+{
+    real3 p = position;
+    return REAL3(x.x * p.x + x.y * p.y + x.z * p.z + x.w, y.x * p.x + y.y * p.y + y.z * p.z + y.w,
+                 z.x * p.x + z.y * p.y + z.z * p.z + z.w);
+}
+
+/* Returns whether the light crosses smoke on its way to a place in the grid: not beside the smoke,
+ * nor between it and the light. Light to a place behind the smoke crosses all of it. */
+REAL_FN truth smoke_grid_shades(real3 at)
+{
+    truth beside = truth_or(truth_or(at.x<0.0f, at.x> 1.0f), truth_or(at.y<0.0f, at.y> 1.0f));
+    return truth_not(truth_or(beside, at.z > 1.0f));
+}
+
+/* Returns the part of the light that crosses an optical depth. */
+REAL_FN real smoke_transmittance(real optical_depth)
+{
+    return real_exp(-optical_depth);
+}
+
+#endif
