@@ -1,6 +1,6 @@
-/* This file lists the living particles on the device. It counts the living of each block of slots,
- * sums the counts, and writes each block's list behind the lists of the blocks before it. The host
- * reads back only their number. */
+/* This file lists the living particles on the device. It counts the living particles of each block
+ * of slots, computes prefix sums of the counts, and writes each block's list behind the lists of
+ * the blocks before it. The host reads back only the number of living particles. */
 #include "sort/alive.h"
 
 #include "base/error.h"
@@ -53,7 +53,7 @@ static uint32_t count_blocks(const struct kiln_pool *pool, uint32_t systems)
     return blocks;
 }
 
-/* Runs the kernel in use over every chosen system. */
+/* Dispatches the current program once for each chosen system that has used slots. */
 static void run_systems(struct kiln_alive *alive, const struct kiln_pool *pool, uint32_t systems)
 {
     uint32_t first_block = 0;

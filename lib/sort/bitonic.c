@@ -1,7 +1,8 @@
 /* This file sorts pairs in compute by bitonic merges (Heinz 2019, 2.4.1 and 3.4; UberFlow, 4.3.2).
- * Each stage merges bunches of twice the size; the list is padded to a power of two, but at least
- * to a block. Passes whose comparisons stay within a block run as one kernel in shared memory;
- * those that reach farther go through the buffer, three at a time. */
+ * Each stage merges sorted sequences into sequences of twice the length. The list is padded to a
+ * power of two, and in shared memory at least to a block. Passes whose comparisons stay within a
+ * block run as one kernel in shared memory. Passes that compare pairs farther apart go through the
+ * buffer, up to three in one dispatch. */
 #include "sort/bitonic.h"
 
 #include <stdlib.h>
@@ -16,10 +17,11 @@ struct kiln_bitonic {
     struct kiln_network network;
     uint32_t group_size, block; /* invocations of a work group; pairs in its shared memory */
     GLuint start_program, block_program;
-    GLuint far_programs[MAX_LEVELS]; /* for 1, 2 and 3 passes at once */
+    GLuint far_programs[MAX_LEVELS]; /* for 1, 2 and 3 passes in one dispatch */
 };
 
-/* Runs the first passes of a merge, over distances from half a bunch down to a block. */
+/* Runs the first passes of a merge: the passes that compare pairs at distances from size / 2 down
+ * to a block. */
 static void run_far(struct kiln_bitonic *bitonic, uint32_t padded, uint32_t size)
 {
     uint32_t distance = size / 2;

@@ -1,4 +1,4 @@
-/* Technique `bitonic` lists the living and sorts them in compute, by bitonic merges. */
+/* Technique `bitonic` lists the living particles and sorts them in compute by bitonic merges. */
 #ifndef KILN_SORT_BITONIC_H
 #define KILN_SORT_BITONIC_H
 
@@ -6,12 +6,12 @@
 
 struct kiln_bitonic;
 
-/* NULL with an error. */
+/* Returns NULL with an error on failure. */
 struct kiln_bitonic *kiln_bitonic_create(struct kiln_device *device, struct kiln_error *error);
 void kiln_bitonic_destroy(struct kiln_bitonic **bitonic);
 
-/* Returns the network that lists the living and sorts them by bitonic merges; it lives as long as
- * the kiln_bitonic. */
+/* Returns the network that lists the living particles and sorts them by bitonic merges. The
+ * kiln_bitonic owns it. */
 struct kiln_network *kiln_bitonic_network(struct kiln_bitonic *bitonic);
 
 #endif

@@ -7,7 +7,7 @@
 
 /* Sorts `count` pairs, at least one, by ascending key; pairs of equal keys keep their order. The
  * lower words of the pairs are written to list[0], list[step], ... (step: 1 or -1). scratch has
- * room for as many pairs; the pairs are lost. */
+ * room for `count` pairs. The pairs are overwritten. */
 typedef void kiln_sort_bucket(kiln_sort_pair *pairs, size_t count, kiln_sort_pair *scratch,
                               uint32_t *list, int step);
 KILN_SIMD_DECLARE(kiln_sort_bucket, kiln_sort_bucket);

@@ -7,8 +7,8 @@
 enum { MOST_DIGIT_BITS = 9, MOST_PASSES = 4 };
 
 struct digits {
-    uint32_t least; /* key */
-    unsigned bits;  /* of a digit */
+    uint32_t least; /* the least key, which is subtracted from every key */
+    unsigned bits;  /* width of a digit */
     uint32_t places[MOST_PASSES][1 << MOST_DIGIT_BITS];
 };
 

@@ -9,9 +9,9 @@
 
 enum { KILN_SORT_MOST_CELLS = 1024 };
 
-/* Describes cells of equal depth, from the farthest to the nearest; the first and the last also
- * take all particles beyond. The choice of cells does not change an order, only how long sorting
- * takes. */
+/* Describes cells of equal extent in depth, from the farthest to the nearest. The first and the
+ * last cell also take all particles that lie beyond them. The choice of cells changes only how long
+ * sorting takes, not the order. */
 struct kiln_sort_cells {
     float start_m, per_m;
     uint32_t count;
@@ -26,12 +26,12 @@ struct kiln_sort_slots {
 };
 
 struct kiln_sort_loops {
-    /* Writes a pair of key and draw entry for each living particle and returns how many there are;
-     * `pairs` has room for as many as slots. Adds the number in each cell to counts, which has room
-     * for one cell more, and widens the span to hold the keys. */
+    /* Writes a pair of key and draw entry for each living particle and returns the number of pairs;
+     * `pairs` has room for one pair a slot. Adds the number of pairs in each cell to counts, which
+     * has one cell more for dead particles. Widens the span to hold the keys. */
     size_t (*list)(const struct kiln_sort_slots *slots, const struct kiln_sort_cells *cells,
                    kiln_sort_pair *pairs, uint32_t *counts, struct kiln_sort_span *span);
-    /* Moves each pair to the next free place of its cell. */
+    /* Copies each pair to the next free place of its cell. places: that place for each cell. */
     void (*scatter)(const kiln_sort_pair *pairs, size_t count, const struct kiln_sort_cells *cells,
                     uint32_t *places, kiln_sort_pair *to);
 };

@@ -1,6 +1,6 @@
 /* This file computes keys and cells of particles for the sort by depth and distributes pairs to
- * cells. It computes a few particles at a time in loops without branches, which compilers
- * vectorise; only the stores are made one by one. */
+ * cells. It processes LANES particles at a time in loops without branches, which compilers
+ * vectorise. Only the stores of pairs are made one by one. */
 #include <string.h>
 
 #include "particles/pool.h"
@@ -8,11 +8,11 @@
 
 enum {
     LANES = 128,
-    AHEAD = 128,    /* records that are prefetched */
+    AHEAD = 128,    /* how many records ahead the loop prefetches */
     RECORD_LINE = 2 /* records in a cache line */
 };
 
-/* The inverse of key_of_depth. */
+/* Returns the depth of a key; the inverse of key_of_depth. */
 static inline float depth_of_key(uint32_t key)
 {
     const uint32_t behind = 0u - (key >> 31); /* all ones where the key is the bits of the depth */

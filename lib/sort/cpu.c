@@ -1,5 +1,5 @@
-/* This file sorts on the host: it lists the living in the order of serials, or runs the sort by
- * depth (depth.c). */
+/* This file runs technique `cpu` in host threads: it lists the living particles by serial, or runs
+ * the sort by depth (depth.c). */
 #include "sort/cpu.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 
 enum {
     FEWEST_SLOTS_AT_A_TIME = 8192,
-    BLOCKS_A_THREAD = 4, /* so that a thread that begins late does less */
+    BLOCKS_A_THREAD = 4, /* more than one, so that a thread that begins late takes fewer */
 };
 
 struct kiln_sort_cpu {
@@ -45,7 +45,8 @@ void kiln_sort_cpu_destroy(struct kiln_sort_cpu **sort)
 
 struct listing {
     const struct kiln_particle *records;
-    struct kiln_sort_block *blocks; /* place: first how many live, then where they are listed */
+    struct kiln_sort_block *blocks; /* place: first the number of living particles, then the index
+                                     * of their first entry */
     uint32_t *entries;
 };
 
@@ -75,7 +76,8 @@ static void list_entries(void *context, size_t begin, size_t end, uint32_t worke
     }
 }
 
-/* Cuts slots first .. end - 1 into blocks. */
+/* Appends blocks of at most `at_a_time` slots that cover slots first .. end - 1. Returns the new
+ * count. */
 static size_t cut(struct kiln_sort_block *blocks, size_t count, uint32_t system, uint32_t first,
                   uint32_t end, uint32_t at_a_time)
 {
@@ -91,7 +93,8 @@ static size_t cut(struct kiln_sort_block *blocks, size_t count, uint32_t system,
 }
 
 /* Cuts the used slots of the chosen systems into blocks, in the order of serials: from the oldest
- * that may still have its slot to the end, then from the start. Returns NULL with an error. */
+ * slot in use to the end of the system's slots, then from their start. Returns NULL with an
+ * error. */
 static struct kiln_sort_block *make_blocks(struct kiln_sort_cpu *sort, const struct kiln_pool *pool,
                                            uint32_t systems, size_t *count,
                                            struct kiln_error *error)
@@ -119,7 +122,7 @@ static struct kiln_sort_block *make_blocks(struct kiln_sort_cpu *sort, const str
     return blocks;
 }
 
-/* Turns the blocks' numbers into places and returns the sum of the numbers. */
+/* Replaces each block's number of living particles by the prefix sum, and returns the total. */
 static uint32_t sum_blocks(struct kiln_sort_block *blocks, size_t count)
 {
     uint32_t place = 0;

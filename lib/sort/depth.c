@@ -1,19 +1,19 @@
 /* This file sorts the living particles by depth in threads. lib/sort/cpu.c (technique sort=cpu)
- * calls kiln_sort_depth_run for each list of particles that is drawn in order of depth.
+ * calls kiln_sort_depth_run for each list of particles that is drawn in the order of depth.
  *
  * It runs three loops. The first lists the living particles of each block as pairs of a key, which
  * is made from the depth, and a draw entry. The second moves the pairs into cells, which are
- * intervals of depth. In the third, one thread sorts each cell, within its caches. Without cells,
- * pairs.c sorts all pairs at once: where there are few slots, where the depths span no useful
- * interval, or where a cell would get more pairs than the scratch of a thread holds.
+ * intervals of depth. In the third, one thread sorts each cell, within its caches. In three cases
+ * pairs.c sorts all pairs at once instead: there are few slots, the depths span no useful interval,
+ * or a cell would get more pairs than the scratch of a thread holds.
  *
  * Particles of equal depth stay in the order of their serials, or in its reverse if the nearest
  * comes first, however the work is divided. This holds because blocks come in the order of serials,
  * a cell keeps the order of its blocks, and both sorts are stable. The numbers in the enum below
- * change how long sorting takes, and no order.
+ * change how long sorting takes, but not the order.
  *
- * Sorting needs the pairs twice, 16 bytes a particle. The sorted list of entries is written over
- * one of the two, `scratch`, whose pairs are not needed any more by then. */
+ * Sorting holds the pairs twice, 16 bytes a particle. The sorted list of entries overwrites one of
+ * the two copies, `scratch`, whose pairs are no longer needed by then. */
 #include "sort/depth.h"
 
 #include <stdlib.h>
@@ -27,16 +27,16 @@ enum {
     FEWEST_SLOTS = 16384, /* with fewer slots, cells cost more than they save */
     SLOTS_A_CELL = 1024,  /* 8 KiB of pairs and as much scratch fit a first-level cache */
     MOST_IN_CELL = 32768, /* 256 KiB of pairs and as much scratch fit a second-level cache */
-    CELLS_AT_A_TIME = 4,  /* that a thread takes */
-    SAMPLES = 512,        /* of depth, from which cells are chosen */
+    CELLS_AT_A_TIME = 4,  /* cells that a thread takes at a time */
+    SAMPLES = 512,        /* slots whose depths determine the cells */
     OUTLIERS = 2,         /* samples that are ignored at either end */
 };
 
 /* Describes the pairs that were listed for a block. */
 struct listed {
     size_t place, count;        /* range of the block's pairs in scratch */
-    struct kiln_sort_span span; /* of their keys */
-    /* for each cell, how many of the pairs it gets; after sum_cells, the place of the next one */
+    struct kiln_sort_span span; /* of the pairs' keys */
+    /* for each cell, how many of the pairs it gets; after sum_cells, the index of the next pair */
     uint32_t *counts;
 };
 
@@ -44,11 +44,11 @@ struct kiln_sort_depth {
     struct kiln_threads *threads;
     const struct kiln_sort_loops *loops;
     kiln_sort_bucket *sort_cell;
-    struct kiln_buffer pairs;     /* sorted by cells */
-    struct kiln_buffer listed;    /* of each block */
-    struct kiln_buffer counts;    /* the counts of `listed` */
-    kiln_sort_pair *cell_scratch; /* MOST_IN_CELL of each thread */
-    uint32_t *digit_counts;       /* of pairs.c */
+    struct kiln_buffer pairs;     /* all pairs, ordered by cell */
+    struct kiln_buffer listed;    /* struct listed of each block */
+    struct kiln_buffer counts;    /* memory of the counts in struct listed */
+    kiln_sort_pair *cell_scratch; /* MOST_IN_CELL pairs for each thread */
+    uint32_t *digit_counts;       /* scratch of kiln_sort_pairs */
 };
 
 struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
@@ -124,7 +124,7 @@ static void take_sample(struct extremes *of, float depth_m)
     }
 }
 
-/* Finds the extreme depths of evenly spaced samples of the slots. */
+/* Returns the extreme depths of living particles in evenly spaced slots. */
 static struct extremes sample(const struct work *work, size_t slots)
 {
     struct extremes found;
@@ -164,8 +164,8 @@ static struct kiln_sort_cells choose_cells(const struct work *work, size_t slots
     return cells;
 }
 
-/* Turns counts into places, ordered by cells and then blocks. Returns false if a cell has too
- * many. */
+/* Replaces each count by the index of its first pair; pairs are ordered by cell, then by block.
+ * Returns false if a cell has more than MOST_IN_CELL pairs. */
 static bool sum_cells(struct work *work)
 {
     uint32_t place = 0;
@@ -232,7 +232,7 @@ static void sort_cells(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* Closes the gaps between the pairs of the blocks. */
+/* Copies the pairs of each block from scratch to pairs, without the gaps between blocks. */
 static void close_up(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
@@ -262,7 +262,8 @@ static void sort_at_once(struct work *work)
 
 /* ---- run ------------------------------------------------------------------------------------- */
 
-/* Gives each block room for all its slots and returns how many these are. */
+/* Sets where each block's pairs begin in scratch, with room for all its slots. Returns the number
+ * of slots of all blocks. */
 static size_t give_room(const struct work *work)
 {
     size_t slots = 0;

@@ -1,7 +1,7 @@
-/* This file keeps an order of all slots from frame to frame and runs a part of a whole sort in each
- * frame. The serial that a slot holds decides between equal keys, as in every technique. So where
- * particles and camera are at rest, the kept order becomes the same list as that of the other
- * techniques, after less than two whole sorts. */
+/* This file keeps an order of all slots from frame to frame and runs a part of a full sort in each
+ * frame. Equal keys are ordered by the serials of the particles, as in every technique. So while
+ * particles and camera are at rest, the kept order reaches the same list as the other techniques
+ * within less than two full sorts. */
 #include "sort/kept.h"
 
 #include <string.h>
@@ -44,7 +44,7 @@ void kiln_kept_finish(struct kiln_kept *kept)
     *kept = (struct kiln_kept){.device = NULL};
 }
 
-/* Tells the program in use where the systems' slots lie. */
+/* Sets the uniforms of the current program that describe where the systems' slots lie. */
 static void set_systems(const struct kiln_pool *pool)
 {
     uint32_t systems[KILN_MAX_SYSTEMS][3] = {{0}};
@@ -68,7 +68,8 @@ static bool bind(struct kiln_kept *kept, struct kiln_pool *pool, struct kiln_err
     return records != 0;
 }
 
-/* Runs a pass over all pairs that turns slots into the words that are sorted, or back. */
+/* Runs a program over all pairs that replaces slots by ranks (rank_program) or ranks by slots
+ * (slot_program). Ranks are sorted, since they follow the order of serials. */
 static void convert(struct kiln_kept *kept, GLuint program, const struct kiln_pool *pool)
 {
     glUseProgram(program);
@@ -133,7 +134,7 @@ bool kiln_kept_restore(struct kiln_kept *kept, const struct kiln_pool *pool, con
     if (!pairs)
         return false;
     for (uint32_t i = 0; i < padded; i++) {
-        pairs[i][0] = UINT32_MAX; /* the keys of slots are made anew */
+        pairs[i][0] = UINT32_MAX; /* the next kiln_kept_sort computes the keys */
         pairs[i][1] = i < pool->slot_count ? slots[i] : i;
         if (i < pool->slot_count && slots[i] >= pool->slot_count)
             return kiln_error_set(error, KILN_INVALID_INPUT, "a saved order of %u slots names %u",
@@ -144,7 +145,7 @@ bool kiln_kept_restore(struct kiln_kept *kept, const struct kiln_pool *pool, con
     return true;
 }
 
-/* Counts or lists the living of the chosen systems. */
+/* Counts or lists the living particles of the chosen systems, depending on the program. */
 static void visit(struct kiln_kept *kept, GLuint program, const struct kiln_pool *pool,
                   const struct kiln_sort_params *params)
 {

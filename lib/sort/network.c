@@ -1,6 +1,7 @@
-/* This file does what all sorting networks share: it lists the living as pairs, pads the pairs to a
- * power of two, runs the network and takes the sorted list. Pairs hold places instead of entries,
- * so that no two are equal: a network is not stable. */
+/* This file implements the steps that all sorting networks share: it lists the living particles as
+ * pairs, pads the pairs to a power of two, runs the network and writes the sorted list. A sorting
+ * network is not stable. So pairs hold the index in the unsorted list instead of the entry, which
+ * makes equal depths keep their order. */
 #include "sort/network.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
-/* This file sorts pairs in compute by Batcher's odd-even merges (Heinz 2019, 2.4.1): more passes
- * than bitonic sorting, but fewer comparisons. Merges within a block run as one kernel in shared
- * memory. A longer merge reaches past every block's edge even over short distances, so each of its
- * passes goes through the buffer. */
+/* This file sorts pairs in compute by Batcher's odd-even merges (Heinz 2019, 2.4.1), which take
+ * more passes than bitonic sorting, but fewer comparisons. Merges within a block run as one kernel
+ * in shared memory. A longer merge compares pairs across every block's edge even at short
+ * distances, so each of its passes goes through the buffer. */
 #include "sort/oddeven.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Technique `oddeven` lists the living and sorts them in compute, by odd-even merges, all at once
- * or with the passes divided over frames. */
+/* Technique `oddeven` lists the living particles and sorts them in compute by odd-even merges, all
+ * at once or with the passes divided over frames. */
 #ifndef KILN_SORT_ODDEVEN_H
 #define KILN_SORT_ODDEVEN_H
 
@@ -7,18 +7,18 @@
 
 struct kiln_oddeven;
 
-/* NULL with an error. */
+/* Returns NULL with an error on failure. */
 struct kiln_oddeven *kiln_oddeven_create(struct kiln_device *device, struct kiln_error *error);
 void kiln_oddeven_destroy(struct kiln_oddeven **oddeven);
 
-/* Returns the network that lists the living and sorts them all at once; it lives as long as the
- * kiln_oddeven. */
+/* Returns the network that lists the living particles and sorts them all at once. The kiln_oddeven
+ * owns it. */
 struct kiln_network *kiln_oddeven_network(struct kiln_oddeven *oddeven);
 
-/* How many passes sort so many pairs, a power of two. */
+/* Returns the number of passes that sort `padded` pairs, a power of two. */
 uint32_t kiln_oddeven_passes(uint32_t padded);
 
-/* Runs the passes with the numbers first .. end - 1 over the bound pairs. */
+/* Runs the passes with the numbers first .. end - 1 over the pairs bound to SORT_BIND_PAIRS. */
 void kiln_oddeven_run_passes(struct kiln_oddeven *oddeven, uint32_t padded, uint32_t first,
                              uint32_t end);
 

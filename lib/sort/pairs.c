@@ -1,8 +1,8 @@
 /* This file sorts pairs in threads by a radix sort, least significant digit first. It takes one
- * pass or three: the last one then reads the pairs' own memory and can write the list where scratch
- * was. Digits are as short as the span of the keys allows. Each thread owns one stretch of the
- * pairs: it counts the digits in it, and after a sum over (digit, stretch) knows where each of its
- * pairs goes, so the result is stable and the same for any number of threads. */
+ * pass or three, so that the last pass reads the memory of `pairs` and can write the list over the
+ * scratch. Digits are as short as the span of the keys allows. Each thread owns one stretch of the
+ * pairs and counts its digits. Prefix sums over (digit, stretch) then say where each pair goes, so
+ * the result is stable and the same for any number of threads. */
 #include "sort/pairs.h"
 
 #include <string.h>
@@ -11,19 +11,20 @@ enum {
     MOST_DIGIT_BITS = 11,
     MOST_DIGITS = 1 << MOST_DIGIT_BITS,
     PASSES = 3,
-    LEAST_STRETCH = 8192, /* pairs; shorter ones are not worth a thread */
+    LEAST_STRETCH = 8192, /* pairs; a shorter stretch is not worth a thread */
 };
 
 struct pass {
     const kiln_sort_pair *from;
-    kiln_sort_pair *to; /* NULL: the last pass, which writes `list` */
+    kiln_sort_pair *to; /* NULL in the last pass, which writes `list` */
     uint32_t *list;
     bool reverse;
     size_t count;
     uint32_t stretches;
-    uint32_t least; /* key */
+    uint32_t least; /* the least key, which is subtracted from every key */
     unsigned shift, digit_bits;
-    uint32_t *places; /* a word a digit for each stretch: first counts, then places */
+    uint32_t *places; /* for each stretch a word a digit: first its count, then the index of its
+                       * next pair */
 };
 
 size_t kiln_sort_count_words(const struct kiln_threads *threads)
@@ -55,7 +56,7 @@ static void count_digits(void *context, size_t begin, size_t end, uint32_t worke
     }
 }
 
-/* Turns counts into places. */
+/* Replaces the counts by their prefix sums over (digit, stretch). */
 static void sum_counts(const struct pass *pass)
 {
     uint32_t place = 0;

@@ -1,8 +1,8 @@
 /* This file sorts pairs in compute by a radix sort, least significant digit first. Each pass counts
- * the digits of every tile of pairs, sums the counts by (digit, tile), and moves each tile's pairs
- * behind those that come before. No work group waits for another, and no atomic decides an order.
- * The number of passes is even: so the last one reads the other buffer, and its list takes the
- * place of the pairs. */
+ * the digits of every tile of pairs, computes prefix sums of the counts by (digit, tile), and moves
+ * each pair to the place that the sums give. No work group waits for another, and no atomic
+ * operation decides an order. The number of passes is even, so that the last pass reads the buffer
+ * `other` and its list overwrites the pairs. */
 #include "sort/radix.h"
 
 #include <stdio.h>
@@ -15,16 +15,16 @@
 
 enum { KEY_BITS = 32, PAIR_BYTES = 8, MAX_SHARED_BYTES = 32768 };
 
-/* Describes how the work is divided, which changes no result. A counter for every digit and
- * invocation must fit in 32 KiB of shared memory. */
+/* Describes how the work is divided, which does not change the result. One counter for each digit
+ * of each invocation must fit in 32 KiB of shared memory. */
 struct shape {
-    uint32_t bits;       /* of a digit */
+    uint32_t bits;       /* width of a digit */
     uint32_t group_size; /* invocations of a work group */
-    uint32_t items;      /* pairs of an invocation */
+    uint32_t items;      /* pairs that an invocation processes */
 };
 
-/* An even number of digits makes a key. Software devices gain from few passes and long stretches,
- * GPUs from many invocations. */
+/* Both widths divide a key into an even number of digits. Few passes and long stretches are faster
+ * on software devices, many invocations on GPUs. */
 static const struct shape FOR_SOFTWARE = {8, 16, 256}, FOR_GPUS = {6, 64, 32};
 
 struct kiln_radix {
@@ -33,8 +33,8 @@ struct kiln_radix {
     struct kiln_alive alive;
     struct kiln_scan scan;
     GLuint count_program, scatter_program, last_program;
-    struct kiln_buffer other;  /* passes alternate between the pairs and this */
-    struct kiln_buffer counts; /* by digit, then by tile */
+    struct kiln_buffer other;  /* passes alternate between the buffer of pairs and this one */
+    struct kiln_buffer counts; /* ordered by digit, then by tile */
 };
 
 static GLuint create_program(struct kiln_radix *radix, const char *file, const char *more,
@@ -62,14 +62,15 @@ static bool create_programs(struct kiln_radix *radix, struct kiln_error *error)
     return radix->last_program != 0;
 }
 
-/* Returns whether the key has an even number of digits of so many bits. */
+/* Returns whether a key has an even number of digits of `bits` bits. */
 static bool is_even(uint32_t bits)
 {
     return (KEY_BITS + bits - 1) / bits % 2 == 0;
 }
 
-/* Chooses the shape for the device. For a work group of another size, the same tile is divided
- * among more or fewer invocations, and its digits are as wide as their counters find room. */
+/* Chooses the shape for the device. If the user sets the size of work groups, a tile keeps its size
+ * and is divided among more or fewer invocations; digits are then as wide as shared memory has room
+ * for their counters. */
 static struct shape choose_shape(const struct kiln_device *device)
 {
     struct shape shape = device->info.software ? FOR_SOFTWARE : FOR_GPUS;
@@ -116,11 +117,11 @@ void kiln_radix_destroy(struct kiln_radix **radix)
     *radix = NULL;
 }
 
-/* Describes a pass: where it reads and writes. */
+/* Describes a pass and the buffers that it reads and writes. */
 struct pass {
     uint32_t count, tiles, shift;
-    bool reverse;    /* the last pass: from the end */
-    GLuint from, to; /* to: pairs, or entries in the last pass */
+    bool reverse;    /* the last pass writes the list from its end */
+    GLuint from, to; /* `to` gets pairs, and draw entries in the last pass */
     GLuint counts;
 };
 

@@ -1,4 +1,4 @@
-/* Technique `radix` lists the living and sorts them in compute by a stable radix sort. */
+/* Technique `radix` lists the living particles and sorts them in compute by a stable radix sort. */
 #ifndef KILN_SORT_RADIX_H
 #define KILN_SORT_RADIX_H
 
@@ -6,17 +6,17 @@
 
 struct kiln_radix;
 
-/* NULL with an error. */
+/* Returns NULL with an error on failure. */
 struct kiln_radix *kiln_radix_create(struct kiln_device *device, struct kiln_error *error);
 void kiln_radix_destroy(struct kiln_radix **radix);
 
-/* Like kiln_sort_run. */
+/* Does the same as kiln_sort_run. */
 bool kiln_radix_run(struct kiln_radix *radix, struct kiln_pool *pool,
                     const struct kiln_sort_params *params, struct kiln_buffer *entries,
                     uint32_t *count, struct kiln_error *error);
 
 /* Sorts the first `count` pairs (key, any word) of a buffer by ascending key; pairs of equal keys
- * keep their order. The list of the second words, reversed if `reverse` is set, takes the place of
+ * keep their order. The list of the pairs' second words, reversed if `reverse` is set, overwrites
  * the pairs. */
 bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint32_t count,
                       bool reverse, struct kiln_error *error);

@@ -1,6 +1,6 @@
-/* This file computes prefix sums on the device, in three dispatches: sums of blocks, their prefix
- * sums, and the words of each block. No work group waits for another, which some drivers would not
- * allow. */
+/* This file computes prefix sums on the device in three dispatches: the sums of blocks, the prefix
+ * sums of these, and the prefix sums within each block. No work group waits for another, since some
+ * drivers do not allow it. */
 #include "sort/scan.h"
 
 #include "gpu/program.h"

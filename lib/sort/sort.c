@@ -15,7 +15,7 @@ struct kiln_sort {
     struct kiln_radix *radix;
     struct kiln_bitonic *bitonic;
     struct kiln_oddeven *oddeven;
-    bool keeps; /* the order `kept` */
+    bool keeps; /* the sort is spread over frames and uses `kept` */
     struct kiln_kept kept;
 };
 
@@ -93,7 +93,7 @@ uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32
     switch (technique) {
     case KILN_SORT_CPU:
     case KILN_SORT_RADIX:
-        return 2 * pair * slots; /* one of the two becomes the list */
+        return 2 * pair * slots; /* the pairs twice; the list overwrites one of the copies */
     case KILN_SORT_BITONIC:
         break;
     case KILN_SORT_ODDEVEN:
@@ -101,7 +101,7 @@ uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32
             return padded + word * slots;
         break;
     }
-    return padded + 2 * word * slots; /* both lists, unsorted and sorted */
+    return padded + 2 * word * slots; /* the pairs, the unsorted list and the sorted list */
 }
 
 bool kiln_sort_keeps_history(const struct kiln_sort *sort)
