@@ -7,7 +7,7 @@
 #include "post/bloom_cpu.h"
 #include "post/bloom_gl.h"
 
-struct kiln_bloom_stage { /* one of these two */
+struct kiln_bloom_stage { /* exactly one of the two is not NULL */
     struct kiln_bloom_gl *gl;
     struct kiln_bloom_cpu *cpu;
 };

@@ -1,5 +1,5 @@
-/* Stage 5a draws the glow around bright particles (Heinz 2019, 2.1.5 and 3.2.5): it finds the light
- * that glows, then blurs it. */
+/* The bloom stage, stage 5a of a frame, draws the glow around bright particles (Heinz 2019, 2.1.5
+ * and 3.2.5): it finds the light that glows, then blurs it. */
 #ifndef KILN_POST_BLOOM_H
 #define KILN_POST_BLOOM_H
 
@@ -7,21 +7,21 @@
 #include "gpu/image.h"
 #include "scene/scene.h"
 
-/* Both techniques make the same glow, to rounding. */
+/* Both techniques make the same glow except for rounding. */
 enum kiln_bloom_technique { KILN_BLOOM_GL, KILN_BLOOM_CPU };
 
 struct kiln_bloom_stage;
 
 struct kiln_bloom_params {
     enum kiln_bloom_technique technique;
-    struct kiln_threads *threads; /* of `cpu` */
-    struct kiln_image *source;    /* in which the particles leave their weighted colours, or which
-                                   * the bright pass fills */
+    struct kiln_threads *threads; /* for KILN_BLOOM_CPU */
+    struct kiln_image *source;    /* the light that glows: drawn with the particles, in colours
+                                   * times their glow, or filled by the bright pass */
     GLenum format;                /* of the intermediate images */
 };
 
-/* The arguments must outlive the stage; device may be NULL for `cpu`. The scene's bloom must not be
- * KILN_BLOOM_NONE. Returns NULL with an error. */
+/* The arguments must outlive the stage; device may be NULL for KILN_BLOOM_CPU. The scene's bloom
+ * must not be KILN_BLOOM_NONE. Returns NULL with an error on failure. */
 struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            const struct kiln_bloom_params *params,
@@ -29,12 +29,14 @@ struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
 void kiln_bloom_destroy(struct kiln_bloom_stage **stage);
 
 struct kiln_bloom_inputs {
-    struct kiln_image *scene, *particles, *fire; /* as for kiln_composite_run; of the bright pass */
+    struct kiln_image *scene, *particles, *fire; /* for the bright pass; see struct
+                                                  * kiln_composite_inputs */
     float time_s;                                /* clip time */
 };
 
-/* Blurs the glow. The result, smaller than the source, belongs to the stage and holds until the
- * next call; *scale becomes its size in parts of the source's. Returns NULL with an error. */
+/* Blurs the glow. The stage owns the result, which is valid until the next call. *scale becomes the
+ * size of the result divided by that of the source: 1/2 or 1/6. Returns NULL with an error on
+ * failure. */
 struct kiln_image *kiln_bloom_run(struct kiln_bloom_stage *stage,
                                   const struct kiln_bloom_inputs *inputs, float *scale,
                                   struct kiln_error *error);

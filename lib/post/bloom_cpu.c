@@ -14,14 +14,16 @@ struct kiln_bloom_cpu {
     struct kiln_threads *threads;
     struct kiln_image *source;
     struct kiln_image small[2 * KILN_BLOOM_MAX_LEVELS];
-    uint32_t levels; /* of the pyramid; `small` holds the halved pictures, then the joined ones */
+    uint32_t levels; /* of the pyramid; `small` holds the halved pictures, then the joined
+                      * pictures */
     const struct kiln_bloom_rows *rows;
-    struct kiln_bloom_pass pass; /* the part that all passes share */
+    struct kiln_bloom_pass pass; /* parameters; each pass sets those that it needs */
 };
 
 /* ---- create, destroy ------------------------------------------------------------------------- */
 
-/* Makes the images of the Gaussian: two pictures of a third of the size, two of a sixth. */
+/* Initialises the images of the Gaussian: two of a third of the source's size and two of a
+ * sixth. */
 static void init_gaussian(struct kiln_bloom_cpu *stage, struct kiln_device *device, GLenum format)
 {
     kiln_bloom_gaussian_weights(stage->pass.weights);

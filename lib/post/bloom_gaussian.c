@@ -1,6 +1,6 @@
-/* This file blurs the glow in GL by the thesis's four blurs: horizontal and vertical at a third of
- * the size, then at a sixth (Heinz 2019, 3.2.5). Each reduction averages whole blocks first, where
- * the thesis samples bilinearly and may miss a spark. */
+/* This file blurs the glow in GL by four Gaussian blurs: horizontal and vertical at a third of the
+ * size, then at a sixth (Heinz 2019, 3.2.5). Each reduction averages whole blocks of pixels. The
+ * thesis samples bilinearly instead, which may miss a spark. */
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -8,7 +8,8 @@
 #include "post/bloom_spread.h"
 
 struct level {
-    struct kiln_bloom_target down, across; /* shrunk and blurred down; blurred across */
+    struct kiln_bloom_target down, across; /* down: shrunk, then blurred vertically; across: blurred
+                                            * horizontally */
 };
 
 struct kiln_bloom_gaussian {
@@ -68,7 +69,7 @@ void kiln_bloom_gaussian_destroy(struct kiln_bloom_gaussian **gaussian)
         return;
     finish_level(&(*gaussian)->third);
     finish_level(&(*gaussian)->sixth);
-    glDeleteProgram((*gaussian)->shrink); /* 0 is ignored */
+    glDeleteProgram((*gaussian)->shrink); /* GL ignores 0 */
     glDeleteProgram((*gaussian)->blur);
     free(*gaussian);
     *gaussian = NULL;

@@ -1,5 +1,5 @@
-/* This file runs the bloom in GL: it runs the bright pass if the scene has one, then the Gaussian
- * or the pyramid over the source. It also holds the GL functions that the Gaussian and the pyramid
+/* This file runs the bloom in GL: the bright pass if the scene has one, then the Gaussian or the
+ * pyramid over the source. It also holds the GL functions that the Gaussian and the pyramid
  * share. */
 #include "post/bloom_gl.h"
 
@@ -16,7 +16,7 @@ struct kiln_bloom_gl {
     struct kiln_image *source;
     struct kiln_bloom_gaussian *gaussian; /* exactly one of the two is not NULL */
     struct kiln_bloom_pyramid *pyramid;
-    GLuint bright; /* program; 0: particles draw the source with their weights */
+    GLuint bright; /* program of the bright pass; 0 if the source is drawn with the particles */
     GLint exposure, threshold, separate_fire, scene_alone;
     struct kiln_framebuffer source_framebuffer; /* of the bright pass */
     GLuint vertex_array;
@@ -122,7 +122,7 @@ void kiln_bloom_gl_destroy(struct kiln_bloom_gl **stage)
     kiln_bloom_gaussian_destroy(&s->gaussian);
     kiln_bloom_pyramid_destroy(&s->pyramid);
     kiln_framebuffer_finish(&s->source_framebuffer);
-    glDeleteProgram(s->bright); /* 0 is ignored */
+    glDeleteProgram(s->bright); /* GL ignores 0 */
     glDeleteVertexArrays(1, &s->vertex_array);
     free(s);
     *stage = NULL;

@@ -5,12 +5,13 @@
 #include "shared/exact.h"
 
 enum {
-    KILN_BLOOM_TAPS = 6,        /* of one side of the Gaussian with its centre: 11 in all */
+    KILN_BLOOM_TAPS = 6,        /* of the Gaussian on one side, centre included; it has 11 in all */
     KILN_BLOOM_MAX_LEVELS = 12, /* of the pyramid */
-    KILN_BLOOM_LEAST_EDGE = 8   /* pixels of the shorter side of its last level */
+    KILN_BLOOM_LEAST_EDGE = 8   /* pixels; the shorter side of the last level is not below it */
 };
 
-/* Fills in the weights of a Gaussian of sigma 2, from the centre outwards; all eleven sum to 1. */
+/* Fills in the weights of a Gaussian of sigma 2 pixels, from the centre outwards. The weights of
+ * all eleven taps sum to 1. */
 static inline void kiln_bloom_gaussian_weights(float weights[KILN_BLOOM_TAPS])
 {
     const float sigma = 2.0f;

@@ -1,7 +1,7 @@
 /* This file blurs the glow in GL by a pyramid: it halves the picture level by level, then joins the
- * levels from the smallest up. Each level is mixed with the doubled one below it, so that the glow
- * has a bright core and a wide, faint skirt. The depth of the pyramid follows the size of the
- * picture, so the glow covers the same part of a picture of any size. */
+ * levels from the smallest up. Each level is mixed with the next smaller level, enlarged to twice
+ * its size, so that the glow has a bright core and a wide, faint skirt. Larger pictures get more
+ * levels, so the glow covers the same part of a picture of any size. */
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -13,7 +13,8 @@ struct kiln_bloom_pyramid {
     GLint radius;
     uint32_t levels;
     struct kiln_bloom_target down[KILN_BLOOM_MAX_LEVELS]; /* a half, a quarter, ... */
-    struct kiln_bloom_target up[KILN_BLOOM_MAX_LEVELS];   /* of all but the last level */
+    struct kiln_bloom_target up[KILN_BLOOM_MAX_LEVELS];   /* joined pictures of all but the last
+                                                           * level */
 };
 
 static bool init_targets(struct kiln_bloom_pyramid *pyramid, struct kiln_device *device,
@@ -59,7 +60,7 @@ void kiln_bloom_pyramid_destroy(struct kiln_bloom_pyramid **pyramid)
         kiln_bloom_target_finish(&(*pyramid)->down[i]);
         kiln_bloom_target_finish(&(*pyramid)->up[i]);
     }
-    glDeleteProgram((*pyramid)->halve); /* 0 is ignored */
+    glDeleteProgram((*pyramid)->halve); /* GL ignores 0 */
     glDeleteProgram((*pyramid)->join);
     free(*pyramid);
     *pyramid = NULL;

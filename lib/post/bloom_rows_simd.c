@@ -1,9 +1,10 @@
 /* This file computes rows of the bloom's passes on the host, as the shaders post/bloom_*.frag do in
- * GL. Where a filter has two directions, it first filters several rows into one, then that row
- * along itself. */
+ * GL. A filter in two directions first filters several rows into one row vertically, then that row
+ * horizontally. */
 #include "post/bloom_rows.h"
 
-static const float HALF_MAX = 65504.0f; /* the greatest 16-bit float; overflows become it */
+static const float HALF_MAX = 65504.0f; /* the greatest 16-bit float; greater values are clamped to
+                                         * it */
 
 static inline kiln_quad limited(kiln_quad light)
 {

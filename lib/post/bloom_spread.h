@@ -5,7 +5,7 @@
 
 #include "gpu/framebuffer.h"
 
-/* Holds an image with its framebuffer. Zero-initialised has none. */
+/* Holds an image with its framebuffer. A zero-initialised target may be finished. */
 struct kiln_bloom_target {
     struct kiln_image image;
     struct kiln_framebuffer framebuffer;
@@ -15,16 +15,17 @@ bool kiln_bloom_target_init(struct kiln_bloom_target *target, struct kiln_device
                             struct kiln_error *error);
 void kiln_bloom_target_finish(struct kiln_bloom_target *target);
 
-/* Draws into the target with the program in use; first and second become its textures 0 and 1.
- * second may be NULL. */
+/* Fills the target with the current program; `first` and `second` are bound to texture units 0 and
+ * 1. second may be NULL. */
 bool kiln_bloom_pass(struct kiln_framebuffer *target, struct kiln_image *first,
                      struct kiln_image *second, GLuint vertex_array, struct kiln_error *error);
 
-/* Makes a full-screen program of a fragment shader. Returns 0 with an error. */
+/* Creates a full-screen program with a fragment shader. Returns 0 with an error on failure. */
 GLuint kiln_bloom_program(struct kiln_device *device, const char *fragment,
                           struct kiln_error *error);
 
-/* Makes a Gaussian for sources of width x height. Blurring does not change the sum of the light. */
+/* Blurs sources of width x height with a Gaussian. Blurring does not change the sum of the
+ * light. */
 struct kiln_bloom_gaussian;
 struct kiln_bloom_gaussian *kiln_bloom_gaussian_create(struct kiln_device *device, uint32_t width,
                                                        uint32_t height, GLenum format,
@@ -42,8 +43,8 @@ struct kiln_bloom_pyramid *kiln_bloom_pyramid_create(struct kiln_device *device,
                                                      struct kiln_error *error);
 void kiln_bloom_pyramid_destroy(struct kiln_bloom_pyramid **pyramid);
 
-/* Blurs the source; the result has half its size. radius: 0 (a pixel or two) to 1 (all over the
- * picture). */
+/* Blurs the source; the result has half its size. radius: 0 (a glow of a pixel or two) to 1 (a glow
+ * over the whole picture). */
 struct kiln_image *kiln_bloom_pyramid_run(struct kiln_bloom_pyramid *pyramid,
                                           struct kiln_image *source, float radius,
                                           GLuint vertex_array, struct kiln_error *error);

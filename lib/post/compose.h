@@ -1,10 +1,11 @@
-/* This header composes scene, particles and fire into one picture of light on the host. */
+/* This header composes scene, particles and fire into one linear picture on the host. */
 #ifndef KILN_POST_COMPOSE_H
 #define KILN_POST_COMPOSE_H
 
 #include "post/composite.h"
 
-/* A pixel, RGBA. The rows of host images need not be aligned to it. */
+/* A pixel, RGBA. Host images need not be aligned to 16 bytes, so kiln_quad_load and kiln_quad_store
+ * access them. */
 typedef float kiln_quad __attribute__((vector_size(16)));
 typedef float kiln_quad_unaligned __attribute__((vector_size(16), aligned(4), may_alias));
 
@@ -18,12 +19,12 @@ static inline void kiln_quad_store(float *to, kiln_quad quad)
     *(kiln_quad_unaligned *)to = quad;
 }
 
-/* Pixels of the inputs; those of particles and fire may be NULL. */
+/* Holds the pixels of the inputs, premultiplied RGBA; `particles` and `fire` may be NULL. */
 struct kiln_compose_light {
     const float *scene, *particles, *fire;
 };
 
-/* Takes the inputs' pixels on the host. Returns false with an error. */
+/* Makes the inputs' pixels available on the host. Returns false with an error on failure. */
 static inline bool kiln_compose_open(struct kiln_compose_light *light, struct kiln_image *scene,
                                      struct kiln_image *particles, struct kiln_image *fire,
                                      struct kiln_error *error)

@@ -7,7 +7,7 @@
 #include "post/composite_cpu.h"
 #include "post/composite_gl.h"
 
-struct kiln_composite_stage { /* one of these two */
+struct kiln_composite_stage { /* exactly one of the two is not NULL */
     struct kiln_composite_gl *gl;
     struct kiln_composite_cpu *cpu;
 };

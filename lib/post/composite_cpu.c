@@ -15,8 +15,8 @@ struct kiln_composite_cpu {
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
     uint32_t bits;
-    void *display; /* four channels of bits a pixel */
-    float *beauty; /* NULL unless asked for */
+    void *display; /* RGBA, `bits` bits a channel */
+    float *beauty; /* NULL unless the parameters ask for it */
     struct kiln_magnifier magnifier;
     kiln_composite_rows_run *rows;
 };

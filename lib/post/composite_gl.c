@@ -1,5 +1,5 @@
 /* This file composes the picture in GL: one full-screen pass writes both the display picture and
- * the linear one. */
+ * the linear picture. */
 #include "post/composite_gl.h"
 
 #include <stdlib.h>
@@ -84,7 +84,7 @@ void kiln_composite_gl_destroy(struct kiln_composite_gl **stage)
     *stage = NULL;
 }
 
-/* Binds the inputs to texture units 0 to 3; an absent one leaves its unit empty, and the shader
+/* Binds the inputs to texture units 0 to 3. The unit of an absent input stays empty, and the shader
  * does not read it. */
 static bool bind_inputs(const struct kiln_composite_inputs *inputs, struct kiln_error *error)
 {

@@ -7,7 +7,7 @@
 
 /* Describes the pictures that are composed and the format of the result. */
 struct kiln_composite_rows {
-    uint32_t width; /* of all pictures but the glow */
+    uint32_t width; /* of all pictures except the glow */
     struct kiln_compose_light light;
     const float *glow; /* NULL: none */
     const struct kiln_magnifier *magnifier;
@@ -15,11 +15,12 @@ struct kiln_composite_rows {
     enum kiln_tonemap tonemap;
     bool dither;
     uint32_t frame, bits;
-    void *display; /* four channels of bits a pixel */
-    float *beauty; /* NULL unless asked for */
+    void *display; /* RGBA, `bits` bits a channel */
+    float *beauty; /* NULL if no linear picture is wanted */
 };
 
-/* Rows begin to end of the kiln_composite_rows that context points to, for kiln_threads_for. */
+/* Composes rows begin .. end - 1 of the struct kiln_composite_rows that context points to; it is a
+ * function for kiln_threads_try. */
 typedef void kiln_composite_rows_run(void *context, size_t begin, size_t end, uint32_t worker);
 KILN_SIMD_DECLARE(kiln_composite_rows_run, kiln_composite_rows_run);
 

@@ -24,8 +24,8 @@ static inline uint32_t hash(uint32_t x)
     return x;
 }
 
-/* Makes triangular noise of one level, less its mean, different for each pixel, channel and frame,
- * the same in each run; half of it is stored. */
+/* Makes triangular noise with a mean of 0 from -0.5 to 0.5 levels. It differs by pixel, channel and
+ * frame, and is the same in each run. */
 static inline void make_noise(struct block *block, uint32_t first, uint32_t row_hash)
 {
     for (uint32_t i = 0; i < BLOCK; i++) {
@@ -84,16 +84,16 @@ static inline void encode_channel(float *channel, bool is_root)
         channel[i] = tonemap_encode(exact_min(channel[i], 1.0f));
 }
 
-/* Divides colour by alpha, since a file's alpha is not premultiplied. Light without cover (fire on
- * nothing) has no such form: its brightness becomes its cover, so that it still shows over
- * black. */
+/* Divides colour by alpha, since files hold straight alpha. Light brighter than its alpha, such as
+ * fire over a transparent background, would exceed 1. Its brightness becomes its alpha instead, so
+ * that it still shows over black. */
 static inline void straighten(struct block *block)
 {
     for (int i = 0; i < BLOCK; i++) {
         float r = block->red[i], g = block->green[i], b = block->blue[i], a = block->alpha[i];
         bool opaque = !(a < 1.0f);
         float cover = exact_clamp(exact_max(a, exact_max(exact_max(r, g), b)), 0.0f, 1.0f);
-        float whole = cover > 0.0f ? cover : 1.0f; /* where there is nothing, nothing is shown */
+        float whole = cover > 0.0f ? cover : 1.0f; /* a transparent black pixel stays black */
         whole = opaque ? 1.0f : whole;
         block->red[i] = exact_min(r / whole, 1.0f);
         block->green[i] = exact_min(g / whole, 1.0f);
@@ -152,7 +152,8 @@ static inline void store_shorts(const struct block *block, uint32_t count, uint1
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
-/* Composes a block of pixels. at: its first pixel in the picture; x: in the row. */
+/* Composes a block of pixels. at: index of its first pixel in the picture; x: column of that
+ * pixel. */
 static inline void compose_block(const struct kiln_composite_rows *p, struct block *block,
                                  size_t at, uint32_t x, uint32_t count, const kiln_quad *glow)
 {

@@ -1,5 +1,5 @@
-/* This file makes a display picture of a picture of light that is composed already. It uses the
- * rows of composite=cpu. */
+/* This file converts a composed linear picture to a display picture with the loops of
+ * composite=cpu. */
 #include "post/display.h"
 
 #include "post/composite_rows.h"

@@ -1,5 +1,5 @@
-/* This header declares how a picture of light, as an EXR file has it, becomes the pixels of a
- * display, as the composite stage makes them. */
+/* This header declares the conversion of a linear picture, such as an EXR file holds, to the pixels
+ * of a display, as the composite stage makes them. */
 #ifndef KILN_POST_DISPLAY_H
 #define KILN_POST_DISPLAY_H
 
@@ -10,11 +10,12 @@ struct kiln_display_params {
     uint32_t width, height, bits; /* bits a channel: 8 or 16 */
     float exposure;               /* stops */
     enum kiln_tonemap tonemap;
-    uint32_t frame; /* noise that hides the steps differs from frame to frame */
+    uint32_t frame; /* seeds the dither noise, which differs from frame to frame */
 };
 
-/* light is RGBA, linear, premultiplied; display gets RGBA in sRGB with straight alpha. Both have
- * rows from the top. The pixels are the same on every machine, for any number of threads. */
+/* Converts `light` (RGBA, linear, premultiplied) to `display` (RGBA in sRGB with straight alpha).
+ * Both have rows from the top. The pixels are the same on every machine, for any number of
+ * threads. */
 bool kiln_display_make(struct kiln_threads *threads, const struct kiln_display_params *params,
                        const float *light, void *display, struct kiln_error *error);
 

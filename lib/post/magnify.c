@@ -10,7 +10,7 @@
 
 enum { EDGE = 2 }; /* texels that the filter reads beyond the picture, on each side */
 
-/* Returns the weights of the cubic B-spline around a pixel's centre. */
+/* Returns the taps of the cubic B-spline around a pixel's centre along one axis. */
 static struct kiln_magnify_taps taps_at(uint32_t pixel, float scale)
 {
     float texel = ((float)pixel + 0.5f) * scale - 0.5f;

@@ -5,28 +5,32 @@
 
 #include "post/compose.h"
 
-/* Where a pixel lies between four neighbours along one axis, and their weights. */
+/* Holds the four texels around a pixel along one axis and their weights. */
 struct kiln_magnify_taps {
-    int32_t first; /* texel; beyond the edge, the edge's counts */
+    int32_t first; /* index of the first texel; texels beyond the edge repeat the texel at the
+                    * edge */
     float weights[4];
 };
 
 struct kiln_magnifier {
     uint32_t width, small_width, small_height; /* of the frame; of the glow */
-    float scale;                               /* the glow's size in parts of the frame's */
-    struct kiln_magnify_taps *columns;         /* one a pixel */
-    kiln_quad *rows;                           /* a row of the glow, with its edges, a thread */
+    float scale;                               /* the size of the glow divided by that of the
+                                                * frame */
+    struct kiln_magnify_taps *columns;         /* of each pixel of a row */
+    kiln_quad *rows;                           /* a row of the glow with its edges for each
+                                                * thread */
     size_t row_length;
 };
 
-/* Prepares for a glow of a size; does nothing if the last glow had the same size. */
+/* Allocates memory and computes the taps for the size of `glow`; does nothing if the last call had
+ * the same sizes. */
 bool kiln_magnifier_prepare(struct kiln_magnifier *magnifier, uint32_t width,
                             const struct kiln_image *glow, float scale, uint32_t threads,
                             struct kiln_error *error);
 void kiln_magnifier_finish(struct kiln_magnifier *magnifier);
 
-/* Returns the glow's row, times a strength, for the frame's row y; its alpha is 0. The row belongs
- * to the thread `worker` and holds until its next call. */
+/* Returns the glow filtered vertically for row y of the frame, times a strength; its alpha is 0.
+ * The row is valid until the next call with the same worker. */
 const kiln_quad *kiln_magnifier_row(const struct kiln_magnifier *magnifier, const float *glow,
                                     uint32_t y, float strength, uint32_t worker);
 

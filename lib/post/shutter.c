@@ -1,5 +1,5 @@
-/* This file sums up the moments of a frame while the shutter is open. It owns the images of the
- * sums and adds to them on the host; in GL, shutter_gl.c adds to them. */
+/* This file sums up pictures of the moments of a frame while the shutter is open. It owns the
+ * images of the sums and adds to them on the host; shutter_gl.c adds to them in GL. */
 #include "post/shutter.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@ enum { ROWS_AT_A_TIME = 16 };
 struct kiln_shutter_stage {
     struct kiln_threads *threads;
     struct kiln_image sums[KILN_SHUTTER_SUM_COUNT];
-    struct kiln_shutter_gl *gl; /* NULL: on the host */
+    struct kiln_shutter_gl *gl; /* NULL if the sums are computed on the host */
 };
 
 struct kiln_shutter_stage *kiln_shutter_create(struct kiln_device *device,
@@ -67,7 +67,7 @@ static void add_rows(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* Adds a composed moment to a sum. The inputs' particles and fire may be NULL. */
+/* Adds the composed picture of a moment to a sum. The inputs' particles and fire may be NULL. */
 static bool add_moment(struct kiln_shutter_stage *stage, enum kiln_shutter_sum which,
                        const struct kiln_composite_inputs *inputs, float weight, bool first,
                        struct kiln_error *error)

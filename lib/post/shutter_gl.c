@@ -2,7 +2,7 @@
  * times its weight, with additive blending into a sum, whose image has float channels.
  *
  * shutter.c owns the images of the sums. It calls this file for each moment of a frame if the
- * composite runs in GL, and otherwise adds on the host. Both must give the same sums but for
+ * composite runs in GL, and otherwise adds on the host. Both must give the same sums except for
  * rounding. The first moment of a frame is drawn without blending and so replaces the sum of the
  * frame before; the pass must therefore write every pixel. */
 #include "post/shutter_gl.h"

@@ -6,7 +6,7 @@
 
 struct kiln_shutter_gl;
 
-/* sums: KILN_SHUTTER_SUM_COUNT images, which must outlive it. */
+/* sums: KILN_SHUTTER_SUM_COUNT images, which must outlive the result. */
 struct kiln_shutter_gl *kiln_shutter_gl_create(struct kiln_device *device, struct kiln_image *sums,
                                                struct kiln_error *error);
 void kiln_shutter_gl_destroy(struct kiln_shutter_gl **gl);
