@@ -1,5 +1,5 @@
-/* This file names what a machine lacks to render. It judges from the devices that were found and
- * from the device nodes under /dev. */
+/* This file names the packages and permissions that a machine lacks to render. It judges from the
+ * devices that were found and from the device nodes under /dev. */
 #include "gpu/advice.h"
 
 #include <stdio.h>
@@ -33,8 +33,8 @@ static void add(char advice[256], const char *sentence)
     snprintf(advice + used, 256 - used, "%s%s", used ? "; " : "", sentence);
 }
 
-/* Says which render node this user may not open: EGL does not list such a GPU at all. The kernel
- * numbers render nodes from 128. */
+/* Names the first render node that this user may not open, since EGL does not list such a GPU at
+ * all. The kernel numbers render nodes from 128. */
 static void advise_permission(char advice[256])
 {
     for (unsigned number = 128; number < 192; number++) {

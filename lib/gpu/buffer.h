@@ -6,9 +6,10 @@
 #include "gpu/device.h"
 
 enum kiln_access {
-    KILN_READ,       /* the other side stays valid */
+    KILN_READ,       /* both sides stay valid */
     KILN_READ_WRITE, /* the other side becomes stale */
-    KILN_OVERWRITE,  /* as above; nothing is fetched, since every byte will be written */
+    KILN_OVERWRITE,  /* the other side becomes stale; nothing is copied, since the caller writes
+                      * every byte */
 };
 
 struct kiln_buffer {
@@ -21,20 +22,20 @@ struct kiln_buffer {
     size_t content; /* bytes that are sent to GL; kiln_buffer_set_content makes it less than size */
 };
 
-/* Size 0 is allowed. Contents start as zeros. label must outlive the buffer. */
+/* Size 0 is allowed. The contents start as zeros. label must outlive the buffer. */
 void kiln_buffer_init(struct kiln_buffer *buffer, struct kiln_device *device, size_t size,
                       const char *label);
 void kiln_buffer_finish(struct kiln_buffer *buffer);
 
-/* Makes the buffer at least so large. Its contents are lost if it grows. */
+/* Enlarges the buffer to at least `size` bytes. Its contents are lost if it grows. */
 void kiln_buffer_reserve(struct kiln_buffer *buffer, size_t size);
 
 /* Returns the bytes on the host, or NULL with an error (KILN_DEVICE_FAILED: memory). */
 void *kiln_buffer_host(struct kiln_buffer *buffer, enum kiln_access access,
                        struct kiln_error *error);
 
-/* Says that only the first `bytes` of what the host has just written will be read, so that only
- * these are sent to GL. Holds until the host asks to write again. */
+/* Declares that only the first `bytes` of the bytes just written on the host will be read, so that
+ * only these are copied to GL. Applies until the next request to write on the host. */
 void kiln_buffer_set_content(struct kiln_buffer *buffer, size_t bytes);
 
 /* Returns the GL buffer object, or 0 with an error. A shader that wrote it needs no barrier before

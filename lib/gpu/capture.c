@@ -1,6 +1,6 @@
-/* This file sets up what transform feedback draws with: a vertex array, and a framebuffer without
- * images. Nothing is rasterised, but llvmpipe requires a complete framebuffer all the same, and
- * without a display there is no default one. */
+/* This file sets up the GL objects of draws with transform feedback: a vertex array and a
+ * framebuffer without images. Nothing is rasterised, but llvmpipe still requires a complete
+ * framebuffer, and without a display there is no default framebuffer. */
 #include "gpu/capture.h"
 
 enum { WORD4_BYTES = 16 };

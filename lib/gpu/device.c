@@ -204,8 +204,9 @@ static void open_source(struct kiln_device *device, const struct kiln_egl_source
         snprintf(info->name, sizeof info->name, "%s", source->name);
 }
 
-/* Describes this machine without GL. It is not usable where the environment asks for vectors that
- * the processor lacks; error then says so. Images and buffers may be as large as memory allows. */
+/* Returns the device `cpu`, which is this machine without GL. It is not usable, and error is set,
+ * if the environment asks for vectors that the processor lacks. Images and buffers may be as large
+ * as memory allows. */
 static struct kiln_device describe_host(const struct kiln_device_params *params,
                                         struct kiln_error *error)
 {
@@ -230,12 +231,12 @@ static struct kiln_device describe_host(const struct kiln_device_params *params,
 
 /* ---- Choosing ------------------------------------------------------------------------------ */
 
-/* Holds the devices found so far, numbered as they are listed: first the one without GL, then those
- * that were opened. */
+/* Holds the devices found so far in the order of their numbers: first the device without GL, then
+ * the opened devices with GL. */
 struct scan {
     struct kiln_device devices[1 + KILN_MAX_EGL_SOURCES];
     size_t count;
-    char problem[256]; /* why there is none with GL */
+    char problem[256]; /* why there is no device with GL */
 };
 
 static bool is_index(const char *wanted, uint64_t *index)
@@ -243,8 +244,9 @@ static bool is_index(const char *wanted, uint64_t *index)
     return wanted && kiln_text_to_uint64(wanted, index);
 }
 
-/* Returns whether the choice is already clear. Scanning then stops, since opening devices costs
- * time and memory on a machine with many GPUs. A name is clear only when all devices are known. */
+/* Returns whether the devices found so far decide the choice. Scanning then stops, since opening
+ * devices costs time and memory on a machine with many GPUs. A name decides only when all devices
+ * are known, except `cpu` and `software`. */
 static bool scan_is_enough(const struct scan *scan, const char *wanted)
 {
     uint64_t index;
@@ -258,8 +260,8 @@ static bool scan_is_enough(const struct scan *scan, const char *wanted)
     return strcmp(wanted, "software") == 0 && last->usable && last->gl && last->software;
 }
 
-/* Returns whether an entry of Mesa's surfaceless platform adds nothing: it is one of the devices
- * again, or is not usable. */
+/* Returns whether a device is of Mesa's surfaceless platform and is not usable or already found on
+ * the platform of EGL devices. */
 static bool is_duplicate(const struct scan *scan, const struct kiln_device_info *info)
 {
     if (strcmp(info->platform, "surfaceless") != 0)
@@ -273,8 +275,8 @@ static bool is_duplicate(const struct scan *scan, const struct kiln_device_info 
     return false;
 }
 
-/* Returns whether a source may be a GPU; the default choice opens no others. Mesa's surfaceless
- * platform has a GPU only where devices cannot be listed. */
+/* Returns whether a source may be a GPU. The default choice does not open other sources. Mesa's
+ * surfaceless platform counts as a possible GPU only if EGL cannot list devices. */
 static bool may_be_gpu(const struct kiln_egl_source *source, size_t source_count)
 {
     return !source->software && (source->device || source_count == 1);
@@ -334,8 +336,8 @@ static const struct kiln_device *choose_default(const struct scan *scan, bool gl
     return gl ? choose_software(scan) : &scan->devices[0];
 }
 
-/* Finds a device by name. A whole name is preferred to names that contain it; several equal matches
- * are ambiguous. */
+/* Returns the device whose whole name is `wanted`, or else the one whose name contains it. Sets
+ * ambiguous and returns NULL if there are several. */
 static const struct kiln_device *choose_named(const struct scan *scan, const char *wanted,
                                               bool *ambiguous)
 {
@@ -397,7 +399,7 @@ choose(const struct scan *scan, const struct kiln_device_params *params, struct 
         return refuse_choice(scan, wanted, ambiguous, error);
     if (device->info.usable)
         return device;
-    if (!device->info.gl) /* the environment is wrong, not the machine */
+    if (!device->info.gl) /* KILN_SIMD in the environment is wrong */
         kiln_error_set(error, KILN_USAGE, "%s", device->info.problem);
     else
         kiln_error_set(error, KILN_NO_DEVICE, "device %u '%s' is not usable: %s",
@@ -405,8 +407,8 @@ choose(const struct scan *scan, const struct kiln_device_params *params, struct 
     return NULL;
 }
 
-/* Finds out whether a device computes exactly. If it does not, it can still draw, but the CPU steps
- * its particles. */
+/* Runs the exactness probe on a device and sets info.exact. A device that does not compute exactly
+ * can still draw, but the host simulates the particles. */
 static void probe(struct kiln_device *device)
 {
     char reason[256] = "";

@@ -1,10 +1,10 @@
-/* This file lists EGL devices and opens contexts on them without a display. Extension functions are
- * asked for by name: libepoxy 1.5 aborts the process when a library or a function is missing, and
- * when eglGetPlatformDisplay comes before a display.
+/* This file lists EGL devices and opens contexts on them without a display. It looks up extension
+ * functions by name, because libepoxy 1.5 aborts the process if a library or a function is missing
+ * or if eglGetPlatformDisplay is called before there is a display.
  *
- * Displays are never terminated: EGL hands out one display for equal attributes, and terminating it
- * would close it for another renderer of the process as well. libEGL is opened only when a device
- * with GL is asked for. */
+ * Displays are never terminated: EGL returns the same display for equal attributes, and terminating
+ * it would close it for another renderer of the process as well. libEGL is loaded only when a
+ * device with GL is asked for. */
 #include "gpu/egl.h"
 
 #include <dlfcn.h>
@@ -23,8 +23,8 @@ static bool has_extension(const char *list, const char *name)
     return false;
 }
 
-/* Loads the libraries of EGL and OpenGL, or says which is missing. They stay loaded, since libepoxy
- * opens them again. */
+/* Loads the libraries of EGL and OpenGL. Returns false with the name of the missing library in
+ * problem. The libraries stay loaded, since libepoxy opens them again. */
 static bool libraries_present(char problem[256])
 {
     if (!dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL)) {
@@ -88,9 +88,9 @@ size_t kiln_egl_sources(struct kiln_egl_source sources[KILN_MAX_EGL_SOURCES], ch
     return count;
 }
 
-/* Creates the best context that the driver offers: 4.5 brings robustness into the core, 4.3 is the
- * least. Where the driver can, a reset loses the context, so that a hung GPU is an error, not a
- * freeze. */
+/* Creates a context of OpenGL 4.5, whose core includes robustness, or else of 4.3, the least
+ * version that kiln needs. If the driver supports it, a reset loses the context, so that a hung GPU
+ * is an error, not a freeze. */
 static EGLContext create_context(EGLDisplay display, bool debug)
 {
     static const EGLint minors[] = {5, 3};
@@ -174,9 +174,9 @@ bool kiln_egl_open(const struct kiln_egl_source *source, bool debug, void **disp
     return true;
 }
 
-/* Binds the API first: it belongs to the thread, and eglGetCurrentContext returns the context of
- * that API. A context that is already current is left alone, since making it current would flush
- * it. */
+/* Binds the OpenGL API first, since the bound API belongs to the thread and decides which context
+ * eglGetCurrentContext returns. Does not make a context current that already is, since that would
+ * flush it. */
 bool kiln_egl_make_current(void *display, void *context)
 {
     return eglBindAPI(EGL_OPENGL_API) &&

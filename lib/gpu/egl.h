@@ -1,5 +1,5 @@
-/* This header declares EGL without a display: the list of its devices, and a context on one of
- * them. */
+/* This header declares how EGL is used without a display: it lists devices and opens a context on
+ * one of them. */
 #ifndef KILN_GPU_EGL_H
 #define KILN_GPU_EGL_H
 
@@ -12,17 +12,17 @@ enum { KILN_MAX_EGL_SOURCES = 32 };
 struct kiln_egl_source {
     const char *platform; /* "device" or "surfaceless" */
     void *device;         /* EGLDeviceEXT, or NULL */
-    bool software;        /* known to be a software device before it is opened */
-    char name[128];       /* for messages until the renderer's name is known */
+    bool software;        /* EGL reports a software device */
+    char name[128];       /* for messages while GL_RENDERER is not known */
 };
 
-/* Fills the sources, devices first, and returns how many there are. If there are none, problem says
- * why and which package to install. */
+/* Fills the sources, EGL devices first, and returns their number. If it is 0, problem says why and
+ * which package to install. */
 size_t kiln_egl_sources(struct kiln_egl_source sources[KILN_MAX_EGL_SOURCES], char problem[256]);
 
-/* Creates a core context of OpenGL 4.3 or later, current on this thread. Displays are shared by the
- * whole process and stay open; the context belongs to the caller. Returns false with the reason in
- * problem. */
+/* Creates a core context of OpenGL 4.3 or later and makes it current on this thread. The display is
+ * shared by the whole process and stays open; the caller owns the context. Returns false with the
+ * reason in problem on failure. */
 bool kiln_egl_open(const struct kiln_egl_source *source, bool debug, void **display, void **context,
                    char problem[256]);
 bool kiln_egl_make_current(void *display, void *context);

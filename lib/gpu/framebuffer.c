@@ -1,5 +1,5 @@
-/* This file creates framebuffer objects of images, binds them and draws over all of one. A GL
- * framebuffer is created at the first bind and kept, not made anew in each frame. */
+/* This file creates framebuffer objects with images as attachments, binds them and draws over a
+ * whole framebuffer. A GL framebuffer is created at the first bind and reused in later frames. */
 #include "gpu/framebuffer.h"
 
 #include "base/error.h"

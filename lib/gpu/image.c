@@ -46,8 +46,8 @@ static bool allocate_host(struct kiln_image *image, struct kiln_error *error)
     return image->host || refuse_memory(image, "on the host", error);
 }
 
-/* Binds a texture and returns the one that was bound before. The caller binds that one again, since
- * it may belong to a draw that is being set up. */
+/* Binds a texture and returns the previously bound texture. The caller must bind that one again,
+ * since it may belong to a draw that is being set up. */
 static GLuint bind(GLuint texture)
 {
     GLint before = 0;
@@ -61,8 +61,8 @@ static GLenum pixel_format(const struct kiln_image *image)
     return image->channels == 1 ? GL_RED : GL_RGBA;
 }
 
-/* Returns the size of the pixels as floats, the format in which they are copied between the
- * sides. */
+/* Returns the size in bytes of the pixels as floats, the format in which both sides exchange
+ * them. */
 static uint64_t pixel_bytes(const struct kiln_image *image)
 {
     return (uint64_t)image->width * image->height * image->channels * sizeof(float);

@@ -8,14 +8,14 @@
 struct kiln_image {
     struct kiln_device *device; /* NULL: host only */
     const char *label;
-    uint32_t width, height, channels; /* channels 1 or 4 */
-    GLenum gl_format; /* GL_R32F, or one of four channels; the host side is always float */
+    uint32_t width, height, channels; /* size in pixels; 1 or 4 channels */
+    GLenum gl_format; /* GL_R32F or a format of four channels; the host side is always float */
     float *host;      /* rows from the top, pixels interleaved */
-    GLuint gl;        /* texture; row 0 is the top row: kiln draws with y down */
+    GLuint gl;        /* texture; row 0 is the top row, since kiln draws with y down */
     bool host_valid, gl_valid;
 };
 
-/* Contents are undefined until written. label must outlive the image. */
+/* The contents are undefined until they are written. label must outlive the image. */
 void kiln_image_init(struct kiln_image *image, struct kiln_device *device, uint32_t width,
                      uint32_t height, GLenum gl_format, const char *label);
 void kiln_image_finish(struct kiln_image *image);

@@ -1,6 +1,6 @@
 /* This file runs the exactness probe: it evaluates the arithmetic of the simulation in a shader
- * stage and compares the results with C. The shader runs the very functions that the simulation is
- * made of, so a driver that passes rounds, compares and hashes as C does. */
+ * stage and compares the results with C. The shader calls the same functions as the simulation, so
+ * a driver that passes rounds, compares and hashes as C does. */
 #include "gpu/probe.h"
 
 #include <assert.h>
@@ -46,21 +46,21 @@ struct probe {
     struct kiln_device *device;
     enum kiln_probe_stage stage;
     GLuint program;
-    struct kiln_capture capture;       /* of the geometry stage */
-    struct kiln_words inputs, outputs; /* of the fragment stage */
+    struct kiln_capture capture;       /* for the geometry stage */
+    struct kiln_words inputs, outputs; /* for the fragment stage */
     struct kiln_buffer vectors, results;
 };
 
 enum { ROW = 64, MEMBERS = PROBE_WORDS / 4 };
 
-/* Returns a number of vectors, rounded up to whole rows of the texture. */
+/* Returns count rounded up to whole rows of the texture. */
 static uint32_t whole_rows(uint32_t count)
 {
     return (count + ROW - 1) / ROW * ROW;
 }
 
-/* Returns the index of a result word. In the fragment stage, each member of the results is a
- * texture of all vectors. */
+/* Returns the index of a result word. In the fragment stage, each member of the results (four
+ * words) is a texture with one texel a vector. */
 static size_t place_of(const struct probe *probe, uint32_t vector, uint32_t word)
 {
     size_t vectors = probe->vectors.size / sizeof(uint4);

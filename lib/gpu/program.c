@@ -1,5 +1,5 @@
-/* This file compiles and links GLSL programs. A failure becomes one line, the driver's first error
- * at its file and line; the driver's whole message goes to the log. */
+/* This file compiles and links GLSL programs. The error of a failed build is one line: the driver's
+ * first error at its file and line. The driver's whole message goes to the log. */
 #include "gpu/program.h"
 
 #include <stdlib.h>
@@ -37,7 +37,8 @@ static char *get_log(GLuint object, bool is_shader)
 }
 
 /* Logs each line of a driver's message. If the build failed, the first line that contains "error",
- * or else the first line, becomes the error. source NULL: the message names no files. */
+ * or else the first line, becomes the error. source is NULL if the message does not refer to a
+ * file. */
 static void report(struct build *build, char *log, const struct kiln_source *source, bool failed,
                    struct kiln_error *error)
 {

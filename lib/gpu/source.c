@@ -1,7 +1,7 @@
 /* This file joins shader files by their includes and maps lines of the driver's messages back to
- * the files. Included text is pasted each time it is asked for: headers have include guards, which
- * the GLSL preprocessor understands. "#include <...>" lines are for the C side of shared headers
- * and are left out. */
+ * the files. A file is inserted each time it is included, since headers have include guards, which
+ * the GLSL preprocessor understands. Lines with "#include <...>" are for the C side of shared
+ * headers and are left out. */
 #include "gpu/source.h"
 
 #include <ctype.h>
@@ -16,11 +16,11 @@
 
 enum { MAX_DEPTH = 32, MAX_FILE_SIZE = 1 << 20 };
 
-/* One file being joined, and the chain of files that include it. */
+/* Describes a file that is being joined and links to the file that includes it. */
 struct part {
     const struct part *includer;
     const char *path;
-    size_t line;     /* of the includer's present line; for messages */
+    size_t line;     /* number of the line that is being read; for messages */
     bool in_comment; /* a block comment is open */
 };
 
@@ -70,8 +70,8 @@ static bool read_override(const char *dir, const char *path, char **text, struct
     return ok;
 }
 
-/* Returns the text of a file. *owned is to be freed by the caller (NULL when the text is
- * embedded). */
+/* Returns the text of a file, or NULL with an error. The caller frees *owned, which is NULL if the
+ * text is embedded. */
 static const char *find_text(const struct part *part, char **owned, struct kiln_error *error)
 {
     *owned = NULL;
@@ -300,7 +300,7 @@ static bool add_place(const struct kiln_source *source, size_t line, struct kiln
     return true;
 }
 
-/* Reads digits and returns the end of them, or NULL when there are none. */
+/* Reads a number of at most nine digits and returns its end, or NULL if there are no digits. */
 static const char *read_number(const char *at, const char *end, size_t *number)
 {
     const char *start = at;

@@ -1,5 +1,5 @@
-/* This header declares how shader files are found, how they are joined by their includes, and how
- * lines of a driver's messages are mapped back to them. */
+/* This header declares the functions that join shader files by their includes and map lines of a
+ * driver's messages back to the files. */
 #ifndef KILN_GPU_SOURCE_H
 #define KILN_GPU_SOURCE_H
 
@@ -8,16 +8,17 @@
 
 enum { KILN_MAX_SOURCE_FILES = 64, KILN_MAX_SOURCE_PATH = 128 };
 
-/* Describes lines of the joined text, from `line` up to the next piece, that come from one file. */
+/* Describes lines of the joined text that come from one file: those from `line` up to the next
+ * piece. */
 struct kiln_source_piece {
     size_t line;
     size_t file_line;
     size_t file; /* index, or KILN_MAX_SOURCE_FILES for the lines that kiln puts before the file */
 };
 
-/* Holds a joined text. Zero-initialised is empty; kiln_source_finish frees it. It has no "#line"
- * directives: Mesa reports their string number as 0 for most errors, so lines are mapped by the
- * table of pieces. */
+/* Holds a joined text. A zero-initialised kiln_source is empty; kiln_source_finish frees it. The
+ * text has no "#line" directives, because Mesa reports their string number as 0 for most errors.
+ * Lines are mapped by the table of pieces instead. */
 struct kiln_source {
     struct kiln_text text;
     size_t line_count;
@@ -31,8 +32,8 @@ bool kiln_source_load(struct kiln_source *source, const char *file, const char *
                       struct kiln_error *error);
 void kiln_source_finish(struct kiln_source *source);
 
-/* Adds one line of a driver's message (length bytes) to out, its "0:12(3)", "0(12)" or
- * "ERROR: 0:12" replaced by "shaders/file:12"; a line of another form is copied. */
+/* Appends one line of a driver's message (length bytes) to out and replaces its "0:12(3)", "0(12)"
+ * or "ERROR: 0:12" by "shaders/file:12". A line of another form is appended unchanged. */
 void kiln_source_map_line(const struct kiln_source *source, const char *line, size_t length,
                           struct kiln_text *out);
 

@@ -1,17 +1,18 @@
 /* This file measures how long each pass of a frame takes.
  *
- * A GPU runs behind the host, and a pass may work on either. Each pass therefore records four
- * times, host and GPU at both ends, converted to one clock. A pass begins when the later of the two
- * reaches its beginning and ends when the later of the two reaches its end. So a pass that only
- * submits work is charged for that work, and one that waits for an earlier pass is not charged for
- * the wait. */
+ * A GPU runs behind the host, and a pass may work on either. Each pass therefore records four times
+ * on one clock: the times when host and GPU reach its beginning and its end. A pass begins at the
+ * later of the two times of its beginning and ends at the later of the two times of its end. So a
+ * pass that only submits work is charged for the time of that work on the GPU, and a pass that
+ * waits for an earlier one is not charged for the wait. */
 #include "gpu/timer.h"
 
 #include <stdlib.h>
 
 #include "base/clock.h"
 
-enum { MAX_SPANS = 64 }; /* passes a frame that are timed on a GPU; others count host time */
+/* The number of passes of a frame that are timed on a GPU; further passes count host time. */
+enum { MAX_SPANS = 64 };
 
 struct span {
     enum kiln_pass pass;

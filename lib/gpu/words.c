@@ -1,5 +1,5 @@
-/* This file makes integer textures with one framebuffer over all of them, binds them and draws into
- * them. Integer textures are neither filtered nor blended. */
+/* This file creates integer textures with one framebuffer for all of them, binds them and draws
+ * into them. Integer textures are neither filtered nor blended. */
 #include "gpu/words.h"
 
 #include "base/error.h"

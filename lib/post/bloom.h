@@ -16,7 +16,7 @@ struct kiln_bloom_params {
     enum kiln_bloom_technique technique;
     struct kiln_threads *threads; /* for KILN_BLOOM_CPU */
     struct kiln_image *source;    /* the light that glows: drawn with the particles, in colours
-                                   * times their glow, or filled by the bright pass */
+                                   * times their bloom weights, or filled by the bright pass */
     GLenum format;                /* of the intermediate images */
 };
 
