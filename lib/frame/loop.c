@@ -1,9 +1,9 @@
 /* This file runs the frame loop: it steps the simulation to each wanted frame and draws the frame.
- * It is the file to read first.
+ * It is a good file to begin with when reading the code.
  *
- * Undrawn frames are stepped as well, so a frame is the same bytes in any chunk of the clip. The
- * stages behind one frame are in frame/stages.c. The choice of frames, and where pictures go, is in
- * job/job.c. */
+ * Frames that are not drawn are simulated as well, so a frame has the same bytes in any chunk of
+ * the clip. frame/stages.c runs the stages that draw one frame. job/job.c chooses the frames and
+ * writes the pictures. */
 #include "frame/loop.h"
 
 #include <inttypes.h>
@@ -23,14 +23,14 @@ struct kiln_loop {
 
     struct kiln_techniques techniques;
     struct kiln_threads *threads;
-    struct kiln_output_needs needs; /* of the pictures */
+    struct kiln_output_needs needs; /* what the output needs of each picture */
     struct kiln_timer *timer;
     struct kiln_simulate *simulate;
     struct kiln_stages stages;
 
     struct kiln_run run;
-    uint32_t next;  /* frames before it have done what later ones need of them */
-    uint64_t steps; /* done here */
+    uint32_t next;  /* all frames before this one have updated the state that later frames need */
+    uint64_t steps; /* simulation steps that this loop has run */
 };
 
 /* ---- the loop -------------------------------------------------------------------------------- */
@@ -56,7 +56,8 @@ static bool step_to(struct kiln_loop *loop, uint32_t step, struct kiln_error *er
     return ok;
 }
 
-/* Runs frames that are not drawn, where later ones need more of them than their steps. */
+/* Advances to frame `end` without drawing. If the sort keeps an order from frame to frame, the
+ * skipped frames update it. */
 static bool pass_over_frames(struct kiln_loop *loop, uint32_t end, struct kiln_error *error)
 {
     const bool matter = kiln_stages_keep_history(&loop->stages);
@@ -77,7 +78,8 @@ bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error
            step_to(loop, kiln_scene_frame_step(loop->scene, frame), error);
 }
 
-/* Draws all moments of a frame while the shutter is open: one, unless the scene asks for more. */
+/* Draws all moments of a frame while the shutter is open: camera.shutter_samples, which is 1 by
+ * default. */
 static bool draw_moments(struct kiln_loop *loop, uint32_t frame, struct kiln_drawn *drawn,
                          struct kiln_error *error)
 {
@@ -157,8 +159,8 @@ bool kiln_loop_hash(struct kiln_loop *loop, struct kiln_state_hash *hash, uint64
 
 /* ---- before and after ------------------------------------------------------------------------ */
 
-/* Returns false with an error if the device cannot draw so large a scene. A software device
- * advertises smaller storage blocks than it takes. */
+/* Returns false with an error if the scene is too large for the device. The storage block size is
+ * not checked on a software device, which supports larger blocks than it reports. */
 static bool check_limits(const struct kiln_loop *loop, struct kiln_error *error)
 {
     const struct kiln_device_info *device = &loop->device->info;
@@ -230,7 +232,7 @@ bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
                                               .slot_count = loop->run.pool.slot_count};
     const bool ok =
         loop->simulate && kiln_stages_init(&loop->stages, device, loop->scene, &stages, error);
-    kiln_loader_rest(loop->scene->loader); /* no file of the scene is read after this */
+    kiln_loader_rest(loop->scene->loader); /* no file of the scene is read after this call */
     return ok;
 }
 

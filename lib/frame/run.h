@@ -1,13 +1,13 @@
-/* A kiln_run holds all state that a run changes, so that it can be saved and loaded whole. Only an
- * order that a spread sort keeps is elsewhere, in the sort stage: kiln_loop_kept_sort returns
- * it. */
+/* A kiln_run holds all state that a run changes, so that it can be saved and loaded as a whole. The
+ * only exception is the order that a spread sort keeps: the sort stage holds it, and
+ * kiln_loop_kept_sort returns that stage. */
 #ifndef KILN_FRAME_RUN_H
 #define KILN_FRAME_RUN_H
 
 #include "particles/pool.h"
 
 struct kiln_run {
-    uint32_t step;         /* steps done */
+    uint32_t step;         /* number of simulated steps */
     struct kiln_pool pool; /* the particles of every system */
 };
 

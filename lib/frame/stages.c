@@ -7,8 +7,9 @@
 #include "base/cache.h"
 #include "base/error.h"
 
-/* Chooses the format of the targets. Targets of 32-bit floats accumulate without the dark bias of
- * 16 bits; they are used where they cost nothing, on software. */
+/* Returns the format of the render targets. Blending into 16-bit floats makes the result darker by
+ * rounding. Targets of 32-bit floats avoid that; they are used on software devices, where they cost
+ * nothing. */
 static GLenum target_format(const struct kiln_device *device)
 {
     return !device || device->info.software ? GL_RGBA32F : GL_RGBA16F;
@@ -24,7 +25,7 @@ static uint32_t solids_of(const struct kiln_scene *scene)
     return mask;
 }
 
-/* Returns the systems with a blend mode, without the opaque ones. */
+/* Returns a mask of the systems with a blend mode, without systems of opaque particles. */
 static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend blend)
 {
     uint32_t mask = 0;
@@ -35,8 +36,8 @@ static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend ble
     return mask & ~solids_of(scene);
 }
 
-/* Returns whether particles draw a glow of their own. Where the scene has a bright pass, its result
- * takes the place of that glow. */
+/* Returns whether particles draw their glow into the bloom source. They do not if the scene has a
+ * bright pass, which fills the bloom source instead. */
 static bool needs_glow(const struct kiln_scene *scene, bool layers)
 {
     bool blooms = scene->post.bloom != KILN_BLOOM_NONE;
@@ -86,7 +87,8 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
                                                   .motion = look->motion,
                                                   .motion_scale = (float)look->motion_scale,
                                                   .loader = s->scene->loader};
-        if (look->shape != KILN_SHAPE_BILLBOARD) /* it shows no texture: the smallest one */
+        if (look->shape != KILN_SHAPE_BILLBOARD) /* such particles show no texture and get the
+                                                  * smallest one */
             requests[i] = (struct kiln_atlas_request){
                 .sources = &plain, .count = 1, .columns = 1, .rows = 1, .motion = "none"};
     }
@@ -96,15 +98,15 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
                            cached ? cache : NULL, s->threads, error);
 }
 
-/* Returns the image that the bloom will blur. */
+/* Returns the image that the bloom stage blurs. */
 static struct kiln_image *bloom_source(struct kiln_stages *s)
 {
     return s->shutter ? kiln_shutter_image(s->shutter, KILN_SHUTTER_BLOOM) : &s->bloom_color;
 }
 
-/* Creates the backdrop, and the solids if the scene has some. Without solids the backdrop draws
- * into the scene's images; with them it draws into images of its own, and the solids draw the
- * scene. */
+/* Creates the backdrop stage, and the solids stage if the scene has opaque particles. Without
+ * solids, the backdrop draws into the scene's images. With solids, it draws into images of its own,
+ * and the solids stage draws the scene's images from them. */
 static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique technique,
                          struct kiln_error *error)
 {
@@ -247,12 +249,13 @@ struct particle_pass {
     uint32_t systems;
     bool by_depth;
     struct kiln_framebuffer *framebuffer;
-    bool keep_bloom; /* clear the colour only */
+    bool keep_bloom; /* do not clear the bloom image */
     bool sum_alpha, fire_covers;
     bool by_fragment;
 };
 
-/* Returns the order of a pass. Nothing is sorted where blending does not depend on the order. */
+/* Returns the sort order of a pass. Particles whose blending does not depend on the order are not
+ * sorted. */
 static enum kiln_sort_order order_of(const struct kiln_stages *s, bool by_depth)
 {
     if (!by_depth)
@@ -278,7 +281,7 @@ static bool begin(struct kiln_stages *s, enum kiln_pass pass, struct kiln_error 
     return true;
 }
 
-/* Ends a pass that has begun, also one that failed. */
+/* Ends the open pass, also if it failed, and returns ok. */
 static bool end(struct kiln_stages *s, bool ok)
 {
     kiln_timer_end(s->timer);
@@ -329,7 +332,7 @@ static bool draw_particles(struct kiln_stages *s, const struct particle_pass *pa
                             : kiln_particles_run(s->particles, &draw, error));
 }
 
-/* A depth test orders the solids, so their list need not be sorted. */
+/* Draws the solids. Their list is not sorted, since a depth test resolves their order. */
 static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_error *error)
 {
     if (!sort_particles(s, solids_of(s->scene), false, count, error))
@@ -338,9 +341,10 @@ static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_erro
            end(s, kiln_solids_draw(s->solids, &s->moment, &s->entries, *count, error));
 }
 
-/* Draws fire and smoke from one sorted list, or from one list a pixel. Fire adds and covers
- * nothing, and smoke covers fire and its glow; or fire covers as well (Heinz 2019, 2.3.1). The
- * layers of an EXR file are drawn separately. */
+/* Draws fire and smoke from one sorted list, or with KILN_COMPOSE_OIT from one list for each pixel.
+ * Fire is additive and smoke covers fire and its glow; with KILN_COMPOSE_ALPHA fire covers as well
+ * (Heinz 2019, 2.3.1). The smoke and fire layers of an EXR file are drawn in passes of their
+ * own. */
 static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     uint32_t fire = systems_with(s->scene, KILN_BLEND_ADD);
@@ -371,8 +375,8 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
            draw_particles(s, &fire_layer, &count, error);
 }
 
-/* Draws in the thesis's order: smoke over the scene, then fire summed in a target of its own, so
- * that it shines through smoke (Heinz 2019, 3.2.1 and figure 4.3). */
+/* Draws smoke over the scene, then sums fire in a target of its own, so that it shines through
+ * smoke. This is the order of the thesis (Heinz 2019, 3.2.1 and figure 4.3). */
 static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     struct particle_pass smoke = {.systems = systems_with(s->scene, KILN_BLEND_ALPHA),
@@ -390,7 +394,7 @@ static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_er
     return ok;
 }
 
-/* Returns the pictures of the moment that was drawn last. */
+/* Returns the images of the moment that was drawn last. */
 static struct kiln_composite_inputs moment_inputs(struct kiln_stages *s)
 {
     bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
@@ -401,14 +405,14 @@ static struct kiln_composite_inputs moment_inputs(struct kiln_stages *s)
     };
 }
 
-/* Returns the image that is read as the layer of smoke. */
+/* Returns the image of the smoke layer. */
 static struct kiln_image *smoke_layer(struct kiln_stages *s)
 {
     bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     return separate ? &s->particle_color : &s->smoke_color;
 }
 
-/* Adds the moment to the sums of its frame. */
+/* Adds the images of the moment to the shutter's sums for its frame. */
 static bool add_moment(struct kiln_stages *s, uint32_t sample, struct kiln_error *error)
 {
     float weight = 1.0f / (float)s->scene->camera.shutter_samples;
@@ -431,7 +435,7 @@ static bool fill_moment(struct kiln_stages *s, struct kiln_pool *pool, uint32_t 
                       kiln_lighting_run(s->lighting, &s->moment, &s->light, error));
 }
 
-/* Draws the backdrop, and the solid particles over it. The other particles are blended over the
+/* Draws the backdrop and the solid particles over it. The other passes blend particles over the
  * result. */
 static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
@@ -515,7 +519,7 @@ static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
 {
     struct kiln_image *sources[] = {NULL, &s->scene_depth, &s->fire_color, smoke_layer(s),
                                     bloom_source(s)};
-    if (s->shutter) { /* the depth is that of the last moment: depths have no mean */
+    if (s->shutter) { /* depths have no mean, so the depth layer is that of the last moment */
         sources[2] = kiln_shutter_image(s->shutter, KILN_SHUTTER_FIRE);
         sources[3] = kiln_shutter_image(s->shutter, KILN_SHUTTER_SMOKE);
     }

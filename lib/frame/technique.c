@@ -1,6 +1,7 @@
 /* This file chooses the technique of each stage from the device and from the flags. It has two
- * tables: the techniques of each stage, and those that `auto` takes for each class of devices.
- * Techniques called `cpu` do without GL; on a device that has none, this file refuses all others.
+ * tables: the techniques of each stage, and the techniques that `auto` chooses for each class of
+ * devices. Only techniques called `cpu` run without GL; on a device without GL, this file refuses
+ * all others.
  */
 #include "frame/technique.h"
 
@@ -22,13 +23,13 @@ static const enum kiln_pass STAGE_PASSES[STAGE_COUNT] = {
 
 #define AUTO "auto"
 
-/* The only technique of sorting that takes a number, the frames that it is spread over. */
+/* The only sort technique that takes a number: the frames that the sort is spread over. */
 #define SPREADABLE "oddeven"
 
 struct row {
     enum stage stage;
     const char *name;
-    int value; /* of the stage's enum */
+    int value; /* value of the stage's enum of techniques */
     const char *help;
 };
 
@@ -76,7 +77,7 @@ static enum device_class classify(const struct kiln_device_info *device)
     return device->software ? SOFTWARE : device->exact ? GPU : INEXACT_GPU;
 }
 
-/* The choices of `auto` with their reasons; the figures are in docs/measurements.md. */
+/* The choices of `auto` with their reasons. docs/measurements.md has the measurements. */
 static const struct choice {
     const char *name, *why;
 } AUTO_CHOICES[STAGE_COUNT][CLASS_COUNT] = {
@@ -100,7 +101,8 @@ static const struct choice {
                    [INEXACT_GPU] = {"gl", "the picture is there already"}},
 };
 
-/* Holds the chosen row of each stage, and why `auto` took it: NULL where a flag asked for it. */
+/* Holds the chosen row of each stage. why is the reason of `auto`, or NULL if a flag chose the
+ * row. */
 struct choices {
     const struct row *rows[STAGE_COUNT];
     const char *why[STAGE_COUNT];
@@ -201,8 +203,8 @@ static bool apply_flag(const char *flag, const struct choices *automatic, struct
     return unknown_name(what, equals + 1, names, count, error);
 }
 
-/* Returns the first chosen row that runs in GL, or NULL; all techniques but those named `cpu`
- * do. */
+/* Returns the first chosen row that runs in GL, or NULL. Every technique except `cpu` runs in
+ * GL. */
 static const struct row *find_gl(const struct choices *choices)
 {
     for (int stage = 0; stage < STAGE_COUNT; stage++) {
@@ -289,8 +291,7 @@ static size_t list_rows(enum stage stage, const struct row *rows[ROW_COUNT])
     return count;
 }
 
-/* Varies the stages at the end of a frame fastest: their techniques are those whose pixels
- * differ. */
+/* The stages at the end of a frame vary fastest, since the pixels of their techniques differ. */
 bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list)
 {
     for (int stage = STAGE_COUNT; stage-- > 0;) {

@@ -1,5 +1,5 @@
-/* A kiln_techniques says which technique runs each stage. The choice is a pure function of the
- * device and the flags, never of a timing, so that pixels do not depend on luck. */
+/* A kiln_techniques holds the technique that runs each stage. The choice is a pure function of the
+ * device and the flags. It never depends on a timing, so that the pixels are reproducible. */
 #ifndef KILN_FRAME_TECHNIQUE_H
 #define KILN_FRAME_TECHNIQUE_H
 
@@ -17,7 +17,7 @@ _Static_assert((int)KILN_STAGE_COUNT <= (int)KILN_MAX_STAGES, "statistics hold a
 struct kiln_techniques {
     enum kiln_simulate_technique simulate;
     enum kiln_sort_technique sort;
-    uint32_t sort_spread; /* frames that `oddeven` spreads a sort over; 0: one frame has all */
+    uint32_t sort_spread; /* frames that `oddeven` spreads a sort over; 0: each frame sorts fully */
     enum kiln_backdrop_technique backdrop;
     enum kiln_raster_technique raster;
     enum kiln_bloom_technique bloom;
@@ -25,16 +25,17 @@ struct kiln_techniques {
     struct kiln_technique_choice choices[KILN_STAGE_COUNT]; /* the same as texts */
 };
 
-/* Applies "stage=name" texts over the device's defaults, which "stage=auto" asks for; the last text
- * for a stage wins. "sort=oddeven:N" spreads it over N frames. An unknown name is KILN_USAGE, and
- * the message lists the known ones; simulating or sorting on a device that is not exact is
- * KILN_NO_DEVICE. */
+/* Chooses the techniques: the device's defaults, overridden by "stage=name" flags. The last flag
+ * for a stage wins. "stage=auto" selects the default; "sort=oddeven:N" spreads the sort over N
+ * frames. Fails with KILN_USAGE for an unknown name, and lists the known names, and with
+ * KILN_NO_DEVICE if an inexact device would have to simulate or sort. */
 bool kiln_techniques_choose(const struct kiln_device_info *device, const char *const *flags,
                             size_t flag_count, struct kiln_techniques *techniques,
                             struct kiln_error *error);
 
-/* Returns the device for pictures that shall be the same everywhere: the wanted one, or else
- * KILN_DEVICE_CPU where these techniques allow it, or else the default one with GL. */
+/* Returns parameters for opening the device of pictures that must be the same everywhere: the
+ * wanted device, or else KILN_DEVICE_CPU if the techniques in `flags` run without GL, or else the
+ * default device with GL. */
 struct kiln_device_params kiln_techniques_device(const char *wanted, const char *const *flags,
                                                  size_t flag_count);
 
@@ -43,23 +44,26 @@ struct kiln_technique_list {
     char flags[KILN_STAGE_COUNT][KILN_TECHNIQUE_SIZE];
 };
 
-/* Writes the index-th of all combinations; returns false beyond the last. The first takes the
- * technique `cpu` where a stage has it and the first of its table elsewhere, which makes the same
- * picture on every machine. kiln_techniques_choose tells whether a device allows a combination. */
+/* Writes combination number `index` of all techniques, from 0; returns false beyond the last. The
+ * first combination takes for each stage `cpu`, or the first technique of its table if it has no
+ * `cpu`, and so makes the same picture on every machine. kiln_techniques_choose checks whether a
+ * device allows a combination. */
 bool kiln_techniques_combination(size_t index, struct kiln_technique_list *list);
 
-/* Describe a stage below KILN_STAGE_COUNT, to compare its techniques: its name ("sort"), the pass
- * that shows what a technique takes, and its techniques in the order of the table. */
+/* Describe stage number `stage`, below KILN_STAGE_COUNT, for comparisons of its techniques: its
+ * name ("sort"), the pass whose time shows what a technique costs, and its techniques in the order
+ * of the table. */
 enum { KILN_MAX_TECHNIQUES = 16 };
 const char *kiln_stage_name(size_t stage);
 enum kiln_pass kiln_stage_pass(size_t stage);
 size_t kiln_stage_techniques(size_t stage, const char *names[KILN_MAX_TECHNIQUES]);
 
-/* Writes the technique of a stage, "sort=oddeven:8". */
+/* Writes the technique of a stage, for example "sort=oddeven:8". */
 void kiln_technique_describe(const struct kiln_techniques *techniques, size_t stage, char *out,
                              size_t size);
 
-/* Writes "simulate=cpu sort=cpu backdrop=gl raster=geometry bloom=gl composite=gl". */
+/* Writes the techniques of all stages, for example "simulate=cpu sort=cpu backdrop=gl
+ * raster=geometry bloom=gl composite=gl". */
 void kiln_techniques_describe(const struct kiln_techniques *techniques, char *out, size_t size);
 
 #endif

@@ -1,6 +1,6 @@
-/* This file counts the particles that are born in each step, in integers. The rate is summed in
- * units of 2^-32 particle a second times steps_den. One birth is worth steps_num * 2^32 units, a
- * whole number, so no rounding adds up over a run. Only the products need 128 bits. */
+/* This file counts the particles that are born in each step, in integers. It sums the rate in units
+ * of 2^-32 particle a second times steps_den. One birth is steps_num * 2^32 units, a whole number,
+ * so rounding does not accumulate over a run. Only the products need 128 bits. */
 #include "particles/births.h"
 
 #include <math.h>
@@ -68,7 +68,7 @@ void kiln_births_step(const struct kiln_births_source *source, uint32_t step, ui
     add_bursts(source, step, births);
 }
 
-/* Returns the steps that the longest life takes, by the float comparison that the simulation uses.
+/* Returns the number of steps in the longest life; compares floats as the simulation does.
  */
 uint32_t kiln_births_lifespan(float longest_life_s, float dt_s, uint32_t steps)
 {

@@ -1,5 +1,5 @@
-/* Declares the count of births: how many particles are born in each step, and when in the step. It
- * is integer arithmetic on the host, the same on every machine. A rate is integrated in fixed
+/* Declares functions that compute how many particles are born in each step, and when in the step.
+ * It is integer arithmetic on the host, the same on every machine. A rate is integrated in fixed
  * point, and a particle is born whenever the integral passes a whole number: at 5 a second, births
  * are exactly 0.2 s apart, the first one at the start of the run. */
 #ifndef KILN_PARTICLES_BIRTHS_H
@@ -16,7 +16,7 @@ struct kiln_burst {
     uint32_t count;
 };
 
-/* Describes all that decides the births of a system. Step k = 1, 2, ... lasts from (k - 1 -
+/* Holds everything that determines the births of a system. Step k = 1, 2, ... lasts from (k - 1 -
  * warmup_steps) to (k - warmup_steps) times steps_den / steps_num seconds of clip time. */
 struct kiln_births_source {
     /* returns the particles born a second, at a clip time */
@@ -36,16 +36,16 @@ struct kiln_births {
     struct kiln_birth_group groups[KILN_MAX_BIRTH_GROUPS];
 };
 
-/* Counts the births of step number `step`. Steps must be asked for in order. *wait is 0 before step
- * 1 and carries over to the next step; it is the part of the integral that the next birth still
- * lacks. The rate is taken at the middle of the step, which is exact while it is linear. A rate
- * counts as 0 when it is negative or not finite, and as 2^31 when it is larger. A burst counts at
- * the nearest 64th of a step. */
+/* Computes the births of step number `step`. The caller must ask for the steps in order. *wait must
+ * be 0 before step 1 and be passed on to the next step; it is the part of the integral that the
+ * next birth still lacks. The rate is evaluated at the middle of the step, which is exact where the
+ * rate is linear. A rate that is negative or NaN counts as 0, and a rate above 2^31 as 2^31. A
+ * burst happens at the nearest 64th of a step. */
 void kiln_births_step(const struct kiln_births_source *source, uint32_t step, uint64_t *wait,
                       struct kiln_births *births);
 
-/* Returns the number of steps after its birth step at whose end any particle is dead, wherever in
- * that step it was born; at most `steps`. */
+/* Returns after how many steps from its birth step every particle is dead, wherever in that step it
+ * was born; at most `steps`. */
 uint32_t kiln_births_lifespan(float longest_life_s, float dt_s, uint32_t steps);
 
 struct kiln_births_bound {
@@ -53,9 +53,9 @@ struct kiln_births_bound {
     uint64_t total;    /* number of births of all steps */
 };
 
-/* Bounds the births of steps 1 to `steps`. When serial s takes slot s mod capacity, `capacity`
- * slots suffice to have a free slot for each birth. Serials reach `total`, which must fit 32 bits.
- * `lifespan` is that of a particle and all its descendants. */
+/* Bounds the births of steps 1 to `steps`. If serial s takes slot s mod capacity, `capacity` slots
+ * are enough for each birth to find its slot free. Serials reach `total`, which must fit 32 bits.
+ * lifespan: that of a particle and all its descendants, in steps. */
 struct kiln_births_bound kiln_births_bound(const struct kiln_births_source *source, uint32_t steps,
                                            uint32_t lifespan);
 

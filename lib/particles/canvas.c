@@ -1,5 +1,5 @@
-/* This file creates, copies and hashes the paint on a mesh: its texels, and the splats that wait
- * for their turn. Both are memory of the host, since paint is applied there. */
+/* This file creates, copies and hashes the paint on a mesh: its texels and the splats that wait to
+ * be painted. Both are in host memory, since the host applies paint. */
 #include "particles/canvas.h"
 
 #include <assert.h>

@@ -1,6 +1,6 @@
-/* Holds the paint that particles left on a mesh, as a texture, and the splats that wait to be
- * painted. Both are part of the state of a run. sim/paint/paint.h declares which particles paint,
- * and how texels lie on the mesh. */
+/* A kiln_canvas holds the paint that particles left on a mesh, as a texture, and the splats that
+ * wait to be painted. Both are part of the state of a run. sim/paint/paint.h declares which
+ * particles paint, and how texels lie on the mesh. */
 #ifndef KILN_PARTICLES_CANVAS_H
 #define KILN_PARTICLES_CANVAS_H
 
@@ -8,12 +8,12 @@
 
 #include "kiln.h"
 
-/* A splat of paint that a particle leaves around a place, in the mesh's own space; opacity 0: there
- * is none. */
+/* A splat of paint that a particle leaves around a position, in the mesh's own space. If its
+ * opacity is 0, there is no splat. */
 struct kiln_splat {
     float at[3];
     float opacity; /* opacity in the middle, 0..1 */
-    /* points away from the surface, of any length; 0 0 0: the splat paints both sides */
+    /* points away from the surface and has any length; if 0 0 0, the splat paints both sides */
     float normal[3];
     float square;   /* square of the radius; more than 0 */
     float color[3]; /* linear colour */
@@ -25,7 +25,7 @@ struct kiln_canvas {
     uint32_t edge;      /* edge of the texture in texels */
     float (*texels)[4]; /* premultiplied linear colour and alpha; rows go with v */
     uint32_t changes;   /* number of steps that changed the texels */
-    /* slots of the systems that paint; 0: all splats are painted in their step */
+    /* slots of the systems that paint; if 0, all splats are painted in their own step */
     uint32_t slot_count;
     uint32_t next;              /* the slot whose splat is painted next */
     struct kiln_splat *waiting; /* a splat for each slot; NULL when slot_count is 0 */
@@ -37,13 +37,13 @@ struct kiln_canvas_shape {
     uint32_t edge, slot_count, next;
 };
 
-/* Initialises a canvas without paint. KILN_DEVICE_FAILED when memory is short; kiln_canvas_finish
- * frees the canvas, also after a failure. */
+/* Initialises a canvas without paint. Fails with KILN_DEVICE_FAILED when memory is short;
+ * kiln_canvas_finish frees the canvas, also after a failure. */
 bool kiln_canvas_init(struct kiln_canvas *canvas, uint32_t edge, uint32_t slot_count,
                       struct kiln_error *error);
 void kiln_canvas_finish(struct kiln_canvas *canvas);
 
-/* Copies a canvas to another one, which gets its size. */
+/* Copies a canvas to another canvas, which gets the same size. */
 bool kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from,
                       struct kiln_error *error);
 

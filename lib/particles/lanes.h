@@ -1,6 +1,6 @@
-/* Holds particles in blocks for loops that compilers vectorise: each word of the records is in an
- * array of its own. It is for files *_simd.c. Every function gives the bits of the function of
- * shaders/shared that it names. */
+/* A kiln_lanes holds a block of particles for loops that compilers vectorise: each word of the
+ * records has an array of its own. Files *_simd.c include this header. Every function computes the
+ * same bits as the function of shaders/shared that its comment names. */
 #ifndef KILN_PARTICLES_LANES_H
 #define KILN_PARTICLES_LANES_H
 
@@ -11,7 +11,8 @@
 enum {
     KILN_LANES = 128,
     KILN_RECORD_WORDS = sizeof(struct kiln_particle) / sizeof(uint32_t),
-    /* keys of a curve that all lanes search together; in a longer one each lane searches alone */
+    /* the most keys of a curve that all lanes search together; each lane searches a longer curve
+     * alone */
     KILN_SHORT_CURVE = 12,
 };
 
@@ -95,8 +96,8 @@ static inline void kiln_lanes_follow(const float4 *keys, struct kiln_value v, co
     }
 }
 
-/* Computes value_at for all lanes. x has the lanes' readings of the clock, unless all lanes have
- * the same time. */
+/* Computes value_at for all lanes. x holds the time of each lane on `clock`; a value with another
+ * clock is the same for all lanes and evaluated at time_s. */
 static inline void kiln_lanes_values(const float4 *keys, struct kiln_value v, uint32_t clock,
                                      const float *x, float time_s, float *y)
 {

@@ -1,11 +1,11 @@
 /* This file creates, copies and frees the pool, which is the state of a simulation: the records of
  * all particles, the slots that each system owns, spins, and painted textures (canvases).
  *
- * The frame loop (lib/frame/loop.c) makes a pool at its set-up, and copies one when it goes on from
- * the state of another loop. Spins come later, with the first step or a saved state, and only for
- * systems that spin; lib/sim/paint and lib/job/state.c add the canvases. Shaders read records and
- * spins by the std430 layout, so both structs must keep their size, and whatever a later step
- * depends on must be copied by kiln_pool_copy. */
+ * The frame loop (lib/frame/loop.c) creates a pool at its set-up, and copies a pool when it
+ * continues from the state of another loop. The first step or a saved state adds spins, for systems
+ * that spin; lib/sim/paint and lib/job/state.c add the canvases. Shaders read records and spins in
+ * the std430 layout, so both structs must keep their size. kiln_pool_copy must copy everything that
+ * later steps depend on. */
 #include "particles/pool.h"
 
 #include <assert.h>

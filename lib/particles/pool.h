@@ -1,10 +1,10 @@
-/* Holds the particles of every system of a run in one buffer of records, each system owning a range
- * of slots, and the host's count of births.
+/* A kiln_pool holds the particles of every system of a run in one buffer of records, where each
+ * system owns a range of slots. It also counts the births.
  *
  * Serial s of a system lives in slot base + s mod capacity. Capacity is at least the most births in
  * any window as long as the longest life, so that a slot is free when a birth needs it. Therefore
- * no atomic counter decides an order (the thesis finds free slots with an atomic counter:
- * 3.3.4). */
+ * no atomic counter decides an order. (The thesis finds free slots with an atomic counter: Heinz
+ * 2019, 3.3.4.) */
 #ifndef KILN_PARTICLES_POOL_H
 #define KILN_PARTICLES_POOL_H
 
@@ -16,7 +16,7 @@
 struct kiln_pool_system {
     uint32_t base, capacity; /* slots of this system in the record buffer */
     uint64_t next_serial;    /* the number of births so far */
-    /* the part of a birth that is carried to the next step; see `wait` in births.h */
+    /* the part of a birth that carries over to the next step; see `wait` in births.h */
     uint64_t birth_wait;
     bool spins;          /* true: the system's particles have a spin */
     uint32_t first_spin; /* slots of this system in the buffer of spins */
@@ -28,8 +28,8 @@ struct kiln_pool {
     uint32_t slot_count;        /* slots of all systems */
     struct kiln_buffer records; /* struct kiln_particle [slot_count] */
 
-    /* Spins of particles: struct kiln_spin, one for each slot of the systems that spin. Its size is
-     * 0 before the first step, and where no system spins. */
+    /* Spins of particles: a struct kiln_spin for each slot of the systems that spin. Its size is 0
+     * before the first step and if no system spins. */
     struct kiln_buffer spins;
 
     /* Painted textures, in the order of the scene's meshes that take paint. There are none before
@@ -38,24 +38,23 @@ struct kiln_pool {
     uint32_t canvas_count;
 };
 
-/* Initialises a pool with capacities[i] slots for system i. device NULL keeps the records on the
- * host. */
+/* Initialises a pool with capacities[i] slots for system i. If device is NULL, the records are on
+ * the host only. */
 void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const uint32_t *capacities,
                     uint32_t system_count);
 void kiln_pool_finish(struct kiln_pool *pool);
 
-/* Makes room for the spins of these systems, as zeros, unless the room is there already. */
+/* Allocates the spins of the chosen systems, as zeros, unless the pool has spins already. */
 void kiln_pool_add_spins(struct kiln_pool *pool, const bool *systems);
 
-/* Copies particles, spins and paint of a pool to another one of the same capacities, by way of the
- * host. */
+/* Copies particles, spins and paint to another pool of the same capacities, in host memory. */
 bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error);
 
-/* Returns how many of a system's slots ever had a birth. They are the first slots; all others are
+/* Returns how many of a system's slots ever had a birth. These are the first slots; all others are
  * still zero. */
 uint32_t kiln_pool_used(const struct kiln_pool_system *system);
 
-/* Packs system and slot into 32 bits, as an entry of a draw list; `slot` counts in the whole record
+/* Packs system and slot into 32 bits, as an entry of a draw list. slot: index in the whole record
  * buffer. */
 #define KILN_ENTRY(system, slot) ((uint32_t)(system) << 24 | (slot))
 #define KILN_ENTRY_SYSTEM(entry) ((entry) >> 24)
