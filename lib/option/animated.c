@@ -1,5 +1,5 @@
-/* Reads and prints the keys of animated numbers. Slopes and areas are computed here, once, in IEEE
- * float, so that every technique interpolates with the same bits. */
+/* Reads and prints the keys of animated numbers. It computes the slopes and areas of curves once,
+ * in IEEE float, so that every technique interpolates with the same bits. */
 #include "option/animated.h"
 
 #include <math.h>
@@ -14,17 +14,17 @@ bool kiln_node_is_animated(const struct kiln_node *node)
 
 /* ---- reading -------------------------------------------------------------------------------- */
 
-/* Returns whether the option's values take one number for all three components. */
+/* Returns whether one number may stand for all three components of the option's value. */
 static bool allows_grey(const struct kiln_option *option)
 {
     return option->type == &kiln_type_color;
 }
 
-/* Reads the components of one key, or of a constant: numbers without a clock. */
+/* Reads the components of one key or of a constant, which are plain numbers. */
 static bool read_plain(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct kiln_node *node, float *out, unsigned count)
 {
-    struct kiln_option number = *option; /* for errors, which say what is expected */
+    struct kiln_option number = *option; /* the row for errors, which name the expected form */
     number.type = &kiln_type_number;
     number.clocks = 0;
     if (count == 1)
@@ -45,7 +45,8 @@ static bool read_plain(struct kiln_reader *reader, const struct kiln_option *opt
     return true;
 }
 
-/* The place of the keys of `count` components while they are read. */
+/* Describes the curves of `count` components while their keys are read; `points` keys of each are
+ * read. */
 struct curve {
     struct kiln_value *values;
     unsigned count;
@@ -75,7 +76,8 @@ static bool begin_curve(struct kiln_reader *reader, const struct kiln_node *node
     return true;
 }
 
-/* Some stages flush denormals and some do not (see shared/exact.h). */
+/* Replaces numbers below 2^-100 by 0, since some stages flush denormals and some do not
+ * (shared/exact.h). */
 static float without_denormals(float x)
 {
     return fabsf(x) < 0x1p-100f ? 0 : x;
@@ -102,7 +104,7 @@ static bool add_point(struct kiln_reader *reader, const struct kiln_node *node, 
     return true;
 }
 
-/* The options by which the x of a key is read, one for each clock. */
+/* Rows that describe the x of a key, one for each clock. */
 const struct kiln_option kiln_option_time = {.name = "time",
                                              .type = &kiln_type_number,
                                              .dimension = KILN_SECONDS,
@@ -122,7 +124,7 @@ static bool read_points(struct kiln_reader *reader, const struct kiln_option *op
                                    : kiln_reader_enter_index(reader, index);
         if (entry->key && !kiln_read_float(reader, axis, entry->key, &x))
             return false;
-        if (!entry->key && node->count > 1) /* a list: spread evenly over the life */
+        if (!entry->key && node->count > 1) /* entries of a list are spread evenly over the life */
             x = (float)((double)index / (double)(node->count - 1));
         if (!read_plain(reader, option, entry, y, curve->count) ||
             !add_point(reader, entry->key ? entry->key : entry, curve, x, y))
@@ -165,7 +167,7 @@ static bool read_curve(struct kiln_reader *reader, const struct kiln_option *opt
         return kiln_reader_expected(reader, keys, "[first, ..., last] or {part of life: value}");
     struct curve curve = {.values = values, .count = count};
     struct kiln_option point = *option;
-    point.word = NULL; /* one point for all of the curve */
+    point.word = NULL; /* a key is a number, never the option's word */
     if (!begin_curve(reader, keys, &curve, clock) ||
         !read_points(reader, &point, keys, &curve, over_life ? &life_axis : &kiln_option_time))
         return false;

@@ -2,14 +2,14 @@
  *
  *     0.5    {keys: {0 s: 1, 3 s: 2}}    {life: [0.1, 1.2]}    {life: {0: 0.1, 0.5: 1, 1: 0}}
  *
- * A vector is animated as a whole, each entry being [x, y, z], or in each component. */
+ * A vector is animated as a whole, where each entry is [x, y, z], or in each component. */
 #ifndef KILN_OPTION_ANIMATED_H
 #define KILN_OPTION_ANIMATED_H
 
 #include "option/printer.h"
 #include "option/reader.h"
 
-/* Describes the times that a key may have, as a row that belongs to no table. */
+/* Describes the times that a key may have. This row belongs to no table. */
 extern const struct kiln_option kiln_option_time;
 
 /* Reads an animated value of 1 or 3 components into values[]. */

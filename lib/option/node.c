@@ -1,5 +1,6 @@
-/* Reads YAML text into a tree of nodes. libfyaml's events become the tree. Its own documents are
- * not used, because events let us refuse anchors and depth before anything is built from them. */
+/* Reads YAML text into a tree of nodes, which it builds from libfyaml's events. It does not use
+ * libfyaml's documents, because events allow it to refuse anchors and deep nesting before anything
+ * is built. */
 #include "option/node.h"
 
 #include <libfyaml.h>
@@ -91,8 +92,9 @@ struct builder {
     struct kiln_error *error;
     const struct kiln_origin *origin;
     struct kiln_node *root;
-    struct kiln_node *open[KILN_NODE_MAX_DEPTH]; /* the collections around the next event */
-    struct kiln_node *key[KILN_NODE_MAX_DEPTH];  /* of open[i], a mapping: waits for its value */
+    struct kiln_node *open[KILN_NODE_MAX_DEPTH]; /* the lists and mappings around the next event */
+    struct kiln_node *key[KILN_NODE_MAX_DEPTH];  /* of a mapping open[i]: a key that has no value
+                                                  * yet */
     uint32_t depth, total, documents;
 };
 
@@ -124,7 +126,7 @@ static struct kiln_node *create_node(struct builder *builder, struct fy_event *e
     return node;
 }
 
-/* Takes a node in as the root, the next entry of a list, or a key or value of a mapping. */
+/* Adds a node to the tree as the root, the next entry of a list, or a key or value of a mapping. */
 static bool place_node(struct builder *builder, struct kiln_node *node)
 {
     struct kiln_error *error = builder->error;
@@ -139,7 +141,7 @@ static bool place_node(struct builder *builder, struct kiln_node *node)
                                KILN_NODE_MAX_ENTRIES);
     if (parent->kind == KILN_NODE_LIST || *key) {
         node->key = *key;
-        if (*key && node->line == 0) { /* "key:" with nothing behind it */
+        if (*key && node->line == 0) { /* "key:" without a value */
             node->line = (*key)->line;
             node->column = (*key)->column;
         }
@@ -180,8 +182,9 @@ static bool open_collection(struct builder *builder, struct fy_event *event,
     return true;
 }
 
-/* Whether a text in double quotes goes on in the next line by a backslash. libfyaml 0.7.12 reads
- * the line break after "\\\" as a space, cuts the end off, or has bytes of nobody there. */
+/* Returns whether a text in double quotes continues in the next line by a backslash. libfyaml
+ * 0.7.12 reads the line break after "\\\" as a space, cuts off the end of the text, or returns
+ * bytes from outside the text. */
 static bool continues(const struct builder *builder, struct fy_event *event)
 {
     const struct fy_mark *start = fy_event_start_mark(event), *end = fy_event_end_mark(event);
@@ -219,7 +222,7 @@ static bool add_scalar(struct builder *builder, struct fy_event *event)
     return place_node(builder, node);
 }
 
-/* A node for the position of an event that we refuse. */
+/* Fails with an error at the position of an event. The node only carries the position. */
 static bool refuse(struct builder *builder, struct fy_event *event, const char *reason)
 {
     struct kiln_node *node = create_node(builder, event, KILN_NODE_SCALAR);
@@ -273,7 +276,7 @@ static bool take_event(struct builder *builder, struct fy_event *event)
     }
 }
 
-/* Reports libfyaml's first error as one of ours. */
+/* Fills the error with libfyaml's first error and its position. */
 static bool report_syntax(struct builder *builder, struct fy_diag *diag)
 {
     struct kiln_node place = {.origin = builder->origin};
@@ -323,16 +326,17 @@ static bool report_nothing(const struct kiln_origin *origin, struct kiln_error *
                            origin->version);
 }
 
-/* libfyaml looks at all blank lines of a block again for each of them, so a text may have only so
- * many. */
+/* libfyaml scans all lines of a block of blank lines again for each of them, which takes quadratic
+ * time. So the length of a block is limited. */
 enum { MOST_BLANK_LINES = 5000 };
 
-/* Refuses bytes that are no text before the parser sees them. */
+/* Refuses bytes that are not UTF-8 text, and long blocks of blank lines, before the parser reads
+ * them. */
 static bool check_bytes(const char *text, size_t size, const struct kiln_origin *origin,
                         struct kiln_error *error)
 {
     struct kiln_node place = {.origin = origin, .line = 1, .column = 1};
-    size_t blank_lines = 0; /* without a break */
+    size_t blank_lines = 0; /* consecutive blank lines and the newline before them */
     for (size_t i = 0; i < size;) {
         size_t length = kiln_text_utf8_length(text + i);
         if (text[i] == '\0')
@@ -364,7 +368,7 @@ struct kiln_node *kiln_node_parse(struct kiln_arena *arena, const char *text, si
 
     struct builder builder = {
         .text = text, .size = size, .arena = arena, .error = error, .origin = origin};
-    /* Collected diagnostics are printed nowhere. */
+    /* With this option, libfyaml collects its errors and does not print them. */
     struct fy_diag *diag = fy_diag_create(&(struct fy_diag_cfg){.level = FYET_ERROR});
     struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_COLLECT_DIAG | FYPCF_JSON_NONE,
                                   .diag = diag};

@@ -1,4 +1,4 @@
-/* Answers questions about the rows of an option table. */
+/* Finds rows of an option table by name and describes them for messages and documents. */
 #include "option/option.h"
 
 #include <stdio.h>

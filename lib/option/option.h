@@ -1,9 +1,9 @@
-/* Declares option tables, one row per key of a file. The rows make the reader, its errors, --set,
- * the printed file, the reference and the JSON schema. To add a key, add a field to the struct that
- * a table fills and a row to the table.
+/* Declares option tables, one row per key of a file. The reader, its errors, --set, the printed
+ * file, the reference and the JSON schema all come from the rows. To add a key, add a field to the
+ * struct that a table fills and a row to the table.
  *
- * A type is a table of functions. A room with values of its own (the assets of a scene, the metrics
- * of a test) defines its own types beside the types declared here. */
+ * A type is a table of functions. Other folders of lib/ define types for their own values, such as
+ * the assets of a scene or the metrics of a test, in addition to the types declared here. */
 #ifndef KILN_OPTION_OPTION_H
 #define KILN_OPTION_OPTION_H
 
@@ -23,17 +23,16 @@ struct kiln_printer;
 struct kiln_option_type {
     bool (*read)(struct kiln_reader *reader, const struct kiln_option *option,
                  const struct kiln_node *node, void *field);
-    /* Writes the value after "key:", the newline included. */
+    /* Writes the value after "key:", with the newline. */
     void (*print)(struct kiln_printer *printer, const struct kiln_option *option,
                   const void *field);
     /* Appends a description of the allowed values for errors and documents: "a number in m from 0
      * to 10". */
     void (*describe)(const struct kiln_option *option, struct kiln_text *out);
-    /* Appends a JSON schema, one object. */
+    /* Appends the JSON schema of the value, which is one JSON object. */
     void (*schema)(const struct kiln_option *option, struct kiln_text *out);
     /* Appends the words that are allowed as values, with bars between them: "true|false". Other
-     * values may be allowed, too. NULL: the words are the row's `choices` and `word`, if it has
-     * any. */
+     * values may be allowed as well. If NULL, the words are the row's `choices` and `word`. */
     void (*words)(const struct kiln_option *option, struct kiln_text *out);
 };
 
@@ -58,14 +57,14 @@ extern const struct kiln_option_type kiln_type_map;      /* names to mappings of
 extern const struct kiln_option_type kiln_type_list;
 extern const struct kiln_option_type kiln_type_kind; /* {kind: members}; `kinds` */
 
-/* Describes one kind of item that a value may be, with its own members. */
+/* Describes one of the kinds of items that a value may be. Each kind has members of its own. */
 struct kiln_option_kind {
     const char *name; /* NULL ends a table */
     /* the kind is chosen by `field: variant` in the mapping; NULL: `name` alone chooses it */
     const char *variant;
     int value;                         /* value of the enum at kind_offset */
     const struct kiln_option *members; /* rows whose offsets count from the start of the item */
-    /* the member that gets a value which is no mapping, or NULL */
+    /* name of the member that receives a value which is not a mapping, or NULL */
     const char *shortcut;
     const char *help;
 };
@@ -87,8 +86,8 @@ struct kiln_option {
      * alone. source is the struct that the whole table describes, base the struct of the row's own
      * table. NULL: the file has no parts. */
     unsigned (*parts)(const void *source, const void *base);
-    double min, max;               /* limits in SI units, both allowed */
-    enum kiln_dimension dimension; /* of numbers: what they measure */
+    double min, max;               /* limits in SI units, inclusive */
+    enum kiln_dimension dimension; /* what a number measures */
     /* KILN_ALLOW_* for keys over time or life; a constant is always allowed */
     unsigned clocks;
     const char *const *choices; /* words in the order of the enum, NULL at the end */
@@ -97,9 +96,9 @@ struct kiln_option {
     const char *word;
     const struct kiln_option *members;
     const struct kiln_option_kind *kinds;
-    const struct kiln_option *item; /* of a list: the row of its items */
+    const struct kiln_option *item; /* for a list: the row that describes an item */
     int kind_offset;                /* offset of the item's enum; KILN_KIND_NONE: it has none */
-    /* of arrays: size of an item, and offset of the count in the struct of the table */
+    /* for arrays: size of an item, and offset of the count in the struct of the table */
     size_t item_size, count_offset;
     size_t max_count;
 };
@@ -116,16 +115,16 @@ static inline uint32_t kiln_option_count(const struct kiln_option *option, const
     return *(const uint32_t *)((const char *)field - option->offset + option->count_offset);
 }
 
-/* Returns the row of a name in a table, or NULL. */
+/* Returns the row with this name, or NULL. */
 const struct kiln_option *kiln_option_find(const struct kiln_option *table, const char *name);
 
-/* Writes " (did you mean 'rate'?)", or a list of the names in the table, for a message about an
- * unknown name. */
+/* Writes " (did you mean 'rate'?)", or a list of all names if none is similar, for a message about
+ * an unknown name. */
 void kiln_option_suggest(char *out, size_t size, const char *name, const char *const *names,
                          size_t count);
 
-/* Returns a text for how a value may vary: "over time", "over time or life"; NULL when it may
- * not. */
+/* Returns how a value may vary, as "over time", "over life" or "over time or life", or NULL if it
+ * must be constant. */
 const char *kiln_option_clocks(const struct kiln_option *option);
 
 /* Appends a text such as " from 0 m to 10 m". */

@@ -1,6 +1,6 @@
-/* Applies --set key=value to the tree of a scene. The key is walked through the tree and through
- * the option tables in parallel: the tables tell where a name is the author's own (an entry of a
- * map), which a misspelling must not add to. */
+/* Applies --set key=value to the tree of a scene. It follows the key through the tree and the
+ * option tables in parallel. The tables show where the author of a scene chooses names (the entries
+ * of a map). Such a name must exist, so that a misspelling does not add an entry. */
 #include "option/override.h"
 
 #include <stdarg.h>
@@ -15,10 +15,10 @@ struct override {
     struct kiln_reader *reader;
     const struct kiln_origin *origin;
     const struct kiln_node *value;
-    const char *parts[MAX_PARTS]; /* of the key */
+    const char *parts[MAX_PARTS]; /* the parts of the key between its dots */
     uint32_t part_count;
     uint32_t places; /* places set so far */
-    bool wild;       /* the key has a '*': what does not fit is passed over */
+    bool wild;       /* the key has a '*', so a list that the file lacks is skipped */
 };
 
 static bool fail(struct override *override, const char *format, ...)
@@ -35,7 +35,7 @@ static bool fail(struct override *override, const char *format, ...)
                           override->origin->name, message);
 }
 
-/* Copies a tree, so that a later override of one place leaves the others alone. */
+/* Copies a tree, so that a later override of one place does not change the other places. */
 static struct kiln_node *copy_tree(struct override *override, const struct kiln_node *node)
 {
     struct kiln_node *copy = kiln_arena_alloc(override->reader->scratch, 1, sizeof *copy);
@@ -47,7 +47,8 @@ static struct kiln_node *copy_tree(struct override *override, const struct kiln_
     copy->first = copy->last = copy->next = NULL;
     copy->count = 0;
     for (const struct kiln_node *child = node->first; child; child = child->next) {
-        struct kiln_node *child_copy = copy_tree(override, child); /* as deep as YAML may nest */
+        struct kiln_node *child_copy = copy_tree(override, child); /* as deep as
+                                                                    * KILN_NODE_MAX_DEPTH */
         if (!child_copy)
             return NULL;
         kiln_node_append(copy, child_copy);
@@ -90,18 +91,18 @@ static bool unknown_name(struct override *override, const struct kiln_node *node
     return fail(override, "there is no '%s'%s", name, suggestion);
 }
 
-/* The keys that are allowed under a node. */
+/* Describes the keys that are allowed under a node. */
 struct place {
-    const struct kiln_option *members; /* the table of its keys, or NULL: not known */
-    bool closed;                       /* its keys cannot be made up */
+    const struct kiln_option *members; /* the table of the keys, or NULL if it is not known */
+    bool closed;                       /* only keys that the node already has are allowed */
 };
 
 static struct place place_under(const struct kiln_node *node, struct place place,
                                 const struct kiln_node *child)
 {
-    if (node->kind == KILN_NODE_LIST) /* its one key may be its kind */
+    if (node->kind == KILN_NODE_LIST) /* the item's one key may be the name of its kind */
         return (struct place){.closed = true};
-    if (place.members && place.closed) /* a named entry: the table is that of its members */
+    if (place.members && place.closed) /* for a named entry, the table is that of its members */
         return (struct place){.members = place.members};
     const struct kiln_option *option =
         place.members ? kiln_option_find(place.members, child->key->text) : NULL;
@@ -110,7 +111,8 @@ static struct place place_under(const struct kiln_node *node, struct place place
     return (struct place){.members = option->members, .closed = option->type == &kiln_type_map};
 }
 
-/* Finds the entry of a list or mapping that a part of the key names; NULL with an error. */
+/* Returns the entry of a list or mapping that a part of the key names; adds it to a mapping that
+ * lacks it. Returns NULL with an error on failure. */
 static struct kiln_node *find_child(struct override *override, struct kiln_node *node,
                                     struct place place, const char *name)
 {
@@ -129,7 +131,7 @@ static struct kiln_node *find_child(struct override *override, struct kiln_node 
             child = child->next;
         return child;
     }
-    if (node->kind == KILN_NODE_SCALAR) /* "none", say: make room for the mapping that is meant */
+    if (node->kind == KILN_NODE_SCALAR) /* such as "none"; a mapping replaces it */
         replace(node, &(struct kiln_node){.kind = KILN_NODE_MAP, .origin = override->origin});
     struct kiln_node *child = kiln_node_entry(node, name);
     if (child)
@@ -141,7 +143,7 @@ static struct kiln_node *find_child(struct override *override, struct kiln_node 
     return add_entry(override, node, name);
 }
 
-/* Returns whether this is the name of a list that the file does not have. */
+/* Returns whether `name` is a list by the option table and missing in the file. */
 static bool lacks_list(const struct kiln_node *node, struct place place, const char *name)
 {
     if (!place.members || place.closed || kiln_node_entry(node, name))
@@ -150,7 +152,7 @@ static bool lacks_list(const struct kiln_node *node, struct place place, const c
     return option && option->type == &kiln_type_list;
 }
 
-/* Sets all places that the parts from this one on name below node. */
+/* Sets all places below node that the key's parts from index `part` on name. */
 static bool walk(struct override *override, struct kiln_node *node, struct place place,
                  uint32_t part)
 {
@@ -172,7 +174,8 @@ static bool walk(struct override *override, struct kiln_node *node, struct place
     }
     for (struct kiln_node *child = node->first; child; child = child->next) {
         struct place below = place_under(node, place, child);
-        /* In a list of several kinds, '*' means the entries that fit the rest of the key. */
+        /* In a list of several kinds, '*' stands for the entries that have the next part of the
+         * key. */
         bool fits = node->kind != KILN_NODE_LIST || child->kind != KILN_NODE_MAP ||
                     part + 1 == override->part_count ||
                     strcmp(override->parts[part + 1], "*") == 0 ||
@@ -183,7 +186,7 @@ static bool walk(struct override *override, struct kiln_node *node, struct place
     return true;
 }
 
-/* Splits the key at its dots. */
+/* Splits the key at its dots into override->parts. */
 static bool split_key(struct override *override, char *key)
 {
     for (char *part = key; part;) {

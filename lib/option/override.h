@@ -1,12 +1,12 @@
-/* Applies --set key=value to a tree. */
+/* Declares the function that applies --set key=value to a tree. */
 #ifndef KILN_OPTION_OVERRIDE_H
 #define KILN_OPTION_OVERRIDE_H
 
 #include "option/reader.h"
 
 /* Sets the value of "dotted.key=value" in a tree that the table describes, before the tree is read
- * into a struct. Mappings that are missing on the way are made. Entries of lists and named entries
- * have to exist. The text need not outlive the call. */
+ * into a struct. Missing mappings along the key are added. Entries of lists and named entries must
+ * exist. The text need not outlive the call. */
 bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
                    struct kiln_node *root, const char *text);
 

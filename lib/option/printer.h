@@ -1,5 +1,5 @@
-/* Prints the struct of a table as text. Declares the state of one printing, and the helpers that
- * the printers of all types share. */
+/* Declares the state of printing the struct of a table as text, and the helpers that the printers
+ * of all types share. */
 #ifndef KILN_OPTION_PRINTER_H
 #define KILN_OPTION_PRINTER_H
 
@@ -26,7 +26,7 @@ bool kiln_print_wants(const struct kiln_printer *printer, const struct kiln_opti
 void kiln_print_members(struct kiln_printer *printer, const struct kiln_option *members,
                         const void *base);
 
-/* Prints a text in quotes; the `print` function of types whose field is a text. */
+/* Prints a text in quotes. This is the `print` function of types whose field is a text. */
 void kiln_print_text(struct kiln_printer *printer, const struct kiln_option *option,
                      const void *field);
 

@@ -1,5 +1,5 @@
-/* Holds the helpers that the readers of all types share: the place for errors, defaults, numbers,
- * and filling a struct. */
+/* Holds the helpers that the readers of all types share: they keep the path for errors, parse
+ * defaults and numbers, and fill a struct. */
 #include "option/reader.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 
-/* ---- where we are --------------------------------------------------------------------------- */
+/* ---- path and errors ------------------------------------------------------------------------- */
 
 size_t kiln_reader_enter(struct kiln_reader *reader, const char *name)
 {
@@ -45,7 +45,7 @@ bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node,
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    /* "--set camera.fov: camera.fov: ..." would stutter. */
+    /* The path is left out if the origin's name ends with it, as in "--set camera.fov: ...". */
     const char *name = node->origin->name;
     size_t name_length = strlen(name);
     bool same = !node->origin->has_lines && name_length >= reader->path_length &&
@@ -55,7 +55,7 @@ bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node,
     return kiln_node_error(node, reader->error, "%s: %s", reader->path, message);
 }
 
-/* Finds an entry by its number; NULL when the name is no number, or there are fewer entries. */
+/* Returns the entry with this number, or NULL if the name is no number or the list is too short. */
 static const struct kiln_node *entry_of_list(const struct kiln_node *list, const char *name)
 {
     const struct kiln_node *entry = list->first;
@@ -137,10 +137,10 @@ bool kiln_reader_mismatch(struct kiln_reader *reader, const struct kiln_option *
     return false;
 }
 
-/* ---- defaults ---------------------------------------------------------------------------------
- */
+/* ---- defaults -------------------------------------------------------------------------------- */
 
-/* A default becomes a tree once a reading, however many entries of a map or list take it. */
+/* Holds the tree of a default. A reader parses each default only once, however many entries of a
+ * map or list use it. */
 struct kiln_default {
     struct kiln_default *next;
     const struct kiln_option *option;
@@ -188,7 +188,8 @@ static bool check_keys(struct kiln_reader *reader, const struct kiln_option *mem
     return true;
 }
 
-/* Takes the default, where there is one. A group that is absent ("none") has no required keys. */
+/* Returns the tree of the option's default. If there is no default, returns NULL, with an error
+ * unless the whole group is absent ("none"; group is NULL). */
 static const struct kiln_node *default_of(struct kiln_reader *reader,
                                           const struct kiln_option *option,
                                           const struct kiln_node *group)
@@ -321,12 +322,12 @@ bool kiln_read_float(struct kiln_reader *reader, const struct kiln_option *optio
     double number = 0;
     if (!read_si(reader, option, node, &number))
         return false;
-    /* Compared as floats, so that a printed limit is within the limit. The first test keeps the
-     * conversion defined. */
+    /* The comparison uses floats, so that a limit that was printed as a float is within the limits.
+     * The first test makes the conversion to float defined. */
     if (!(fabs(number) <= 1e30) || (float)number < (float)option->min ||
         (float)number > (float)option->max)
         return limit_error(reader, option, node);
-    /* Some stages flush denormals and some do not (see shared/exact.h): a value has none. */
+    /* Some stages flush denormals and some do not (shared/exact.h), so no value is a denormal. */
     *value = fabs(number) < 0x1p-100 ? 0.0f : (float)number;
     return true;
 }

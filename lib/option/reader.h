@@ -1,15 +1,15 @@
-/* Reads a tree into the struct that a table describes. Declares the state of one reading, and the
- * helpers that the readers of all types share. */
+/* Declares the state of reading a tree into the struct that a table describes, and the helpers that
+ * the readers of all types share. */
 #ifndef KILN_OPTION_READER_H
 #define KILN_OPTION_READER_H
 
 #include "option/option.h"
 
-struct kiln_default; /* holds the text of a default as a tree */
+struct kiln_default; /* holds the tree of a default */
 
 /* The caller sets the members above the blank line; all others are 0 at the start. */
 struct kiln_reader {
-    const struct kiln_origin *origin; /* where the text that is read came from */
+    const struct kiln_origin *origin; /* where the text comes from */
     struct kiln_arena *arena;         /* owns the texts that the target points to */
     struct kiln_arena *scratch;       /* owns trees and keys, and may be destroyed after reading */
     struct kiln_error *error;
@@ -44,30 +44,30 @@ bool kiln_reader_expected(struct kiln_reader *reader, const struct kiln_node *no
                           const char *expected);
 bool kiln_reader_out_of_memory(struct kiln_reader *reader);
 
-/* Copies a text into the arena that the target's texts lie in. */
+/* Copies a text into the reader's arena, which owns the target's texts. */
 bool kiln_reader_keep_text(struct kiln_reader *reader, const char *text, const char **kept);
 
-/* Returns whether YAML takes a node for a text. Without quotes, some words are numbers, booleans or
- * null. */
+/* Returns whether a node is a text in YAML. Words without quotes may be numbers, booleans or null
+ * instead. */
 bool kiln_reader_is_text(const struct kiln_node *node);
 
-/* Fills one struct from a mapping: all members, defaults for those that are missing. node NULL
- * takes every default. */
+/* Fills one struct from a mapping, with defaults for missing keys. If node is NULL, all members get
+ * their defaults. */
 bool kiln_read_members(struct kiln_reader *reader, const struct kiln_option *members,
                        const struct kiln_node *node, void *base);
 
-/* Reads a text, which must end in a zero byte that size does not count, and fills the reader's
- * target by a table. */
+/* Parses a text of `size` bytes, which a zero byte must follow, and fills the reader's target as
+ * the table describes. */
 bool kiln_read_document(struct kiln_reader *reader, const struct kiln_option *rows,
                         const char *text, size_t size);
 
-/* Reads a number with its unit into SI and checks the limits, as a float or as a double. */
+/* Read a number, convert it to SI by its unit and check its limits, as a double or as a float. */
 bool kiln_read_number(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, double *value);
 bool kiln_read_float(struct kiln_reader *reader, const struct kiln_option *option,
                      const struct kiln_node *node, float *value);
 
-/* Reads a whole number. */
+/* Reads a whole number and checks its limits. */
 bool kiln_read_whole(struct kiln_reader *reader, const struct kiln_option *option,
                      const struct kiln_node *node, uint32_t *value);
 

@@ -1,12 +1,12 @@
-/* Prints the reference of a table's keys: it walks over the table's rows and over those of the
- * tables in it. */
+/* Prints the reference of a table's keys. It visits the rows of the table and of all tables nested
+ * in it. */
 #include "option/reference.h"
 
 #include <string.h>
 
 enum { WIDTH = 100, MAX_VARIANTS = 32 };
 
-/* Prints a paragraph, indented and broken at blanks. */
+/* Appends a paragraph, indented and broken at blanks into lines of WIDTH columns. */
 static void add_wrapped(struct kiln_text *out, unsigned indent, const char *text)
 {
     size_t room = WIDTH - indent;
@@ -23,7 +23,7 @@ static void add_wrapped(struct kiln_text *out, unsigned indent, const char *text
     }
 }
 
-/* A walk over a table and the tables in it. */
+/* Holds the state of a walk over a table and the tables nested in it. */
 struct walk {
     void (*visit)(void *user, const struct kiln_option_key *key);
     void *user;
@@ -67,7 +67,8 @@ static void visit_row(struct walk *walk, const char *path, const struct kiln_opt
     kiln_text_free(&words);
 }
 
-/* `field` chooses among kinds of one name, of which the first is meant without it. */
+/* Visits the key `field`, which chooses among kinds of one name. Its default is the first of
+ * them. */
 static void visit_field(struct walk *walk, const char *path, const struct kiln_option_kind *first)
 {
     const char *variants[MAX_VARIANTS + 1] = {NULL};

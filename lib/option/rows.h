@@ -1,5 +1,6 @@
-/* Defines macros by which the tables write their rows. Before the rows of a table, AT(field) is
- * defined as the offset of a field in its struct. Only files with tables include this header. */
+/* Defines the macros for the rows of option tables. A file defines AT(field) before the rows of a
+ * table as the offset of a field in the table's struct. Only files with tables include this
+ * header. */
 #ifndef KILN_OPTION_ROWS_H
 #define KILN_OPTION_ROWS_H
 
@@ -13,11 +14,11 @@
     .help = help_, .parts = part_
 #define LIMITS(dimension_, min_, max_) .dimension = dimension_, .min = min_, .max = max_
 
-/* Stands for `parts` of struct kiln_option in rows of files that have no parts. Each row macro
- * takes `parts` first. */
+/* The value of `parts` in struct kiln_option for rows of files that have no parts. `parts` is the
+ * first parameter of each row macro. */
 #define NO_PART NULL
 
-/* name, field, dimension, smallest, largest, clocks, default, help */
+/* further parameters: name, field, dimension, smallest, largest, clocks, default, help */
 #define VALUE(part, n, f, dim, lo, hi, when, def, h)                                               \
     {                                                                                              \
         ROW(part, n, value, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                    \
@@ -30,27 +31,28 @@
     {                                                                                              \
         ROW(part, n, range, AT(f), def, h), LIMITS(dim, lo, hi), .clocks = when                    \
     }
-/* name, field, largest, clocks, default, help */
+/* further parameters: name, field, largest, clocks, default, help */
 #define COLOR(part, n, f, hi, when, def, h)                                                        \
     {                                                                                              \
         ROW(part, n, color, AT(f), def, h), LIMITS(KILN_PLAIN, 0, hi), .clocks = when              \
     }
-/* name, field, smallest, largest, default, help */
+/* further parameters: name, field, smallest, largest, default, help */
 #define INTEGER(part, n, f, lo, hi, def, h)                                                        \
     {                                                                                              \
         ROW(part, n, integer, AT(f), def, h), LIMITS(KILN_PLAIN, lo, hi)                           \
     }
-/* name, field, default, help */
+/* further parameters: name, field, default, help */
 #define BOOLEAN(part, n, f, def, h)                                                                \
     {                                                                                              \
         ROW(part, n, boolean, AT(f), def, h)                                                       \
     }
-/* name, field, words, default, help */
+/* further parameters: name, field, words, default, help */
 #define CHOICE(part, n, f, words, def, h)                                                          \
     {                                                                                              \
         ROW(part, n, choice, AT(f), def, h), .choices = words                                      \
     }
-/* name, offset, members, help; every member has a default or is required on its own */
+/* further parameters: name, offset, members, help; each member has a default or is itself
+ * required */
 #define GROUP(part, n, at, rows, h)                                                                \
     {                                                                                              \
         ROW(part, n, group, at, "{}", h), .members = rows                                          \

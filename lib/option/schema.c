@@ -1,6 +1,6 @@
 /* Writes a JSON schema (draft-07) from the option tables. The schema is as strict as the loader
- * about keys, words, forms and units. Limits are checked on bare numbers only, and order and files
- * by the loader alone. */
+ * about keys, words, forms and units. It checks limits only for numbers without a unit. Only the
+ * loader checks the order of values and the files that a text names. */
 #include "option/schema.h"
 
 #define NUMBER_PATTERN "[-+]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
@@ -42,7 +42,7 @@ void kiln_schema_number_pattern(enum kiln_dimension dimension, struct kiln_text 
     kiln_text_free(&pattern);
 }
 
-/* Adds the type's schema with the row's help and default. */
+/* Appends the schema of the row's type, with the row's help as its description. */
 static void add_property(const struct kiln_option *row, struct kiln_text *out)
 {
     struct kiln_text schema = {0};
@@ -50,7 +50,7 @@ static void add_property(const struct kiln_option *row, struct kiln_text *out)
     kiln_text_add_json(out, row->name);
     kiln_text_add(out, ": {\"description\": ");
     kiln_text_add_json(out, row->help);
-    /* The type wrote one object: its braces make room for the description. */
+    /* The type wrote one JSON object; the description goes in front of its members. */
     kiln_text_add(out, ", %s", schema.data ? schema.data + 1 : "");
     out->failed |= schema.failed;
     kiln_text_free(&schema);

@@ -106,8 +106,8 @@ static bool is_name(const char *text)
     return true;
 }
 
-/* Returns the count of entries so far, which the caller increases while it reads them; NULL with an
- * error when the node has too many. */
+/* Returns the counter of entries, which the caller increases after reading each entry, or NULL with
+ * an error if the node has too many entries. */
 static uint32_t *begin_entries(struct kiln_reader *reader, const struct kiln_option *option,
                                const struct kiln_node *node, void *field)
 {

@@ -1,6 +1,6 @@
-/* Implements the option type of things of several kinds, such as `cone: {angle: 8 deg}`: a mapping
+/* Implements the option type of items of several kinds, such as `cone: {angle: 8 deg}`: a mapping
  * whose one key names the kind and whose value fills the members of that kind. A kind may have a
- * shortcut, a member that a bare value means: `gravity: [0, -9.81, 0]`. */
+ * shortcut, which is the member that a bare value fills: `gravity: [0, -9.81, 0]`. */
 #include <string.h>
 
 #include "option/animated.h"
@@ -18,7 +18,8 @@ static size_t kind_names(const struct kiln_option_kind *kinds, const char *names
     return count;
 }
 
-/* Finds the row for a kind and, where kinds of one name differ by `field: variant`, its variant. */
+/* Returns the row of the kind that the node's key names. If several kinds have that name, the key
+ * `field` chooses the variant. Returns NULL with an error on failure. */
 static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
                                                 const struct kiln_option *option,
                                                 const struct kiln_node *node)
@@ -58,7 +59,7 @@ static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
     return NULL;
 }
 
-/* Copies a mapping without one key: `field`, which only chose the kind. */
+/* Copies a mapping without the key `field`, which only chooses the kind. */
 static struct kiln_node *without_field(struct kiln_reader *reader, const struct kiln_node *node)
 {
     struct kiln_node *rest = kiln_arena_alloc(reader->scratch, 1, sizeof *rest);
@@ -84,7 +85,7 @@ static struct kiln_node *without_field(struct kiln_reader *reader, const struct 
     return rest;
 }
 
-/* Makes {shortcut: value} of a bare value. */
+/* Returns the mapping {shortcut: value} for a bare value. */
 static struct kiln_node *spell_out(struct kiln_reader *reader, const struct kiln_node *node,
                                    const char *shortcut)
 {
@@ -148,7 +149,8 @@ static const struct kiln_option_kind *kind_of(const struct kiln_option *option, 
     return kind;
 }
 
-/* Returns whether the same kind without `field` would be another variant. */
+/* Returns whether a kind is printed with `field`, because without it another variant would be
+ * read. */
 static bool needs_field(const struct kiln_option *option, const struct kiln_option_kind *kind)
 {
     const struct kiln_option_kind *first = option->kinds;
@@ -163,7 +165,7 @@ static void print_kind(struct kiln_printer *printer, const struct kiln_option *o
     const struct kiln_option_kind *kind = kind_of(option, field);
     unsigned before = printer->indent;
     printer->indent += 2;
-    if (printer->after_dash) { /* "- gravity:" in one line */
+    if (printer->after_dash) { /* print "- gravity:" in one line */
         printer->after_dash = false;
         kiln_text_add(&printer->text, " %s:\n", kind->name);
     } else {
@@ -204,7 +206,7 @@ static void schema_kind(const struct kiln_option *option, struct kiln_text *out)
             member->type->schema(member, out);
             kiln_text_add(out, ", ");
         }
-        /* The first variant is what a kind without `field` means. */
+        /* A kind without `field` is its first variant. */
         bool needed = kind->variant && strcmp(before, kind->name) == 0;
         kiln_schema_members(kind->members, kind->variant, needed, out);
         kiln_text_add(out, kind->shortcut ? "]}}}" : "}}");

@@ -1,5 +1,5 @@
-/* Implements the option types of one plain value each: boolean, integer, rational, number, choice,
- * text. */
+/* Implements the option types that hold one plain value: boolean, integer, rational, number,
+ * choice, text. */
 #include <inttypes.h>
 #include <string.h>
 
@@ -260,9 +260,9 @@ static void describe_text(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "a text");
 }
 
-/* Writes the schema of a text, which a file may write as a number or a boolean. A schema counts
- * characters and the option counts bytes: a text has at most as many characters as bytes, and an
- * empty text has none. */
+/* Appends the schema of a text, which a file may also write as a number or a boolean. A schema
+ * limits characters and the option limits bytes. The schema never refuses an allowed text, since a
+ * text has at most as many characters as bytes; its lower limit only refuses the empty text. */
 static void schema_text(const struct kiln_option *option, struct kiln_text *out)
 {
     kiln_text_add(out,

@@ -1,4 +1,4 @@
-/* Implements the option types of several plain numbers: pair, bounds. */
+/* Implements the option types that hold several plain numbers: pair, bounds. */
 #include "option/printer.h"
 #include "option/reader.h"
 #include "option/schema.h"

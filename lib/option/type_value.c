@@ -36,7 +36,8 @@ static void describe_value(const struct kiln_option *option, struct kiln_text *o
         kiln_text_add(out, ", or %s", option->word);
 }
 
-/* {"keys": {...}} and {"life": ...} with `plain` as the schema of each key's value. */
+/* Appends the schemas of {"keys": {...}} and {"life": ...}, with `plain` as the schema of each
+ * key's value. */
 static void schema_curves(const struct kiln_option *option, const char *plain,
                           struct kiln_text *out)
 {
@@ -97,7 +98,8 @@ static bool read_vector(struct kiln_reader *reader, const struct kiln_option *op
     return true;
 }
 
-/* "red" and "0xff0000" are words here, not numbers that something is wrong with. */
+/* Reads a colour. Words such as "red" and "0xff0000" get an error about the expected form, not one
+ * about a faulty number. */
 static bool read_color(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct kiln_node *node, void *field)
 {
@@ -144,7 +146,7 @@ static void print_vector(struct kiln_printer *printer, const struct kiln_option 
                          const void *field)
 {
     const struct kiln_value3 *v = field;
-    struct kiln_option bare = *option; /* three units in a row are hard to read */
+    struct kiln_option bare = *option; /* without units, since three in a row are hard to read */
     if (!kiln_unit_is_required(option->dimension))
         bare.dimension = KILN_PLAIN;
     if (share_keys(printer->keys, v)) {
@@ -212,8 +214,8 @@ const struct kiln_option_type kiln_type_color = {
 
 /* ---- range ---------------------------------------------------------------------------------- */
 
-/* Ends are straight lines between keys, so min <= max everywhere when it holds at every key of the
- * one clock that they have. */
+/* Returns whether min <= max everywhere. Both are linear between their keys and have the same
+ * clock, so it is enough to compare them at every key. */
 static bool is_ordered(const float4 *keys, const struct kiln_range *range)
 {
     const struct kiln_value *ends[2] = {&range->min, &range->max};

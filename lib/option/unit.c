@@ -1,5 +1,5 @@
-/* Converts numbers between units, of which each has a row in a table. Conversions are IEEE products
- * and quotients in double, so that a file means the same floats on every machine. */
+/* Converts numbers between units by a table with a row for each unit. Conversions are IEEE products
+ * and quotients in double, so that a file gives the same floats on every machine. */
 #include "option/unit.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 struct unit {
     enum kiln_dimension dimension;
     const char *name;
-    double multiply, divide; /* a quotient of a power of ten is exact where its product is not */
+    double multiply, divide; /* x / 100 is rounded correctly, which x * 0.01 is not */
 };
 
 /* The units. The first unit of each dimension is its SI unit. */
@@ -57,7 +57,7 @@ static const char *const choices[KILN_DIMENSION_COUNT] = {
     [KILN_STOPS] = "stops",
 };
 
-/* Returns the unit that numbers of a dimension are printed with, "" for none. */
+/* Returns the unit that numbers of a dimension are printed with, or "" if there is none. */
 static const char *unit_name(enum kiln_dimension dimension)
 {
     if (dimension == KILN_FRACTION)
@@ -148,7 +148,7 @@ bool kiln_text_to_seconds(const char *text, double *seconds)
 void kiln_unit_print_number(char out[32], double value)
 {
     if (fabs(value) < 1e9 && floor(value) == value)
-        snprintf(out, 32, "%.0f", value + 0.0); /* + 0.0: no "-0" */
+        snprintf(out, 32, "%.0f", value + 0.0); /* + 0.0 turns -0 into 0 */
     else
         kiln_text_from_double(out, value);
 }

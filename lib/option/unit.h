@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Names what a number measures. In memory, it is always in the SI unit given here. */
+/* Names what a number measures. In memory, a number is always in the SI unit given here. */
 enum kiln_dimension {
     KILN_PLAIN,         /* no unit */
     KILN_FRACTION,      /* a part of a whole; may be written as "50 %" */
@@ -28,7 +28,7 @@ enum kiln_dimension {
 #define KILN_PI     3.14159265358979323846
 #define KILN_DEG(x) ((x) * (KILN_PI / 180))
 
-/* Lists all units of a dimension, as "m, cm or mm"; "" when it has none. */
+/* Returns a list of all units of a dimension, such as "m, cm or mm", or "" if it has none. */
 const char *kiln_unit_choices(enum kiln_dimension dimension);
 
 /* Returns whether a number other than 0 must have a unit. */
@@ -41,25 +41,25 @@ void kiln_unit_reduce(uint64_t *num, uint64_t *den);
  * is at most a million. */
 bool kiln_unit_parse_rational(const char *text, uint64_t *num, uint64_t *den);
 
-/* Splits "2.5 cm" into its number and its unit, which points into text. False when it does not
- * start with a number. Blanks between the two are optional. */
+/* Splits "2.5 cm" into its number and its unit, which points into text. Returns false if text does
+ * not start with a number. Blanks between number and unit are optional. */
 bool kiln_unit_split(const char *text, double *number, const char **unit);
 
-/* Converts a number in a unit to SI. False when the unit is not of this dimension. */
+/* Converts a number in a unit to SI. Returns false if the unit is not of this dimension. */
 bool kiln_unit_to_si(enum kiln_dimension dimension, const char *unit, double *number);
 
-/* Writes a number in SI with its unit, so that reading it gives the same float: angles in degrees
- * where those are exact. */
+/* Writes a number in SI with its unit, so that reading the text gives the same float. Angles are
+ * written in degrees if that is exact, otherwise in radians. */
 void kiln_unit_print(char out[48], enum kiln_dimension dimension, float value);
 
 /* Writes a limit or a double in SI with its unit, like kiln_unit_print. */
 void kiln_unit_print_double(char out[48], enum kiln_dimension dimension, double value);
 
-/* Writes a number without a unit; whole numbers without an exponent. */
+/* Writes a number without a unit. Whole numbers below 10^9 have no exponent. */
 void kiln_unit_print_number(char out[32], double value);
 
-/* Writes the units of a dimension as a regular expression of a JSON schema, optional where a bare
- * number is allowed: "( *(m|cm|mm))". "" when there are none. */
+/* Writes the units of a dimension as a regular expression for a JSON schema, with optional blanks
+ * before the unit: " *(m|cm|mm)". Writes "" if there are none. */
 void kiln_unit_pattern(char out[64], enum kiln_dimension dimension);
 
 #endif

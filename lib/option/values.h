@@ -1,4 +1,4 @@
-/* Declares the structs that some types of options fill. Animated numbers are declared in
+/* Declares the structs that some option types fill. Animated numbers are declared in
  * shared/value.h. */
 #ifndef KILN_OPTION_VALUES_H
 #define KILN_OPTION_VALUES_H
@@ -8,7 +8,7 @@
 
 #include "shared/value.h"
 
-/* The constant of an animated number for which the file has the option's word. */
+/* The constant of an animated number if the file has the option's word instead. */
 #define KILN_VALUE_BY_WORD (-1.0f)
 
 /* Holds a positive fraction in its lowest terms, or 0/1 where the option has a word for it. */

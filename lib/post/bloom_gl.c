@@ -68,8 +68,7 @@ GLuint kiln_bloom_program(struct kiln_device *device, const char *fragment,
         error);
 }
 
-/* ---- the stage
- * -------------------------------------------------------------------------------- */
+/* ---- the stage ------------------------------------------------------------------------------- */
 
 static bool init_bright(struct kiln_bloom_gl *stage, struct kiln_error *error)
 {
