@@ -36,8 +36,8 @@ static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend ble
     return mask & ~solids_of(scene);
 }
 
-/* Returns whether particles draw their glow into the bloom source. They do not if the scene has a
- * bright pass, which fills the bloom source instead. */
+/* Returns whether particles draw their glow into the bloom source. They do if the bloom or a bloom
+ * layer needs it, but not if the scene has a bright pass, which fills the bloom source instead. */
 static bool needs_glow(const struct kiln_scene *scene, bool layers)
 {
     bool blooms = scene->post.bloom != KILN_BLOOM_NONE;

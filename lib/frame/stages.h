@@ -70,8 +70,7 @@ void kiln_stages_finish(struct kiln_stages *stages);
 
 /* Runs every stage from sort to particles for the pool, whose state is that after `step` steps.
  * sample: which moment of the frame this is, from 0 to scene->camera.shutter_samples - 1. *drawn
- * becomes the number of particles.
- */
+ * becomes the number of particles. */
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
                       uint32_t sample, uint32_t *drawn, struct kiln_error *error);
 

@@ -1,8 +1,7 @@
 /* This file chooses the technique of each stage from the device and from the flags. It has two
  * tables: the techniques of each stage, and the techniques that `auto` chooses for each class of
  * devices. Only techniques called `cpu` run without GL; on a device without GL, this file refuses
- * all others.
- */
+ * all others. */
 #include "frame/technique.h"
 
 #include <string.h>

@@ -260,8 +260,8 @@ static bool scan_is_enough(const struct scan *scan, const char *wanted)
     return strcmp(wanted, "software") == 0 && last->usable && last->gl && last->software;
 }
 
-/* Returns whether a device is of Mesa's surfaceless platform and is not usable or already found on
- * the platform of EGL devices. */
+/* Returns whether a device of Mesa's surfaceless platform adds nothing, because it is not usable or
+ * is in the list already. */
 static bool is_duplicate(const struct scan *scan, const struct kiln_device_info *info)
 {
     if (strcmp(info->platform, "surfaceless") != 0)

@@ -68,8 +68,7 @@ void kiln_births_step(const struct kiln_births_source *source, uint32_t step, ui
     add_bursts(source, step, births);
 }
 
-/* Returns the number of steps in the longest life; compares floats as the simulation does.
- */
+/* Returns the number of steps in the longest life; compares floats as the simulation does. */
 uint32_t kiln_births_lifespan(float longest_life_s, float dt_s, uint32_t steps)
 {
     double guess = floor((double)longest_life_s / (double)dt_s);

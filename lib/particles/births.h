@@ -44,8 +44,8 @@ struct kiln_births {
 void kiln_births_step(const struct kiln_births_source *source, uint32_t step, uint64_t *wait,
                       struct kiln_births *births);
 
-/* Returns after how many steps from its birth step every particle is dead, wherever in that step it
- * was born; at most `steps`. */
+/* Returns the number of steps after its birth step at whose end a particle is dead at the latest,
+ * wherever in that step it was born; at most `steps`. */
 uint32_t kiln_births_lifespan(float longest_life_s, float dt_s, uint32_t steps);
 
 struct kiln_births_bound {

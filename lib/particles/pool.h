@@ -1,5 +1,5 @@
 /* A kiln_pool holds the particles of every system of a run in one buffer of records, where each
- * system owns a range of slots. It also counts the births.
+ * system owns a range of slots. It also counts the births on the host.
  *
  * Serial s of a system lives in slot base + s mod capacity. Capacity is at least the most births in
  * any window as long as the longest life, so that a slot is free when a birth needs it. Therefore

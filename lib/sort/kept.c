@@ -1,7 +1,7 @@
 /* This file keeps an order of all slots from frame to frame and runs a part of a full sort in each
- * frame. Equal keys are ordered by the serials of the particles, as in every technique. So while
- * particles and camera are at rest, the kept order reaches the same list as the other techniques
- * within less than two full sorts. */
+ * frame. Equal keys are ordered by the particles' systems and serials, as in every technique. So
+ * while particles and camera are at rest, the kept order reaches the same list as the other
+ * techniques within less than two full sorts. */
 #include "sort/kept.h"
 
 #include <string.h>
