@@ -1,4 +1,5 @@
-/* Runs kiln bake, which steps through a clip once and saves states, from which later runs start. */
+/* Runs kiln bake, which steps through a clip once and saves states of the simulation. Later runs of
+ * kiln render start from these states. */
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
@@ -54,8 +55,8 @@ struct bake {
     struct kiln_bake_params params;
     struct value_list techniques;
     bool quiet;
-    uint32_t saved; /* so far */
-    uint64_t steps; /* of the whole clip */
+    uint32_t saved; /* states done so far, including those that were kept */
+    uint64_t steps; /* simulation steps of the whole clip */
 };
 
 static void show_state(void *user, const struct kiln_baked *state)
@@ -112,7 +113,8 @@ static void print_result(const struct bake *bake, const struct kiln_bake_stats *
     }
 }
 
-/* Reads an interval: "10s" of clip time, or "300" frames. */
+/* Reads --every into params.every: "10s" of clip time, or "300" frames. Returns 0, or the exit code
+ * after reporting. */
 static int read_every(struct bake *bake, const struct arguments *arguments,
                       const struct kiln_scene_info *info)
 {

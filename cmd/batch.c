@@ -1,6 +1,7 @@
-/* Each job is a process: kiln itself, started anew (posix_spawn) with the options of the call and
- * those of the job. This process reads no scene and opens no device, so nothing that a job does can
- * harm it. What scenes have in common (flipbooks, distance fields) the jobs share by the cache. */
+/* Runs kiln render --batch. Each job is a process: this program, started anew by posix_spawn with
+ * the options of the call and those of the job. The batch's own process reads no scene and opens no
+ * device, so no job can harm it. Jobs share what is slow to make (flipbooks, distance fields)
+ * through the cache on disk. */
 #include "batch.h"
 
 #include <errno.h>
@@ -18,27 +19,28 @@
 #include "signals.h"
 #include "watch.h"
 
-/* A job that runs. */
+/* The state of a job. */
 struct running {
-    int log; /* what it prints; -1: it does not run */
+    int log; /* memory file of what the job prints; -1: the job is not running */
     double began_s;
 };
 
 struct batch {
     struct kiln_batch *jobs;
-    char program[KILN_PATH_SIZE]; /* this one */
-    const char *limits;           /* of the call, for every job; or NULL */
-    char **shared;                /* words of the command line for every job */
+    char program[KILN_PATH_SIZE]; /* path of this program */
+    const char *limits;           /* --limits of the call, for every job; or NULL */
+    char **shared;                /* arguments that every job gets */
     size_t shared_count;
-    struct running *running; /* one of each job */
+    struct running *running; /* one for each job */
     bool keep_going, quiet;
-    int code; /* the greatest so far */
+    int code; /* the greatest exit code so far */
     size_t failed, ended;
 };
 
 /* ---- the command line of a job --------------------------------------------------------------- */
 
-/* Options that are not handed on as they are. */
+/* Returns whether an option of the call is not copied to the jobs. --limits is among these, since
+ * add_limits joins it with the limits of a job. */
 static bool is_own(const char *name)
 {
     static const char *const own[] = {"batch",  "jobs",     "keep-going", "limits",
@@ -89,9 +91,9 @@ static bool share_options(struct batch *batch, const struct arguments *arguments
     return true;
 }
 
-/* Words that a job adds to those of all; they are freed with it. */
+/* The arguments of a job. free_line frees all of them but the first `borrowed` ones. */
 struct command_line {
-    char **words; /* with a NULL at the end */
+    char **words; /* NULL ends the array */
     size_t count, borrowed;
     bool failed;
 };
@@ -108,7 +110,8 @@ static void add(struct command_line *line, const char *name, const char *value)
     line->words[line->count++] = word;
 }
 
-/* Adds the limits of the call and after them those of the job, which replace single values. */
+/* Adds the limits of the call, followed by those of the job: a later value of a limit replaces an
+ * earlier one. */
 static void add_limits(struct command_line *line, const char *of_all, const char *own)
 {
     char *both = NULL;
@@ -159,7 +162,8 @@ static void free_line(struct command_line *line)
 
 /* ---- processes ------------------------------------------------------------------------------- */
 
-/* Standard input is empty; what is printed goes into the log. */
+/* Starts a job in a process group of its own. Its standard input is empty; standard output and
+ * standard error go into the log. Returns 0 or an errno value. */
 static int spawn(const struct batch *batch, char **words, int log, const sigset_t *mask, pid_t *id)
 {
     posix_spawn_file_actions_t files;
@@ -178,7 +182,7 @@ static int spawn(const struct batch *batch, char **words, int log, const sigset_
     return failure;
 }
 
-/* Begins an event with the members that say which job it is of. */
+/* Begins an event with the members that identify its job. */
 static struct kiln_json begin_event(const char *name, const struct kiln_batch_job *job)
 {
     struct kiln_json json = event_begin(name);
@@ -213,14 +217,15 @@ static pid_t start_job(void *user, size_t index, struct pool_start *start)
     batch->running[index] = (struct running){.log = id < 0 ? -1 : log, .began_s = now_s()};
     if (id >= 0)
         tell_start(job, id);
-    if (id < 0 && failure != EAGAIN) /* else there may be room for a process later */
+    if (id < 0 && failure != EAGAIN) /* after EAGAIN, the pool tries again later */
         start->problem = "the job cannot be started";
     errno = failure;
     return id;
 }
 
-/* Copies what a job printed to standard error, with its name in the place of the program's.
- * *message gets the last line that is no warning, which the caller frees: why it failed. */
+/* Copies the log of a job to standard error. Each line gets the job's name in front, in place of
+ * "kiln" if it has that. *message gets the last line that is not a warning, as the reason of a
+ * failure; the caller frees it. */
 static void show_log(int log, const char *name, char **message)
 {
     static const char program[] = "kiln: ", warning[] = "warning: ";
@@ -291,7 +296,7 @@ static void end_job(void *user, size_t index, const struct pool_end *end)
     free(message);
 }
 
-/* Tells of the jobs that were stopped with the batch. Returns how many. */
+/* Reports the jobs that were stopped with the batch. Returns their number. */
 static size_t end_stopped(struct batch *batch)
 {
     const int received = signals_received();
@@ -313,9 +318,10 @@ static bool has_enough(void *user)
     return batch->code != 0 && !batch->keep_going;
 }
 
-/* ---- all of it ------------------------------------------------------------------------------- */
+/* ---- the batch ------------------------------------------------------------------------------- */
 
-/* All of standard input, with a zero behind it; the caller frees it. NULL when memory is short. */
+/* Reads all of standard input. Returns a text that ends with a zero byte, which the caller frees;
+ * NULL when memory is short. */
 static char *read_input(size_t *size)
 {
     char *text = NULL, block[1 << 14];
@@ -396,9 +402,10 @@ static int run_pool(struct batch *batch, const struct arguments *arguments)
     return signals_report("batch", " after %zu of %zu jobs, while %zu ran", done, count, stopped);
 }
 
-/* Sets two variables for the jobs. KILN_BATCH_PROCESS is the process whose end ends them; main.c
- * reads it. GLIBC_TUNABLES, unless it is set already, makes malloc use large pages: half the time
- * of a job of one small frame went into page faults (docs/speed-log.md, "Jobs in parts"). */
+/* Sets two variables for the jobs. KILN_BATCH_PROCESS is the id of this process, so that a job ends
+ * when this process does (main.c). GLIBC_TUNABLES, unless it is set already, makes malloc use large
+ * pages: half the time of a job of one small frame went into page faults (docs/speed-log.md, "Jobs
+ * in parts"). */
 static bool set_environment(void)
 {
     static const char memory[] = "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=33554432:"
@@ -415,12 +422,12 @@ int batch_run(const struct arguments *arguments)
                           .quiet = arguments_flag(arguments, "quiet") || events_take_stdout(),
                           .limits = arguments_text(arguments, "limits", NULL)};
     struct kiln_error error = {0};
-    signals_end_at_once(); /* nobody looks for them while jobs are read */
+    signals_end_at_once(); /* no loop checks for signals while the jobs are read */
     int code = refuse_options(arguments);
     const ssize_t length = readlink("/proc/self/exe", batch.program, sizeof batch.program - 1);
     if (code == 0 && length < 0)
         code = report(KILN_IO, "/proc/self/exe: %s",
-                      strerror(errno)); /* NOLINT(concurrency-mt-unsafe): of one thread */
+                      strerror(errno)); /* NOLINT(concurrency-mt-unsafe): one thread calls it */
     if (code == 0 && !(batch.jobs = read_jobs(arguments, &error)))
         code = report_error(&error);
     if (code == 0 && !share_options(&batch, arguments))

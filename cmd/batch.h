@@ -1,4 +1,4 @@
-/* kiln render --batch: many jobs, each in a process of its own. */
+/* Declares kiln render --batch, which runs many jobs, each in a process of its own. */
 #ifndef KILN_CMD_BATCH_H
 #define KILN_CMD_BATCH_H
 
@@ -18,7 +18,8 @@
         .fallback = "as many as there are cores for the threads of each", .min = 1, .max = 1024    \
     }
 
-/* Renders the jobs of --batch. Returns the greatest exit code. */
+/* Runs the jobs of the file that --batch names. Returns the greatest of their exit codes or, after
+ * reporting, the code of a failure of the batch itself. */
 int batch_run(const struct arguments *arguments);
 
 #endif

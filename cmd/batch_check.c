@@ -1,6 +1,6 @@
-/* Checks what a file of jobs says of each job: frames and limits, by the readers of the options of
- * these names, and outputs. A job would find the same faults when its turn comes, which may be
- * hours later. */
+/* Checks the frames, limits and outputs of all jobs of a file. Frames and limits are read by the
+ * parsers of --frames and --limits. A job would report the same mistakes when its turn comes, but
+ * that may be hours later. */
 #include "batch_check.h"
 
 #include <stdlib.h>
@@ -44,7 +44,7 @@ static bool check_limits(const struct kiln_batch *batch, size_t index, struct ki
            kiln_batch_refuse(batch, index, text, "limits", error, "%s", reason.message);
 }
 
-/* Whether the names of an output's files depend on the frames that are drawn into them. */
+/* Returns whether the names of an output's files contain the numbers of frames. */
 static bool has_numbers(const char *name, const char *frames)
 {
     const char *slash = strrchr(name, '/');
@@ -52,7 +52,8 @@ static bool has_numbers(const char *name, const char *frames)
            (strpbrk(slash ? slash : name, "#%") || !frames || frames[strspn(frames, "0123456789")]);
 }
 
-/* Claims a file for a job. Jobs may share numbered images, unless they draw the same frames. */
+/* Claims a file for a job, and refuses the job if another one has claimed it. Jobs may write to the
+ * same pattern of numbered images, unless they have the same text of frames. */
 static bool claim(const struct kiln_batch *batch, size_t index, const struct kiln_batch_text *file,
                   const char *key, const char *suffix, struct kiln_claims *claims,
                   struct kiln_error *error)

@@ -4,9 +4,9 @@
 
 #include "kiln_program.h"
 
-/* Whether the frames and limits of all jobs can be read, and no two jobs would write one file. A
- * job whose output is a folder writes a file of that suffix in it. False with the place in the file
- * of jobs, or when memory is short. */
+/* Checks that the frames and limits of all jobs can be parsed, and that no two jobs write the same
+ * file. A job whose output is a folder writes a file with this suffix into it. Returns false with
+ * an error that names the place in the file of jobs, or when memory is short. */
 bool batch_check(const struct kiln_batch *batch, const char *suffix, struct kiln_error *error);
 
 #endif

@@ -1,11 +1,11 @@
-/* Makes the list of jobs of kiln render, one a scene, from its operands and options. cmd/render.c
- * calls job_list_create once, before it opens a device. batch_check.c uses job_file_name, and
- * encode.c uses quality_check.
+/* Makes the list of jobs of kiln render, one for each scene, from its operands and options.
+ * cmd/render.c calls job_list_create once, before it opens a device. batch_check.c uses
+ * job_file_name, and encode.c uses quality_check.
  *
- * It exists so that mistakes are found before minutes of work are done. The checks stand in the
- * order of their cost: options and names of files first, then the scenes are loaded, and the files
- * of all jobs are claimed last, because that needs the scenes. A claim only notes that a file will
- * be read or written; nothing is written here. */
+ * Mistakes are found here, before minutes of work are done. The checks stand in the order of their
+ * cost: options and names of files first, then the scenes are loaded, and the files of all jobs are
+ * claimed last, because that needs the scenes. A claim only notes that a file will be read or
+ * written; nothing is written here. */
 #include "jobs.h"
 
 #include <stdlib.h>
@@ -19,7 +19,8 @@
 
 static const char mark[] = "{scene}"; /* stands for the scene's name in --output and --manifest */
 
-/* Returns the scene file's name without folder and suffix, or a word for standard input. */
+/* Returns the scene file's name without folder and suffix, or "stdin" for standard input. The
+ * suffix follows after *length bytes. */
 static const char *scene_stem(const char *path, size_t *length)
 {
     const char *slash = strrchr(path, '/');
@@ -37,8 +38,8 @@ static bool is_folder(const char *path)
            (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
 }
 
-/* Adds the scene's name to a text. In the name of an output, what would stand for the number of a
- * frame is escaped. */
+/* Adds the scene's name to a text. With `escape`, '%' and '#' in it are escaped, since they would
+ * stand for the number of a frame in the name of an output. */
 static void add_stem(FILE *out, const char *scene, bool escape)
 {
     size_t length;
@@ -47,8 +48,8 @@ static void add_stem(FILE *out, const char *scene, bool escape)
         fprintf(out, "%s%c", escape && (stem[i] == '%' || stem[i] == '#') ? "%" : "", stem[i]);
 }
 
-/* Adds the pattern with every mark replaced. In the part that is a folder's name, the scene's name
- * is not escaped, since numbers have no meaning there. */
+/* Adds the pattern with every mark replaced. The scene's name is not escaped in the part that is a
+ * folder's name, where '%' and '#' do not stand for numbers. */
 static void add_marked(FILE *out, const char *pattern, const char *scene, bool escape)
 {
     const char *slash = strrchr(pattern, '/');

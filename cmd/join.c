@@ -1,4 +1,4 @@
-/* Runs kiln join, which makes a clip of the parts that several tasks drew. */
+/* Runs kiln join, which joins the parts that several tasks drew into one clip. */
 #include <inttypes.h>
 #include <stdlib.h>
 

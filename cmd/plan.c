@@ -1,4 +1,5 @@
-/* Runs kiln plan, which tells what a clip costs, and what each of several tasks would do. */
+/* Runs kiln plan, which draws one frame and estimates from it what a clip costs and what each of
+ * several tasks would do. */
 #include <inttypes.h>
 #include <stdlib.h>
 
@@ -48,13 +49,13 @@ static const struct option options[] = {
     HELP_OPTION,
 };
 
-/* The state of a report while the library visits one task after the other. */
+/* Holds the state of the report while the library visits the tasks in order. */
 struct planning {
     const char *scene_path;
-    FILE *json_out; /* of --json, or NULL */
+    FILE *json_out; /* output of --json, or NULL */
     struct kiln_json json;
-    bool has_json; /* wanted, and begun */
-    double cpu_s;  /* of all tasks */
+    bool has_json; /* JSON is wanted, and its object has begun */
+    double cpu_s;  /* processor time of the tasks so far, s */
 };
 
 static bool prints_text(const struct planning *planning)

@@ -1,8 +1,8 @@
 /* Keeps a number of processes running and records how each ends. Each leads a process group of its
- * own: Ctrl-C in a terminal reaches the parent alone, which then ends the others.
+ * own, so Ctrl-C in a terminal reaches the parent alone, which then ends the others.
  *
- * The parent sleeps in sigtimedwait, with SIGCHLD blocked at all other times: the end of a child
- * cannot fall between a check and a sleep. */
+ * The parent sleeps in sigtimedwait and has SIGCHLD blocked at all other times. So the end of a
+ * child between a check and a sleep is not missed. */
 #include "pool.h"
 
 #include <errno.h>
@@ -16,8 +16,8 @@
 
 #include "watch.h"
 
-/* How long a child that was asked to end may take before it is killed, and how long the system may
- * take to find room for a process when nothing else runs. */
+/* GRACE_S is how long a child may go on after SIGTERM before it is killed. REFUSAL_S is how long
+ * the system may refuse a process while none runs before the task fails. */
 static const double GRACE_S = 2, REFUSAL_S = 5;
 static const double LONGEST_SLEEP_S = 0.25;
 
@@ -25,15 +25,15 @@ struct child {
     pid_t id; /* 0: none */
     size_t index;
     double started_s, limit_s;
-    double asked_s; /* when it was asked to end; below 0: not yet */
+    double asked_s; /* when it got SIGTERM; below 0: not yet */
 };
 
 struct run {
     const struct pool *pool;
-    struct child *children; /* `jobs` of them */
+    struct child *children; /* pool->jobs places */
     size_t running;
     size_t next;      /* the task to start next */
-    double refused_s; /* since when the system refuses processes; below 0: it does not */
+    double refused_s; /* when the system began to refuse processes; below 0: it does not */
     bool stopping;
     sigset_t old_mask; /* the signals that were blocked before */
 };
@@ -44,11 +44,11 @@ static void refuse(struct run *run, enum kiln_code code, const char *what, int f
 {
     struct pool_end end = {.exit_code = (int)code};
     snprintf(end.problem, sizeof end.problem, "%s: %s", what,
-             strerror(failure)); /* NOLINT(concurrency-mt-unsafe): of one thread */
+             strerror(failure)); /* NOLINT(concurrency-mt-unsafe): one thread calls it */
     run->pool->ended(run->pool->user, run->next++, &end);
 }
 
-/* Starts the next task in a free place. False when the system has no room for it now. */
+/* Starts the next task in a free place. Returns false when the system has no room for a process. */
 static bool start_next(struct run *run, struct child *place)
 {
     size_t index = run->next;
@@ -84,7 +84,7 @@ static void ask_to_end(struct child *child)
     child->asked_s = now_s();
 }
 
-/* Asks a child that is beyond its time to end, and kills one that does not. */
+/* Asks a child beyond its time limit to end, and kills it if it has not ended within GRACE_S. */
 static void watch_child(struct child *child)
 {
     double now = now_s();
@@ -94,7 +94,7 @@ static void watch_child(struct child *child)
         kill(-child->id, SIGKILL);
 }
 
-/* Records a child that has ended. */
+/* Records the end of a child, if it has ended. */
 static void reap_child(struct run *run, struct child *child)
 {
     int status = 0;
@@ -104,7 +104,7 @@ static void reap_child(struct run *run, struct child *child)
     while (id < 0 && errno == EINTR);
     if (id == 0)
         return;
-    /* Below 0: other code has taken its status, so that nothing is known about it. */
+    /* An id below 0 means that other code has reaped the child, so its status is unknown. */
     struct pool_end end = {.total_s = now_s() - child->started_s,
                            .exit_code = KILN_DEVICE_FAILED,
                            .timed_out = child->asked_s >= 0};
@@ -120,7 +120,7 @@ static void reap_child(struct run *run, struct child *child)
 
 /* ---- The pool ------------------------------------------------------------------------------- */
 
-/* Sleeps until a child ends, something is to be done, or a moment has gone by. */
+/* Sleeps until a child ends or reaches its time limit, at most LONGEST_SLEEP_S. */
 static void sleep_until_news(const struct run *run)
 {
     double sleep_s = LONGEST_SLEEP_S, now = now_s();
@@ -193,7 +193,7 @@ bool pool_run(const struct pool *pool, struct kiln_error *error)
         *error = (struct kiln_error){.code = KILN_DEVICE_FAILED, .message = "out of memory"};
         return false;
     }
-    /* Some callers start kiln with SIGCHLD ignored: then the status of children would be lost. */
+    /* Some programs start kiln with SIGCHLD ignored. The status of children would then be lost. */
     struct sigaction action = {.sa_handler = SIG_DFL}, old_action;
     sigemptyset(&action.sa_mask);
     sigaction(SIGCHLD, &action, &old_action);

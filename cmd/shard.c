@@ -10,7 +10,7 @@
 
 enum { MAX_SHARDS = 1000000 };
 
-/* The variables of a scheduler; NULL where it has none of that kind. */
+/* The names of a scheduler's variables; NULL where it has none of that kind. */
 struct scheduler {
     const char *id, *first, *step, *count, *last;
 };
@@ -24,7 +24,8 @@ static const struct scheduler schedulers[] = {
 };
 enum { SCHEDULER_COUNT = sizeof schedulers / sizeof *schedulers };
 
-/* Reads a number of the environment. Returns 0 also where there is none: *is_there says so. */
+/* Reads a variable of the environment as a number; *is_there is false if it is not set. Returns 0,
+ * or the exit code after reporting. */
 static int read_variable(const char *name, uint64_t *value, bool *is_there)
 {
     const char *text = name ? getenv(name) : NULL;
@@ -35,7 +36,7 @@ static int read_variable(const char *name, uint64_t *value, bool *is_there)
                   text);
 }
 
-/* Returns whether this is a task of the scheduler. Grid Engine says "undefined" outside of an
+/* Returns whether this is a task of the scheduler. Grid Engine sets "undefined" outside of an
  * array. */
 static bool is_used(const struct scheduler *scheduler)
 {
@@ -43,8 +44,8 @@ static bool is_used(const struct scheduler *scheduler)
     return id && *id && strcmp(id, "undefined") != 0;
 }
 
-/* Reads the number of the task, from 0, and the number of tasks; 0 where the scheduler does not say
- * it. */
+/* Reads the number of the task, from 0, and the number of tasks, which is 0 if the scheduler does
+ * not give it. Returns 0, or the exit code after reporting. */
 static int ask(const struct scheduler *scheduler, uint64_t *index, uint64_t *count)
 {
     uint64_t id = 0, first = 0, step = 1, last = 0;
@@ -68,8 +69,8 @@ static int ask(const struct scheduler *scheduler, uint64_t *index, uint64_t *cou
     return 0;
 }
 
-/* Finds the shard of a scheduler's task. total: as asked for with auto/N; 0: the scheduler has to
- * say it. */
+/* Finds the shard of a scheduler's task. `total` is N of auto/N; with 0, for auto, the scheduler
+ * must give the number of tasks. Returns 0, or the exit code after reporting. */
 static int read_environment(struct shard *shard, uint64_t total)
 {
     size_t i = 0;

@@ -1,4 +1,4 @@
-/* Reads --shard, which says which of several tasks this is. */
+/* Reads --shard, which gives the number of this task among several tasks that share a clip. */
 #ifndef KILN_CMD_SHARD_H
 #define KILN_CMD_SHARD_H
 
@@ -14,11 +14,11 @@
     }
 
 struct shard {
-    uint32_t index, count; /* from 0; count 0: --shard is not used */
-    const char *variable;  /* of the environment, that said so; NULL: none */
+    uint32_t index, count; /* index counts from 0; count 0: --shard is not used */
+    const char *variable;  /* variable that gave the index; NULL: none did */
 };
 
-/* Returns 0, or the exit code after reporting what is wrong. */
+/* Reads --shard. Returns 0, or the exit code after reporting what is wrong. */
 int shard_read(struct shard *shard, const struct arguments *arguments);
 
 #endif
