@@ -1,10 +1,10 @@
 /* Runs kiln compare, which tells whether two pictures, folders or videos look the same. main.c
  * finds compare_command in its table and calls run once.
  *
- * This file turns options into parameters. The comparison itself is lib/compare/ and what is
- * printed is compare_report.c. Scripts depend on the exit codes in the description below. The
- * choices of --range stand in the order of enum kiln_compare_mode, since a choice's number is used
- * as the mode. */
+ * This file turns options into parameters. lib/compare/ does the comparison, and compare_report.c
+ * prints the results. Scripts depend on the exit codes in the description below. The choices of
+ * --range stand in the order of enum kiln_compare_mode, since a choice's number is used as the
+ * mode. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -142,7 +142,7 @@ static int report_failure(const struct kiln_error *error)
     int number = signals_received();
     if (error->code != KILN_INTERRUPTED)
         return report_error(error);
-    if (number == 0) /* wants_stop found no reader; main.c reports that by report_finish */
+    if (number == 0) /* wants_stop found that the reader is gone; report_finish reports it */
         return KILN_READER_GONE;
     return report((enum kiln_code)(128 + number), "compare: %s", error->message);
 }

@@ -20,8 +20,8 @@ static const char *value_text(char out[32], double value)
     return out;
 }
 
-/* Returns the column that the line of a frame shows: the first one with a limit, or the last one
- * where none has a limit. */
+/* Returns the column that the line of a frame shows: the first one with a limit, or the last one if
+ * no column has a limit. */
 static size_t find_column(const struct kiln_compare_result *result)
 {
     size_t first = 0;
@@ -30,7 +30,7 @@ static size_t find_column(const struct kiln_compare_result *result)
     return first;
 }
 
-/* Prints the line of a frame of a sequence, and before the first frame the heads of the columns. */
+/* Prints the line of a frame of a sequence, and before the first frame the column headings. */
 static void print_frame_line(const struct kiln_compare_result *result,
                              const struct kiln_compare_frame *frame)
 {
@@ -224,7 +224,7 @@ void compare_report_frame(struct compare_report *report, const struct kiln_compa
     if (result->sequence)
         print_frame_line(result, frame);
     else if (!frame->measured && frame->verdict != KILN_COMPARE_UNREADABLE)
-        /* Why a frame is unreadable is in the error that compare.c reports. */
+        /* The error that compare.c reports says why a frame is unreadable. */
         printf("%s\n", frame->message);
     fflush(stdout);
 }

@@ -4,20 +4,20 @@
 
 #include "kiln_program.h"
 
-/* Which pictures, as the person named them, and how to print. */
+/* The paths of the compared pictures, as the user typed them, and how to print the results. */
 struct compare_report {
     const char *reference, *test;
     bool json; /* an object a line, whose "event" is frame or result */
     bool quiet;
-    bool stats;                     /* with times */
-    struct kiln_compare_frame only; /* of a pair of single pictures, for the text report */
+    bool stats;                     /* print times, too */
+    struct kiln_compare_frame only; /* the last frame; printed for a pair of single pictures */
 };
 
-/* After a frame. */
+/* Prints the result of a frame; called after each compared frame. */
 void compare_report_frame(struct compare_report *report, const struct kiln_compare_result *result,
                           const struct kiln_compare_frame *frame);
 
-/* At the end. */
+/* Prints the result of the comparison; called once at its end, also after an error. */
 void compare_report_result(const struct compare_report *report,
                            const struct kiln_compare_result *result);
 

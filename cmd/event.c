@@ -1,6 +1,6 @@
-/* Writes events, a line each, as JSON or as Open Job Description has them. The stream belongs to
- * the process, as standard output does: a signal's handler and the function that prints messages
- * reach it, too, so it is a variable of this file. */
+/* Writes events, one a line, as JSON or in the format of Open Job Description. The stream belongs
+ * to the process, as standard output does: signal handlers and the functions of report.c write to
+ * it, too, so it is a variable of this file. */
 #include "event.h"
 
 #include <errno.h>
@@ -20,21 +20,21 @@
 
 enum form { FORM_NDJSON, FORM_OPENJD, FORM_PLAIN };
 
-/* The forms of --events, and what a file of each begins with. */
+/* The forms of --events, and the character that a file of each begins with. */
 static const struct {
     const char *name;
     char first;
 } forms[] = {[FORM_NDJSON] = {"ndjson", '{'}, [FORM_OPENJD] = {"openjd", 'o'}};
 
 static struct {
-    FILE *out; /* NULL: none */
+    FILE *out; /* NULL: there is no stream */
     enum form form;
-    bool on_stdout, on_stderr; /* which of them it has taken for itself */
+    bool on_stdout, on_stderr; /* which standard stream was taken for events */
     bool stdout_failed;
-    bool has_result;   /* the event `result` was told */
-    const char *name;  /* for messages */
-    uint64_t progress; /* percents that were told */
-    pid_t process;     /* whose end it tells; a child that was forked has another number */
+    bool has_result;   /* the event `result` was written */
+    const char *name;  /* name of the stream, for messages */
+    uint64_t progress; /* percent that was written last */
+    pid_t process;     /* id of the process that opened the stream; a forked child has another id */
 } stream;
 
 enum { LINE_SIZE = 1 << 16, TIME_SIZE = 32 };
@@ -48,20 +48,21 @@ static char *add_digits(char *out, unsigned value, unsigned divisor)
     return out;
 }
 
-/* "2026-11-24T12:00:00.123Z", by arithmetic alone: a signal's handler may call no gmtime. The
- * civil date is found in years that begin in March, whose leap day is their last. */
+/* Formats the present time as "2026-11-24T12:00:00.123Z" by arithmetic alone, since a signal
+ * handler may not call gmtime. The date is computed in years that begin in March, so that the leap
+ * day is the last day of a year. */
 static void format_time(char out[TIME_SIZE])
 {
     struct timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
     const unsigned seconds = (unsigned)(now.tv_sec % 86400);
-    const unsigned days = (unsigned)(now.tv_sec / 86400) + 719468; /* since the year 0's March */
+    const unsigned days = (unsigned)(now.tv_sec / 86400) + 719468; /* since 1 March of the year 0 */
     const unsigned era = days / 146097, day_of_era = days % 146097;
     const unsigned year_of_era =
         (day_of_era - day_of_era / 1460 + day_of_era / 36524 - day_of_era / 146096) / 365;
     const unsigned day_of_year =
         day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    const unsigned months = (5 * day_of_year + 2) / 153; /* since March */
+    const unsigned months = (5 * day_of_year + 2) / 153; /* months since March */
     const unsigned month = months < 10 ? months + 3 : months - 9;
     out = add_digits(out, year_of_era + era * 400 + (month <= 2), 1000);
     *out++ = '-';
@@ -275,7 +276,7 @@ static void add(struct line *line, const char *text)
         line->text[line->length++] = *text;
 }
 
-/* A message up to the end of its line. What it has of controls is shown escaped already. */
+/* Adds a message up to the end of its line. Its control characters were escaped before. */
 static void add_message(struct line *line, const char *text, bool is_quoted)
 {
     for (; *text && *text != '\n' && line->length < sizeof line->text - 256; text++) {
@@ -369,7 +370,8 @@ static int fail(const struct command *command, const char *name, const char *why
     return report(KILN_IO, "%s: --events: %s: %s", command->name, shown, why);
 }
 
-/* Whether lines may be added to a file: it is empty, or begins as events do. */
+/* Returns whether events may be appended to a file: it is empty, or begins with events of this
+ * form. */
 static bool holds_events(int file)
 {
     char first = forms[stream.form].first;
@@ -381,8 +383,8 @@ static bool holds_events(int file)
 
 static int open_file(const struct command *command, const char *path)
 {
-    /* For reading, too, so that it can be looked at; a FIFO is not opened so: nobody would wait
-     * for its reader. */
+    /* A regular file is opened for reading, too, so that holds_events can read it. A FIFO is opened
+     * for writing alone, so that open waits for its reader. */
     struct stat status;
     const bool is_there = stat(path, &status) == 0;
     const int way = is_there && !S_ISREG(status.st_mode) ? O_WRONLY : O_RDWR;
@@ -409,14 +411,15 @@ static int open_descriptor(const struct command *command, const char *value, con
     if (mode < 0 || (mode & O_ACCMODE) == O_RDONLY)
         return refuse(command, value);
     if (file > STDERR_FILENO)
-        fcntl((int)file, F_SETFD, FD_CLOEXEC); /* it is nothing to programs that are started */
+        fcntl((int)file, F_SETFD, FD_CLOEXEC); /* child processes do not inherit it */
     stream.out = file == STDOUT_FILENO   ? stdout
                  : file == STDERR_FILENO ? stderr
                                          : fdopen((int)file, "w");
     return stream.out ? 0 : report_no_memory();
 }
 
-/* Sets the form that a value of --events begins with. Returns what follows it; NULL: it is none. */
+/* Sets the form that a value of --events begins with. Returns the rest of the value; NULL if it
+ * begins with no form. */
 static const char *read_form(const char *value)
 {
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
@@ -429,14 +432,14 @@ static const char *read_form(const char *value)
     return NULL;
 }
 
-/* Keeps a standard stream for lines of JSON: what is printed there for people goes to the
- * descriptor `instead`. */
+/* Takes a standard stream for lines of JSON. Text for people that is printed to its descriptor goes
+ * to the descriptor `instead`. */
 static int take(int descriptor, int instead)
 {
     const int events = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     fflush(stdout);
     FILE *out = events >= 0 && dup2(instead, descriptor) >= 0 ? fdopen(events, "w") : NULL;
-    stream.out = NULL; /* a message is no event of a stream that failed */
+    stream.out = NULL; /* report must not write to a stream that failed */
     if (!out)
         return report(KILN_IO, "--events: %s: %s", stream.name,
                       strerror(errno)); /* NOLINT(concurrency-mt-unsafe) */
@@ -458,7 +461,7 @@ static int take_standard_stream(void)
     return code;
 }
 
-/* Gives a standard stream back to people. */
+/* Restores the standard stream that was taken for events. */
 static void give_back(FILE *out)
 {
     fflush(stdout);
@@ -468,7 +471,7 @@ static void give_back(FILE *out)
         dup2(fileno(out), STDERR_FILENO);
 }
 
-/* Whether '--output -' sends a clip to standard output. */
+/* Returns whether '--output -' sends a clip to standard output. */
 static bool is_clip_on_stdout(const struct arguments *arguments)
 {
     const struct option_use *output = arguments_last(arguments, "output");
@@ -505,7 +508,8 @@ int events_open(const struct command *command, const struct arguments *arguments
         code = take_standard_stream();
     if (code)
         return code;
-    /* A line is written at once; messages on standard error do not wait for one. */
+    /* A buffer makes each event a single write. Standard error has none, so messages appear at
+     * once. */
     if (stream.out != stderr)
         setvbuf(stream.out, NULL, _IOFBF, LINE_SIZE);
     stream.process = getpid();
@@ -536,7 +540,7 @@ int events_open_json(const char *command, const struct arguments *arguments)
     return code;
 }
 
-/* Tells the exit code. A command that came to its end and told no result of its own gets one. */
+/* Writes the exit code. A command that finished without an event `result` gets one. */
 static void tell_end(int code)
 {
     if (code == 0)
@@ -564,7 +568,7 @@ int events_close(int code)
     const bool failed = ferror(stream.out) != 0;
     FILE *out = stream.out;
     stream.out = NULL;
-    if (out == stdout || out == stderr) /* report_finish looks at the one */
+    if (out == stdout || out == stderr) /* report_finish checks standard output */
         return code;
     give_back(out); /* report_finish finds out why standard output failed */
     const bool is_whole = fclose(out) == 0 && !failed;

@@ -4,7 +4,7 @@
 
 #include "event.h"
 
-/* The types of members, as the schema has them. */
+/* The types of members in JSON schema. */
 #define STRING  "\"type\": \"string\""
 #define INTEGER "\"type\": \"integer\""
 #define NUMBER  "\"type\": \"number\""
@@ -17,7 +17,7 @@
 #define MAYBE(type) "\"type\": [\"" type "\", \"null\"]"
 #define AGAIN       "\"enum\": [\"never\", \"again\", \"with more\"]"
 
-/* The rows of event_add_place. */
+/* The members that event_add_place adds. */
 #define PLACE                                                                                      \
     {"file", STRING, "Where the message names a place in one.", true},                             \
         {"line", INTEGER, "From 1.", true},                                                        \
@@ -32,7 +32,7 @@ struct member {
 
 struct event {
     const char *name, *of, *help; /* of: the commands that print it */
-    struct member members[20];    /* beside event and time; a row without a name ends them */
+    struct member members[20];    /* besides `event` and `time`; a row without a name ends them */
 };
 
 static const struct event events[] = {

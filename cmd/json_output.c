@@ -1,4 +1,5 @@
-/* Opens and closes the file of --json. It belongs to the process, as standard output does. */
+/* Opens and closes the output of --json. The file belongs to the process, as standard output does,
+ * so it is a variable of this file. */
 #include "json_output.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
-/* Ends the program with one last line on standard error and with its exit code. Stdio is not used,
+/* Ends the program with one last line on standard error and with an exit code. Stdio is not used,
  * since a thread that hangs may hold its lock. A stalled reader of standard error must not block
- * the end, so poll asks first: a pipe that is ready takes PIPE_BUF bytes. */
+ * the end, so poll checks first: a pipe that is ready takes PIPE_BUF bytes. */
 #include "last_words.h"
 
 #include <poll.h>

@@ -1,10 +1,10 @@
-/* Ends a program that can wait for nothing any more. */
+/* Ends the program at once, from a signal handler or while a thread hangs. */
 #ifndef KILN_CMD_LAST_WORDS_H
 #define KILN_CMD_LAST_WORDS_H
 
-/* Removes half-written files, says the line (its newline included, at most 4096 bytes) where
- * standard error takes it at once, and ends the program. A signal's handler may call it, and a
- * thread beside one that hangs. */
+/* Removes half-written files, writes the line to standard error unless that would block, and ends
+ * the program. The line has at most 4096 bytes with its newline. A signal handler may call it, and
+ * so may a thread while another one hangs. */
 _Noreturn void end_with_words(const char *line, int code);
 
 #endif

@@ -94,7 +94,7 @@ void progress_show(struct progress *progress, const char *scene, const struct ki
     bool last = frame->done == frame->total;
     bool first = tty && !progress->line_open;
     double interval_s = tty ? tty_interval_s : lines_interval_s;
-    if (last && !tty) /* the result follows */
+    if (last && !tty) /* the result line follows */
         return;
     if (!first && !last && frame->elapsed_s - progress->last_s < interval_s)
         return;

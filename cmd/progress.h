@@ -1,12 +1,12 @@
-/* Prints the progress of a running job: a line that moves, or lines now and then, and its frames
- * for programs. */
+/* Prints the progress of a running job: for people, a line that is overwritten or a line every few
+ * seconds; for programs, an event for each frame. */
 #ifndef KILN_CMD_PROGRESS_H
 #define KILN_CMD_PROGRESS_H
 
 #include "kiln_program.h"
 
 enum progress_mode {
-    PROGRESS_TTY,    /* one line on standard error, drawn over */
+    PROGRESS_TTY,    /* one line on standard error, which is overwritten */
     PROGRESS_LINES,  /* a line on standard error every few seconds */
     PROGRESS_NDJSON, /* prints nothing: an older spelling of --json */
     PROGRESS_NONE,
@@ -14,29 +14,29 @@ enum progress_mode {
 
 struct progress {
     enum progress_mode mode;
-    double last_s;  /* of the job's time, when something was said last */
-    bool line_open; /* the moving line has something on it */
+    double last_s;  /* time of the last printed line, since the job began */
+    bool line_open; /* the overwritten line is not empty */
 };
 
-/* Begins a job. */
+/* Resets the state for a new job. */
 void progress_start(struct progress *progress, enum progress_mode mode);
 
-/* Says how far the job is, if it is time to. */
+/* Prints how far the job is, unless the last line is too recent. */
 void progress_show(struct progress *progress, const char *scene, const struct kiln_progress *frame);
 
-/* Tells the event `frame`; file: that of the frame, where it has one, or NULL. */
+/* Writes the event `frame`. `file` is the file of the frame, or NULL if it has none. */
 void progress_tell(const char *scene, const struct kiln_progress *frame,
                    const struct kiln_written *file);
 
-/* Tells an engine of Open Job Description how far a call is: the job-th, from 0, of its jobs is at
- * that frame. */
+/* Writes the progress of a call for an engine of Open Job Description: job number `job`, from 0, of
+ * `jobs` is at this frame. */
 void progress_tell_engine(const char *scene, const struct kiln_progress *frame, size_t job,
                           size_t jobs);
 
-/* Clears the moving line, before anything else is said. */
+/* Clears the overwritten line, before anything else is printed. */
 void progress_clear(struct progress *progress);
 
-/* "0123456789abcdef" */
+/* Writes a state hash as "0123456789abcdef" and returns out. */
 enum { STATE_TEXT_SIZE = 17 };
 const char *state_text(char out[STATE_TEXT_SIZE], struct kiln_state_hash state);
 

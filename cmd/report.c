@@ -1,10 +1,10 @@
-/* Prints a command's errors and warnings on standard error, one line each, and tells the same to
- * the stream of --events. Commands call report or report_error where they fail and return its code,
+/* Prints a command's errors and warnings on standard error, one line each, and writes them to the
+ * stream of --events. Commands call report or report_error where they fail and return its code,
  * which becomes the exit code. main.c calls report_finish last of all, for every command.
  *
  * A message starts with "kiln: ", which batch.c removes from the lines of its jobs. The exception
  * is a message about an input file, which starts with the file's name, and line and column where
- * they are known: editors look for those at the start of a line. Text from files may hold control
+ * they are known: editors look for these at the start of a line. Text from files may hold control
  * characters, so it passes through kiln_shown before it is printed; the library's own messages have
  * passed through it already. */
 #include "report.h"

@@ -6,19 +6,19 @@
 
 struct job_result {
     const char *scene;
-    const char *output; /* as asked for; NULL: nothing was written */
+    const char *output; /* as it was given; NULL: nothing was written */
     bool is_shard;
     const struct kiln_scene_info *info;
     const struct kiln_render_stats *stats;
 };
 
-/* "fire.mp4: 150 frames in 12.3 s" */
+/* Prints the line "fire.mp4: 150 frames in 12.3 s". */
 void print_result(const struct job_result *result);
 
-/* A table: passes, totals, particles, memory. */
+/* Prints --stats as a table: passes, totals, particles, memory. */
 void print_stats_text(const struct job_result *result);
 
-/* The result as a line of JSON; with the statistics if asked for. */
+/* Writes the event `result`, with the statistics if asked for. */
 void print_result_json(const struct job_result *result, bool with_stats);
 
 #endif
