@@ -2,8 +2,8 @@
 #ifndef KILN_CMD_BUILD_H
 #define KILN_CMD_BUILD_H
 
-/* "0.2.0 (254e4dc)": the version, and the commit where one is known; a '+' behind it says that
- * files have changed since. */
+/* Returns the version and, where it is known, the commit: "0.2.0 (254e4dc)". A '+' after the commit
+ * means that files have changed since. */
 const char *build_name(void);
 
 #endif

@@ -1,4 +1,5 @@
-/* The subcommands: one row each, which the dispatch, the help and the man page read. */
+/* Declares the subcommands, one struct command each. The dispatch, the help, the man page and the
+ * completion read them. */
 #ifndef KILN_CMD_COMMAND_H
 #define KILN_CMD_COMMAND_H
 
@@ -6,13 +7,13 @@
 
 struct command {
     const char *name;        /* "render", or two words: "test approve" */
-    const char *summary;     /* a line */
-    const char *operands;    /* of the synopsis, "SCENE..." */
+    const char *summary;     /* one line for lists of commands */
+    const char *operands;    /* as the synopsis shows them, "SCENE..." */
     const char *description; /* paragraphs, with an empty line between two */
     const struct option *options;
     size_t option_count;
     size_t least_operands, most_operands;
-    enum reach reach;                              /* of operands */
+    enum reach reach;                              /* what it does with files that are operands */
     int (*run)(const struct arguments *arguments); /* returns the exit code */
 };
 
@@ -22,23 +23,23 @@ extern const struct command render_command, bake_command, plan_command, join_com
     figure_triptych_command, figure_strip_command, bench_command, check_command, devices_command,
     new_command, help_command, complete_command;
 
-/* All but `complete`, in the order of the help; NULL ends the list. */
+/* All commands but `complete`, in the order of the help; NULL ends the list. */
 extern const struct command *const commands[];
 
-/* The command whose name is the first word, or the first and the second one; the longer name
- * counts; `complete`, too. second may be NULL. NULL when there is none. */
+/* Returns the command whose name is "FIRST SECOND" or, if there is none, `first`; NULL if there is
+ * no such command. It finds `complete`, too. second may be NULL. */
 const struct command *command_find(const char *first, const char *second);
 
-/* Whether the command is one of two words whose first is `group`. */
+/* Returns whether the command's name has two words of which the first is `group`. */
 bool command_is_under(const struct command *command, const char *group);
 
-/* Every command takes it, and it comes last in its table. */
+/* The option --help, which every command has as the last row of its table. */
 #define HELP_OPTION                                                                                \
     {                                                                                              \
         .name = "help", .letter = 'h', .kind = OPTION_FLAG, .help = "Print this help."             \
     }
 
-/* Of commands that write clips. */
+/* The option --quality of commands that write clips. */
 #define QUALITY_OPTION                                                                             \
     {                                                                                              \
         .name = "quality", .kind = OPTION_INTEGER, .placeholder = "N",                             \
@@ -47,32 +48,33 @@ bool command_is_under(const struct command *command, const char *group);
         .fallback = "80", .max = 100                                                               \
     }
 
-/* For --help of a command. */
+/* Prints the help of a command on standard output. */
 void help_print_command(const struct command *command);
 
-/* The overview, for `kiln help`, or for standard error after `kiln` alone. */
+/* Prints the lists of commands and topics, for `kiln help`; on standard error for `kiln` alone. */
 void help_print_overview(FILE *out);
 
-/* Visits the topics of `kiln help` that are no commands. */
+/* Visits the topics of `kiln help` that are not commands. */
 void help_visit_topics(void (*visit)(void *user, const char *name, const char *summary),
                        void *user);
 
-/* Prints words within 80 columns; the first line goes on at column `column`, others start at
- * indent. An empty line in the text stays one. */
+/* Prints a text wrapped at 80 columns. The first line continues at column `column`; the other lines
+ * begin at column `indent`. An empty line in the text stays an empty line. */
 void help_print_wrapped(FILE *out, const char *text, size_t column, size_t indent);
 
-/* The variables of the environment. */
+/* Writes the variables of the environment, for `kiln help environment`. Returns false when writing
+ * failed. */
 bool help_write_environment(FILE *out);
 
-/* How to have command lines completed. */
+/* Writes how to set up completion in bash and zsh. Returns false when writing failed. */
 bool help_write_completion(FILE *out);
 
-/* The man pages, in roff: kiln(1), and kiln-scene(5) of the keys of a scene. False when memory is
- * short. */
+/* Write the man pages in roff: kiln(1), and kiln-scene(5) with the keys of a scene. They return
+ * false when memory is short. */
 bool man_print(FILE *out);
 bool man_print_scene(FILE *out);
 
-/* Each exit code; a NULL meaning ends the list. */
+/* Lists all exit codes; a row with a NULL meaning ends the list. */
 struct exit_code {
     int code;
     const char *again; /* whether to run the command again: "never", "again", "with more" memory or
@@ -81,21 +83,22 @@ struct exit_code {
 };
 extern const struct exit_code exit_codes[];
 
-/* `again` of a code: "again" for one that is not listed, such as that of a kill. A signal's handler
- * may call it. */
+/* Returns `again` of a code, which is "again" for a code that is not listed, such as that of a
+ * killed process. A signal handler may call it. */
 const char *exit_code_again(int code);
 
-/* Whether a command that ends with this code came to a result: it did all, or pictures differ. */
+/* Returns whether a command with this exit code has a result: it did all its work, or pictures
+ * differ. */
 bool exit_code_has_result(int code);
 
-/* Variables of the environment; as above. */
+/* Lists the variables of the environment that kiln reads; a row with a NULL name ends the list. */
 struct variable {
     const char *name;
     const char *meaning;
 };
 extern const struct variable variables[];
 
-/* Names of all commands, for suggestions. Returns how many. */
+/* Fills in the names of all commands, for suggestions. Returns their number. */
 enum { MAX_COMMANDS = 32 };
 size_t command_names(const char *names[MAX_COMMANDS]);
 

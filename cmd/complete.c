@@ -1,6 +1,7 @@
-/* Runs kiln complete, which lists what may follow on a command line, from the same tables that read
- * it. The scripts in cmd/completion call it at each press of Tab and hand its lines on to their
- * shell. It is in no list of commands, since nobody types it. */
+/* Runs kiln complete, which prints the possible continuations of a command line. It uses the tables
+ * of commands and options that the parser reads. The scripts in cmd/completion call it at each
+ * press of Tab and pass its lines to their shell. No list of commands has it, since people do not
+ * type it. */
 #include <string.h>
 
 #include "command.h"
@@ -9,45 +10,47 @@
 
 #define SCENE_FILES "*.y*ml"
 
-/* The command line up to the word that is being typed, which comes last. */
+/* The command line up to the word that is being typed, which is its last word. */
 struct line {
     const char *const *words;
     size_t count;
     const char *typed;
     const struct command *command;
-    const struct option *pending; /* the option whose value is typed, or NULL */
+    const struct option *pending; /* the option whose value is being typed, or NULL */
     const char *operand;          /* the first operand, or NULL */
     size_t operand_count;
     const char *results; /* the value of --results */
     bool options_ended;
 };
 
-/* What is being completed: `prefix_length` bytes of the word stay as they are, `rest` follows. */
+/* The text that is completed: it follows the first `prefix_length` bytes of the typed word, which
+ * stay as they are, and begins with `rest`. */
 struct value {
     const struct line *line;
-    const struct option *option; /* the option of the value; NULL: an operand */
+    const struct option *option; /* the option whose value is completed; NULL: an operand */
     size_t prefix_length;
     const char *rest;
-    const char *part;   /* of a key: what is typed behind its last dot */
-    char offered[4096]; /* parts of keys, each between newlines */
+    const char *part;   /* of a scene key: the text after its last dot */
+    char offered[4096]; /* what was printed: parts of keys, each between newlines; or the last stage
+                         */
 };
 
-/* A line for the script: its kind is "word"; "part", behind which no space comes; "folder" or
- * "file:PATTERN", which the shell finds behind the text. Only those may have an empty one: shells
- * take tabs that follow each other for one. */
+/* Prints a line for the script. Its kind is "word"; "part", after which the shell adds no space; or
+ * "folder" or "file:PATTERN", for which the shell lists the files that follow the text. Only a
+ * folder or file may have an empty text, since shells read consecutive tabs as one. */
 static void put(const char *kind, const struct value *value, const char *text, const char *note)
 {
     printf("%s\t%.*s%s\t%s\n", kind, (int)value->prefix_length, value->line->typed, text, note);
 }
 
-/* Puts a word if it starts as what is typed does. */
+/* Prints a word if it starts with what is typed. */
 static void offer(const struct value *value, const char *kind, const char *word, const char *note)
 {
     if (strncmp(word, value->rest, strlen(value->rest)) == 0)
         put(kind, value, word, note);
 }
 
-/* Puts the words of "a|b|c". */
+/* Prints those of the words "a|b|c" that start with what is typed. */
 static void offer_words(const struct value *value, const char *words)
 {
     while (*words) {
@@ -59,7 +62,7 @@ static void offer_words(const struct value *value, const char *words)
     }
 }
 
-/* Moves to the text after the last separator, where there is one: only that is completed. */
+/* Limits the completion to the text after the last separator, if there is one. */
 static void skip_past(struct value *value, char separator)
 {
     const char *last = strrchr(value->rest, separator);
@@ -77,9 +80,9 @@ static bool is_entry(const char *part)
     return *part >= 'A' && *part <= 'Z';
 }
 
-/* Goes along a path beside a typed key, whose parts may be anything where the path has entries.
- * Returns the part of the path at the last part that is typed, which *part gets; or NULL where they
- * differ. */
+/* Compares the path of a key with a typed key, part by part; an entry of the path (NAME or N) fits
+ * any part. Returns the part of the path that stands at the last typed part, and sets *part to that
+ * typed part. Returns NULL if the parts before it differ. */
 static const char *follow(const char *path, const char *typed, const char **part)
 {
     for (;;) {
@@ -97,7 +100,7 @@ static const char *follow(const char *path, const char *typed, const char **part
     }
 }
 
-/* Puts a part of a key behind the parts that are typed, once. */
+/* Prints a part of a key that fits the typed parts, unless it was printed before. */
 static void put_part(struct value *value, const char *part, char end, const char *note)
 {
     char line[128];
@@ -149,7 +152,7 @@ static void put_key(void *user, const struct kiln_option_key *key)
         put_part(value, name, '=', key->help);
 }
 
-/* Puts the words that the key of KEY=WORD may be. */
+/* Prints the words that the typed key takes as its value, for KEY=WORD. */
 static void put_key_words(void *user, const struct kiln_option_key *key)
 {
     const struct value *value = user;
@@ -158,8 +161,8 @@ static void put_key_words(void *user, const struct kiln_option_key *key)
         offer_words(value, key->words);
 }
 
-/* Completes KEY=VALUE. A separator may stand between several values (',') or several of these
- * (';'). */
+/* Completes KEY=VALUE. `separator` is ',' where several values may follow the key, ';' where
+ * several pairs may follow one another, or 0. */
 static void put_pair(struct value *value, char separator)
 {
     if (separator == ';')
@@ -223,7 +226,7 @@ static void put_folders(struct value *value)
     put("folder", value, "", "");
 }
 
-/* Puts the tests of the last run whose names start as typed. */
+/* Prints the tests of the last run whose names start with what is typed. */
 static void put_tests(struct value *value)
 {
     struct kiln_error error = {0};
@@ -234,7 +237,7 @@ static void put_tests(struct value *value)
     kiln_results_destroy(&results);
 }
 
-/* Puts the devices that are known without asking OpenGL, which is slow. */
+/* Prints the names of devices that are known without starting OpenGL, which is slow. */
 static void put_devices(struct value *value)
 {
     offer(value, "word", KILN_DEVICE_CPU, "this machine without OpenGL");
@@ -251,7 +254,8 @@ static void put_techniques(struct value *value)
     kiln_visit_techniques(put_technique, value);
 }
 
-/* Puts the name of a stage once: the techniques of a stage are visited one after the other. */
+/* Prints the name of a stage once. The techniques of a stage are visited in succession, so only the
+ * name of the last stage is kept. */
 static void put_stage(void *user, const char *name, const char *help)
 {
     (void)help;
@@ -306,7 +310,7 @@ static void put_topic(void *user, const char *name, const char *summary)
     offer(user, "word", name, summary);
 }
 
-/* Puts the second words of commands that have two. */
+/* Prints the second words of the two-word commands that begin with `first`. */
 static void put_second_words(const struct value *value, const char *first)
 {
     for (size_t i = 0; commands[i]; i++) {
@@ -409,7 +413,7 @@ static const struct option *find_option(const struct command *command, const cha
                           : find_short(command, word, attached);
 }
 
-/* Reads the words behind the command as arguments_parse would. */
+/* Reads the words between the command and the typed word, as arguments_parse would. */
 static void read_words(struct line *line, size_t first)
 {
     for (size_t i = first; i + 1 < line->count; i++) {

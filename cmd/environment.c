@@ -1,5 +1,6 @@
-/* Lists the variables of the environment that kiln reads, one row each, from which the help and the
- * man page are printed. tests/tree/environment.sh checks that each getenv of the tree has a row. */
+/* Lists the variables of the environment that kiln reads, one row each. The help and the man page
+ * are printed from the rows. tests/tree/environment.sh checks that each getenv of the tree has a
+ * row. */
 #include "command.h"
 
 const struct variable variables[] = {

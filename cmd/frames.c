@@ -1,5 +1,5 @@
-/* Reads lists of frames, piece by piece. The frames of a clip become ranges that are sorted and
- * merged. */
+/* Parses lists of frames such as "0-149,200" and turns them into sorted, merged ranges of a clip.
+ */
 #include "frames.h"
 
 #include <stdlib.h>
@@ -25,7 +25,7 @@ static bool read_number(const char **text, uint32_t *number)
     return true;
 }
 
-/* Reads a number, or the word for the clip's last frame. */
+/* Reads a number, or "last", which stands for the clip's last frame. */
 static bool read_frame(const char **text, uint32_t *frame, bool *is_last)
 {
     *is_last = strncmp(*text, last_word, sizeof last_word - 1) == 0;
@@ -133,7 +133,8 @@ static void merge_ranges(struct frame_list *list)
     list->count = merged + 1;
 }
 
-/* Resolves a piece into frame numbers of the clip. */
+/* Resolves a piece into frame numbers of the clip. Returns FRAMES_BEYOND, with the wrong number in
+ * *frame, if the piece goes beyond the clip. */
 static enum frame_result close_piece(struct frame_piece *piece, uint32_t last, uint32_t *frame)
 {
     piece->first = piece->first_is_last ? last : piece->first;

@@ -1,5 +1,5 @@
-/* Runs kiln help, and prints --help of every command. All of it is printed from the option tables,
- * so that no text is written twice. */
+/* Runs kiln help, and prints --help of every command. Commands, options and topics are printed from
+ * tables, so that no text is written twice. */
 #include <string.h>
 
 #include "command.h"
@@ -180,7 +180,7 @@ static void print_repeating(const struct command *command)
     printf(".\n");
 }
 
-/* Prints the commands of two words that begin with this word. */
+/* Prints the two-word commands that begin with this command's name. */
 static void print_group(const struct command *command)
 {
     bool any = false;

@@ -9,7 +9,7 @@ struct length {
     bool on_paper; /* "84mm", "8.4cm", "3.3in" or "240pt"; else "480" or "480px", a whole number */
 };
 
-/* False when the text is none. */
+/* Reads a length. Returns false when the text is no length. */
 bool length_read(const char *text, struct length *length);
 
 #endif

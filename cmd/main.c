@@ -44,7 +44,7 @@ size_t command_names(const char *names[MAX_COMMANDS])
     return count;
 }
 
-/* Whether two words joined by a space are the name. */
+/* Returns whether `name` is "FIRST SECOND". */
 static bool is_name(const char *name, const char *first, const char *second)
 {
     size_t length = strlen(first);
@@ -71,9 +71,9 @@ bool command_is_under(const struct command *command, const char *group)
     return strncmp(command->name, group, length) == 0 && command->name[length] == ' ';
 }
 
-/* A program started with a standard stream closed would get that number for the next file that it
- * opens, and its messages would end up in a picture. Each is opened the wrong way round here, so
- * that using it fails as it would have. */
+/* Opens /dev/null for each standard stream that is closed. Otherwise the next file that is opened
+ * would get its descriptor, and messages would end up in a picture. /dev/null is opened for the
+ * wrong direction, so that using the stream fails as it does when it is closed. */
 static void occupy_standard_streams(void)
 {
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++) {
@@ -82,7 +82,7 @@ static void occupy_standard_streams(void)
     }
 }
 
-/* A job of --batch ends with the process that began it, also when that is killed. */
+/* Makes a job of --batch end with the process that started it, even if that process is killed. */
 static void follow_batch(void)
 {
     const char *parent = getenv("KILN_BATCH_PROCESS");
@@ -113,7 +113,7 @@ static int check_environment(const struct command *command)
     return report(error.code, "%s", error.message);
 }
 
-/* Returns whether a command has an option that the environment may set. */
+/* Returns whether a command has an option of this name. */
 static bool has_option(const struct command *command, const char *name)
 {
     for (size_t i = 0; i < command->option_count; i++) {
@@ -135,11 +135,12 @@ static int run_command(const struct command *command, int argc, char **argv)
         if (code == 0)
             code = check_environment(command);
         struct limits limits = {.budget = NULL};
-        if (code == 0) /* a file of events may lie where a sandbox does not let write */
+        if (code == 0) /* before the sandbox, which might forbid the file of events */
             code = events_open(command, &arguments);
-        /* A batch gives both to its jobs, and must start them. */
+        /* A batch passes --sandbox and --limits on to its jobs. It has none itself, since a sandbox
+         * would keep it from starting them. */
         const bool is_batch = arguments_last(&arguments, "batch") != NULL;
-        if (code == 0 && !is_batch && has_option(command, "sandbox")) /* before there are threads */
+        if (code == 0 && !is_batch && has_option(command, "sandbox")) /* before any thread starts */
             code = sandbox_enter(command, &arguments, &arguments.sandboxed);
         if (code == 0 && !is_batch && has_option(command, "limits"))
             code = limits_begin(&limits, command->name, &arguments);
@@ -171,10 +172,9 @@ int main(int argc, char **argv)
 {
     occupy_standard_streams();
     follow_batch();
-    signal(SIGCHLD,
-           SIG_DFL); /* ignored by whoever starts kiln, how kiln-decode ends would be lost */
-    signal(SIGPIPE, SIG_IGN); /* failed writes are reported, */
-    signal(SIGXFSZ, SIG_IGN); /* also writes beyond the limit of a file's size */
+    signal(SIGCHLD, SIG_DFL); /* if it were ignored, the exit status of kiln-decode would be lost */
+    signal(SIGPIPE, SIG_IGN); /* a failed write is reported instead */
+    signal(SIGXFSZ, SIG_IGN); /* a write beyond the limit of a file's size, too */
     const char *name = argc > 1 ? argv[1] : "";
     if (argc < 2) {
         help_print_overview(stderr);

@@ -1,19 +1,19 @@
-/* Writes the manual pages kiln(1) and kiln-scene(5), in the man macros of roff. cmd/help.c calls it
- * for `kiln help man` and `kiln help man-scene`; the build runs both to make the pages that are
- * installed (docs/CMakeLists.txt).
+/* Writes the manual pages kiln(1) and kiln-scene(5), in the man macros of roff. cmd/help.c calls
+ * the functions for `kiln help man` and `kiln help man-scene`; the build runs both to make the
+ * pages that are installed (docs/CMakeLists.txt).
  *
  * Commands, options, exit codes, variables and the keys of scenes come from the tables that --help
  * and the readers use, so a new one appears here by itself. Only the description, the files and the
  * examples are written here. The pages have no date, so that the same kiln always writes the same
- * page. The pages must please the linters of tests/docs/man.sh. */
+ * page. The linters of tests/docs/man.sh check the pages. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
 
-/* Writes text so that roff prints it as it stands; an empty line in it begins a paragraph. A line
- * may not begin with '.' or an apostrophe in roff, so \& goes before these. */
+/* Writes text so that roff prints it as it stands; an empty line in it begins a paragraph. In roff,
+ * a line that begins with '.' or an apostrophe is a request, so \& goes before these. */
 static void put(FILE *out, const char *text)
 {
     bool line_start = true;
@@ -40,8 +40,8 @@ static void put_heading(FILE *out, const char *title)
     fputc('\n', out);
 }
 
-/* Writes a text of paragraphs. Lines that start with a blank are not filled, as examples are not. A
- * line has at most 511 bytes; roff would not see the rest. */
+/* Writes a text of paragraphs. Lines that begin with a blank, such as examples, are not filled. A
+ * line is cut after 511 bytes. */
 static void put_text(FILE *out, const char *text)
 {
     bool verbatim = false, parted = false, at_start = true;

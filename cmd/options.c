@@ -1,6 +1,6 @@
-/* Reads the words behind a command's name by the command's table of options. Options that were used
- * and operands end up in a struct arguments; a wrong option or value is reported with what is
- * allowed. It also answers commands that ask for the value of an option by its name.
+/* Parses the arguments of a command by the command's table of options. Used options and operands
+ * end up in a struct arguments; a wrong option or value is reported with what is allowed. This file
+ * also gives commands the value of an option by its name.
  *
  * The main function calls arguments_parse before it runs a command, and kiln figure --check does
  * for the command that a figure came from. So all values have been checked before a command does

@@ -1,5 +1,5 @@
-/* Declares the options of the command line: one row per option makes the parser, the errors, --help
- * and the man page. */
+/* Declares the options of the command line. The parser, the errors, --help and the man page all
+ * come from one row per option. */
 #ifndef KILN_CMD_OPTIONS_H
 #define KILN_CMD_OPTIONS_H
 
@@ -21,48 +21,50 @@ enum option_kind {
     OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where `commas` is set */
 };
 
-/* Whether a command reads or writes the file, folder or pattern of files that an argument names. */
+/* Says whether a command reads or writes the file, folder or pattern of files that an argument
+ * names. */
 enum reach { REACH_NONE, REACH_READ, REACH_WRITE };
 
 struct option {
     const char *name;      /* without its dashes */
-    char letter;           /* of the short form, or 0 */
-    bool repeats;          /* every use counts; of others, the last one */
+    char letter;           /* short form, or 0 */
+    bool repeats;          /* every use counts; otherwise, only the last use */
     bool value_may_go;     /* the value may be left out, and must be joined by '=' if it is there */
-    bool value_may_follow; /* of one that may go: as a word of its own, an older spelling, if it is
-                              "-" or one of `files` */
+    bool value_may_follow; /* with value_may_go: the value may be the next word, an older spelling,
+                              if it is "-" or matches `files` */
     bool commas;
     enum option_kind kind;
-    const char *placeholder; /* of its value; NULL for a flag */
+    const char *placeholder; /* stands for the value in the help; NULL for a flag */
     const char *help;        /* what it does, as one or two sentences */
-    const char *fallback;    /* what holds without it, or NULL */
+    const char *fallback;    /* the default, for the help; or NULL */
     const char *sets;        /* the scene key that it stands for, or NULL */
-    const char *files;       /* what the names of its files match, "*.png"; NULL: anything */
-    enum reach reach;        /* of its value, where that is a path */
+    const char *files;       /* shell pattern of its files, "*.png"; NULL: any */
+    enum reach reach;        /* what it does with its value, if that is a path */
     double min, max;
 };
 
-/* One use of an option, checked. */
+/* One use of an option, whose value was checked. */
 struct option_use {
     const struct option *option;
     const char *text;    /* the value; NULL for a flag, or where it was left out */
-    uint64_t integer[4]; /* OPTION_INTEGER; OPTION_SIZE, _GRID: width, height; _RECT: x, y, those;
-                            _PART: I, N */
+    uint64_t integer[4]; /* OPTION_INTEGER; OPTION_SIZE, _GRID: width, height; _RECT: x, y, width,
+                            height; _PART: I, N */
     double number;       /* OPTION_NUMBER; OPTION_TIME: seconds */
     size_t choice;       /* OPTION_CHOICE: index of the word; 0 where it was left out */
     struct frame_spec frames;
 };
 
-/* What a command was given: options in their order, and operands in theirs. */
+/* The parsed command line of a command: options and operands, each in the order in which they were
+ * given. */
 struct arguments {
     struct option_use *uses;
     size_t use_count;
     const char **operands;
     size_t operand_count;
-    const char *const *words; /* all of it, as it was given */
+    const char *const *words; /* all arguments, as they were given */
     size_t word_count;
-    struct kiln_budget *budget; /* of the command, set before it runs; NULL: no limits */
-    bool sandboxed;             /* likewise: the process is confined to the device cpu */
+    struct kiln_budget *budget; /* set before the command runs; NULL: no limits */
+    bool sandboxed; /* set before the command runs: the process is confined to the device cpu */
 };
 
 /* Reads argv, whose texts must outlive the arguments. Options and operands may come in any order,
@@ -72,13 +74,14 @@ int arguments_parse(struct arguments *arguments, const struct option *options, s
                     const char *place, int argc, char **argv);
 void arguments_free(struct arguments *arguments);
 
-/* The option of a letter, or NULL. */
+/* Returns the option of a letter, or NULL. */
 const struct option *option_of_letter(const struct option *options, size_t count, char letter);
 
-/* The last use of the option of that name, or NULL. */
+/* Returns the last use of the option of that name, or NULL. */
 const struct option_use *arguments_last(const struct arguments *arguments, const char *name);
 
-/* The same for its value, or the fallback where it is not used. */
+/* Return the value of the last use, or the fallback if the option is not used. arguments_flag
+ * returns whether it is used. */
 bool arguments_flag(const struct arguments *arguments, const char *name);
 const char *arguments_text(const struct arguments *arguments, const char *name,
                            const char *fallback);
@@ -86,25 +89,28 @@ uint32_t arguments_integer(const struct arguments *arguments, const char *name, 
 double arguments_number(const struct arguments *arguments, const char *name, double fallback);
 size_t arguments_choice(const struct arguments *arguments, const char *name, size_t fallback);
 
-/* The frames of a clip, whose last one is `last`, that a use of --frames chooses. Returns 0, or the
- * exit code after reporting that there is no such frame; `place` starts the message, `clip` names
- * the clip in it. The list must be freed in both cases. */
+/* Fills in the frames that a use of --frames chooses from a clip whose last frame is `last`.
+ * Returns 0, or the exit code after reporting that there is no such frame; `place` starts the
+ * message, `clip` names the clip in it. The list must be freed in both cases. */
 int frames_choose(struct frame_list *list, const struct option_use *frames, const char *place,
                   const char *clip, uint32_t last);
 
-/* The values of every use of an option, in their order; cut at the commas where it has them. */
+/* The values of all uses of an option, in order. A value with commas is split if the option has
+ * `commas`. */
 struct value_list {
-    const char **items; /* into `cut` */
+    const char **items; /* point into `cut` */
     size_t count;
     char *cut;
 };
 
-/* False when memory is short. Must be freed in both cases. */
+/* Collects the values of the option of that name. Returns false when memory is short. The list must
+ * be freed in both cases. */
 bool value_list_create(struct value_list *list, const struct arguments *arguments,
                        const char *name);
 void value_list_free(struct value_list *list);
 
-/* " (did you mean 'rate'?)" for a misspelling of one of the names, or "". */
+/* Writes " (did you mean 'rate'?)" if `found` is a misspelling of one of the names, else "".
+ * `prefix` goes before the name. Returns out. */
 enum { SUGGESTION_SIZE = 96 };
 const char *suggest(char out[SUGGESTION_SIZE], const char *prefix, const char *found,
                     const char *const *names, size_t count);

@@ -7,8 +7,8 @@
 
 #include "signals.h"
 
-/* Returns the override that the use of an option stands for, in new memory; *is_one is false for
- * other options. */
+/* Returns the override "key=value" that a use of an option stands for, in new memory; NULL when
+ * memory is short. *is_one is false for an option that is no override. */
 static char *override_text(const struct option_use *use, bool *is_one)
 {
     const char *key = use->option->sets;

@@ -1,10 +1,11 @@
-/* The options that change a scene: --set, and those that stand for one (--size, --fps, --seed). */
+/* Declares the options that change a scene, and turns them into overrides: --set, and --size, --fps
+ * and --seed, which stand for a --set of one key. */
 #ifndef KILN_CMD_OVERRIDES_H
 #define KILN_CMD_OVERRIDES_H
 
 #include "options.h"
 
-/* Rows that the commands which load scenes share. */
+/* Rows of the option tables of commands that load scenes. */
 #define SET_OPTION                                                                                 \
     {                                                                                              \
         .name = "set", .repeats = true, .kind = OPTION_PAIRS, .placeholder = "KEY=VALUE",          \
@@ -39,11 +40,11 @@ struct overrides {
     size_t count;
 };
 
-/* False when memory is short. */
+/* Collects the overrides of a command line. Returns false when memory is short. */
 bool overrides_create(struct overrides *overrides, const struct arguments *arguments);
 void overrides_free(struct overrides *overrides);
 
-/* How to load the scenes of a command line; borrows both. */
+/* Returns the parameters to load the scenes of a command line. They point into both arguments. */
 struct kiln_scene_params overrides_scene_params(const struct overrides *overrides,
                                                 const struct arguments *arguments);
 

@@ -1,8 +1,8 @@
-# Completion of kiln for bash. What may follow comes from `kiln complete`; here it is made to fit
-# what readline has typed so far, with its quotes and word breaks.
+# Completes command lines of kiln in bash. `kiln complete` prints the possible continuations; this
+# script fits them to the quotes and word breaks of the line that readline holds.
 _kiln()
 {
-    # The words of the line as the command gets them. readline replaces the last one from `start`.
+    # Splits the line into words as the shell does. readline replaces the last word from `start` on.
     local line=${COMP_LINE:0:COMP_POINT} words=() word='' quote='' in_word='' start=0 i c
     for ((i = 0; i < ${#line}; i++)); do
         c=${line:i:1}
@@ -45,7 +45,7 @@ _kiln()
         text=${text:start}
         if [[ ! $quote ]]; then
             printf -v text %q "$text"
-            text=${text//\\,/,} # which needs no quoting
+            text=${text//\\,/,} # a comma needs no quoting
         fi
         COMPREPLY+=("$text")
     done < <("${words[0]}" complete -- "${words[@]:1}" "$word" 2>/dev/null)
