@@ -1,6 +1,6 @@
-/* Runs kiln figure --check, which tells whether figures still show what their commands make. Each
- * command is run in the folder in which it was given, without writing anything. With --update, a
- * figure that is stale is written anew. */
+/* Runs kiln figure --check, which tells whether figures are still what their commands draw. Each
+ * command stands in the figure's sidecar; it is run in the folder in which it was given, without
+ * writing anything. With --update, a stale figure is written anew. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -111,8 +111,8 @@ static int check_all(const struct kiln_figure_list *list, const struct checking 
     return signals_received() ? 128 + signals_received() : code;
 }
 
-/* Checks the paths of --check or --update and the operands after them: the shell makes of `--check
- * *.png` one value and operands. */
+/* Checks the paths of --check or --update and the operands after them, since the shell expands
+ * `--check *.png` to a value and operands. */
 static int check_paths(const struct value_list *paths, const struct arguments *arguments,
                        const struct checking *checking)
 {

@@ -1,10 +1,10 @@
 /* Reads the options of `kiln figure sheet`, `triptych` and `strip`, and has the library draw the
  * figure. The functions of these commands call figure_make. `kiln figure --check` and `--update`
- * (cmd/figure.c) call it with the words that a figure's sidecar has kept, and with `check` set.
+ * (cmd/figure.c) call it with the words of the command in a figure's sidecar, and with `check` set.
  *
- * So a figure must follow from the words that list_command keeps and the files that they name, and
- * from nothing else: standard input is refused. An option that is renamed or gone breaks the
- * sidecars that name it. */
+ * So a figure may depend on the words that list_command keeps and on the files that they name, and
+ * on nothing else: standard input is refused. Renaming or removing an option breaks the sidecars
+ * that name it. */
 #include "figure_make.h"
 
 #include <stdlib.h>
@@ -68,7 +68,7 @@ static bool read_inset(const char *text, struct kiln_figure_inset *inset)
 }
 
 /* Reads the options that may be given several times, in the order in which they are given. Returns
- * an exit code, as the other functions do that report. */
+ * 0, or the exit code after reporting. */
 static int read_repeated(const struct command *command, const struct arguments *arguments,
                          struct lists *lists, struct kiln_figure_params *params)
 {
@@ -271,7 +271,7 @@ int figure_make(const struct command *command, enum kiln_figure_kind kind,
     int code = read_repeated(command, arguments, &lists, &params);
     code = code ? code : read_frames(command, arguments, &lists, &params);
     code = code ? code : read_lengths(command, arguments, &params);
-    struct kiln_figure_result made; /* filled, but of no use to a figure that is written */
+    struct kiln_figure_result made; /* gets the outcome of a figure that is written; not used */
     struct kiln_error error = {0};
     signals_install_for_job();
     if (code == 0 && !kiln_figure_make(&params, check ? check->result : &made, &error))

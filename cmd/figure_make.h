@@ -1,6 +1,5 @@
-/* Makes the figures of `kiln figure sheet`, `triptych` and `strip`: declares their common rows of
- * options and the function that runs them. `kiln figure --check` runs the same code over the words
- * that a sidecar has kept. */
+/* Declares the common options of `kiln figure sheet`, `triptych` and `strip`, and the function that
+ * makes their figures. `kiln figure --check` calls it with the words in a figure's sidecar. */
 #ifndef KILN_CMD_FIGURE_MAKE_H
 #define KILN_CMD_FIGURE_MAKE_H
 
@@ -107,10 +106,10 @@
         .fallback = "one a core", .max = 256                                                       \
     }
 
-/* Whether a figure is only drawn and checked, and where what came out goes. */
+/* Makes figure_make compare a figure with its sidecar instead of writing it. */
 struct figure_check {
-    const char *sidecar; /* that it is checked against */
-    bool update;         /* to write it again if it is stale */
+    const char *sidecar; /* path of the sidecar */
+    bool update;         /* write the figure anew if it is stale */
     struct kiln_figure_result *result;
 };
 

@@ -1,4 +1,4 @@
-/* Runs kiln figure sheet, which renders cells side by side over sweeps of parameters. */
+/* Runs kiln figure sheet, which lays out renders of a scene over sweeps of parameters in a grid. */
 #include "event.h"
 #include "figure_make.h"
 #include "overrides.h"
