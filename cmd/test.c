@@ -103,12 +103,12 @@ struct test_run {
     const struct kiln_suite *suite;
     size_t count;
     struct kiln_test_params params;
-    double time_limit_s; /* of every test; 0: each test's own limit holds */
+    double time_limit_s; /* limit of every test; 0: each test's own limit holds */
     uint32_t jobs;
     char log[KILN_PATH_SIZE]; /* the log's name, as task_of wrote it last */
     struct kiln_test_summary *summaries;
     bool *ended;
-    size_t ended_count, printed; /* tests 0 to printed-1 have had their line */
+    size_t ended_count, printed; /* the lines of tests 0 to printed-1 are printed */
     enum kiln_code code;         /* the worst code of a test so far */
     struct test_lines lines;
 };
@@ -117,7 +117,7 @@ struct test_run {
 
 struct test_task {
     const char *log;     /* the file that gets what its process prints */
-    double time_limit_s; /* seconds of real time after which the process is ended */
+    double time_limit_s; /* real time after which the process is ended */
 };
 
 /* Describes a task; the log's name is valid until the next call. */
@@ -224,8 +224,8 @@ static void end_test(void *user, size_t index, const struct pool_end *end)
 /* ---- The run -------------------------------------------------------------------------------- */
 
 /* Writes the files of the whole run and the reports that were asked for. Fills in the summary if
- * the results of all tests can be read. Returns the worse one of the tests' code and the code of
- * what went wrong here. */
+ * the results of all tests can be read. Returns the worse of the tests' code and the code of a
+ * failure to write. */
 static enum kiln_code write_results(const struct test_run *run, struct test_outputs *outputs,
                                     const char *folder, double total_s,
                                     struct kiln_results_summary *summary)

@@ -47,7 +47,7 @@ struct approval {
     struct kiln_approve_params params;
     bool quiet;
     uint32_t count;      /* files written for the present test */
-    uint32_t all;        /* tests of which something was accepted */
+    uint32_t all;        /* number of tests of which something was accepted */
     enum kiln_code code; /* the worst failure so far; the tests after it are still tried */
 };
 
@@ -59,8 +59,8 @@ static void print_change(void *user, const char *line)
         printf("%s\n", line);
 }
 
-/* Accepts the pictures of a test. With `named`, the user has named this test; only then is it said
- * that there is nothing to accept. */
+/* Accepts the pictures of a test. With `named`, the user gave the test's name, so the function
+ * prints it if there is nothing to accept. */
 static void approve(struct approval *approval, const char *name, bool named)
 {
     struct kiln_error error = {0};

@@ -44,7 +44,7 @@ int claim_folder(const char *path)
     if (folder < 0)
         return report(KILN_IO, "%s: cannot open the folder: %s", path, strerror(errno));
     if (flock(folder, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-        return 0; /* without locks in the file system, no run is refused. Never closed */
+        return 0; /* the open descriptor holds the lock; some file systems have no locks */
     close(folder);
     return report(KILN_USAGE,
                   "%s: another run writes its results there; give this one another "

@@ -1,4 +1,5 @@
-/* Prints the lines of kiln test. The words alone say all; colours only help to find them. */
+/* Prints the lines of kiln test. Colours repeat what the words say, so the lines are complete
+ * without them. */
 #include "test_lines.h"
 
 #include <stdlib.h>
@@ -32,7 +33,7 @@ static bool wants_colour(FILE *out)
     return isatty(fileno(out)) == 1 && term && strcmp(term, "dumb") != 0 && !(refused && *refused);
 }
 
-/* Counts the bytes of UTF-8 that begin no character: they take no column. */
+/* Counts the bytes of UTF-8 that continue a character, since they take no column. */
 static int bytes_beside(const char *name)
 {
     int count = 0;
@@ -124,7 +125,7 @@ void test_lines_counts(FILE *out, const struct kiln_results_summary *summary)
     fputc('\n', out);
 }
 
-/* One command: of a test, or of all of them. */
+/* Prints the command that accepts the pictures of the one test to accept, or of all tests. */
 static void print_approval(const struct test_lines *lines)
 {
     FILE *out = lines->out;

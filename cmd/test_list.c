@@ -1,4 +1,4 @@
-/* Runs kiln test list, which lists the tests that there are. */
+/* Runs kiln test list, which lists the tests that kiln test would run. */
 #include <unistd.h>
 
 #include "command.h"
@@ -29,7 +29,7 @@ static int run(const struct arguments *arguments)
     for (size_t i = 0; code == 0 && i < kiln_suite_count(suite); i++) {
         struct kiln_test_info test = kiln_suite_test(suite, i);
         char path[KILN_PATH_SIZE];
-        if (for_person) /* a program gets the paths as they are */
+        if (for_person) /* a program gets the paths unescaped */
             kiln_shown(path, sizeof path, test.path);
         printf("%s%s%s\n", test.name, files ? "\t" : "",
                !files       ? ""

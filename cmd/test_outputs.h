@@ -1,10 +1,11 @@
-/* The reports of a run: the options that `kiln test` and `kiln test report` share. */
+/* Declares the options of reports that `kiln test` and `kiln test report` share, and the functions
+ * that write the reports. */
 #ifndef KILN_CMD_TEST_OUTPUTS_H
 #define KILN_CMD_TEST_OUTPUTS_H
 
 #include "options.h"
 
-/* Rows of an option table. */
+/* Rows of the option tables of both commands. */
 #define OUTPUT_OPTIONS(report_fallback)                                                            \
     {.name = "report",                                                                             \
      .kind = OPTION_TEXT,                                                                          \
@@ -44,23 +45,23 @@
 enum { MAX_OUTPUTS = 5 };
 
 struct test_outputs {
-    struct kiln_results_output files[MAX_OUTPUTS]; /* borrow the arguments */
+    struct kiln_results_output files[MAX_OUTPUTS]; /* point into the arguments */
     size_t count;
     const char *page; /* where the HTML file goes; NULL without one, or when writing it failed */
-    bool standard_output; /* one of them takes it: what people read goes to standard error */
+    bool standard_output; /* a report takes it, so text for people goes to standard error */
 };
 
-/* page is where the HTML file goes without --report. Returns 0, or the exit code after reporting
- * what cannot be. */
+/* Reads the options of the reports. page is where the HTML file goes without --report. Returns 0,
+ * or the exit code after reporting what is wrong. */
 int test_outputs_read(struct test_outputs *outputs, const struct arguments *arguments,
                       const char *command, const char *page);
 
-/* Declares all of them, before the run. Returns 0, or the exit code after reporting what cannot be
- * written. */
+/* Claims the files of all reports, before the run. Returns 0, or the exit code after reporting what
+ * cannot be written. */
 int test_outputs_claim(const struct test_outputs *outputs, struct kiln_claims *claims);
 
-/* Writes all of them, or none where one would replace what the results of these folders are made
- * of. Returns the worse of the code and what went wrong here, which it reports. */
+/* Writes all reports, or none if one would replace a file that the results of these folders are
+ * made of. Returns the worse of `code` and that of its own failures, which it reports. */
 enum kiln_code test_outputs_write(struct test_outputs *outputs, const struct kiln_results *results,
                                   const char *const *folders, size_t folder_count,
                                   enum kiln_code code);

@@ -1,6 +1,6 @@
 /* Starts the process of each test by fork without exec: the parent has neither threads nor a
- * device, so a child can go on from where it stands. When the parent is killed, the kernel ends its
- * children. */
+ * device, so a child can use its copy of the parent's memory. When the parent is killed, the kernel
+ * ends its children. */
 #include "test_pool.h"
 
 #include <errno.h>
@@ -37,8 +37,8 @@ _Noreturn static void be_child(const struct child *child)
     _exit(code);
 }
 
-/* Returns the child's id, or below 0 with errno. Until it has its own handlers, a child has the
- * signals blocked that might stop it. */
+/* Forks the child and returns its id, or below 0 with errno. Signals that might stop the child are
+ * blocked until it has its own handlers. */
 static pid_t start_child(const struct child *child)
 {
     sigset_t stops, before;
@@ -53,7 +53,7 @@ static pid_t start_child(const struct child *child)
         be_child(child);
     int failure = errno;
     if (id > 0)
-        setpgid(id, id); /* here, too: a signal to the group may come before the child does it */
+        setpgid(id, id); /* also here: a signal to the group may come before the child calls it */
     sigprocmask(SIG_SETMASK, &before, NULL);
     errno = failure;
     return id;

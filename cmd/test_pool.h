@@ -4,8 +4,8 @@
 
 #include "pool.h"
 
-/* Starts run(user, index) in a new process, whose exit code it returns; `log` is the file that gets
- * what it prints, both streams. As pool.start. */
+/* Starts run(user, index) in a new process, whose exit code it returns. The file `log` gets
+ * standard output and standard error of the process. Returns what pool.start returns. */
 pid_t test_pool_start(struct pool_start *start, const char *log,
                       int (*run)(void *user, size_t index), void *user, size_t index);
 

@@ -1,4 +1,4 @@
-/* Reads which tests a command line means. */
+/* Finds the tests that the operands and options of a command select. */
 #include "test_select.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Reads which tests a command line means: the operands and options that `kiln test` shares with
- * `kiln test calibrate` and `kiln test list`. */
+/* Finds the tests that a command line selects, by the operands and options that `kiln test` shares
+ * with `kiln test calibrate` and `kiln test list`. */
 #ifndef KILN_CMD_TEST_SELECT_H
 #define KILN_CMD_TEST_SELECT_H
 
@@ -39,7 +39,7 @@
                 "--results, and merge these by 'kiln test report'."                                \
     }
 
-/* What operands are, for descriptions. */
+/* Explains the operands, for the descriptions of commands. */
 #define SELECT_DESCRIPTION                                                                         \
     "A PATH is a test file (*.test.yaml), a scene, or a folder, which is searched for both; "      \
     "without one, the working directory is. A NAME, or a shell pattern of names, takes some of "   \
@@ -47,8 +47,9 @@
     "goldens' "                                                                                    \
     "folder lies in, or from the nearest folder with a file .kiln-tests: effects/fire."
 
-/* Finds the tests of a command, whose arguments must outlive nothing. Returns 0, or the exit code
- * after reporting what is wrong; to find none is an error. The caller destroys the suite. */
+/* Finds the tests that a command line selects; the suite does not refer to the arguments. Returns
+ * 0, or the exit code after reporting what is wrong; to find no test is an error. The caller
+ * destroys the suite. */
 int select_tests(struct kiln_suite **suite, const struct arguments *arguments, const char *command);
 
 #endif
