@@ -1,8 +1,8 @@
-/* Runs kiln check, which tells whether scenes are right, and prints each with every default spelled
- * out, unless --quiet or --hash is given.
+/* Runs kiln check, which validates scenes, and prints each with every default spelled out, unless
+ * --quiet or --hash is given.
  *
  * The main function finds check_command in the table of commands and calls its `run`; the parser,
- * the help, the man page, the completion and the sandbox read its options. What is printed of a
+ * the help, the man page, the completion and the sandbox read its options. The printed text of a
  * scene must stay a scene file, so anything else is printed as a YAML comment. */
 #include <inttypes.h>
 #include <stdlib.h>
@@ -37,8 +37,8 @@ static bool print_work(const struct kiln_scene_info *info)
                   info->steps, info->particle_capacity, info->memory_bytes >> 20) >= 0;
 }
 
-/* Prints the hash of a scene, or the scene and its work. `several`: there are other scenes, so the
- * path is printed, too. Returns false when that failed. */
+/* Prints the hash of a scene, or the scene and its work. With `several` scenes, the path is
+ * printed, too. Returns false when printing failed. */
 static bool print_scene(const struct kiln_scene *scene, const char *path, bool hash, bool several)
 {
     struct kiln_scene_info info = kiln_scene_info_empty();
@@ -74,7 +74,7 @@ static int run(const struct arguments *arguments)
             int failure = report_scene_error(&error);
             code = code ? code : failure;
         } else if (!quiet && !print_scene(scene, path, hash, arguments->operand_count > 1)) {
-            /* Either standard output failed, of which report_finish tells, or memory was short. */
+            /* Either standard output failed, which report_finish reports, or memory was short. */
             int failure = ferror(stdout) ? KILN_IO : report_no_memory();
             code = code ? code : failure;
         }

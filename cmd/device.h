@@ -1,10 +1,10 @@
-/* Opens a device, and declares the options that choose it and what runs on it. */
+/* Opens a device, and declares the options that choose it, the techniques and the threads. */
 #ifndef KILN_CMD_DEVICE_H
 #define KILN_CMD_DEVICE_H
 
 #include "options.h"
 
-/* Rows that the commands which draw share. */
+/* Rows of the option tables of commands that draw. */
 #define DEVICE_OPTION                                                                              \
     {                                                                                              \
         .name = "device", .kind = OPTION_TEXT, .placeholder = "DEVICE",                            \
@@ -27,7 +27,7 @@
     }
 
 /* Opens the device that --device names, or one that suits the techniques; the caller closes it.
- * NULL with *code the exit code, after reporting why. */
+ * Returns NULL after reporting why, with the exit code in *code. */
 struct kiln_device *open_device(const struct arguments *arguments,
                                 const struct value_list *techniques, int *code);
 

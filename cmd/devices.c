@@ -1,4 +1,5 @@
-/* Runs kiln devices, which lists what can render on this machine, and what is missing. */
+/* Runs kiln devices, which lists the devices that can render on this machine and says what is
+ * missing. */
 #include <inttypes.h>
 #include <stdio.h>
 

@@ -1,4 +1,4 @@
-/* Runs kiln encode, which makes a clip of images that were drawn before. */
+/* Runs kiln encode, which encodes images from files into a clip. */
 #include <inttypes.h>
 #include <unistd.h>
 

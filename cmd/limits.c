@@ -1,5 +1,5 @@
-/* Reads the limits of a job, and watches the clock and the memory from a thread: the code that
- * loads or encodes a picture does not look at them. */
+/* Reads the limits of a job, and watches time and memory from a thread, since the code that loads
+ * or encodes a picture does not check the limits. */
 #include "limits.h"
 
 #include <math.h>

@@ -19,16 +19,17 @@
         .fallback = "none", .min = 0.001, .max = 1e7                                               \
     }
 
-/* Limits that are watched over; they must not move. */
+/* The limits of a job. The struct must not move while a thread watches it. */
 struct limits {
     struct kiln_budget *budget; /* NULL: there are none */
     struct watch *watch;
-    int over_ms; /* that the watch has found too much taken */
+    int over_ms; /* how long the job has been over a limit */
 };
 
-/* Reads them, for the command of a name; time counts from here. A job that has not ended by itself
- * half a second after a limit of time or memory is ended with a message. Returns 0 or, after
- * reporting, an exit code. limits_end frees, also after a failure. */
+/* Reads the limits and starts to watch them; time counts from here. `command` starts the messages.
+ * A job that has not ended by itself half a second after it exceeded its time or memory is ended
+ * with a message. Returns 0, or the exit code after reporting. The caller calls limits_end in both
+ * cases. */
 int limits_begin(struct limits *limits, const char *command, const struct arguments *arguments);
 void limits_end(struct limits *limits);
 

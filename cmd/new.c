@@ -1,5 +1,5 @@
 /* Runs `kiln new`, which writes a small scene for a person to begin with. main calls its function
- * through the table of commands. The text is one of the templates that are built into the program
+ * through the table of commands. The scene is one of the templates that are built into the program
  * (lib/start/template.c); this file only reads the options, chooses between a file and standard
  * output, and prints what to do next. With '-', nothing but the scene may go to standard output. */
 #include <stdlib.h>

@@ -13,12 +13,13 @@
         .fallback = "y4m"                                                                          \
     }
 
-/* Finds out whether, and what, frames are to go to standard output. Returns 0, or the exit code
- * after reporting what is wrong. */
+/* Sets the format of the stream if `--output -` is given. Returns 0, or the exit code after
+ * reporting what is wrong. */
 int pipe_read(struct kiln_stream *stream, const struct arguments *arguments);
 
-/* Takes standard output for the frames of such a stream; from now on everything else that would be
- * printed there goes to standard error. Does nothing for a stream of no format. */
+/* Reserves standard output for the frames of the stream. From then on everything else that is
+ * printed there goes to standard error. Does nothing for KILN_STREAM_NONE. Returns 0, or the exit
+ * code after reporting. */
 int pipe_open(struct kiln_stream *stream);
 
 #endif

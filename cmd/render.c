@@ -156,22 +156,22 @@ struct render {
     const char **command; /* the command's words, for manifests */
     struct shard shard;
     bool quiet, stats;
-    bool tells_frames, tells_stats; /* whether lines of JSON tell of frames, and of statistics */
+    bool tells_frames, tells_stats; /* whether JSON is written for frames, and for statistics */
     enum progress_mode progress_mode;
     double frame_timeout_s;
 
-    const struct job *job; /* the job that runs */
+    const struct job *job; /* the job that is running */
     struct progress progress;
     struct watchdog *watchdog;
     double began_s; /* when the job began, by now_s */
     uint32_t frames_done, frames_total;
-    int64_t last_frame; /* the last frame that was given a time limit; -1: no frame of the job */
+    int64_t last_frame; /* the last frame with a time limit; -1: no frame of the job */
 };
 
 /* ---- While a job runs ----------------------------------------------------------------------- */
 
-/* Starts the time limit of a frame (--frame-timeout). Every frame that is stepped over since the
- * last limit adds the same time again. */
+/* Starts the time limit of a frame (--frame-timeout). Each frame that was simulated but not drawn
+ * since the last limit adds the same time again. */
 static void allow_frame(struct render *render, uint32_t frame)
 {
     if (!render->watchdog)
@@ -198,8 +198,8 @@ static void end_frame(void *user, uint32_t frame)
         watchdog_disarm(render->watchdog);
 }
 
-/* Returns whether each frame has a file of its own. Then the event of the file tells of the frame,
- * and show_frame sends none. */
+/* Returns whether each frame has a file of its own. If so, tell_written writes the event of the
+ * frame, and show_frame writes none. */
 static bool has_files(const struct render *render)
 {
     return render->job->output && !render->list.stream.format &&
@@ -273,8 +273,8 @@ static int open_json(struct render *render, const struct arguments *arguments)
     return code;
 }
 
-/* Fills in what does not depend on the job. Call it after open_json, whose decisions it uses.
- * Returns false when memory is short. */
+/* Fills in the parameters that do not depend on the job. Call it after open_json, whose decisions
+ * it uses. Returns false when memory is short. */
 static bool read_options(struct render *render, const struct arguments *arguments)
 {
     struct kiln_render_params *params = &render->params;
@@ -455,7 +455,7 @@ static int run_jobs(struct render *render, const struct arguments *arguments)
     return code;
 }
 
-/* Loads the scenes, each of which has the time limit of a frame. */
+/* Loads the scenes, all of which together have the time limit of a frame. */
 static int load(struct render *render, const struct arguments *arguments)
 {
     if (render->watchdog)

@@ -1,4 +1,5 @@
-/* Confines a command to its job: --sandbox and the environment's KILN_SANDBOX. */
+/* Confines the process of a command to the files of its job, for --sandbox and the environment's
+ * KILN_SANDBOX. */
 #ifndef KILN_CMD_SANDBOX_H
 #define KILN_CMD_SANDBOX_H
 
@@ -14,9 +15,9 @@
         .fallback = "the environment's KILN_SANDBOX, or else off"                                  \
     }
 
-/* Before the first thread of a command that has the option: confines the process to the files that
- * its arguments name. Returns 0, or the exit code after reporting. Where it confines, *sandboxed is
- * set. */
+/* Confines the process to the files that its arguments name, if --sandbox or KILN_SANDBOX asks for
+ * that, and sets *sandboxed then. Call it before the first thread starts. Returns 0, or the exit
+ * code after reporting. */
 int sandbox_enter(const struct command *command, const struct arguments *arguments,
                   bool *sandboxed);
 

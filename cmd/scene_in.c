@@ -90,7 +90,7 @@ static struct kiln_scene *load(const char *path, const struct kiln_scene_params 
     } else if (!read_all(file, text, &size, params)) {
         error->code = errno == EINTR ? KILN_INTERRUPTED : KILN_IO;
         snprintf(error->message, sizeof error->message, "%s: the scene cannot be read: %s", name,
-                 strerror(errno)); /* NOLINT(concurrency-mt-unsafe): of one thread */
+                 strerror(errno)); /* NOLINT(concurrency-mt-unsafe): one thread calls it */
     } else {
         scene = kiln_scene_parse(text, size, name, params, error);
     }

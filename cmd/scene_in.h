@@ -1,21 +1,21 @@
-/* Reads scenes as commands name them: a file, or "-" and its relatives for a scene that comes
- * through standard input or a pipe of the shell. */
+/* Loads the scenes that operands name: a file, or "-", /dev/stdin or /dev/fd/N for a scene that
+ * comes through standard input or a pipe of the shell. */
 #ifndef KILN_CMD_SCENE_IN_H
 #define KILN_CMD_SCENE_IN_H
 
 #include "options.h"
 
-/* Whether the operand is read from an open descriptor: "-", /dev/stdin, /dev/fd/N. What such a
- * scene names lies below the working directory, unless --asset-root says another folder. */
+/* Returns whether the operand is read from an open descriptor: "-", /dev/stdin, /dev/fd/N. The
+ * files of such a scene lie below the working directory, or below the folder of --asset-root. */
 bool scene_in_is_stream(const char *path);
 
-/* kiln_scene_load for both, which tells the event `loaded`. Errors of "-" call it standard input.
- */
+/* Loads a scene from a file or a descriptor, as kiln_scene_load does, and writes the event
+ * `loaded`. Errors call "-" standard input. */
 struct kiln_scene *scene_in_load(const char *path, const struct kiln_scene_params *params,
                                  struct kiln_error *error);
 
-/* Describes the scene that a thread is just loading: "loading rain.yaml"; false if none is. For
- * threads that end a program which is over a limit. */
+/* Describes the scene that is being loaded: "loading rain.yaml". Returns false if there is none.
+ * Threads that end a program over a limit use it. */
 bool scene_in_describe(char out[KILN_MESSAGE_SIZE]);
 
 /* Returns 0, or the exit code after reporting that two operands would read the same descriptor. */

@@ -1,5 +1,6 @@
 /* Handles SIGINT, SIGTERM and SIGHUP: the first asks the job to stop, the second ends the program.
- * A handler can reach the program only through variables of the file, so this file has some. */
+ * A handler can reach the state of the program only through variables of a file, so this file has
+ * some. */
 #include "signals.h"
 
 #include <errno.h>
@@ -26,7 +27,7 @@ static const char *name_of(int number)
     return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";
 }
 
-/* Writes what is said of a job that a signal has ended: "kiln: stopped by SIGTERM; ...". */
+/* Writes the message about a job that a signal has ended: "kiln: stopped by SIGTERM; ...". */
 static void describe_end(char line[128], int number)
 {
     strcpy(line, "kiln: stopped by ");
@@ -34,7 +35,8 @@ static void describe_end(char line[128], int number)
     strcat(line, "; what was not whole is given up\n");
 }
 
-/* Ends the program without a message for people, who asked for it twice. */
+/* Handles a signal that ends the program at once. It prints nothing on standard error, since the
+ * user asked for the end. */
 static void end_program(int number)
 {
     char line[128];
@@ -91,7 +93,7 @@ static void install(void (*handler)(int))
     install_one(SIGINT, handler);
     install_one(SIGTERM, handler);
     struct sigaction before;
-    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* not by nohup */
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* not in nohup */
         install_one(SIGHUP, handler);
 }
 

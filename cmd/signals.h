@@ -1,29 +1,31 @@
-/* SIGINT, SIGTERM and SIGHUP: the first asks the job to stop, the second ends the program at once.
- */
+/* Handles SIGINT, SIGTERM and SIGHUP: the first asks the job to stop, the second ends the program
+ * at once. */
 #ifndef KILN_CMD_SIGNALS_H
 #define KILN_CMD_SIGNALS_H
 
 #include <stdbool.h>
 
+/* Installs the handlers. */
 void signals_install(void);
 
-/* The same for jobs that leave nothing half-written: one that has not stopped by itself half a
- * second after the first signal is ended as by a second one, with a message. */
+/* Installs the handlers for a job whose half-written files can be removed at any time. If it has
+ * not stopped half a second after the first signal, the program ends with a message. */
 void signals_install_for_job(void);
 
-/* From now on already the first ends the program at once: nothing half-written is left, but nothing
- * is finished either. */
+/* Makes the first signal end the program at once: half-written files are removed, and no file is
+ * finished. */
 void signals_end_at_once(void);
 
-/* The signal that asked to stop, or 0. */
+/* Returns the number of the signal that asked to stop, or 0. */
 int signals_received(void);
 
-/* Whether one did, or nobody takes the events any more: the `stop` of the library's functions. */
+/* Returns whether a signal asked to stop, or writing events has failed. It is the `stop` callback
+ * of the library's functions. */
 bool signals_wants_stop(void *user);
 
-/* Prints "WHAT: stopped by SIGTERM" and what the format makes (" after 3 frames"); returns the exit
- * code for it. Without a signal the reader of events went away: KILN_READER_GONE, of which main
- * tells. */
+/* Reports "WHAT: stopped by SIGTERM" and the formatted text (" after 3 frames"), and returns the
+ * exit code for the signal. Without a signal, the reader of events went away: returns
+ * KILN_READER_GONE, which main reports. */
 int signals_report(const char *what, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -1,5 +1,5 @@
-/* Runs a thread that calls a function at regular times. It sleeps on a condition, so that it ends
- * at once when it is told to. */
+/* Runs a thread that calls a function at regular times. It sleeps on a condition variable, so that
+ * watch_destroy can end it at once. */
 #include "watch.h"
 
 #include <pthread.h>

@@ -1,11 +1,12 @@
 /* Ends the program when a deadline has passed, from a thread that looks at the clock (watch.c).
  *
  * Only cmd/render.c uses it, for --frame-timeout. It sets a deadline when it starts to load the
- * scenes, when it starts to open the device and when a frame begins, and takes the deadline away
- * when that is done: waiting for a slow reader of the output is no fault of a frame.
+ * scenes, when it starts to open the device and when a frame begins, and removes the deadline when
+ * that work is done: waiting for a slow reader of the output is no fault of a frame.
  *
- * The program is ended, not the frame: a thread that hangs in a driver cannot be interrupted. It
- * may hold locks of stdio or of a library, so look may call nothing that takes one. */
+ * The program is ended, not the frame, because a thread that hangs in a driver cannot be
+ * interrupted. It may hold locks of stdio or of a library, so `look` may call nothing that takes
+ * one. */
 #include "watchdog.h"
 
 #include <pthread.h>
@@ -27,7 +28,7 @@ struct watchdog {
 enum { LOOK_MS = 20 };
 
 /* Runs in the watching thread, every LOOK_MS. While a scene is loaded, the message names that scene
- * instead of `what`, which stands for all scenes then. */
+ * instead of `what`, which then stands for all scenes. */
 static void look(void *user)
 {
     struct watchdog *watchdog = user;

@@ -7,12 +7,12 @@
 
 struct watchdog;
 
-/* NULL when the system refuses a thread. */
+/* Returns NULL when the system refuses memory or a thread. */
 struct watchdog *watchdog_create(void);
 void watchdog_destroy(struct watchdog **watchdog);
 
-/* Allows limit_s from now for `what` ("fire.yaml: frame 12"): then the program says that it took
- * longer, removes half-written files and exits with KILN_DEVICE_FAILED. */
+/* Sets a deadline for `what` ("fire.yaml: frame 12"), limit_s from now. When it passes, the program
+ * reports that, removes half-written files and exits with KILN_DEVICE_FAILED. */
 void watchdog_arm(struct watchdog *watchdog, double limit_s, const char *what, ...)
     __attribute__((format(printf, 3, 4)));
 void watchdog_disarm(struct watchdog *watchdog);
