@@ -35,8 +35,8 @@ static int compare_paths(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* Adds a name with what make needs to read it as one name. Only backslashes before an escaped
- * character are doubled; '%' is a pattern in targets alone. */
+/* Adds a file name, escaped so that make reads it as one name. Backslashes are doubled only before
+ * an escaped character; '%' is escaped in targets alone, where it would be a pattern. */
 static bool add_name(struct kiln_text *text, const char *name, bool target,
                      struct kiln_error *error)
 {
@@ -48,7 +48,7 @@ static bool add_name(struct kiln_text *text, const char *name, bool target,
         return kiln_error_set(error, KILN_USAGE, "--depfile: %s: make cannot read a name with '%c'",
                               name, *odd);
     if (*name == '~')
-        kiln_text_add(text, "./"); /* '~' alone would be a home folder */
+        kiln_text_add(text, "./"); /* a leading '~' would mean a home folder */
     size_t backslashes = 0;
     for (const char *c = name; *c; c++) {
         bool escaped = strchr(" \t#:[]*?", *c) || (*c == '%' && target);

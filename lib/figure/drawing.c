@@ -1,4 +1,4 @@
-/* Adds marks to a drawing, and tells the sizes of its lettering. */
+/* Adds marks to a drawing, and measures its text. */
 #include "figure/drawing.h"
 
 #include <math.h>

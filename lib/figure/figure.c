@@ -1,6 +1,6 @@
-/* Makes a figure from a request: panels, layout, pixels, then the file, its sidecar and its
- * depfile. Instead it may check a figure that exists: it draws the figure again, and judges whether
- * the file is what its sidecar says. */
+/* Makes a figure from a request: makes its panels, lays them out, rasterises them, and writes the
+ * file, its sidecar and its depfile. If the request names a sidecar to check, it draws the figure
+ * again instead, and judges whether the file is what the sidecar says. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@
 #include "figure/verdict.h"
 #include "kiln_program.h"
 
-enum { LONGEST_ALT = 65533 }; /* what a comment of JPEG holds */
+enum { LONGEST_ALT = 65533 }; /* bytes; the most that a comment of JPEG holds */
 
 struct job {
     const struct kiln_figure_params *params;
@@ -28,7 +28,7 @@ struct job {
     struct kiln_panels panels;
     struct kiln_drawing drawing;
     struct kiln_pixels pixels;
-    char hash[65]; /* of the pixels */
+    char hash[65]; /* SHA-256 of the pixels */
     struct kiln_error *error;
 };
 
@@ -44,7 +44,7 @@ static bool sidecar_path(const struct job *job, char path[KILN_PATH_SIZE])
            kiln_error_set(job->error, KILN_IO, "%s: the path is too long", job->params->output);
 }
 
-/* Whether a path leads to an existing file that is the same as another one. */
+/* Returns whether a path leads to the file that `other` describes. */
 static bool is_same_file(const char *path, const struct stat *other)
 {
     struct stat status;
@@ -52,8 +52,9 @@ static bool is_same_file(const char *path, const struct stat *other)
            status.st_ino == other->st_ino;
 }
 
-/* Whether to write the depfile. A sidecar may come from anywhere: a figure that is redrawn by its
- * command replaces no file but the figure's own, so the depfile must be the figure's. */
+/* Returns whether to write the depfile. A sidecar may come from anywhere, so a figure that is
+ * redrawn by its command replaces no file but its own: the depfile must exist and be the
+ * figure's. */
 static bool wants_depfile(const struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
@@ -61,8 +62,8 @@ static bool wants_depfile(const struct job *job)
            (!params->update || kiln_depfile_is_of(params->depfile, params->output));
 }
 
-/* Checks that the figure and its other files may be written. What the figure is made of is declared
- * as it is read, which is before anything is written. */
+/* Checks that the figure and its other files may be written. Declares the inputs as read; other
+ * files that the figure is made of are declared when they are read, before anything is written. */
 static bool check_target(const struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
@@ -106,7 +107,7 @@ static bool check_sizes(const struct kiln_figure_params *params, struct kiln_err
     return true;
 }
 
-/* Refuses what can be refused before anything is rendered. */
+/* Checks all of a request that can be checked before anything is rendered. */
 static bool check_request(struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
@@ -151,8 +152,8 @@ static bool draw(struct job *job)
 
 /* ---- Writing -------------------------------------------------------------------------------- */
 
-/* Returns the path from one folder up to another that it lies in; if it does not lie there, the
- * path of the other one. */
+/* Returns the relative path from a folder up to `to`, a folder that contains it, such as "../..";
+ * if `to` does not contain it, returns `to`. */
 static const char *way_up(struct kiln_arena *arena, const char *from, const char *to)
 {
     size_t length = strlen(to);
@@ -211,7 +212,7 @@ static bool make_sidecar(struct job *job, const uint8_t *bytes, size_t size, str
     return find_folder(job, &record.folder) && kiln_record_write(&record, text, job->error);
 }
 
-/* Writes a temporary file, which has not got its name yet. */
+/* Writes a temporary file; kiln_temporary_commit_all gives it its name later. */
 static bool begin_file(struct kiln_temporary *file, const char *path, const void *bytes,
                        size_t size, struct kiln_error *error)
 {
@@ -219,8 +220,9 @@ static bool begin_file(struct kiln_temporary *file, const char *path, const void
            (kiln_temporary_write(file, bytes, size) || kiln_temporary_fail(file, error));
 }
 
-/* Writes all files: all get their names or none does, the figure last. So a figure that is there
- * has its sidecar and depfile, for make and for readers. */
+/* Writes the figure and its other files. Either all get their names or none does, and the figure
+ * gets its name last: a figure that exists has its sidecar and depfile, for make and for
+ * readers. */
 static bool write_files(struct job *job, const uint8_t *bytes, size_t size)
 {
     const struct kiln_figure_params *params = job->params;
@@ -265,8 +267,8 @@ static void say_stale(struct kiln_figure_result *result, const char *reason)
     snprintf(result->reason, sizeof result->reason, "%s", reason);
 }
 
-/* Whether the command of a sidecar makes the figure that lies beside it. That of a sidecar that was
- * copied or renamed does not. */
+/* Returns whether the checked sidecar belongs to the figure that its command makes. A sidecar that
+ * was copied or renamed does not. */
 static bool is_own_sidecar(const struct job *job)
 {
     char sidecar[KILN_PATH_SIZE];
@@ -275,7 +277,7 @@ static bool is_own_sidecar(const struct job *job)
            is_same_file(sidecar, &given);
 }
 
-/* Says that the figure is stale if its file is missing, or is not the one that its sidecar
+/* Marks the figure as stale if its file is missing, or is not the one that its sidecar
  * describes. */
 static bool check_file(struct job *job, const struct kiln_record *record,
                        struct kiln_figure_result *result)

@@ -1,5 +1,5 @@
-/* Turns texts into strokes: decodes UTF-8, looks up glyphs, puts marks onto letters, and walks the
- * paths. */
+/* Turns texts into strokes: decodes UTF-8, looks up glyphs, puts diacritical marks onto letters,
+ * and draws the paths of glyphs with the caller's pen. */
 #include "figure/font.h"
 
 #include <ctype.h>
@@ -11,22 +11,22 @@
 #include "figure/font_glyphs.h"
 
 enum {
-    SPACING = 4, /* more room between glyphs than each has, since lettering in figures is small */
-    RISE = 30,   /* of marks over tall letters */
+    SPACING = 4, /* added to each advance, since small lettering needs more room between glyphs */
+    RISE = 30,   /* how much higher marks stand over tall letters */
     DOTLESS_I = 0x131,
     DOTLESS_J = 0x237,
 };
 
-/* How far the control points of a quarter of an ellipse are along its tangents: a little beyond
- * that of a circle, which looks rounder in letters. */
+/* The distance of the control points of a quarter of an ellipse along its tangents. It is a little
+ * more than the 0.552 of a circle, which looks rounder in letters. */
 static const double ROUND = 0.58;
 
 /* ---- Tables --------------------------------------------------------------------------------- */
 
 static const struct kiln_glyph missing = {0, 72, "M12 0 L12 100 L60 100 L60 0 L12 0"};
 
-/* Returns the row with a code, or NULL, from a table that is ascending by its rows' member `code`.
- */
+/* Returns the row with the code `key`, or NULL, from a table that is sorted by its rows' member
+ * `code`. */
 #define FIND(table, count, key)                                                                    \
     do {                                                                                           \
         uint32_t low = 0, high = (count);                                                          \
@@ -140,7 +140,7 @@ uint32_t kiln_font_width(const char *text)
 struct walk {
     const struct kiln_font_pen *pen;
     double origin_x, origin_y, scale; /* of the glyph in the text */
-    double x, y;                      /* where the pen is in the glyph */
+    double x, y;                      /* the pen's position in the glyph */
 };
 
 static double at_x(const struct walk *walk, double x)
@@ -186,7 +186,7 @@ static void quarter_to(struct walk *walk, bool leaves_horizontally, double x, do
         curve_to(walk, walk->x, walk->y + ROUND * dy, x - ROUND * dx, y, x, y);
 }
 
-/* Draws a dot, which its strokes cover with any pen. */
+/* Draws a dot as the outline of a square so small that the pen fills it. */
 static void dot(struct walk *walk, double x, double y)
 {
     move_to(walk, x - 2, y);
@@ -196,7 +196,7 @@ static void dot(struct walk *walk, double x, double y)
     line_to(walk, x - 2, y);
 }
 
-/* Reads a whole number of a path, which moves on. */
+/* Reads a whole number from a path, and moves the path on behind it. */
 static double number(const char **path)
 {
     char *end;
@@ -205,7 +205,7 @@ static double number(const char **path)
     return value;
 }
 
-/* Follows a path to its end, or to its next U, which it returns. */
+/* Draws a path up to its end or its next command U, and returns that place. */
 static const char *walk_strokes(struct walk *walk, const char *path)
 {
     while (*path && *path != 'U') {
@@ -229,7 +229,7 @@ static const char *walk_strokes(struct walk *walk, const char *path)
     return path;
 }
 
-/* Follows a whole path. Glyphs that it uses by U consist of strokes alone. */
+/* Draws a whole path. A glyph that the command U draws has no command U of its own. */
 static void walk_path(struct walk *walk, const char *path)
 {
     while (*(path = walk_strokes(walk, path))) {
@@ -245,7 +245,7 @@ static void walk_path(struct walk *walk, const char *path)
     }
 }
 
-/* Whether marks over a glyph have to rise. */
+/* Returns whether a glyph is so tall that marks over it are raised. */
 static bool is_tall(const struct kiln_glyph *glyph)
 {
     uint32_t code = glyph->code;
@@ -273,7 +273,7 @@ void kiln_font_draw(const char *text, const struct kiln_font_pen *pen)
         const char *ahead = text;
         const struct kiln_font_mark *mark = find_mark(code),
                                     *next = find_mark(kiln_font_next(&ahead));
-        if (mark) { /* joins the letter before it */
+        if (mark) { /* a combining mark is drawn over the letter before it */
             shape.mark = mark;
             shape.mark_x = shape.glyph->advance / 2.0;
             struct walk back = walk;

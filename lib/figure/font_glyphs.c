@@ -151,10 +151,7 @@ const struct kiln_glyph kiln_font_glyphs[] = {
     {0xDF, 72,
      "M14 0 L14 74 V35 104 H57 82 C57 66 41 62 41 51 C41 38 63 37 63 18 C63 6 55 0 45 0 C38 0 32 2 "
      "28 7"},
-    /* a
-                                                                                               with
-                                                                                               diaeresis
-     */
+    /* a with diaeresis */
     {0xE4, 70, "M16 56 V35 70 H56 46 L56 0 M56 41 L34 41 H11 20 V32 0 H56 24 D22 94 D50 94"},
     /* ae */
     {0xE6, 114,

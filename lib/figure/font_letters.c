@@ -1,6 +1,6 @@
-/* Holds the marks of the stroke font, and a row for each letter that is another one with a mark and
- * for each sign that looks like another one. A mark stands over the middle of its letter unless the
- * row says otherwise, and higher on a tall letter. */
+/* Holds the diacritical marks of the stroke font, a row for each letter that is a base letter with
+ * a mark, and a row for each sign that looks like another one. A mark stands over the middle of its
+ * letter unless the row says otherwise, and higher on a tall letter. */
 #include "figure/font_glyphs.h"
 
 enum {
@@ -22,7 +22,7 @@ enum {
     COMMA_BELOW = 0x326,
     CEDILLA = 0x327,
     OGONEK = 0x328,
-    TONOS = 0x384,           /* beside a Greek capital */
+    TONOS = 0x384,           /* stands beside a Greek capital */
     DIALYTIKA_TONOS = 0x385, /* dialytika and tonos together */
 };
 
