@@ -4,7 +4,8 @@
 
 #include "figure/drawing.h"
 
-/* A format, which is made either of pixels or of a drawing: one of the two functions is set. */
+/* A file format. One of the two functions is set: raster formats are made of pixels, vector formats
+ * of a drawing. */
 struct kiln_figure_format {
     const char *suffix;
     bool (*of_pixels)(const struct kiln_pixels *pixels, const struct kiln_imprint *imprint,
@@ -13,7 +14,8 @@ struct kiln_figure_format {
                        struct kiln_error *error);
 };
 
-/* Returns the format of a file by its name; NULL with KILN_USAGE, which names all formats. */
+/* Returns the format that the suffix of a file's name stands for; NULL with KILN_USAGE, whose
+ * message names all suffixes. */
 const struct kiln_figure_format *kiln_figure_format_find(const char *path,
                                                          struct kiln_error *error);
 

@@ -1,5 +1,5 @@
-/* Converts insets from what was asked for to pixels of a picture, and checks that they lie in it.
- */
+/* Converts insets, which a request gives in pixels or in parts of a picture's size, to pixels, and
+ * checks that they lie in the picture. */
 #include "figure/inset.h"
 
 #include "base/error.h"
@@ -13,8 +13,8 @@ struct kiln_rect kiln_inset_rect(const struct kiln_figure_inset *inset, uint32_t
                               (uint32_t)(inset->height * sy + 0.5)};
 }
 
-/* Whether an inset's numbers are in a range in which its pixels can be counted; false also for NaN.
- */
+/* Returns whether an inset's numbers are in a range that converts to pixels without overflow; false
+ * also for NaN. */
 static bool is_sane(const struct kiln_figure_inset *inset)
 {
     double most = inset->parts ? 1 : 65535;

@@ -1,4 +1,4 @@
-/* Places insets: parts of pictures that a figure shows enlarged. */
+/* Places insets, which are parts of pictures that a figure shows enlarged. */
 #ifndef KILN_FIGURE_INSET_H
 #define KILN_FIGURE_INSET_H
 
@@ -10,12 +10,13 @@ struct kiln_rect {
     uint32_t x, y, width, height; /* pixels */
 };
 
-/* Returns the pixels of an inset that kiln_insets_check has passed. */
+/* Returns the rectangle of an inset in pixels of a picture of that size. kiln_insets_check must
+ * have passed the inset. */
 struct kiln_rect kiln_inset_rect(const struct kiln_figure_inset *inset, uint32_t width,
                                  uint32_t height);
 
-/* Whether the insets lie in a picture of that size; KILN_USAGE names one that does not, or says how
- * many there may be. */
+/* Checks that all insets lie in a picture of that size. The message of KILN_USAGE names an inset
+ * that does not, or says how many insets there may be. */
 bool kiln_insets_check(const struct kiln_figure_params *params, uint32_t width, uint32_t height,
                        struct kiln_error *error);
 

@@ -4,7 +4,7 @@
 
 #include "figure/drawing.h"
 
-/* The quantiser of --quality 84 to 90. */
+/* The quantiser that --quality 84 to 90 gives to frames. */
 enum { QUANTISER = 2 };
 
 bool kiln_pixels_jpeg(const struct kiln_pixels *pixels, const struct kiln_imprint *imprint,

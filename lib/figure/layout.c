@@ -1,5 +1,5 @@
-/* Lays out a figure as a grid: below each picture are its insets and its label, and above all is a
- * title. It measures text and cells first, then adds marks to the drawing. */
+/* Lays out a figure as a grid below a title. A cell of the grid has a picture, with its insets and
+ * its label below. Text and cells are measured first, then marks are added to the drawing. */
 #include "figure/layout.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ struct theme {
 static const struct theme light_theme = {0xffffff, 0x24272b, 0x6c7278, 0xd8dbde};
 static const struct theme dark_theme = {0x15171a, 0xe4e6e8, 0x9aa0a6, 0x3a3e43};
 
-/* Colours that can be told apart with any colour vision (after Okabe and Ito), and on fire. */
+/* Colours that are distinct with any colour vision (after Okabe and Ito), and visible on fire. */
 static const uint32_t inset_colors[KILN_MAX_INSETS] = {0x56b4e9, 0xe69f00, 0x00b97f, 0xe07bb5};
 
 struct layout {
@@ -26,19 +26,19 @@ struct layout {
     const struct kiln_panels *panels;
     const struct kiln_figure_params *params;
     const struct theme *theme;
-    double letter;    /* the height of labels' capitals */
-    uint32_t capital; /* the same in whole pixels */
-    uint32_t size;    /* of the lettering, in pixels */
+    double letter;    /* the height of labels' capitals, in pixels */
+    uint32_t capital; /* `letter`, rounded up to whole pixels */
+    uint32_t size;    /* font size of the labels, in pixels */
     uint32_t line;    /* the width of thin lines */
     uint32_t margin, gap, row_gap;
     uint32_t head;   /* from the upper edge to the title's capitals, or to the pictures */
     uint32_t foot;   /* from the last baseline to the lower edge */
-    uint32_t widest; /* picture, in its own pixels */
-    uint32_t inset_own, inset_shown; /* the widths of the inset that is enlarged most */
+    uint32_t widest; /* the width of the widest picture, in its own pixels */
+    uint32_t inset_own, inset_shown; /* widths of the inset that is enlarged most */
     uint32_t columns, rows;
     uint32_t cell_width, picture_height, inset_height;
-    uint32_t label_height; /* with the space above it; 0 without labels */
-    uint32_t top;          /* where the grid starts */
+    uint32_t label_height; /* includes the space above the label; 0 without labels */
+    uint32_t top;          /* y of the grid's upper edge */
     struct kiln_error *error;
 };
 
@@ -58,7 +58,7 @@ static void add_text(const struct layout *l, int64_t x, int64_t baseline, double
                                                      .text = text});
 }
 
-/* Returns `length`, less the bytes of a character that would be cut there. */
+/* Returns `length`, reduced so that no UTF-8 character is cut there. */
 static size_t whole_characters(const char *text, size_t length)
 {
     while (length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80)
@@ -66,8 +66,7 @@ static size_t whole_characters(const char *text, size_t length)
     return length;
 }
 
-/* Returns the text, or its start with an ellipsis where it is too wide; NULL when memory is short.
- */
+/* Returns the text, or its start with an ellipsis if it is too wide; NULL when memory is short. */
 static const char *fit_text(const struct layout *l, const char *text, double capital,
                             uint32_t width)
 {
@@ -91,7 +90,7 @@ static const char *fit_text(const struct layout *l, const char *text, double cap
     return start;
 }
 
-/* Scales a length by to / from; the result is at least a pixel. */
+/* Scales a length in pixels by to / from; the result is at least 1. */
 static uint32_t scaled(uint32_t length, uint32_t to, uint32_t from)
 {
     uint64_t result = ((uint64_t)length * to + from / 2) / from;
@@ -100,8 +99,9 @@ static uint32_t scaled(uint32_t length, uint32_t to, uint32_t from)
 
 /* ---- Insets --------------------------------------------------------------------------------- */
 
-/* Returns the height of the insets of a picture. All have one height and together fill the width of
- * the panel, or less where they would get too high for the picture. */
+/* Returns the height of a picture's insets, which all have the same height; 0 if they do not fit.
+ * Together they fill the panel's width, but are at most 0.6 (a single inset) or 0.8 (several) of
+ * the picture's height. */
 static uint32_t inset_height(const struct layout *l, const struct kiln_pixels *pixels,
                              uint32_t width, uint32_t height)
 {
@@ -133,8 +133,8 @@ static bool crop(const struct layout *l, const struct kiln_pixels *pixels, struc
     return true;
 }
 
-/* Reduces the picture of a mark to the pixels that it has on paper, where the pixels of an inch are
- * known. Otherwise vectors carry the picture as it is. */
+/* Reduces a mark's picture to the pixels that it has on paper, if the request gives the pixels of
+ * an inch. Otherwise SVG and PDF carry the picture at its own size. */
 static void reduce(const struct layout *l, struct kiln_mark *mark)
 {
     bool larger = mark->pixels.width > mark->width || mark->pixels.height > mark->height;
@@ -147,8 +147,8 @@ static void reduce(const struct layout *l, struct kiln_mark *mark)
         l->drawing->failed = true;
 }
 
-/* Adds for each inset a frame in the picture, which lies at (x, y) with that size, and the enlarged
- * part in a row below it. */
+/* Adds for each inset a frame in the picture, which has its corner at (x, y) and the given size,
+ * and the enlarged inset in a row below the picture. */
 static void add_insets(const struct layout *l, const struct kiln_pixels *pixels, uint32_t x,
                        uint32_t y, uint32_t width, uint32_t height)
 {
@@ -165,7 +165,7 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
         kiln_drawing_add(l->drawing, &mark);
         bool last = i + 1 == l->params->inset_count;
         uint32_t shown = scaled(rect.width, row, rect.height);
-        if (last && shown + 4 >= x + width - at) /* fills what rounding has left over */
+        if (last && shown + 4 >= x + width - at) /* fills what rounding left over */
             shown = x + width - at;
         mark = (struct kiln_mark){.kind = KILN_MARK_PICTURE, .x = (int32_t)at};
         mark.y = (int32_t)(y + l->picture_height + l->gap / 2);
@@ -177,8 +177,8 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
         }
         reduce(l, &mark);
         kiln_drawing_add(l->drawing, &mark);
-        /* This frame covers the edge of the inset, which readers of vectors round to whole pixels.
-         */
+        /* This frame covers the inset's edge, which viewers of SVG and PDF round to whole
+         * pixels. */
         mark.kind = KILN_MARK_FRAME;
         mark.x -= (int32_t)l->line;
         mark.y -= (int32_t)l->line;
@@ -207,8 +207,8 @@ static void picture_size(const struct layout *l, const struct kiln_pixels *pixel
     }
 }
 
-/* Adds a scale of colours from black, no error, to pale yellow, the largest one. It ends at
- * `right`. */
+/* Adds the colour scale of an error map, from black for no error to pale yellow for the error 1.
+ * The scale ends at x = `right`. */
 static void add_scale(const struct layout *l, uint32_t right, uint32_t baseline)
 {
     enum { LENGTH = 64, GAP = 4 };
@@ -245,7 +245,8 @@ static void add_label(const struct layout *l, size_t index, uint32_t x, uint32_t
         l->drawing->failed = true;
 }
 
-/* Returns where a column starts. What a width on paper leaves over is spread over the gaps. */
+/* Returns the x of a column's left edge. If the request gives a width on paper, the pixels that the
+ * cells leave over are spread over the gaps. */
 static uint32_t column_left(const struct layout *l, uint32_t column)
 {
     if (l->params->paper_width_mm > 0)
@@ -280,7 +281,7 @@ static void add_cell(const struct layout *l, size_t index)
         add_label(l, index, x, y + l->picture_height + below + l->label_height);
 }
 
-/* ---- The whole ------------------------------------------------------------------------------ */
+/* ---- The whole figure ----------------------------------------------------------------------- */
 
 static bool any_label(const struct layout *l)
 {
@@ -293,8 +294,8 @@ static bool any_label(const struct layout *l)
     return l->params->label_count > 0;
 }
 
-/* Measures the lettering and what depends on its size. A figure of a given width on paper has no
- * margins, since the document around it has margins already. */
+/* Measures the lettering and all lengths that depend on its size. A light figure of a given width
+ * on paper has a margin of one line only, since the document around it has margins already. */
 static void measure_text(struct layout *l)
 {
     const struct kiln_figure_params *params = l->params;
@@ -322,8 +323,8 @@ static void measure_text(struct layout *l)
     l->foot = labels && below > l->margin ? below : l->margin;
 }
 
-/* Warns of pictures and insets that are enlarged: repeated pixels look coarse in print, and scenes
- * can be rendered larger. */
+/* Warns if pictures or insets are enlarged: repeated pixels look coarse in print, and scenes can be
+ * rendered larger instead. */
 static void warn_of_enlarging(const struct layout *l)
 {
     if (l->widest < l->cell_width && !l->params->check)

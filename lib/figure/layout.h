@@ -5,11 +5,11 @@
 #include "figure/panels.h"
 #include "kiln_program.h"
 
-/* The colour of the paper. */
+/* Returns the colour of the paper, 0xRRGGBB. */
 uint32_t kiln_layout_paper(bool dark);
 
-/* Fills a drawing whose arena is set. KILN_USAGE for an inset outside of a picture, for a number of
- * labels that is not that of the panels, for a figure that is too large. */
+/* Fills a drawing whose arena the caller has set. KILN_USAGE for an inset outside of a picture, for
+ * a number of labels other than that of the panels, and for a figure that is too large. */
 bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *panels,
                       const struct kiln_figure_params *params, struct kiln_error *error);
 

@@ -1,5 +1,5 @@
-/* Refuses texts that the font of figures cannot letter, since a box in a printed figure would be
- * found too late. */
+/* Refuses texts with characters that the font of figures lacks. The font would draw a box for such
+ * a character, which might be noticed only in print. */
 #include "figure/lettering.h"
 
 #include "base/error.h"
@@ -36,7 +36,7 @@ bool kiln_lettering_check_label(const char *label, size_t panel, struct kiln_err
     return kiln_lettering_check(label, place, error);
 }
 
-/* Checks that a text is UTF-8. It is not lettered, so it may be in any script. */
+/* Checks that the text of --alt is UTF-8. It is not drawn, so it may be in any script. */
 static bool check_utf8(const char *text, struct kiln_error *error)
 {
     const char *c = text;

@@ -1,4 +1,5 @@
-/* Lists figures by their sidecars, which it finds below folders and beside figures. */
+/* Lists figures by their sidecars, which it finds below folders and beside figures, for kiln figure
+ * --check. */
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -33,7 +34,8 @@ static struct kiln_figure_entry *new_entry(struct kiln_figure_list *list)
     return &list->entries[list->count++];
 }
 
-/* Fills in what is known of a sidecar without its text; false when memory is short. */
+/* Fills in the members of an entry that follow from the sidecar's path; false when memory is
+ * short. */
 static bool start_entry(struct kiln_arena *arena, struct kiln_figure_entry *entry, const char *path)
 {
     size_t length = strlen(path) - (sizeof KILN_RECORD_SUFFIX - 1);
@@ -66,7 +68,8 @@ static bool add_entry(struct kiln_figure_list *list, const char *path, struct ki
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
 }
 
-/* Adds a path that leads to no figure, with its problem. Other paths are searched all the same. */
+/* Adds an entry with a problem for a path that leads to no figure. The search goes on with the
+ * other paths. */
 static bool add_problem(struct kiln_figure_list *list, const char *path,
                         const struct kiln_error *problem, struct kiln_error *error)
 {
@@ -115,7 +118,8 @@ static bool search(struct kiln_figure_list *list, const char *folder, int depth,
     return ok;
 }
 
-/* Adds a figure, whose file may be gone, by its sidecar. */
+/* Adds the figure at `path` by its sidecar. The figure's own file may be missing. Without a
+ * sidecar, it adds an entry with a problem. */
 static bool add_figure(struct kiln_figure_list *list, const char *path, bool is_there,
                        struct kiln_error *error)
 {

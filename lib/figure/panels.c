@@ -1,6 +1,6 @@
-/* Renders the panels of figures of scenes. Panels that differ by their frame alone are rendered in
- * one run. As in tests, stages that can run on the processor do: a figure is the same on every
- * machine if it can be. */
+/* Renders the panels of figures from scenes. Panels that differ only by their frame are rendered in
+ * one run. As in tests, every stage that can run on the processor does, so that a figure is the
+ * same on every machine if possible. */
 #include "figure/panels.h"
 
 #include <math.h>
@@ -51,10 +51,10 @@ struct rendering {
     const struct kiln_figure_params *params;
     const struct kiln_choices *choices;
     struct kiln_device *device;
-    struct kiln_scene *scene; /* of the run at hand */
-    bool *in_run;             /* for each panel, whether the run is for it */
+    struct kiln_scene *scene; /* the scene of the current run */
+    bool *in_run;             /* for each panel, whether the current run renders it */
     struct kiln_error *error;
-    struct kiln_error failure; /* an error of a callback */
+    struct kiln_error failure; /* the first error of a callback */
 };
 
 static bool no_memory(const struct rendering *r)
@@ -152,7 +152,7 @@ static int compare_ranges(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Lists the frames of the run in ascending order, each once. */
+/* Lists the frames of the current run in ascending order, each once. */
 static struct kiln_frame_range *list_frames(const struct rendering *r, size_t *count)
 {
     struct kiln_frame_range *list =
@@ -217,7 +217,8 @@ static bool make_run(struct rendering *r, size_t first)
     return render_run(r);
 }
 
-/* Checks that the font has the labels that panels have of themselves. */
+/* Checks that the font has the characters of the labels that kiln gives to panels, if they are
+ * shown. */
 static bool check_labels(const struct rendering *r)
 {
     bool own = r->params->label_count == 0 && !r->params->unlabelled && !r->params->plain;
@@ -228,8 +229,8 @@ static bool check_labels(const struct rendering *r)
     return true;
 }
 
-/* Loads every scene once before the device is opened: a wrong scene should not cost minutes, nor
- * should an inset outside of its pictures. */
+/* Loads every scene once before the device is opened, so that a faulty scene, or an inset outside
+ * of its picture, is found before minutes of rendering. */
 static bool check_runs(struct rendering *r)
 {
     for (size_t i = 0; i < r->choices->count; i++) {

@@ -1,7 +1,7 @@
-/* Writes a drawing as PDF 1.4 of one page. Pictures are deflated RGB; lettering is strokes, and
- * over it the same text without ink, which readers select and search. A figure with a text for
- * screen readers is a tagged document of one element. Nothing in the file tells of the time or the
- * machine. */
+/* Writes a drawing as PDF 1.4 of one page. Pictures are deflated RGB. Text is drawn as strokes;
+ * over them lies the same text, invisible, which readers select and search. A figure with a text
+ * for screen readers is a tagged document of one element. The file holds neither the time nor
+ * anything about the machine. */
 #include "figure/pdf.h"
 
 #include <inttypes.h>
@@ -44,7 +44,7 @@ static bool put_utf16(FILE *out, const char **text)
     return code != 0;
 }
 
-/* Writes a text of the document, which is not shown on the page. */
+/* Writes a text of the document that is not shown on the page, such as its title, as UTF-16. */
 static void put_string(FILE *out, const char *text)
 {
     fputs("<FEFF", out);
@@ -64,7 +64,7 @@ static void put_color(FILE *out, uint32_t color, const char *command)
             (color & 255) / 255.0, command);
 }
 
-/* ---- Marks: the page's space is that of the drawing with y up ------------------------------- */
+/* ---- Marks: the page's coordinates are the drawing's with y up ------------------------------ */
 
 struct pen {
     FILE *out;
@@ -99,8 +99,8 @@ static void pen_curve(void *user, const double p[6])
     fputs("c\n", pen->out);
 }
 
-/* Draws a text as strokes, and then as text in a font without outlines, in the mode of rendering
- * that shows nothing. */
+/* Draws a text as strokes, and then as text in a font without outlines and in the invisible text
+ * rendering mode (3 Tr). */
 static void put_text(FILE *out, const struct kiln_mark *mark, double baseline)
 {
     double scale = mark->capital / KILN_FONT_CAPITAL;
@@ -142,11 +142,12 @@ static void put_mark(FILE *out, const struct kiln_mark *mark, uint32_t page, siz
 
 /* ---- Objects -------------------------------------------------------------------------------- */
 
-/* Numbers of objects: the catalogue, the pages, the page and what is on it, pictures, the font,
- * then objects that only some figures have. 0: the figure does not have the object. */
+/* Numbers of objects. The catalogue, the page tree, the page, its content and the pictures come
+ * first. The font and the other objects of struct numbers follow; a 0 says that the figure does not
+ * have the object. */
 enum { CATALOGUE = 1, PAGES, PAGE, CONTENT, PICTURES };
 struct numbers {
-    size_t pictures; /* how many */
+    size_t pictures; /* the number of pictures */
     size_t font, info, tree, element;
 };
 
@@ -247,7 +248,7 @@ static void put_page(struct kiln_pdf *pdf, const struct numbers *numbers)
     fputs(" >> >>\nendobj\n", out);
 }
 
-/* Writes the figure as the one element of the document. */
+/* Writes the structure tree, whose only element is the figure. */
 static void put_structure(struct kiln_pdf *pdf, const struct numbers *numbers)
 {
     const struct kiln_drawing *drawing = pdf->drawing;

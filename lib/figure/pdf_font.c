@@ -1,5 +1,5 @@
 /* Makes a TrueType font of empty glyphs with the widths of the lettering, and the objects by which
- * a PDF uses it: characters are two bytes, their code in Unicode. */
+ * a PDF uses it. In the PDF's texts a character is two bytes, its code in Unicode. */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,11 +9,11 @@
 
 enum {
     CODES = 0x10000,
-    UNITS_PER_EM = 10 * KILN_FONT_EM, /* a unit of the lettering is ten of the font */
-    MOST_IN_BLOCK = 100,              /* entries in a block of a mapping to Unicode */
+    UNITS_PER_EM = 10 * KILN_FONT_EM, /* a unit of the stroke font is ten of this font */
+    MOST_IN_BLOCK = 100, /* entries in a block of the map to Unicode, which PDF limits */
 };
 
-/* The characters of a drawing, ascending. */
+/* The characters of a drawing, in ascending order. */
 struct characters {
     uint16_t *codes;
     size_t count;
@@ -63,11 +63,11 @@ static void put_head(FILE *out)
 {
     put32(out, 0x00010000); /* version */
     put32(out, 0x00010000); /* revision of the font */
-    put32(out, 0);          /* a sum over the file, which no reader of a PDF looks at */
+    put32(out, 0);          /* checksum of the file, which readers of PDF ignore */
     put32(out, 0x5F0F3CF5);
     put16(out, 0);
     put16(out, UNITS_PER_EM);
-    put_zeros(out, 16 + 8); /* dates, bounds */
+    put_zeros(out, 16 + 8); /* dates, bounding box */
     put16(out, 0);          /* style */
     put16(out, 8);          /* smallest size in pixels */
     put16(out, 2);          /* from left to right */
@@ -80,7 +80,7 @@ static void put_hhea(FILE *out, size_t glyphs)
     put32(out, 0x00010000);
     put16(out, KILN_FONT_ASCENT * 10);
     put16(out, (uint32_t)-KILN_FONT_DESCENT * 10);
-    put_zeros(out, 2 + 2 + 2 + 2 + 2); /* gap of lines, greatest width and bearings */
+    put_zeros(out, 2 + 2 + 2 + 2 + 2); /* line gap, greatest width and bearings */
     put16(out, 1);                     /* upright */
     put_zeros(out, 2 + 2 + 8 + 2);
     put16(out, (uint32_t)glyphs);
@@ -95,7 +95,7 @@ static void put_maxp(FILE *out, size_t glyphs)
     put_zeros(out, 16);
 }
 
-/* Writes the widths of glyphs. Glyph 0 stands for missing ones. */
+/* Writes the widths of the glyphs. Glyph 0 stands for missing characters. */
 static void put_hmtx(FILE *out, const struct characters *characters)
 {
     put32(out, 0);
@@ -133,7 +133,7 @@ static void put_table(FILE *out, int table, const struct characters *characters)
 {
     size_t glyphs = characters->count + 1;
     if (table == GLYF)
-        put32(out, 0); /* an empty table, for which readers want at least some bytes */
+        put32(out, 0); /* no outlines, but readers want a table that is not empty */
     else if (table == HEAD)
         put_head(out);
     else if (table == HHEA)
@@ -158,7 +158,8 @@ static bool make_font(const struct characters *characters, char **bytes, size_t 
     if (ok) {
         put32(out, 0x00010000);
         put16(out, TABLES);
-        put16(out, 64); /* for a binary search: 4 * 16, its logarithm, the rest */
+        put16(out, 64); /* search range (4 * 16), its logarithm, and the rest: for a binary search
+                           of the tables */
         put16(out, 2);
         put16(out, TABLES * 16 - 64);
     }
@@ -183,7 +184,7 @@ static bool make_font(const struct characters *characters, char **bytes, size_t 
 
 /* ---- Objects -------------------------------------------------------------------------------- */
 
-/* Writes which glyph a character has: two bytes for each code up to the largest one. */
+/* Writes the map from characters to glyphs: two bytes for each code up to the largest one. */
 static bool put_glyph_map(struct kiln_pdf *pdf, const struct characters *characters)
 {
     size_t size =

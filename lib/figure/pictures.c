@@ -1,6 +1,7 @@
-/* Makes panels of pictures that exist: two of them with their difference, or frames of a clip.
- * Light is shown as kiln compare shows it: clamped to white, alpha over black. A strip of a scene
- * is a sheet of its frames in a row. */
+/* Makes panels from pictures that exist: a triptych has two pictures and their error map, a strip
+ * has frames of a clip. Pictures are shown as kiln compare shows them: light is clamped to white,
+ * and alpha is blended over black. A strip of a scene is rendered as a sheet of its frames in a
+ * row. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,7 +71,7 @@ static bool measure(struct kiln_panels *panels, struct kiln_subject *const subje
         take_subject(panels, &panels->items[1], subjects[1], error) &&
         take_map(panels, &panels->items[2], &measurement, error);
     kiln_measurement_finish(&measurement);
-    if (!ok && error->code == KILN_FRAME_FAILED) { /* two sizes are wrong input, no verdict */
+    if (!ok && error->code == KILN_FRAME_FAILED) { /* different sizes are wrong input */
         struct kiln_error cause = *error;
         kiln_error_set(error, KILN_INVALID_INPUT, "%s: %.900s", panels->items[1].source,
                        cause.message);
@@ -164,7 +165,8 @@ static bool take_frame(struct kiln_panels *panels, const struct kiln_figure_para
     return ok;
 }
 
-/* Finds which number the next frame has; false at the end. */
+/* Finds the number of the next frame: its own where the kind of footage has numbers, else its
+ * position. False at the end. */
 static bool next_number(struct kiln_footage *footage, uint32_t position, uint32_t *number)
 {
     struct kiln_footage_frame frame;
@@ -175,8 +177,8 @@ static bool next_number(struct kiln_footage *footage, uint32_t position, uint32_
     return true;
 }
 
-/* Counts the frames, and lists an even choice of them by their numbers. A video has to be decoded
- * for that. */
+/* Counts the frames of a clip, and lists `wanted` of them at even distances, by their numbers. To
+ * count its frames, a video is decoded. */
 static bool choose_evenly(const char *path, uint32_t wanted, struct kiln_frame_range *ranges,
                           size_t *count, struct kiln_error *error)
 {
@@ -264,7 +266,7 @@ static bool strip_of_clip(struct kiln_panels *panels, const struct kiln_figure_p
                           path, panels->count, wanted);
 }
 
-/* Makes a sheet of a scene's frames in one row. */
+/* Makes a strip of a scene as a sheet of its frames in one row. */
 static bool strip_of_scene(struct kiln_panels *panels, const struct kiln_figure_params *params,
                            struct kiln_error *error)
 {

@@ -1,5 +1,5 @@
-/* Encodes the pixels of a figure as PNG in memory. Unlike frames, figures are read often and made
- * once, so the PNG is made for size. */
+/* Encodes the pixels of a figure as PNG in memory. Unlike frames, figures are made once and read
+ * often, so the encoder spends time on a small file. */
 #include <png.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,11 +7,11 @@
 #include "base/error.h"
 #include "figure/drawing.h"
 
-/* Leaves libpng after a failure: it must not return from here, and goes on at the setjmp in encode.
- */
+/* Leaves libpng after a failure. libpng does not allow this function to return, so it jumps to the
+ * setjmp in encode. */
 static void on_failure(png_structp png, png_const_charp message)
 {
-    (void)message; /* the failure is lack of memory, of which the message says no more */
+    (void)message; /* the only failure is lack of memory, to which the message adds nothing */
     png_longjmp(png, 1);
 }
 
@@ -32,7 +32,8 @@ static void on_flush(png_structp png)
     (void)png;
 }
 
-/* Adds the pixels of a metre, and the text under "Description", a keyword of the standard. */
+/* Adds the resolution in pixels per metre, and the text for screen readers under "Description", a
+ * keyword of the PNG standard. */
 static void add_imprint(png_structp png, png_infop info, uint32_t dpi, char *alt)
 {
     if (dpi > 0) {

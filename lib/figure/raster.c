@@ -1,5 +1,6 @@
 /* Paints the marks of a drawing in pixels, in arithmetic that rounds alike on every machine. Of
- * libm it uses functions that are exact, such as roots; powers are rounded to whole numbers. */
+ * libm, it uses functions whose results are exact, such as sqrt, and pow, whose results it rounds
+ * to whole numbers. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,8 +11,8 @@
 
 /* ---- Pictures ------------------------------------------------------------------------------- */
 
-/* Makes a table of the light of each level of sRGB's encoding, 0 to 65535. Rounded whole numbers
- * are the same with any libm. */
+/* Makes a table of the linear light of each sRGB level, 0 to 65535. The values are rounded to whole
+ * numbers, which are the same with any libm. */
 static void make_light(uint32_t light[256])
 {
     for (int i = 0; i < 256; i++) {
@@ -36,7 +37,7 @@ static uint8_t level_of(const uint32_t light[256], uint64_t value)
 
 struct span {
     uint32_t first, last;           /* source pixels, both included */
-    uint32_t first_part, last_part; /* how much of the pixel, of 256 */
+    uint32_t first_part, last_part; /* how much of the pixel is covered, in 1/256 */
 };
 
 static struct span span_of(uint32_t i, uint32_t from, uint32_t to)
@@ -101,14 +102,14 @@ bool kiln_pixels_resize(const struct kiln_pixels *pixels, uint32_t width, uint32
 
 /* ---- Strokes -------------------------------------------------------------------------------- */
 
-/* How much of each pixel of a rectangle the pen has covered, 0 to 1. */
+/* A rectangle of pixels, and how much of each the pen has covered, 0 to 1. */
 struct stencil {
     int32_t x, y;
     uint32_t width, height;
     float *cover;
-    double origin_x, origin_y, scale; /* of the text, in pixels */
+    double origin_x, origin_y, scale; /* origin and scale of the text, in pixels */
     double half_pen;
-    double px, py; /* where the pen is, in pixels */
+    double px, py; /* position of the pen, in pixels */
 };
 
 /* Returns how much of the pixel around a point (x, y) a stroke from (0, 0) to (dx, dy) covers. */
@@ -121,7 +122,8 @@ static double cover_at(double x, double y, double dx, double dy, double half_pen
     return cover < 0 ? 0 : cover > 1 ? 1 : cover;
 }
 
-/* Finds the pixels of a range that the stencil has, counted from its start. */
+/* Clips a range of pixels to those of the stencil; the result counts from the stencil's start and
+ * excludes its end. */
 static void clip(double low, double high, int32_t start, uint32_t size, uint32_t range[2])
 {
     double first = floor(low) - start, last = ceil(high) - start;
@@ -190,7 +192,8 @@ static bool paint_text(const struct kiln_mark *mark, const struct kiln_pixels *o
         .width = kiln_drawing_text_width(mark->text, mark->capital) + 4,
         .height = capital * 2 + 4,
         .origin_x = mark->x,
-        /* A stroke along the baseline, or along the height of capitals, fills a row of pixels. */
+        /* The half pixel lets a stroke along the baseline, or along the height of capitals, fill a
+         * row of pixels. */
         .origin_y = mark->y - 0.5,
         .scale = scale,
         .half_pen = scale * KILN_FONT_PEN / 2,
@@ -232,7 +235,7 @@ static void paint_frame(const struct kiln_mark *mark, const struct kiln_pixels *
     fill(out, x1 - s, y0 + s, x1, y1 - s, mark->color);
 }
 
-/* Paints a picture, which the layout keeps on the paper. */
+/* Paints a picture. It does not clip, since the layout keeps pictures on the paper. */
 static bool paint_picture(const struct kiln_mark *mark, const struct kiln_pixels *out)
 {
     uint8_t *resized = malloc((size_t)mark->width * mark->height * 4);

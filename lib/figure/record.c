@@ -1,5 +1,5 @@
-/* Writes and reads the sidecars of figures as JSON. Writer and reader are code of their own: one
- * table for both would be longer than the two. */
+/* Writes and reads the sidecars of figures as JSON. Writer and reader share no table of keys, since
+ * such a table would be longer than the two. */
 #include "figure/record.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Writes and reads the sidecar of a figure, FILE.png.figure.json. It says by what the figure was
- * made, from what, and what came out. */
+/* Writes and reads the sidecar of a figure, FILE.png.figure.json. The sidecar records the command,
+ * the device and the sources that made the figure, and hashes of the result. */
 #ifndef KILN_FIGURE_RECORD_H
 #define KILN_FIGURE_RECORD_H
 
@@ -9,16 +9,16 @@
 #define KILN_RECORD_SUFFIX ".figure.json"
 
 struct kiln_record {
-    const char *version;  /* of kiln */
-    const char *folder;   /* where the command was given, from the folder of the sidecar */
+    const char *version;  /* version of kiln */
+    const char *folder;   /* working directory of the command, from the folder of the sidecar */
     const char **command; /* the words after `kiln` */
     size_t command_count;
-    const char *device, *driver, *cpu; /* as in kiln_maker */
+    const char *device, *driver, *cpu; /* as in struct kiln_maker */
     uint32_t width, height;
-    const char *alt;    /* what the figure shows, in words; NULL: not said */
-    const char *pixels; /* SHA-256 of the figure's pixels, also of what is written as vectors */
+    const char *alt;    /* description for screen readers; may be NULL */
+    const char *pixels; /* SHA-256 of the figure's pixels; an SVG or PDF is rasterised for it */
     const char *file;   /* SHA-256 of the figure's file */
-    struct kiln_panel *panels; /* without their pixels */
+    struct kiln_panel *panels; /* read from a file, they have no pixels */
     size_t panel_count;
 };
 
@@ -26,12 +26,12 @@ struct kiln_record {
 bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
                        struct kiln_error *error);
 
-/* Reads the text of a sidecar, which must end in a zero byte that size does not count, into the
- * arena. name stands for it in messages. NULL with KILN_INVALID_INPUT when it is no sidecar. */
+/* Parses the text of a sidecar into the arena. The text must end in a zero byte, which `size` does
+ * not count; `name` names it in messages. NULL with KILN_INVALID_INPUT when it is no sidecar. */
 struct kiln_record *kiln_record_parse(struct kiln_arena *arena, const char *text, size_t size,
                                       const char *name, struct kiln_error *error);
 
-/* Reads the file of a sidecar, as kiln_record_parse reads its text. */
+/* Reads the file of a sidecar, and parses it as kiln_record_parse does. */
 struct kiln_record *kiln_record_read(struct kiln_arena *arena, const char *path,
                                      struct kiln_error *error);
 

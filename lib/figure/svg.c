@@ -1,6 +1,6 @@
-/* Writes a drawing as SVG. Pictures are embedded as PNG at their own size. Lettering is strokes, so
- * that no reader needs a font, and over it the same text without ink, which readers select and
- * search. */
+/* Writes a drawing as SVG. Pictures are embedded as PNG at their own size. Text is drawn as
+ * strokes, so that no reader needs a font; over them lies the same text, invisible, which readers
+ * select and search. */
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -13,7 +13,7 @@ struct pen {
     double x, y, scale;
 };
 
-/* Writes a point with two digits after the decimal point, which is a hundredth of a pixel. */
+/* Writes a path command and its point, rounded to a hundredth of a pixel. */
 static void put_point(const struct pen *pen, char command, double x, double y)
 {
     fprintf(pen->out, "%c%.2f %.2f", command, pen->x + x * pen->scale, pen->y - y * pen->scale);
@@ -101,7 +101,8 @@ static bool put_mark(FILE *out, const struct kiln_mark *mark, struct kiln_error 
     return true;
 }
 
-/* Writes the start of the document. Its size is one of paper if that is known. */
+/* Writes the start of the document. The document's size is in mm if its size on paper is known,
+ * else in pixels. */
 static void put_start(FILE *out, const struct kiln_drawing *drawing)
 {
     double edge = drawing->pixel_mm > 0 ? drawing->pixel_mm : 1;

@@ -9,7 +9,7 @@
 #include "base/ranges.h"
 #include "base/text.h"
 
-/* One value of an axis: what it sets, and what its label says. */
+/* One value of an axis: the overrides or the moment that it sets, and its label. */
 struct setting {
     const char **overrides;
     size_t override_count;
@@ -21,7 +21,7 @@ struct setting {
 struct axis {
     struct setting *settings;
     size_t count;
-    bool variants; /* an axis of variants, which may still grow */
+    bool variants; /* an axis of --variant options, which grows with each of them */
     const char *key;
 };
 
@@ -88,8 +88,8 @@ static size_t count_values(const char *text, char separator)
     return count;
 }
 
-/* Returns the key's last word, by which a reader knows it; the last two words where the last one
- * says too little. */
+/* Returns the key's last word, which is enough for a reader; its last two words if the last is
+ * "kind" or "enabled", which says too little. */
 static const char *tail_of(const char *key, size_t length)
 {
     size_t start = length;
@@ -159,7 +159,7 @@ static bool add_override(struct expansion *e, struct setting *setting, const cha
     return setting->label || no_memory(e);
 }
 
-/* Finds the key of "key=..." and where its values start. */
+/* Returns where the values of "key=..." start, and finds the length of the key. */
 static const char *values_of(struct expansion *e, const char *option, const char *text,
                              size_t *key_length)
 {
@@ -264,7 +264,7 @@ static bool add_scenes(struct expansion *e)
     return axis != NULL;
 }
 
-/* Adds the frames as an axis. A single frame gets no label. */
+/* Adds the frames of the request as an axis. A single frame gets no label. */
 static bool add_frames(struct expansion *e)
 {
     const struct kiln_figure_params *params = e->params;
@@ -294,7 +294,7 @@ static bool add_frames(struct expansion *e)
     return true;
 }
 
-/* ---- The product ---------------------------------------------------------------------------- */
+/* ---- The product of the axes ---------------------------------------------------------------- */
 
 static bool fill_choice(struct expansion *e, size_t number, struct kiln_choice *choice)
 {

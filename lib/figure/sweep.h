@@ -1,4 +1,4 @@
-/* Finds which panels a figure of scenes has: the product of its axes. */
+/* Finds which panels a figure of scenes has. They are the product of its axes. */
 #ifndef KILN_FIGURE_SWEEP_H
 #define KILN_FIGURE_SWEEP_H
 
@@ -9,12 +9,12 @@ enum { KILN_MAX_PANELS = 1024, KILN_MAX_AXES = 8 };
 
 enum kiln_sweep_moment { KILN_MOMENT_NONE, KILN_MOMENT_FRAME, KILN_MOMENT_TIME };
 
-/* What one panel shows. */
+/* The scene, the overrides and the moment that one panel shows. */
 struct kiln_choice {
-    size_t scene;           /* index of the inputs */
+    size_t scene;           /* index into the inputs */
     const char **overrides; /* "key=value" */
     size_t override_count;
-    enum kiln_sweep_moment moment; /* NONE: the figure's own frame */
+    enum kiln_sweep_moment moment; /* NONE: the middle frame of the scene */
     double when;                   /* a frame's number, or seconds */
     const char *label;             /* "" without one */
 };
@@ -23,7 +23,7 @@ struct kiln_choices {
     struct kiln_choice *items; /* the last axis runs fastest */
     size_t count;
     size_t axis_count;
-    size_t last_axis; /* how many values it has */
+    size_t last_axis; /* the number of values of the last axis that has more than one */
 };
 
 /* Expands the inputs, sweeps and frames of the parameters into choices, which lie in the arena.

@@ -1,5 +1,5 @@
-/* Judges a figure from its sidecar and a fresh drawing: first by hashes, then, where something else
- * drew it, by the metrics of kiln compare. It also words the reason. */
+/* Judges a figure from its sidecar and a fresh drawing: first by hashes; then, if another device,
+ * driver or processor drew it, by the metrics of kiln compare. It also words the reason. */
 #include "figure/verdict.h"
 
 #include <stdlib.h>
@@ -17,7 +17,7 @@ static void say_stale(struct kiln_figure_result *result, const char *reason)
 
 /* ---- By hashes ------------------------------------------------------------------------------ */
 
-/* The things of a panel that can change and have a hash, from the scene to the pixels. */
+/* The stages of a panel that have a hash, from the scene to the pixels. */
 enum thing { SCENE, SIMULATION, PICTURE };
 
 static const char *hash_of(const struct kiln_panel *panel, enum thing thing)
@@ -25,7 +25,8 @@ static const char *hash_of(const struct kiln_panel *panel, enum thing thing)
     return thing == SCENE ? panel->scene_hash : thing == SIMULATION ? panel->state : panel->hash;
 }
 
-/* Names the first panel whose hash of the thing is another one; false when there is none. */
+/* Marks the figure as stale and names the first panel in which the hash of `thing` differs; false
+ * when there is none. */
 static bool explain_thing(const struct kiln_record *record, const struct kiln_panels *panels,
                           enum thing thing, struct kiln_figure_result *result)
 {
@@ -43,7 +44,7 @@ static bool explain_thing(const struct kiln_record *record, const struct kiln_pa
     return false;
 }
 
-/* Explains changes that do not depend on what drew the figure; false when there are none. */
+/* Explains changes that do not depend on the device; false when there are none. */
 static bool explain_cause(const struct kiln_record *record, const struct kiln_panels *panels,
                           struct kiln_figure_result *result)
 {
@@ -57,7 +58,9 @@ static bool explain_cause(const struct kiln_record *record, const struct kiln_pa
 
 /* ---- By metrics ------------------------------------------------------------------------------ */
 
-/* Returns which part of what drew the figure is another one now, or NULL. */
+/* Returns the device, driver or processor that drew the figure, whichever first differs from the
+ * present one; NULL if none differs. The processor counts only for devices whose pixels depend on
+ * it. */
 static const char *other_maker(const struct kiln_record *record, const struct kiln_maker *maker)
 {
     if (strcmp(record->device, maker->device) != 0)
@@ -68,7 +71,8 @@ static const char *other_maker(const struct kiln_record *record, const struct ki
     return !same_everywhere && strcmp(record->cpu, maker->cpu) != 0 ? record->cpu : NULL;
 }
 
-/* Loads the file, and what would be in its place now, with the losses of its format. */
+/* Loads the figure's file, and the fresh drawing after a round trip through the same format, so
+ * that both have the losses of the format. */
 static bool load_both(const struct kiln_figure_now *now, struct kiln_subject *subjects[2],
                       struct kiln_threads *threads, struct kiln_error *error)
 {
@@ -102,8 +106,7 @@ static void say_worst(const struct kiln_metric_set *set, const struct kiln_compa
              result->stale ? "beyond the" : "within the", found);
 }
 
-/* Compares the figure as it was and as it is drawn now, by the limits of kiln compare without
- * options. */
+/* Compares the figure's file with the fresh drawing, by the default limits of kiln compare. */
 static bool judge_by_eye(const struct kiln_figure_now *now, const char *maker,
                          struct kiln_figure_result *result, struct kiln_error *error)
 {

@@ -12,13 +12,13 @@ struct kiln_figure_now {
     const struct kiln_pixels *pixels;
     const char *hash;
     const struct kiln_figure_format *format;
-    const char *path; /* of the file that it was written to */
+    const char *path; /* of the figure's file */
     uint32_t threads;
 };
 
-/* Fills in whether the figure is stale and why. Its pixels' hash decides where the same device,
- * driver and processor drew it; else, if scene and simulation are the same, the limits of kiln
- * compare do. */
+/* Fills in whether the figure is stale and why. If the same device, driver and processor drew it,
+ * the hash of its pixels decides; else, if scene and simulation are the same, the default limits of
+ * kiln compare do. */
 bool kiln_figure_judge(const struct kiln_record *record, const struct kiln_figure_now *now,
                        struct kiln_figure_result *result, struct kiln_error *error);
 
