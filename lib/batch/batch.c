@@ -1,4 +1,5 @@
-/* Reads files of jobs by an option table, with the errors and the reference that scenes have. */
+/* Reads files of jobs for kiln render --batch. Files are read by an option table like scenes, so
+ * they have the same error messages and the same kind of reference. */
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +31,7 @@ struct document {
 
 struct kiln_batch {
     struct kiln_arena *arena;
-    const char *name; /* of the file, for messages */
+    const char *name; /* name of the file, for messages */
     enum kiln_batch_format format;
     struct kiln_batch_job *jobs;
     size_t count, room;
@@ -40,7 +41,8 @@ struct kiln_batch {
 
 #define AT(field) offsetof(struct entry, field)
 
-/* A text whose place is kept, since the program looks at it once more. */
+/* Reads a text with its line and column: the program checks the text later, and reports errors
+ * there by kiln_batch_refuse. */
 static bool read_placed(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
@@ -258,7 +260,8 @@ static bool read_line(struct kiln_batch *batch, const char *text, size_t size, u
     return ok;
 }
 
-/* Reads lines of JSON; empty lines are passed over. base: where relative paths start, or NULL. */
+/* Reads lines of JSON, but skips empty lines. Relative paths start at the folder of the file
+ * `base`, which may be NULL. */
 static bool read_lines(struct kiln_batch *batch, const char *text, size_t size, const char *name,
                        const char *base, struct kiln_error *error)
 {
@@ -280,7 +283,8 @@ static bool has_suffix(const char *path, const char *suffix)
     return length > end && strcmp(path + length - end, suffix) == 0;
 }
 
-/* Parses a file of jobs. base: where relative paths start, or NULL. */
+/* Parses a file of jobs. Relative paths start at the folder of the file `base`, which may be
+ * NULL. */
 static struct kiln_batch *parse(const char *text, size_t size, const char *name, const char *base,
                                 enum kiln_batch_format format, struct kiln_error *error)
 {

@@ -1,5 +1,6 @@
-/* Measures what collisions of balls with each other and with a floor cost in simulation: exact or
- * staggered, with spin and without, beside balls that do not collide with each other. */
+/* Runs the suite `balls` of `kiln bench`, which measures the simulation of balls that collide with
+ * a floor and with each other: exactly or staggered, with spin or without. Balls that do not
+ * collide with each other are measured for comparison. */
 #include <stdio.h>
 
 #include "bench/suite.h"

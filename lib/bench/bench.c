@@ -1,7 +1,7 @@
 /* Holds the table of the suites of `kiln bench`, and runs them. cmd/bench.c calls kiln_bench_run
- * once. It runs the suites that are asked for and then measures the caller's scenes; if neither is
- * asked for, it runs every suite. The suite `jobs` takes the caller's scene as its input, so the
- * scene is not measured by itself then.
+ * once. That function runs the suites that are asked for and then measures the caller's scenes; if
+ * neither is asked for, it runs every suite. The suite `jobs` takes the caller's scene as its
+ * input, so the scene is not measured by itself then.
  *
  * Parameters are checked before a device is opened, since a run takes minutes and a misspelt name
  * should not cost them. A new suite needs a row here and a function in bench/suite.h. Names are
@@ -98,8 +98,8 @@ static bool check_stage(const char *stage, struct kiln_error *error)
                           nearest ? "'?)" : "");
 }
 
-/* Checks the parameters as far as that is possible without a device. Scenes are loaded for it, and
- * loaded again when they are measured. */
+/* Checks the parameters as far as that is possible without a device. Scenes are loaded for this
+ * check, and loaded again when they are measured. */
 static bool check(const struct kiln_bench_params *params, struct kiln_error *error)
 {
     if (params->repetitions < KILN_BENCH_MIN_REPETITIONS ||

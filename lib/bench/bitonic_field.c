@@ -1,6 +1,7 @@
 /* Runs the bitonic sorts of UberFlow in GL, pass by pass. Each element is written by its own
- * invocation, so a pass reads one buffer and writes another; then the two change places. Where
- * constants are passed in, a table has a word for each column and each row of each pass. */
+ * invocation, so a pass reads one buffer and writes another; then the two change places. For the
+ * variants whose constants are passed in, a table has a word for each column and each row of each
+ * pass. */
 #include "bench/bitonic_field.h"
 
 #include <stdlib.h>
@@ -16,10 +17,10 @@ struct kiln_bitonic_field {
     struct kiln_network network;
     enum kiln_field_constants constants;
     GLuint program;
-    uint32_t rows;                      /* rows that are sorted together; 0: all */
-    struct kiln_buffer other;           /* pairs */
-    struct kiln_buffer table;           /* by pass: a word a column, then one a row */
-    uint32_t table_count, table_sorted; /* pairs that the table was made for */
+    uint32_t rows;            /* rows that are sorted together; 0: all */
+    struct kiln_buffer other; /* pairs */
+    struct kiln_buffer table; /* for each pass, a word for each column, then for each row */
+    uint32_t table_count, table_sorted; /* numbers of pairs that the table was made for */
 };
 
 static uint32_t width_bits(uint32_t padded)
@@ -41,7 +42,8 @@ struct pass {
     uint32_t distance, size;
 };
 
-/* Returns what the bits of an index that lie in a column, or in a row, add to the comparator. */
+/* Returns the word of a column or a row. The exclusive or of a column's word and a row's word gives
+ * the comparator of the element where they cross. */
 static uint32_t word_of(struct pass pass, uint32_t index, uint32_t sorted)
 {
     uint32_t before = (index & pass.distance) != 0;
@@ -80,7 +82,7 @@ static bool fill_table(struct kiln_bitonic_field *field, uint32_t count, uint32_
     return true;
 }
 
-/* Binds the table of the field's passes; there is none where constants are computed. */
+/* Binds the table of comparators, which is not needed if the kernel computes them. */
 static bool bind_table(struct kiln_bitonic_field *field, uint32_t count, uint32_t sorted,
                        struct kiln_error *error)
 {

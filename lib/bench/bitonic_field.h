@@ -7,27 +7,27 @@
 #include "sort/network.h"
 
 enum kiln_field_constants {
-    KILN_FIELD_COMPUTED, /* from the number of the pass, by each element */
-    KILN_FIELD_PASSED,   /* from tables of columns and of rows */
-    KILN_FIELD_PACKED,   /* the same, two pairs an element */
+    KILN_FIELD_COMPUTED, /* each element computes the constants from the pass's number */
+    KILN_FIELD_PASSED,   /* a table has the constants for each column and row */
+    KILN_FIELD_PACKED,   /* like PASSED, with two pairs in an element */
 };
 
 struct kiln_bitonic_field;
 
-/* NULL with an error. */
+/* Creates a field. Returns NULL with an error. */
 struct kiln_bitonic_field *kiln_bitonic_field_create(struct kiln_device *device,
                                                      enum kiln_field_constants constants,
                                                      struct kiln_error *error);
 void kiln_bitonic_field_destroy(struct kiln_bitonic_field **field);
 
-/* The network that makes the list and sorts; it lives as long as the field. */
+/* Returns the network that lists the keys and sorts them; it lives as long as the field. */
 struct kiln_network *kiln_bitonic_field_network(struct kiln_bitonic_field *field);
 
-/* Sorts only within sets of so many consecutive rows, a power of two; 0: all of the field
- * (UberFlow, 5). */
+/* Makes later runs sort only within sets of `rows` consecutive rows, a power of two; 0: the whole
+ * field (UberFlow, 5). */
 void kiln_bitonic_field_restrict(struct kiln_bitonic_field *field, uint32_t rows);
 
-/* Returns the length of the rows of a field of so many pairs, a power of two. Fields are square, or
+/* Returns the length of a row in a field of `padded` pairs, a power of two. Fields are square, or
  * twice as wide as high. */
 uint32_t kiln_bitonic_field_width(uint32_t padded);
 

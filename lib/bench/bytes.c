@@ -1,15 +1,15 @@
-/* Measures what techniques cost besides time (Heinz 2019, 4.2): memory, and bytes between host and
- * device. */
+/* Runs the suite `bytes` of `kiln bench`, which measures what techniques cost besides time (Heinz
+ * 2019, 4.2): memory, and bytes between host and device. */
 #include <stdlib.h>
 
 #include "base/error.h"
 #include "bench/suite.h"
 
-/* Each entry simulates, sorts and draws in one way; the thesis compares those that have a name
- * there. */
+/* Each entry is a combination of techniques for simulating, sorting and drawing. The thesis
+ * compares the combinations that have a published name. */
 static const struct {
     const char *techniques;
-    const char *published; /* its name in the thesis, or NULL */
+    const char *published; /* name of the combination in the thesis, or NULL */
     double memory;         /* published bytes a particle, from the MiB of 160,000 */
     double upload;         /* published bytes a particle to the device, from its floats */
 } WAYS[] = {
@@ -36,7 +36,8 @@ static bool add_value(const struct kiln_bench_run *run, double particles, const 
     return kiln_bench_add_row(run->bench, &row, error);
 }
 
-/* Adds the memory of the lane's techniques: the records of particles, and what sorting needs. */
+/* Adds rows for the memory of the lane's techniques: the records of particles, and the buffers of
+ * sorting. */
 static bool add_memory(const struct kiln_bench_run *run, size_t way, double particles,
                        const struct kiln_lane *lane, struct kiln_error *error)
 {
@@ -47,7 +48,7 @@ static bool add_memory(const struct kiln_bench_run *run, size_t way, double part
                                 params.technique_count, &techniques, error))
         return false;
     double records = (double)kiln_simulate_slot_bytes(techniques.simulate);
-    enum { SLOTS = 1 << 20 }; /* so many that padding does not count */
+    enum { SLOTS = 1 << 20 }; /* so many that padding is negligible */
     const uint64_t sorted = kiln_sort_bytes(techniques.sort, techniques.sort_spread > 0, SLOTS);
     double sorting = (double)sorted / SLOTS;
     return add_value(run, particles, "memory, records", WAYS[way].techniques, records, error) &&

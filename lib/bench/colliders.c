@@ -1,4 +1,5 @@
-/* Measures what it costs to bounce off each kind of collider, and to build the volume of a mesh. */
+/* Runs the suite `colliders` of `kiln bench`, which measures the simulation of particles that
+ * bounce off each kind of collider, and the time to build the volume of a mesh. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,10 +9,10 @@
 #include "base/file.h"
 #include "bench/suite.h"
 
-/* The mesh is a ring, as wide as the cloud is high. The suite writes its file, since scenes of the
- * library have no files of their own. */
+/* The mesh of the rows below is a ring (a torus), as wide as the cloud is high. The suite writes
+ * its file, since scenes of the library have no files of their own. */
 #define RING "mesh: {file: ring.obj, position: [0, 2, 0], collide: true, "
-enum { AROUND = 96, ACROSS = 48 }; /* squares of the ring, of two triangles each */
+enum { AROUND = 96, ACROSS = 48 }; /* quads along the ring and its tube, two triangles each */
 #define TURNING  "rotation: [90 deg, 0 deg, {keys: {0 s: 0 deg, 10 s: 600 deg}}]"
 #define STANDING "rotation: [90 deg, 0 deg, 0 deg]"
 
@@ -89,8 +90,8 @@ static bool run_particles(const struct kiln_bench_run *run, const char *root,
         "volume that turns is also built in each step.");
 }
 
-/* Measures steps with next to no particles, which take as long as building the collider's volume.
- */
+/* Measures steps with two particles only, so that a step takes as long as building the collider's
+ * volume. */
 static bool run_building(const struct kiln_bench_run *run, const char *root,
                          struct kiln_error *error)
 {

@@ -1,6 +1,6 @@
 /* Runs lanes in turn: makes a job for each, brings all jobs to the same first frame, and draws a
- * frame of each job in every turn. All lanes are set up before the first turn, so that a turn is
- * nothing but frames. */
+ * frame of each job in every turn. All lanes are set up before the first turn, so that turns
+ * consist of frames alone. */
 #include "bench/contest.h"
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@ struct entrant {
     struct kiln_samples *samples;
     struct kiln_lane_flags flags;
     struct kiln_render_params params;
-    struct kiln_job *job; /* NULL: refused */
+    struct kiln_job *job; /* NULL: the device does not allow the lane */
 };
 
 struct contest {
@@ -79,7 +79,7 @@ static bool enter(struct contest *contest, struct entrant *entrant, struct kiln_
     return entrant->job || kiln_lane_is_refused(contest->run, error, &entrant->samples->problem);
 }
 
-/* Steps one job to the first frame; the others take over its particles. */
+/* Steps one job to the first frame, and copies its particles to the others. */
 static bool line_up(struct contest *contest, struct kiln_error *error)
 {
     struct kiln_job *first = NULL;

@@ -1,5 +1,6 @@
-/* Measures how cost grows with the number of particles, with the pixels that they cover, and with
- * the size of the work group (Anderdahl and Darner 2014, by Heinz 2019, 2.2.5). */
+/* Runs the suites `curves` and `groups` of `kiln bench`, which measure how cost grows with the
+ * number of particles, with the pixels that they cover, and with the size of the work group
+ * (Anderdahl and Darner 2014, by Heinz 2019, 2.2.5). */
 #include "bench/suite.h"
 
 #define PIXELS_PER_METRE 123.6 /* in a picture of bench/cloud.yaml that is 720 pixels high */
@@ -78,13 +79,13 @@ struct sizes {
     uint32_t least, most;
 };
 
-/* Techniques whose kernels take another size of the work group: powers of two. */
+/* Techniques whose kernels can run with work groups of several sizes, all powers of two. */
 static const struct kernel {
     const char *technique;
     uint32_t measures;
     struct sizes gpu, software;
     double particles;
-    double pixels; /* of a particle; 0: none is drawn */
+    double pixels; /* edge of a particle; 0: drawing is not measured */
 } KERNELS[] = {
     {"simulate=inplace", KILN_MEASURE(simulate), {8, 1024}, {8, 1024}, 250000, 0},
     {"simulate=pingpong", KILN_MEASURE(simulate), {8, 1024}, {8, 1024}, 250000, 0},

@@ -1,6 +1,6 @@
-/* Times whole jobs that write files, until the files are whole. Encoders work beside the drawing:
- * what is under way when a job's last frame is drawn belongs to its time, and must not run on in
- * another job's. The clock starts behind two frames that warm up, one of which may still be
+/* Times whole jobs that write files, until the files are complete. Encoders run beside the drawing.
+ * Encoding that goes on after a job's last frame is drawn counts as that job's time, and must end
+ * before another job starts. The clock starts after two warm-up frames, of which one may still be
  * encoded. */
 #include <dirent.h>
 #include <fcntl.h>
@@ -21,11 +21,11 @@ struct delivery {
     const struct kiln_scene *scene;
     const char *name;
     char folder[KILN_PATH_SIZE];
-    struct kiln_job *donor; /* stands at the first frame and writes nothing */
+    struct kiln_job *donor; /* a job at the first frame, which others copy */
     struct kiln_lane_flags flags;
     struct kiln_render_params donor_params;
     struct kiln_frame_range range;
-    uint32_t frames[KILN_MAX_LANES]; /* of a lane's jobs, as many as take a second or so */
+    uint32_t frames[KILN_MAX_LANES]; /* frames of each lane's jobs, for about a second */
 };
 
 /* Draws the frames that are timed. Returns the time of the slowest pass, ms a frame, or less than 0
@@ -67,7 +67,7 @@ static void remove_files(const struct delivery *d)
     int folder = count > 0 ? open(d->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     for (int i = 0; i < count; i++) {
         if (folder >= 0)
-            unlinkat(folder, entries[i]->d_name, 0); /* refuses "." and ".." */
+            unlinkat(folder, entries[i]->d_name, 0); /* does not remove "." and ".." */
         free(entries[i]);
     }
     free(entries);
@@ -96,7 +96,7 @@ static uint32_t choose_frames(const struct delivery *d, double frame_s)
                                   : (uint32_t)frames;
 }
 
-/* Finds how many frames a lane's jobs have, by a job that writes nothing. */
+/* Finds how many frames a lane's jobs are to have, from the speed of a job that writes nothing. */
 static bool look_ahead(struct delivery *d, size_t index, const struct kiln_lane *lane,
                        struct kiln_delivery *delivery, struct kiln_error *error)
 {

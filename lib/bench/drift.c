@@ -1,6 +1,6 @@
-/* Measures how well bodies that attract each other keep their energy in long runs. A step kicks,
- * then drifts: that is the leapfrog, whose velocities are half a step behind the positions.
- * Energies are taken where both are known, so velocities are moved on by half a step first. */
+/* Measures how well bodies that attract each other keep their energy in long runs. The integrator
+ * is leapfrog, which kicks, then drifts; its velocities are half a step behind the positions. So
+ * the energy is computed from velocities that are moved on by half a step. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,14 +9,14 @@
 #include "shared/random.h"
 #include "sim/step/simulate.h"
 
-enum { STOPS = 3, BETWEEN = 30 /* looks at the energy, from a stop to the next */ };
+enum { STOPS = 3, BETWEEN = 30 /* computations of the energy from one stop to the next */ };
 
 struct flight {
     const char *name;
     uint32_t bodies;
     double strength, softening; /* m/s^2 at 1 m; m */
-    uint32_t stops[STOPS];      /* steps */
-    /* in a run: */
+    uint32_t stops[STOPS];      /* steps, ascending; each stop gives a row */
+    /* set while the flight runs: */
     const struct kiln_bench_run *run;
     struct kiln_scene *scene;
     struct kiln_threads *threads;
@@ -29,7 +29,8 @@ static const struct kiln_particle *records_of(struct flight *flight, struct kiln
     return kiln_buffer_host(&flight->pool.records, KILN_READ, error);
 }
 
-/* Adds up the pull on a body, and returns half of the energy of its pairs. */
+/* Adds the accelerations of a body by all others to `pull`, and returns half of the potential
+ * energy of its pairs. */
 static double add_pairs(const struct flight *flight, const struct kiln_particle *records,
                         uint32_t self, double pull[3])
 {
@@ -69,8 +70,8 @@ static double energy_of(const struct flight *flight, const struct kiln_particle 
     return sum;
 }
 
-/* Places two bodies a metre apart, a tenth too slow for circles, or more bodies in a ball in
- * balance. */
+/* Places two bodies a metre apart, a tenth too slow for circular orbits, or more bodies in a ball
+ * whose motion and gravity are in balance. */
 static void place(const struct flight *flight, struct kiln_particle *records)
 {
     for (uint32_t i = 0; i < flight->bodies; i++) {
@@ -126,8 +127,8 @@ static void land(struct flight *flight)
     kiln_scene_destroy(&flight->scene);
 }
 
-/* Adds a row for each stop: the most that the energy is off on the way to it, in millionths of what
- * it was at first. */
+/* Adds a row for each stop: the largest error of the energy since the stop before, in millionths of
+ * the energy at the start. */
 static bool fly(struct flight *flight, struct kiln_error *error)
 {
     const struct kiln_bench_params *params = flight->run->params;

@@ -1,5 +1,6 @@
-/* Measures frames from the scene to whole files, against what the stages alone would take: the
- * larger of the slowest stage and the time of all cores together divided by their number. */
+/* Runs the suite `output` of `kiln bench`, which measures frames until their files are complete.
+ * They are compared with the time that the stages alone would take: the larger of the slowest stage
+ * and the CPU time of all cores divided by their number. */
 #include <stdlib.h>
 
 #include "base/error.h"

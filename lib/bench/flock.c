@@ -1,5 +1,5 @@
-/* Measures what a flock costs by the number of its birds, and by what a bird follows: the birds
- * around it, averages of the flock, or both. */
+/* Runs the suite `flock` of `kiln bench`, which measures whole frames of a flock by the number of
+ * its birds, and by what a bird follows: the birds around it, averages of the flock, or both. */
 #include <stdio.h>
 
 #include "bench/suite.h"

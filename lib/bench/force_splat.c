@@ -1,7 +1,8 @@
-/* Adds up the accelerations of bodies by the blending unit. A texel of the force texture is a body.
- * For each source a quad covers all texels, and the blending unit adds what a fragment makes of the
- * source and the body (Drone 2007, figure 3). The paper adds up forces and divides by the mass when
- * it moves a body; here accelerations are added up, since bodies may have no mass. */
+/* Adds up the accelerations of bodies by blending in GL. Each texel of the force texture belongs to
+ * a body. For each source a quad covers all texels; its fragments compute the accelerations of the
+ * bodies by the source, and blending adds them up (Drone 2007, figure 3). The paper adds up forces
+ * and divides by the mass when it moves a body; here accelerations are added up, since bodies may
+ * have no mass. */
 #include "bench/force_splat.h"
 
 #include <stdlib.h>
@@ -12,7 +13,7 @@
 #include "gpu/image.h"
 #include "gpu/program.h"
 
-enum { ROW = 128 }; /* texels of a row */
+enum { ROW = 128 }; /* texels in a row of the textures */
 
 struct kiln_force_splat {
     struct kiln_device *device;

@@ -1,5 +1,5 @@
 /* Computes gravity by splatting forces (Drone 2007, 7.4.2 and 7.4.3.1), for tests and benchmarks
- * only: what the blending unit adds up decides no state. */
+ * only. No state of a simulation depends on sums of the blending unit. */
 #ifndef KILN_BENCH_FORCE_SPLAT_H
 #define KILN_BENCH_FORCE_SPLAT_H
 
@@ -8,14 +8,14 @@
 
 struct kiln_force_splat;
 
-/* Creates a splat for up to `most` bodies, at least 1, which adds up into a texture of GL_RGBA32F
- * or GL_RGBA16F. Returns NULL with an error (KILN_DEVICE_FAILED). */
+/* Creates a splat for up to `most` bodies, at least 1. It adds up in a texture of GL_RGBA32F or
+ * GL_RGBA16F. Returns NULL with an error (KILN_DEVICE_FAILED). */
 struct kiln_force_splat *kiln_force_splat_create(struct kiln_device *device, GLenum format,
                                                  uint32_t most, struct kiln_error *error);
 void kiln_force_splat_destroy(struct kiln_force_splat **splat);
 
-/* Adds up what all sources (gravity_source: m, m/s^2 at 1 m) do to each body. *ms is how long that
- * took from sources that lie in GL. */
+/* Adds up the accelerations of each body by all sources (gravity_source: m, m/s^2 at 1 m). *ms is
+ * the time that this takes once the sources lie in GL. */
 bool kiln_force_splat_run(struct kiln_force_splat *splat, const float4 *sources, uint32_t count,
                           float softening_square, double *ms, struct kiln_error *error);
 

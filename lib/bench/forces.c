@@ -1,4 +1,5 @@
-/* Measures what each force and each integrator costs in simulation. */
+/* Runs the suite `forces` of `kiln bench`, which measures the simulation by each force and by each
+ * integrator. */
 #include <stdio.h>
 
 #include "bench/suite.h"

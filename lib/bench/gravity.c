@@ -30,12 +30,12 @@ enum {
     /* The ways to compute gravity that are compared: the first KILN_SIMD_COUNT are the widths of
      * vectors, numbered as enum kiln_simd, and the splats follow. */
     WAYS = KILN_SIMD_COUNT + SPLATS,
-    TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK, /* bodies that a thread takes */
+    TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK, /* bodies that a thread takes at a time */
     /* With more bodies than these, llvmpipe would blend for seconds in each turn. */
     MOST_SPLATTED_IN_SOFTWARE = 4096,
 };
 
-/* Holds the bodies of one size and what was measured with them. */
+/* Holds the bodies of one size, and the times that were measured with them. */
 struct pull {
     const struct kiln_bench_run *run;
     struct kiln_threads *threads;
@@ -43,7 +43,7 @@ struct pull {
     float4 *sources;
     float3 *accelerations;
     struct kiln_force_splat *splats[SPLATS]; /* NULL: not measured */
-    const char *problems[SPLATS];            /* why not */
+    const char *problems[SPLATS];            /* why a splat is not measured */
     struct kiln_samples *samples;            /* [WAYS] */
 };
 

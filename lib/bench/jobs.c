@@ -1,8 +1,8 @@
-/* Measures a clip rendered in parts, each by a job of its own that starts from a saved state,
- * against one run of the whole clip. It tells what the parts cost beyond the run, where that goes,
- * and how long the clip takes on many machines. Every job is a process of kiln, since starting one
- * is part of its price. Jobs run one after the other; how many machines work at a time is
- * simulated. */
+/* Runs the suite `jobs` of `kiln bench`, which measures a clip rendered in parts against one run of
+ * the whole clip. Each part is rendered by a job of its own that starts from a saved state. The
+ * results say what the parts cost beyond the run, in which stages, and how long the clip takes on
+ * many machines. Every job is a process of kiln, since starting one is part of its cost. Jobs run
+ * one after the other; machines that work at the same time are simulated. */
 #include <errno.h>
 #include <ftw.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@
 
 enum { PARTS = 64, QUICK_PARTS = 2, OWN_WORDS = 16 };
 
-static const char SCENE[] = "fire_beam.yaml"; /* in the library */
+static const char SCENE[] = "fire_beam.yaml"; /* a scene of the library */
 
 /* The values that one turn measures: whole commands, and the stages of all parts together. */
 enum value {
@@ -34,10 +34,9 @@ enum value {
     ALL_PARTS,
     JOIN,
     START,  /* until a device is open: the program, its libraries, the scene */
-    SET_UP, /* from there until the first frame is drawn: pictures of particles, the state, the
-               frame */
-    LOAD,   /* the part of SET_UP that takes up the state */
-    FRAMES, /* the other frames, with what is encoded beside them */
+    SET_UP, /* from there until the first frame is drawn: atlases, the state, the frame */
+    LOAD,   /* the part of SET_UP that loads the state */
+    FRAMES, /* the other frames, and encoding that runs beside them */
     END,    /* the rest: the encoder's last frames, the file */
     VALUES
 };
@@ -46,13 +45,13 @@ struct farm {
     const struct kiln_bench_run *run;
     struct kiln_scene *scene; /* with as many frames as the parts have */
     const char *name, *path;  /* the scene's name in messages, and its file */
-    const char **options;     /* of all jobs that read it */
+    const char **options;     /* options of all jobs that read the scene */
     size_t option_count;
     uint32_t parts, part_frames, turns;
     char folder[KILN_PATH_SIZE];
-    const char *work, *single, *clip, *states; /* paths below `folder`; `work` is that of a turn */
+    const char *work, *single, *clip, *states; /* paths below `folder`; `work` is a turn's folder */
     double cpu_s[VALUES][KILN_BENCH_MAX_REPETITIONS];
-    double elapsed_s[START][KILN_BENCH_MAX_REPETITIONS]; /* ALL_PARTS: of the longest part */
+    double elapsed_s[START][KILN_BENCH_MAX_REPETITIONS]; /* of ALL_PARTS, the longest part's */
     double *part_s;                                      /* elapsed: [turn * parts + part] */
 };
 
@@ -117,7 +116,8 @@ static bool run_part(struct farm *f, uint32_t part, uint32_t turn, struct kiln_e
     return true;
 }
 
-/* Takes up all states in this process, as a part takes up its own. */
+/* Loads all states in this process, as each part loads its own, and measures the CPU time of
+ * that. */
 static bool load_states(struct farm *f, uint32_t turn, struct kiln_error *error)
 {
     const struct kiln_bench_params *params = f->run->params;
@@ -165,7 +165,7 @@ static int remove_entry(const char *path, const struct stat *status, int kind, s
 
 static void remove_folder(const char *path)
 {
-    /* NOLINTNEXTLINE(concurrency-mt-unsafe): it changes no working folder */
+    /* NOLINTNEXTLINE(concurrency-mt-unsafe): this call does not change the working folder */
     nftw(path, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
 }
 
@@ -187,7 +187,7 @@ static bool take_turn(struct farm *f, uint32_t turn, struct kiln_error *error)
            compare_clips(f, error) && load_states(f, turn, error);
 }
 
-/* Draws a frame, so that pictures of particles are in the cache, and programs in memory. */
+/* Draws a frame, so that atlases of particles are in the cache, and programs in memory. */
 static bool warm_up(struct farm *f, struct kiln_error *error)
 {
     struct kiln_process process = {.told = false};
@@ -397,7 +397,7 @@ static struct kiln_scene *load(const struct farm *f, const char *const *override
     return kiln_scene_load(f->path, &params, error);
 }
 
-/* Finds out how many frames a part has, and loads the clip of all parts. overrides has room for one
+/* Finds how many frames a part has, and loads the clip of all parts. `overrides` has room for one
  * more. */
 static bool load_clip(struct farm *f, const char **overrides, size_t *count,
                       struct kiln_error *error)
@@ -446,8 +446,8 @@ static bool make_options(struct farm *f, const char **overrides, size_t count,
     return ok;
 }
 
-/* Opens the scene of the caller as it is, or a small one of the library. What the caller overrides
- * comes last. */
+/* Opens the scene of the caller as it is, or a small one of the library. The caller's overrides
+ * come last. */
 static bool open_clip(struct farm *f, struct kiln_error *error)
 {
     const struct kiln_bench_params *params = f->run->params;

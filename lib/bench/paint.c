@@ -1,5 +1,6 @@
-/* Measures what it costs to paint a mesh (Drone 2007, 7.6.1). The mesh is a ball on which splats
- * lie evenly. It is painted by each gather, and with a hundredth of the splats in a frame. */
+/* Runs the suite `paint` of `kiln bench`, which measures the painting of a mesh (Drone 2007,
+ * 7.6.1). The mesh is a ball on which splats lie evenly. It is painted by each gather, and with a
+ * hundredth of the splats in a frame. */
 #include "sim/paint/paint.h"
 
 #include <stdlib.h>
@@ -120,7 +121,7 @@ static bool paint(struct bout *bout, size_t lane, double *ms, struct kiln_error 
     return ok;
 }
 
-/* The first turn warms up. */
+/* Paints by all lanes in turn. The first turn only warms up. */
 static bool take_turns(struct bout *bout, struct kiln_error *error)
 {
     const struct kiln_bench_params *params = bout->run->params;

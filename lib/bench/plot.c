@@ -23,13 +23,14 @@ static void put_point(const struct kiln_bench_row *row, FILE *out)
     fputc('\n', out);
 }
 
-/* Whether a row can be drawn: the axes are logarithmic and take positive values only. */
+/* Returns whether a row can be drawn: the axes are logarithmic and take positive values only. */
 static bool is_point(const struct kiln_bench_row *row)
 {
     return row->x > 0.0 && row->spread.first_quartile > 0.0;
 }
 
-/* Whether a curve begins at this row, and has points: without any, gnuplot would count no block. */
+/* Returns whether a curve begins at this row and has a point. A curve without points gives no block
+ * in the data, so gnuplot does not count it. */
 static bool starts_curve(const struct kiln_bench_part *part, size_t row)
 {
     if (kiln_bench_curve_of(part, row) != row)
@@ -50,7 +51,7 @@ bool kiln_bench_has_points(const struct kiln_bench_part *part)
     return false;
 }
 
-/* Writes a block of lines for each curve, as gnuplot's `index` counts them. */
+/* Writes a block of lines for each curve. Gnuplot's `index` counts these blocks from 0. */
 void kiln_bench_write_curves(const struct kiln_bench_part *part, FILE *out)
 {
     fprintf(out, "# %s: %s, median, first and third quartile (%s)\n", part->name, part->sweep,
@@ -128,7 +129,7 @@ void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out)
     fprintf(out,
             "set terminal svg size 900,%d noenhanced font 'sans,13' background '#ffffff'\n"
             "set title ",
-            460 + 20 * curves); /* with room for their names in one column */
+            460 + 20 * curves); /* the curves' names have a line each */
     put_quoted(part->title, out);
     fputs("\nset logscale xy\nset grid\nset key below Left reverse height 1\nset xlabel ", out);
     put_quoted(part->sweep, out);
@@ -154,7 +155,8 @@ void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out)
 
 /* ---- gnuplot --------------------------------------------------------------------------------- */
 
-/* Starts gnuplot in the folder; what it prints goes into the pipe. Returns 0 or an errno value. */
+/* Starts gnuplot in the folder; its standard output goes into the pipe. Returns 0 or an errno
+ * value. */
 static int start(const char *folder, const char *script, const int pipe_ends[2], pid_t *process)
 {
     char name[] = "gnuplot", copy[KILN_PATH_SIZE];

@@ -1,7 +1,7 @@
 /* Runs kiln as a process that writes its events into a pipe. At each line that names a point, the
- * parent reads the clock of the process, which counts the work of all its threads. The reading may
- * be late by as long as the parent takes to wake up. The pipe's end says that the process has
- * ended. */
+ * parent reads the CPU clock of the process, which counts the work of all its threads. The reading
+ * may be late by as long as the parent takes to wake up. The end of the pipe's data says that the
+ * process has ended. */
 #include "bench/process.h"
 
 #include <errno.h>
@@ -22,16 +22,16 @@
 #include "base/error.h"
 
 enum { EVENTS = 3, /* the descriptor of the events in the process */ HEAD = 32, WAKE_MS = 200 };
-static const double grace_s = 5; /* from SIGTERM until SIGKILL */
+static const double grace_s = 5; /* the time from SIGTERM until SIGKILL */
 
 struct child {
     const struct kiln_bench_run *run;
     struct kiln_process *process;
     pid_t id;
-    char head[HEAD]; /* the start of the line at hand */
-    size_t length;   /* of that line */
+    char head[HEAD]; /* the start of the current line */
+    size_t length;   /* length of the current line */
     bool stopped;
-    double stopped_s; /* when */
+    double stopped_s; /* when the stop was asked for */
 };
 
 /* Starts the process with empty standard input. Returns 0 or an errno value. */

@@ -1,5 +1,4 @@
-/* Runs kiln as a process, and measures the processor time that it has used when it comes to certain
- * points. */
+/* Runs kiln as a process, and measures the CPU time that the process has used at certain points. */
 #ifndef KILN_BENCH_PROCESS_H
 #define KILN_BENCH_PROCESS_H
 
@@ -16,15 +15,15 @@ enum kiln_process_point {
 };
 
 struct kiln_process {
-    bool told; /* set by the caller: events report all points; else only the end is known */
-    double cpu_s[KILN_PROCESS_POINTS]; /* of all its threads since it was started */
-    double elapsed_s;                  /* until its end */
+    bool told; /* set by the caller: events report all points; else only the end is measured */
+    double cpu_s[KILN_PROCESS_POINTS]; /* CPU time of all threads since the start */
+    double elapsed_s;                  /* from the start to the end */
 };
 
 /* Starts the running program anew with `words` as its arguments, and waits for it. The first word
- * is the command, and NULL ends the words. What the process prints is dropped. A process that fails
- * is an error with its exit code and its last line. A stop is the error KILN_INTERRUPTED, which
- * comes when the process has ended. */
+ * is the command, and NULL ends the words. The output of the process is dropped. A process that
+ * fails is an error with its exit code and its last line. When the caller asks to stop, the process
+ * is ended first, and then the function fails with KILN_INTERRUPTED. */
 bool kiln_process_run(const struct kiln_bench_run *run, const char **words,
                       struct kiln_process *process, struct kiln_error *error);
 

@@ -1,5 +1,5 @@
-/* Holds what was measured. A benchmark has parts, and a part has rows, which make a table and often
- * curves. Texts lie in the arena. */
+/* Holds the results of a benchmark. A benchmark has parts, and a part has rows, which make a table
+ * and often curves. Texts lie in the arena. */
 #ifndef KILN_BENCH_RESULT_H
 #define KILN_BENCH_RESULT_H
 
@@ -8,17 +8,17 @@
 #include "kiln_program.h"
 
 struct kiln_bench_row {
-    double x;              /* what the part sweeps */
+    double x;              /* the value that the part sweeps */
     const char *measure;   /* "sort", "frame" */
-    const char *technique; /* "sort=bitonic", or what else sets the row apart */
+    const char *technique; /* "sort=bitonic", or another name of what was measured */
     struct kiln_spread spread;
     struct kiln_spread faster; /* how many times as fast as the reference; count 0: not compared */
-    const char *source;        /* where it was published, instead of measured; or NULL */
+    const char *source;        /* where the value was published; NULL: it was measured */
 };
 
 struct kiln_bench_part {
-    const char *name;  /* "figure4.4": of the table and of its files */
-    const char *suite; /* or the scene */
+    const char *name;  /* "figure4.4", which names the table and its files */
+    const char *suite; /* name of the suite, or path of the scene */
     const char *title;
     const char *sweep;     /* what x is: "particles" */
     const char *unit;      /* "ms" */
@@ -26,7 +26,7 @@ struct kiln_bench_part {
     bool plotted;
     struct kiln_bench_row *rows;
     size_t row_count, row_room;
-    const char **notes; /* lines that go with the table */
+    const char **notes; /* lines below the table */
     size_t note_count;
 };
 
@@ -37,15 +37,15 @@ struct kiln_bench {
     uint32_t cores;
     uint32_t repetitions;
     bool quick;
-    double seconds; /* that the whole run took */
+    double seconds; /* duration of the whole run */
     struct kiln_bench_part *parts;
     size_t part_count;
 };
 
 struct kiln_bench *kiln_bench_create(struct kiln_error *error);
 
-/* Starts a part, a copy of the one that is given but without rows and notes. Returns NULL when
- * memory is short. */
+/* Adds a part, which is a copy of `part` without its rows and notes. Returns NULL when memory is
+ * short. */
 struct kiln_bench_part *kiln_bench_add_part(struct kiln_bench *bench,
                                             const struct kiln_bench_part *part,
                                             struct kiln_error *error);
@@ -56,7 +56,8 @@ bool kiln_bench_add_row(struct kiln_bench *bench, const struct kiln_bench_row *r
 bool kiln_bench_add_note(struct kiln_bench *bench, struct kiln_error *error, const char *format,
                          ...) __attribute__((format(printf, 3, 4)));
 
-/* A number as tables print it: four digits that count, and no exponent. */
+/* Writes a number as tables print it: with at least four significant digits, and without an
+ * exponent. */
 void kiln_bench_number(char text[32], double value);
 
 /* Write a benchmark in each format of kiln_bench_write, and the data and the gnuplot script of a
@@ -72,11 +73,11 @@ void kiln_bench_write_script(const struct kiln_bench_part *part, FILE *out);
  * curve that `row` belongs to. */
 size_t kiln_bench_curve_of(const struct kiln_bench_part *part, size_t row);
 
-/* Whether any curve of the part has a point that can be drawn. */
+/* Returns whether any curve of the part has a point that can be drawn. */
 bool kiln_bench_has_points(const struct kiln_bench_part *part);
 
-/* Names the curve of a row, such as "sort, sort=cpu", without what all rows of the part have in
- * common. */
+/* Names the curve of a row, such as "sort, sort=cpu". A measure or technique that all rows of the
+ * part share is left out. */
 void kiln_bench_curve_name(const struct kiln_bench_part *part, size_t row, char name[160]);
 
 /* Draws the curves of a script in a folder by gnuplot. Returns the picture, which the caller frees,

@@ -1,5 +1,5 @@
-/* Writes the files of a benchmark into a folder. Each file is made in memory, and put in place when
- * it is whole. */
+/* Writes the files of a benchmark into a folder. Each file is made in memory, and written when it
+ * is complete. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -36,7 +36,7 @@ static bool put_file(const struct saving *saving, const char *name, const void *
            kiln_temporary_write_file(path, bytes, size, saving->error);
 }
 
-/* Ends a stream into memory, and writes its bytes into a file. */
+/* Closes a stream into memory, and writes its bytes into a file. */
 static bool put_stream(const struct saving *saving, const char *name, FILE *stream, char **bytes,
                        const size_t *size)
 {

@@ -1,6 +1,6 @@
-/* Measures a scene of the caller. It draws whole frames first, and measures them pass by pass. Then
- * it takes one stage after the other and compares the techniques of that stage, while all other
- * stages are as `auto` has them. */
+/* Measures a scene of the caller. It draws whole frames first, and measures them pass by pass.
+ * Then, for one stage after the other, it compares the techniques of that stage, while all other
+ * stages use the techniques that `auto` chooses. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -85,8 +85,8 @@ static bool measure_stage(struct subject *s, size_t stage, struct kiln_error *er
            kiln_bench_add_samples(s->run, &comparison, s->samples, error);
 }
 
-/* Loads the scene with enough frames for all turns. Added frames change nothing of those that were
- * there. */
+/* Loads the scene with enough frames for all turns. Added frames do not change the frames before
+ * them. */
 static struct kiln_scene *load(const struct kiln_bench_run *run, const char *path, uint32_t *frame,
                                struct kiln_error *error)
 {

@@ -1,4 +1,4 @@
-/* Simulates a list scheduler. The time at which each worker is free is all that it has to know. */
+/* Simulates a list scheduler, whose only state is the time at which each worker becomes free. */
 #include "bench/schedule.h"
 
 double kiln_schedule_s(const double *tasks_s, size_t count, uint32_t workers)

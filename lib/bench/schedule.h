@@ -7,9 +7,9 @@
 
 enum { KILN_MAX_WORKERS = 1000 };
 
-/* Seconds until the last of the tasks has ended. The tasks begin in their order, each on the worker
- * that is free first, as schedulers run the tasks of an array. There are 1 to KILN_MAX_WORKERS
- * workers. */
+/* Returns the seconds until all tasks have ended. The tasks begin in their order, each on the
+ * worker that is free first, as schedulers run the tasks of an array. There are 1 to
+ * KILN_MAX_WORKERS workers. */
 double kiln_schedule_s(const double *tasks_s, size_t count, uint32_t workers);
 
 #endif

@@ -1,11 +1,11 @@
-/* Measures kiln as it was at first, with every stage in GL, against the techniques that `auto`
- * takes now. Both draw the same pictures. */
+/* Runs the suite `seed` of `kiln bench`, which measures kiln's first techniques, with every stage
+ * in GL, against the techniques that `auto` takes now. Both draw the same pictures. */
 #include <stdlib.h>
 
 #include "base/error.h"
 #include "bench/suite.h"
 
-/* Pixels of a metre in the middle of the cloud, in a picture 720 pixels high. */
+/* The pixels that a metre covers in the middle of the cloud, in a picture 720 pixels high. */
 #define PIXELS_PER_METRE 123.6
 
 static const struct kiln_lane LANES[] = {
@@ -41,7 +41,7 @@ static bool add_delivery(const struct kiln_bench_run *run, const struct kiln_del
     return true;
 }
 
-/* Compares whole frames whose pictures are written, and then their passes. */
+/* Compares the times of frames until their files are complete, and then the times of passes. */
 static bool compare_scene(const struct kiln_bench_run *run, const struct kiln_settings *settings,
                           double particles, struct kiln_error *error)
 {

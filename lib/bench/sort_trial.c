@@ -1,5 +1,5 @@
-/* Times one sort of given keys by one technique. Pairs and list are written and made resident
- * before the clock starts. */
+/* Times one sort of given keys by one technique. Before the clock starts, the pairs and the list
+ * are written and lie where the technique runs. */
 #include "bench/sort_trial.h"
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@ struct kiln_sort_trial {
     enum kiln_sort_trial_kind kind;
     struct kiln_threads *threads;
     struct kiln_buffer pairs, list, sorted;
-    struct kiln_buffer counts; /* of kind `cpu` */
+    struct kiln_buffer counts; /* counters of the kind `cpu` */
     struct kiln_radix *radix;
     struct kiln_bitonic *bitonic;
     struct kiln_oddeven *oddeven;

@@ -1,5 +1,5 @@
-/* Times sorts of given keys for benchmarks: by the techniques of the stage, and by the variants of
- * bitonic sorting that UberFlow's table 1 compares. */
+/* Times sorts of given keys for benchmarks: by the techniques of the stage `sort`, and by the
+ * variants of bitonic sorting that UberFlow's table 1 compares. */
 #ifndef KILN_BENCH_SORT_TRIAL_H
 #define KILN_BENCH_SORT_TRIAL_H
 
@@ -11,13 +11,14 @@ enum kiln_sort_trial_kind {
     KILN_TRIAL_RADIX,
     KILN_TRIAL_BITONIC,
     KILN_TRIAL_ODDEVEN,
-    KILN_TRIAL_COMPUTED, /* bitonic_field.h: UberFlow's FP, */
-    KILN_TRIAL_PASSED,   /* GP/FP */
-    KILN_TRIAL_PACKED,   /* and GP/FP Packed */
+    KILN_TRIAL_COMPUTED, /* UberFlow's FP (bitonic_field.h) */
+    KILN_TRIAL_PASSED,   /* UberFlow's GP/FP */
+    KILN_TRIAL_PACKED,   /* UberFlow's GP/FP Packed */
     KILN_TRIAL_COUNT
 };
 
-/* "cpu", "radix", "bitonic", "oddeven", "bitonic-computed", "bitonic-passed", "bitonic-packed" */
+/* Returns "cpu", "radix", "bitonic", "oddeven", "bitonic-computed", "bitonic-passed" or
+ * "bitonic-packed". */
 const char *kiln_sort_trial_name(enum kiln_sort_trial_kind kind);
 
 struct kiln_sort_trial;
@@ -31,12 +32,12 @@ struct kiln_sort_trial *kiln_sort_trial_create(struct kiln_device *device,
                                                struct kiln_error *error);
 void kiln_sort_trial_destroy(struct kiln_sort_trial **trial);
 
-/* From now on sorts only within sets of so many rows of a square of keys, a power of two; 0: all.
- * Only of effect on the three variants of bitonic sorting. */
+/* Makes later runs sort only within sets of `rows` rows of a square of keys, a power of two; 0: the
+ * whole square. Has an effect on the three variants of bitonic sorting only. */
 void kiln_sort_trial_restrict(struct kiln_sort_trial *trial, uint32_t rows);
 
-/* Sorts ascending; *ms is how long it took from pairs that lie ready, of a key and its place, to
- * the list of places, which lies where the technique runs. */
+/* Sorts the keys in ascending order. *ms is the time from prepared pairs (key, place) to the sorted
+ * list of places; the list lies where the technique runs. */
 bool kiln_sort_trial_run(struct kiln_sort_trial *trial, const uint32_t *keys, uint32_t count,
                          double *ms, struct kiln_error *error);
 

@@ -1,6 +1,7 @@
-/* Measures table 1 of UberFlow (Kipfer, Segal and Westermann 2004). A field of n x n keys is sorted
- * by every technique, and by the paper's bitonic sort, whose comparator's constants are computed
- * (FP), passed in (GP/FP) or passed in for packed pairs. */
+/* Runs the suite `table1` of `kiln bench`, which measures table 1 of UberFlow (Kipfer, Segal and
+ * Westermann 2004). A field of n x n keys is sorted by every technique, and by the paper's bitonic
+ * sort, whose comparator's constants are computed (FP), passed in (GP/FP) or passed in for packed
+ * pairs. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,8 +10,8 @@
 #include "bench/suite.h"
 #include "shared/random.h"
 
-/* Entrants that follow the kinds of trials: packed pairs sorted within sets of so many rows
- * (UberFlow, 5). */
+/* Numbers of rows of the last entrants. These sort packed pairs within sets of that many rows
+ * (UberFlow, 5); the other entrants are the kinds of trials. */
 static const uint32_t ROWS[] = {1, 16};
 
 enum {
@@ -23,12 +24,12 @@ struct race {
     struct kiln_threads *threads;
     uint32_t *keys;
     uint32_t count;
-    struct kiln_lane lanes[ENTRANTS]; /* names only */
+    struct kiln_lane lanes[ENTRANTS]; /* only their names are used */
     struct kiln_sort_trial *trials[ENTRANTS];
     struct kiln_samples *samples; /* [ENTRANTS] */
 };
 
-/* Whether the device allows this kind of sort at all. */
+/* Returns whether the device allows this kind of sort at all. */
 static bool may_sort(const struct race *race, enum kiln_sort_trial_kind kind,
                      struct kiln_error *error)
 {
@@ -69,7 +70,7 @@ static bool may_go_on(const struct kiln_bench_run *run, struct kiln_error *error
            kiln_error_set(error, KILN_INTERRUPTED, "stopped");
 }
 
-/* The first turn warms up. */
+/* Runs all entrants in turn. The first turn only warms up. */
 static bool take_turns(struct race *race, struct kiln_error *error)
 {
     double spent_ms = 0.0;

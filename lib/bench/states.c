@@ -1,5 +1,5 @@
-/* Measures saved states: how large they are, and how long it takes to save one and to take it up.
- */
+/* Runs the suite `states` of `kiln bench`, which measures the size of saved states, and the times
+ * to save and to load one. */
 #include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,18 +13,18 @@
 
 enum { STEPS = 62, MAX_TURNS = 5 }; /* after 60 steps the scene has all its particles */
 
-/* A state of so many particles, and what was measured of it. */
+/* A state of a given number of particles, and the measurements of it. */
 struct keeping {
     const struct kiln_bench_run *run;
-    double particles; /* as asked for */
+    double particles; /* the number that was asked for */
     struct kiln_scene *scene;
     struct kiln_threads *threads;
     struct kiln_simulate *simulate;
-    struct kiln_pool pool, other; /* `pool` is saved, and `other` takes it up */
+    struct kiln_pool pool, other; /* `pool` is saved, and then loaded into `other` */
     struct kiln_state state;
     double save_ms[MAX_TURNS], load_ms[MAX_TURNS];
     uint32_t turns;
-    double bytes; /* a living particle */
+    double bytes; /* file size per living particle */
 };
 
 static void init_pool(const struct kiln_scene *scene, struct kiln_pool *pool)
@@ -66,7 +66,7 @@ static bool fill(struct keeping *k, struct kiln_error *error)
                               error);
 }
 
-/* Takes up a state as a job does: it checks the file, reads it, and hashes what it read. */
+/* Loads a state as a job does: checks the file, reads it, and hashes what it read. */
 static bool load(struct keeping *k, const char *path, struct kiln_error *error)
 {
     struct kiln_state_info info;

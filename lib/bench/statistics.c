@@ -13,8 +13,8 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Returns the value at a part of the way from the first to the last of ascending values; it
- * interpolates between neighbours. */
+/* Returns the quantile `part`, 0 to 1, of ascending values; it is interpolated between
+ * neighbours. */
 static double value_at(const double *values, size_t count, double part)
 {
     double place = part * (double)(count - 1);

@@ -137,7 +137,7 @@ bool kiln_bench_publish(const struct kiln_bench_run *run, double x, const char *
     return kiln_bench_add_row(run->bench, &row, error);
 }
 
-/* Gives the values of a measure in the unit of the part: ms, or frames a second. */
+/* Converts the times of a measure to the unit of the part: ms, or frames a second. */
 static void take_values(const struct kiln_samples *samples, int measure, bool rates,
                         double values[KILN_BENCH_MAX_REPETITIONS])
 {
@@ -222,8 +222,8 @@ static bool same_curve(const struct kiln_bench_row *a, const struct kiln_bench_r
     return strcmp(a->measure, b->measure) == 0 && strcmp(a->technique, b->technique) == 0;
 }
 
-/* Fits growth over the larger half of the points; in the other half, costs that do not grow count
- * too much. */
+/* Fits the power of growth over the half of the points with the larger x. In the other half, fixed
+ * costs would count too much. */
 static double growth_of(const struct kiln_bench_part *part, size_t first)
 {
     enum { MOST = 64 };

@@ -32,7 +32,7 @@ bool kiln_suite_states(const struct kiln_bench_run *run, struct kiln_error *erro
 bool kiln_suite_jobs(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
 
-/* Adds the part of the suite `gravity` that says how well bodies keep their energy. */
+/* Adds the part of the suite `gravity` that measures how well bodies keep their energy. */
 bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error);
 
 #define KILN_UBERFLOW_SOURCE "UberFlow 2004, ATI 9800 Pro"
@@ -45,7 +45,7 @@ enum { KILN_MAX_SETTINGS = 32 };
 struct kiln_settings {
     const char *items[KILN_MAX_SETTINGS];
     size_t count;
-    const char *asset_root; /* where files lie that they name, an absolute path; NULL: none */
+    const char *asset_root; /* absolute path of the files that overrides name; NULL: none */
 };
 
 /* Add the override "key=value"; its text lives as long as the run. A setting for which there is no
@@ -79,16 +79,16 @@ size_t kiln_lanes_of_stage(const struct kiln_bench_run *run, const char *stage,
 struct kiln_comparison {
     const char *scene; /* as in kiln_bench_load_scene */
     const struct kiln_settings *settings;
-    const struct kiln_lane *lanes; /* the first is what the others are compared with */
+    const struct kiln_lane *lanes; /* the others are compared with the first */
     size_t lane_count;
     uint32_t measures; /* bits of KILN_MEASURE and KILN_MEASURE_WHOLE */
     const char *as;    /* the measure's name in the table; NULL: that of the pass */
     double x;
-    bool rates; /* frames a second, not milliseconds */
+    bool rates; /* rows give frames a second instead of milliseconds */
 };
 
-/* Measures how long a step of the library's cloud takes with so many particles, simulated on the
- * processor, and adds a row that is called `as`. Adds to the settings. */
+/* Measures a step of the library's cloud with this number of particles, simulated on the processor,
+ * and adds a row that is called `as`. Adds overrides to the settings. */
 bool kiln_compare_cloud(const struct kiln_bench_run *run, struct kiln_settings *settings,
                         double particles, const char *as, double x, struct kiln_error *error);
 
@@ -97,24 +97,24 @@ bool kiln_compare_lanes(const struct kiln_bench_run *run, const struct kiln_comp
                         struct kiln_error *error);
 
 /* Adds a row for each measure and lane of a comparison from samples that were taken before;
- * samples[0] is what the first lane took. */
+ * samples[0] belongs to the first lane. */
 bool kiln_bench_add_samples(const struct kiln_bench_run *run,
                             const struct kiln_comparison *comparison,
                             const struct kiln_samples *samples, struct kiln_error *error);
 
-/* Starts a part of the suite at hand. */
+/* Starts a part of the current suite. */
 bool kiln_bench_begin(const struct kiln_bench_run *run, const struct kiln_bench_part *part,
                       struct kiln_error *error);
 
-/* A published value, to stand beside the measured ones. */
+/* Adds a row with a published value, to be compared with the measured ones. */
 bool kiln_bench_publish(const struct kiln_bench_run *run, double x, const char *measure,
                         const char *technique, double value, const char *source,
                         struct kiln_error *error);
 
-/* Notes how each measure of a lane grows with x in the part at hand: "sort grows as x^1.02". */
+/* Notes how each measure grows with x in the last part, such as "sort by the power 1.02". */
 bool kiln_bench_note_growth(const struct kiln_bench_run *run, struct kiln_error *error);
 
-/* Tells the caller what comes next. */
+/* Tells the caller's progress callback what the suite does next. */
 void kiln_bench_say(const struct kiln_bench_run *run, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

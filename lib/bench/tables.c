@@ -1,5 +1,5 @@
-/* Writes a benchmark as tables: in text a row for each measurement, in Markdown medians side by
- * side. */
+/* Writes a benchmark as tables: as text, with a row for each measurement, and as Markdown, with
+ * medians side by side. */
 #include <string.h>
 
 #include "bench/result.h"
@@ -38,8 +38,8 @@ static void put_head(const struct kiln_bench *bench, FILE *out)
             bench->quick ? ", a quick run: its numbers say nothing" : "", bench->seconds);
 }
 
-/* Writes a ratio and its quartiles as "2.00", or with four digits behind the point where two would
- * say nothing. */
+/* Writes a ratio and its quartiles with two digits after the decimal point, or with four if the
+ * ratio is less than 0.1. */
 static void put_ratios_of(const struct kiln_spread *faster, const char *before, const char *between,
                           const char *after, FILE *out)
 {
@@ -109,7 +109,7 @@ void kiln_bench_write_text(const struct kiln_bench *bench, FILE *out)
 
 /* ---- Markdown -------------------------------------------------------------------------------- */
 
-/* The row of a curve at x, or NULL. */
+/* Returns the row of a curve at x, or NULL. */
 static const struct kiln_bench_row *find_row(const struct kiln_bench_part *part, size_t curve,
                                              double x)
 {

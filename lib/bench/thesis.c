@@ -1,5 +1,5 @@
-/* Repeats the measurements of Heinz 2019, chapter 4, on this machine. The numbers behind the
- * figures of the thesis are not known, so what its text says of them is printed beside. */
+/* Repeats the measurements of Heinz 2019, chapter 4, on this machine. The thesis does not give the
+ * numbers behind its figures, so each table has a note of what the thesis says in its text. */
 #include <math.h>
 
 #include "bench/suite.h"
@@ -8,7 +8,7 @@ static const char SCENE[] = "fire_beam.yaml";
 
 /* Sets a beam of as many particles as table 4.1 has in all, half of them fire and half smoke, with
  * four seconds of life each and one step a frame. Sprites shrink so that together they cover as
- * much as 1,600 of full size do. The table's factors come to the same: 1 of 1,600 particles, 0.1 of
+ * much as 1,600 of full size do. The table has the same factors: 1 for 1,600 particles, 0.1 for
  * 160,000. */
 static void set_beam(const struct kiln_bench_run *run, struct kiln_settings *settings,
                      double particles)
@@ -24,7 +24,7 @@ static void set_beam(const struct kiln_bench_run *run, struct kiln_settings *set
     kiln_set_number(run, settings, "systems.*.look.scale.1", scale);
 }
 
-/* Up to the largest size of table 4.1. */
+/* Numbers of particles, up to the largest of table 4.1. */
 static const double SIZES[] = {500, 1000, 2000, 4000, 8000, 16000, 40000, 80000, 160000};
 enum { SIZE_COUNT = sizeof SIZES / sizeof *SIZES };
 
@@ -33,7 +33,8 @@ static size_t size_count(const struct kiln_bench_run *run)
     return run->params->quick ? 1 : SIZE_COUNT;
 }
 
-/* Compares the lanes with beams of all sizes, in a picture so small that drawing does not count. */
+/* Compares the lanes with beams of all sizes, in a picture so small that drawing takes little
+ * time. */
 static bool compare_unseen(const struct kiln_bench_run *run, const struct kiln_lane *lanes,
                            size_t lane_count, uint32_t measures, struct kiln_error *error)
 {
@@ -82,7 +83,7 @@ bool kiln_suite_figure_4_4(const struct kiln_bench_run *run, struct kiln_error *
 
 /* ---- Figure 4.5 ------------------------------------------------------------------------------ */
 
-/* Parts of a frame, each drawn alone with the camera close to the beam. */
+/* Parts of a frame, each drawn alone, and the whole frame; the camera is close to the beam. */
 static const struct {
     const char *as;
     const char *without; /* settings that leave the other part out, or NULL */
@@ -153,7 +154,7 @@ bool kiln_suite_figure_4_6(const struct kiln_bench_run *run, struct kiln_error *
     size_t count = kiln_lanes_of_stage(run, "sort", lanes, error);
     if (count == 0)
         return false;
-    if (count < KILN_MAX_LANES) /* the lanes above sort what `auto` simulates */
+    if (count < KILN_MAX_LANES) /* the lanes above sort particles that `auto` simulates */
         lanes[count++] = (struct kiln_lane){.name = "sort=bitonic after simulate=feedback",
                                             .techniques = "simulate=feedback sort=bitonic"};
     if (count < KILN_MAX_LANES)

@@ -1,10 +1,12 @@
-/* Measures table 2 of UberFlow (Kipfer, Segal and Westermann 2004). The paper's texture of n x n
- * particles is n^2 particles here; frames a second are frames a second in both. */
+/* Runs the suite `table2` of `kiln bench`, which measures table 2 of UberFlow (Kipfer, Segal and
+ * Westermann 2004). The paper's texture of n x n particles is n^2 particles here; both count frames
+ * a second. */
 #include "bench/suite.h"
 
 static const char SCENE[] = "bench/cloud.yaml";
 
-/* Sets n^2 particles of each kind, fire and smoke, of which an experiment leaves one out. */
+/* Sets n^2 particles of each kind, fire and smoke; n is `side`. Each experiment leaves one kind
+ * out. */
 static void set_field(const struct kiln_bench_run *run, struct kiln_settings *settings, double side)
 {
     kiln_set_number(run, settings, "systems.*.emit.rate", side * side);
@@ -31,15 +33,16 @@ static const char *const EXACT_CELLS[] = {
 
 #define ON_DEVICE "backdrop=gl raster=geometry composite=gl"
 
-/* An experiment, which runs with techniques of the device, with those of `auto`, or with both. Fire
- * alone is summed and needs no order; smoke alone is sorted. */
+/* An experiment, which runs with techniques of the device, with those of `auto`, or with both. If
+ * it is sorted, it draws smoke alone; else it draws fire alone, which is blended additively and
+ * needs no order. */
 static const struct experiment {
     const char *name;
-    const char *techniques; /* of the device's lane; NULL: there is none */
+    const char *techniques; /* techniques of the device's lane; NULL: there is no such lane */
     const char *lane;
     const char *const *settings;
     bool sorted, automatic;
-    double published[3]; /* 0: nothing was */
+    double published[3]; /* frames a second; 0: not published */
 } EXPERIMENTS[] = {
     {"E1 motion",
      "simulate=inplace " ON_DEVICE,

@@ -1,7 +1,7 @@
-/* Writes scenes to begin with, which are files of scenes/templates in the program. Each is written
- * with a first line that tells editors where the JSON schema of scenes is: by the schema they
- * complete and check keys. The schema is searched for from where the program lies, since an
- * installation may be moved. */
+/* Writes the scenes of `kiln new`, from which users start; the program embeds the files of
+ * scenes/templates. The first line of each scene tells editors where the JSON schema of scenes is,
+ * by which they complete and check keys. The schema is searched for from the folder of the program,
+ * since an installation may be moved. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,8 +72,8 @@ static const char *find(const char *name, struct kiln_error *error)
     return NULL;
 }
 
-/* Finds the schema: beside the program as built, below the prefix of an installed program, or where
- * the build was going to install it. False when it is nowhere. */
+/* Finds the schema: below the prefix of an installed program, beside a program that was just built,
+ * or where the build was going to install it. False when it is in none of these places. */
 static bool find_schema(char path[KILN_PATH_SIZE])
 {
     static const char *const ways[] = {"../share/kiln/" SCHEMA, "docs/" SCHEMA};
@@ -95,7 +95,7 @@ static bool find_schema(char path[KILN_PATH_SIZE])
     return found || access(path, R_OK) == 0;
 }
 
-/* Adds the line that names the schema to editors. They end the path at a blank, so a path with a
+/* Adds the line that names the schema to editors. Editors end the path at a blank, so a path with a
  * blank is written as a URL. */
 static void add_modeline(struct kiln_text *text)
 {
