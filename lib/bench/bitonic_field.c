@@ -18,7 +18,7 @@ struct kiln_bitonic_field {
     enum kiln_field_constants constants;
     GLuint program;
     uint32_t rows;            /* rows that are sorted together; 0: all */
-    struct kiln_buffer other; /* pairs */
+    struct kiln_buffer other; /* pairs; a pass reads them here or writes them here */
     struct kiln_buffer table; /* for each pass, a word for each column, then for each row */
     uint32_t table_count, table_sorted; /* numbers of pairs that the table was made for */
 };

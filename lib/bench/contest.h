@@ -58,7 +58,7 @@ bool kiln_contest_run(const struct kiln_bench_run *run, const struct kiln_scene 
 struct kiln_delivery {
     const char *problem;
     uint32_t count;
-    double ms[KILN_BENCH_MAX_REPETITIONS];      /* a frame, until the files are complete */
+    double ms[KILN_BENCH_MAX_REPETITIONS];      /* time of a frame, until its files are complete */
     double cpu_ms[KILN_BENCH_MAX_REPETITIONS];  /* CPU time of a frame, of all cores together */
     double slowest[KILN_BENCH_MAX_REPETITIONS]; /* the slowest pass of a frame, ms */
 };

@@ -14,7 +14,7 @@ enum { STOPS = 3, BETWEEN = 30 /* computations of the energy from one stop to th
 struct flight {
     const char *name;
     uint32_t bodies;
-    double strength, softening; /* m/s^2 at 1 m; m */
+    double strength, softening; /* strength in m/s^2 at 1 m; softening in m */
     uint32_t stops[STOPS];      /* steps, ascending; each stop gives a row */
     /* set while the flight runs: */
     const struct kiln_bench_run *run;

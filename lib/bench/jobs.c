@@ -37,13 +37,13 @@ enum value {
     SET_UP, /* from there until the first frame is drawn: atlases, the state, the frame */
     LOAD,   /* the part of SET_UP that loads the state */
     FRAMES, /* the other frames, and encoding that runs beside them */
-    END,    /* the rest: the encoder's last frames, the file */
+    END,    /* from the last frame on: the encoder's last frames, the file */
     VALUES
 };
 
 struct farm {
     const struct kiln_bench_run *run;
-    struct kiln_scene *scene; /* with as many frames as the parts have */
+    struct kiln_scene *scene; /* the clip of all parts */
     const char *name, *path;  /* the scene's name in messages, and its file */
     const char **options;     /* options of all jobs that read the scene */
     size_t option_count;

@@ -159,8 +159,8 @@ static bool finish(struct child *child, const char **words, int log, double star
                           "kiln %s has exit code %d: %.700s", words[0], WEXITSTATUS(status), line);
 }
 
-/* Makes the arguments: "kiln", the command, where its events go, and its other words. Returns NULL
- * when memory is short. */
+/* Makes the arguments: "kiln", the command, the option for its events, and its other words. Returns
+ * NULL when memory is short. */
 static const char **make_words(const char **words, bool told)
 {
     size_t count = 0, used = 0;

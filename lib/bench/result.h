@@ -56,8 +56,8 @@ bool kiln_bench_add_row(struct kiln_bench *bench, const struct kiln_bench_row *r
 bool kiln_bench_add_note(struct kiln_bench *bench, struct kiln_error *error, const char *format,
                          ...) __attribute__((format(printf, 3, 4)));
 
-/* Writes a number as tables print it: with at least four significant digits, and without an
- * exponent. */
+/* Writes a number as tables print it: four significant digits, more for whole numbers of 10,000 and
+ * above, at most four decimals, and no exponent. */
 void kiln_bench_number(char text[32], double value);
 
 /* Write a benchmark in each format of kiln_bench_write, and the data and the gnuplot script of a

@@ -1,5 +1,5 @@
 /* Repeats the measurements of Heinz 2019, chapter 4, on this machine. The thesis does not give the
- * numbers behind its figures, so each table has a note of what the thesis says in its text. */
+ * numbers behind its figures, so the notes of the tables give the statements of its text. */
 #include <math.h>
 
 #include "bench/suite.h"

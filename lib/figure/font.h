@@ -11,8 +11,8 @@
 enum {
     KILN_FONT_EM = 140, /* the font size, roughly */
     KILN_FONT_CAPITAL = 100,
-    KILN_FONT_ASCENT = 146, /* of a capital with an accent, pen included */
-    KILN_FONT_DESCENT = 40, /* below the baseline, pen included */
+    KILN_FONT_ASCENT = 146, /* height of a capital with an accent, pen included */
+    KILN_FONT_DESCENT = 40, /* depth below the baseline, pen included */
     KILN_FONT_PEN = 12
 };
 

@@ -7,7 +7,7 @@
 struct kiln_pdf {
     FILE *out;
     const struct kiln_drawing *drawing;
-    long *offsets; /* of objects in the file, from index 1; the caller has made room */
+    long *offsets; /* the objects' offsets in the file, from index 1; the caller has made room */
     size_t objects;
 };
 

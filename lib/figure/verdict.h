@@ -12,7 +12,7 @@ struct kiln_figure_now {
     const struct kiln_pixels *pixels;
     const char *hash;
     const struct kiln_figure_format *format;
-    const char *path; /* of the figure's file */
+    const char *path; /* path of the figure's file */
     uint32_t threads;
 };
 
