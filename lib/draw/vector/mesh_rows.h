@@ -12,32 +12,33 @@
 enum {
     KILN_MESH_ROWS = 8,
     KILN_MESH_LAYERS = 5,
-    KILN_MESH_PAD = 16, /* pixels that vectors may reach beyond the right edge */
+    KILN_MESH_PAD = 16, /* pixels by which vectors may pass the right edge */
 };
 
-/* Describes a triangle over positions (u, v) of a picture by planes, as factors of u, v and 1. A
- * position is inside where no edge is negative. Of two triangles with a common edge, each has the
- * other's plane times -1, so that no position is between them. */
+/* Describes a projected triangle by planes over positions (u, v) of a picture, each as factors of
+ * u, v and 1. A position is inside where no edge plane is negative. Triangles with a common edge
+ * have the same plane for it with opposite signs, so that no position lies between them. */
 struct kiln_flat_triangle {
     float edges[3][3];
-    float nearness[3];          /* the greatest of all is seen */
-    struct kiln_row_range x, y; /* pixels that it may touch */
+    float nearness[3];          /* the nearest triangle has the greatest value */
+    struct kiln_row_range x, y; /* pixels that the triangle may touch */
 };
 
-/* KILN_MESH_ROWS rows of a picture, in several layers, whose places in a pixel differ. */
+/* Describes KILN_MESH_ROWS rows of a picture, in several layers. Each layer samples pixels at its
+ * own offset. */
 struct kiln_mesh_strip {
     uint32_t width, y, rows;
-    float u, v, u_step, v_step; /* of the upper left pixel's corner, and a pixel on */
+    float u, v, u_step, v_step; /* of the picture's upper left corner; steps from pixel to pixel */
     uint32_t layers;
-    float offsets[KILN_MESH_LAYERS][2]; /* px, from the corner */
-    float most;                         /* nearness beyond which nothing is seen */
-    float *nearness;                    /* by row, layer, pixel: what is there; 0: nothing */
-    int32_t *triangles;                 /* the same; NULL: not wanted */
-    size_t pitch;                       /* of a row of a layer */
+    float offsets[KILN_MESH_LAYERS][2]; /* of layers, px, from a pixel's upper left corner */
+    float most;                         /* greatest nearness that is drawn */
+    float *nearness;                    /* of the nearest triangle, by row, layer, pixel; 0: none */
+    int32_t *triangles; /* 1 + number of the nearest triangle, likewise; NULL: not wanted */
+    size_t pitch;       /* entries of a row of one layer */
 };
 
 struct kiln_mesh_rows {
-    /* Draws triangles, numbers of which are in the list, in its order. */
+    /* Draws the triangles whose numbers are in the list, in the list's order. */
     void (*draw)(const struct kiln_mesh_strip *strip, const struct kiln_flat_triangle *triangles,
                  const uint32_t *list, size_t count);
 };

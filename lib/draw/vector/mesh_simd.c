@@ -1,10 +1,10 @@
-/* This file draws the rows of triangles within their bounds, a vector of pixels at a time, in all
- * layers. */
+/* This file rasterises triangles into the rows of a strip, a vector of pixels at a time, within the
+ * bounds of each triangle and in all layers. */
 #include "draw/vector/mesh_rows.h"
 #include "draw/vector/ray_math.h"
 
 struct plane_row {
-    float u, rest; /* along the row; at u = 0 */
+    float u, rest; /* factor of u; value at u = 0 */
 };
 
 static inline struct plane_row cut(const float plane[3], float v)

@@ -1,12 +1,12 @@
-/* This header computes values of particles for vectors of them, as shaders/shared does for one
- * particle (exact.h, random.h, derived.h), with the same bits. */
+/* This header computes values of a vector of particles, with the same bits as shaders/shared
+ * computes them for one particle (exact.h, random.h, derived.h). */
 #ifndef KILN_DRAW_VECTOR_PARTICLE_MATH_H
 #define KILN_DRAW_VECTOR_PARTICLE_MATH_H
 
 #include "draw/vector/transpose.h"
 #include "shared/derived.h"
 
-/* exact_rcp */
+/* Returns 1 / x as exact_rcp does. */
 SIMD vf vf_rcp(vf x)
 {
     vi size = (vi)x & (int32_t)EXACT_SIZE_BITS;
@@ -15,13 +15,13 @@ SIMD vf vf_rcp(vf x)
     return (vf)(((vi)y | ((vi)x & (int32_t)EXACT_SIGN_BIT)) & usual);
 }
 
-/* a at t = 0, b at t = 1. */
+/* Interpolates from a at t = 0 to b at t = 1. */
 SIMD vf vf_lerp(vf a, vf b, vf t)
 {
     return a + (b - a) * t;
 }
 
-/* exact_lerp */
+/* Interpolates as exact_lerp does: the result is within a and b for t from 0 to 1. */
 SIMD vf vf_lerp_within(vf a, vf b, vf t)
 {
     return vf_min(vf_max(vf_lerp(a, b, t), vf_min(a, b)), vf_max(a, b));
@@ -29,7 +29,7 @@ SIMD vf vf_lerp_within(vf a, vf b, vf t)
 
 /* ---- random numbers -------------------------------------------------------------------------- */
 
-/* random_mix */
+/* Mixes bits as random_mix does. */
 SIMD vu vu_mix(vu x)
 {
     x ^= x >> 16;
@@ -40,7 +40,7 @@ SIMD vu vu_mix(vu x)
     return x;
 }
 
-/* random_unit */
+/* Returns random numbers as random_unit does. */
 SIMD vf vu_unit(vu stream, uint32_t purpose)
 {
     vu bits = vu_mix(stream ^ random_mix(purpose + 0x9e3779b9u));
@@ -49,13 +49,13 @@ SIMD vf vu_unit(vu stream, uint32_t purpose)
 
 /* ---- records --------------------------------------------------------------------------------- */
 
-/* Of struct kiln_particle. */
+/* Holds the members of struct kiln_particle for a vector of particles. */
 struct vf_particles {
     struct vf3 position, velocity;
     vu serial, birth;
 };
 
-/* Those in slots of a pool's records. */
+/* Reads the particles in slots of a pool's records. */
 SIMD struct vf_particles read_records(const struct kiln_particle *records, vi slots)
 {
     const struct places places =
@@ -74,14 +74,15 @@ SIMD vf vf_birth_fraction(vu birth)
     return vf_of((vi)(birth >> KILN_BIRTH_FRACTION_SHIFT & KILN_BIRTH_FRACTION_MASK)) * 0.015625f;
 }
 
-/* particle_age */
+/* Returns the age in seconds as particle_age does. */
 SIMD vf vf_age(vu birth, uint32_t step, float dt_s)
 {
     vf steps = vf_of((vi)(step - (birth >> KILN_BIRTH_STEP_SHIFT))) + 1.0f;
     return (steps - vf_birth_fraction(birth)) * dt_s;
 }
 
-/* Returns a value at each lane's time; most values are constant. */
+/* Returns a scene value at each lane's time. Most values are constant, so others are evaluated lane
+ * by lane. */
 SIMD vf vf_value_at(const float4 *keys, const struct kiln_value *value, vf time_s)
 {
     if (value->count == 0)
@@ -92,7 +93,7 @@ SIMD vf vf_value_at(const float4 *keys, const struct kiln_value *value, vf time_
     return y;
 }
 
-/* particle_life_s */
+/* Returns the lifetime in seconds as particle_life_s does. */
 SIMD vf vf_life(const float4 *keys, const struct kiln_derived_params *d, vu stream, vu birth)
 {
     vf before = vf_of((vi)((birth >> KILN_BIRTH_STEP_SHIFT) - 1u)) - (float)d->warmup_steps;
@@ -101,7 +102,7 @@ SIMD vf vf_life(const float4 *keys, const struct kiln_derived_params *d, vu stre
                           vf_value_at(keys, &d->life.max, born_s), vu_unit(stream, RANDOM_LIFE));
 }
 
-/* particle_progress */
+/* Returns the progress through life, 0 to 1, as particle_progress does. */
 SIMD vf vf_progress(vf age_s, vf life_s)
 {
     return vf_clamp01(age_s * vf_rcp(life_s));

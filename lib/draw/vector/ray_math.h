@@ -1,6 +1,6 @@
-/* This header holds mathematics for vectors of rays, beyond draw/vector/simd.h. Results are the
- * same bits at every level, from operations that IEEE 754 rounds, with no function of libm (the
- * scalar ones are in shaders/shared/exact.h). */
+/* This header defines functions and 3D vectors for vectors of rays, on top of draw/vector/simd.h.
+ * They use operations that IEEE 754 rounds in one way, not libm's approximations, so results are
+ * the same bits at every level. shaders/shared/exact.h has such functions for single numbers. */
 #ifndef KILN_DRAW_VECTOR_RAY_MATH_H
 #define KILN_DRAW_VECTOR_RAY_MATH_H
 
@@ -16,7 +16,7 @@ SIMD vi vi_all(int32_t x)
     return x - (vi){0};
 }
 
-/* 0, 1, 2... */
+/* Returns 0, 1, 2... in the lanes. */
 SIMD vi vi_count(void)
 {
     return __builtin_convertvector(vf_count(), vi);
@@ -137,7 +137,7 @@ SIMD vf vf_gather(const float *from, vi index)
 
 #endif
 
-/* Without a zero that is negative. */
+/* Returns the floor of x, with +0 in place of -0. */
 SIMD vf vf_floor(vf x)
 {
     return round_down(x) + 0.0f;
@@ -148,8 +148,8 @@ SIMD vi vi_gather(const int32_t *from, vi index)
     return (vi)vf_gather((const float *)(const void *)from, index);
 }
 
-/* The functions have the ranges that elementary.h says: vf_rsqrt and vf_log2 for 2^-100 and more;
- * of zero, vf_rsqrt is a large number. */
+/* The functions have the ranges that shared/elementary.h gives: vf_rsqrt and vf_log2 take arguments
+ * of 2^-100 or more. For zero, vf_rsqrt returns a large finite number. */
 #define ELEMENT             vf
 #define ELEMENT_INT         vi
 #define ELEMENT_FN          SIMD
@@ -167,7 +167,7 @@ SIMD vi vi_gather(const int32_t *from, vi index)
 #define ELEMENT_COSINE      vf_cosine_within
 #include "shared/elementary.h"
 
-/* e^x as exact_exp has it; below -69 it is 0. */
+/* Returns e^x as exact_exp does: 0 below -69, e^69 above 69. Unlike there, NaN gives 0. */
 SIMD vf vf_exp(vf x)
 {
     return vf_where(x >= -69.0f, vf_exp_within(vf_clamp(x, -69.0f, 69.0f)));
@@ -177,7 +177,7 @@ struct vf_angle {
     vf sine, cosine;
 };
 
-/* As exact_sincos has it: those of 0 beyond 8192. */
+/* Returns sine and cosine of x radians as exact_sincos does: those of 0 for |x| > 8192. */
 SIMD struct vf_angle vf_sincos(vf x)
 {
     x = vf_where(vf_abs(x) <= 8192.0f, x);
@@ -190,7 +190,7 @@ SIMD struct vf_angle vf_sincos(vf x)
                              (vf)((vi)vf_select(odd, s, c) ^ left)};
 }
 
-/* The angle of (x, y) within 3e-7, -pi to pi; any for (0, 0). */
+/* Returns the angle of (x, y), -pi to pi, within 3e-7; an arbitrary angle for (0, 0). */
 SIMD vf vf_atan2(vf y, vf x)
 {
     vf across = vf_abs(x), up = vf_abs(y);
@@ -233,7 +233,7 @@ SIMD struct vf3 vf3_scale(struct vf3 a, vf factor)
     return (struct vf3){a.x * factor, a.y * factor, a.z * factor};
 }
 
-/* a + b * factor */
+/* Returns a + b * factor. */
 SIMD struct vf3 vf3_along(struct vf3 a, struct vf3 b, vf factor)
 {
     return (struct vf3){a.x + b.x * factor, a.y + b.y * factor, a.z + b.z * factor};
@@ -261,7 +261,7 @@ SIMD struct vf3 vf3_normalize(struct vf3 a)
     return vf3_scale(a, vf_rsqrt(vf3_dot(a, a)));
 }
 
-/* Returns a uniform vector less each lane's vector. */
+/* Returns a vector that all lanes share minus each lane's vector. */
 SIMD struct vf3 vf3_towards(float4 to, struct vf3 from)
 {
     return (struct vf3){to.x - from.x, to.y - from.y, to.z - from.z};
@@ -272,13 +272,13 @@ SIMD vf vf3_dot_all(struct vf3 a, float4 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* A row of an affine map. */
+/* Returns one coordinate of p under an affine map. row: the map's row for that coordinate. */
 SIMD vf vf3_map(float4 row, struct vf3 p)
 {
     return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
 }
 
-/* Between two uniform colours. */
+/* Interpolates between two colours that all lanes share. */
 SIMD struct vf3 vf3_mix(float4 from, float4 to, vf part)
 {
     return (struct vf3){from.x + (to.x - from.x) * part, from.y + (to.y - from.y) * part,

@@ -1,5 +1,6 @@
-/* This header gives the names of shared/real.h to vectors, so that what is written in them computes
- * a vector of points. It stands before all other headers of a file that is compiled for a width. */
+/* This header defines the types and operations of shared/real.h as vectors, so that the formulas in
+ * shaders/shared that are written in them compute a vector of points. A file includes it before any
+ * header that includes shared/real.h, which would otherwise define them as single numbers. */
 #ifndef KILN_DRAW_VECTOR_REAL_H
 #define KILN_DRAW_VECTOR_REAL_H
 

@@ -1,4 +1,4 @@
-/* This file lists for each band of rows the items that touch it, by counting: it counts each list's
+/* This file lists the items that touch each band of rows, by a counting sort: it counts each list's
  * length, then sums the lengths to where each list begins, then fills the lists. */
 #include "draw/vector/row_lists.h"
 
@@ -53,7 +53,8 @@ bool kiln_row_lists_fill(struct kiln_row_lists *lists, const struct kiln_row_ran
         first[band + 2] += first[band + 1];
     if (!make_room(lists, first[bands + 1]))
         return out_of_memory(error);
-    /* Each list's beginning becomes its end, which is where the next one begins. */
+    /* Filling a list moves its entry in `first` from the list's beginning to its end, where the
+     * next list begins. */
     next = (const char *)ranges;
     for (uint32_t i = 0; i < count; i++, next += stride) {
         struct kiln_row_range rows;

@@ -1,5 +1,5 @@
-/* A kiln_row_lists has for each band of rows of a picture a list of the items that touch it, in the
- * order of the items, so that threads can draw bands. */
+/* A kiln_row_lists holds a list for each band of rows of a picture: the items that touch the band,
+ * in the order of their numbers. With it, threads draw bands independently. */
 #ifndef KILN_DRAW_VECTOR_ROW_LISTS_H
 #define KILN_DRAW_VECTOR_ROW_LISTS_H
 
@@ -8,21 +8,21 @@
 
 #include "kiln.h"
 
-/* from .. to - 1 */
+/* Holds the rows, or the columns, from .. to - 1. */
 struct kiln_row_range {
     int16_t from, to;
 };
 
 struct kiln_row_lists {
     uint32_t bands;
-    size_t *first; /* of each band's list in `list`, and the end of the last one */
+    size_t *first; /* where each band's list begins in `list`, then the last one's end */
     uint32_t *list;
     size_t room, band_room;
 };
 
-/* Lists `count` items. ranges: the rows of the first item; those of the next are `stride` bytes on.
- * All are within the picture; an item with an empty range is in no list. Zero-initialised lists are
- * none. */
+/* Lists `count` items by bands of band_height rows. ranges: the rows of the first item; those of
+ * the next are `stride` bytes on. All rows are within the picture; an item with an empty range is
+ * in no list. The lists start as zeros and may be filled again. False with an error: no memory. */
 bool kiln_row_lists_fill(struct kiln_row_lists *lists, const struct kiln_row_range *ranges,
                          size_t stride, uint32_t count, uint32_t height, uint32_t band_height,
                          struct kiln_error *error);

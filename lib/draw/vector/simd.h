@@ -45,14 +45,15 @@ SIMD void vf_store(float *to, vf x)
     *(vf_unaligned *)to = x;
 }
 
-/* 0, 1, 2... */
+/* Returns 0, 1, 2... in the lanes. */
 SIMD vf vf_count(void)
 {
     static const float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     return vf_load(numbers);
 }
 
-/* x where the mask (all bits or none) is set, 0 elsewhere. */
+/* Returns x in the lanes where the mask is set, 0 elsewhere. A lane of a mask has all bits set, or
+ * none. */
 SIMD vf vf_where(vi mask, vf x)
 {
     return (vf)((vi)x & mask);
@@ -103,8 +104,8 @@ SIMD vf vf_sqrt(vf a)
     return (vf)_mm_sqrt_ps((__m128)a);
 }
 #else
-/* Returns the second operand where neither is less, as x86 does; NEON's own minimum and maximum
- * would be NaN where either operand is. */
+/* Returns the second operand where the two are equal or one is NaN, as x86 does; NEON's own minimum
+ * and maximum would be NaN where either operand is. */
 SIMD vf vf_min(vf a, vf b)
 {
     vi less = a < b;
@@ -129,8 +130,8 @@ SIMD vf vf_sqrt(vf a)
 }
 #endif
 
-/* Rounds towards zero. A value that is not within 2^31 becomes the least integer, as on x86; other
- * processors give the nearest integer, and 0 for NaN. */
+/* Converts to integers, rounding towards zero. NaN and values beyond 2^31 become the least integer,
+ * as on x86; other processors would give the nearest integer, and 0 for NaN. */
 SIMD vi vi_of(vf x)
 {
 #ifdef __x86_64__
@@ -141,7 +142,7 @@ SIMD vi vi_of(vf x)
 #endif
 }
 
-/* A bit for each lane of a mask. */
+/* Returns a bit for each lane of a mask, lane 0 in the lowest. */
 SIMD uint32_t vi_bits(vi mask)
 {
 #if KILN_SIMD_LEVEL == 3
@@ -164,21 +165,22 @@ SIMD vf vf_clamp01(vf x)
     return vf_min(vf_max(x, vf_all(0.0f)), vf_all(1.0f));
 }
 
-/* The lanes of a vector are pixels side by side in units of 8, which differ in where they lie. */
+/* A unit is 8 pixels side by side in a row. A vector holds UNITS whole units, which may lie apart,
+ * or one of the UNIT_PARTS parts of a unit. */
 enum {
     UNIT = 8,
     UNITS = LANES > UNIT ? LANES / UNIT : 1,
     UNIT_PARTS = UNIT > LANES ? UNIT / LANES : 1
 };
 
-/* 0 to 7 in each unit, or part of one. */
+/* Returns the number, 0 to 7, of each lane's pixel in its unit. part: number of the unit's part. */
 SIMD vf vf_units_count(int part)
 {
     static const float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
     return vf_load(numbers + (size_t)part * LANES);
 }
 
-/* 0 in the first unit, 1 in the second. */
+/* Returns the number of each lane's unit in the vector: 0 or 1. */
 SIMD vf vf_units_number(void)
 {
     static const float numbers[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
@@ -187,13 +189,13 @@ SIMD vf vf_units_number(void)
 
 #if KILN_SIMD_LEVEL == 3
 
-/* One value a unit. */
+/* Returns a vector with one value for each unit, the same in all of its lanes. */
 SIMD vf vf_units(const float *from)
 {
     return (vf)_mm512_insertf32x8(_mm512_set1_ps(from[0]), _mm256_set1_ps(from[1]), 1);
 }
 
-/* From where each unit lies: offsets from `from`. */
+/* Loads each unit from its place. at: offsets of the units from `from`, in floats. */
 SIMD vf vf_load_units(const float *from, const int32_t *at)
 {
     return (vf)_mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(from + at[0])),

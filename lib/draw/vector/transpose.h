@@ -1,16 +1,17 @@
 /* This header transposes records in memory to vectors and back. The lanes of a vector are records,
- * and four consecutive floats of each record become four vectors. In between, vector k of four has,
- * in its 128 bits p, the four floats of lane 4 p + k. */
+ * and four consecutive floats of each record become four vectors. Before the transposition, vector
+ * k of four holds the four floats of lane 4 p + k in its 128-bit part p. */
 #ifndef KILN_DRAW_VECTOR_TRANSPOSE_H
 #define KILN_DRAW_VECTOR_TRANSPOSE_H
 
 #include "draw/vector/ray_math.h"
 
-/* The numbers of lanes a, b, c and d (beyond 3: of the second operand) of the 128 bits p. */
+/* The indices of lanes a, b, c and d of the 128-bit part p, for a shuffle of two vectors; 4 to 7
+ * are lanes of the second vector. */
 #define LANE_OF(a, p)           (4 * (p) + ((a)&3) + ((a) >> 2) * LANES)
 #define LANES_OF(a, b, c, d, p) LANE_OF(a, p), LANE_OF(b, p), LANE_OF(c, p), LANE_OF(d, p)
 
-/* The same four lanes of two vectors in each 128 bits. */
+/* Picks the same four lanes of two vectors in each 128-bit part. */
 #if LANES == 16
 #define VF_PICK(x, y, a, b, c, d)                                                                  \
     __builtin_shufflevector(x, y, LANES_OF(a, b, c, d, 0), LANES_OF(a, b, c, d, 1),                \
@@ -22,8 +23,8 @@
 #define VF_PICK(x, y, a, b, c, d) __builtin_shufflevector(x, y, LANES_OF(a, b, c, d, 0))
 #endif
 
-/* Holds the lanes of a vector as offsets in memory. They go through memory, since extracting lanes
- * from a vector costs twice as much. */
+/* Holds an offset for each lane. Offsets go through memory, since extracting lanes from a vector
+ * costs twice as much. */
 struct places {
     _Alignas(64) int32_t at[LANES];
 };
@@ -36,8 +37,8 @@ SIMD struct places places_of_lanes(vi x)
     return places;
 }
 
-/* Loads four floats for each of the lanes k, 4 + k..., from `from` + the lane's offset on. at: the
- * offset of lane k, in floats. */
+/* Loads four floats for each of the lanes k, 4 + k, 8 + k...: those at `from` plus the lane's
+ * offset. at: points to the offset of lane k, in floats. */
 SIMD vf vf_load_fours(const float *from, const int32_t *at)
 {
 #if LANES == 16
@@ -59,7 +60,7 @@ struct columns {
     vf c[4];
 };
 
-/* Transposes the floats of records to vectors, and back. */
+/* Transposes four floats of each record to four vectors, or back. */
 SIMD struct columns columns_transpose(vf a, vf b, vf c, vf d)
 {
     vf ab = VF_PICK(a, b, 0, 4, 1, 5), cd = VF_PICK(c, d, 0, 4, 1, 5);
@@ -69,7 +70,7 @@ SIMD struct columns columns_transpose(vf a, vf b, vf c, vf d)
                              VF_PICK(ab_high, cd_high, 2, 3, 6, 7)}};
 }
 
-/* Loads four floats of each lane's record. places: in floats. */
+/* Loads four floats of each lane's record. places: offsets of the records, in floats. */
 SIMD struct columns columns_load(const float *from, const struct places *places)
 {
     const int32_t *at = places->at;
@@ -78,7 +79,7 @@ SIMD struct columns columns_load(const float *from, const struct places *places)
 }
 
 /* Interpolates between four floats of each lane's record and the four floats after them. part: the
- * weight of the latter, as vf_spread_fours lays it out. */
+ * weight of the latter four, as vf_spread_fours lays it out. */
 SIMD struct columns columns_load_between(const float *from, const struct places *places,
                                          const vf part[4])
 {
@@ -91,7 +92,8 @@ SIMD struct columns columns_load_between(const float *from, const struct places 
     return columns_transpose(between[0], between[1], between[2], between[3]);
 }
 
-/* Repeats each lane's value for the four floats of its record. */
+/* Repeats each lane's value for the four floats of its record, in the layout before the
+ * transposition. */
 SIMD void vf_spread_fours(vf x, vf spread[4])
 {
     spread[0] = VF_PICK(x, x, 0, 0, 0, 0);
@@ -102,8 +104,8 @@ SIMD void vf_spread_fours(vf x, vf spread[4])
 
 enum { LINE_FLOATS = 16 };
 
-/* Stores sixteen floats of each lane to its record, a whole cache line. lanes: the numbers of
- * records of `size` floats. */
+/* Stores sixteen floats of each lane, a whole cache line, to the lane's record. lanes: the number
+ * of each lane's record; size: of a record, in floats. */
 SIMD void vf_store_lines(const vf x[LINE_FLOATS], float *records, size_t size,
                          const uint16_t lanes[LANES])
 {
