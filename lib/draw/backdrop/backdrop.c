@@ -15,10 +15,10 @@
 
 struct kiln_backdrop_stage {
     const struct kiln_scene *scene;
-    struct kiln_backdrop_gl *gl; /* one of these two */
-    struct kiln_backdrop_cpu *cpu;
-    struct kiln_device *device;      /* of gl */
-    struct kiln_sky_light sky_light; /* of the image */
+    struct kiln_backdrop_gl *gl;     /* NULL for technique cpu */
+    struct kiln_backdrop_cpu *cpu;   /* NULL for technique gl */
+    struct kiln_device *device;      /* for gl; may be NULL for cpu */
+    struct kiln_sky_light sky_light; /* measured from the sky image */
     struct kiln_backdrop_inputs drawn;
     bool has_drawn;
 };
@@ -55,7 +55,7 @@ static void fill_lights(const struct kiln_scene *scene, float time_s,
     }
 }
 
-/* Adds the light and the shadows of the particles to the block. */
+/* Adds to the block the light that particles shed and the shadows that they cast. */
 static void add_lighting(struct kiln_draw_backdrop *block, const struct kiln_lighting *lighting)
 {
     for (uint32_t i = 0; i < lighting->fire_count; i++)
@@ -139,9 +139,9 @@ static struct kiln_draw_backdrop make_block(const struct kiln_moment *moment)
     return block;
 }
 
-/* Returns whether two inputs give the same picture. The camera's clock has no effect on it. Smoke
- * and solid particles have, but their grids and lists are not compared, so with them the pictures
- * count as different. */
+/* Returns whether two inputs give the same picture. The camera's clock does not change the picture,
+ * so it is not compared. Smoke and solid particles change it, but their grids and lists are not
+ * compared, so inputs with them always count as different. */
 static bool same_picture(const struct kiln_backdrop_inputs *a, const struct kiln_backdrop_inputs *b)
 {
     return a->block.counts.w == 0 && a->shapes.counts.w == 0 && a->paint == b->paint &&
@@ -216,9 +216,9 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
     return now;
 }
 
-/* Refuses lists that llvmpipe would silently not read to their end. An invocation reads lists for
- * each of its rays, and for the floor's reflection; half of the iterations that its loops may run
- * is left to everything else. */
+/* Refuses shadow lists that llvmpipe would silently not read to their end. A shader invocation
+ * reads a list for each of its rays, and for the floor's reflection. Half of the iterations that
+ * its loops may run is left to all other loops. */
 static bool lists_are_short(const struct kiln_backdrop_stage *stage,
                             const struct kiln_solid_bins *solids, struct kiln_error *error)
 {

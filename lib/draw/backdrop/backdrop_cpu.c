@@ -1,6 +1,7 @@
 /* This file draws the backdrop on the host: it gathers the objects that rays may hit in a frame,
- * then runs two passes over rows of tiles, one with a ray a pixel, one with more rays where there
- * are edges. The order of the rows does not matter, since a row writes only its own pixels. */
+ * then runs two passes over rows of tiles. The first pass casts one ray a pixel, the second casts
+ * more rays where there are edges. The order of the rows does not matter, since a row writes only
+ * its own pixels. */
 #include "draw/backdrop/backdrop_cpu.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ struct kiln_backdrop_cpu {
     struct kiln_image *color, *depth;
     const struct kiln_backdrop_rows *rows;
     struct kiln_pyramid *floor_image, *sky_image; /* NULL: none */
-    struct kiln_meshes_cpu *meshes;               /* the same */
+    struct kiln_meshes_cpu *meshes;               /* NULL: the scene has none */
     float *surfaces;
     struct kiln_ray_frame frame;
 };
@@ -92,8 +93,7 @@ void kiln_backdrop_cpu_pictures(const struct kiln_backdrop_cpu *cpu,
         *sky = (struct kiln_picture_size){cpu->sky_image->width, cpu->sky_image->height};
 }
 
-/* ---- objects that rays may hit
- * ------------------------------------------------------------------ */
+/* ---- objects that rays may hit --------------------------------------------------------------- */
 
 static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
                                         const struct kiln_backdrop_inputs *inputs,
@@ -116,15 +116,14 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
     return frame;
 }
 
-/* ---- pixels of objects
- * -------------------------------------------------------------------------- */
+/* ---- pixels of objects ----------------------------------------------------------------------- */
 
 static int32_t pixel_within(float x, float size)
 {
     return (int32_t)exact_clamp(x, 0.0f, size);
 }
 
-/* Returns the pixels that a box along the axes may cover, and a few around them. */
+/* Returns the pixels that an axis-aligned box may cover, with a margin of a few pixels. */
 static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 center, float3 half)
 {
     const float near = 0.01f, margin = 3.0f, width = view->frustum.z, height = view->frustum.w;
@@ -146,7 +145,7 @@ static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 cent
         low[1] = exact_min(low[1], y);
         high[1] = exact_max(high[1], y);
     }
-    if (before < 8) /* some corners are behind the eye: all pixels; all corners: none */
+    if (before < 8) /* part of the box is behind the eye: all pixels; the whole box: none */
         return (struct kiln_pixel_box){0, before ? (int32_t)width : 0, 0,
                                        before ? (int32_t)height : 0};
     return (struct kiln_pixel_box){

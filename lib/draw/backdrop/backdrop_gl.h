@@ -1,5 +1,5 @@
-/* This header declares technique backdrop=gl: a ray a pixel in a fragment shader, and four in tiles
- * with edges. It leaves its uniform blocks bound for solids_gl.c. */
+/* This header declares technique backdrop=gl: a fragment shader casts one ray a pixel, and four a
+ * pixel in tiles with edges. Its uniform blocks stay bound for solids_gl.c. */
 #ifndef KILN_DRAW_BACKDROP_BACKDROP_GL_H
 #define KILN_DRAW_BACKDROP_BACKDROP_GL_H
 
@@ -7,7 +7,7 @@
 
 struct kiln_backdrop_gl;
 
-/* Scene and meshes must outlive it. NULL with an error. */
+/* Creates the technique; NULL with an error. Scene and meshes must outlive it. */
 struct kiln_backdrop_gl *kiln_backdrop_gl_create(struct kiln_device *device,
                                                  const struct kiln_scene *scene,
                                                  const struct kiln_meshes *meshes,
@@ -15,10 +15,12 @@ struct kiln_backdrop_gl *kiln_backdrop_gl_create(struct kiln_device *device,
                                                  struct kiln_error *error);
 void kiln_backdrop_gl_destroy(struct kiln_backdrop_gl **gl);
 
+/* Writes the sizes of the floor's and the sky's pictures. */
 void kiln_backdrop_gl_pictures(const struct kiln_backdrop_gl *gl, struct kiln_picture_size *floor,
                                struct kiln_picture_size *sky);
 
-/* Binds blocks and textures, and draws; kept: the picture of the last call still holds. */
+/* Binds blocks and textures, and draws the backdrop unless kept: the picture of the last call still
+ * holds. */
 bool kiln_backdrop_gl_draw(struct kiln_backdrop_gl *gl, const struct kiln_backdrop_inputs *inputs,
                            bool kept, struct kiln_error *error);
 

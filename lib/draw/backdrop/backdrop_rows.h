@@ -16,7 +16,7 @@ struct kiln_backdrop_picture {
     uint32_t width, height;
     float *color;    /* RGBA */
     float *depth;    /* m */
-    float *surfaces; /* of each pixel's centre: a number that changes at every edge */
+    float *surfaces; /* number of the surface at each pixel's centre; differs across edges */
     struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], spheres[KILN_MAX_OBJECTS],
         cylinders[KILN_MAX_OBJECTS], capsules[KILN_MAX_OBJECTS], turned[KILN_MAX_OBJECTS];
 };
@@ -25,8 +25,8 @@ struct kiln_backdrop_picture {
 struct kiln_backdrop_rows {
     /* Casts a ray through the centre of each pixel and writes colour, depth and surface. */
     void (*cast)(const struct kiln_backdrop_picture *picture, uint32_t y);
-    /* Casts KILN_EDGE_SAMPLES rays a pixel in tiles where neighbours show different surfaces; after
-     * cast. */
+    /* Casts KILN_EDGE_SAMPLES rays a pixel in tiles where neighbouring pixels show different
+     * surfaces. All rows must have been cast before. */
     void (*antialias)(const struct kiln_backdrop_picture *picture, uint32_t y);
 };
 

@@ -1,9 +1,10 @@
-/* This file casts the rays of the backdrop's picture, a vector of them at a time. */
+/* This file casts the rays of the backdrop's picture for technique backdrop=cpu, a vector of rays
+ * at a time. */
 #include "draw/backdrop/backdrop_rows.h"
 #include "draw/backdrop/ray_floor.h"
 #include "draw/backdrop/ray_mesh.h"
 
-enum { TILE = KILN_EDGE_TILE, STRIP = 64 }; /* px; a strip's rays try the same objects */
+enum { TILE = KILN_EDGE_TILE, STRIP = 64 }; /* px; rays of a strip test the same objects */
 
 /* Holds rays from the eye through pixels. */
 struct eye_rays {
@@ -38,7 +39,8 @@ SIMD struct eye_rays aim(const struct kiln_ray_frame *frame, vi column, vi row)
     return aim_at(frame, &place);
 }
 
-/* Finds the first hit of each ray. floor: the t of the floor, whose albedo is not set here. */
+/* Finds the first hit of each ray. floor: the t at which each ray meets the floor; the albedo of
+ * hits on the floor is left unset. */
 SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
                           const struct kiln_ray_objects *objects, const struct ray *ray, vf floor,
                           const struct ray_place *place)
@@ -63,12 +65,12 @@ SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
     return nearest;
 }
 
-/* Holds the result of rays. */
+/* Holds the colours and the first hits of rays. */
 struct sight {
     struct ray_color color;
     struct ray_hit first;
-    vf sunlit;  /* part of the sun at the hit, without smoke */
-    vf arrives; /* the same with smoke */
+    vf sunlit;  /* part of the sun that the hit sees, smoke left out */
+    vf arrives; /* part of the sun that arrives at the hit through smoke */
 };
 
 SIMD struct sight look_along(const struct kiln_ray_frame *frame,
@@ -100,7 +102,7 @@ SIMD uint32_t first_bits(uint32_t count)
     return (uint32_t)((1ull << count) - 1);
 }
 
-/* Adds the reflection of a glossy floor: follows the reflected ray. */
+/* Adds the reflection of a glossy floor by following the reflected ray. */
 SIMD void add_mirrored(const struct kiln_ray_frame *frame, const struct ray *ray,
                        struct sight *seen)
 {
@@ -148,7 +150,7 @@ static uint32_t seen_in(const struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], uin
     return seen;
 }
 
-/* Returns the objects that may be seen in a part of TILE rows. */
+/* Returns the objects that may be visible in TILE rows from y, in `width` columns from x. */
 static struct kiln_ray_objects find_objects(const struct kiln_backdrop_picture *p, uint32_t x,
                                             uint32_t y, uint32_t width)
 {
@@ -229,8 +231,8 @@ static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 
 /* ---- edges ----------------------------------------------------------------------------------- */
 
-/* The sun's light may change by this much from a pixel to the next without an edge: a penumbra four
- * pixels wide. Numbers of surfaces differ by more. */
+/* The greatest difference of neighbouring pixels that is no edge. The sun's light changes by this
+ * much a pixel in a penumbra four pixels wide; numbers of surfaces differ by more. */
 static const float WIDE = 0.25f;
 
 static inline int32_t within(int32_t x, uint32_t size)
@@ -243,7 +245,8 @@ static inline const float *surface_row(const struct kiln_backdrop_picture *p, in
     return p->surfaces + (size_t)within(y, p->height) * p->width;
 }
 
-/* Returns whether two neighbours in the tile, or just around it, show different surfaces. */
+/* Returns whether two neighbouring pixels in the tile, or just around it, show different
+ * surfaces. */
 static bool has_edge(const struct kiln_backdrop_picture *p, int32_t x, int32_t y)
 {
     float steepest = 0.0f, above[TILE + 2] = {0};

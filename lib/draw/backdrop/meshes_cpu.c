@@ -1,7 +1,8 @@
 /* This file finds the triangles of the backdrop's meshes that rays hit, on the host, and updates
- * the shadow maps. Each triangle becomes a pyramid with its tip in the eye, whose sides are planes
- * over the picture. The nearest triangle is found band by band, at the centres of pixels and at the
- * samples of edges at once, as a number; rays take depth and normal from the triangle itself. */
+ * the shadow maps. Each triangle spans a pyramid whose apex is the eye and whose sides are planes
+ * over the picture. The number of the nearest triangle is found band by band, at the centres of
+ * pixels and at the samples of edges at once; ray_mesh.h takes depth and normal from that
+ * triangle. */
 #include "draw/backdrop/meshes_cpu.h"
 
 #include <assert.h>
@@ -22,9 +23,9 @@ static_assert((int)KILN_HIT_LAYERS == (int)KILN_MESH_LAYERS, "a layer for each r
 struct kiln_meshes_cpu {
     const struct kiln_meshes *meshes;
     uint32_t width, height;
-    float3 *seen, *normals;               /* of all vertices: in view space, in the world */
+    float3 *seen, *normals;               /* of all vertices, in view space; in world space */
     struct kiln_mesh_triangle *triangles; /* of all meshes */
-    struct kiln_mesh_uvs *uvs;            /* the same; NULL: none takes paint */
+    struct kiln_mesh_uvs *uvs;            /* of all meshes; NULL: no mesh takes paint */
     int32_t *hits;
     bool *empty; /* bands whose hits are all 0 */
     struct kiln_mesh_canvas canvas;
@@ -32,7 +33,7 @@ struct kiln_meshes_cpu {
     struct kiln_mesh_view view;
 };
 
-/* Returns the vertices of the meshes before one of them. */
+/* Returns the number of vertices of the meshes before mesh `end`. */
 static size_t vertices_before(const struct kiln_meshes *meshes, uint32_t end)
 {
     size_t count = 0;
@@ -56,7 +57,7 @@ static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
     size_t widest = m->width > KILN_SHADOW_EDGE ? m->width : KILN_SHADOW_EDGE;
     size_t pitch = widest + KILN_MESH_PAD,
            bands = (m->height + KILN_MESH_ROWS - 1) / KILN_MESH_ROWS;
-    if (vertices == 0 || triangles == 0) /* no mesh is empty */
+    if (vertices == 0 || triangles == 0) /* never, since no mesh is empty */
         return false;
     m->seen = calloc(vertices, sizeof *m->seen);
     m->normals = calloc(vertices, sizeof *m->normals);
@@ -146,9 +147,9 @@ struct placing {
     const struct kiln_draw_mesh *placed;
     const struct kiln_mesh *mesh;
     int32_t number;
-    float3 *seen, *normals; /* of the mesh, as below */
+    float3 *seen, *normals; /* of this mesh, as are those below */
     struct kiln_mesh_triangle *triangles;
-    struct kiln_mesh_uvs *uvs; /* NULL: takes no paint */
+    struct kiln_mesh_uvs *uvs; /* NULL: the mesh takes no paint */
     struct kiln_flat_triangle *flat;
 };
 
@@ -172,8 +173,8 @@ static void place_vertices(void *context, size_t begin, size_t end, uint32_t wor
     }
 }
 
-/* Returns the pyramid's side through an edge; for the edge's other direction it is the same, times
- * -1. */
+/* Returns the normal of the pyramid's side through an edge. For the opposite direction of the edge
+ * it is exactly the negative, since the ends are ordered first. */
 static float3 side_of(float3 a, float3 b)
 {
     bool swap = a.x > b.x || (a.x == b.x && (a.y > b.y || (a.y == b.y && a.z > b.z)));
@@ -181,7 +182,7 @@ static float3 side_of(float3 a, float3 b)
     return float3_scale(float3_cross(from, float3_sub(to, from)), swap ? -1.0f : 1.0f);
 }
 
-/* Sets the plane whose value along (u, v, -1) is the product with the normal. */
+/* Sets the plane whose value at (u, v) is the dot product of (u, v, -1) and the normal. */
 static void set_plane(float plane[3], float3 normal)
 {
     plane[0] = normal.x;
@@ -195,7 +196,8 @@ static struct kiln_row_range pixels_between(float low, float high, float size)
                                    (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
 }
 
-/* Bounds the pixels that a triangle may touch: all of them if it reaches behind the eye. */
+/* Bounds the pixels that a triangle may touch: all of them if part of it is behind the eye, none if
+ * all of it is. */
 static void find_bounds(const struct kiln_view *view, const float3 p[3],
                         struct kiln_flat_triangle *flat)
 {
@@ -303,8 +305,7 @@ static void place_meshes(struct kiln_meshes_cpu *m, const struct kiln_view *view
     }
 }
 
-/* ---- hits
- * --------------------------------------------------------------------------------------- */
+/* ---- hits ------------------------------------------------------------------------------------ */
 
 struct finding {
     struct kiln_meshes_cpu *m;

@@ -1,4 +1,5 @@
-/* This header declares the meshes of technique backdrop=cpu, as camera and sun see them. */
+/* This header declares the host's view of meshes for technique backdrop=cpu: the triangles that its
+ * rays hit, and the shadow maps. */
 #ifndef KILN_DRAW_BACKDROP_MESHES_CPU_H
 #define KILN_DRAW_BACKDROP_MESHES_CPU_H
 
@@ -8,7 +9,8 @@
 
 struct kiln_meshes_cpu;
 
-/* For a scene with meshes; all three must outlive it. NULL with an error. */
+/* Creates the view of a scene with meshes; NULL with an error. Scene, meshes and threads must
+ * outlive it. */
 struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
                                                const struct kiln_meshes *meshes,
                                                struct kiln_threads *threads,
@@ -21,7 +23,7 @@ bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view 
                          const struct kiln_draw_backdrop *backdrop,
                          const struct kiln_draw_shapes *shapes, struct kiln_error *error);
 
-/* As of the last run; it stays where it is. */
+/* Returns the result of the last run. The pointer is the same after every run. */
 const struct kiln_mesh_view *kiln_meshes_cpu_view(const struct kiln_meshes_cpu *meshes);
 
 #endif

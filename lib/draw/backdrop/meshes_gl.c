@@ -1,8 +1,8 @@
-/* This file rasterises the backdrop's meshes in GL for its rays, and draws their shadow maps.
- * Triangles are rasterised five times, for the rays through the centres of pixels and for each of
- * the four samples of a pixel at an edge, into layers of one integer texture. Each mesh has a
- * shadow map in a layer of its own, which fits the mesh however far apart meshes are; these are
- * drawn again only when a mesh or the sun moved. */
+/* This file rasterises meshes in GL for the backdrop's rays, and draws their shadow maps. Triangles
+ * are rasterised five times, for the rays through the centres of pixels and for each of the four
+ * samples of a pixel at an edge, into layers of one integer texture. Each mesh has a shadow map in
+ * a layer of its own, which fits the mesh however far apart meshes are. Shadow maps are drawn again
+ * only when a mesh or the sun moved. */
 #include "draw/backdrop/meshes_gl.h"
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@ enum { HIT_LAYERS = 1 + KILN_EDGE_SAMPLES };
 struct drawn_mesh {
     GLuint vertex_array, vertices, triangles, uvs; /* 0: none */
     GLsizei indices;
-    float posed_s; /* as of struct kiln_meshes */
+    float posed_s; /* posed_s of struct kiln_meshes at the last upload */
 };
 
 struct kiln_meshes_gl {
@@ -27,12 +27,12 @@ struct kiln_meshes_gl {
     GLuint hit_program, shadow_program;
     GLint hit_mesh, hit_shift, shadow_mesh;  /* uniforms */
     GLuint hits, shadows;                    /* array textures */
-    GLuint paint;                            /* the same; 0: no mesh takes any */
-    uint32_t paint_changes[KILN_MAX_MESHES]; /* those that it shows */
+    GLuint paint;                            /* array texture; 0: no mesh takes paint */
+    uint32_t paint_changes[KILN_MAX_MESHES]; /* kiln_painted_changes that it shows */
     const struct kiln_painted *painted;
     GLuint hit_depth, shadow_depth; /* renderbuffers */
     GLuint framebuffer;
-    struct kiln_draw_mesh shadowed[KILN_MAX_MESHES]; /* what the shadow maps show */
+    struct kiln_draw_mesh shadowed[KILN_MAX_MESHES]; /* the meshes as the shadow maps show them */
     float4 shadow_sun[2];
     bool has_shadows;
 };
@@ -276,7 +276,8 @@ static void draw_shadows(struct kiln_meshes_gl *m)
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
-/* Returns whether the shadow maps still hold. Colours do not matter, but rarely change alone. */
+/* Returns whether the shadow maps are up to date. Colours do not matter for shadows, but are
+ * compared too, since they rarely change alone. */
 static bool same_shadows(const struct kiln_meshes_gl *m, const struct kiln_draw_shapes *shapes)
 {
     return m->has_shadows && memcmp(&m->shadow_sun[0], &shapes->sun_right, sizeof(float4)) == 0 &&

@@ -1,4 +1,4 @@
-/* This header declares the meshes of technique backdrop=gl, rasterised for its rays, and their
+/* This header declares how technique backdrop=gl rasterises meshes for its rays and draws their
  * shadow maps. */
 #ifndef KILN_DRAW_BACKDROP_MESHES_GL_H
 #define KILN_DRAW_BACKDROP_MESHES_GL_H
@@ -9,8 +9,8 @@
 
 struct kiln_meshes_gl;
 
-/* Makes targets of the scene's size; for a scene without meshes, none. NULL with an error. Scene
- * and meshes must outlive it. */
+/* Creates targets of the scene's size, or none for a scene without meshes; NULL with an error.
+ * Scene and meshes must outlive them. */
 struct kiln_meshes_gl *kiln_meshes_gl_create(struct kiln_device *device,
                                              const struct kiln_scene *scene,
                                              const struct kiln_meshes *meshes,
@@ -20,10 +20,10 @@ void kiln_meshes_gl_destroy(struct kiln_meshes_gl **meshes);
 /* Binds the shadow maps that kiln_meshes_gl_draw draws to KILN_UNIT_MESH_SHADOW. */
 void kiln_meshes_gl_bind_shadows(const struct kiln_meshes_gl *meshes);
 
-/* Draws the meshes as camera and sun see them and leaves the results bound to KILN_UNIT_MESH_HITS
- * and KILN_UNIT_MESH_SHADOW, and their paint, as of the last kiln_painted_update, to
- * KILN_UNIT_MESH_PAINT. The blocks of the view, the backdrop and the shapes must be bound. Changes
- * the framebuffer, the viewport and the program. */
+/* Draws the meshes as the camera and the sun see them. The results stay bound to
+ * KILN_UNIT_MESH_HITS and KILN_UNIT_MESH_SHADOW, and the paint as of the last kiln_painted_update
+ * to KILN_UNIT_MESH_PAINT. The blocks of the view, the backdrop and the shapes must be bound.
+ * Changes the framebuffer, the viewport and the program. */
 bool kiln_meshes_gl_draw(struct kiln_meshes_gl *meshes, const struct kiln_draw_shapes *shapes,
                          struct kiln_error *error);
 

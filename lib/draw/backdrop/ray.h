@@ -1,6 +1,6 @@
 /* This header declares the objects that rays of technique backdrop=cpu may hit in a frame, and
- * their light. The code that follows vectors of rays is in ray_*.h, for backdrop_simd.c and
- * solid_simd.c. Its arithmetic, which GL shares, is in shaders/shared. */
+ * their light. The code that follows vectors of rays is in ray_*.h, which backdrop_simd.c and
+ * solid_simd.c include. The arithmetic that GL shares is in shaders/shared. */
 #ifndef KILN_DRAW_BACKDROP_RAY_H
 #define KILN_DRAW_BACKDROP_RAY_H
 

@@ -1,4 +1,5 @@
-/* This header computes the floor along vectors of rays and its reflections. */
+/* This header computes where vectors of rays hit the floor, the floor's albedo there, and its
+ * reflections. */
 #ifndef KILN_DRAW_BACKDROP_RAY_FLOOR_H
 #define KILN_DRAW_BACKDROP_RAY_FLOOR_H
 
@@ -54,10 +55,10 @@ SIMD struct floor_water find_water(const struct kiln_ray_frame *frame, vf x, vf 
 
 /* Holds how the floor reflects a ray. */
 struct ray_mirror {
-    struct vf3 lights;  /* that it sends to the eye */
-    struct vf3 sun;     /* the same, where no shadow is */
-    struct vf3 onwards; /* where the ray goes, */
-    vf weight;          /* and how much of what it finds there is seen */
+    struct vf3 lights;  /* light of lamps that is reflected to the eye */
+    struct vf3 sun;     /* sunlight that is reflected to the eye where there is no shadow */
+    struct vf3 onwards; /* direction of the reflected ray */
+    vf weight;          /* factor of the light that comes back along it */
 };
 
 SIMD struct vf3 mirrored_lights(const struct kiln_ray_frame *frame, struct vf3 point,

@@ -1,4 +1,5 @@
-/* This header computes the light that surfaces send along vectors of rays, and the sky's. */
+/* This header computes the light that surfaces and the sky send to the eye along vectors of
+ * rays. */
 #ifndef KILN_DRAW_BACKDROP_RAY_LIGHT_H
 #define KILN_DRAW_BACKDROP_RAY_LIGHT_H
 
@@ -14,13 +15,15 @@ struct ray_color {
 
 /* ---- sky on surfaces ------------------------------------------------------------------------- */
 
-/* Takes away what an object hides in the lanes where it hides some. */
+/* Returns the visible part of the sky times `beside`, the part that an object leaves, in the lanes
+ * where the object hides some sky. */
 SIMD vf less_sky(vf visible, vi hides, vf beside)
 {
     return visible * vf_select(hides, beside, vf_all(1.0f));
 }
 
-/* Returns the visible sky beside a box; the vectors are in the box's frame. */
+/* Returns the part of the sky that stays visible beside a box; the vectors are in the box's
+ * frame. */
 SIMD vf box_leaves_sky(float4 half, struct vf3 towards, struct vf3 normal, vi wanted, vf visible)
 {
     vi hides = wanted & sky_meets_box(half, towards, normal);
@@ -84,7 +87,7 @@ SIMD vf meshes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_po
     return visible;
 }
 
-/* ---- what arrives at a surface --------------------------------------------------------------- */
+/* ---- light that arrives at a surface --------------------------------------------------------- */
 
 SIMD void add_light(const struct kiln_draw_light *light, const struct ray_point *p,
                     struct vf3 *irradiance)
@@ -115,7 +118,7 @@ SIMD struct vf3 soft_irradiance(const struct kiln_ray_frame *frame, const struct
     return irradiance;
 }
 
-/* Returns the lanes whose surface is turned to the sun, if there is one. */
+/* Returns the lanes whose surface faces the sun; none where the sun is black. */
 SIMD vi turned_to_sun(const struct kiln_ray_frame *frame, const struct ray_point *p)
 {
     const float4 color = frame->backdrop->sun_color;
@@ -124,7 +127,7 @@ SIMD vi turned_to_sun(const struct kiln_ray_frame *frame, const struct ray_point
     return p->wanted & (vf3_dot_all(p->normal, frame->backdrop->sun_direction) > 0.0f);
 }
 
-/* ---- what goes to the eye -------------------------------------------------------------------- */
+/* ---- light that goes to the eye -------------------------------------------------------------- */
 
 SIMD struct vf3 sky_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi wanted)
 {
@@ -135,7 +138,7 @@ SIMD struct vf3 sky_color(const struct kiln_ray_frame *frame, struct vf3 directi
     return sky_gradient(b->sky_horizon, b->sky_top, direction);
 }
 
-/* Returns the colour that the floor fades into far away. */
+/* Returns the colour that surfaces fade into far away: that of the sky at the horizon. */
 SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi wanted)
 {
     if (!frame->sky_image)
@@ -144,8 +147,8 @@ SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 dir
     return sky_picture(frame, direction, 0.1f, wanted);
 }
 
-/* Returns the radiance of a Lambertian surface: albedo / pi * irradiance. sunlight: the part of the
- * sun that arrives. */
+/* Returns the radiance of a Lambertian surface: albedo / pi * irradiance, with haze. sunlight: the
+ * part of the sun that arrives. */
 SIMD struct ray_color radiance(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
                                struct vf3 direction, struct vf3 irradiance, vf sunlight)
 {

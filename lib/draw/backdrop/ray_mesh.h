@@ -1,16 +1,16 @@
-/* This header computes meshes along vectors of rays from triangles that were found beforehand
- * (mesh_rows.h). */
+/* This header computes where vectors of rays hit meshes, from triangles that meshes_cpu.c
+ * rasterised beforehand. */
 #ifndef KILN_DRAW_BACKDROP_RAY_MESH_H
 #define KILN_DRAW_BACKDROP_RAY_MESH_H
 
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_shapes.h"
 
-/* Describes rays of a layer of hits. */
+/* Describes rays from the eye that belong to one layer of hits. */
 struct ray_place {
     vf u, v;   /* the ray is (u, v, -1) in view space */
-    vi hit;    /* in the meshes' hits, of layer 0 */
-    int layer; /* -1: other rays than those from the eye */
+    vi hit;    /* index of the pixel in the meshes' hits, in layer 0 */
+    int layer; /* layer of hits; -1: the rays are not from the eye */
 };
 
 struct ray_mesh_hit {
@@ -54,8 +54,7 @@ SIMD struct ray_mesh_hit find_mesh(const struct kiln_mesh_view *meshes, vi trian
     return hit;
 }
 
-/* Holds how much a value that is linear along a triangle changes from this pixel to the next one,
- * in u and v. */
+/* Holds the derivatives by u and v of a value that is linear on a triangle. */
 struct ray_drift {
     vf u, v;
 };
@@ -68,8 +67,9 @@ SIMD struct ray_drift find_slope(const float *plane, const float *nearness, vi u
         (vf_gather(plane + 1, uvs) - value * vf_gather(nearness + 1, triangle)) * depth};
 }
 
-/* Puts the paint over the mesh's own colour. A pixel covers as much of the texture as the area of
- * its slopes, or as half of the longer slope. */
+/* Puts the paint over the mesh's own colour. The mip level follows from the area of the texture
+ * that a pixel covers: the area that its derivatives span, or the square of half of the longer one
+ * if that is more. */
 SIMD struct vf3 add_paint(const struct kiln_ray_frame *frame, const struct ray_place *at,
                           const struct ray_mesh_hit *found, vi wanted, struct vf3 albedo)
 {
@@ -130,7 +130,8 @@ SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_plac
     nearest->albedo = vf3_select(nearer, albedo, nearest->albedo);
 }
 
-/* Returns the position of a sample of the same pixel. */
+/* Returns the rays through a sample of pixels. at: the rays through the centres of the same
+ * pixels. */
 SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const struct ray_place *at,
                                    int sample)
 {
@@ -146,8 +147,9 @@ SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const str
     return (struct ray_place){at->u + right, at->v - down, at->hit, 1 + sample};
 }
 
-/* Marks edges inside a mesh, where it hides itself or bends. The surface's number changes there,
- * and it changes from pixel to pixel, so that a whole tile of edges is found as well. */
+/* Marks edges inside a mesh, where it hides itself or bends, by a change of the surface's number.
+ * The number alternates from pixel to pixel, so that a tile whose pixels are all edges is found as
+ * well. */
 SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at, vf surface,
                         vi odd)
 {

@@ -1,5 +1,5 @@
-/* This header reads pictures of the floor and the sky along vectors of rays. A texel is a vector of
- * its own, fetched for one lane after the other. */
+/* This header reads the pictures of the floor and the sky for vectors of rays. Texels are fetched
+ * one lane after another; a ray_texel is a vector of one texel's channels. */
 #ifndef KILN_DRAW_BACKDROP_RAY_PICTURE_H
 #define KILN_DRAW_BACKDROP_RAY_PICTURE_H
 
@@ -9,7 +9,8 @@
 
 typedef float ray_texel __attribute__((vector_size(16)));
 
-/* Reads a colour in half floats: their bits, shifted, are floats 2^112 times too small. */
+/* Reads a colour of half floats. The bits of a half float, shifted by 13, are those of a float
+ * 2^112 times too small. */
 static inline ray_texel read_texel(const uint16_t half[4])
 {
     typedef uint16_t halves __attribute__((vector_size(8)));
@@ -24,8 +25,8 @@ static inline float fraction(float x)
     return x - floorf(x);
 }
 
-/* Interpolates linearly between four texels of a level. u: 0 to 1, beyond which the picture
- * repeats; v: the same, or clamped to the picture. */
+/* Interpolates linearly between four texels of a level. u, v: 0 to 1. The picture repeats beyond
+ * its left and right edges; beyond the upper and lower ones it repeats too, or is clamped. */
 static inline ray_texel read_level(const struct kiln_pyramid *p, uint32_t level, float u, float v,
                                    bool repeats_y)
 {
@@ -49,10 +50,10 @@ static inline ray_texel read_level(const struct kiln_pyramid *p, uint32_t level,
     return a + (c - a) * down;
 }
 
-/* Holds the mip levels of one lane. */
+/* Holds the two mip levels between which one lane interpolates. */
 struct ray_levels {
     uint32_t fine, coarse;
-    float part; /* of the coarse one */
+    float part; /* weight of the coarse level */
 };
 
 static inline struct ray_levels choose_levels(const struct kiln_pyramid *p, float level)

@@ -1,4 +1,4 @@
-/* This header finds the nearest box, sphere or cylinder that vectors of rays hit. */
+/* This header finds the nearest sphere, cylinder or axis-aligned box that vectors of rays hit. */
 #ifndef KILN_DRAW_BACKDROP_RAY_SHAPES_H
 #define KILN_DRAW_BACKDROP_RAY_SHAPES_H
 
@@ -14,7 +14,7 @@ struct ray {
 
 struct ray_hit {
     vf t;
-    vf surface; /* a whole number */
+    vf surface; /* KILN_SURFACE_* number of the hit surface, a whole number */
     struct vf3 normal, albedo;
 };
 
@@ -23,7 +23,7 @@ SIMD struct vf3 ray_at(const struct ray *ray, vf t)
     return vf3_along(ray->origin, ray->direction, t);
 }
 
-/* Replaces the nearest hit in the lanes of a nearer one. */
+/* Replaces the nearest hit in the lanes where another hit is nearer. */
 SIMD void keep_nearer(struct ray_hit *nearest, vi nearer, vf t, vf surface, struct vf3 normal,
                       float4 albedo)
 {
@@ -55,7 +55,7 @@ SIMD void trace_boxes(const struct kiln_ray_frame *frame, uint32_t boxes, const 
     }
 }
 
-/* ---- round ones ------------------------------------------------------------------------------ */
+/* ---- spheres and cylinders ------------------------------------------------------------------- */
 
 SIMD void trace_spheres(const struct kiln_ray_frame *frame, uint32_t spheres, const struct ray *ray,
                         struct ray_hit *nearest)

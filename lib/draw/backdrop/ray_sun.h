@@ -1,6 +1,6 @@
 /* This header computes the part of the sun that surfaces see past the backdrop's objects and past
- * solid particles. An object that hides nothing from a lane
- * multiplies its light by exactly 1, so that it does not matter which lanes share a vector. */
+ * solid particles. An object that hides nothing from a lane multiplies the lane's light by exactly
+ * 1, so that it does not matter which lanes share a vector. */
 #ifndef KILN_DRAW_BACKDROP_RAY_SUN_H
 #define KILN_DRAW_BACKDROP_RAY_SUN_H
 
@@ -8,7 +8,7 @@
 #include "shared/shadow_map.h"
 #include "shared/sun_cover.h"
 
-/* Describes points that the sun is looked for from, and the lanes that need it. */
+/* Describes points whose sunlight is computed, and the lanes that need it. */
 struct ray_shade {
     struct vf3 origin, normal;
     vi wanted;
@@ -16,7 +16,8 @@ struct ray_shade {
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
-#define BOX_EDGE 1e-4f /* m: what rounding puts a ray aside, and less than surfaces are */
+/* m: more than rounding displaces a ray, less than the 1e-3 m that rays start off surfaces. */
+#define BOX_EDGE 1e-4f
 
 SIMD vf box_cover(const struct ray_slabs *s, const struct sun_edges *edges, float spread)
 {
@@ -118,12 +119,13 @@ SIMD vf turned_let_through(const struct kiln_ray_frame *frame, const struct ray_
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
-/* Holds how much of a place in a shadow map is covered, and the mean distance there times that. */
+/* Holds the part of a place in a shadow map that is covered, and that part times the mean
+ * distance. */
 struct ray_seen {
     vf cover, distance;
 };
 
-/* Interpolates linearly between four texels of a level; nothing is beside the map. */
+/* Interpolates linearly between four texels of a level; texels beside the map are empty. */
 SIMD struct ray_seen read_shadow_level(const uint32_t *map, vf u, vf v, vi level)
 {
     static const int32_t first[KILN_SHADOW_LEVELS] = {0,       1048576, 1310720, 1376256,
@@ -215,14 +217,14 @@ SIMD vi silhouette_start(vi level)
     return start;
 }
 
-/* Describes tiles of meshes: where they start and their width in texels, as in struct
- * kiln_solid_bins. */
+/* Describes each lane's tile as struct kiln_solid_bins does: where it starts and its width, in
+ * texels; half of its width, m. */
 struct ray_tile {
     vi x, y, edge;
     vf reach;
 };
 
-/* Interpolates linearly between four texels of a level; nothing is beside the tile. */
+/* Interpolates linearly between four texels of a level; texels beside the tile count as 0. */
 SIMD vf silhouette_level(const float *texels, const struct ray_tile *tile, vf u, vf v, vi level)
 {
     const vi edge = tile->edge >> level, pitch = vi_all(KILN_INSTANCE_ATLAS) >> level;
@@ -262,8 +264,8 @@ SIMD vf silhouette_cover(const struct kiln_ray_frame *frame, struct vf3 center,
 /* Holds an entry of the list of solids, read for each lane. */
 struct ray_entry {
     struct vf3 center;
-    vf size, reach; /* of the sphere, and of what may be in its tile; m */
-    vi at, edge;    /* edge: 0: it has no tile */
+    vf size, reach; /* radius of the sphere; half of the tile's width, else the radius; m */
+    vi at, edge;    /* offset in the lists, in floats; edge of the tile, texels, 0: no tile */
 };
 
 SIMD struct ray_entry read_entry(const struct kiln_solid_bins *solids, vi entry, vi wanted)
@@ -292,7 +294,8 @@ SIMD vi entry_is_near(const struct kiln_ray_frame *frame, const struct ray_entry
     const vf t = vf3_dot_all(towards, frame->backdrop->sun_direction);
     const vf aside = vf_max(vf_abs(vf3_dot_all(towards, shapes->sun_right)),
                             vf_abs(vf3_dot_all(towards, shapes->sun_up)));
-    /* Half a texel beside a tile is read, of levels as wide as the sun or of 1/16 of the tile. */
+    /* Reads reach half a texel past a tile: at most the sun's radius there or 1/16 of the tile's
+     * width. */
     const vf wider = vf_max(t * shapes->sun_right.w, 0.125f * e->reach);
     return (t > 0.0f) & (aside < e->reach + (wider + 1e-4f));
 }
@@ -311,8 +314,8 @@ SIMD vf entry_cover(const struct kiln_ray_frame *frame, const struct ray_entry *
     return vf_select(has, silhouette_cover(frame, e->center, &tile, origin, ball), ball);
 }
 
-/* Returns the part of the sun that solid particles let through. Each lane skips to the next near
- * entry of its list, so that few lanes wait for the others. */
+/* Returns the part of the sun that solid particles let through. Each lane first skips to the next
+ * entry of its list that is near, so that few lanes wait for others. */
 SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
@@ -333,7 +336,7 @@ SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct r
             const vi near = pending & entry_is_near(frame, &e, shade->origin);
             found |= near;
             pending &= ~near;
-            entry -= pending; /* -1 where it is */
+            entry -= pending; /* a mask's lane is -1 where it is set */
             count += pending;
             pending &= count > 0;
         }
@@ -346,7 +349,7 @@ SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct r
     }
 }
 
-/* ---- all of them ----------------------------------------------------------------------------- */
+/* ---- all objects and particles --------------------------------------------------------------- */
 
 /* Returns the visible part of the sun; 0 for lanes that are not wanted. */
 SIMD vf sun_visibility(const struct kiln_ray_frame *frame, struct vf3 point, struct vf3 normal,

@@ -25,9 +25,9 @@ SIMD void trace_capsules(const struct kiln_ray_frame *frame, uint32_t capsules,
     }
 }
 
-/* ---- boxes of any direction ------------------------------------------------------------------ */
+/* ---- rotated boxes --------------------------------------------------------------------------- */
 
-/* Transform a direction from the world to the frame of a box, and back. */
+/* into_box rotates a direction from the world to the frame of a box, out_of_box back. */
 SIMD struct vf3 into_box(const struct kiln_draw_turned_box *box, struct vf3 v)
 {
     return (struct vf3){vf3_dot_all(v, box->rows[0]), vf3_dot_all(v, box->rows[1]),
@@ -42,7 +42,8 @@ SIMD struct vf3 out_of_box(const struct kiln_draw_turned_box *box, struct vf3 v)
                         v.x * rows[0].z + v.y * rows[1].z + v.z * rows[2].z};
 }
 
-/* Intersects the slabs of a rotated box. inverse: of the ray's direction in the box's frame. */
+/* Intersects the slabs of a rotated box. inverse: ray_inverse3 of the ray's direction in the box's
+ * frame. */
 SIMD struct ray_slabs cross_turned(const struct kiln_draw_turned_box *box, struct vf3 origin,
                                    struct vf3 inverse)
 {
