@@ -1,10 +1,11 @@
 /* This file gathers the light of fire into a few point lights. The particles of a system are
- * gathered by their progress through life: each belongs to the two nearest of the system's lights,
- * in parts. Particles of one age are near each other in a jet, a flame or a burst, and since ages
- * grow evenly a light moves and flickers with its part of the fire and never jumps.
+ * gathered by their progress through life: each particle is shared between the two of the system's
+ * lights that are nearest to its progress. Particles of one age are near each other in a jet, a
+ * flame or a burst. Since ages grow evenly, a light moves and flickers with its part of the fire
+ * and never jumps.
  *
  * Sums are taken over stretches of slots, whose number depends on the slots alone, and then over
- * the stretches: the result is the same for any number of threads. */
+ * the stretches, so that the result is the same for any number of threads. */
 #include "draw/light/firelight.h"
 
 #include "draw/light/light_blocks.h"
@@ -77,10 +78,10 @@ static void gather_system(struct gatherer *gatherer, struct kiln_threads *thread
     }
 }
 
-/* Makes a point light of gathered sums. A patch of radiance L and area A lights a surface that
- * faces it at distance d by L A / d^2; a light of colour c (the radiance of a white surface at 1 m,
- * irradiance over pi) by pi c / d^2. The light's radius is how far its particles are spread, so
- * that a surface among them is not lit by a point. */
+/* Makes a point light of gathered sums. A patch of radiance L and area A gives a surface that faces
+ * it at distance d the irradiance L A / d^2. A light of colour c (the radiance of a white surface
+ * at 1 m, irradiance over pi) gives it pi c / d^2. The light's radius is how far its particles are
+ * spread, so that a surface among them is not lit by a point. */
 static struct kiln_draw_light make_light(const struct kiln_gathering *light, float3 strength)
 {
     double mean[3], square = 0.0;

@@ -1,7 +1,7 @@
 /* This file draws the silhouettes of particles that are meshes, as the sun sees them, into tiles of
- * an atlas. It draws each triangle as bits, 4 x 4 of a texel, in rows of words; a bit is set if its
- * middle lies in a triangle, whichever way that faces. Texels are the parts of their bits that are
- * set, and coarser levels are means. */
+ * an atlas. It rasterises triangles into a bit mask of 4 x 4 bits a texel, in rows of words. A bit
+ * is set if its centre lies in a triangle, whichever way the triangle faces. A texel is the part of
+ * its bits that are set; texels of coarser levels are means. */
 #include "draw/light/instance_tiles.h"
 
 #include <stdlib.h>
@@ -21,7 +21,7 @@ struct kiln_instance_tiles {
     const struct kiln_instances *meshes;
     uint32_t edge;
     float *texels;
-    struct kiln_instance_place *places; /* of the run at hand */
+    struct kiln_instance_place *places; /* of the current run */
 };
 
 /* Returns where a level starts, in texels. */
@@ -82,7 +82,7 @@ const float *kiln_instance_tiles_texels(const struct kiln_instance_tiles *tiles)
 
 /* ---- bits ------------------------------------------------------------------------------------ */
 
-/* Returns the first bit whose middle is at or after x. */
+/* Returns the first bit whose centre is at or after x. */
 static int32_t bit_from(float x, int32_t bits)
 {
     const float at = x - 0.5f;
@@ -170,7 +170,7 @@ static float mean_of(const float *texels, size_t pitch)
     return 0.25f * (texels[0] + texels[1] + texels[pitch] + texels[pitch + 1]);
 }
 
-/* Returns the part of the tile that is covered. */
+/* Writes a tile's texels at all levels. Returns the part of the tile that is covered. */
 static float write_tile(struct kiln_instance_tiles *tiles, uint32_t number, uint64_t (*rows)[WORDS])
 {
     const struct kiln_instance_tile tile = kiln_instance_tile_at(tiles, number);

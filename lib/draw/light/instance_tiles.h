@@ -1,6 +1,6 @@
 /* A kiln_instance_tiles holds the silhouettes of particles that are meshes, as the sun sees them.
- * Each has a tile of an atlas, whose texels are the parts that are covered; coarser levels have
- * half the size each. */
+ * Each particle has a tile of an atlas, whose texels are the part of their area that is covered.
+ * Each coarser level has half the edge. */
 #ifndef KILN_DRAW_LIGHT_INSTANCE_TILES_H
 #define KILN_DRAW_LIGHT_INSTANCE_TILES_H
 
@@ -8,16 +8,16 @@
 #include "draw/moment/instances.h"
 #include "shared/shape_layout.h"
 
-/* Describes how a mesh is projected across the sun's direction: from kiln_instances' corners to
- * parts of the tile's half. */
+/* Describes the projection of a mesh along the sun's direction: `across` takes a corner of
+ * kiln_instances to coordinates in the tile, -1 to 1. */
 struct kiln_instance_place {
     float across[2][3];
     uint32_t system;
-    /* Results: the part of the tile that is covered, and the box around that, in those parts. */
+    /* Results: the part of the tile that is covered; the silhouette's bounding box in the tile. */
     float covered, low[2], high[2];
 };
 
-/* The place of a tile: where it starts, in texels. */
+/* Holds where a tile starts in the atlas, in texels. */
 struct kiln_instance_tile {
     uint32_t x, y;
 };
@@ -31,20 +31,20 @@ struct kiln_instance_tiles *kiln_instance_tiles_create(const struct kiln_scene *
                                                        struct kiln_error *error);
 void kiln_instance_tiles_destroy(struct kiln_instance_tiles **tiles);
 
-/* The mesh of a system. */
+/* Returns the mesh of a system's particles. */
 const struct kiln_instance_mesh *kiln_instance_tiles_mesh(const struct kiln_instance_tiles *tiles,
                                                           uint32_t system);
 
-/* Draws the silhouettes of places into the tiles of their numbers; the result is the same for any
- * number of threads. */
+/* Draws the silhouette of each place into the tile with the place's number. The result is the same
+ * for any number of threads. */
 void kiln_instance_tiles_run(struct kiln_instance_tiles *tiles, struct kiln_instance_place *places,
                              uint32_t count, struct kiln_threads *threads);
 
 struct kiln_instance_tile kiln_instance_tile_at(const struct kiln_instance_tiles *tiles,
                                                 uint32_t number);
 
-/* Returns KILN_INSTANCE_LEVELS levels, one after the other: KILN_INSTANCE_ATLAS texels squared, a
- * quarter of that, and so on. */
+/* Returns the texels of KILN_INSTANCE_LEVELS levels, the finest first: KILN_INSTANCE_ATLAS squared,
+ * then a quarter as many for each level. */
 const float *kiln_instance_tiles_texels(const struct kiln_instance_tiles *tiles);
 
 #endif

@@ -14,22 +14,22 @@ struct kiln_glow {
 /* Holds sums over the particles of one light. */
 struct kiln_gathering {
     double color[3];    /* light sent, m^2 */
-    double energy;      /* of all channels: the weight of what follows */
-    double position[3]; /* m */
-    double square;      /* of the distance from the origin, m^2 */
-    double radius;      /* of a particle, m */
+    double energy;      /* sum of the channels of color; the weight of the members below */
+    double position[3]; /* m, times energy */
+    double square;      /* of the distance from the world's origin, m^2, times energy */
+    double radius;      /* of a particle, m, times energy */
 };
 
 struct kiln_light_loops {
-    /* Adds the light of each particle to the two lights that its progress lies between; fill is the
-     * part of a cell that is filled. */
+    /* Adds the light of each particle to the two lights that its progress lies between. fill: the
+     * part of a billboard's square that its cell fills with light. */
     void (*gather_fire)(const struct kiln_living_block *block, const struct kiln_glow *glow,
                         float fill, uint32_t light_count, struct kiln_gathering *lights);
-    /* Computes each ball's extinction summed over its volume, m^2; the ball hides `cover` times its
-     * opacity in the middle. */
+    /* Computes the extinction of each particle, summed over the volume of its ball, m^2. The middle
+     * of the ball hides `cover` times the particle's opacity; `shadow` scales its optical depth. */
     void (*find_extinction)(const struct kiln_living_block *block, float cover, float shadow,
                             float extinction[KILN_LANES]);
-    /* Multiplies by the part of the sun that boxes let through. */
+    /* Multiplies `visible` by the part of the sun that boxes let through to each particle. */
     void (*shade)(const struct kiln_living_block *block, const struct kiln_sun_box *boxes,
                   uint32_t box_count, const struct kiln_sun_frame *sun, float visible[KILN_LANES]);
 };

@@ -1,6 +1,6 @@
-/* This file sums up fire, the extinction of smoke and the shade of boxes over blocks of living
- * particles. Every loop runs over lanes and has no branches, so that compilers vectorise it. Sums
- * are taken in the same order at every level. */
+/* This file computes the light of fire, the extinction of smoke and the shade of boxes for blocks
+ * of living particles. Every loop runs over lanes and has no branches, so that compilers vectorise
+ * it. Sums are taken in the same order at every level. */
 #include <math.h>
 
 #include "draw/light/light_blocks.h"
@@ -10,8 +10,8 @@
 
 enum { SUMS = 16 };
 
-/* A vector of sums. Every width of vectors takes four times SUMS bytes of them side by side, so
- * that all widths add in the same order. */
+/* A vector of SUMS partial sums. It has this size whatever the width of the machine's vectors, so
+ * that all levels add in the same order. */
 typedef float sums __attribute__((vector_size(4 * SUMS), may_alias));
 
 static inline double total(const sums *of)
@@ -26,11 +26,11 @@ static inline double total(const sums *of)
 }
 
 struct fire {
-    alignas(64) kiln_floats place; /* among the lights */
+    alignas(64) kiln_floats place; /* place among the lights, 0 to light_count - 1 */
     kiln_floats red, green, blue, energy;
     struct kiln_floats3 offset; /* from `origin`, so that squares stay small */
     float3 origin;
-    float least, most; /* places */
+    float least, most; /* of the places */
 };
 
 static inline void find_fire(struct fire *f, const struct kiln_living_block *b,
@@ -56,13 +56,13 @@ static inline void find_fire(struct fire *f, const struct kiln_living_block *b,
     }
 }
 
-/* Reads floats of an array with the alignment of sums. */
+/* Returns floats of an array, aligned to 64 bytes, as vectors of sums. */
 static inline const sums *as_sums(const float *from)
 {
     return (const sums *)__builtin_assume_aligned(from, 64);
 }
 
-/* Adds the block's part of light k. */
+/* Adds the block's particles to light k, each by its share. */
 static inline void add_light(const struct fire *f, const struct kiln_living_block *b, float k,
                              struct kiln_gathering *light)
 {
@@ -112,8 +112,9 @@ __attribute__((flatten)) static void gather_fire(const struct kiln_living_block 
 
 /* ---- smoke ----------------------------------------------------------------------------------- */
 
-/* Finds extinctions. Extinction of e (1 - d^2)^2, d in radii, has the optical depth 16/15 e r
- * through the middle of a ball and, summed over it, e r^3 32 pi / 105. */
+/* Computes the extinction of each particle, summed over its ball. At the distance d from the
+ * centre, in radii r, extinction is e (1 - d^2)^2. The optical depth through the middle of the ball
+ * is then 16/15 e r, and the sum over its volume e r^3 32 pi / 105. */
 __attribute__((flatten)) static void find_extinction(const struct kiln_living_block *b, float cover,
                                                      float shadow, float extinction[KILN_LANES])
 {
@@ -128,8 +129,8 @@ __attribute__((flatten)) static void find_extinction(const struct kiln_living_bl
 
 /* ---- shade ----------------------------------------------------------------------------------- */
 
-/* Returns whether any particle may be in a box's shade; most blocks are far from most boxes'
- * shade. */
+/* Returns whether any particle may be in a box's shade. Most blocks are far from most boxes' shade,
+ * and skip those boxes. */
 static inline bool any_near(const struct kiln_living_block *b, const struct kiln_sun_box *box,
                             const struct kiln_sun_frame *sun)
 {

@@ -1,6 +1,6 @@
-/* This file computes the light of a moment that follows from its particles: it runs firelight,
- * shadows of smoke and solids, and the shade on particles. It computes on the host, a few hundred
- * thousand additions a frame, in an order that does not depend on threads. */
+/* This file computes the light of a moment that follows from its particles: it runs the light of
+ * fire, the shadows of smoke and solids, and the shade on particles. It computes on the host, a few
+ * hundred thousand additions a frame, in an order that does not depend on threads. */
 #include "draw/light/lighting.h"
 
 #include <stdlib.h>
@@ -18,11 +18,11 @@ struct kiln_lighting_stage {
     struct kiln_threads *threads;
     uint64_t run;     /* runs done */
     bool fire, smoke; /* whether the scene has any */
-    bool sun;         /* whether it ever shines */
+    bool sun;         /* whether the sun ever shines */
     struct kiln_smoke puffs;
     struct kiln_smoke_shadow *shadow;
-    float *depths;                    /* of the grids */
-    struct kiln_solid_shadow *solids; /* NULL: there are none, here and below */
+    float *depths;                    /* of both grids */
+    struct kiln_solid_shadow *solids; /* NULL: not needed, here and below */
     struct kiln_sun_shade *shade;
     struct kiln_lighting_gl *gl;
 };

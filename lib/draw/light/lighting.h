@@ -1,6 +1,6 @@
-/* The lighting stage runs first in stage 4. It computes the light of a frame that follows from its
- * particles: the light that fire sheds, and the shadows of smoke and solid particles. Backdrop and
- * particles are lit by it. */
+/* This header declares the lighting stage, which runs first in stage 4. It computes the light of a
+ * frame that follows from its particles: the light that fire sheds, and the shadows of smoke and
+ * solid particles. The stages that draw the backdrop and the particles read the result. */
 #ifndef KILN_DRAW_LIGHT_LIGHTING_H
 #define KILN_DRAW_LIGHT_LIGHTING_H
 
@@ -10,27 +10,27 @@
 #include "draw/light/sun_shade.h"
 #include "draw/moment/living.h"
 
-/* Holds the light of one frame on the host; kiln_lighting_bind has it in GL. The stage owns the
- * arrays, which hold until the next run. */
+/* Holds the light of one frame on the host; kiln_lighting_bind sends it to GL. The stage owns the
+ * arrays, which are valid until its next run. */
 struct kiln_lighting {
-    uint64_t run; /* its number */
+    uint64_t run; /* number of the run, from 1 */
     uint32_t fire_count;
     struct kiln_draw_light fire[KILN_MAX_FIRE_LIGHTS];
-    bool smoke;                            /* there is smoke: the rows are set */
+    bool smoke;                            /* there is smoke, and its grids are set */
     float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
-    const float *sun_depth, *sky_depth;    /* optical depth in them, KILN_SMOKE_GRID cubed, rows
-                                            * along x; no sun_depth where there is no sun */
-    struct kiln_solid_bins solids;         /* opaque particles */
+    const float *sun_depth, *sky_depth; /* optical depth in the grids, KILN_SMOKE_GRID cubed, rows
+                                         * along x; sun_depth is NULL where there is no sun */
+    struct kiln_solid_bins solids;      /* lists of opaque particles */
     const float *sunlit; /* by slot: the part of the sun that a lit particle sees past the backdrop,
-                          * smoke apart. NULL: all of it */
+                          * smoke left out. NULL: the whole sun */
     uint32_t slot_count;
-    struct kiln_lighting_gl *gl; /* its textures (lighting_gl.h); NULL where nothing needs any */
+    struct kiln_lighting_gl *gl; /* textures of this light (lighting_gl.h); NULL: not needed */
 };
 
 struct kiln_lighting_stage;
 
-/* Makes the stage. Returns NULL with an error. Moment and threads must outlive it; device NULL:
- * host only. */
+/* Creates the stage; NULL with an error. Moment and threads must outlive it. device may be NULL if
+ * nothing is drawn in GL. */
 struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                                  const struct kiln_moment *moment,
                                                  struct kiln_threads *threads,

@@ -34,9 +34,9 @@ static const struct {
 
 struct kiln_lighting_gl {
     struct kiln_device *device;
-    GLuint textures[TEXTURE_COUNT]; /* 0: not made yet */
-    uint64_t run;                   /* of the light that they show */
-    size_t solid_rows, shade_rows;  /* that the textures have */
+    GLuint textures[TEXTURE_COUNT]; /* 0: not created yet */
+    uint64_t run;                   /* of the light that the textures hold */
+    size_t solid_rows, shade_rows;  /* of the textures */
 };
 
 struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device)
@@ -165,7 +165,7 @@ static void send_shade(struct kiln_lighting_gl *gl, const struct kiln_lighting *
 bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error *error)
 {
     struct kiln_lighting_gl *gl = lighting->gl;
-    if (!gl) /* no light at all follows from the particles */
+    if (!gl) /* no light depends on particles */
         return true;
     if (gl->run != lighting->run) {
         gl->run = lighting->run;

@@ -1,18 +1,18 @@
-/* A kiln_lighting_gl holds the light of a frame as textures for programs in GL. They are made and
- * updated when a stage binds them. */
+/* A kiln_lighting_gl holds the light of a frame as textures for programs in GL. The textures are
+ * created and updated when a stage binds them. */
 #ifndef KILN_DRAW_LIGHT_LIGHTING_GL_H
 #define KILN_DRAW_LIGHT_LIGHTING_GL_H
 
 #include "draw/light/lighting.h"
 #include "gpu/device.h"
 
-/* NULL: no memory. */
+/* Returns NULL when memory is short. */
 struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device);
 void kiln_lighting_gl_destroy(struct kiln_lighting_gl **gl);
 
-/* Binds the smoke's grids (draw/light/smoke_shadow.glsl), the lists of solids
+/* Binds the grids of smoke (draw/light/smoke_shadow.glsl), the lists of solids
  * (draw/light/solid_shadow.glsl) and the part of the sun that each particle sees
- * (KILN_UNIT_SUN_SHADE), as far as there are any. */
+ * (KILN_UNIT_SUN_SHADE), where the frame has them. */
 bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error *error);
 
 #endif

@@ -1,6 +1,6 @@
-/* This file draws the shadow map of a mesh on the host and its coarser levels, which are means of
- * four texels. The sphere around the mesh fills the map except for a border
- * (shaders/draw/backdrop/meshes_shadow.vert). */
+/* This file draws the shadow map of a mesh on the host, and its coarser levels, which are means of
+ * four texels. The mesh's bounding sphere fills the map except for a border, as in
+ * shaders/draw/backdrop/meshes_shadow.vert. */
 #include "draw/light/mesh_shadow.h"
 
 #include <assert.h>
@@ -60,8 +60,8 @@ static struct corner project(const struct kiln_mesh_shadow *shadow, mat4 to_worl
                            0.5f + dot(shadow->sun, from) * scale};
 }
 
-/* Writes the plane that is 0 along a line; for the line's other direction it is the same, times
- * -1. */
+/* Writes the plane that is 0 along the line from a to b. For the line from b to a it is exactly the
+ * negative, since the ends are ordered first. */
 static void edge_plane(struct corner a, struct corner b, float plane[3])
 {
     bool swap = a.x > b.x || (a.x == b.x && a.y > b.y);
@@ -170,7 +170,7 @@ static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker
         for (size_t x = 0; x < edge; x++) {
             const uint32_t *four = from + 4 * y * edge + 2 * x;
             const uint32_t texels[4] = {four[0], four[1], four[2 * edge], four[2 * edge + 1]};
-            uint32_t cover = 2, distance = 2; /* rounded */
+            uint32_t cover = 2, distance = 2; /* so that the quotient is rounded */
             for (int i = 0; i < 4; i++) {
                 cover += texels[i] & 0xffffu;
                 distance += texels[i] >> 16;

@@ -1,5 +1,5 @@
-/* A kiln_mesh_shadow is a shadow map on the host: it shows one mesh as the sun sees it, and fits
- * the mesh. */
+/* A kiln_mesh_shadow is a shadow map on the host. It shows one mesh as the sun sees it, and the
+ * map's area fits the mesh. */
 #ifndef KILN_DRAW_LIGHT_MESH_SHADOW_H
 #define KILN_DRAW_LIGHT_MESH_SHADOW_H
 
@@ -10,25 +10,26 @@
 
 enum {
     KILN_SHADOW_ONE = 65535,
-    KILN_SHADOW_LEVELS = 11, /* of half the edge each, down to 1 texel */
-    KILN_SHADOW_TEXELS = (4 * KILN_SHADOW_EDGE * KILN_SHADOW_EDGE - 1) / 3, /* of all of them */
+    KILN_SHADOW_LEVELS = 11, /* each of half the edge of the one before, down to 1 texel */
+    KILN_SHADOW_TEXELS = (4 * KILN_SHADOW_EDGE * KILN_SHADOW_EDGE - 1) / 3, /* of all levels */
 };
 
 struct kiln_mesh_shadow {
-    /* KILN_SHADOW_TEXELS, level by level: the part of a texel that the mesh is in in the lower 16
-     * bits, and its mean distance there times that in the upper ones, each in parts of
-     * KILN_SHADOW_ONE; the distance is 0 nearest to the sun and 1 farthest. */
+    /* KILN_SHADOW_TEXELS texels, the finest level first. The lower 16 bits are the part of the
+     * texel that the mesh covers, the upper 16 bits that part times the mesh's mean distance, both
+     * in units of 1 / KILN_SHADOW_ONE. The distance is 0 nearest to the sun and 1 farthest from
+     * it. */
     uint32_t *texels;
-    struct kiln_draw_mesh placed; /* what it shows, and under which sun */
+    struct kiln_draw_mesh placed; /* the mesh that the map shows, and the sun at that time */
     float4 right, up, sun;
     bool drawn;
 };
 
-/* Holds memory that several maps are drawn with, one after the other. */
+/* Holds memory that several maps share; they are drawn one after another. */
 struct kiln_mesh_canvas {
     struct kiln_threads *threads;
     const struct kiln_mesh_rows *rows;
-    struct kiln_flat_triangle *triangles; /* as many as the largest mesh has */
+    struct kiln_flat_triangle *triangles; /* at least as many as the largest mesh has */
     struct kiln_row_lists lists;
     float *nearness;     /* of each thread: KILN_MESH_ROWS rows of `pitch` floats in every layer */
     size_t strip, pitch; /* floats of a thread; at least KILN_SHADOW_EDGE + KILN_MESH_PAD */
@@ -37,7 +38,7 @@ struct kiln_mesh_canvas {
 bool kiln_mesh_shadow_init(struct kiln_mesh_shadow *shadow, struct kiln_error *error);
 void kiln_mesh_shadow_finish(struct kiln_mesh_shadow *shadow);
 
-/* Draws the map, unless it shows this mesh in this place and light already. */
+/* Draws the map, unless it shows the mesh in this position and under this sun already. */
 bool kiln_mesh_shadow_update(struct kiln_mesh_shadow *shadow, struct kiln_mesh_canvas *canvas,
                              const struct kiln_mesh *mesh, const struct kiln_draw_mesh *placed,
                              const struct kiln_draw_shapes *shapes, float4 sun,

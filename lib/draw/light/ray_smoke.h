@@ -7,14 +7,14 @@
 #include "draw/vector/real.h"
 #include "shared/smoke_grid.h"
 
-/* Describes points that light is computed for. */
+/* Describes points that light is computed for, and the lanes that need it. */
 struct ray_point {
     struct vf3 at, normal;
-    vi wanted; /* lanes */
+    vi wanted; /* mask of the lanes */
 };
 
-/* Describes a cell, the next one along an axis, and the part of the way between; clamped to the
- * centres of the outer cells. */
+/* Describes two neighbouring cells along an axis, between whose centres a position lies; positions
+ * are clamped to the centres of the outer cells. part: the weight of the second cell. */
 struct ray_cell {
     vi from, step;
     vf part;

@@ -1,5 +1,5 @@
 /* This file gathers the particles of smoke into a compact array of balls. It divides a system's
- * slots into stretches; each stretch keeps its living particles in order. */
+ * slots into stretches; the array has each stretch's living particles in order. */
 #include "draw/light/smoke.h"
 
 #include <assert.h>
@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "draw/light/light_blocks.h"
 
-static const float FILL = 0.6f; /* of a cell of the atlas, in its middle */
+static const float FILL = 0.6f; /* cover in the middle of an atlas's cell */
 
 struct gatherer {
     kiln_living_find *find;
@@ -49,8 +49,8 @@ static void gather_slots(void *context, size_t begin, size_t end, uint32_t worke
     gatherer->counts[stretch] = count;
 }
 
-/* Returns whether a system is smoke. Spheres are not, and particles a few pixels wide (points,
- * lines) hide nothing. */
+/* Returns whether a system is smoke. Spheres are not smoke, and particles a few pixels wide
+ * (points, lines) hide nothing. */
 static bool is_smoke(const struct kiln_system *system)
 {
     return system->enabled && system->look.blend == KILN_BLEND_ALPHA &&

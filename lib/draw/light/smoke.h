@@ -15,19 +15,19 @@ struct kiln_puff {
     float extinction; /* summed over its volume, m^2 */
 };
 
-/* Each stretch of puffs starts at a multiple of KILN_SMOKE_STRETCH: the place of a puff follows
- * from the pool alone. */
+/* Each stretch of puffs starts at a multiple of KILN_SMOKE_STRETCH, so that the index of a puff
+ * follows from the pool alone, not from threads. */
 enum { KILN_SMOKE_STRETCH = 2048 };
 
 struct kiln_smoke {
     struct kiln_puff *puffs;
-    uint32_t *counts; /* puffs of each stretch */
+    uint32_t *counts; /* number of puffs in each stretch */
     uint32_t stretch_count;
     uint32_t capacity; /* stretches that there is room for */
 };
 
-/* Gathers the smoke of all systems that cover. `smoke` starts as zeros and can be gathered into
- * again. Returns false with an error: no memory. */
+/* Gathers the puffs of all systems that throw a shadow. `smoke` starts as zeros and can be gathered
+ * into again. Returns false with an error: no memory. */
 bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_moment *moment,
                        struct kiln_threads *threads, struct kiln_error *error);
 void kiln_smoke_finish(struct kiln_smoke *smoke);

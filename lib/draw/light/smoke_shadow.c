@@ -1,11 +1,11 @@
 /* This file fills grids with the optical depth of smoke towards a light. Each particle is a ball
- * whose density falls off smoothly, and is added to the grid of a pyramid whose cells suit its
+ * whose density falls off smoothly. It is added to the level of a pyramid whose cells suit its
  * size, so that a large puff costs no more cells than a small one. The levels of the pyramid are
  * added up, then summed along the light.
  *
- * The smoke is divided into parts, whose number depends on its amount alone, each with a pyramid of
- * its own; the parts are added up in order, so that threads do not change the result. Empty slices
- * of a pyramid, usually most of it, are not even cleared. */
+ * The smoke is divided into parts, whose number depends on the amount of smoke alone. Each part has
+ * a pyramid of its own. The parts are added up in order, so that threads do not change the result.
+ * Empty slices of a pyramid, usually most of it, are not even cleared. */
 #include "draw/light/smoke_shadow.h"
 
 #include <math.h>
@@ -22,26 +22,26 @@ enum {
     LEAST_PART = 2, /* stretches of puffs */
     BAND = 8,       /* rows of a slice that are summed along the light together */
     LANES = 8,      /* cells of a row that a ball reaches at most */
-    BALLS = 64,     /* at a time */
+    BALLS = 64,     /* balls that are placed together */
 };
 
-static const float MOST_CELLS = 2.5f;  /* of a ball's radius, in its grid */
-static const float LEAST_CELLS = 1.2f; /* smaller balls are put in as large as this */
+static const float MOST_CELLS = 2.5f;  /* of a ball's radius, in its level, except the coarsest */
+static const float LEAST_CELLS = 1.2f; /* of a ball's radius: smaller balls are enlarged to it */
 
-/* Holds the smoke of a part in one grid. */
+/* Holds the smoke of one part in one grid, at all levels. */
 struct pyramid {
     float *levels[LEVELS];    /* extinction, 1/m */
-    uint64_t touched[LEVELS]; /* a bit for each slice of cells that has contents */
+    uint64_t touched[LEVELS]; /* a bit for each slice of cells that is not empty */
     float low[3], high[3];    /* bounds along the axes, m */
     bool any;
 };
 
 struct box {
     struct kiln_smoke_grid *grid;
-    float3 axes[3];  /* of the grid; the third to the light */
+    float3 axes[3];  /* of the grid, unit; the third points to the light */
     float cell;      /* m */
     float origin[3]; /* the grid's low corner along the axes, m */
-    float *finer;    /* level 1, interpolated along its rows */
+    float *finer;    /* levels 1 and coarser, interpolated along rows of the finest */
     bool coarse;     /* whether any level but the finest has contents */
     struct pyramid parts[MOST_PARTS];
 };
@@ -49,7 +49,7 @@ struct box {
 struct kiln_smoke_shadow {
     struct box boxes[KILN_MAX_SMOKE_GRIDS];
     float *memory;
-    /* Of one call. */
+    /* These are of one call of kiln_smoke_shadow_fill: */
     const struct kiln_smoke *smoke;
     uint32_t parts;
 };
@@ -123,7 +123,8 @@ static void widen(const struct box *box, struct pyramid *part, const struct kiln
     part->any = true;
 }
 
-/* Finds bounds of the smoke; work item grid * parts + part is a part of a grid. */
+/* Finds bounds of the smoke along the grids' axes. Work item grid * parts + part is one part of the
+ * smoke in one grid. */
 static void find_bounds(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
@@ -143,9 +144,9 @@ static void find_bounds(void *context, size_t begin, size_t end, uint32_t worker
     }
 }
 
-/* Places the grid. The cells lie at multiples of their size in the world, and their size is one of
- * few, so that the grid does not crawl when the smoke grows. Returns false when there is no
- * smoke. */
+/* Places the grid. The cells lie at multiples of their size in the world, and their size is a
+ * power of 2^(1/4) m, so that the grid does not crawl when the smoke grows. Returns false when
+ * there is no smoke. */
 static bool place_grid(struct box *box, uint32_t parts)
 {
     float low[3], high[3], longest = 0.0f;
@@ -175,7 +176,7 @@ static bool place_grid(struct box *box, uint32_t parts)
     return true;
 }
 
-/* Holds balls of smoke in the cells of their levels, some at a time, so that loops over them are
+/* Holds up to BALLS balls of smoke, in cells of their levels, so that loops over balls are
  * vectorised. */
 struct balls {
     float at[3][BALLS]; /* the centre, in cells */
@@ -206,8 +207,8 @@ static inline void place_balls(const struct box *box, const struct kiln_puff *pu
     }
 }
 
-/* Finds the cells that balls reach. A row of cells never extends beyond the grid's, so that it may
- * be read whole. */
+/* Finds the cells that balls reach. LANES cells from a ball's first cell on never pass the end of a
+ * row of the grid, so that they can be read as one vector. */
 static inline void find_reaches(int count, struct balls *balls)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -224,13 +225,14 @@ static inline void find_reaches(int count, struct balls *balls)
     }
 }
 
-/* Vectors of a row's cells. */
+/* Vectors of LANES cells of a row. */
 typedef float row8 __attribute__((vector_size(4 * LANES)));
 typedef int32_t mask8 __attribute__((vector_size(4 * LANES)));
 
-/* Holds a ball's weights: (1 - d^2)^2, d in radii, in rows of a fixed width. */
+/* Holds the weights of a ball's cells, (1 - d^2)^2 at the distance d from its centre, in radii. A
+ * row has LANES cells. */
 struct ball {
-    float squares[3][LANES]; /* of the distances of cells from its centre, beyond its reach, too */
+    float squares[3][LANES]; /* of cells' distances from the centre along each axis, in radii */
     row8 weights[LANES * LANES];
 };
 
@@ -329,7 +331,7 @@ static void deposit_parts(void *context, size_t begin, size_t end, uint32_t work
     }
 }
 
-/* Adds a level of all parts to that of the first part. */
+/* Adds a level of all other parts to that of the first part. */
 static void add_parts(struct box *box, int level, uint32_t parts)
 {
     struct pyramid *sum = &box->parts[0];
@@ -349,8 +351,8 @@ static void add_parts(struct box *box, int level, uint32_t parts)
     }
 }
 
-/* Holds the two coarse cells that a fine one lies between: its own, of weight 3/4, and the next, of
- * 1/4. */
+/* Holds the two coarse cells between whose centres a fine cell lies: the one that contains it, of
+ * weight 3/4, and the next, of weight 1/4. */
 struct between {
     int cells[2];
 };
@@ -394,7 +396,7 @@ static inline void add_coarser(const float *rows, int edge, int y, int z, float 
     }
 }
 
-/* Adds up every level of all parts, except the finest, in `finer`. */
+/* Adds up all parts and all levels, except the finest level, in `finer`. */
 KILN_WIDE_VECTORS
 static void add_levels(void *context, size_t begin, size_t end, uint32_t worker)
 {
@@ -423,7 +425,7 @@ static void add_levels(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-/* Adds the extinction of a row of cells. */
+/* Adds the extinction of row (y, z) at the finest level, from all parts and levels. */
 static inline void add_row(const struct kiln_smoke_shadow *shadow, const struct box *box, int y,
                            int z, float *restrict extinction)
 {
@@ -439,8 +441,8 @@ static inline void add_row(const struct kiln_smoke_shadow *shadow, const struct 
         add_coarser(box->finer, EDGE, y, z, extinction);
 }
 
-/* Computes from the extinction the optical depth between a cell's centre and the light. above: up
- * to the cell's upper face. */
+/* Computes the optical depth between each cell's centre and the light. above: from the light to the
+ * cell's face towards it; moves on to the next cell's. */
 static inline void advance(const float *restrict extinction, float cell, float *restrict above,
                            float *restrict depth)
 {
@@ -451,7 +453,8 @@ static inline void advance(const float *restrict extinction, float cell, float *
     }
 }
 
-/* Sums some rows of every slice of a grid; the work item is grid * (EDGE / BAND) + band. */
+/* Sums BAND rows of every slice of a grid along the light. Work item grid * (EDGE / BAND) + band is
+ * one band of rows in one grid. */
 KILN_WIDE_VECTORS
 static void sum_towards_light(void *context, size_t begin, size_t end, uint32_t worker)
 {

@@ -1,5 +1,5 @@
-/* This header declares the shadow of smoke: the optical depth that light has crossed at each place,
- * along the sun's direction and from straight above. Smoke shadows itself and what lies below
+/* This header declares the shadow of smoke: the optical depth that the sun's light, and light from
+ * straight above, has crossed at each place. Smoke throws a shadow on itself and on objects below
  * it. */
 #ifndef KILN_DRAW_LIGHT_SMOKE_SHADOW_H
 #define KILN_DRAW_LIGHT_SMOKE_SHADOW_H
@@ -8,7 +8,7 @@
 
 enum {
     KILN_SMOKE_GRID = 64,     /* cells along each edge */
-    KILN_MAX_SMOKE_GRIDS = 2, /* filled at once */
+    KILN_MAX_SMOKE_GRIDS = 2, /* grids of one call */
 };
 
 /* Holds the optical depth in a box of cells, rows along the box's first axis; the third axis points
@@ -16,13 +16,13 @@ enum {
 struct kiln_smoke_grid {
     float3 direction;        /* towards the light, of length 1 */
     float4 world_to_grid[3]; /* rows: a world position to 0..1 in each axis */
-    float *depth;            /* the caller's: KILN_SMOKE_GRID cubed; at a cell's centre */
+    float *depth;            /* the caller's: KILN_SMOKE_GRID cubed values, at the cells' centres */
 };
 
 /* Holds memory for filling grids. */
 struct kiln_smoke_shadow;
 
-/* NULL: no memory. */
+/* Returns NULL when memory is short. */
 struct kiln_smoke_shadow *kiln_smoke_shadow_create(void);
 void kiln_smoke_shadow_destroy(struct kiln_smoke_shadow **shadow);
 

@@ -1,7 +1,7 @@
-/* This file lists the opaque particles by bins across the sun's direction, on the host, by
- * counting: it counts the solids of each bin, then sums the counts to where each list begins, then
- * writes the solids in the order of systems and slots. A solid is in all bins that its shadow can
- * fall into, penumbra included. */
+/* This file lists the opaque particles by bins across the sun's direction, on the host, by a
+ * counting sort: it counts the solids of each bin, then sums the counts to where each list begins,
+ * then writes the solids in order: meshes before spheres, by systems and slots. A solid is in all
+ * bins that its shadow can fall into, penumbra included. */
 #include "draw/light/solid_shadow.h"
 
 #include <math.h>
@@ -15,24 +15,24 @@
 enum { MOST_ENTRIES = 1 << 20, FIRST_ROOM = 1024 };
 
 struct solid {
-    float4 center;         /* world; w: radius, m */
-    float low[2], high[2]; /* of its shadow across the sun's direction, m */
+    float4 center;         /* world position; w: radius, m */
+    float low[2], high[2]; /* bounds of its shadow across the sun's direction, m */
     float4 tile;           /* as of struct kiln_solid_bins */
 };
 
 struct kiln_solid_shadow {
     const struct kiln_scene *scene;
-    struct kiln_sun_frame sun; /* of the frame at hand */
-    float floor;               /* its height; infinite for none */
+    struct kiln_sun_frame sun; /* of the current frame */
+    float floor;               /* height of the floor, m; infinite: no floor */
     struct solid *solids;
     size_t count, room;
     struct kiln_instance_tiles *instances; /* NULL: there are no tiles */
     struct kiln_instance_place *places;    /* of the first place_count solids, which have tiles */
     uint32_t place_count, place_room;
-    bool failed;                                          /* no memory for one */
-    uint32_t bins[KILN_SOLID_BINS * KILN_SOLID_BINS * 2]; /* first entry and number of each */
+    bool failed;                                          /* memory was short for a solid */
+    uint32_t bins[KILN_SOLID_BINS * KILN_SOLID_BINS * 2]; /* first entry and count of each */
     float4 *entries, *tiles;
-    size_t entry_rows; /* of memory */
+    size_t entry_rows; /* of entries and tiles, as allocated */
 };
 
 void kiln_solid_shadow_destroy(struct kiln_solid_shadow **shadow)
@@ -67,8 +67,8 @@ struct kiln_solid_shadow *kiln_solid_shadow_create(const struct kiln_scene *scen
     return shadow;
 }
 
-/* Returns the width of the penumbra of a solid. It widens until the floor, or until nothing is left
- * of the shadow that it blurs. */
+/* Returns the greatest width of a solid's penumbra, m: that at the floor, or at most `widest`,
+ * where nothing is left of the shadow that the penumbra blurs. */
 static float penumbra_of(const struct kiln_solid_shadow *shadow, float3 center, float widest)
 {
     const float spread = shadow->sun.spread;
@@ -77,7 +77,7 @@ static float penumbra_of(const struct kiln_solid_shadow *shadow, float3 center, 
     return spread > 0.0f ? widest : 0.0f;
 }
 
-/* Returns how far around itself a solid may throw its shadow. */
+/* Returns the radius of a solid's shadow with its penumbra, m. */
 static float reach_of(const struct kiln_solid_shadow *shadow, float3 center, float radius)
 {
     return radius + penumbra_of(shadow, center, radius * KILN_SOLID_FADE);
@@ -112,11 +112,13 @@ static void bound(const struct kiln_solid_shadow *shadow, struct solid *solid, c
     }
 }
 
-/* Collects a sphere. radius: of a sphere with such a shadow, in radii of the particle. */
+/* Collects a particle as a sphere. radius: that of the sphere with the particle's shadow, in radii
+ * of the particle. */
 static void collect(struct kiln_solid_shadow *shadow, const struct kiln_living *particle,
                     float radius)
 {
-    radius *= particle->radius * particle->opacity; /* opacity scales it (solids_spheres.vert) */
+    /* A particle's opacity scales it (solids_spheres.vert). */
+    radius *= particle->radius * particle->opacity;
     struct solid *solid = radius > 0.0f && !shadow->failed ? add(shadow, particle->position) : NULL;
     if (!solid)
         return;
@@ -165,9 +167,9 @@ static void collect_mesh(struct kiln_solid_shadow *shadow, const struct kiln_liv
 }
 
 /* Bounds the shadow of a silhouette. A silhouette spreads half a texel past the texels that it
- * touches, but not farther past its tile; the coarser of its two levels has texels up to twice as
- * large as the sun's radius. Where a sphere takes the silhouette's place, the sphere's shadow
- * counts as well. */
+ * touches, and at most half a texel past its tile. It is read at two levels; the coarser one has
+ * texels up to twice as large as the sun's radius. Where a sphere takes the silhouette's place, the
+ * sphere's shadow counts as well. */
 static void bound_silhouette(const struct kiln_solid_shadow *shadow, struct solid *solid,
                              const struct kiln_instance_place *place)
 {
@@ -187,12 +189,12 @@ static void bound_silhouette(const struct kiln_solid_shadow *shadow, struct soli
     bound(shadow, solid, low, high);
 }
 
-/* Draws the tiles of the meshes. The sphere that stands for a mesh is as large as its
- * silhouette. */
+/* Draws the tiles of the meshes. The disc of the sphere that stands for a mesh has the area of the
+ * mesh's silhouette. */
 static void draw_tiles(struct kiln_solid_shadow *shadow, struct kiln_threads *threads)
 {
     struct kiln_instance_tiles *tiles = shadow->instances;
-    const float root = 2.0f / 1.7724539f; /* of pi */
+    const float root = 2.0f / 1.7724539f; /* 2 over the square root of pi */
     const float edge = (float)kiln_instance_tile_edge(shadow->scene);
     kiln_instance_tiles_run(tiles, shadow->places, shadow->place_count, threads);
     for (uint32_t i = 0; i < shadow->place_count; i++) {
@@ -280,7 +282,8 @@ static struct range bins_of(const struct layout *layout, const struct solid *s)
                           {bin_at(layout, s->low[1] - y), bin_at(layout, s->high[1] - y)}};
 }
 
-/* Chooses bins so large that their lists are not too long in all; returns the number of entries. */
+/* Doubles the bins' size until their lists have at most MOST_ENTRIES entries in all, or one bin is
+ * left. Returns the number of entries. */
 static size_t choose_bins(const struct kiln_solid_shadow *shadow, struct layout *layout)
 {
     for (;;) {

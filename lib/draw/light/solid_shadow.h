@@ -1,9 +1,9 @@
-/* This header declares the shadow of opaque particles, spheres and meshes: lists of those that may
- * lie between a place and the sun, by bins across the sun's direction. Techniques of drawing
- * compute the exact cover of each sphere from them (shaders/draw/light/solid_shadow.glsl), so that
- * a shadow is as sharp as the sun is small. Meshes have silhouettes in tiles; spheres with as large
- * a shadow stand for them where the sun's disc blurs the silhouettes, or where meshes are too many
- * for tiles. */
+/* This header declares the shadows of opaque particles, which are spheres or meshes. Bins lie
+ * across the sun's direction; the list of a bin has the particles that may hide the sun from places
+ * in it. Drawing techniques compute the exact cover of each sphere from the lists
+ * (shaders/draw/light/solid_shadow.glsl), so that a shadow is as sharp as the sun is small. Meshes
+ * have silhouettes in tiles. A sphere with as large a shadow stands for a mesh where the sun's disc
+ * blurs its silhouette, or where meshes are too many for tiles. */
 #ifndef KILN_DRAW_LIGHT_SOLID_SHADOW_H
 #define KILN_DRAW_LIGHT_SOLID_SHADOW_H
 
@@ -15,25 +15,25 @@
 struct kiln_solid_bins {
     uint32_t edge;            /* bins in each direction; 0: there is no solid */
     float4 world_to_bin[2];   /* rows: a world position to bins */
-    const uint32_t *bins;     /* two numbers a bin, in rows of `edge`: first entry, entries */
+    const uint32_t *bins;     /* first entry and entry count of each bin, in rows of `edge` */
     const float4 *list;       /* world position and radius of a sphere, m */
-    size_t entry_count, rows; /* rows: of KILN_SOLID_ROW entries that there is memory for */
-    const float4 *tiles;      /* of meshes, for each entry: where its tile starts in the atlas, in
-                               * texels; half of its width, m; and in texels, or 0: it is a sphere.
-                               * NULL: none has one, here and below */
+    size_t entry_count, rows; /* rows: of KILN_SOLID_ROW entries, as allocated */
+    const float4 *tiles; /* of each entry: where its tile starts in the atlas, in texels; half of
+                          * the tile's width, m; the width in texels, or 0 for a sphere. NULL: no
+                          * entry has a tile, here and below */
     const float *silhouettes; /* as of kiln_instance_tiles_texels */
-    uint32_t longest;         /* entries of the bin with the most */
+    uint32_t longest;         /* number of entries of the longest list */
 };
 
 struct kiln_solid_shadow;
 
-/* NULL with an error. The scene and the meshes of its particles must outlive it. */
+/* Returns NULL with an error. The scene and the meshes of its particles must outlive the result. */
 struct kiln_solid_shadow *kiln_solid_shadow_create(const struct kiln_scene *scene,
                                                    const struct kiln_instances *meshes,
                                                    struct kiln_error *error);
 void kiln_solid_shadow_destroy(struct kiln_solid_shadow **shadow);
 
-/* Lists the living solids, whatever the order in which they will be drawn. */
+/* Lists the living solids. The order in which they will be drawn has no effect on the lists. */
 bool kiln_solid_shadow_run(struct kiln_solid_shadow *shadow, const struct kiln_moment *moment,
                            struct kiln_threads *threads, struct kiln_solid_bins *bins,
                            struct kiln_error *error);

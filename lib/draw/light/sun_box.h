@@ -5,7 +5,9 @@
 
 #include "draw/light/sun_cover.h"
 
-/* Returns the factor of cover for the way through a shape to the sun's free side. */
+/* Returns the factor by which a shape's cover counts for a ball that is partly inside the shape.
+ * way: from the ball's centre towards the sun until it leaves the shape, m. The factor is 1 for a
+ * way of the ball's radius or more, and falls to 0 with the way. */
 static inline float kiln_sun_behind(float way, struct kiln_ball ball)
 {
     return exact_clamp(way / exact_max(ball.radius, 1e-4f), 0.0f, 1.0f);
@@ -14,7 +16,7 @@ static inline float kiln_sun_behind(float way, struct kiln_ball ball)
 struct kiln_sun_box {
     float3 center;
     float4 half_size;
-    float size; /* radius of the sphere around it, m */
+    float size; /* radius of the bounding sphere, m */
     struct sun_edges edges;
 };
 
@@ -27,7 +29,8 @@ static inline struct kiln_sun_box kiln_sun_box_at(float3 center, float3 half_siz
                                  .edges = sun_edges_of(sun->towards)};
 }
 
-/* Returns the cover of a box. Beside the outline, the way behind the box is taken at its edge. */
+/* Returns the part of the sun that a box hides from a ball. For a ball beside the box's outline,
+ * the way through the box is that at the outline's edge. */
 static inline float kiln_sun_box_cover(const struct kiln_sun_box *box, struct kiln_ball ball,
                                        const struct kiln_sun_frame *sun)
 {

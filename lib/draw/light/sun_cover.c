@@ -15,7 +15,8 @@ float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
     return cover * kiln_sun_behind(ahead + sqrtf(exact_max(radius * radius - square, 0.0f)), ball);
 }
 
-/* Returns the cover of a cylinder. Its outline is a band along `up`, with round ends. */
+/* Returns the cover of a cylinder. Seen from the sun, its outline is a band along band.up, with
+ * round ends. */
 float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float half_height,
                               struct kiln_ball ball, const struct kiln_sun_frame *sun)
 {
@@ -31,19 +32,19 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
                   strip_cover(end - fabsf(y), end + fabsf(y), disc);
     if (cover <= 0.0f)
         return 0.0f;
-    /* The ray at the nearest place inside of the outline leaves the cylinder through its side or
-     * its end. */
+    /* The light's ray, its start moved to the nearest place inside of the outline, leaves the
+     * cylinder through its side or its end. */
     float at = exact_clamp(y, -end, end) * band.lean.z;
-    float height = -ahead * climb - at * slant; /* of that place above the middle */
-    float beside = -ahead * slant + at * climb; /* away from the axis, on the sun's side */
+    float height = -ahead * climb - at * slant; /* of the start above the middle */
+    float beside = -ahead * slant + at * climb; /* of the start from the axis, towards the sun */
     float side = (inside - beside) / slant;
     float cap = ((climb < 0.0f ? -half_height : half_height) - height) /
                 (climb < 0.0f ? exact_min(climb, -1e-6f) : exact_max(climb, 1e-6f));
     return cover * kiln_sun_behind(exact_min(side, cap), ball);
 }
 
-/* Returns the cover of a capsule: that of the nearest to the light's ray of the balls that form the
- * capsule. */
+/* Returns the cover of a capsule: that of one of the balls that form the capsule, the one nearest
+ * to the light's ray. */
 float kiln_capsule_sun_cover(float3 center, float radius, float3 axis, float half_height,
                              struct kiln_ball ball, const struct kiln_sun_frame *sun)
 {

@@ -1,5 +1,5 @@
-/* This header declares how much of the sun convex shapes hide from a ball, by the edges of
- * shared/sun_cover.h. */
+/* This header declares functions for the part of the sun that convex shapes hide from a ball, on
+ * top of shared/sun_cover.h. */
 #ifndef KILN_DRAW_LIGHT_SUN_COVER_H
 #define KILN_DRAW_LIGHT_SUN_COVER_H
 
@@ -14,8 +14,8 @@ struct kiln_ball {
     float radius; /* m */
 };
 
-/* Returns whether a shape within a sphere of a size about its centre can hide nothing from a
- * ball. */
+/* Returns true if a shape surely hides nothing from a ball. size: radius of the shape's bounding
+ * sphere about its centre, m. */
 static inline bool kiln_sun_misses(float3 center, float size, struct kiln_ball ball,
                                    const struct kiln_sun_frame *sun)
 {
@@ -27,8 +27,8 @@ static inline bool kiln_sun_misses(float3 center, float size, struct kiln_ball b
     return (ahead < -size) | (away > reach);
 }
 
-/* Return the cover, 0 to 1. A shape hides the sun from a ball behind it and, up to the ball's
- * radius, inside of it. */
+/* Return the part of the sun that a shape hides from a ball, 0 to 1. Inside of the shape, this part
+ * falls to 0 within a ball's radius of the side towards the sun. */
 float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
                             const struct kiln_sun_frame *sun);
 float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float half_height,
@@ -36,7 +36,8 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
 float kiln_capsule_sun_cover(float3 center, float radius, float3 axis, float half_height,
                              struct kiln_ball ball, const struct kiln_sun_frame *sun);
 
-/* Returns the cover of the half space below a plane, for any place above: 0 to 1. */
+/* Returns the part of the sun that the half space below a plane hides from any place above it, 0 to
+ * 1. */
 float kiln_plane_sun_cover(float3 normal, const struct kiln_sun_frame *sun);
 
 #endif

@@ -1,6 +1,6 @@
 /* This file draws and reads a small height map of a mesh as the sun sees it. A cell whose centre is
- * covered by triangles has the height of the highest; coarser levels have means. The sphere around
- * the mesh fills the map. */
+ * covered by triangles has the height of the highest; cells of coarser levels have means. The
+ * mesh's bounding sphere fills the map. */
 #include "draw/light/sun_mesh.h"
 
 #include <assert.h>
@@ -15,7 +15,7 @@ enum { EDGE = KILN_SUN_MESH_EDGE };
 static_assert(KILN_SUN_MESH_CELLS == (4 * EDGE * EDGE - 1) / 3, "all levels");
 
 struct corner {
-    float x, y, height; /* cells; m */
+    float x, y, height; /* x and y in cells; height in m */
 };
 
 static float3 middle_of(const struct kiln_draw_mesh *placed)
@@ -40,7 +40,7 @@ static struct corner corner_of(const struct kiln_sun_mesh *map, mat4 to_world, v
     return project(map, float3_sub(at, middle_of(&map->placed)));
 }
 
-/* Returns twice the signed area. */
+/* Returns twice the signed area of the triangle a, b, (x, y). */
 static float area(struct corner a, struct corner b, float x, float y)
 {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
@@ -109,7 +109,7 @@ void kiln_sun_mesh_update(struct kiln_sun_mesh *map, const struct kiln_mesh *mes
     average_levels(map->height);
 }
 
-/* Interpolates linearly between the centres of four cells; the map is surrounded by nothing. */
+/* Interpolates linearly between the centres of four cells; cells beside the map are empty. */
 static float read_level(const float *cells, int edge, float x, float y)
 {
     float left = floorf(x - 0.5f), top = floorf(y - 0.5f), sum = 0.0f;
@@ -123,8 +123,8 @@ static float read_level(const float *cells, int edge, float x, float y)
     return sum;
 }
 
-/* Returns the cover, the mean of four places within the penumbra, in a level whose cells are about
- * as wide as it. */
+/* Returns the mean cover of four places within the penumbra. They are read in a level whose cells
+ * are a quarter to a half as wide as the penumbra's radius. */
 float kiln_sun_mesh_cover(const struct kiln_sun_mesh *map, struct kiln_ball ball)
 {
     struct corner at = project(map, float3_sub(ball.center, middle_of(&map->placed)));

@@ -1,6 +1,6 @@
 /* This file computes the part of the sun that each lit particle sees past the backdrop, on the
- * host. The cover of an object has a closed form, except for a mesh, which has a map. Every
- * technique of drawing reads the same number. */
+ * host. The cover of an object has a closed form, except for a mesh, which has a map. Every drawing
+ * technique reads the same result. */
 #include "draw/light/sun_shade.h"
 
 #include <stdlib.h>
@@ -14,18 +14,18 @@ enum { GRAIN = 8 * KILN_LANES }; /* slots that a worker takes at a time */
 
 /* Describes a rotated box in its own frame. */
 struct turned_box {
-    struct kiln_sun_box box; /* about the origin */
+    struct kiln_sun_box box; /* centred at the origin */
     struct kiln_sun_frame sun;
 };
 
 struct kiln_sun_shade {
     const struct kiln_scene *scene;
-    struct kiln_sun_mesh *maps; /* a mesh each */
-    struct kiln_sun_frame sun;  /* these are of the frame at hand */
+    struct kiln_sun_mesh *maps; /* one for each mesh */
+    struct kiln_sun_frame sun;  /* of the current frame, as are shapes and boxes */
     const struct kiln_draw_shapes *shapes;
     uint32_t box_count;
     struct kiln_sun_box boxes[KILN_MAX_OBJECTS];
-    struct turned_box turned[KILN_MAX_OBJECTS]; /* as many as shapes has */
+    struct turned_box turned[KILN_MAX_OBJECTS]; /* shapes->more.y of them */
     float *visible;                             /* by slot, whole rows of KILN_SUN_SHADE_ROW */
 };
 
@@ -122,7 +122,7 @@ struct seen_system {
     kiln_living_find *find;
     const struct kiln_light_loops *loops;
     struct kiln_living_system system;
-    float *visible; /* from its slots */
+    float *visible; /* by slot of the system */
 };
 
 static float look_past_turned(const struct kiln_sun_shade *shade, struct kiln_ball ball)
@@ -169,8 +169,8 @@ static bool has_others(const struct kiln_sun_shade *shade)
     return counts.x > 0 || counts.y > 0 || counts.z > 0 || more.x > 0 || more.y > 0;
 }
 
-/* Computes a block of particles. As on the backdrop's surfaces, the parts that objects let through
- * are multiplied. */
+/* Computes the shade of a block of particles. The parts that objects let through are multiplied, as
+ * on the backdrop's surfaces. */
 static void look_from_block(const struct seen_system *seen, uint32_t first)
 {
     const struct kiln_sun_shade *shade = seen->shade;
@@ -201,7 +201,7 @@ static void look_from_slots(void *context, size_t begin, size_t end, uint32_t wo
 const float *kiln_sun_shade_run(struct kiln_sun_shade *shade, const struct kiln_moment *moment,
                                 struct kiln_threads *threads, struct kiln_error *error)
 {
-    if (!shade->visible) { /* the number of slots does not change */
+    if (!shade->visible) { /* once, since the number of slots does not change */
         size_t rows = (moment->pool->slot_count + KILN_SUN_SHADE_ROW - 1) / KILN_SUN_SHADE_ROW;
         shade->visible = calloc(rows * KILN_SUN_SHADE_ROW, sizeof *shade->visible);
     }

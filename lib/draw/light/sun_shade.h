@@ -1,6 +1,6 @@
-/* This header declares which part of the sun each particle sees past the boxes, spheres, cylinders
- * and meshes of the backdrop. A particle is a ball here, so its shade grows softly as it drifts
- * behind an edge. */
+/* This header declares the part of the sun that each particle sees past the objects of the
+ * backdrop. A particle counts as a ball here, so its shade grows softly as it drifts behind an
+ * edge. */
 #ifndef KILN_DRAW_LIGHT_SUN_SHADE_H
 #define KILN_DRAW_LIGHT_SUN_SHADE_H
 
@@ -12,13 +12,14 @@ struct kiln_sun_shade;
 /* Returns whether the scene has lit particles and objects that could shade them. */
 bool kiln_sun_shade_exists(const struct kiln_scene *scene);
 
-/* NULL with an error. The scene must outlive it. */
+/* Returns NULL with an error. The scene must outlive the result. */
 struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
                                              struct kiln_error *error);
 void kiln_sun_shade_destroy(struct kiln_sun_shade **shade);
 
-/* Computes that part for all lit particles. Returns 0 to 1 for each slot of the pool, with room for
- * whole rows of KILN_SUN_SHADE_ROW, valid until the next run; NULL with an error. */
+/* Computes the part of the sun that each lit particle sees. Returns 0 to 1 for each slot of the
+ * pool, with room for whole rows of KILN_SUN_SHADE_ROW, valid until the next run; NULL with an
+ * error. */
 const float *kiln_sun_shade_run(struct kiln_sun_shade *shade, const struct kiln_moment *moment,
                                 struct kiln_threads *threads, struct kiln_error *error);
 
