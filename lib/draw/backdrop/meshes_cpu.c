@@ -147,7 +147,7 @@ struct placing {
     const struct kiln_draw_mesh *placed;
     const struct kiln_mesh *mesh;
     int32_t number;
-    float3 *seen, *normals; /* of this mesh, as are those below */
+    float3 *seen, *normals; /* of this mesh, as are triangles, uvs, flat */
     struct kiln_mesh_triangle *triangles;
     struct kiln_mesh_uvs *uvs; /* NULL: the mesh takes no paint */
     struct kiln_flat_triangle *flat;

@@ -117,7 +117,7 @@ static void bound(const struct kiln_solid_shadow *shadow, struct solid *solid, c
 static void collect(struct kiln_solid_shadow *shadow, const struct kiln_living *particle,
                     float radius)
 {
-    /* A particle's opacity scales it (solids_spheres.vert). */
+    /* A particle's opacity scales its radius (solids_spheres.vert). */
     radius *= particle->radius * particle->opacity;
     struct solid *solid = radius > 0.0f && !shadow->failed ? add(shadow, particle->position) : NULL;
     if (!solid)
