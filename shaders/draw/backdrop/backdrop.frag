@@ -1,12 +1,13 @@
-/* The scene behind the particles, cast analytically: a sky gradient, a floor that fades into the
- * horizon, boxes, one sun with hard shadows, point lights. View-space depth goes to a texture of its
- * own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6). What not every scene has is compiled in by
- * defines: ROUND shapes, TURNED ones (capsules and planes, too), MESHES, particles that are SOLIDS,
- * PAINT on meshes, FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
+/* Draws the scene behind the particles by ray casting: a sky gradient, a floor that fades into the
+ * horizon, boxes, a sun with hard shadows, and point lights. View-space depth goes to a texture of
+ * its own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6). Defines compile in the parts that not
+ * every scene has: ROUND shapes (spheres, cylinders), TURNED ones (capsules, turned boxes, planes),
+ * MESHES, shadows of particles that are SOLIDS or INSTANCES of meshes, PAINT on meshes,
+ * FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
  *
- * Two passes: one ray through the centre of each pixel, which also notes what it hit; then SAMPLES
- * rays a pixel where backdrop_edges.vert finds that neighbours hit different things.
- */
+ * lib/draw/backdrop/backdrop_gl.c runs two passes. The first casts one ray through the centre of
+ * each pixel and notes which surface it hits. The second casts SAMPLES rays a pixel in the tiles
+ * where backdrop_edges.vert finds that neighbouring pixels hit different surfaces. */
 // variant: SAMPLES=1
 // variant: SAMPLES=4
 // variant: SAMPLES=1 ROUND=1
@@ -29,7 +30,8 @@ layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shape
 layout(location = 0) out vec4 out_color;
 #if SAMPLES == 1
 layout(location = 1) out float out_depth;
-layout(location = 2) out float out_surface; /* a number that changes at every edge */
+layout(location = 2) out float out_surface; /* a number that differs between the two sides of an
+                                             * edge */
 #endif
 
 #include "draw/backdrop/surface.glsl"
@@ -39,7 +41,7 @@ layout(location = 2) out float out_surface; /* a number that changes at every ed
 #include "draw/backdrop/floor_image.glsl"
 #endif
 
-/* The floor that one pixel covers. */
+/* Returns the extent of the floor that a pixel covers. */
 floor_extent floor_extent_along(vec3 direction, float t)
 {
     return floor_extent_of(direction, t, 2.0 * view.frustum.y / view.frustum.w);
@@ -58,8 +60,8 @@ vec3 floor_albedo(vec2 position, vec3 direction, float t)
 #include "draw/backdrop/floor_gloss.glsl"
 #endif
 
-/* The ray's t at the floor, and what the floor reflects there; beyond everything for a ray that goes
- * up. */
+/* Returns the floor's albedo where a ray hits it, and the ray's t there in w. A ray that misses the
+ * floor gets a t beyond FAR. */
 vec4 floor_along(vec3 origin, vec3 direction)
 {
     float height = origin.y - backdrop.floor_color.w;
@@ -74,7 +76,8 @@ vec4 floor_along(vec3 origin, vec3 direction)
 #endif
 }
 
-/* ground: by floor_along(). layer: of the rasterised meshes, those that this ray hits; -1: none. */
+/* Returns the nearest surface that a ray hits. ground: the result of floor_along for the ray;
+ * layer: the layer of the rasterised meshes with the hits of this ray, or -1 if there is none. */
 hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
 {
     hit nearest = hit(FAR, -1, vec3(0.0, 1.0, 0.0), vec3(0.0));
@@ -111,16 +114,17 @@ hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
     return nearest;
 }
 
-/* What a ray from the eye finds. */
+/* Holds what is seen along a ray from the eye. */
 struct sight {
     vec4 color;
     hit first;
-    float sunlit; /* part of the sun there, before smoke */
+    float sunlit; /* part of the sun, 0 to 1, that no object hides from the hit */
 };
 
-/* Follows a ray, and on from a floor that mirrors: in a loop, since compilers take minutes over a
- * second copy of all this, and with its test at the end, since software GL runs the body once more
- * after one at the start. */
+/* Follows a ray from the eye and, where it hits a glossy floor, the mirrored ray. Both run in one
+ * loop, since compilers take minutes over a second copy of this code. The loop has its test at the
+ * end, since software GL runs the body of a loop with its test at the start once more than
+ * needed. */
 sight look(vec3 direction, int layer)
 {
     sight seen;

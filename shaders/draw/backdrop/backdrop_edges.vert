@@ -1,12 +1,12 @@
-/* One point a tile of the picture: it covers the tile where two neighbouring pixels hit different
- * surfaces, and lies outside of the picture everywhere else.
- */
+/* Draws a point for each tile of the picture, for the second pass of backdrop.frag. The point
+ * covers the tile if two neighbouring pixels hit different surfaces; otherwise it lies outside of
+ * the picture. */
 #include "shared/draw_layout.h"
 
 layout(binding = 0) uniform sampler2D surfaces;
 
-/* The sun's light may change by this much from a pixel to the next: a penumbra four wide. Surfaces
- * differ by more. */
+/* The greatest change from a pixel to the next that is no edge. It allows the sun's light to change
+ * over a penumbra four pixels wide; numbers of different surfaces differ by more. */
 const float WIDE = 0.25;
 
 void main()
@@ -28,7 +28,8 @@ void main()
             above[x + 1] = before = surface;
         }
     }
-    /* A point is drawn only if its centre is in the picture: tiles at the border are pushed in. */
+    /* GL draws a point only if its centre is in the picture, so tiles at the border are moved
+     * inwards. */
     vec2 center = min(vec2(first) + 0.5 * float(KILN_EDGE_TILE), vec2(size) - 0.5);
     vec2 ndc = center / vec2(size) * 2.0 - 1.0;
     gl_Position = steepest > WIDE ? vec4(ndc, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);

@@ -1,4 +1,5 @@
-/* Follows what a floor mirrors that is wet, or of water (shared/floor.h). */
+/* Finds the reflections on a floor that is wet, or of water, along rays from the eye
+ * (shared/floor.h). backdrop.frag includes it with FLOOR_GLOSS and follows the mirrored ray. */
 
 floor_water find_water(vec2 position, floor_extent extent)
 {
@@ -22,13 +23,14 @@ vec3 mirrored_lights(vec3 point, floor_mirror m)
 }
 
 struct mirror {
-    vec3 lights;  /* that it sends to the eye */
-    vec3 sun;     /* the same, where no shadow is */
-    vec3 onwards; /* where the ray goes */
-    float weight; /* part of what the ray finds there that is seen */
+    vec3 lights;  /* light of the lamps that the floor sends to the eye */
+    vec3 sun;     /* the same of the sun, where the floor is not in shadow */
+    vec3 onwards; /* direction of the mirrored ray */
+    float weight; /* part of the light along the mirrored ray that the eye sees */
 };
 
-/* Returns what the floor mirrors along a ray from the eye, whether or not something is before it. */
+/* Returns the reflections where a ray from the eye meets the floor, even if an object hides the
+ * floor there. */
 mirror mirror_along(vec3 direction)
 {
     float t = max(view.eye.y - backdrop.floor_color.w, 0.0) / max(-direction.y, 1e-6);

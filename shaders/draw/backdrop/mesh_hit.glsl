@@ -1,5 +1,6 @@
-/* How a mesh's fragment is kept for the backdrop: its depth, and its number with its normal, an
- * octahedron unfolded into 2 x 14 bits. */
+/* Packs a ray's hit on a mesh into two words: the depth, and the mesh's number with the normal,
+ * which is unfolded from an octahedron into 2 x 14 bits. meshes.frag packs hits, and
+ * mesh_trace.glsl unpacks them for backdrop.frag. */
 
 uvec2 pack_mesh_hit(float depth, int mesh, vec3 normal)
 {
@@ -15,7 +16,7 @@ float mesh_hit_depth(uvec2 packed_hit)
     return uintBitsToFloat(packed_hit.x);
 }
 
-/* -1 where there is none. */
+/* Returns the mesh's number, or -1 where no mesh was hit. */
 int mesh_hit_index(uvec2 packed_hit)
 {
     return int(packed_hit.y >> 28) - 1;

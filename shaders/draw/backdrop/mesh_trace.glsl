@@ -1,6 +1,7 @@
-/* Meshes as the rays of backdrop.frag find them: rasterised beforehand (meshes.frag), one layer for
- * the centres of pixels and one for each sample; their shadows from maps that the sun sees
- * (meshes_shadow.frag). */
+/* Finds the meshes that the rays of backdrop.frag hit, and how much of sun and sky meshes hide from
+ * a point. Meshes are rasterised beforehand (meshes.frag): one layer has the hits at the centres of
+ * pixels, and each sample has a layer, too. Shadows are read from maps that show each mesh as the
+ * sun sees it (meshes_shadow.frag). */
 #include "draw/backdrop/mesh_hit.glsl"
 #include "shared/shadow_map.h"
 
@@ -12,7 +13,7 @@ layout(binding = KILN_UNIT_MESH_PAINT) uniform sampler2DArray mesh_paint;
 
 #ifdef PAINT
 
-/* What is painted, over the mesh's own colour. */
+/* Returns the mesh's own colour with its paint over it. */
 vec3 add_paint(int i, uvec4 found, vec3 albedo)
 {
     int where = int(shapes.meshes[i].color.w);
@@ -41,8 +42,9 @@ void trace_meshes(int layer, inout hit nearest)
     }
 }
 
-/* A mesh has edges inside, where it hides itself or bends. The surface's number changes there, and
- * so that a whole tile of edges is seen, too, it changes from pixel to pixel. */
+/* Marks an edge inside a mesh, where it hides itself or bends, by another surface number, and
+ * returns the number. The mark alternates from pixel to pixel, so that a tile full of edges is
+ * found as well. */
 int mark_mesh_edge(int surface)
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -50,7 +52,8 @@ int mark_mesh_edge(int surface)
     float depth = mesh_hit_depth(center);
     vec3 normal = mesh_hit_normal(center);
     bool edge = false;
-    int samples = surface >= KILN_SURFACE_MESHES ? KILN_EDGE_SAMPLES : 1; /* a loop saves what `if` cannot */
+    /* Software runs both sides of an `if`, but saves the iterations of a shorter loop. */
+    int samples = surface >= KILN_SURFACE_MESHES ? KILN_EDGE_SAMPLES : 1;
     for (int s = 1; s <= samples; s++) {
         uvec2 other = texelFetch(mesh_hits, ivec3(pixel, s), 0).xy;
         edge = edge || mesh_hit_index(other) != mesh_hit_index(center) ||

@@ -1,6 +1,8 @@
-/* What a ray hits of a mesh, for backdrop.frag. Both sides of a triangle are seen; the normal is
- * turned to the side that faces the eye. PAINT: and where in its texture, and the level of that: a
- * pixel covers as much as the area of the slopes says, or as half of the longer one. */
+/* Writes where the ray through a pixel hits a mesh, for backdrop.frag. Both sides of a triangle are
+ * visible; the normal is turned to the side that faces the eye. With PAINT, it also writes the
+ * texture coordinates of the paint and the logarithm of the texture's extent that a pixel covers: a
+ * square of the area that the slopes of the coordinates span, or with half of the longer slope as
+ * its edge. */
 // variant:
 // variant: PAINT=1
 #include "draw/backdrop/mesh_hit.glsl"
@@ -22,7 +24,7 @@ layout(location = 0) out uvec2 out_hit;
 
 void main()
 {
-    gl_FragDepth = 1.0 / (1.0 + depth); /* as spheres have it */
+    gl_FragDepth = 1.0 / (1.0 + depth); /* near is 1, far is 0, as in solids_spheres.frag */
     vec3 face = cross(dFdx(from_eye), dFdy(from_eye));
     face = dot(face, from_eye) > 0.0 ? -face : face;
     vec3 normal = dot(world_normal, face) < 0.0 ? -world_normal : world_normal;

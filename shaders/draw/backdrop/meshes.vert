@@ -1,5 +1,6 @@
-/* A mesh as the camera sees it, shifted so that a pixel's centre is where its ray passes. PAINT: with
- * its places in textures of paint. */
+/* Projects a mesh as the camera sees it. lib/draw/backdrop/meshes_gl.c draws it once for each ray
+ * of a pixel, with a shift that moves the ray to the pixel's centre. With PAINT, the vertices have
+ * texture coordinates of the paint. */
 // variant:
 // variant: PAINT=1
 #include "shared/draw_layout.h"
@@ -24,7 +25,7 @@ layout(location = 2) out float depth;
 layout(location = 3) out vec2 uv;
 #endif
 
-const float NEAREST = 0.01; /* m */
+const float NEAREST = 0.01; /* near plane, m */
 
 void main()
 {
@@ -40,5 +41,5 @@ void main()
 #ifdef PAINT
     uv = place_in_paint;
 #endif
-    gl_Position = vec4(place, depth - 2.0 * NEAREST, depth); /* a far plane without end */
+    gl_Position = vec4(place, depth - 2.0 * NEAREST, depth); /* the far plane is at infinity */
 }

@@ -1,4 +1,5 @@
-/* A mesh as the sun sees it: the sphere around it fills the map but for a border. */
+/* Projects a mesh as the sun sees it into its shadow map. The sphere around the mesh fills the map
+ * but for a border. */
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 

@@ -1,6 +1,6 @@
-/* Traces spheres and capped cylinders, and finds what they hide of sky and sun. */
+/* Traces spheres and capped cylinders, and finds how much of sky and sun they hide from a point. */
 
-/* Replaces `nearest` by what the ray hits before it. */
+/* Replaces `nearest` by the ray's hit on a sphere if that is nearer. */
 void trace_spheres(vec3 origin, vec3 direction, inout hit nearest)
 {
     int found = -1;

@@ -1,6 +1,6 @@
-/* A point of a surface and the light that it sends to the eye: sky, sun with its shadow, point lights,
- * haze, less what smoke keeps off. For shaders that have the blocks `view` and `backdrop`, and
- * `shapes` with the defines of backdrop.frag. */
+/* Finds the light that a point of a surface sends to the eye: from sky, sun with its shadow and
+ * point lights, less the light that smoke absorbs, and with haze. The including shader declares the
+ * blocks `view`, `backdrop` and `shapes`; the defines are those of backdrop.frag. */
 #include "draw/light/smoke_shadow.glsl"
 #include "shared/shape_rays.h"
 #include "shared/sun_cover.h"
@@ -22,24 +22,28 @@ vec3 view_to_world(vec3 v)
            view.world_to_view[2].xyz * v.z;
 }
 
-/* The ray through a pixel position, with view-space z of -1: its t is view-space depth. */
+/* Returns the world-space direction of the ray through a position in the picture, px. Its
+ * view-space z is -1, so the t of a point on the ray is the point's view-space depth. */
 vec3 ray_direction(vec2 pixel)
 {
     vec2 ndc = pixel / view.frustum.zw * 2.0 - 1.0;
     return view_to_world(vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0));
 }
 
-/* Intersects the slabs of a box along the axes. inverse: ray_inverse3 of the ray's direction. */
+/* Intersects a ray with the slabs of axis-aligned box i. inverse: ray_inverse3 of the ray's
+ * direction. */
 ray_slabs cross_box(int i, vec3 origin, vec3 inverse)
 {
     return ray_cross_slabs(backdrop.box_center[i].xyz - origin, backdrop.box_half[i], inverse);
 }
 
-/* The sun's light that a box lets through, 0 to 1. slabs: of a ray towards the sun. */
+/* Returns the part of the sun, 0 to 1, that a box leaves visible. slabs: of a ray towards the
+ * sun. */
 float box_sun_visibility(ray_slabs slabs, sun_edges edges)
 {
 #ifdef SOFT_SUN
-    /* Rounding puts a ray aside by less than surfaces are away from themselves. */
+    /* The margin, 1e-4 m, is more than rounding moves a ray aside, and less than rays start beside
+     * their surface. */
     sun_hidden hidden = sun_cross_box(slabs, edges, 1e-4, shapes.sun_right.w, 0.0);
     return hidden.way > 0.0 ? 1.0 - hidden.cover : 1.0;
 #else
@@ -118,7 +122,7 @@ vec3 sky(vec3 direction)
     return sky_gradient(backdrop.sky_horizon, backdrop.sky_top, direction);
 }
 
-/* What the floor fades into far away. */
+/* Returns the colour that the floor fades into far away. */
 vec3 horizon(vec3 direction)
 {
 #ifdef SKY_IMAGE
@@ -127,7 +131,7 @@ vec3 horizon(vec3 direction)
     return backdrop.sky_horizon.rgb;
 }
 
-/* What arrives from the sky and the point lights. */
+/* Returns the irradiance from the sky and the point lights. */
 vec3 soft_irradiance(hit h, vec3 point)
 {
     vec3 ambient = sky_ambient(backdrop.sky_horizon, backdrop.sky_top, h.normal);
@@ -141,7 +145,8 @@ vec3 soft_irradiance(hit h, vec3 point)
     return irradiance;
 }
 
-/* Light that the surface sends along the ray. Lambert: radiance = albedo / pi * irradiance. */
+/* Returns the light that a surface sends along a ray, premultiplied, and its alpha. Lambert:
+ * radiance = albedo / pi * irradiance. */
 vec4 radiance(hit h, vec3 direction, vec3 irradiance, float sunlit)
 {
     bool transparent = backdrop.counts.z != 0u;

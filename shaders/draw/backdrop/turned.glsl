@@ -1,5 +1,6 @@
-/* Traces capsules, boxes of any direction and planes, and finds what they hide of sky and sun. A
- * plane hides all of the sun or nothing: that is in the sun's colour. */
+/* Traces capsules, boxes of any direction and planes, and finds how much of sky and sun they hide
+ * from a point. A plane hides the same part of the sun from all points above it, so the host dims
+ * the sun's colour by planes. */
 
 /* ---- capsules ---- */
 
@@ -26,7 +27,7 @@ void trace_capsules(vec3 origin, vec3 direction, inout hit nearest)
 
 /* ---- boxes ---- */
 
-/* A direction of the world in the frame of box i, and back. */
+/* Returns a world-space vector in the frame of box i; out_of_box does the inverse. */
 vec3 into_box(int i, vec3 v)
 {
     return vec3(dot(v, shapes.turned[i].rows[0].xyz), dot(v, shapes.turned[i].rows[1].xyz),
@@ -39,7 +40,8 @@ vec3 out_of_box(int i, vec3 v)
            v.z * shapes.turned[i].rows[2].xyz;
 }
 
-/* Intersects its slabs. inverse: of the ray's direction there. */
+/* Intersects a ray with the slabs of box i. inverse: ray_inverse3 of the ray's direction in the
+ * box's frame. */
 ray_slabs cross_turned(int i, vec3 origin, vec3 inverse)
 {
     return ray_cross_slabs(into_box(i, shapes.turned[i].center.xyz - origin),
