@@ -1,6 +1,6 @@
-/* Finds the part of the light, 0 to 1, that gets through the smoke to a world position: of the sun's
- * light, and of the sky's light from straight above. Shaders that light particles, meshes, spheres
- * and the backdrop include it; they must declare `backdrop` before.
+/* Finds the part of the light, 0 to 1, that gets through the smoke to a world position: of the
+ * sun's light, and of the sky's light from straight above. Shaders that light particles, meshes,
+ * spheres and the backdrop include it; they must declare `backdrop` before.
  *
  * The host has filled grids with the optical depth that light crosses (lib/draw/light/smoke_shadow.h);
  * their third axis points to the light. lib/draw/light/lighting_gl.c binds them to these units. The

@@ -1,4 +1,6 @@
-/* The sun's light that particles let through which are opaque spheres (lib/draw/light/solid_shadow.h). */
+/* Finds the part of the sun's light, 0 to 1, that opaque particles let through to a point. They are
+ * spheres and, with INSTANCES, meshes; lib/draw/light/solid_shadow.h lists them in bins across the
+ * sun's direction. */
 layout(binding = KILN_UNIT_SOLID_BINS) uniform usampler2D solid_bins;
 layout(binding = KILN_UNIT_SOLID_LIST) uniform sampler2D solid_list;
 
@@ -14,7 +16,7 @@ float silhouette_texel(ivec2 first, int edge, ivec2 at, int level, float weight)
     return inside ? weight * texelFetch(silhouettes, first + at, level).x : 0.0;
 }
 
-/* Linear between four texels of a level; nothing is beside the tile. */
+/* Interpolates linearly between four texels of a level. Texels beside the tile count as 0. */
 float silhouette_level(vec4 tile, vec2 at, int level)
 {
     int edge = int(tile.w) >> level;
@@ -54,7 +56,8 @@ float listed_cover(int entry, int end, vec3 origin, vec4 sun, float spread)
     return entry < end ? cover : 0.0;
 }
 
-/* Past KILN_SOLIDS_AT_A_TIME of a list: llvmpipe bounds how often loops run, not what they do. */
+/* Returns the part of the sun behind KILN_SOLIDS_AT_A_TIME entries of a list. llvmpipe limits how
+ * often a loop runs, but not the work of an iteration. */
 float listed_sun_visibility(int entry, int end, vec3 origin)
 {
     float visible = 1.0;

@@ -1,11 +1,11 @@
-/* Declares what a shader reads to draw a particle: its record, the table of its look, and the camera.
- * Vertex shaders and compute shaders that make particles for drawing include it, after
- * shared/draw_layout.h. kiln_moment_bind (lib/draw/moment/moment_gl.c) binds the buffers, and
+/* Declares the buffers that a shader reads to draw a particle: its record, the table of its look,
+ * and the camera. Vertex shaders and compute shaders that make particles for drawing include it,
+ * after shared/draw_layout.h. kiln_moment_bind (lib/draw/moment/moment_gl.c) binds the buffers, and
  * kiln_draw_blocks_bind binds view_block.
  *
  * The n-th particle that is drawn is entries[n]: the system's number in the upper 8 bits, and the
- * slot in records in the lower 24. shared/derived.h reads value_keys as a global, so that block must
- * stand before it. */
+ * slot in records in the lower 24. shared/derived.h reads value_keys as a global, so that block
+ * must stand before it. */
 layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[KILN_MAX_VALUE_KEYS]; };
 #include "shared/derived.h"
 #include "shared/look_layout.h"
@@ -14,7 +14,7 @@ layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_LOOKS) uniform look_block { kiln_draw_look looks[KILN_MAX_SYSTEMS]; };
 layout(std430, binding = KILN_BIND_RECORDS) readonly buffer record_block { kiln_particle records[]; };
 layout(std430, binding = KILN_BIND_ENTRIES) readonly buffer entry_block { uint entries[]; };
-layout(binding = 0) uniform sampler2D look_table; /* see shared/look_layout.h */
+layout(binding = 0) uniform sampler2D look_table; /* rows KILN_LOOK_* of each system */
 
 /* Returns a row of the system's table (KILN_LOOK_*) at a part of life, 0 at birth and 1 at death. It
  * interpolates between two samples as the host does (kiln_look_place_at); a sampler's filter may be

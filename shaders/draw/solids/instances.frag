@@ -1,5 +1,7 @@
-/* A triangle of a particle that is a mesh, lit like the backdrop. Like a sphere, it has one depth and
- * one light in a pixel: those in its middle, or at the triangle's edge where that is outside. */
+/* Draws a fragment of a particle that is a mesh, lit like the backdrop; instances.vert computes its
+ * triangle. As in solids_spheres.frag, a triangle has one depth and one light in a pixel, though it
+ * may cover only some of the four samples: those at the pixel's middle, or at the triangle's edge
+ * where the middle is outside of the triangle. */
 // variant: SOLIDS=1
 // variant: SOLIDS=1 INSTANCES=1 ROUND=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
@@ -18,8 +20,9 @@ layout(location = 2) flat in vec4 c;
 layout(location = 3) flat in vec4 normal_a;
 layout(location = 4) flat in vec4 normal_b;
 layout(location = 5) flat in vec4 normal_c;
-layout(location = 6) flat in vec4 middle; /* in view space; w: radius of its shadow, m */
-layout(location = 7) flat in vec4 albedo; /* a: lit */
+layout(location = 6) flat in vec4 middle; /* of the particle, in view space; w: radius of the sphere
+                                           * that throws its shadow, m */
+layout(location = 7) flat in vec4 albedo; /* a: 1 if lit, 0 if unlit, or between */
 layout(location = 8) flat in vec4 glow;
 layout(location = 9) flat in vec4 bloom;
 
@@ -31,7 +34,7 @@ void main()
     vec2 ndc = gl_FragCoord.xy / view.frustum.zw * 2.0 - 1.0;
     vec3 ray = vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0);
     vec3 face = cross(b.xyz - a.xyz, c.xyz - a.xyz);
-    face = dot(face, a.xyz) > 0.0 ? -face : face; /* towards the eye */
+    face = dot(face, a.xyz) > 0.0 ? -face : face; /* turned towards the eye */
     float side = dot(cross(b.xyz - a.xyz, c.xyz - a.xyz), face) > 0.0 ? -1.0 : 1.0;
     vec3 parts = vec3(dot(cross(b.xyz, c.xyz - b.xyz), ray), dot(cross(c.xyz, a.xyz - c.xyz), ray),
                       dot(cross(a.xyz, b.xyz - a.xyz), ray));
@@ -44,11 +47,12 @@ void main()
         discard;
 
     vec3 across = normal_a.xyz * parts.x + normal_b.xyz * parts.y + normal_c.xyz * parts.z;
-    across = dot(across, face) < 0.0 ? -across : across; /* both sides are seen */
+    across = dot(across, face) < 0.0 ? -across : across; /* both sides are visible */
     vec3 direction = view_to_world(ray);
     vec3 normal = view_to_world(across * inversesqrt(max(dot(across, across), 1e-12)));
     vec3 point = view.eye.xyz + view_to_world(seen);
-    /* Out of the sphere that throws its shadow on others. */
+    /* The shadow ray starts outside of the sphere that throws the mesh's shadow, so that the mesh
+     * does not shade itself. */
     float ahead = dot(view_to_world(middle.xyz - seen), backdrop.sun_direction.xyz);
     float outwards = max(ahead + 0.05 * middle.w + 1e-5 * t, 0.0);
     hit h = hit(t, 0, normal, albedo.rgb);
@@ -57,7 +61,7 @@ void main()
     vec3 lit = radiance(h, direction, soft_irradiance(h, point), sunlit).rgb;
     vec3 rgb = glow.rgb + mix(albedo.rgb, lit, albedo.a);
 
-    gl_FragDepth = 1.0 / (1.0 + t); /* as spheres have it */
+    gl_FragDepth = 1.0 / (1.0 + t); /* near is 1, far is 0, as in solids_spheres.frag */
     out_color = vec4(rgb, 1.0);
     out_bloom = vec4(bloom.rgb * rgb, 1.0);
 }

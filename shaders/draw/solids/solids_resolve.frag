@@ -1,5 +1,6 @@
-/* The spheres over the backdrop: the mean of a pixel's four samples. A depth has no mean: a pixel is
- * where the second nearest of its samples is, a sphere's if at least two are. */
+/* Puts the opaque particles over the backdrop: their colour is the mean of a pixel's four samples.
+ * A mean of depths would lie on no surface, so a pixel takes the second nearest depth of its
+ * samples: that of a particle if at least two samples show one. */
 #include "shared/draw_layout.h"
 
 layout(binding = 0) uniform sampler2DMS sphere_color;

@@ -25,11 +25,12 @@ layout(binding = 2) uniform sampler2D scene_depth;
 #include "shared/ball_pattern.h"
 
 layout(location = 0) flat in vec4 sphere; /* in view space; w: radius */
-layout(location = 1) flat in vec4 albedo; /* a: lit */
+layout(location = 1) flat in vec4 albedo; /* a: 1 if lit, 0 if unlit, or between */
 layout(location = 2) flat in vec4 glow;
 layout(location = 3) flat in vec4 bloom;
 #ifdef PATTERN
-layout(location = 4) flat in vec4 other; /* a: segments of each colour; 0: none, below 0: a stripe */
+layout(location = 4) flat in vec4 other; /* second albedo of the pattern; a: segments of each
+                                          * colour; 0: none, below 0: a stripe */
 layout(location = 5) flat in vec4 pose;
 #endif
 

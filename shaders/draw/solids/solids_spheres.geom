@@ -1,6 +1,6 @@
-/* The rectangle of the picture that a sphere covers: between the tangents from the eye, and a pixel
- * around it, because a driver may have a pixel's samples elsewhere than the fragment shader. A sphere
- * that reaches the near plane is not drawn. */
+/* Makes the rectangle of the picture that a sphere covers, for solids_spheres.frag. It lies between
+ * the tangents from the eye, and is a pixel larger on every side, since a driver may have a pixel's
+ * samples elsewhere than the fragment shader. A sphere that reaches the near plane is not drawn. */
 // variant:
 // variant: PATTERN=1
 #include "shared/draw_layout.h"
@@ -28,7 +28,8 @@ layout(location = 4) flat out vec4 other;
 layout(location = 5) flat out vec4 pose;
 #endif
 
-/* Slopes of the two tangents at a circle, in a plane through the eye: x sideways, depth ahead. */
+/* Returns the slopes of the two tangents from the eye at a circle, in a plane through the eye. x:
+ * of the circle's middle, sideways; depth: ahead of the eye. */
 vec2 tangents(float x, float depth, float radius)
 {
     float t = sqrt(max(x * x + depth * depth - radius * radius, 0.0));

@@ -1,5 +1,5 @@
-/* One opaque sphere, from the record, the look and the clock. It cannot fade, so it grows and
- * shrinks by its opacity. */
+/* Computes one opaque sphere from its record, its look and the clock, for solids_spheres.geom. A
+ * sphere cannot fade; its opacity scales it instead. */
 #include "shared/draw_layout.h"
 
 // variant:
@@ -9,12 +9,13 @@
 #include "draw/solids/pose.glsl"
 
 layout(location = 0) out vec4 center;        /* in view space; w: radius, m */
-layout(location = 1) out vec4 reflected;     /* albedo; a: 1 lit .. 0 shows it as it is */
+layout(location = 1) out vec4 reflected;     /* albedo; a: 1 if lit, 0 if unlit, or between */
 layout(location = 2) out vec4 emitted;       /* radiance */
-layout(location = 3) out vec4 bloom_weights; /* of equation 3.2 */
+layout(location = 3) out vec4 bloom_weights; /* weights of equation 3.2 */
 #ifdef PATTERN
-layout(location = 4) out vec4 second; /* other albedo; a: segments of each; 0 none, below 0 a stripe */
-layout(location = 5) out vec4 lying;  /* from the ball to the world */
+layout(location = 4) out vec4 second; /* second albedo of the pattern; a: segments of each colour;
+                                       * 0: none, below 0: a stripe */
+layout(location = 5) out vec4 lying;  /* pose: turns vectors from the ball to the world */
 #endif
 
 void main()
@@ -31,7 +32,7 @@ void main()
     center.xyz = world_to_view_point(particle_position(record));
     float scale = mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE));
     float radius = looks[system].form.x == LOOK_MESH ? 0.0 : 0.5 * shape.x * scale * shape.z;
-    /* No smaller than a pixel, or it would twinkle between the samples. */
+    /* A sphere is at least as wide as a pixel. A smaller one would flicker between the samples. */
     float pixel_m = 2.0 * view.frustum.y * max(-center.z, 1e-3) / view.frustum.w;
     center.w = radius > 0.0 ? max(radius, 0.5 * pixel_m) : 0.0;
     reflected = look_at(system, KILN_LOOK_COVER, life);
