@@ -1,14 +1,17 @@
-/* What the vertex shader finds out about a particle, the geometry shader carries to the corners of
- * its quad and the fragment shader shades. */
+/* Declares the data of a particle's billboard. A vertex shader or particles_tiled_make.comp
+ * computes it (particle.glsl), the geometry shader copies it to the corners of the quad, and
+ * shade.glsl shades fragments with it. */
 struct billboard {
     vec4 color;   /* albedo, or the tint of a colour cell; a: opacity */
-    vec4 hot;     /* emitted where the cell's heat is 1; a: 1 additive, 0 covering */
-    vec4 cool;    /* emitted where it is 0; a: scale of the soft fade, 1/m */
+    vec4 hot;     /* light emitted where the cell's heat is 1; a: 1 additive, 0 covering */
+    vec4 cool;    /* light emitted where the heat is 0; a: scale of the soft fade, 1/m */
     vec4 cells;   /* two layers of the atlas, the mix between them, level of detail */
     vec4 depth;   /* view depth, m; KILN_CELL_*; 1: literal soft formula; distance, m */
     vec4 bloom;   /* weights of equation 3.2; a: scale of the motion between the cells */
-    vec4 light_0; /* light from everywhere, and how it changes along the billboard's axes (right, */
-    vec4 light_x; /* up, towards the viewer): spherical harmonics of degrees 0 and 1; of light_x, a: */
-    vec4 light_y; /* half the thickness in the middle, m; of light_y, a: place in the drawing order */
+    /* Light as spherical harmonics of degrees 0 and 1: light from all sides, and its change along
+     * the billboard's axes (right, up, towards the viewer). */
+    vec4 light_0;
+    vec4 light_x; /* a: half the thickness in the middle, m */
+    vec4 light_y; /* a: place in the drawing order */
     vec4 light_z;
 };

@@ -1,16 +1,20 @@
-/* Where a pixel of the frame lies among those of its smaller picture: struct kiln_coarse_images. */
+/* Finds the place of a frame's pixel in the coarse picture of particles, which has half or a
+ * quarter of the frame's width and height (lib/draw/sprites/coarse_images.h). The shaders
+ * coarse_*.frag that need it include it. */
 #include "shared/coarse.h"
 
-uniform float factor;
-uniform vec2 beyond; /* px of the frame */
+uniform float factor; /* edge of a coarse pixel, px of the frame */
+uniform vec2 beyond; /* margin of the coarse picture at the frame's left and top, px of the frame */
 
-/* Whole numbers are the middles of coarse pixels. */
+/* Returns the place of a frame's pixel in the coarse picture, in coarse pixels. Whole numbers are
+ * the middles of coarse pixels. */
 vec2 coarse_place(vec2 pixel)
 {
     return (pixel + beyond) / factor - 0.5;
 }
 
-/* How much of a pixel is drawn finely: 1 near an edge, falling to 0 over a coarse pixel. */
+/* Returns how much of a pixel comes from the picture of full resolution: 1 near an edge, falling to
+ * 0 over a coarse pixel. */
 float fine_part(sampler2D edges, vec2 place)
 {
     ivec2 low = ivec2(floor(place)), last = textureSize(edges, 0) - 1;

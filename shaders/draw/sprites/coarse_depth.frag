@@ -1,5 +1,5 @@
-/* A coarse pixel: the farthest depth of the frame's pixels in it, and whether one of them is not on
- * a plane with its neighbours. */
+/* Writes the farthest depth of the frame's pixels in a coarse pixel; and 1 if one of these pixels
+ * does not lie on a plane with its neighbours, else 0. */
 #include "draw/sprites/coarse.glsl"
 
 layout(binding = 0) uniform sampler2D depth;

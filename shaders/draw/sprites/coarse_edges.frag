@@ -1,5 +1,6 @@
-/* Whether there is an edge in a coarse pixel or one of the eight around it. */
-layout(binding = 0) uniform sampler2D bent; /* of coarse_depth.frag */
+/* Writes 1 for a coarse pixel if it or one of the eight around it has an edge of the depth, else
+ * 0. */
+layout(binding = 0) uniform sampler2D bent; /* out_bent of coarse_depth.frag */
 
 layout(location = 0) out float out_edges;
 

@@ -1,8 +1,9 @@
-/* The depth of the scene where particles are drawn finely, elsewhere 0: nothing is nearer. */
+/* Writes the depth against which particles are drawn at full resolution: that of the scene in the
+ * neighbourhood of edges, and 0 elsewhere, so that no particle is before it. */
 #include "draw/sprites/coarse.glsl"
 
 layout(binding = 0) uniform sampler2D depth;
-layout(binding = 1) uniform sampler2D edges; /* of coarse_edges.frag */
+layout(binding = 1) uniform sampler2D edges; /* written by coarse_edges.frag */
 
 layout(location = 0) out float out_depth;
 

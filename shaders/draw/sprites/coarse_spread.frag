@@ -1,6 +1,7 @@
-/* A pixel of the frame. Where the scene is smooth, it is interpolated by a spline from the sixteen
- * coarse ones around it; near edges it takes those of nine that have a depth like its own, however
- * far their places. */
+/* Enlarges the coarse picture of particles to the frame's size. Where the scene's depth is smooth,
+ * a pixel is interpolated by a spline from the sixteen coarse pixels around it. Near edges it is a
+ * mean of the nine nearest coarse pixels, weighted by how similar their depths are to its own, and
+ * only then by distance. With has_fine, particles drawn at full resolution take over near edges. */
 #include "draw/sprites/coarse.glsl"
 
 layout(binding = 0) uniform sampler2D depth;
@@ -16,7 +17,8 @@ uniform bool has_fine;
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
 
-/* Between the middle two of four by their spline, which must not overshoot. */
+/* Interpolates between the middle two of four pixels by a spline. The result is clamped to these
+ * two, since the spline may overshoot. */
 vec4 interpolate(vec4 from[4], vec4 weights)
 {
     vec4 sum = from[0] * weights.x + from[1] * weights.y + from[2] * weights.z + from[3] * weights.w;

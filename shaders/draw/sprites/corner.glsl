@@ -1,7 +1,8 @@
-/* Corners of a quad around a particle's outline, a little larger than it: GL puts corners onto a grid,
- * and each fragment finds out itself whether the particle covers it (draw/sprites/place.glsl). The
- * view block must be declared, and what draw/sprites/particle.glsl declares.
- */
+/* Computes the corners of a quad around a particle's outline, for particles_geometry.geom and
+ * particles_instanced.vert. The quad is a little larger than the outline, since GL moves corners
+ * onto a grid; each fragment decides itself whether the particle covers it
+ * (draw/sprites/place.glsl). The including shader declares the view block and the variables that
+ * draw/sprites/particle.glsl fills in. */
 #include "draw/sprites/occlusion.glsl"
 #include "draw/sprites/outline.glsl"
 
@@ -12,7 +13,7 @@ layout(location = 11) flat out vec4 place_v;
 layout(location = 12) flat out vec4 place_q;
 #endif
 
-/* px: the coarsest grid that GL may put corners on has four bits. */
+/* px; GL's grid of corners may be as coarse as 1/16 px */
 const float MARGIN = 0.125;
 
 bool is_seen(vec4 center, billboard particle)
@@ -20,8 +21,8 @@ bool is_seen(vec4 center, billboard particle)
     return -center.z > view.eye.w && particle.color.a > 0.0;
 }
 
-/* Corner i, moved along both of its edges until these have moved by the margin; near the ends of a
- * sliver not farther than that takes for an angle of 4 degrees. */
+/* Returns corner i, moved outwards along both of its edges until each edge has moved by MARGIN. At
+ * the sharp ends of a sliver it moves no farther than for an angle of 4 degrees. */
 vec2 outer_corner(outline s, int i)
 {
     vec2 a = s.corners[i] - s.corners[i ^ 1], b = s.corners[i] - s.corners[i ^ 2];
@@ -31,8 +32,8 @@ vec2 outer_corner(outline s, int i)
     return s.corners[i] + (a + b) * (MARGIN / max(sine, 0.07));
 }
 
-/* Corner i of a strip of two triangles. Of all of it the depth is that of the nearest corner: the
- * fragment shader compares exact depths. */
+/* Writes corner i of a strip of two triangles. All corners get the depth of the nearest one, so
+ * that the depth test rejects no visible fragment; the fragment shader compares exact depths. */
 void put_corner(int i, outline s)
 {
     quad = particle;

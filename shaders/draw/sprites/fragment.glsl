@@ -1,4 +1,5 @@
-/* Inputs of the fragments of billboards, and whether the particle covers one. */
+/* Declares the inputs of the fragments of billboards, and decides whether the particle covers a
+ * fragment. particles.frag and particles_list.frag include it. */
 #include "draw/sprites/billboard.glsl"
 #include "draw/sprites/place.glsl"
 
@@ -13,7 +14,8 @@ layout(location = 12) flat in vec4 place_q;
 
 #include "draw/sprites/shade.glsl"
 
-/* Does the particle cover the fragment? Where on it that is, and how far from the eye, m. */
+/* Returns whether the particle covers the fragment. at: the place on the particle, as of
+ * place_covers; depth: the view-space depth of that place, m. */
 bool is_covered(out vec2 at, out float depth)
 {
     place rows = place(place_u, place_v, vec4(0.0), vec2(0.0));

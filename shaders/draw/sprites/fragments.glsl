@@ -1,4 +1,6 @@
-/* The lists of a band of rows (shared/fragment_layout.h). */
+/* Declares the lists of fragments of the pixels in a part of the picture
+ * (shared/fragment_layout.h). lib/draw/sprites/fragments_gl.c draws part by part, so that the lists
+ * fit in memory. */
 #include "shared/fragment_layout.h"
 
 struct fragment {
@@ -7,17 +9,18 @@ struct fragment {
 };
 
 struct list_place {
-    uint first;  /* of the list */
-    uint filled; /* of it */
+    uint first;  /* index of the list's first fragment */
+    uint filled; /* number of fragments on the list so far */
 };
 
 layout(std430, binding = KILN_BIND_FRAGMENT_COUNTS) buffer list_count_block { uint counts[]; };
 layout(std430, binding = KILN_BIND_FRAGMENT_PLACES) buffer list_place_block { list_place places[]; };
-/* Bits of the depth; place in the drawing order, twice, and 1 more of a front half; its fragment. */
+/* x: bits of the depth; y: twice the place in the drawing order, plus 1 for a front sheet; z: index
+ * of the fragment in `fragments`. */
 layout(std430, binding = KILN_BIND_FRAGMENT_KEYS) buffer list_key_block { uvec4 list_keys[]; };
 layout(std430, binding = KILN_BIND_FRAGMENTS) buffer list_block { fragment fragments[]; };
 
-/* What is there of a pixel's list. */
+/* Returns how many fragments are on a pixel's list. */
 uint list_length(uint pixel)
 {
     return min(counts[pixel], places[pixel].filled);

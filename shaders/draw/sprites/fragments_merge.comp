@@ -1,5 +1,6 @@
-/* A pass of merge sort over long lists: neighbouring runs, each in order, become one of twice the
- * length. A fragment's place is its place in its own run and, by binary search, in the other. */
+/* Runs a pass of merge sort over long lists: two neighbouring runs, each in order, become one run
+ * of twice the length. A fragment's place is the sum of its place in its own run and, by binary
+ * search, its place in the other run. */
 #include "draw/sprites/fragments.glsl"
 
 layout(local_size_x = KILN_FRAGMENT_BLOCK) in;
@@ -15,10 +16,10 @@ layout(std430, binding = KILN_BIND_FRAGMENT_BLOCKS) readonly buffer block_block
 };
 
 layout(location = 0) uniform uint block_count;
-layout(location = 1) uniform uint run; /* fragments of one, a power of two */
+layout(location = 1) uniform uint run; /* length of a run in fragments, a power of two */
 
-/* How many of those from one place until another come before a key of the other run; of equals, those
- * of the left one. */
+/* Returns how many fragments between two places of the other run come before a key. Fragments of
+ * the left run come before equal ones of the right run. */
 uint count_before(uvec4 key, bool is_left, uint from, uint until)
 {
     uint low = from, high = until;

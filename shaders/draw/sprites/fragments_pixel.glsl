@@ -1,5 +1,6 @@
-/* The pixel that a fragment is of, as lists are numbered. */
-uniform uint row_length; /* pixels */
+/* Finds the number of a fragment's pixel, by which the lists of fragments are indexed: row by row
+ * of the picture. */
+uniform uint row_length; /* of the picture, pixels */
 
 uint pixel_number()
 {

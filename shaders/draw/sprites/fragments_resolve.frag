@@ -2,10 +2,10 @@
  * short. fragments_merge.comp has sorted long lists already.
  *
  * resolve of lib/draw/sprites/fragments_gl.c draws a triangle over the picture with it, after the
- * lists are filled (post.compose: oit). On software GL, which limits the iterations of a shader's
- * loops, it draws once for each stretch of the lists; an assertion there counts the iterations of
- * the loops here. is_behind must tell any two fragments of a list apart, so that the picture does
- * not depend on the order in which fragments arrived. */
+ * lists are filled (post.compose: oit). Software GL limits the iterations of a shader's loops, so
+ * there it draws once for each stretch of the lists; an assertion in fragments_gl.c counts the
+ * iterations of the loops in this file. is_behind must tell any two fragments of a list apart, so
+ * that the picture does not depend on the order in which fragments arrived. */
 #include "draw/sprites/fragments.glsl"
 #include "draw/sprites/fragments_pixel.glsl"
 

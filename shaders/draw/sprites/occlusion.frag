@@ -1,4 +1,6 @@
-/* The depth of the scene, as far as it hides particles for certain: a part in 700 behind it. */
+/* Writes the scene's depth into the depth buffer that rejects hidden particles
+ * (lib/draw/sprites/occlusion.h). It writes a depth that is greater by a part in 700, so that
+ * rounding rejects no visible particle. */
 #include "draw/sprites/occlusion.glsl"
 
 layout(binding = 2) uniform sampler2D scene_depth;

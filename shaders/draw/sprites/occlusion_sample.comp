@@ -1,4 +1,5 @@
-/* How many of some particles have the scene before their middle. */
+/* Counts how many particles of a sample have their middle behind the scene. On software GL,
+ * lib/draw/sprites/occlusion.c runs it to decide whether the depth test is worth its cost. */
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"
@@ -13,7 +14,7 @@ layout(std430, binding = 2) buffer hidden_block
 };
 
 layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint spacing; /* in the drawing order */
+layout(location = 1) uniform uint spacing; /* one in so many entries is sampled */
 
 void main()
 {

@@ -1,6 +1,6 @@
 /* Finds the outline of a particle in the picture (Heinz 2019, 3.2.3, equation 3.1): four corners,
  * and the rows by which place.glsl finds the place of a pixel on the particle. A point or a line is
- * a rectangle in the picture; a billboard lies in the plane that was chosen for it.
+ * a rectangle in the picture; a billboard lies in the plane that particle.glsl chose for it.
  *
  * corner.glsl includes it, for quads that GL draws, and particles_tiled_make.comp, for sprites of
  * compute shaders. Both first declare the view and the variables center, right, up and particle,

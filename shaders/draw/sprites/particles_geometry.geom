@@ -1,7 +1,7 @@
-/* Turns a point into the quad of a particle: four corners around its outline, or nothing for one
- * that cannot be seen. It runs between particles_geometry.vert and the fragment shader, for the
- * technique raster=geometry (lib/draw/sprites/particles_geometry.c). corner.glsl decides where the
- * corners are, for raster=instanced, too; both must cover the same pixels. */
+/* Turns a point into the quad of a particle, four corners around its outline, or into nothing if
+ * the particle cannot be seen. It runs between particles_geometry.vert and the fragment shader, for
+ * the technique raster=geometry (lib/draw/sprites/particles_geometry.c). corner.glsl decides where
+ * the corners are, for raster=instanced, too; both must cover the same pixels. */
 // variant: SHAPES=0
 // variant: SHAPES=1
 #include "shared/draw_layout.h"

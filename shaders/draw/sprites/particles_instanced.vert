@@ -1,6 +1,6 @@
-/* One corner of a particle's billboard, an instance of four vertices: without a geometry shader, but
- * each corner makes the particle anew (Heinz 2019, 2.2.4; Terpstra 2023, figure 2.2).
- */
+/* Computes one corner of a particle's billboard, for raster=instanced: a particle is an instance of
+ * four vertices. This needs no geometry shader, but each corner makes the particle anew (Heinz
+ * 2019, 2.2.4; Terpstra 2023, figure 2.2). */
 // variant: SHAPES=0
 // variant: SHAPES=1
 // variant: SHAPES=1 SUN_SHADE=1
@@ -25,5 +25,5 @@ void main()
     if (is_seen(center, particle) && s.seen)
         put_corner(gl_VertexID, s);
     else
-        gl_Position = vec4(0.0, 0.0, 0.0, 1.0); /* all corners at one place */
+        gl_Position = vec4(0.0, 0.0, 0.0, 1.0); /* the quad has no area */
 }

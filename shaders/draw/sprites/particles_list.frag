@@ -17,8 +17,8 @@ layout(early_fragment_tests) in;
 
 uniform bool fills; /* false: count fragments; true: put them on lists */
 
-/* Puts a fragment on its pixel's list, at the place `number`. half_ is 1 for the front one of two
- * sheets, or 0. A fragment beyond the count is dropped, since it would overwrite the list of the next
+/* Puts a fragment on its pixel's list, at the place `number`. half_ is 1 for the front sheet of
+ * two, or 0. A fragment beyond the count is dropped, since it would overwrite the list of the next
  * pixel. */
 void put(uint number, float depth, uint half_, vec4 color)
 {

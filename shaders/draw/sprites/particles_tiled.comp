@@ -1,15 +1,16 @@
-/* Draws a tile of the picture with the sprites that touch it. A work group has one tile. It draws from
- * front to back with its pixels in registers, stops when nothing behind could be seen, and writes each
- * pixel once. An invocation has one pixel or, on software, several below each other, because fetching
- * a sprite costs as much there as drawing a pixel of it.
+/* Draws a tile of the picture with the sprites that touch it. A work group has one tile. It draws
+ * from front to back with its pixels in registers, stops when nothing behind could be seen, and
+ * writes each pixel once. An invocation has one pixel or, on software GL, several below each other,
+ * because fetching a sprite costs as much there as drawing a pixel of it.
  *
- * It is the last kernel of technique `tiled`. lib/draw/sprites/particles_tiled.c runs it for each chunk
- * of particles, after particles_tiled_make, _count, _list and _mark, and more than once where the
- * driver limits loops. Between two runs the pixels are kept in `carry`.
+ * It is the last kernel of technique `tiled`. lib/draw/sprites/particles_tiled.c runs it for each
+ * chunk of particles, after particles_tiled_make, _count, _list and _mark, and more than once where
+ * the driver limits loops. Between two runs the pixels are kept in `carry`.
  *
- * Every invocation of a group must reach each barrier, so all must take the same way through the loop
- * in main. Sprites must be drawn in the order of the list. Whoever changes a loop must change
- * round_iterations in particles_tiled.c, which counts iterations for drivers that limit them. */
+ * Every invocation of a group must reach each barrier, so all must take the same way through the
+ * loop in main. Sprites must be drawn in the order of the list. A change of a loop must be made in
+ * round_iterations of particles_tiled.c, too, which counts iterations for drivers that limit
+ * them. */
 // variant: SHAPES=0 TILED_EDGE=16 TILED_ROWS=16
 // variant: SHAPES=1 TILED_EDGE=8 TILED_ROWS=2
 #include "shared/draw_layout.h"
@@ -50,10 +51,10 @@ layout(binding = TILED_IMAGE_BLOOM) writeonly uniform image2D bloom_image;
 layout(location = 1) uniform uint bin_columns;
 layout(location = 2) uniform bvec2 ends;   /* x: the first run of the picture; y: the last run */
 layout(location = 3) uniform bool keeps;   /* the glow of an earlier pass is kept */
-layout(location = 4) uniform float over;   /* 1: what covers hides what is behind; 0: it is summed */
+layout(location = 4) uniform float over;   /* 1: sprites hide others behind; 0: they are summed */
 layout(location = 5) uniform float unseen; /* the least light of a chunk that must not be left out */
-layout(location = 6) uniform uvec2 span;   /* first and end of the words of masks that this run draws; */
-                                           /* the first is a multiple of TILED_ROUND_WORDS */
+layout(location = 6) uniform uvec2 span;   /* first and end of the words of masks that this run
+                                            * draws; the first is a multiple of TILED_ROUND_WORDS */
 
 #include "draw/sprites/place.glsl"
 #include "draw/sprites/shade.glsl"

@@ -1,4 +1,6 @@
-/* How many sprites of a chunk each bin has. */
+/* Counts the sprites of a chunk that each bin has, for technique `tiled`. A work group counts the
+ * bits of one bin's mask, which particles_tiled_make.comp has set; the host then gives each bin's
+ * list a place (lib/draw/sprites/particles_tiled.c). */
 #include "shared/tiled_layout.h"
 
 layout(local_size_x = TILED_GROUP_SIZE) in;

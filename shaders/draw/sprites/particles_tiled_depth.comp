@@ -1,11 +1,11 @@
-/* Finds the largest depth of the scene in each tile of the picture. A work group has one tile, and an
- * invocation one pixel.
+/* Finds the largest depth of the scene in each tile of the picture. A work group has one tile, and
+ * an invocation one pixel.
  *
- * lib/draw/sprites/particles_tiled.c runs it once for a pass of particles, before any sprites are made.
- * particles_tiled_mark.comp then leaves a sprite out of the tiles in which all of the scene is before
- * it. So a result may be too large, which costs time only, but never too small. Depths are compared as
- * the bits of floats, whose order is right only for numbers that are not negative; therefore the
- * kernel clamps them at 0. */
+ * lib/draw/sprites/particles_tiled.c runs it once for a pass of particles, before any sprites are
+ * made. particles_tiled_mark.comp then leaves a sprite out of the tiles in which all of the scene
+ * is before it. So a result may be too large, which costs time only, but never too small. Depths
+ * are compared as the bits of floats, whose order is right only for numbers that are not negative;
+ * therefore the kernel clamps them at 0. */
 // variant: TILED_EDGE=16
 #include "shared/tiled_layout.h"
 

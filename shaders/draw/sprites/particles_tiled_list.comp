@@ -1,4 +1,5 @@
-/* The sprites of each bin, in the order of the chunk. */
+/* Lists the sprites of each bin in the order of the chunk, for technique `tiled`. A work group
+ * turns one bin's mask, which particles_tiled_make.comp has set, into a list. */
 #include "shared/tiled_layout.h"
 
 #define GROUP_SIZE TILED_GROUP_SIZE
@@ -36,6 +37,6 @@ void main()
             lists[place++] = word * 32u + uint(findLSB(bits));
             bits &= bits - 1u;
         }
-        barrier(); /* before the next sum */
+        barrier(); /* the next sum overwrites what other invocations still read */
     }
 }

@@ -1,4 +1,6 @@
-/* The sprites of a chunk of particles, the nearest first, each marked in the bins that it may touch. */
+/* Makes the sprites of a chunk of particles, the nearest first, and marks each in the bins that it
+ * may touch. It is the first kernel of technique `tiled` that lib/draw/sprites/particles_tiled.c
+ * runs for a chunk; tiled.glsl says what a sprite is. */
 // variant: SHAPES=0 TILED_EDGE=16
 // variant: SHAPES=1 TILED_EDGE=16
 // variant: SHAPES=1 SUN_SHADE=1 TILED_EDGE=16
@@ -11,12 +13,12 @@ layout(local_size_x = TILED_GROUP_SIZE) in;
 
 layout(std430, binding = TILED_BIND_BOXES) writeonly buffer box_block
 {
-    uvec2 boxes[]; /* left, top; right, bottom: 16 bits each, px; 0 if it is not seen */
+    uvec2 boxes[]; /* left, top, right, bottom of a sprite, 16 bits each, px; 0: it is not seen */
 };
 
 layout(std430, binding = TILED_BIND_SPRITES) writeonly buffer sprite_block
 {
-    vec4 sprites[]; /* TILED_SPRITE_ROWS each */
+    vec4 sprites[]; /* TILED_SPRITE_ROWS for each */
 };
 
 layout(std430, binding = TILED_BIND_BIN_MASKS) buffer bin_mask_block
@@ -25,7 +27,7 @@ layout(std430, binding = TILED_BIND_BIN_MASKS) buffer bin_mask_block
 };
 
 layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint first; /* the nearest one's place in the entries */
+layout(location = 1) uniform uint first; /* index in `entries` of the nearest particle */
 layout(location = 2) uniform float additive_alpha;
 layout(location = 3) uniform uint bin_columns;
 layout(location = 4) uniform uint words; /* of a bin's mask */
@@ -37,7 +39,7 @@ billboard particle;
 
 #include "draw/sprites/outline.glsl"
 
-/* The pixels between two places, within the picture. */
+/* Returns the pixels between two places, within the picture, as an element of `boxes`. */
 uvec2 box_of(vec2 low, vec2 high)
 {
     uvec2 from = uvec2(clamp(low, vec2(0.0), view.frustum.zw));
@@ -47,7 +49,8 @@ uvec2 box_of(vec2 low, vec2 high)
     return uvec2(from.x | from.y << 16, to.x | to.y << 16);
 }
 
-/* The box around an outline; all of the picture where a part of it is behind the eye. */
+/* Returns the box around an outline: all of the picture if a part of the outline is behind the
+ * eye. */
 uvec2 box_around(outline s)
 {
     if (!s.seen)
@@ -58,7 +61,8 @@ uvec2 box_around(outline s)
                   max(max(s.corners[0], s.corners[1]), max(s.corners[2], s.corners[3])));
 }
 
-/* The most that the particle can add to a channel of either target. */
+/* Returns the most light that the particle can add to a channel of either target, as in
+ * SPRITE_MOST: negative if the particle covers nothing. */
 float most_added()
 {
     vec3 light = particle.light_0.rgb + abs(particle.light_x.rgb) + abs(particle.light_y.rgb) +

@@ -1,15 +1,15 @@
-/* Marks in which tiles of its bin each sprite could be seen: in those that it touches, unless it is
- * behind all of the scene there. Also gathers, for each bin, bounds of what its sprites can add to a
- * pixel.
+/* Marks in which tiles of its bin each sprite could be seen: in the tiles that it touches, unless
+ * it is behind all of the scene there. Also gathers, for each bin, bounds of the light that its
+ * sprites can add to a pixel.
  *
  * lib/draw/sprites/particles_tiled.c runs it for raster=tiled, once a chunk, after
- * particles_tiled_list.comp has made the lists. particles_tiled.comp then draws the marked sprites, and
- * stops in a tile when the bounds say that nothing more could be seen. A work group takes TILED_PIECE
- * sprites of one list: an invocation marks one sprite, and clears and writes the marks of one tile,
- * so TILED_PIECE and TILED_TILES must be equal.
+ * particles_tiled_list.comp has made the lists. particles_tiled.comp then draws the marked sprites,
+ * and stops in a tile when the bounds say that nothing more could be seen. A work group takes
+ * TILED_PIECE sprites of one list: an invocation marks one sprite, and clears and writes the marks
+ * of one tile, so TILED_PIECE and TILED_TILES must be equal.
  *
- * A mark too many only costs time. Without a mark that is needed, or with a bound that is too low, a
- * part of the picture is missing. */
+ * A mark too many only costs time. Without a mark that is needed, or with a bound that is too low,
+ * a part of the picture is missing. */
 // variant: SHAPES=0 TILED_EDGE=16
 // variant: SHAPES=1 TILED_EDGE=8
 #include "shared/draw_layout.h"
@@ -25,7 +25,7 @@ layout(std430, binding = TILED_BIND_BOXES) readonly buffer box_block
 
 layout(std430, binding = TILED_BIND_SPRITES) readonly buffer sprite_block
 {
-    vec4 sprites[]; /* TILED_SPRITE_ROWS each */
+    vec4 sprites[]; /* TILED_SPRITE_ROWS for each */
 };
 
 layout(std430, binding = TILED_BIND_FARTHEST) readonly buffer farthest_block

@@ -1,11 +1,12 @@
-/* What a billboard shows at a place: two adjacent cells of the atlas mixed (Heinz 2019, 3.2.4,
- * equation 3.2), lit or shining, faded where it nears the scene (3.2.6, equation 3.3). The bloom
- * target gets the same, weighted (3.2.5). Colours leave premultiplied.
- */
+/* Shades a place on a billboard. Two adjacent cells of the atlas are mixed (Heinz 2019, 3.2.4,
+ * equation 3.2), lit or emitting, and faded where the billboard comes near the scene (3.2.6,
+ * equation 3.3). The bloom target gets the same light, weighted (3.2.5). Colours are
+ * premultiplied. */
 layout(binding = 1) uniform sampler2DArray atlas;
 layout(binding = 3) uniform sampler2DArray atlas_motion;
 
-uniform float additive_alpha; /* 0: fire covers nothing (merged); 1: it does, or its alpha is summed */
+uniform float additive_alpha; /* 0: additive particles cover nothing; 1: they cover, or their alpha
+                               * is summed */
 
 #if SHAPES
 
@@ -14,7 +15,7 @@ bool is_plain(billboard quad)
     return uint(quad.depth.y) >= KILN_CELL_PLAIN;
 }
 
-/* The part of a pixel inside a disc or rectangle whose half edges are quad.cells.xy. */
+/* Returns the part of a pixel inside a disc or rectangle whose half edges are quad.cells.xy. */
 float coverage(billboard quad, vec2 uv)
 {
     if (uint(quad.depth.y) == KILN_CELL_DISC)
@@ -25,8 +26,9 @@ float coverage(billboard quad, vec2 uv)
 
 #endif
 
-/* Equation 3.3, clamped to a fade; or as it is printed, with the particle's distance for its depth and
- * without a bound, so that far from the scene only the bound of alpha itself remains. */
+/* Returns the factor of opacity near the scene: equation 3.3, clamped to a fade. If the look asks
+ * for the equation as it is printed, it takes the particle's distance for its depth and has no
+ * bound, so that far from the scene only the bound of alpha remains. */
 float soft_factor(billboard quad, float depth, float scene)
 {
     float visible = step(depth, scene);
@@ -38,8 +40,9 @@ float soft_factor(billboard quad, float depth, float scene)
     return clamp((scene - depth) * scale, 0.0, 1.0);
 }
 
-/* Between two cells of the flipbook. What is here on its way from the one to the other is found in
- * both by following the motion back and forth, so that edges move instead of fading over. */
+/* Returns the mix of two adjacent cells of a flipbook. A detail that moves from one cell to the
+ * next is found in both by following the motion back and forth, so that edges move instead of
+ * fading over. */
 vec4 cell_between(billboard quad, vec2 uv)
 {
     float part = quad.cells.z;
@@ -49,7 +52,8 @@ vec4 cell_between(billboard quad, vec2 uv)
     return mix(from, to, part);
 }
 
-/* At uv, where the billboard has a view depth and the scene another, m. */
+/* Shades the billboard at uv. depth, scene: view depths of the billboard and of the scene there,
+ * m. */
 void shade(billboard quad, vec2 uv, float depth, float scene, out vec4 color, out vec4 bloom)
 {
     vec4 cell = cell_between(quad, uv);
@@ -66,7 +70,7 @@ void shade(billboard quad, vec2 uv, float depth, float scene, out vec4 color, ou
         alpha = cell.a;
         rgb = mix(quad.cool.rgb, quad.hot.rgb, cell.z);
     } else {
-        cell *= cell; /* stored under a square root, which spends 8 bits better */
+        cell *= cell; /* cells store square roots of colours, which spends 8 bits better */
         alpha = cell.a;
         rgb = quad.hot.rgb;
     }
@@ -79,7 +83,8 @@ void shade(billboard quad, vec2 uv, float depth, float scene, out vec4 color, ou
     else
         rgb = cell.rgb * (rgb + covering);
 
-    float fade = min(quad.color.a * soft_factor(quad, depth, scene), 1.0 / max(alpha, 1e-6)); /* alpha up to 1 */
+    /* The bound keeps alpha at 1 or below. */
+    float fade = min(quad.color.a * soft_factor(quad, depth, scene), 1.0 / max(alpha, 1e-6));
     alpha *= fade;
     rgb *= fade;
     color = vec4(rgb, quad.hot.a > 0.0 ? additive_alpha * alpha : alpha);

@@ -1,12 +1,12 @@
-/* Declares the layout of sprites, and of the masks of tiles, for the kernels of technique `tiled`. A
- * sprite is a particle that is projected into the picture. Its texture coordinates are linear functions
- * of the pixel; where the particle is not parallel to the picture, the coordinates divided by the depth
- * are linear.
+/* Declares the layout of sprites, and of the masks of tiles, for the kernels of technique `tiled`.
+ * A sprite is a particle that is projected into the picture. Its texture coordinates are linear
+ * functions of the pixel; where the particle is not parallel to the picture, the coordinates
+ * divided by the depth are linear.
  *
  * particles_tiled_make.comp writes sprites, particles_tiled_mark.comp and particles_tiled.comp read
- * them, and the latter two share the masks. The host sizes the buffers by shared/tiled_layout.h: a row
- * more or less needs TILED_SPRITE_ROWS there, and fetch_quad and write in those kernels. The rows u, v
- * and q are those of place.glsl. */
+ * them, and the latter two share the masks. The host sizes the buffers by shared/tiled_layout.h. A
+ * change of the number of rows must be made in TILED_SPRITE_ROWS there, and in fetch_quad and write
+ * of the kernels. The rows u, v and q are those of place.glsl. */
 #include "shared/tiled_layout.h"
 
 #include "draw/sprites/billboard.glsl"
