@@ -1,11 +1,11 @@
-/* Declares the buffers and parameters of the kernels shaders/sim/crowd/interact_*.comp, which compute
- * what the particles of a system do to each other: collisions, gravity, flocking. Those kernels
- * include it first; interact_scan.comp and interact_bitonic.comp need one buffer each and declare it
- * themselves. lib/sim/crowd/interact_gl.c binds the buffers and runs the kernels.
+/* Declares the buffers and parameters of the kernels shaders/sim/crowd/interact_*.comp, which
+ * compute the interactions of the particles of a system: collisions, gravity, flocking. Those
+ * kernels include it first; interact_scan.comp and interact_bitonic.comp need one buffer each and
+ * declare it themselves. lib/sim/crowd/interact_gl.c binds the buffers and runs the kernels.
  *
  * A body is a living particle of the system, copied into order of cells. The functions in
  * shared/interact_*.h read these globals by the macros of shared/interact_layout.h, and the host's
- * loops run the same functions: so names here must stay those that the macros use. */
+ * loops run the same functions: so names in this file must stay those that the macros use. */
 #ifndef KILN_SIM_INTERACT_GLSL
 #define KILN_SIM_INTERACT_GLSL
 
@@ -41,17 +41,17 @@ layout(std430, binding = INTERACT_BIND_SECOND) buffer second_block
 
 layout(std430, binding = INTERACT_BIND_CELLS) buffer cell_block
 {
-    /* For each cell of the table: how many bodies it has (interact_count.comp), then where it begins
-     * (interact_scan.comp), then where it ends (interact_place.comp). Collisions in the staggered mode
-     * use only the last cell's word: how many bodies there are. interact_speeds.comp keeps its bounds
-     * in the first words, before the cells are filled. The word behind the cells is that of
-     * interact_find.comp with COUNTED. */
+    /* For each cell of the table: how many bodies it has (interact_count.comp), then where it
+     * begins (interact_scan.comp), then where it ends (interact_place.comp). Collisions in the
+     * staggered mode use only the last cell's word: how many bodies there are. interact_speeds.comp
+     * keeps its bounds in the first words, before the cells are filled. interact_find.comp with
+     * COUNTED uses the word behind the cells. */
     uint cell_ends[];
 };
 
 layout(std430, binding = INTERACT_BIND_PARTNERS) buffer partner_block
 {
-    uint partners[]; /* for each body, the one that it chose for this round; INTERACT_NOBODY: none */
+    uint partners[]; /* for each body, its partner in this round; INTERACT_NOBODY: none */
 };
 
 layout(std430, binding = INTERACT_BIND_ENTRIES) buffer entry_block

@@ -1,4 +1,5 @@
-/* Once a round: partners collide. Both compute it, each for itself. */
+/* Lets bodies collide that are each other's closest partners, once a round. Each of the two
+ * computes its own change, so no invocation writes another's body. */
 // variant:
 // variant: SPINS=1
 #include "sim/crowd/interact.glsl"

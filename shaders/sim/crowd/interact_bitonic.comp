@@ -1,5 +1,5 @@
-/* One pass of a bitonic merge sort over all entries, by cell and then by what is there, so that no
- * two are equal (UberFlow 2004, 4.3.2). */
+/* Runs one pass of a bitonic merge sort over the entries of the staggered mode (UberFlow 2004,
+ * 4.3.2). Entries are ordered by their cell and then by their slot or body, so no two are equal. */
 #include "shared/limits.h"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
@@ -10,8 +10,8 @@ layout(std430, binding = INTERACT_BIND_ENTRIES) buffer entry_block
 };
 
 layout(location = 0) uniform uint count;    /* a power of two */
-layout(location = 1) uniform uint run;      /* of which every other one descends */
-layout(location = 2) uniform uint distance; /* of what is compared */
+layout(location = 1) uniform uint run;      /* length of a run; every other run descends */
+layout(location = 2) uniform uint distance; /* between two entries that are compared */
 
 bool is_before(uvec4 a, uvec4 b)
 {

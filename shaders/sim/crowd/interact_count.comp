@@ -1,5 +1,7 @@
-/* First of the kernels that gather pushes: how many bodies each cell has; with STAGGERED, how many
- * there are, and their cells in the first grid; with FLOCK, others may have pushed before. A sum of integers is the same in any order. */
+/* Counts the bodies of each cell, and empties the pushes of the system. It is the first kernel of
+ * collisions and flocks. With STAGGERED, it counts the bodies of the system instead and writes
+ * their entries for the first grid. With FLOCK, it keeps pushes that other interactions have made.
+ * A sum of integers is the same in any order. */
 // variant:
 // variant: STAGGERED=1
 // variant: FLOCK=1
@@ -12,7 +14,7 @@ layout(local_size_x = SIM_GROUP_SIZE) in;
 void main()
 {
     uint slot = invocation();
-#ifdef STAGGERED /* there are as many entries as a power of two */
+#ifdef STAGGERED /* the number of entries is a power of two; those without a body sort last */
     if (slot < uint(entries.length()))
         entries[slot] = uvec4(INTERACT_NOBODY);
 #endif

@@ -1,6 +1,7 @@
-/* Once a round: each body's closest partner; with STAGGERED, as the paper finds it. With COUNTED,
- * where so many are around that software GL would not look at all of them, nobody finds any, and
- * the word behind all cells says how many there are. */
+/* Finds each body's closest partner, once a round; with STAGGERED, in two grids as the paper does
+ * (shared/interact_staggered.h). COUNTED is for software GL, which ends long loops early: bodies
+ * with more than COUNTED others around get no partner, and the word behind all cells gets the
+ * number of others, which lib/sim/crowd/interact_gl.c reports as an error. */
 // variant:
 // variant: STAGGERED=1
 // variant: COUNTED=65000u
@@ -14,8 +15,8 @@ layout(location = 0) uniform uint later; /* 1: not the first round */
 
 #ifdef COUNTED
 
-/* Of each of the nine rows of cells around a body, the most bodies that any of the group looks at:
- * loops run for as long as any of them. */
+/* For each of the nine rows of cells around a body, the most bodies that any invocation of the
+ * group looks at. The loops of all invocations run as long as the longest one. */
 shared uint row_most[9];
 
 uint count_around(uint self)

@@ -1,4 +1,5 @@
-/* Last of a flock's kernels: each looks around, and steers. */
+/* Steers the bodies of a flock: each looks at its neighbours, and its acceleration becomes its
+ * push. It is the last kernel of a flock. */
 #include "sim/crowd/interact.glsl"
 
 #include "shared/interact_flock.h"

@@ -1,5 +1,6 @@
-/* Averages of all bodies of a flock, by one work group: sums of integers, as a float each. The paper
- * takes them from the last level of mip-maps (Drone 2007, 7.4.4.2). */
+/* Averages places and velocities of all bodies of a flock in one work group. It sums integers, so
+ * that the order does not matter, and stores the means as floats. The paper takes them from the
+ * last level of mip-maps (Drone 2007, 7.4.4.2). */
 #include "sim/crowd/interact.glsl"
 
 #include "shared/interact_flock.h"

@@ -1,5 +1,6 @@
-/* Second: each adds up the pull of some, a tile of them at a time, which a work group shares. As many
- * dispatches as it takes for all, one after the other, add to the same sums. */
+/* Adds up the pull of a range of sources on each particle, a tile of them at a time, which a work
+ * group shares. It is the second kernel of gravity. Several dispatches, one for each range, add to
+ * the same sums, since llvmpipe ends long loops early; the last one turns the sums into pushes. */
 #include "sim/crowd/interact.glsl"
 
 #include "shared/interact_gravity.h"

@@ -1,5 +1,6 @@
-/* What follows from sorted entries: bodies in the order of the first grid, and their entries for the
- * second; with SECOND, the order of that one. */
+/* Copies bodies into the order of the sorted entries of the first grid, and writes their entries
+ * for the second grid. With SECOND, it writes the order of the second grid: the body at each place,
+ * and the place of each body. */
 // variant:
 // variant: SPINS=1
 // variant: SECOND=1

@@ -1,5 +1,6 @@
-/* Third: bodies in order of their cells; thereafter each cell's number is where its bodies end. Of
- * those in one cell, scheduling decides the order, and nothing asks for it. */
+/* Copies living particles into bodies in order of their cells, after interact_scan.comp. Afterwards
+ * the number of each cell is where its bodies end. The order of the bodies in one cell depends on
+ * scheduling, but no result depends on that order. */
 // variant:
 // variant: SPINS=1
 #include "sim/crowd/interact.glsl"

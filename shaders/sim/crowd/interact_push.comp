@@ -1,4 +1,5 @@
-/* Last: by how much a body is not what its particle was. */
+/* Writes the push of each particle: the difference between its body after all rounds and the
+ * particle itself. It is the last kernel of collisions. */
 // variant:
 // variant: SPINS=1
 #include "sim/crowd/interact.glsl"

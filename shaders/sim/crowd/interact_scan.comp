@@ -1,5 +1,6 @@
-/* Second: where the bodies of each cell begin, by one work group; four cells at a time, since
- * llvmpipe bounds how often loops run, and a table may have 2^24. */
+/* Finds where the bodies of each cell begin, by an exclusive scan of the counts in one work group.
+ * It is the second kernel of collisions and flocks. It takes four cells in an iteration, since
+ * llvmpipe limits how often loops run, and a table may have 2^24 cells. */
 #include "shared/limits.h"
 
 layout(local_size_x = INTERACT_SCAN_GROUP) in;
@@ -19,7 +20,7 @@ uint bodies_of(uint cell, uint last)
     return cell < last ? cells[cell] : 0u;
 }
 
-/* Returns where those of the next cell begin. */
+/* Writes where the bodies of a cell begin, and returns where those of the next cell begin. */
 uint begin_at(uint cell, uint last, uint before)
 {
     uint bodies = bodies_of(cell, last);

@@ -1,4 +1,5 @@
-/* First of gravity's kernels: where everybody is who pulls, and how strongly. */
+/* Writes place and strength of each slot as a source of gravity; an empty slot has strength 0. It
+ * is the first kernel of gravity. */
 #include "sim/crowd/interact.glsl"
 
 #include "shared/interact_gravity.h"

@@ -1,5 +1,6 @@
-/* Before pushes are gathered: the bounds of the velocities of a system's particles. Maxima of integers
- * are the same in any order. */
+/* Finds the bounds of the velocities of a system's particles, before collisions. From them the host
+ * computes how far ahead collisions are searched (lib/sim/crowd/interact.c). Maxima of integers are
+ * the same in any order. */
 #include "sim/crowd/interact.glsl"
 
 #include "shared/interact_speeds.h"

@@ -1,4 +1,5 @@
-/* Declares the globals that the shared step reads in GLSL. */
+/* Declares the blocks that shared/step.h reads as globals in GLSL, for the kernels of every
+ * technique. lib/sim/step/blocks.c binds them. */
 #ifndef KILN_SIM_STEP_BLOCKS_H
 #define KILN_SIM_STEP_BLOCKS_H
 

@@ -1,6 +1,7 @@
 /* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 9 to 13): moves one particle and
- * writes it to the stream, from which the dead are missing. What lies in a slot that this step is
- * born into is left to the emitters. Children are born here: each has a slot to itself. */
+ * writes it to the stream; dead particles are left out. A slot that a particle is born into in this
+ * step is skipped, since feedback_emit.geom writes it. With FAMILY, children are born in this
+ * shader, since each has a slot of its own. */
 // variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
@@ -40,7 +41,7 @@ void main()
     p.velocity_birth = vertices[0].velocity_birth;
 #ifdef FAMILY
     p = slot_after(slot, p);
-#else /* without the code of births, which would cost every particle */
+#else /* without births, whose code would slow down every particle */
     if (particle_is_alive(p))
         p = step_particle(p, push_of(slot));
 #endif

@@ -1,4 +1,5 @@
-/* What both geometry shaders of `feedback` read and write. */
+/* Declares the inputs and the stream of the geometry shaders of technique `feedback`: feedback.geom
+ * and feedback_emit.geom. */
 #ifndef KILN_SIM_FEEDBACK_GLSL
 #define KILN_SIM_FEEDBACK_GLSL
 
@@ -12,7 +13,7 @@ in vertex_block
 }
 vertices[];
 
-/* A record of the stream. */
+/* A record of the stream, which transform feedback captures. */
 out uvec4 stream_position_serial;
 out uvec4 stream_velocity_birth;
 

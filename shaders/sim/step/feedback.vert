@@ -1,5 +1,6 @@
-/* Technique `feedback`: a record goes on to the geometry shader as it is. In integers: this stage
- * may flush denormal floats. An emitter is a vertex as well; its record is of no account. */
+/* Technique `feedback`: passes a record to the geometry shader unchanged. Its words are integers,
+ * since this stage may flush denormal floats. For feedback_emit.geom a vertex is an emitter, whose
+ * record is not used. */
 layout(location = 0) in uvec4 position_serial;
 layout(location = 1) in uvec4 velocity_birth;
 

@@ -1,6 +1,7 @@
 /* Technique `feedback` (Heinz 2019, 3.3.3, algorithm 3.1, lines 3 to 8): an emitter writes new
- * particles. The thesis has one; since a geometry shader writes only so many vertices, here each
- * emitter spawns SIM_EMITTER_BIRTHS of the step's births, and there are as many as it takes. */
+ * particles. The thesis has one emitter. A geometry shader writes a limited number of vertices, so
+ * here each emitter spawns SIM_EMITTER_BIRTHS of the step's births, and the host draws as many
+ * emitters as that takes. */
 // variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1

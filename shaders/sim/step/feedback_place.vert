@@ -1,5 +1,5 @@
-/* Technique `feedback`: puts a particle of the stream back into its slot; all slots are empty. A
- * slot follows from the serial, so the order of the stream is of no account. */
+/* Technique `feedback`: writes a particle of the stream into its slot; all slots have been emptied.
+ * The slot follows from the serial, so the order of the stream does not matter. */
 #include "sim/step/blocks.h"
 
 #include "shared/particle.h"

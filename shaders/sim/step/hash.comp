@@ -1,6 +1,6 @@
-/* The state hash of one system and the number of its living particles, added to three sums; with
- * SPINS, that of how they turn. Integer
- * sums are the same in any order, so here atomics are harmless. */
+/* Adds the state hash of one system and the number of its living particles to three sums; with
+ * SPINS, it adds the hash of the system's spins alone. Sums of integers are the same in any order,
+ * so atomics do no harm. */
 // variant:
 // variant: SPINS=1
 #include "shared/limits.h"
@@ -20,9 +20,9 @@ layout(std430, binding = SIM_BIND_SUMS) buffer sum_block
 
 layout(location = 0) uniform uint system;
 layout(location = 1) uniform uint base; /* the system's first slot */
-layout(location = 2) uniform uint used; /* its slots that were ever born into */
+layout(location = 2) uniform uint used; /* the system's slots that have held a particle */
 #ifdef SPINS
-layout(location = 3) uniform uint first_spin; /* of its slots */
+layout(location = 3) uniform uint first_spin; /* index in `spins` of the system's first slot */
 
 layout(std430, binding = SIM_BIND_SPINS) readonly buffer spin_block
 {
@@ -46,7 +46,7 @@ void main()
         uint slot = first + i * SIM_GROUP_SIZE;
         if (slot < used) {
             kiln_particle p = records[base + slot];
-#ifdef SPINS /* its particles have been counted */
+#ifdef SPINS /* the program without SPINS counts the particles */
             state_hash_lanes lanes = state_hash_spin(system, p, spins[first_spin + slot]);
 #else
             state_hash_lanes lanes = state_hash_particle(system, p);

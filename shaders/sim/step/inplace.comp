@@ -1,6 +1,6 @@
-/* Technique `inplace` (Heinz 2019, algorithm 3.2): one buffer, each invocation steps its slot where
- * it lies. Unlike the thesis's, it finds no free slots by an atomic counter: the host says which
- * slots are born into, so the order never depends on scheduling. */
+/* Technique `inplace` (Heinz 2019, algorithm 3.2): each invocation steps its slot in place, in one
+ * buffer. The thesis finds free slots by an atomic counter. Here the host says which slots are born
+ * into, so the order does not depend on scheduling. */
 // variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1

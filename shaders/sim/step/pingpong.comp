@@ -1,6 +1,6 @@
 /* Technique `pingpong` (Heinz 2019, 3.3.4, the unoptimised compute shader): reads one buffer and
- * writes another. The thesis appends to the target by an atomic counter; here a slot's particle, or
- * its emptiness, goes to the same slot of the target, so that nothing depends on scheduling. */
+ * writes another. The thesis appends to the target by an atomic counter. Here a slot's particle, or
+ * an empty record, goes to the same slot of the target, so no result depends on scheduling. */
 // variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1

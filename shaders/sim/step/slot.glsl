@@ -1,6 +1,6 @@
-/* One slot's step, for kernels of every technique. With FAMILY, for systems that are related to
- * others: a child finds its birth in the trace that its parent has left in this step. Parents are
- * dispatched before their children. */
+/* Steps one slot, for kernels of every technique. FAMILY is for systems that are parents or
+ * children of others: a child finds its birth in the trace that its parent has left in this step.
+ * Parents are dispatched before their children. */
 #ifndef KILN_SIM_SLOT_GLSL
 #define KILN_SIM_SLOT_GLSL
 

@@ -25,7 +25,8 @@
 // variant: SWEEP_ALL=1
 // variant: SWEEP_ALL=1 FORCES_ALL=1 GRIDS=1 FAMILY=1 COLLIDE_ROUND=1 PUSHES=1
 
-/* llvmpipe's compiler needs minutes for as many loops as there are values in a fragment shader. */
+/* Values are evaluated without loops: with a loop for each value of a fragment shader, llvmpipe's
+ * compiler needs minutes. */
 #define VALUE_UNROLLED 1
 
 #include "sim/step/slot.glsl"
@@ -42,7 +43,7 @@ void main()
     uint index = uint(at.y) * uint(SIM_TEXEL_ROW) + uint(at.x);
     uint slot = index - step_params.base;
     if (index < step_params.base || slot >= step_params.used)
-        discard; /* of another system, which has its own pass */
+        discard; /* the slot belongs to another system, which has its own pass */
     kiln_particle old;
     old.position_serial = texelFetch(positions, at, 0);
     old.velocity_birth = texelFetch(velocities, at, 0);

@@ -1,4 +1,4 @@
-/* Where a slot of the pool lies in textures. */
+/* Finds the texel of a slot of the pool, for technique `texels`. */
 #ifndef KILN_SIM_TEXELS_GLSL
 #define KILN_SIM_TEXELS_GLSL
 

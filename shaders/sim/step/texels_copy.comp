@@ -1,4 +1,5 @@
-/* Technique `texels`: all slots from textures to the records, or back. */
+/* Technique `texels`: copies all slots from the textures to the records; with FROM_RECORDS, from
+ * the records to the textures. */
 // variant:
 // variant: FROM_RECORDS=1
 #include "shared/particle.h"
