@@ -1,10 +1,10 @@
-/* One pass of a bitonic sort over a field of pairs in rows, as fragment shaders did it (UberFlow,
- * 4.3.3 and table 1): each element looks at its partner and becomes the lesser or the greater of the
- * two. Which is the partner, and which to take, is
- *   - COMPUTED here from the number of the pass (the paper's FP),
+/* Runs one pass of a bitonic sort over a field of pairs in rows, as fragment shaders did it
+ * (UberFlow, 4.3.3 and table 1): each element becomes the lesser or the greater of itself and its
+ * partner. The choice of the partner, and of the lesser or the greater, is
+ *   - COMPUTED in this shader from the number of the pass (the paper's FP),
  *   - PASSED in: it is the same all along a column, or all along a row, so a table has a word for
- *     each (GP/FP; there, vertices of quads held it), or
- *   - passed in for elements that are PACKED of two pairs (GP/FP Packed). */
+ *     each column and row (in the paper's GP/FP, vertices of quads held these), or
+ *   - PASSED in for elements that are PACKED of two pairs (GP/FP Packed). */
 // variant: COMPUTED=1
 // variant: PASSED=1
 // variant: PASSED=1 PACKED=1
@@ -38,8 +38,9 @@ layout(location = 1) uniform uint pass;
 layout(location = 2) uniform uint sorted; /* pairs that are sorted together; a power of two */
 #else
 layout(location = 1) uniform uint distance;
-layout(location = 2) uniform uint width;      /* of a row */
-layout(location = 3) uniform uint first_word; /* of the pass: of its columns, then its rows */
+layout(location = 2) uniform uint width;      /* pairs of a row */
+layout(location = 3) uniform uint first_word; /* index in `words` of the pass's words: its columns,
+                                               * then its rows */
 
 layout(std430, binding = SORT_BIND_COUNTS) readonly buffer table_block
 {

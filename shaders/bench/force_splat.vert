@@ -1,5 +1,5 @@
-/* Quads over the whole of the force texture, one for each body that pulls; each knows which (Drone
- * 2007, 7.4.2). */
+/* Makes a quad over the whole force texture for each body that pulls, and passes on the body's
+ * number (Drone 2007, 7.4.2). */
 flat out uint number;
 
 void main()

@@ -1,4 +1,4 @@
-/* One triangle that covers the target; no buffers. */
+/* Makes one triangle that covers the target, from three vertices without attributes. */
 void main()
 {
     vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));

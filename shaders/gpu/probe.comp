@@ -1,4 +1,5 @@
-/* The exactness probe: the shared arithmetic on vectors of bits; lib/gpu/probe.c compares with C. */
+/* Runs the exactness probe in the compute stage: the shared arithmetic on vectors of bits.
+ * lib/gpu/probe.c compares the results with C. */
 #include "shared/probe.h"
 
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
-/* As probe.comp, in the fragment stage: vectors are texels, and the results leave as the texels of
- * eight targets. */
+/* Runs the exactness probe in the fragment stage: vectors are texels, and the results are written
+ * as the texels of eight targets. lib/gpu/probe.c compares them with C. */
 #include "shared/probe.h"
 
 layout(binding = 0) uniform usampler2D vectors;

@@ -1,4 +1,5 @@
-/* As probe.comp, in the geometry stage: the results leave by transform feedback. */
+/* Runs the exactness probe in the geometry stage: transform feedback captures the results, and
+ * lib/gpu/probe.c compares them with C. */
 layout(points) in;
 layout(points, max_vertices = 1) out;
 
@@ -10,7 +11,7 @@ in vertex_block
 }
 vertices[];
 
-/* As in struct probe_result; the host names them in this order. */
+/* The members of struct probe_result; lib/gpu/probe.c captures them in this order. */
 out uvec4 sums;
 out uvec4 orders;
 out uvec4 roots;

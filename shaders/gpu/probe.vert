@@ -1,4 +1,4 @@
-/* A vector for probe.geom. */
+/* Passes a vector of bits to probe.geom unchanged. */
 layout(location = 0) in uvec4 bits;
 
 out vertex_block

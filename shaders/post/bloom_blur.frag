@@ -1,7 +1,7 @@
-/* One direction of the separable Gaussian: 11 taps, sigma 2 (Heinz 2019, 3.2.5). */
+/* Blurs in one direction of a separable Gaussian: 11 taps, sigma 2 (Heinz 2019, 3.2.5). */
 layout(binding = 0) uniform sampler2D source;
 uniform ivec2 direction;
-uniform float weights[6]; /* centre outwards; all eleven sum to 1 */
+uniform float weights[6]; /* from the centre outwards; the eleven taps sum to 1 */
 
 layout(location = 0) out vec4 out_color;
 

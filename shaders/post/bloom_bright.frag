@@ -1,5 +1,6 @@
-/* The bright-pass filter (Heinz 2019, 2.1.5): of each pixel, what its strongest channel has beyond the
- * threshold. The colour stays, so that a bright red glows red. */
+/* Applies the bright-pass filter (Heinz 2019, 2.1.5): keeps the part of a pixel by which its
+ * strongest channel exceeds the threshold. The ratio of the channels stays, so that a bright red
+ * glows red. */
 #include "post/compose.glsl"
 
 uniform float exposure;  /* factor */

@@ -1,5 +1,6 @@
-/* Halves a picture by the tent of weights 1 3 3 1 in each direction, which overlaps the neighbours':
- * a spark that crosses from one pixel to the next does not jump. Infinities: see bloom_shrink.frag. */
+/* Halves a picture by a tent filter of weights 1 3 3 1 in each direction. The tents of neighbouring
+ * pixels overlap, so a spark that crosses from one pixel to the next does not jump. Infinities
+ * count as the largest half float, as in bloom_shrink.frag. */
 layout(binding = 0) uniform sampler2D source;
 
 layout(location = 0) out vec4 out_color;

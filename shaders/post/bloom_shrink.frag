@@ -1,5 +1,6 @@
-/* Averages blocks of pixels: nothing is skipped, so that sparks do not flicker in the bloom. A sum in
- * 16 bits that overflowed to infinity must not spread: it counts as the largest half. */
+/* Averages blocks of pixels. It skips no pixel, so that sparks do not flicker in the bloom. A sum
+ * in 16 bits that overflowed to infinity counts as the largest half float, so that it does not
+ * spread. */
 layout(binding = 0) uniform sampler2D source;
 uniform int factor;
 

@@ -1,11 +1,13 @@
-/* A level of the pyramid and what lies below it, which is doubled by the quadratic B-spline. */
+/* Mixes a level of the pyramid with the levels below it, which have been joined at half the size
+ * and are doubled by the quadratic B-spline. */
 layout(binding = 0) uniform sampler2D level;
 layout(binding = 1) uniform sampler2D below;
-uniform float radius; /* 0: this level alone, 1: what lies below alone */
+uniform float radius; /* 0: this level alone; 1: the levels below it alone */
 
 layout(location = 0) out vec4 out_color;
 
-/* The spline's weights a quarter of a texel to the left or to the right of a texel's centre. */
+/* Returns the spline's weights of three texels in a row, at a quarter of a texel to the left (odd
+ * is 0) or to the right (1) of the middle one's centre. */
 vec3 spline_weights(int odd)
 {
     return odd == 0 ? vec3(0.28125, 0.6875, 0.03125) : vec3(0.03125, 0.6875, 0.28125);

@@ -1,10 +1,11 @@
-/* Scene, particles and fire as one picture of light (Heinz 2019, figure 3.1). */
+/* Blends scene, particles and fire into one picture of light (Heinz 2019, figure 3.1). */
 layout(binding = 0) uniform sampler2D scene;
-layout(binding = 1) uniform sampler2D particles; /* premultiplied: all (merged), or smoke */
+layout(binding = 1) uniform sampler2D particles; /* premultiplied: all particles, or smoke alone
+                                                  * (separate) */
 layout(binding = 2) uniform sampler2D fire;      /* premultiplied, alpha summed (separate) */
 
 uniform bool separate_fire;
-uniform bool scene_alone; /* which holds the particles already: the sum of a shutter */
+uniform bool scene_alone; /* the scene is a sum of the shutter, which has the particles already */
 
 vec4 composed(ivec2 pixel)
 {

@@ -1,17 +1,17 @@
-/* Scene, particles, fire and blurred bloom become one picture (Heinz 2019, figure 3.1, last step),
- * then exposure, tone map, sRGB and dither. */
+/* Blends scene, particles, fire and blurred bloom into one picture (Heinz 2019, figure 3.1, last
+ * step), then applies exposure, tone map, sRGB and dither. */
 #include "post/compose.glsl"
 #include "shared/tonemap.h"
 
-layout(binding = 3) uniform sampler2D bloom; /* smaller */
+layout(binding = 3) uniform sampler2D bloom; /* smaller than the picture */
 
 const float HALF_MAX = 65504.0;
 
 uniform float bloom_strength;
-uniform float bloom_scale; /* its size in parts of the picture's */
+uniform float bloom_scale; /* the bloom's size as a part of the picture's */
 uniform float exposure; /* factor */
 uniform int tonemap;    /* 0 none, 1 AgX, 2 ACES: enum kiln_tonemap */
-uniform float levels;   /* of an output channel, 255 or 65535 */
+uniform float levels;   /* largest value of an output channel, 255 or 65535 */
 uniform bool dither;
 uniform uint frame;
 
@@ -28,7 +28,8 @@ uint hash(uint x)
     return x;
 }
 
-/* Triangular noise of one level, different for each pixel, channel and frame, the same in each run. */
+/* Returns triangular noise of one level. It differs for each pixel, channel and frame, and is the
+ * same in each run. */
 vec3 dither_noise()
 {
     uvec2 p = uvec2(gl_FragCoord.xy);
@@ -41,9 +42,9 @@ vec3 dither_noise()
     return noise;
 }
 
-/* Along one axis, the cubic B-spline of four neighbours as two linear fetches: where to fetch (texels
- * from the second neighbour's centre) and with which weights (Sigg and Hadwiger, "Fast Third-Order
- * Texture Filtering", GPU Gems 2, 2005). */
+/* Describes the cubic B-spline of four neighbours along one axis as two linear fetches: where to
+ * fetch (texels from the second neighbour's centre) and with which weights (Sigg and Hadwiger,
+ * "Fast Third-Order Texture Filtering", GPU Gems 2, 2005). */
 struct spline {
     vec2 offsets, weights;
 };
@@ -57,7 +58,8 @@ spline spline_at(float t)
     return spline(vec2(w.y, w.w) / pairs + vec2(-1.0, 1.0), pairs);
 }
 
-/* Bilinear magnification would show a bloom of a sixth of the size as diamonds. */
+/* Returns the bloom, magnified by a cubic B-spline. Bilinear magnification would show a bloom of a
+ * sixth of the size as diamonds. */
 vec3 magnified_bloom()
 {
     vec2 texel = gl_FragCoord.xy * bloom_scale - 0.5;
@@ -83,7 +85,8 @@ void main()
         color.rgb += bloom_strength * magnified_bloom();
     out_beauty = color;
 
-    /* White long before the upper limit; beyond it, a tone map's squares overflow. */
+    /* Light is shown as white long before this limit. Beyond it, the squares in a tone map
+     * overflow. */
     vec3 display = clamp(color.rgb * exposure, 0.0, HALF_MAX);
     if (tonemap == 1) {
         vec3 root = min(tonemap_agx_root(display), vec3(1.0));
@@ -94,8 +97,8 @@ void main()
         display = vec3(tonemap_encode(light.x), tonemap_encode(light.y), tonemap_encode(light.z));
     }
 
-    /* A file's alpha is not premultiplied. Light without cover (fire on nothing) has no such form:
-     * its brightness becomes its cover, so that it still shows over black. */
+    /* The colours of a file are not premultiplied. Light without alpha (fire over nothing) cannot
+     * be stored so, so its brightness becomes its alpha, and it still shows over black. */
     float alpha = clamp(max(color.a, max(max(display.r, display.g), display.b)), 0.0, 1.0);
     if (color.a < 1.0)
         display = alpha > 0.0 ? min(display / alpha, vec3(1.0)) : vec3(0.0);

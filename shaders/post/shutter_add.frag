@@ -1,4 +1,5 @@
-/* Adds a moment's image to its sum over a frame. */
+/* Weights a moment's image; blending adds it to the image's sum over a frame
+ * (lib/post/shutter_gl.c). */
 layout(binding = 0) uniform sampler2D source;
 
 uniform float weight;

@@ -1,4 +1,5 @@
-/* Adds a moment's picture of light to the sum of a frame. */
+/* Composes and weights a moment's picture of light; blending adds it to the sum of a frame
+ * (lib/post/shutter_gl.c). */
 #include "post/compose.glsl"
 
 uniform float weight;

@@ -1,5 +1,6 @@
-/* The slots of one system in the order of serials, or all in the order that is kept: each invocation
- * takes a stretch of them. */
+/* Finds the living particles in the slots of one system, in order of serials, or with KEPT in all
+ * slots of the pool, in the order that is kept between frames. Each invocation takes a stretch of
+ * SORT_ITEMS slots. alive_count.comp and alive_list.comp include it. */
 #ifndef KILN_SORT_ALIVE_GLSL
 #define KILN_SORT_ALIVE_GLSL
 
@@ -13,7 +14,8 @@ layout(std430, binding = SORT_BIND_RECORDS) readonly buffer record_block
 
 layout(std430, binding = SORT_BIND_COUNTS) buffer count_block
 {
-    uint counts[]; /* of the living in each block of all systems */
+    uint counts[]; /* living particles in each block of slots, then their sums over the blocks
+                    * before */
 };
 
 #ifdef KEPT /* all slots, in the order that is kept between frames */
@@ -22,7 +24,7 @@ layout(std430, binding = SORT_BIND_COUNTS) buffer count_block
 
 layout(location = 3) uniform uint used; /* slots of the pool */
 layout(location = 4) uniform uint chosen; /* bit i: system i takes part */
-layout(location = 5) uniform uint reverse; /* not 0: from the end of the order */
+layout(location = 5) uniform uint reverse; /* not 0: the order is read from its end */
 
 const uint first_block = 0u;
 
@@ -41,11 +43,11 @@ uint system_of(uint slot)
 layout(location = 0) uniform uint base; /* the system's first slot */
 layout(location = 1) uniform uint capacity;
 layout(location = 2) uniform uint oldest;      /* slot of the oldest serial, from base */
-layout(location = 3) uniform uint used;        /* slots that were ever born into */
-layout(location = 4) uniform uint first_block; /* in counts */
+layout(location = 3) uniform uint used;        /* slots that have held a particle */
+layout(location = 4) uniform uint first_block; /* index of the first block in `counts` */
 layout(location = 5) uniform uint system;
 
-/* Of the serial that is the i-th oldest. */
+/* Returns the slot of the i-th oldest serial. */
 uint slot_of(uint i)
 {
     uint slot = oldest + i;
@@ -73,7 +75,8 @@ uint stretch_begin()
     return group_index() * SORT_BLOCK + gl_LocalInvocationID.x * SORT_ITEMS;
 }
 
-/* Bit k: the k-th of the stretch lives, and is wanted. */
+/* Returns a bit for each slot of the stretch: bit k is set if slot k has a living particle of a
+ * chosen system. */
 uint living_of_stretch()
 {
     uint first = stretch_begin();

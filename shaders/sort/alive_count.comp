@@ -1,4 +1,4 @@
-/* How many particles live in each block of a system. */
+/* Counts the living particles in each block of a system's slots, or with KEPT of all slots. */
 // variant:
 // variant: KEPT=1
 #include "sort/alive.glsl"

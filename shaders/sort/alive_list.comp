@@ -1,5 +1,6 @@
-/* The entries of the living of a system, in order, after those of the blocks before: alone, or as
- * pairs of their depth's key and either the entry or its place in the list. */
+/* Writes the draw entries of the living particles of a system, or with KEPT of all systems, in
+ * order, behind those of the blocks before. PAIRED writes pairs of a key by depth and the entry
+ * instead. NUMBERED writes the entries, and pairs of the key and the entry's place in the list. */
 // variant:
 // variant: PAIRED=1
 // variant: NUMBERED=1

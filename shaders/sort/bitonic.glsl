@@ -1,11 +1,13 @@
-/* An invocation takes several pairs into registers and does the comparisons of several passes among
- * them, which saves most of the traffic with memory that a pass for each distance has. */
+/* Orders eight pairs that an invocation has in registers, for several passes of a bitonic sort.
+ * This saves most of the memory traffic of a sort that runs a pass over memory for each
+ * distance. */
 #ifndef KILN_SORT_BITONIC_GLSL
 #define KILN_SORT_BITONIC_GLSL
 
 #include "sort/network.glsl"
 
-/* Passes over the distances 4, 2 and 1 times the spacing of eight pairs. */
+/* order_far, order_middle and order_near compare pairs over distances of 4, 2 and 1 times the
+ * spacing of the eight. */
 void order_far(inout uvec2 p[8], bool descending)
 {
     for (uint i = 0u; i < 4u; i++)

@@ -1,6 +1,8 @@
-/* Bitonic sort (Heinz 2019, 2.4.1) of a block in shared memory: all comparisons over distances
- * shorter than it, for bunches of some sizes. Each invocation has eight pairs at a time, for three
- * passes; where fewer are left, it repeats some that are done, which changes nothing. */
+/* Runs the passes of a bitonic sort (Heinz 2019, 2.4.1) whose comparisons stay within a block, in
+ * shared memory. With FROM_START it sorts the block by merging bunches of 2 pairs and more;
+ * otherwise it does the last passes of a larger bunch. Each invocation orders eight pairs at a
+ * time, for three passes. Where fewer passes are left, it repeats some that are done, which changes
+ * nothing. */
 // variant:
 // variant: FROM_START=1
 // variant: FROM_START=1 NETWORK_GROUP_SIZE=512
@@ -9,7 +11,7 @@
 layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
 layout(location = 0) uniform uint count; /* a power of two */
-layout(location = 1) uniform uint size;  /* of a bunch: all of it orders the same way */
+layout(location = 1) uniform uint size;  /* pairs of a bunch, which is ordered in one direction */
 
 shared uvec2 block[NETWORK_BLOCK];
 
@@ -28,7 +30,8 @@ void passes(uint first, uint bunch, uint spacing)
     barrier();
 }
 
-/* All distances from half a bunch, or half the block, down to 1. */
+/* Merges bunches in the block, over all distances from half a bunch, or half the block, down to
+ * 1. */
 void merge(uint first, uint bunch)
 {
     uint spacing = min(bunch, NETWORK_BLOCK) / 8u;
@@ -37,7 +40,7 @@ void merge(uint first, uint bunch)
     passes(first, bunch, 1u);
 }
 
-/* Bunches of 2, 4 and 8. */
+/* Sorts bunches of 2, then 4, then 8 pairs. */
 void sort_eight(uint first)
 {
     uint at = gl_LocalInvocationID.x * 8u;

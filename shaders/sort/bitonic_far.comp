@@ -1,4 +1,5 @@
-/* LEVELS passes of comparisons over distances that span blocks. */
+/* Runs LEVELS passes of a bitonic sort, over distances that span blocks. An invocation has 2^LEVELS
+ * pairs in registers. */
 // variant: LEVELS=1
 // variant: LEVELS=2
 // variant: LEVELS=3
@@ -10,7 +11,7 @@ layout(local_size_x = NETWORK_GROUP_SIZE) in;
 #define HELD (1u << LEVELS)
 
 layout(location = 0) uniform uint count;   /* a power of two */
-layout(location = 1) uniform uint size;    /* of a bunch */
+layout(location = 1) uniform uint size;    /* pairs of a bunch, ordered in one direction */
 layout(location = 2) uniform uint spacing; /* the least distance of these passes */
 
 void main()

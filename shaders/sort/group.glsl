@@ -1,4 +1,5 @@
-/* The sum of all earlier invocations of the work group. */
+/* Sums the values of earlier invocations in work groups of SORT_GROUP_SIZE
+ * (shared/group_sum.glsl). */
 #ifndef KILN_SORT_GROUP_GLSL
 #define KILN_SORT_GROUP_GLSL
 

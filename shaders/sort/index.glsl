@@ -1,4 +1,5 @@
-/* Which work group this is of a dispatch in two dimensions: one axis takes only 65535. */
+/* Finds the number of the work group. Dispatches have two dimensions, since one takes only 65535
+ * work groups. */
 #ifndef KILN_SORT_INDEX_GLSL
 #define KILN_SORT_INDEX_GLSL
 

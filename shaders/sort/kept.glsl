@@ -1,5 +1,6 @@
-/* An order of all slots that lasts from frame to frame: pairs of a key and, between frames, a slot;
- * while they are sorted, its rank, which is its place by (system, serial) among all slots. */
+/* Declares an order of all slots that is kept from frame to frame (lib/sort/kept.c), as pairs of a
+ * key and a slot. While they are sorted, the slot is replaced by its rank: the place of its
+ * (system, serial) among all slots. */
 #ifndef KILN_SORT_KEPT_GLSL
 #define KILN_SORT_KEPT_GLSL
 
@@ -9,7 +10,7 @@
 layout(location = 8) uniform uint kept_system_count;
 layout(location = 9) uniform uvec3 kept_systems[KILN_MAX_SYSTEMS]; /* base, capacity, oldest */
 
-/* Of a slot, or of a rank. */
+/* Returns the system of a slot, or of a rank. */
 uint kept_system_of(uint slot)
 {
     uint system = 0u;

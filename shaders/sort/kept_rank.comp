@@ -1,6 +1,6 @@
-/* Before a sort: slots of the kept order become keys and ranks. Slots without a particle come last,
- * wherever they were: so a birth enters the order from its end, and nothing is lost or listed twice.
- */
+/* Turns the slots of the kept order into keys and ranks before a sort. Slots without a particle get
+ * the last key, wherever they were. So a new particle enters the order from its end, and no slot is
+ * lost or listed twice. */
 #include "shared/keys.h"
 #include "sort/kept.glsl"
 
@@ -11,14 +11,14 @@ layout(std430, binding = SORT_BIND_RECORDS) readonly buffer record_block
     kiln_particle records[];
 };
 
-layout(location = 0) uniform uint slots; /* of the pool; what follows is padding */
+layout(location = 0) uniform uint slots; /* slots of the pool; pairs behind them are padding */
 layout(location = 6) uniform vec3 eye;     /* m */
 layout(location = 7) uniform vec3 forward; /* unit length */
 
 void main()
 {
     uint i = group_index() * SORT_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (i >= slots) /* nothing sorts padding to another place */
+    if (i >= slots) /* padding keeps its place in the sort */
         return;
     uint slot = pairs[i].y;
     uvec3 system = kept_systems[kept_system_of(slot)];

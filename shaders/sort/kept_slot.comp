@@ -1,4 +1,5 @@
-/* After a sort: ranks become slots again, which mean the same after the next births. */
+/* Turns the ranks of the kept order back into slots after a sort. A slot means the same after the
+ * next births; a rank does not. */
 #include "sort/kept.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;

@@ -1,5 +1,5 @@
-/* What sorting networks compare. Pairs are all different, since no two have the same place in the
- * list that is sorted: so the order is that of a stable sort. */
+/* Declares the pairs that sorting networks order, and compares them. No two pairs are equal, since
+ * no two have the same place in the list that is sorted; so the order is that of a stable sort. */
 #ifndef KILN_SORT_NETWORK_GLSL
 #define KILN_SORT_NETWORK_GLSL
 
@@ -24,7 +24,8 @@ void order(inout uvec2 a, inout uvec2 b, bool descending)
     a = first;
 }
 
-/* Index of the first of 2^levels pairs at the given spacing, a power of two, for invocation i. */
+/* Returns the index of the first of 2^levels pairs at the given spacing, a power of two, for
+ * invocation i. */
 uint first_of(uint i, uint spacing, uint levels)
 {
     return ((i & ~(spacing - 1u)) << levels) + (i & (spacing - 1u));

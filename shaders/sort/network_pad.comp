@@ -3,7 +3,7 @@
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 
-layout(location = 0) uniform uint count; /* of the list */
+layout(location = 0) uniform uint count; /* pairs of the list */
 layout(location = 1) uniform uint padded;
 
 void main()

@@ -1,4 +1,4 @@
-/* The entries, in the order of their pairs. */
+/* Writes the entries of a list in the order of their sorted pairs. */
 #include "sort/network.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
@@ -14,7 +14,7 @@ layout(std430, binding = SORT_BIND_ENTRIES) writeonly buffer entry_block
 };
 
 layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint reverse; /* not 0: from the end */
+layout(location = 1) uniform uint reverse; /* not 0: the pairs are read from their end */
 
 void main()
 {

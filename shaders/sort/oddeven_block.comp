@@ -1,4 +1,4 @@
-/* Passes of the odd-even merge sort that merge no more than a block, in shared memory. */
+/* Runs the passes of the odd-even merge sort whose merges stay within a block, in shared memory. */
 // variant:
 // variant: NETWORK_GROUP_SIZE=512
 #include "sort/oddeven.glsl"
@@ -6,7 +6,7 @@
 layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
 layout(location = 0) uniform uint count;      /* a power of two */
-layout(location = 1) uniform uint first_pass; /* by number */
+layout(location = 1) uniform uint first_pass; /* number of a pass, as in oddeven.glsl */
 layout(location = 2) uniform uint end_pass;
 
 shared uvec2 block[NETWORK_BLOCK];

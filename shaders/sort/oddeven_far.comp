@@ -1,4 +1,4 @@
-/* One pass of the odd-even merge sort. */
+/* Runs one pass of the odd-even merge sort over the whole buffer of pairs. */
 #include "sort/oddeven.glsl"
 
 layout(local_size_x = NETWORK_GROUP_SIZE) in;

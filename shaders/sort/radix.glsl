@@ -1,6 +1,7 @@
-/* One digit of a tile of pairs: every invocation owns a stretch of the tile, and a column of
- * counters, one a digit, so that nothing is counted by two. The host says RADIX_BITS of a digit,
- * RADIX_GROUP_SIZE and RADIX_ITEMS of each invocation. */
+/* Counts one digit of the keys in a tile of pairs. Every invocation owns a stretch of the tile and
+ * a column of counters, one for each digit, so no two invocations change one counter. The host
+ * defines RADIX_BITS of a digit, RADIX_GROUP_SIZE invocations of a tile and RADIX_ITEMS pairs of
+ * each. */
 #ifndef KILN_SORT_RADIX_GLSL
 #define KILN_SORT_RADIX_GLSL
 
@@ -21,10 +22,11 @@ layout(std430, binding = SORT_BIND_COUNTS) buffer count_block
 };
 
 layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint shift; /* of the digit */
+layout(location = 1) uniform uint shift; /* lowest bit of the digit in a key */
 layout(location = 2) uniform uint tiles;
 
-/* One longer than a row needs, so that invocations that walk along rows meet no common bank. */
+/* A row has one word more than it needs, so that invocations that walk along rows access different
+ * banks of shared memory. */
 #define ROW uint(RADIX_GROUP_SIZE + 1)
 shared uint columns[RADIX_DIGITS * ROW];
 
@@ -33,7 +35,7 @@ uint stretch_begin()
     return group_index() * RADIX_TILE + gl_LocalInvocationID.x * RADIX_ITEMS;
 }
 
-/* Index of this invocation's counter for a key. */
+/* Returns the index of this invocation's counter for the digit of a key. */
 uint counter_of(uint key)
 {
     return (key >> shift & (RADIX_DIGITS - 1u)) * ROW + gl_LocalInvocationID.x;

@@ -1,4 +1,4 @@
-/* How often each digit occurs in each tile. */
+/* Counts how often each digit occurs in each tile. */
 // variant: RADIX_BITS=8 RADIX_GROUP_SIZE=16 RADIX_ITEMS=256
 // variant: RADIX_BITS=6 RADIX_GROUP_SIZE=64 RADIX_ITEMS=32
 #include "sort/radix.glsl"

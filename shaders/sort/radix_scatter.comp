@@ -1,5 +1,5 @@
-/* Moves the pairs of a tile to where the counts, now scanned, say; equal digits keep their order.
- * The last pass leaves only what the keys belong to. */
+/* Moves the pairs of a tile to the places that the scanned counts give. Pairs with equal digits
+ * keep their order. The last pass writes only the entries of the pairs. */
 // variant: RADIX_BITS=8 RADIX_GROUP_SIZE=16 RADIX_ITEMS=256
 // variant: RADIX_BITS=6 RADIX_GROUP_SIZE=64 RADIX_ITEMS=32
 // variant: RADIX_BITS=8 RADIX_GROUP_SIZE=16 RADIX_ITEMS=256 LAST=1
@@ -14,7 +14,7 @@ layout(std430, binding = SORT_BIND_ENTRIES) writeonly buffer entry_block
     uint entries[];
 };
 
-layout(location = 3) uniform uint reverse; /* not 0: the list starts at its end */
+layout(location = 3) uniform uint reverse; /* not 0: the list is written from its end */
 #else
 layout(std430, binding = SORT_BIND_PAIRS_OUT) writeonly buffer pair_out_block
 {

@@ -1,4 +1,5 @@
-/* Exclusive scan, third of three: each block from the sum of those before it. */
+/* Runs the third of three kernels of an exclusive scan: scans each block, starting with the sum of
+ * the blocks before it. */
 #include "sort/group.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;

@@ -1,5 +1,6 @@
-/* Exclusive scan, first of three: the sum of each block. No work group waits for another: there is
- * no promise that others make progress meanwhile. */
+/* Runs the first of three kernels of an exclusive scan: sums each block. The scan takes three
+ * kernels, since a work group must not wait for another: GL does not promise that the other makes
+ * progress meanwhile. */
 #include "sort/group.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;

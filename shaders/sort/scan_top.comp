@@ -1,5 +1,5 @@
-/* Exclusive scan, second of three: all sums, by one work group; and their total. It also scans
- * alone what is no longer than a block. */
+/* Runs the second of three kernels of an exclusive scan: scans the sums of all blocks in one work
+ * group, and writes their total. A list that is no longer than a block needs this kernel alone. */
 #include "sort/group.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
