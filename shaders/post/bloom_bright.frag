@@ -4,7 +4,7 @@
 #include "post/compose.glsl"
 
 uniform float exposure;  /* factor */
-uniform float threshold; /* of exposed light */
+uniform float threshold; /* in units of exposed light */
 
 layout(location = 0) out vec4 out_color;
 

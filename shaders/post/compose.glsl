@@ -2,7 +2,7 @@
 layout(binding = 0) uniform sampler2D scene;
 layout(binding = 1) uniform sampler2D particles; /* premultiplied: all particles, or smoke alone
                                                   * (separate) */
-layout(binding = 2) uniform sampler2D fire;      /* premultiplied, alpha summed (separate) */
+layout(binding = 2) uniform sampler2D fire;      /* premultiplied, alpha summed; for separate_fire */
 
 uniform bool separate_fire;
 uniform bool scene_alone; /* the scene is a sum of the shutter, which has the particles already */

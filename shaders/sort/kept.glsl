@@ -8,7 +8,8 @@
 #include "sort/network.glsl"
 
 layout(location = 8) uniform uint kept_system_count;
-layout(location = 9) uniform uvec3 kept_systems[KILN_MAX_SYSTEMS]; /* base, capacity, oldest */
+/* For each system: its first slot, its capacity, and its oldest serial's slot from the first. */
+layout(location = 9) uniform uvec3 kept_systems[KILN_MAX_SYSTEMS];
 
 /* Returns the system of a slot, or of a rank. */
 uint kept_system_of(uint slot)

@@ -16,9 +16,9 @@ layout(std430, binding = KILN_BIND_RECORDS) readonly buffer record_block { kiln_
 layout(std430, binding = KILN_BIND_ENTRIES) readonly buffer entry_block { uint entries[]; };
 layout(binding = 0) uniform sampler2D look_table; /* rows KILN_LOOK_* of each system */
 
-/* Returns a row of the system's table (KILN_LOOK_*) at a part of life, 0 at birth and 1 at death. It
- * interpolates between two samples as the host does (kiln_look_place_at); a sampler's filter may be
- * less precise. */
+/* Returns a row of the system's table (KILN_LOOK_*) at a part of life, 0 at birth and 1 at death.
+ * It interpolates between two samples as the host does (kiln_look_place_at); a sampler's filter may
+ * be less precise. */
 vec4 look_at(uint system, int row, float life)
 {
     float x = life * float(KILN_LOOK_SAMPLES - 1);

@@ -1,13 +1,13 @@
 /* Places one corner of a triangle of a particle that is drawn as a mesh (Drone 2007, 7.4.4). The
  * particle's position, size and rotation follow from its record, its look and the clock.
  * lib/draw/solids/instances_gl.c makes one instanced draw call for each system with a mesh. An
- * instance is an entry of the drawing order, which has the particles of all systems, so instances of
- * other systems are moved out of view. A mesh is opaque and cannot fade; its opacity scales it
+ * instance is an entry of the drawing order, which has the particles of all systems, so instances
+ * of other systems are moved out of view. A mesh is opaque and cannot fade; its opacity scales it
  * instead.
  *
  * Every corner computes the whole triangle, since the fragment shader needs all three corners. The
- * outputs must be the inputs of instances.frag. The processor places particles by the same functions
- * of shared/instance.h. */
+ * outputs must be the inputs of instances.frag. The processor places particles by the same
+ * functions of shared/instance.h. */
 #include "shared/draw_layout.h"
 
 // variant:
@@ -20,10 +20,10 @@
 layout(std430, binding = KILN_BIND_CORNERS) readonly buffer corner_block { vec4 corners[]; };
 
 uniform uint drawn_system; /* the system whose particles this draw call draws */
-uniform uint first_corner; /* of the system's mesh */
+uniform uint first_corner; /* number of the first corner of the system's mesh in `corners` */
 uniform uint orient; /* ORIENT_* */
-/* x: distance from the mesh's middle to its farthest corner; y: radius of the sphere that throws its
- * shadow. Both are in sizes of the particle. */
+/* x: distance from the mesh's middle to its farthest corner; y: radius of the sphere that throws
+ * its shadow. Both are in sizes of the particle. */
 uniform vec2 extent;
 
 layout(location = 0) flat out vec4 a; /* corners in view space, m */
@@ -45,8 +45,8 @@ vec3 world_to_view_vector(vec3 v)
                 dot(view.world_to_view[2].xyz, v));
 }
 
-/* Returns whether a triangle is seen from its front or its back. Seen edge on, it covers no pixel, and
- * its depth cannot be computed. */
+/* Returns whether a triangle is seen from its front or its back. A triangle that is seen edge on
+ * covers no pixel, and its depth cannot be computed. */
 bool is_seen(vec3 p, vec3 q, vec3 r)
 {
     vec3 face = cross(q - p, r - p);
@@ -67,8 +67,8 @@ void main()
 
     vec3 center = world_to_view_point(particle_position(record));
     float size = shape.x * mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE)) * shape.z;
-    /* A mesh is at least as wide as a pixel. A smaller one would flicker, since it would lie between
-     * the samples of some frames. */
+    /* A mesh is at least as wide as a pixel. A smaller one would flicker, since it would lie
+     * between the samples of some frames. */
     float pixel_m = 2.0 * view.frustum.y * max(-center.z, 1e-3) / view.frustum.w;
     float scale = max(size * extent.x, 0.5 * pixel_m) / extent.x;
     float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread, age);

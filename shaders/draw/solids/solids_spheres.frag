@@ -2,14 +2,15 @@
  * spheres with it into textures of four samples a pixel: solids_spheres.vert finds a sphere's place
  * and look, solids_spheres.geom makes the rectangle that it covers, and this shader casts rays.
  *
- * One ray through the middle of the pixel finds depth and light, so that lighting is computed once a
- * pixel. Four more rays find which of the pixel's samples the sphere covers, so that silhouettes are
- * smooth. A depth test for each sample keeps the nearest sphere, and solids_resolve.frag puts the
- * mean of the samples over the backdrop. A sphere is lit by the functions that light the backdrop.
+ * One ray through the middle of the pixel finds depth and light, so that lighting is computed once
+ * a pixel. Four more rays find which of the pixel's samples the sphere covers, so that silhouettes
+ * are smooth. A depth test for each sample keeps the nearest sphere, and solids_resolve.frag puts
+ * the mean of the samples over the backdrop. A sphere is lit by the functions that light the
+ * backdrop.
  *
- * Where the middle misses the sphere but a sample hits it, depth and light are those of the point of
- * the middle ray that is nearest to the centre. lib/draw/solids/solid_simd.c draws the same picture on
- * the host, with samples at the same places. */
+ * Where the middle misses the sphere but a sample hits it, depth and light are those of the point
+ * of the middle ray that is nearest to the centre. lib/draw/solids/solid_simd.c draws the same
+ * picture on the host, with samples at the same places. */
 // variant: SOLIDS=1
 // variant: SOLIDS=1 PATTERN=1
 // variant: SOLIDS=1 ROUND=1 TURNED=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
@@ -38,21 +39,21 @@ layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
 
 /* The positions of a pixel's samples, px from its middle, form a rotated grid, in which no two
- * samples share a row or a column. The driver may place its own samples elsewhere; only their number
- * must be four. */
+ * samples share a row or a column. The driver may place its own samples elsewhere; only their
+ * number must be four. */
 const vec2 SAMPLE_OFFSETS[4] =
     vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
 
-/* Returns the ray from the eye through a position in the picture, px, in view space. Its z is -1, so
- * the t of a point on it is the point's depth. */
+/* Returns the ray from the eye through a position in the picture, px, in view space. Its z is -1,
+ * so the t of a point on it is the point's depth. */
 vec3 view_ray(vec2 pixel)
 {
     vec2 ndc = pixel / view.frustum.zw * 2.0 - 1.0;
     return vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0);
 }
 
-/* Returns the t at which a ray is nearest to the sphere's centre, and the square of the radius minus
- * the square of that distance, which is negative if the ray misses the sphere. */
+/* Returns the t at which a ray is nearest to the sphere's centre, and the square of the radius
+ * minus the square of that distance, which is negative if the ray misses the sphere. */
 vec2 approach(vec3 ray)
 {
     float t = dot(ray, sphere.xyz) / dot(ray, ray);
@@ -62,8 +63,8 @@ vec2 approach(vec3 ray)
 
 #ifdef PATTERN
 
-/* Returns the albedo of the sphere's pattern where its normal is `normal`. pose turns the ball into the
- * world, so its conjugate turns the normal into the ball's own axes. */
+/* Returns the albedo of the sphere's pattern where its normal is `normal`. pose turns the ball into
+ * the world, so its conjugate turns the normal into the ball's own axes. */
 vec3 painted(vec3 normal, vec3 direction, float t)
 {
     vec3 twice = -2.0 * cross(pose.xyz, normal);
@@ -99,7 +100,8 @@ void main()
     vec3 rgb = glow.rgb + mix(reflected, lit, albedo.a);
 
     gl_SampleMask[0] = mask;
-    /* Near is 1 and far is 0, since floats are most precise near 0. solids_resolve.frag inverts it. */
+    /* Near is 1 and far is 0, since floats are most precise near 0. solids_resolve.frag inverts
+     * it. */
     gl_FragDepth = 1.0 / (1.0 + t);
     out_color = vec4(rgb, 1.0);
     out_bloom = vec4(bloom.rgb * rgb, 1.0);

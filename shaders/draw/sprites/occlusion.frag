@@ -5,7 +5,7 @@
 
 layout(binding = 2) uniform sampler2D scene_depth;
 
-const float SLACK = 0.002 / 64.0; /* for rounding; octaves */
+const float SLACK = 0.002 / 64.0; /* slack for rounding, 0.002 octaves of depth */
 
 void main()
 {

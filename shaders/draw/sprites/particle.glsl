@@ -75,9 +75,9 @@ uint4 choose_texture(uint system, uint stream)
     return looks[system].textures[min(chosen, count - 1u)];
 }
 
-/* Chooses two adjacent cells of the atlas and the mix between them (Heinz 2019, equation 3.2). `passes`
- * is how often the particle has gone through its cells until now. The last number is the level of
- * detail. */
+/* Chooses two adjacent cells of the atlas and the mix between them (Heinz 2019, equation 3.2).
+ * `passes` is how often the particle has gone through its cells until now. The last number is the
+ * level of detail. */
 vec4 choose_cells(uint4 atlas, float passes, bool random_start, uint stream, float diameter_px)
 {
     float cells = float(atlas.y);
@@ -107,7 +107,8 @@ void make_plain(uint4 form, vec2 widths_px, float size_px, vec3 moving, float st
 
 #endif
 
-/* Makes the particle of a draw entry: the system in its highest 8 bits, the slot in the other 24. */
+/* Makes the particle of a draw entry: the system in its highest 8 bits, the slot in the other
+ * 24. */
 void make_particle(uint entry)
 {
     uint system = entry >> 24;

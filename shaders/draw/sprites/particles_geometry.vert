@@ -1,7 +1,7 @@
 /* Computes one particle for the geometry shader, which makes a billboard of it.
- * lib/draw/sprites/particles_geometry.c draws with it for raster=geometry, and for raster=tiled where
- * pixels sort: one point for each entry of the drawing order. particles_instanced.vert does the same
- * without a geometry shader. The outputs must be the inputs of particles_geometry.geom. */
+ * lib/draw/sprites/particles_geometry.c draws with it for raster=geometry, and for raster=tiled
+ * where pixels sort: one point for each entry of the drawing order. particles_instanced.vert does
+ * the same without a geometry shader. The outputs must be the inputs of particles_geometry.geom. */
 // variant: SHAPES=0
 // variant: SHAPES=1
 // variant: SHAPES=1 SUN_SHADE=1
@@ -21,7 +21,7 @@ layout(location = 3) out billboard particle;
 void main()
 {
     make_particle(entries[gl_VertexID]);
-    /* The place in the drawing order. Fragments of equal depth keep this order on the lists of pixels
-     * (particles_list.frag). */
+    /* The place in the drawing order. Fragments of equal depth keep this order on the lists of
+     * pixels (particles_list.frag). */
     particle.light_y.a = float(gl_VertexID);
 }

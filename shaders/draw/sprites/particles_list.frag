@@ -1,10 +1,10 @@
 /* Counts a fragment of a billboard, or puts it on the list of its pixel, for post.compose: oit.
- * lib/draw/sprites/fragments_gl.c draws all particles with it several times: once without `fills`, to
- * count the fragments of each pixel, and then with `fills`, for each part of the picture whose lists
- * fit into memory. fragments_merge.comp and fragments_resolve.frag sort and blend the lists.
+ * lib/draw/sprites/fragments_gl.c draws all particles with it several times: once without `fills`,
+ * to count the fragments of each pixel, and then with `fills`, for each part of the picture whose
+ * lists fit into memory. fragments_merge.comp and fragments_resolve.frag sort and blend the lists.
  *
- * One program does both, since two programs may round differently and then keep different fragments.
- * So whether a fragment is kept, and in how many pieces, must not depend on `fills`. */
+ * One program does both, since two programs may round differently and then keep different
+ * fragments. So whether a fragment is kept, and in how many pieces, must not depend on `fills`. */
 // variant: SHAPES=0
 // variant: SHAPES=1
 #include "shared/draw_layout.h"

@@ -96,8 +96,9 @@ struct pixel {
 
 pixel pixels[PIXELS];
 
-/* Starts the invocation's pixels, empty or from `carry`. A pixel outside the picture gets transmittance
- * 0, so that nothing is drawn for it. Returns the largest channel of the glow of an earlier pass. */
+/* Starts the invocation's pixels, empty or from `carry`. A pixel outside the picture gets
+ * transmittance 0, so that nothing is drawn for it. Returns the largest channel of the glow of an
+ * earlier pass. */
 float open_pixels(uvec2 first, uvec2 size)
 {
     vec4 before = vec4(0.0);
@@ -129,7 +130,8 @@ billboard fetch_quad(int row)
                      texelFetch(sprites, row + 8), texelFetch(sprites, row + 9));
 }
 
-/* Draws sprite i into the invocation's pixels. `first` is the middle of the first one, px. */
+/* Draws sprite i into the invocation's pixels. first: the middle of the first of these pixels,
+ * px. */
 void draw(uint i, vec2 first)
 {
     int row = int(i) * TILED_SPRITE_ROWS;
@@ -153,8 +155,8 @@ void draw(uint i, vec2 first)
     }
 }
 
-/* Returns the most light that any pixel of the tile could still get from the last sprites_left sprites
- * of the bin and from the glow of an earlier pass. */
+/* Returns the most light that any pixel of the tile could still get from the last sprites_left
+ * sprites of the bin and from the glow of an earlier pass. */
 float most_left(tiled_bin bin, float before, uint sprites_left)
 {
     if (gl_LocalInvocationIndex == 0u)
@@ -175,7 +177,8 @@ uvec2 first_pixel()
 {
     uvec2 me = gl_LocalInvocationID.xy;
 #if TILED_ROWS == TILED_EDGE
-    /* 32 neighbouring invocations have a block of 8 x 4 pixels, which often take the same branches. */
+    /* 32 neighbouring invocations have a block of 8 x 4 pixels, which often take the same
+     * branches. */
     uint i = gl_LocalInvocationIndex, block = i / 32u, blocks_a_row = uint(TILED_EDGE / 8);
     me = uvec2(i % 8u + 8u * (block % blocks_a_row), i / 8u % 4u + 4u * (block / blocks_a_row));
 #endif

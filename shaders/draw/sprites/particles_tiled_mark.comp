@@ -48,10 +48,10 @@ layout(std430, binding = TILED_BIND_MASKS) writeonly buffer mask_block
     uint masks[]; /* the result; see mask_word */
 };
 
-layout(location = 0) uniform uint pieces; /* of all lists */
+layout(location = 0) uniform uint pieces; /* pieces of all lists */
 layout(location = 1) uniform uint bin_count;
-layout(location = 2) uniform uint bin_columns;  /* in a row of the picture */
-layout(location = 3) uniform uint tile_columns; /* in a row of the picture */
+layout(location = 2) uniform uint bin_columns;  /* bins in a row of the picture */
+layout(location = 3) uniform uint tile_columns; /* tiles in a row of the picture */
 
 const uint WORDS = uint(TILED_PIECE / 32);
 shared uint marks[TILED_TILES * WORDS]; /* for each tile, a bit for each sprite of the piece */
@@ -72,9 +72,9 @@ uint bin_of(uint entry)
     return low;
 }
 
-/* Returns the least and the greatest value of a linear function over the middles of a tile's pixels.
- * plane: its value at the anchor, and its change per pixel right and down; from_anchor: the tile's
- * middle, px. */
+/* Returns the least and the greatest value of a linear function over the middles of a tile's
+ * pixels. plane: its value at the anchor, and its change per pixel right and down; from_anchor: the
+ * tile's middle, px. */
 vec2 range_of(vec3 plane, vec2 from_anchor)
 {
     float middle = plane.x + dot(plane.yz, from_anchor);
@@ -82,8 +82,8 @@ vec2 range_of(vec3 plane, vec2 from_anchor)
     return vec2(middle - reach, middle + reach);
 }
 
-/* Returns whether a tile may touch a sprite: false only if all of the tile lies outside of one of the
- * sprite's four edges. u, v, q, most: rows of the sprite (tiled.glsl); corner: of the tile, px.
+/* Returns whether a tile may touch a sprite: false only if all of the tile lies outside of one of
+ * the sprite's four edges. u, v, q, most: rows of the sprite (tiled.glsl); corner: of the tile, px.
  * inner holds how far inside of each edge the tile reaches. */
 bool touches(vec4 u, vec4 v, vec4 q, vec4 most, vec2 corner)
 {

@@ -5,19 +5,19 @@
  * that they cover the same pixels, however thin the particle is; the corners of GL's quads would not
  * do, because GL may move them by a part of a pixel. */
 
-/* Linear functions of the pixel. x is the value at the anchor, which is a fixed place in the picture; y
- * and z are the change per pixel to the right and down. */
+/* Linear functions of the pixel. x is the value at the anchor, which is a fixed place in the
+ * picture; y and z are the change per pixel to the right and down. */
 struct place {
-    vec4 u, v; /* texture coordinates, 0..1, or of points and lines px from the middle, with SHAPES
-                * divided by the depth unless a point or line; w: the anchor's x in u and y in v, px from
+    vec4 u, v; /* texture coordinates: of billboards 0..1, with SHAPES divided by the depth; of points
+                * and lines px from the middle, not divided; w: the anchor's x in u and y in v, px from
                 * the top left */
     vec4 q;    /* 1 / depth, 1/m; has a meaning only with SHAPES; w: unused */
     vec2 edge; /* half edges of a point or line with its soft rim, px; 0, 0 for billboards */
 };
 
-/* Returns whether the particle covers a pixel, given by its middle, px from the top left. `at` becomes
- * the texture coordinates there. `depth` comes in as the particle's; with SHAPES it becomes the depth
- * of that place on it, m. */
+/* Returns whether the particle covers a pixel, given by its middle, px from the top left. `at`
+ * becomes the texture coordinates there. `depth` comes in as the particle's; with SHAPES it becomes
+ * the depth of that place on it, m. */
 bool place_covers(place p, vec2 pixel, inout float depth, out vec2 at)
 {
     vec2 from_anchor = pixel - vec2(p.u.w, p.v.w);

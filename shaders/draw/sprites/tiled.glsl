@@ -21,17 +21,17 @@
                       /* the sprite adds to a channel, negative if it covers nothing */
 #define SPRITE_QUAD 4 /* the billboard, ten rows */
 
-/* Returns the squares of the picture, which are tiles or bins with an edge of so many pixels, that a
- * sprite's box touches: column and row of the first, then of the last one. A box has left and top, then
- * right and bottom, with 16 bits each; it must not be empty. */
+/* Returns the squares of the picture, which are tiles or bins with an edge of so many pixels, that
+ * a sprite's box touches: column and row of the first, then of the last one. A box has left and
+ * top, then right and bottom, with 16 bits each; it must not be empty. */
 uvec4 squares_of(uvec2 box, uint edge)
 {
     uvec2 from = uvec2(box.x & 0xffffu, box.x >> 16), to = uvec2(box.y & 0xffffu, box.y >> 16);
     return uvec4(from / edge, (to - 1u) / edge);
 }
 
-/* Returns where in all masks a word of a tile's mask is. Bit i of word k stands for sprite 32 * k + i
- * of the bin's list. The masks of a bin have whole pieces of the list, since a work group of
+/* Returns where in all masks a word of a tile's mask is. Bit i of word k stands for sprite 32 * k +
+ * i of the bin's list. The masks of a bin have whole pieces of the list, since a work group of
  * particles_tiled_mark.comp writes a piece. */
 uint mask_word(tiled_bin bin, uint tile, uint word)
 {

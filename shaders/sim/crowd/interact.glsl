@@ -56,9 +56,9 @@ layout(std430, binding = INTERACT_BIND_PARTNERS) buffer partner_block
 
 layout(std430, binding = INTERACT_BIND_ENTRIES) buffer entry_block
 {
-    /* In the staggered mode, collisions keep entries here: the key of a cell (high, low word), by which
-     * they are sorted, then a slot or a body. Gravity keeps its sources and sums here, and a flock its
-     * means. */
+    /* In the staggered mode, collisions keep entries here: the key of a cell (high, low word), by
+     * which they are sorted, then a slot or a body. Gravity keeps its sources and sums here, and a
+     * flock its means. */
     uvec4 entries[];
 };
 
@@ -78,14 +78,14 @@ layout(std430, binding = INTERACT_BIND_SPINS) buffer spin_block
     uvec4 spin_words[];
 };
 
-/* Returns which of spin_words holds how fast a slot's ball spins. A slot has two words. */
+/* Returns the index in spin_words of a slot's rate of spin. A slot has two words. */
 uint spin_word(uint slot)
 {
     return (interact_params.first_spin + slot) * 2u;
 }
 
-/* Copies how fast a body spins from its slot to TURNING(body), which lies behind all bodies. Does
- * nothing in a system whose balls do not spin. */
+/* Copies a body's rate of spin from its slot to TURNING(body); those words lie behind all bodies.
+ * Does nothing in a system whose balls do not spin. */
 void note_turning(uint body, uint slot)
 {
     if (interact_params.spins != 0u)
@@ -93,16 +93,17 @@ void note_turning(uint body, uint slot)
 }
 #endif
 
-/* Returns the number of this invocation. Work groups are dispatched in rows, since GL limits how many
- * there may be in one direction. */
+/* Returns the number of this invocation. Work groups are dispatched in rows, since GL limits how
+ * many there may be in one direction. */
 uint invocation()
 {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     return group * SIM_GROUP_SIZE + gl_LocalInvocationID.x;
 }
 
-/* Returns how many bodies the system has. In the staggered mode interact_count.comp has counted them;
- * otherwise this is where the last cell ends, which is known only after interact_place.comp. */
+/* Returns how many bodies the system has. In the staggered mode interact_count.comp has counted
+ * them; otherwise this is where the last cell ends, which is known only after
+ * interact_place.comp. */
 uint body_count()
 {
     return cell_ends[interact_params.cell_mask];

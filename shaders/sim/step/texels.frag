@@ -1,5 +1,6 @@
 /* Technique `texels` (Heinz 2019, 2.2.3; UberFlow, 4.1 and 4.2; Drone 2007, 7.3.1): a particle is a
- * texel of two textures, and a fragment shader reads it and writes its next state into two others. */
+ * texel of two textures, and a fragment shader reads it and writes its next state into two
+ * others. */
 // variant:
 // variant: COLLIDE_ROUND=1
 // variant: FAMILY=1
