@@ -1,4 +1,5 @@
-/* This file uploads the uniform blocks of view and backdrop for each picture and binds them. */
+/* This file uploads the uniform blocks of the view and of the backdrop for each picture and binds
+ * them. */
 #include "draw/moment/draw_blocks.h"
 
 #include <assert.h>

@@ -1,5 +1,5 @@
-/* A kiln_draw_blocks holds the uniform blocks of the camera and of the lights on the particles, for
- * techniques in GL. */
+/* A kiln_draw_blocks holds two uniform blocks for techniques in GL: the view (the frame's camera),
+ * and the backdrop with the lights on the particles. */
 #ifndef KILN_DRAW_MOMENT_DRAW_BLOCKS_H
 #define KILN_DRAW_MOMENT_DRAW_BLOCKS_H
 
@@ -13,7 +13,7 @@ struct kiln_draw_blocks {
 void kiln_draw_blocks_init(struct kiln_draw_blocks *blocks, struct kiln_device *device);
 void kiln_draw_blocks_finish(struct kiln_draw_blocks *blocks);
 
-/* Uploads both and leaves them bound to KILN_BIND_VIEW and KILN_BIND_BACKDROP. */
+/* Uploads both blocks and leaves them bound to KILN_BIND_VIEW and KILN_BIND_BACKDROP. */
 bool kiln_draw_blocks_bind(struct kiln_draw_blocks *blocks, const struct kiln_view *view,
                            const struct kiln_draw_backdrop *backdrop, struct kiln_error *error);
 

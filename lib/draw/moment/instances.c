@@ -8,7 +8,8 @@
 #include "asset/geometry/mesh_measure.h"
 #include "base/error.h"
 
-/* Tile edges by the number of particles: up to `most` particles have tiles of `edge` texels. */
+/* Gives the edge of silhouette tiles: a scene with up to `most` particles that are meshes has tiles
+ * with an edge of `edge` texels. */
 static const struct {
     uint64_t most;
     uint32_t edge;

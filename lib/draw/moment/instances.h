@@ -1,6 +1,6 @@
-/* A kiln_instances holds the meshes that particles are drawn as. The triangles of single particles
- * are never stored: each particle is placed while it is drawn (shared/instance.h), so memory grows
- * with the number of particles. */
+/* A kiln_instances holds the meshes that particles are drawn as. The triangles of a particle are
+ * never stored: they are placed in the world while the particle is drawn (shared/instance.h). So
+ * memory grows with the number of particles, not with the number of their triangles. */
 #ifndef KILN_DRAW_MOMENT_INSTANCES_H
 #define KILN_DRAW_MOMENT_INSTANCES_H
 
@@ -8,30 +8,30 @@
 
 enum { KILN_INSTANCE_LARGEST_TILE = 64 }; /* texels along an edge */
 
-/* Describes the mesh of one system. */
+/* Describes the mesh of the particles of one system. */
 struct kiln_instance_mesh {
-    uint32_t first;     /* corner */
-    uint32_t triangles; /* 0: its particles are no meshes */
-    float reach;        /* from the middle to the farthest corner */
+    uint32_t first;     /* index of the first corner in kiln_instances.corners */
+    uint32_t triangles; /* number of triangles; 0: the system's particles are not meshes */
+    float reach;        /* distance from the middle to the farthest corner, in longest edges */
 };
 
-/* Holds the meshes of all systems. The longest edge of the bounding box of each mesh has length 1,
- * and its middle is the origin. */
+/* Holds the meshes of all systems. Each mesh is scaled so that the longest edge of its bounding box
+ * has length 1, and moved so that the middle of the box is the origin. */
 struct kiln_instances {
     struct kiln_instance_mesh meshes[KILN_MAX_SYSTEMS];
-    float4 (*corners)[2]; /* of all meshes, three a triangle: position; normal. NULL: no meshes */
+    float4 (*corners)[2]; /* position and normal, three corners a triangle; NULL: no meshes */
     uint32_t corner_count;
 };
 
-/* Makes the meshes of the scene's systems; KILN_DEVICE_FAILED when memory is short.
- * kiln_instances_finish then frees what was made. */
+/* Copies the meshes of the scene's systems. Returns false with KILN_DEVICE_FAILED when memory is
+ * short; kiln_instances_finish must be called in that case, too. */
 bool kiln_instances_init(struct kiln_instances *instances, const struct kiln_scene *scene,
                          struct kiln_error *error);
 void kiln_instances_finish(struct kiln_instances *instances);
 
-/* Returns the texels along an edge of the tile for the silhouette of each particle that is a mesh,
- * as the sun sees it. The edge is a power of two, and smaller where particles are many. 0: the
- * scene has no tiles, since no particles are meshes or too many are. */
+/* Returns the edge, in texels, of the tiles that hold the silhouettes of particles that are meshes,
+ * as seen from the sun. It is a power of two, and smaller where there are many such particles.
+ * Returns 0 when the scene has no tiles, since no particles are meshes or too many are. */
 uint32_t kiln_instance_tile_edge(const struct kiln_scene *scene);
 
 #endif

@@ -1,5 +1,6 @@
-/* This header declares living particles as the host sees them, for results that sum over all of
- * them: the light of fire, the shadow of smoke. */
+/* This header declares the appearance of living particles on the host: position, size, opacity,
+ * pose. Stages that visit particles one by one on the CPU use it: the light of fire, the shadows of
+ * smoke and of solid particles, and solid particles drawn on the host. */
 #ifndef KILN_DRAW_MOMENT_LIVING_H
 #define KILN_DRAW_MOMENT_LIVING_H
 
@@ -10,23 +11,24 @@
 struct kiln_living_system {
     struct kiln_derived_params derived;
     const float4 *keys;
-    const struct kiln_particle *records; /* of the system */
-    const float4 *rows;                  /* of its look */
-    uint32_t used;                       /* slots to ask for: 0 .. used - 1 */
-    uint32_t step;
-    float dt_s;
-    const struct kiln_spin *spins; /* of the system; NULL: collisions do not turn its particles */
+    const struct kiln_particle *records; /* the system's records, by slot */
+    const float4 *rows;                  /* the system's rows of the look table */
+    uint32_t used;                       /* only slots below this number may hold a particle */
+    uint32_t step;                       /* number of steps so far */
+    float dt_s;                          /* duration of a step, s */
+    const struct kiln_spin *spins;       /* by slot; NULL: collisions do not turn the particles */
 };
 
+/* Describes a living particle at the moment's time. */
 struct kiln_living {
     float3 position; /* m */
-    float radius;    /* m: half of the billboard's edge */
+    float radius;    /* half of the billboard's edge, m */
     float progress;  /* through its life, 0 to 1 */
-    float opacity;   /* at this age, fades included */
+    float opacity;   /* opacity at this age, with the fades at birth and death */
 };
 
-/* Returns the data from which the particles of one system are computed. The moment was filled with
- * on_host, and must outlive the result. */
+/* Returns the data from which the particles of one system are computed. The moment must have been
+ * filled with on_host and must outlive the result. */
 struct kiln_living_system kiln_living_system(const struct kiln_moment *moment, uint32_t index);
 
 /* Computes the particle in a slot; returns false when no particle lives there. */
@@ -36,15 +38,17 @@ bool kiln_living_at(const struct kiln_living_system *system, uint32_t slot,
 /* Returns a row of the system's look (KILN_LOOK_*) at a progress through life. */
 float4 kiln_living_look(const struct kiln_living_system *system, uint32_t row, float progress);
 
-/* Returns the orientation of a sphere in the world, as collisions or its own spin have turned
- * it. */
+/* Returns the orientation of a sphere in the world, a unit quaternion: it follows from collisions,
+ * or else from the rotation and spin of the look. */
 float4 kiln_living_pose(const struct kiln_living_system *system, uint32_t slot, float progress);
 
-/* Returns the axes in the world of a mesh whose look has this enum kiln_orient. */
+/* Returns the world-space axes of a particle that is a mesh; orient: enum kiln_orient, from its
+ * look. */
 struct instance_axes kiln_living_axes(const struct kiln_living_system *system, uint32_t slot,
                                       float progress, uint32_t orient);
 
-/* Returns the light that a particle emits, the mean of its hot and cool parts. */
+/* Returns the light that a particle emits at a progress through life: the mean of the light of its
+ * hot and of its cool parts. */
 float3 kiln_living_glow(const struct kiln_living_system *system, float progress);
 
 #endif

@@ -1,5 +1,5 @@
-/* This header declares living particles in blocks of slots, which a vectorised loop computes
- * (living_simd.c). */
+/* This header declares living particles in blocks of KILN_LANES slots, which vectorised loops
+ * compute (living_simd.c). The lighting stage uses it where it visits all particles. */
 #ifndef KILN_DRAW_MOMENT_LIVING_BLOCKS_H
 #define KILN_DRAW_MOMENT_LIVING_BLOCKS_H
 
@@ -19,8 +19,8 @@ struct kiln_living_block {
 /* Describes a progress through life as a place between two samples of a look, which are four floats
  * apart in a row of the table. */
 struct kiln_look_place {
-    int sample, texel; /* texel: where it is in a row of the table */
-    float part;
+    int sample, texel; /* number of the first sample; its offset in a row of the table, in floats */
+    float part;        /* weight of the second sample, 0 to 1 */
 };
 
 static inline struct kiln_look_place kiln_look_place_at(float progress)
@@ -31,7 +31,8 @@ static inline struct kiln_look_place kiln_look_place_at(float progress)
     return (struct kiln_look_place){sample, 4 * sample, x - (float)sample};
 }
 
-/* Computes slots first to first + KILN_LANES - 1, of which those from system->used on are empty. */
+/* Computes the particles in slots first to first + KILN_LANES - 1; slots from system->used on count
+ * as empty. */
 typedef void kiln_living_find(const struct kiln_living_system *system, uint32_t first,
                               struct kiln_living_block *block);
 KILN_SIMD_DECLARE(kiln_living_find, kiln_living_find);

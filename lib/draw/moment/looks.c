@@ -1,5 +1,5 @@
-/* This file fills the table of looks, which has every value of each system's look at evenly spaced
- * ages, and the uniform block of the looks. */
+/* This file fills the table of looks, which holds each system's look sampled at evenly spaced ages,
+ * and the uniform block with the parts of looks that do not depend on age. */
 #include "draw/moment/looks.h"
 
 #include <assert.h>
@@ -9,7 +9,7 @@
 #include "asset/atlas/blackbody.h"
 #include "shared/exact.h"
 
-/* The temperature of a cell's cool parts, in parts of that of its hot parts. */
+/* The temperature of a cell's cool parts divided by the temperature of its hot parts. */
 static const float COOL_SHARE = 0.72f;
 
 static_assert(LOOK_POINT == KILN_SHAPE_POINT && LOOK_LINE == KILN_SHAPE_LINE &&
@@ -19,6 +19,7 @@ static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING
                   LOOK_AXIAL == KILN_FACING_AXIAL && LOOK_VELOCITY == KILN_FACING_VELOCITY,
               "facings");
 
+/* Holds the place at which looks are sampled: a clip time, and a progress through life, 0 to 1. */
 struct sampler {
     const struct kiln_scene *scene;
     const struct kiln_observer *observer;
@@ -35,8 +36,8 @@ static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
     return value3_at(s->scene->keys, *value, s->time_s, s->life);
 }
 
-/* Returns the mean of a curve over the life so far. The mean speed times the age is the way
- * gone. */
+/* Returns the mean of a value from birth to the sampler's age. For a spin, the mean times the age
+ * is the angle turned so far. */
 static float mean_at(const struct sampler *s, const struct kiln_value *value)
 {
     bool over_life = value->count > 0 && value->clock == KILN_CLOCK_LIFE;
@@ -50,8 +51,8 @@ static float saturate(float x)
     return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x;
 }
 
-/* Returns the factor of opacity that fades a particle in and out: 0 at birth and at death, 1 in
- * between (Heinz 2019, 3.2.4). */
+/* Returns the factor of opacity that fades a particle in and out: it is 0 at birth and at death and
+ * 1 in between (Heinz 2019, 3.2.4). */
 static float fade(const struct sampler *s, const struct kiln_look *look)
 {
     float in = at(s, &look->fade_in), out = at(s, &look->fade_out);
@@ -60,6 +61,7 @@ static float fade(const struct sampler *s, const struct kiln_look *look)
     return risen * left;
 }
 
+/* Returns the light of a black body of a temperature, times a tint, with w as the fourth number. */
 static float4 emitted(const struct sampler *s, float3 tint, float kelvin, float w)
 {
     float rgb[3];
@@ -67,8 +69,8 @@ static float4 emitted(const struct sampler *s, float3 tint, float kelvin, float 
     return (float4){tint.x * rgb[0], tint.y * rgb[1], tint.z * rgb[2], w};
 }
 
-/* Samples the rows of colour and light. The colour tints the emitted light of an additive particle;
- * a covering particle uses it for the light that it reflects. */
+/* Samples the rows of colour and light. The look's colour tints the emitted light of an additive
+ * particle; it is the albedo of a covering particle. */
 static void sample_light(const struct sampler *s, const struct kiln_look *look,
                          float4 row[KILN_LOOK_ROWS])
 {
@@ -95,8 +97,8 @@ static void sample_light(const struct sampler *s, const struct kiln_look *look,
     }
 }
 
-/* Returns the unit vector along v, or up if v is 0, through which key frames may lead it. It
- * computes in double, since squares of small floats vanish. */
+/* Returns the unit vector along v, or up if v is 0, which key frames between opposite vectors may
+ * pass through. It computes in double, since squares of small floats underflow. */
 static float4 unit(float3 v)
 {
     double x = (double)v.x, y = (double)v.y, z = (double)v.z, length = sqrt(x * x + y * y + z * z);
@@ -195,8 +197,8 @@ bool kiln_looks_patterned(const struct kiln_scene *scene)
     return any;
 }
 
-/* Returns the number that turns a slot of the system in the pool into that of its spin, modulo
- * 2^32. */
+/* Returns the number that is added, modulo 2^32, to a slot of the system in the pool to get the
+ * index of the slot's spin. */
 static uint32_t spins_before(const struct kiln_scene *scene, uint32_t index)
 {
     uint32_t slots = 0, spins = 0;

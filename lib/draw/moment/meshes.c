@@ -1,7 +1,7 @@
-/* This file collects the meshes of the backdrop: it takes loaded ones from the scene, makes
- * terrains, and poses copies of animated ones. They stand in the order of the scene's objects, in
- * which kiln_shapes_fill counts them as well. The time in its clip that a copy is posed at is kept
- * with it, and whoever keeps a picture or a shadow map of it compares that time. */
+/* This file collects the meshes of the backdrop: it takes loaded meshes from the scene, makes
+ * terrains, and poses copies of animated meshes. The meshes have the order of the scene's objects,
+ * since kiln_shapes_fill numbers them in that order, too. Each copy keeps the animation time of its
+ * pose, so that a mesh is posed and uploaded again only when that time has changed. */
 #include "draw/moment/meshes.h"
 
 #include "base/error.h"
@@ -16,7 +16,7 @@ static struct kiln_mesh *make_terrain(const struct kiln_scene *scene,
     return mesh;
 }
 
-/* Copies an animated mesh, so that it can be posed. */
+/* Returns a copy of an animated mesh, which kiln_meshes_pose changes, and notes its animation. */
 static struct kiln_mesh *make_moving(struct kiln_meshes *meshes, const struct kiln_object *object,
                                      struct kiln_error *error)
 {

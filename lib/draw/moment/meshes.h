@@ -5,24 +5,23 @@
 #include "asset/geometry/skin.h"
 #include "draw/moment/painted.h"
 
-/* Holds the meshes in the scene's order. */
+/* Holds the meshes in the order of the scene's objects; the arrays are indexed by mesh. */
 struct kiln_meshes {
     uint32_t count;
-    const struct kiln_mesh *loaded[KILN_MAX_MESHES]; /* the scene's mesh or one of `own` */
-    struct kiln_mesh *own[KILN_MAX_MESHES];          /* terrains and posed copies, or NULL */
-    const struct kiln_skin *skins[KILN_MAX_MESHES];  /* of animated meshes; others NULL */
+    const struct kiln_mesh *loaded[KILN_MAX_MESHES]; /* the mesh to draw: the scene's, or `own` */
+    struct kiln_mesh *own[KILN_MAX_MESHES];          /* a terrain, or a posed copy; else NULL */
+    const struct kiln_skin *skins[KILN_MAX_MESHES];  /* NULL: the mesh is not animated */
     const struct kiln_animation *animations[KILN_MAX_MESHES];
-    float
-        posed_s[KILN_MAX_MESHES]; /* where in its clip each of those is loaded; below 0: nowhere */
-    struct kiln_painted *painted; /* NULL: none takes paint */
+    float posed_s[KILN_MAX_MESHES]; /* animation time of the pose, s; below 0: not posed yet */
+    struct kiln_painted *painted;   /* paint on meshes; NULL: no mesh takes paint */
 };
 
-/* Collects the meshes of a scene that outlives them. Errors are those of kiln_terrain_create;
- * kiln_meshes_finish then frees what was made. */
+/* Collects the meshes of a scene, which must outlive them. Errors are those of kiln_terrain_create
+ * and kiln_painted_create; kiln_meshes_finish must be called after an error, too. */
 bool kiln_meshes_init(struct kiln_meshes *meshes, const struct kiln_scene *scene,
                       struct kiln_error *error);
 
-/* Poses the animated meshes, vertices and bounds, at a clip time. */
+/* Poses the animated meshes for a clip time: their vertices and their bounds. */
 void kiln_meshes_pose(struct kiln_meshes *meshes, float time_s);
 void kiln_meshes_finish(struct kiln_meshes *meshes);
 

@@ -1,5 +1,5 @@
-/* This file fills a drawn moment: camera, sun, looks, posed meshes and shapes. In this order, each
- * part needs only the parts before it. */
+/* This file fills a drawn moment: camera, sun, looks, posed meshes and shapes. It fills them in
+ * this order, in which each part needs only the parts before it. */
 #include "draw/moment/moment.h"
 
 #include <stdlib.h>
@@ -39,7 +39,7 @@ void kiln_moment_finish(struct kiln_moment *moment)
     moment->look_table = NULL;
 }
 
-/* Brings records and spins to the host. */
+/* Makes the pool's records and spins available on the host. */
 static bool read_particles(struct kiln_moment *moment, struct kiln_error *error)
 {
     struct kiln_pool *pool = moment->pool;

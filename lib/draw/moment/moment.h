@@ -14,38 +14,38 @@
 struct kiln_moment_gl;
 
 struct kiln_moment {
-    /* These are the same in all moments of a scene: */
+    /* These members are the same in all moments of a scene. */
     const struct kiln_scene *scene;
     enum kiln_simd simd;             /* the width of vectors on this machine */
-    struct kiln_instances instances; /* the meshes that particles look like */
+    struct kiln_instances instances; /* the meshes that particles are drawn as */
     struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
-    struct kiln_moment_gl *gl; /* its buffers and textures (moment_gl.h); NULL: the host alone */
+    struct kiln_moment_gl *gl; /* buffers and textures in GL (moment_gl.h); NULL: no device */
 
-    /* These are of the moment that was filled last: */
-    struct kiln_pool *pool; /* NULL: there are no particles */
+    /* kiln_moment_fill sets these members. */
+    struct kiln_pool *pool; /* the particles; NULL: there are none */
     struct kiln_view view;
     struct kiln_sun_frame sun;
-    float4 *look_table;                  /* KILN_LOOK_TEXELS, as of kiln_looks_sample */
-    uint64_t look_changes;               /* grows when the table changes */
-    struct kiln_meshes meshes;           /* of the backdrop: posed, painted, with their bounds */
-    struct kiln_draw_shapes shapes;      /* as of kiln_shapes_fill */
-    const struct kiln_particle *records; /* of the pool, on the host; NULL: not asked for */
-    const struct kiln_spin *spins; /* the same; NULL: no particle is turned by collisions, either */
+    float4 *look_table;                  /* KILN_LOOK_TEXELS texels, by kiln_looks_sample */
+    uint64_t look_changes;               /* a number that grows when the table changes */
+    struct kiln_meshes meshes;           /* the backdrop's meshes: posed, painted, with bounds */
+    struct kiln_draw_shapes shapes;      /* the backdrop's objects, by kiln_shapes_fill */
+    const struct kiln_particle *records; /* the pool's records on the host; NULL: not on_host */
+    const struct kiln_spin *spins; /* the pool's spins on the host; NULL: not on_host, or none */
 };
 
-/* Scene, device and atlas must outlive the moment; device may be NULL. atlas is that of all
- * systems; NULL: no textures will be drawn. False with KILN_DEVICE_FAILED, or as
- * kiln_meshes_init; nothing is left then. */
+/* Initialises a moment. Scene, device and atlas must outlive it. device may be NULL. atlas holds
+ * the textures of all systems; NULL: no textures will be drawn. Returns false with
+ * KILN_DEVICE_FAILED or an error of kiln_meshes_init; the moment then owns nothing. */
 bool kiln_moment_init(struct kiln_moment *moment, struct kiln_device *device,
                       const struct kiln_scene *scene, const struct kiln_atlas *atlas,
                       struct kiln_error *error);
 
-/* Does nothing for a moment of zeros. */
+/* Frees what the moment owns; does nothing for a moment of zeros. */
 void kiln_moment_finish(struct kiln_moment *moment);
 
-/* Fills it with the pool's state after `step` steps. The pool, borrowed until the next call, is
- * not stepped meanwhile. on_host: records and spins are asked for there, which reads them back
- * from a device that holds them. */
+/* Fills the moment with the state after `step` steps. It borrows the pool until the next call; the
+ * pool must not be stepped meanwhile, and may be NULL. on_host: records and spins are made
+ * available on the host, which reads them back from a device that holds them. */
 bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool, uint32_t step,
                       bool on_host, struct kiln_error *error);
 

@@ -1,5 +1,5 @@
-/* Sends the looks of a scene to GL once and their table whenever it has changed, and binds them
- * with the particles' records. */
+/* This file uploads the looks of a scene to GL once, and the look table whenever it has changed. It
+ * binds both, together with the particles' records. */
 #include "draw/moment/moment_gl.h"
 
 #include <assert.h>
@@ -18,7 +18,7 @@ struct kiln_moment_gl {
     struct kiln_device *device;
     struct kiln_buffer looks, keys;
     GLuint look_table; /* texture, KILN_LOOK_SAMPLES wide; 0: nothing is made yet */
-    uint64_t sent;     /* the moment's look_changes that the texture shows */
+    uint64_t sent;     /* the moment's look_changes when the texture was uploaded */
 };
 
 struct kiln_moment_gl *kiln_moment_gl_create(struct kiln_device *device)

@@ -1,7 +1,7 @@
-/* This file makes textures with mip levels of the paint on the backdrop's meshes. Texels that are
- * on no triangle take the mean of those around them, level by level: a coarse level has means of
- * texels on the mesh alone, and fills the holes of the finer one. So no bare texture shows through
- * at seams, however small the picture is. */
+/* This file makes textures with mip levels of the paint on the backdrop's meshes. A texel of a
+ * coarse level is the mean of the finer texels that lie on the mesh. A texel that lies on no
+ * triangle then takes the colour of the coarser texel over it. So no bare texture shows through at
+ * seams, whatever mip level is sampled. */
 #include "draw/moment/painted.h"
 
 #include <stdlib.h>
@@ -10,18 +10,18 @@
 #include "asset/geometry/chart.h"
 #include "base/error.h"
 
-/* Holds the texture of a mesh. */
+/* Holds the paint texture of a mesh. */
 struct picture {
-    struct kiln_pyramid *pyramid; /* NULL: takes no paint */
-    float (*colors)[4];           /* as the pyramid's texels, not rounded */
-    float *weights;               /* the same: parts of them that are on the mesh */
-    uint32_t drawn;               /* of the canvas's changes */
-    uint32_t changes;
+    struct kiln_pyramid *pyramid; /* NULL: the mesh takes no paint */
+    float (*colors)[4];           /* the pyramid's texels, before they are rounded to half floats */
+    float *weights;               /* the part of each texel that is on the mesh */
+    uint32_t drawn;               /* the canvas's `changes` that the texture shows */
+    uint32_t changes;             /* grows when the texture changes; 1 at first */
 };
 
 struct kiln_painted {
     struct picture pictures[KILN_MAX_MESHES];
-    uint32_t canvases[KILN_MAX_MESHES]; /* of each mesh */
+    uint32_t canvases[KILN_MAX_MESHES]; /* number of each mesh's canvas in the pool */
 };
 
 /* ---- levels ---------------------------------------------------------------------------------- */
@@ -35,7 +35,7 @@ static color4 load(const float from[4])
     return color;
 }
 
-/* Holds the indices of the four finer texels under a coarse one. */
+/* Holds the indices of the four texels of the next finer level that a coarse texel covers. */
 struct under {
     size_t texels[4];
 };
@@ -113,7 +113,7 @@ static void update(struct picture *picture, const struct kiln_canvas *canvas)
     picture->changes++;
 }
 
-/* ---- all of them ----------------------------------------------------------------------------- */
+/* ---- textures of all meshes ------------------------------------------------------------------ */
 
 static bool init_picture(struct picture *picture, const struct kiln_object *object,
                          const struct kiln_mesh *mesh, struct kiln_error *error)

@@ -1,5 +1,5 @@
-/* This file evaluates the backdrop's objects at a time and writes them into the block that shaders
- * read. No result affects the simulation, only pictures. */
+/* This file evaluates the backdrop's objects at a clip time and writes them into the uniform block
+ * of shapes. The results affect only pictures, not the simulation. */
 #include "draw/moment/shapes.h"
 
 #include <assert.h>
@@ -88,8 +88,8 @@ struct kiln_sun_frame kiln_sun_frame_at(const struct kiln_scene *scene, float ti
                                    radius.sine / radius.cosine};
 }
 
-/* Fills in eight waves around the wind's direction, each shorter than the one before. length_m: of
- * the longest. */
+/* Fills in eight waves with directions around that of the wind; each is 0.71 times as long as the
+ * one before. length_m: length of the longest wave. */
 static void fill_waves(float length_m, float time_s, struct kiln_draw_shapes *shapes)
 {
     const float gravity = 9.81f, full_turn = EXACT_TWO_PI;
@@ -105,8 +105,8 @@ static void fill_waves(float length_m, float time_s, struct kiln_draw_shapes *sh
     }
 }
 
-/* Fills in the gloss and the waves of the floor. A wave of height h and length l has the slope pi h
- * / l; the shorter waves are as steep as the longest. */
+/* Fills in the gloss and the waves of the floor. A wave of height h and length l has the slope
+ * pi h / l; the shorter waves are as steep as the longest one. */
 static void fill_gloss(const struct kiln_scene *scene, float time_s,
                        struct kiln_draw_shapes *shapes)
 {
@@ -119,7 +119,8 @@ static void fill_gloss(const struct kiln_scene *scene, float time_s,
     fill_waves(length, height > 0.0f ? time_s : 0.0f, shapes);
 }
 
-/* Returns the position of a mesh's origin; a terrain's is its first point. */
+/* Returns the world position of a mesh's origin. The origin of a terrain is its corner with the
+ * least x and z. */
 static float3 mesh_origin(const struct kiln_scene *scene, const struct kiln_object *object,
                           float time_s)
 {
@@ -161,8 +162,8 @@ static void fill_mesh(const struct kiln_scene *scene, const struct kiln_object *
     out->half_size = (float4){half_size[0], half_size[1], half_size[2], clip_s};
 }
 
-/* Writes which layer of the paint textures each mesh has, and its first level there: the largest
- * texture fills its layer, and smaller ones start at a coarser level. */
+/* Writes the layer of the paint textures that each mesh has, and its first mip level there. The
+ * largest texture fills its layer from level 0 on; smaller textures start at a coarser level. */
 static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *shapes)
 {
     uint32_t largest = 0, mesh = 0;
@@ -186,7 +187,7 @@ static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *
 static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_object *object,
                             float time_s, struct kiln_draw_turned_box *out)
 {
-    mat3 rotation; /* its columns are the rows of the inverse */
+    mat3 rotation; /* the columns of a rotation are the rows of its inverse */
     kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
     for (int i = 0; i < 3; i++)
         out->rows[i] = (float4){rotation[i][0], rotation[i][1], rotation[i][2], 0.0f};
@@ -196,7 +197,7 @@ static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_ob
     out->color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
 }
 
-/* Adds a capsule, a plane or a rotated box. */
+/* Adds a capsule, a visible plane or a rotated box; ignores other objects. */
 static void fill_more(const struct kiln_scene *scene, const struct kiln_object *object,
                       float time_s, struct kiln_draw_shapes *shapes)
 {
@@ -219,7 +220,7 @@ static void fill_more(const struct kiln_scene *scene, const struct kiln_object *
     }
 }
 
-/* Fills in how boxes and cylinders look from the sun. */
+/* Fills in the outlines of boxes and cylinders as seen from the sun (shared/sun_edges.h). */
 static void fill_sun(const struct kiln_sun_frame *sun, struct kiln_draw_shapes *shapes)
 {
     shapes->edges = sun_edges_of(sun->towards);

@@ -1,5 +1,5 @@
-/* This file computes the view's matrices from the scene's camera, in arithmetic that is the same on
- * every machine. */
+/* This file computes the view of a frame (matrix, frustum, times) from the scene's camera, in
+ * arithmetic that gives the same bits on every machine. */
 #include "draw/moment/view.h"
 
 #include "base/matrix.h"
@@ -13,7 +13,7 @@ static float3 normalized(float3 v)
     return (float3){v.x / length, v.y / length, v.z / length};
 }
 
-/* Returns v rotated about an axis of length 1 (Rodrigues). */
+/* Returns v rotated about an axis of length 1, by Rodrigues' formula. */
 static float3 turned(float3 v, float3 axis, float angle)
 {
     angle -= FULL_TURN * floorf(angle / FULL_TURN);
@@ -24,8 +24,8 @@ static float3 turned(float3 v, float3 axis, float angle)
     return float3_add(sum, float3_scale(axis, along));
 }
 
-/* Returns the direction from the eye to the target. Where key frames lead the eye through its
- * target, any direction will do. */
+/* Returns the unit direction from the eye to the target; -z where both are in one place, as when
+ * key frames lead the eye through its target. */
 static float3 forward_of(float3 position, float3 target)
 {
     float3 forward = float3_sub(target, position);
@@ -57,7 +57,7 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step
     float roll = kiln_scene_value(scene, &camera->roll, time_s);
 
     float3 forward = forward_of(position, target), up = {0.0f, 1.0f, 0.0f};
-    /* The world's up gives no up of the picture where the camera looks straight down or up. */
+    /* Where the camera looks straight down or up, the world's up cannot be the picture's up. */
     if (fabsf(forward.y) > 0.9999f)
         up = (float3){0.0f, 0.0f, forward.y > 0.0f ? 1.0f : -1.0f};
     if (roll != 0.0f)

@@ -5,13 +5,13 @@
 #include "scene/scene.h"
 #include "shared/draw_layout.h"
 
-/* Returns the view of scene->camera after `step` steps. Camera values are read at that clip
- * time. */
+/* Returns the view of scene->camera after `step` steps; animated values of the camera are those of
+ * that clip time. */
 struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step);
 
-/* Returns the same view for a picture whose pixels are as large as factor x factor of the view's.
- * Where the view's size is no multiple of the factor, the picture reaches beyond it by the same on
- * both sides. */
+/* Returns the view for a smaller picture, of which a pixel covers factor x factor pixels of the
+ * given view. Where the view's size is not a multiple of the factor, the picture reaches beyond the
+ * view by the same length on both sides. */
 struct kiln_view kiln_view_coarse(const struct kiln_view *view, uint32_t factor);
 
 /* Returns the view direction in world space, unit length. */
