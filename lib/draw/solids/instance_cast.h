@@ -1,6 +1,7 @@
 /* This header casts rays at particles that are meshes: it finds the nearest triangle in each sample
- * and the light of each triangle. A triangle has one depth and one light in a pixel, as a sphere
- * has: those in the pixel's middle, or at the triangle's edge where the middle is outside. */
+ * of a pixel, and computes the light of each visible triangle. In a pixel, a triangle has one depth
+ * and one colour, as a sphere has. Both are taken on the ray through the pixel's middle, or at the
+ * triangle's edge where that ray misses the triangle. solid_simd.c includes it. */
 #ifndef KILN_DRAW_SOLIDS_INSTANCE_CAST_H
 #define KILN_DRAW_SOLIDS_INSTANCE_CAST_H
 
@@ -21,14 +22,16 @@ static inline int32_t corner_of(const struct kiln_solid_strip *s, uint32_t numbe
 
 /* ---- samples --------------------------------------------------------------------------------- */
 
-/* Holds planes over the rays (u, v, -1), as factors of u, v and 1. A ray is inside where no plane
- * is negative; there the planes are the weights of the corners. */
+/* Holds a triangle in view space. Its edges are linear functions of a ray (u, v, -1), as factors of
+ * u, v and 1. A ray hits the triangle where none of the three is negative; there they are
+ * proportional to the weights of the corners. */
 struct cast_triangle {
     float edges[3][3];
-    float depth[3]; /* of the corners, m */
-    struct kiln_row_range x, y;
+    float depth[3];             /* view depths of the corners, m */
+    struct kiln_row_range x, y; /* columns and rows that it may touch */
 };
 
+/* Transforms a corner from the mesh to view space, m. */
 static inline float3 cast_corner(const struct kiln_drawn_instance *instance, float4 at)
 {
     const float(*rows)[4] = instance->to_view;
@@ -45,16 +48,16 @@ static inline struct kiln_row_range cast_range(float low, float high, float size
                                    (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
 }
 
-/* Rounds a position to GL's grid of corners (GL_SUBPIXEL_BITS). Otherwise, for objects a few pixels
- * large, one sample in a hundred would be covered here and not in GL. place: px from the middle of
- * the picture, where floats are finest. */
+/* Rounds a position to the subpixel grid on which GL places corners (GL_SUBPIXEL_BITS). Otherwise,
+ * for objects a few pixels large, one sample in a hundred would be covered here and not in GL.
+ * place: px from the middle of the picture, since floats are finest near 0. */
 static inline float cast_snap(float place)
 {
     return floorf(place * 256.0f + 0.5f) * (1.0f / 256.0f);
 }
 
-/* Bounds the pixels that a triangle may touch; none, if all of it lies before the near plane. Moves
- * its corners to where GL has them. */
+/* Bounds the pixels that a triangle may touch; a triangle whose corners are all nearer than the
+ * near plane touches none. Snaps the other corners to GL's subpixel grid. */
 static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct cast_triangle *t)
 {
     const float4 frustum = view->frustum;
@@ -64,7 +67,7 @@ static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct
         t->depth[k] = -p[k].z;
         if (!(t->depth[k] >= view->eye.w))
             continue;
-        float m_right = 2.0f * frustum.x * t->depth[k] / frustum.z; /* a pixel */
+        float m_right = 2.0f * frustum.x * t->depth[k] / frustum.z; /* m a pixel */
         float m_up = 2.0f * frustum.y * t->depth[k] / frustum.w;
         float right = cast_snap(p[k].x / m_right), up = cast_snap(p[k].y / m_up);
         float column = 0.5f * frustum.z + right, row = 0.5f * frustum.w - up;
@@ -83,8 +86,8 @@ static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct
         t->y = (struct kiln_row_range){0, 0};
 }
 
-/* Returns the plane through an edge and the eye. For the edge's other direction the plane is the
- * same, times -1, so that no ray is between two triangles. */
+/* Returns the plane through an edge and the eye. With a and b exchanged it is exactly the same
+ * plane times -1, so that no ray passes between two triangles that share an edge. */
 static inline float3 cast_side(float3 a, float3 b)
 {
     bool swap = a.x > b.x || (a.x == b.x && (a.y > b.y || (a.y == b.y && a.z > b.z)));
@@ -92,7 +95,7 @@ static inline float3 cast_side(float3 a, float3 b)
     return float3_scale(float3_cross(from, float3_sub(to, from)), swap ? -1.0f : 1.0f);
 }
 
-/* Computes the edges' planes; returns false for a triangle that is seen edge-on. */
+/* Computes the triangle's edge functions; returns false for a triangle that is seen edge-on. */
 static inline bool cast_edges(const float3 p[3], struct cast_triangle *t)
 {
     float3 face = float3_cross(float3_sub(p[1], p[0]), float3_sub(p[2], p[0]));
@@ -114,6 +117,7 @@ SIMD vf cast_edge(const float plane[3], vf u, vf v)
     return plane[0] * u + (plane[1] * v + plane[2]);
 }
 
+/* Updates the samples of LANES pixels of a row, from column x on, where the triangle is nearest. */
 SIMD void cast_pixels(const struct kiln_solid_strip *s, const struct cast_triangle *t,
                       int32_t number, int32_t triangle, uint32_t row, int32_t x)
 {
@@ -169,7 +173,7 @@ static void sample_instance(const struct kiln_solid_strip *s, uint32_t number)
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-/* Transforms a direction from a mesh to view space, or a position relative to the mesh's middle. */
+/* Transforms a direction from the mesh to view space, or a position relative to its middle. */
 SIMD struct vf3 cast_to_view(const struct vf3 rows[3], struct vf3 v)
 {
     return (struct vf3){vf3_dot(rows[0], v), vf3_dot(rows[1], v), vf3_dot(rows[2], v)};
@@ -180,8 +184,8 @@ SIMD struct vf3 cast_cross(struct vf3 a, struct vf3 b)
     return (struct vf3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* Returns a corner's weight at the ray, times a factor that all three corners share. a, b: the two
- * other corners. */
+/* Returns a corner's weight on the ray, times a factor that is the same for all three corners; 0
+ * instead of a negative weight. a, b: the two other corners. */
 SIMD vf cast_part(struct vf3 a, struct vf3 b, struct vf3 ray, vf sign)
 {
     vf part = vf3_dot(cast_cross(a, vf3_sub(b, a)), ray) * sign;
@@ -193,6 +197,7 @@ SIMD struct vf3 cast_mean(const struct vf3 of[3], const vf parts[3])
     return vf3_along(vf3_along(vf3_scale(of[0], parts[0]), of[1], parts[1]), of[2], parts[2]);
 }
 
+/* Computes the colours of a vector of visible triangles in row y, one a lane. */
 static void light_triangles(const struct kiln_solid_strip *s, const struct seen_things *seen,
                             uint32_t y, struct ray_color *color)
 {
@@ -230,7 +235,8 @@ static void light_triangles(const struct kiln_solid_strip *s, const struct seen_
     place.direction = view_to_world(frame, ray);
     place.normal = view_to_world(frame, normal);
     place.at = vf3_add(vf3_all(frame->view->eye), view_to_world(frame, point));
-    /* The sun's ray starts outside of the sphere that throws the particle's shadow on others. */
+    /* The ray to the sun starts past the particle's middle, so that the sphere that stands for the
+     * particle in shadows does not shade the particle itself. */
     const float4 sun = frame->backdrop->sun_direction;
     vf ahead = vf3_dot_all(view_to_world(frame, vf3_sub(center, point)), sun);
     vf out = ahead + 0.05f * vf_gather(&all->shade, seen->thing) + 1e-5f * place.depth;

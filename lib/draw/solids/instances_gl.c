@@ -1,6 +1,6 @@
 /* This file draws particles that are meshes in GL, with one instanced draw call for each system
- * that has a mesh. A call draws an instance for each entry and discards the entries of other
- * systems, since only the device knows where these are in the list. */
+ * that has a mesh. A call draws an instance for each draw entry, and the vertex shader discards the
+ * entries of other systems, since only the device knows where in the list they are. */
 #include "draw/solids/instances_gl.h"
 
 #include <stdio.h>

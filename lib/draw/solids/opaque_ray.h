@@ -1,17 +1,18 @@
-/* This header holds the rays and the lighting that spheres and meshes of particles share. It is for
- * files that are compiled for one width of vectors. */
+/* This header holds the rays and the lighting that solid spheres and solid meshes share. It is for
+ * files *_simd.c, which are compiled once for each width of vectors. */
 #ifndef KILN_DRAW_SOLIDS_OPAQUE_RAY_H
 #define KILN_DRAW_SOLIDS_OPAQUE_RAY_H
 
 #include "draw/backdrop/ray_light.h"
 #include "draw/solids/solid_rows.h"
 
-/* The positions of a pixel's samples: a rotated grid, in which no two samples share a row or a
- * column. */
+/* The positions of a pixel's samples, px from its middle: a rotated grid, in which no two samples
+ * share a row or a column. */
 static const float SAMPLE_OFFSETS[KILN_SOLID_SAMPLES][2] = {
     {-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
 
-/* Returns the ray through a position in the picture, with z of -1: its t is the depth. */
+/* Returns the ray in view space through a position in the picture, px. Its z is -1, so that t along
+ * the ray is the view depth. */
 SIMD struct vf3 view_ray(const struct kiln_ray_frame *frame, vf x, vf y)
 {
     const float4 frustum = frame->view->frustum;
@@ -33,21 +34,22 @@ SIMD struct vf3 view_to_world(const struct kiln_ray_frame *frame, struct vf3 v)
                         rows[0].z * v.x + rows[1].z * v.y + rows[2].z * v.z};
 }
 
-/* Holds particles seen in pixels of a row, one a lane. */
+/* Holds visible particles in pixels of a row, one particle in one pixel a lane. */
 struct seen_things {
-    vi column, thing; /* number times the words of a record */
-    vi corner;        /* of a mesh: the triangle's first, in floats */
-    vf part;          /* of the pixel */
+    vi column, thing; /* thing: offset of the particle's record in its array, in floats */
+    vi corner;        /* for a mesh, offset of the triangle's first corner, in floats */
+    vf part;          /* part of the pixel that the particle covers */
 };
 
-/* Holds the visible point of each of these particles. */
+/* Holds the visible point of each particle of a vector, in world space. */
 struct seen_place {
-    struct vf3 at, normal, direction; /* in the world; of the ray */
-    struct vf3 sun_from;              /* start of the ray to the sun */
+    struct vf3 at, normal, direction; /* position, m; unit normal; direction of the ray */
+    struct vf3 sun_from;              /* start of the ray to the sun, m */
     vf depth, lit;
     struct vf3 albedo, glow;
 };
 
+/* Computes the colour of visible points from sky, sun and lights, and their glow. */
 SIMD void light_place(const struct kiln_ray_frame *frame, const struct seen_place *place,
                       const struct seen_things *seen, struct ray_color *color)
 {

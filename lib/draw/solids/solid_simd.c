@@ -1,6 +1,6 @@
-/* This file draws strips of opaque particles on the host. It finds the sphere or triangle that
- * each of a pixel's samples shows, then computes the light of each one in a pixel once, by a ray
- * through the pixel's middle. */
+/* This file draws strips of opaque particles on the host. It first finds the sphere or triangle
+ * that is visible in each sample of a pixel. It then computes the light of each visible sphere or
+ * triangle once a pixel, by a ray through the pixel's middle. */
 #include "draw/solids/instance_cast.h"
 #include "shared/ball_pattern.h"
 
@@ -9,11 +9,10 @@ enum { SAMPLES = KILN_SOLID_SAMPLES };
 /* A depth beyond any scene. */
 #define NOTHING 2e9f
 
-/* Holds the t at which a ray passes the centre most closely, and the square of the radius less that
- * of the distance there: negative for a miss. */
+/* Holds the t at which a ray passes the centre of a sphere most closely. */
 struct approach {
-    vf t, inside;
-    vf inverse2; /* of the ray's length */
+    vf t, inside; /* inside: radius^2 - distance^2 at t, m^2; negative for a miss */
+    vf inverse2;  /* 1 / the squared length of the ray's direction */
 };
 
 SIMD struct approach come_close(struct vf3 ray, struct vf3 center, vf radius)
@@ -23,6 +22,7 @@ SIMD struct approach come_close(struct vf3 ray, struct vf3 center, vf radius)
     return (struct approach){t, radius * radius - vf3_dot(away, away), inverse2};
 }
 
+/* Returns the t at which a ray enters the sphere; for a miss, the t of its closest approach. */
 SIMD vf surface_depth(const struct approach *a)
 {
     return a->t - vf_sqrt(vf_max(a->inside, vf_all(0.0f)) * a->inverse2);
@@ -30,6 +30,7 @@ SIMD vf surface_depth(const struct approach *a)
 
 /* ---- samples --------------------------------------------------------------------------------- */
 
+/* Updates the samples of LANES pixels of a row, from column x on, where the sphere is nearest. */
 SIMD void sample_pixels(const struct kiln_solid_strip *s, const struct kiln_drawn_sphere *sphere,
                         int32_t number, uint32_t row, int32_t x)
 {
@@ -84,13 +85,15 @@ static void clear_samples(const struct kiln_solid_strip *s, uint32_t row)
 
 /* ---- patterns -------------------------------------------------------------------------------- */
 
-/* Transforms a direction from the world to the ball's own axes. */
+/* Transforms a direction from the world to the ball's own axes. axis, w: the ball's pose, a unit
+ * quaternion from its axes to the world. */
 SIMD struct vf3 into_ball(const struct vf3 axis, vf w, struct vf3 v)
 {
     struct vf3 twice = vf3_scale(cast_cross(axis, v), vf_all(-2.0f));
     return vf3_add(vf3_along(v, twice, w), vf3_scale(cast_cross(axis, twice), vf_all(-1.0f)));
 }
 
+/* Mixes the second colour of patterns into the albedo, antialiased over the width of a pixel. */
 static void paint_spheres(const struct kiln_solid_strip *s, const struct seen_things *seen,
                           struct seen_place *place)
 {
@@ -132,8 +135,8 @@ static void light_spheres(const struct kiln_solid_strip *s, const struct seen_th
     light_place(frame, &place, seen, color);
 }
 
-/* Adds the light of particles to their pixels, in their order. bloom: weights of the first
- * particle. */
+/* Adds the light of particles to their pixels, lane by lane. bloom: the bloom weights in the first
+ * record of the particles' array. */
 SIMD void add_things(const struct kiln_solid_strip *s, const struct seen_things *seen,
                      uint32_t count, uint32_t y, const float *bloom, const struct ray_color *light)
 {
@@ -163,8 +166,8 @@ static inline float greater(float a, float b)
     return a > b ? a : b;
 }
 
-/* Returns the second nearest depth of a pixel's samples, since a mean of depths would have no
- * meaning. */
+/* Returns the second least depth of a pixel's samples. It is the pixel's depth, since a mean of the
+ * depths of different surfaces would lie on none of them. */
 static inline float second_of(const float t[SAMPLES])
 {
     float near_a = lesser(t[0], t[1]), far_a = greater(t[0], t[1]);
@@ -172,11 +175,11 @@ static inline float second_of(const float t[SAMPLES])
     return lesser(greater(near_a, near_b), lesser(far_a, far_b));
 }
 
-/* Holds lists of the particles in the pixels of a row and the quarters of a pixel that each covers,
- * three words an entry: the pixel; the particle times 4 and the quarters less 1; the triangle.
- * Spheres are listed from the front of the memory, triangles from its back. */
+/* Holds lists of the particles in the pixels of a row. An entry has three words: the column; the
+ * particle's number times 4, plus the quarters of the pixel that it covers less 1; the triangle.
+ * The list of spheres grows from the front of the memory, that of triangles from its back. */
 struct row_entries {
-    uint32_t *spheres, *triangles; /* where the next sphere goes; the last triangle */
+    uint32_t *spheres, *triangles; /* end of the list of spheres; start of that of triangles */
 };
 
 static void list_thing(const struct kiln_solid_strip *s, struct row_entries *entries,
@@ -190,6 +193,8 @@ static void list_thing(const struct kiln_solid_strip *s, struct row_entries *ent
         *to += 3;
 }
 
+/* Lists the particles in the samples of pixel x, each once, and writes the pixel's depth. first:
+ * index of the row's first sample. */
 static void list_pixel(const struct kiln_solid_strip *s, size_t first, uint32_t x,
                        struct row_entries *entries, float *depth)
 {
@@ -232,7 +237,7 @@ static void add_scene(const struct kiln_solid_strip *s, uint32_t y)
     }
 }
 
-/* Reads the particles of some entries; size: of a record. */
+/* Fills in the lanes from entries. size: bytes of a record of the particles. */
 static void see_things(const struct kiln_solid_strip *s, const uint32_t *entries, uint32_t lanes,
                        size_t size, struct seen_things *seen)
 {
@@ -246,7 +251,7 @@ static void see_things(const struct kiln_solid_strip *s, const uint32_t *entries
         if (is_instance(s, number))
             seen->corner[lane] = corner_of(s, number, entries[2]);
     }
-    for (uint32_t lane = lanes; lane < LANES; lane++) { /* repeats a particle, with part 0 */
+    for (uint32_t lane = lanes; lane < LANES; lane++) { /* repeats lane 0, with part 0 */
         seen->thing[lane] = seen->thing[0];
         seen->corner[lane] = seen->corner[0];
     }

@@ -1,4 +1,5 @@
-/* This file runs the stage of solids by the technique of the backdrop, `gl` or `cpu`. */
+/* This file runs the stage of solid particles by the backdrop's technique, `gl` or `cpu`, since
+ * solids share the rays and the light of the backdrop. */
 #include "draw/solids/solids.h"
 
 #include <stdlib.h>
@@ -8,8 +9,8 @@
 #include "draw/solids/solids_gl.h"
 
 struct kiln_solids_stage {
-    struct kiln_solids_gl *gl; /* one of these two */
-    struct kiln_solids_cpu *cpu;
+    struct kiln_solids_gl *gl;   /* NULL for technique `cpu` */
+    struct kiln_solids_cpu *cpu; /* NULL for technique `gl` */
 };
 
 struct kiln_solids_stage *kiln_solids_create(struct kiln_device *device,

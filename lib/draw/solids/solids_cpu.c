@@ -22,20 +22,23 @@ struct kiln_solids_cpu {
     const struct kiln_instances *meshes;
     struct kiln_drawn_sphere *spheres;
     struct kiln_drawn_instance *instances; /* NULL where there are no meshes */
-    struct kiln_row_range *ranges;         /* their rows */
-    uint32_t room;
+    struct kiln_row_range *ranges;         /* rows that each particle may touch */
+    uint32_t room;                         /* elements of spheres, instances and ranges */
     struct kiln_row_lists lists;
-    size_t pitch; /* of a row of samples */
+    size_t pitch; /* elements of a row of samples */
+    /* The next four are scratch memory of struct kiln_solid_strip, a part for each thread. */
     float *samples;
     int32_t *nearest, *triangles;
-    uint32_t *entries; /* the last four: for each thread */
+    uint32_t *entries;
 };
 
+/* Returns the number of samples that a thread has. */
 static size_t samples_of(const struct kiln_solids_cpu *stage)
 {
     return (size_t)KILN_SOLID_ROWS * KILN_SOLID_SAMPLES * stage->pitch;
 }
 
+/* Returns the number of words that a thread has for entries. */
 static size_t entries_of(const struct kiln_solids_cpu *stage)
 {
     return (size_t)3 * KILN_SOLID_SAMPLES * stage->pitch;
@@ -100,8 +103,9 @@ struct making {
     struct kiln_living_system systems[KILN_MAX_SYSTEMS];
 };
 
-/* Returns the range of pixels between the tangents at a circle, in a plane through the eye, and a
- * pixel or two around; scale: pixels of a slope of 1. */
+/* Returns the range of pixels between the two tangents from the eye to a circle, widened by 2 px.
+ * It is computed in a plane through the eye along one axis of the picture. scale: px for a slope
+ * of 1. */
 static struct kiln_row_range between_tangents(float aside, float depth, float radius, float scale,
                                               float size)
 {
@@ -114,8 +118,8 @@ static struct kiln_row_range between_tangents(float aside, float depth, float ra
                                    (int16_t)exact_clamp(high, 0.0f, size)};
 }
 
-/* Bounds the columns and rows that a ball may touch; a ball that reaches the near plane may touch
- * all of them. */
+/* Bounds the columns and rows that a sphere may touch; a sphere that reaches the near plane may
+ * touch all of them. */
 static void bound_ball(const struct kiln_view *view, const float center[3], float radius,
                        struct kiln_row_range *x, struct kiln_row_range *y)
 {
@@ -130,6 +134,7 @@ static void bound_ball(const struct kiln_view *view, const float center[3], floa
     *y = between_tangents(-center[1], depth, radius, 0.5f * frustum.w / frustum.y, frustum.w);
 }
 
+/* Transforms a position from the world to view space. */
 static void find_center(const struct kiln_view *view, float3 at, vec3 center)
 {
     mat4 world_to_view;
@@ -137,7 +142,8 @@ static void find_center(const struct kiln_view *view, float3 at, vec3 center)
     glm_mat4_mulv3(world_to_view, (vec3){at.x, at.y, at.z}, 1.0f, center);
 }
 
-/* Returns the radius of a pixel: a smaller sphere would flicker between the samples. */
+/* Returns half the edge of a pixel at a depth, m; a sphere with a smaller radius would flicker
+ * between the samples. */
 static float least_radius(const struct kiln_view *view, float depth)
 {
     float pixel_m = 2.0f * view->frustum.y * exact_max(depth, 1e-3f) / view->frustum.w;
@@ -167,8 +173,8 @@ static void make_pattern(const struct making *m, uint32_t number, uint32_t slot,
     s->pose[3] = pose.w;
 }
 
-/* Makes a drawn sphere. A sphere cannot fade, so its opacity scales its radius. A sphere that
- * reaches the near plane is not drawn. */
+/* Makes a drawn sphere. An opaque sphere cannot fade, so its opacity scales its radius. A sphere
+ * that reaches the near plane is not drawn. */
 static void make_sphere(const struct making *m, const struct kiln_living_system *system,
                         const struct kiln_living *particle, struct kiln_drawn_sphere *s,
                         struct kiln_row_range *rows)
@@ -203,7 +209,7 @@ static void place_axes(const struct kiln_view *view, const struct instance_axes 
         d->to_view[i % 3][i / 3] = turn[i / 3][i % 3];
 }
 
-/* Makes a drawn mesh. Its opacity scales its size. */
+/* Makes a drawn mesh. An opaque mesh cannot fade, so its opacity scales its size. */
 static void make_instance(const struct making *m, uint32_t number, uint32_t slot,
                           const struct kiln_living *particle, struct kiln_drawn_instance *d,
                           struct kiln_row_range *rows)
@@ -288,11 +294,11 @@ static void make_all(struct kiln_solids_cpu *stage, const struct kiln_moment *mo
     kiln_threads_for(stage->threads, count, MAKE_AT_A_TIME, make_solids, &making);
 }
 
-/* ---- into the picture ------------------------------------------------------------------------ */
+/* ---- drawing --------------------------------------------------------------------------------- */
 
 struct drawing {
     struct kiln_solids_cpu *stage;
-    struct kiln_solid_strip strip; /* what all have in common */
+    struct kiln_solid_strip strip; /* the members that all strips share */
 };
 
 static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)

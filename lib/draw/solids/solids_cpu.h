@@ -1,4 +1,5 @@
-/* This header declares solids for technique backdrop=cpu: they are cast by rays, on threads. */
+/* This header declares solid particles for technique backdrop=cpu, which casts rays at them on
+ * threads. */
 #ifndef KILN_DRAW_SOLIDS_SOLIDS_CPU_H
 #define KILN_DRAW_SOLIDS_SOLIDS_CPU_H
 

@@ -1,8 +1,8 @@
 /* This file draws solid spheres in GL as impostors: the geometry shader finds the rectangle that a
- * sphere covers, and the fragment shader casts a ray at it. Four samples a pixel have a depth test
- * of their own, so spheres need no order and silhouettes are smooth. A second pass puts the mean of
- * the samples over the backdrop, whose own picture is kept from frame to frame and must not
- * change. */
+ * sphere covers, and the fragment shader casts a ray at it. Each pixel has four samples with a
+ * depth test of their own, so spheres need no order and silhouettes are smooth. A second pass
+ * blends the mean of the samples over the backdrop, into images of its own: the backdrop's picture
+ * is kept from frame to frame and must not change. */
 #include "draw/solids/solids_gl.h"
 
 #include <stdio.h>
@@ -20,10 +20,10 @@ struct kiln_solids_gl {
     struct kiln_device *device;
     struct kiln_solids_targets targets;
     GLuint cast, resolve;             /* programs */
-    struct kiln_instances_gl *meshes; /* NULL: there are none */
+    struct kiln_instances_gl *meshes; /* NULL: no particle is a mesh */
     GLuint samples[3];                /* multisampled textures: colour, bloom, depth */
-    GLuint framebuffer;               /* of these */
-    struct kiln_framebuffer scene;
+    GLuint framebuffer;               /* the framebuffer of `samples` */
+    struct kiln_framebuffer scene;    /* the images that the stage writes */
     GLuint vertex_array;
 };
 
@@ -49,8 +49,8 @@ static bool create_programs(struct kiln_solids_gl *stage, const struct kiln_scen
     return stage->resolve != 0;
 }
 
-/* Makes the multisampled targets. Nothing is blended in them, so 16 bits lose no precision, and
- * four samples need less memory. */
+/* Makes the multisampled targets. Colours are stored in 16 bits, since four samples need much
+ * memory; nothing is blended in them, so rounding errors do not add up. */
 static bool create_samples(struct kiln_solids_gl *stage, struct kiln_error *error)
 {
     static const GLenum formats[3] = {GL_RGBA16F, GL_RGBA16F, GL_DEPTH_COMPONENT32F};

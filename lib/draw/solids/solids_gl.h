@@ -1,5 +1,5 @@
-/* This header declares solids for technique backdrop=gl: spheres as impostors with four samples a
- * pixel. */
+/* This header declares solid particles for technique backdrop=gl, which draws spheres as impostors
+ * and meshes as instances, with four samples a pixel. */
 #ifndef KILN_DRAW_SOLIDS_SOLIDS_GL_H
 #define KILN_DRAW_SOLIDS_SOLIDS_GL_H
 
