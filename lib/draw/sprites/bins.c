@@ -1,6 +1,7 @@
-/* This file lists for each tile of the picture the sprites that touch it, by counting, scanning and
- * scattering. Pieces of the sprites are counted and written independently, each to the place that
- * the scan gave it, so the order of a list is that of the sprites for any number of threads. */
+/* This file lists for each tile of the picture the sprites that touch it, by counting, a prefix sum
+ * and scattering. Threads count and write pieces of the sprites independently. Each piece has its
+ * own places in the lists, which the prefix sum gives, so a list has the order of the sprites for
+ * any number of threads. */
 #include "draw/sprites/bins.h"
 
 #include <stdlib.h>
@@ -8,7 +9,7 @@
 
 #include "base/error.h"
 
-enum { PIECE = 4096 }; /* sprites */
+enum { PIECE = 4096 }; /* sprites of a piece */
 
 static bool out_of_memory(struct kiln_error *error)
 {
@@ -84,13 +85,15 @@ struct filling {
     uint32_t count;
 };
 
+/* Returns whether a sprite lies behind the scene everywhere in a tile. */
 static bool hidden(const struct kiln_sprite *s, struct kiln_tile_depth depth)
 {
     return !(s->flags & KILN_SPRITE_DEEP) && s->depth > depth.farthest;
 }
 
-/* Visits each tile of each sprite of a piece: counts the sprite, or writes it to the place in
- * counts. */
+/* Visits each tile of each sprite of a piece. Without a list it counts the sprites of each tile;
+ * with a list it writes each sprite to the place that `counts` has for the tile, and advances the
+ * place. */
 static void visit_piece(const struct filling *f, size_t piece, uint32_t *list)
 {
     const struct kiln_bins *bins = f->bins;
@@ -136,7 +139,8 @@ static void write_pieces(void *context, size_t begin, size_t end, uint32_t worke
         visit_piece(f, piece, f->bins->list);
 }
 
-/* Turns counts into places; returns false when there are more than fit 32 bits. */
+/* Turns counts into places by a prefix sum, tile by tile. Returns false when a place would not fit
+ * 32 bits. */
 static bool scan(struct kiln_bins *bins, size_t pieces, size_t *total)
 {
     size_t tiles = (size_t)bins->columns * bins->rows, place = 0;
@@ -155,7 +159,7 @@ static bool scan(struct kiln_bins *bins, size_t pieces, size_t *total)
     return true;
 }
 
-/* Makes room for count words; their contents are lost. */
+/* Makes room for `count` words; earlier contents are lost. Returns false when memory is short. */
 static bool make_room(uint32_t **words, size_t *room, size_t count)
 {
     if (count <= *room)

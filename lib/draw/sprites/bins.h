@@ -1,5 +1,5 @@
 /* A kiln_bins holds for each tile of the picture a list of the sprites that touch it, in drawing
- * order. */
+ * order. The CPU rasteriser (particles_cpu.c) uses it. */
 #ifndef KILN_DRAW_SPRITES_BINS_H
 #define KILN_DRAW_SPRITES_BINS_H
 
@@ -12,26 +12,28 @@ struct kiln_tile_depth {
 };
 
 struct kiln_bins {
-    uint32_t columns, rows;        /* of tiles */
-    struct kiln_tile_depth *depth; /* of each tile */
-    uint32_t *counts;              /* by piece of the sprites and tile: counts, then places */
+    uint32_t columns, rows;        /* tiles along the picture's edges */
+    struct kiln_tile_depth *depth; /* by tile */
+    uint32_t *counts; /* by piece and tile: a count of sprites, then a place in `list` */
     size_t count_room;
-    uint32_t *first; /* of each tile's list in `list`, and the end of the last one */
-    uint32_t *list;  /* numbers of sprites */
+    uint32_t *first; /* by tile: start of its list in `list`; at last, the end of all lists */
+    uint32_t *list;  /* numbers of sprites, tile after tile */
     size_t list_room;
 };
 
+/* Makes empty lists for pictures of up to this size, px. Returns false with an error;
+ * kiln_bins_finish must be called in that case, too. */
 bool kiln_bins_init(struct kiln_bins *bins, uint32_t width, uint32_t height,
                     struct kiln_error *error);
 void kiln_bins_finish(struct kiln_bins *bins);
 
-/* Measures the depths of a scene in each tile. depth is an image of at most the bins' size, rows
- * from the top. Until the next call, the lists are for pictures of its size. */
+/* Measures the depth of the scene in each tile. depth is an image of at most the bins' size, m,
+ * rows from the top. Until the next call, the lists are for pictures of the image's size. */
 void kiln_bins_measure(struct kiln_bins *bins, const float *depth, uint32_t width, uint32_t height,
                        struct kiln_threads *threads);
 
-/* Makes the lists of sprites. Sprites with no pixels (x_from = x_to) are in no list; a tile that is
- * nearer than a sprite all over does not list it. */
+/* Makes the lists of sprites. A sprite without pixels (x_from = x_to) is in no list. A tile does
+ * not list sprites that are farther than the scene everywhere in it. */
 bool kiln_bins_fill(struct kiln_bins *bins, const struct kiln_sprite *sprites, uint32_t count,
                     struct kiln_threads *threads, struct kiln_error *error);
 

@@ -1,7 +1,7 @@
 /* This file prepares cells of flipbooks for the CPU rasteriser: it lays their texels out for
- * sampling, finds the hulls of the visible ones, and mixes the cells between two that are wanted.
- * Mixed cells are stored as bytes, like the atlas. The shader follows the motion at each pixel;
- * mixing follows it at each texel. */
+ * sampling, finds the hulls of their visible texels, and mixes the wanted cells between two
+ * adjacent ones. Mixed cells are stored as bytes, like the atlas. Mixing follows the cells' motion
+ * at each texel, where the shader follows it at each pixel. */
 #include "draw/sprites/cells.h"
 
 #include <limits.h>
@@ -14,6 +14,7 @@ enum {
     MIXED_EDGE = KILN_ATLAS_CELL >> KILN_CELL_MIXED_LEVEL,
 };
 
+/* Holds the parts of a kiln_cell_name that do not follow from the slot's number. */
 struct slot {
     uint32_t next_layer;
     float motion;
@@ -22,16 +23,16 @@ struct slot {
 struct kiln_cells {
     const struct kiln_atlas *atlas;
     struct slot *slots;  /* by layer, phase and level */
-    atomic_bool *wanted; /* of each */
-    uint8_t **texels;    /* of each; NULL: not mixed yet */
+    atomic_bool *wanted; /* by slot: the slot's cell was wanted */
+    uint8_t **texels;    /* by slot: the cell, laid out; NULL: it is not made yet */
     uint32_t slot_count;
-    uint32_t *missing;            /* numbers of slots to be mixed */
+    uint32_t *missing;            /* numbers of the slots to be made now */
     struct kiln_cell_hull *hulls; /* by layer and level */
-    uint8_t *moves;               /* of all layers; NULL: none moves */
+    uint8_t *moves;               /* motion of all layers, laid out; NULL: no cell moves */
 };
 
-/* Lays some channels of RGBA out for sampling: each texel holds its row and, beside it, the row
- * below. */
+/* Lays `count` channels of RGBA out for sampling, from `channel` on: beside each channel of a texel
+ * is that of the texel below it. Values are stored less 128. */
 static void spread(const uint8_t *from, uint32_t edge, uint32_t channel, uint32_t count,
                    uint8_t *to)
 {
@@ -48,6 +49,7 @@ static void spread(const uint8_t *from, uint32_t edge, uint32_t channel, uint32_
     }
 }
 
+/* Lays a cell out: all four channels, then a copy with only blue and alpha. */
 static void spread_cell(const uint8_t *from, uint32_t edge, uint8_t *to)
 {
     spread(from, edge, 0, 4, to);
@@ -71,7 +73,7 @@ static bool make_moves(struct kiln_cells *cells)
     if (!atlas->moves)
         return true;
     size_t bytes = KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION);
-    cells->moves = calloc((size_t)atlas->layers + 1, bytes); /* none: not NULL */
+    cells->moves = calloc((size_t)atlas->layers + 1, bytes); /* never 0 bytes */
     for (uint32_t i = 0; cells->moves && i < atlas->layers; i++)
         spread_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES, cells->moves + i * bytes);
     return cells->moves != NULL;
@@ -120,8 +122,8 @@ static void extend_to(struct extent *extent, int x, int y)
     }
 }
 
-/* Measures the extent of the visible texels. The outermost of each row suffice: those between
- * extend nothing. */
+/* Measures the extent of the visible texels. It looks only at the first and the last visible texel
+ * of each row, since the texels between them cannot extend it. */
 static struct extent measure(const uint8_t *texels, int edge, uint32_t kind)
 {
     struct extent extent = {{INT_MAX, INT_MAX, INT_MAX, INT_MAX},
@@ -151,8 +153,8 @@ static struct extent around_both(const struct extent *a, const struct extent *b)
     return both;
 }
 
-/* Returns the hull of an extent. A texel is visible up to one texel from its centre, and a mixed
- * texel up to one more; the hull also grows by the motion. */
+/* Returns the hull of an extent. Sampling shows a texel up to one texel from its centre, and mixing
+ * spreads it by one more; the hull also grows by the motion. */
 static struct kiln_cell_hull hull_of(const struct extent *extent, float motion, int edge)
 {
     static const float middle[4] = {0.5f, 0.5f, 1.0f, 0.0f};
@@ -249,7 +251,7 @@ uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *
     uint32_t number =
         (name->layer * KILN_CELL_PHASES + name->phase) * KILN_ATLAS_LEVELS + name->level;
     atomic_bool *wanted = &cells->wanted[number];
-    /* The first thread to want the cell writes the slot; all threads would write the same. */
+    /* Only the first thread that wants the cell writes the slot; any would write the same. */
     if (!atomic_load_explicit(wanted, memory_order_relaxed) &&
         !atomic_exchange_explicit(wanted, true, memory_order_relaxed))
         cells->slots[number] = (struct slot){name->next_layer, name->motion};
@@ -266,11 +268,11 @@ struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells)
                                            KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION)};
 }
 
-/* Describes a bilinear read of a grid: two columns, two rows, and the parts of the way between,
- * clamped at the edge. */
+/* Describes a bilinear read of a grid, clamped at the edges; the first element of each member is
+ * for columns, the second for rows. */
 struct bilinear {
-    uint32_t from[2], to[2]; /* columns, rows */
-    float part[2];
+    uint32_t from[2], to[2]; /* the two texels */
+    float part[2];           /* weight of the second texel */
 };
 
 static float clamp(float x, float low, float high)
@@ -278,7 +280,7 @@ static float clamp(float x, float low, float high)
     return x < low ? low : x > high ? high : x;
 }
 
-/* x, y: in edges of the grid. */
+/* Returns the read at a place; x, y: in edges of the grid. */
 static struct bilinear place(float x, float y, uint32_t edge)
 {
     struct bilinear at;
@@ -292,6 +294,7 @@ static struct bilinear place(float x, float y, uint32_t edge)
     return at;
 }
 
+/* Interpolates bilinearly between four values. */
 static float between(float upper_left, float upper_right, float lower_left, float lower_right,
                      const float part[2])
 {
@@ -311,8 +314,8 @@ static void weigh_four(float part, float weights[4])
     weights[3] = 0.25f * (cube - square);
 }
 
-/* Reads RGBA at a place. Linear interpolation would blur the result, since it becomes texels
- * again. */
+/* Reads RGBA at a place by cubic convolution. Linear interpolation would blur too much, since the
+ * result becomes texels, which are interpolated again. */
 static void read_texel(const uint8_t *texels, uint32_t edge, float x, float y, float rgba[4])
 {
     const struct bilinear at = place(x, y, edge);
@@ -333,6 +336,7 @@ static void read_texel(const uint8_t *texels, uint32_t edge, float x, float y, f
     }
 }
 
+/* Reads the motion at a place, 127 for a full move right or down. */
 static void read_move(const int8_t *moves, float x, float y, float way[2])
 {
     struct bilinear at = place(x, y, KILN_ATLAS_MOTION);
@@ -343,8 +347,8 @@ static void read_move(const int8_t *moves, float x, float y, float way[2])
                          lower[2 * at.from[0] + c], lower[2 * at.to[0] + c], at.part);
 }
 
-/* Mixes a cell at each texel, as cell_between() of shaders/draw/sprites/shade.glsl does at each
- * pixel. */
+/* Mixes the cell of a slot. It computes each texel as cell_between() of
+ * shaders/draw/sprites/shade.glsl computes a pixel. */
 static void mix(const struct kiln_cells *cells, uint32_t number)
 {
     uint8_t texels[4 * MIXED_EDGE * MIXED_EDGE] = {0}, *texel = texels;
@@ -377,7 +381,7 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
     spread_cell(texels, edge, cells->texels[number]);
 }
 
-/* Copies a layer of the atlas as a cell. */
+/* Lays a layer of the atlas out as the cell of a slot with phase 0. */
 static void copy(const struct kiln_cells *cells, uint32_t number)
 {
     uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;

@@ -1,7 +1,7 @@
-/* This file draws particles at half or a quarter of the frame's resolution with any rasteriser:
- * each pass is drawn small, against a small depth of the scene, then enlarged to the frame. Near
- * edges it is drawn again at full resolution, against a depth of 0 everywhere else, behind which
- * rasterisers skip everything. */
+/* This file draws particles at half or a quarter of the frame's resolution with any rasteriser. It
+ * draws each pass small, against a small depth of the scene, then enlarges the result to the frame.
+ * With mixed resolution it also draws the pass at full resolution, against a depth of the scene
+ * that is 0 away from edges, so that rasterisers skip particles there as hidden. */
 #include "draw/sprites/coarse.h"
 
 #include <stdlib.h>
@@ -14,7 +14,7 @@ struct kiln_coarse_stage {
     struct kiln_device *device;
     struct kiln_particles_stage *particles;
     struct kiln_coarse_images images;
-    struct kiln_coarse_cpu *cpu; /* exactly one of the two is not NULL */
+    struct kiln_coarse_cpu *cpu; /* exactly one of cpu and gl is not NULL */
     struct kiln_coarse_gl *gl;
 };
 

@@ -1,6 +1,7 @@
-/* Stage 4b, where a scene asks for it, draws particles in a picture of half or a quarter of the
- * frame's width and height and enlarges it to the frame's by its depth; if the scene asks for that
- * as well, edges of the depth are drawn at full resolution (Heinz 2019, 2.2.2). */
+/* Stage 4b draws particles in a picture of half or a quarter of the frame's width and height if the
+ * scene asks for it, and enlarges that picture to the frame with regard to the scene's depth. With
+ * mixed resolution, particles near edges of the depth are drawn at full resolution (Heinz
+ * 2019, 2.2.2). */
 #ifndef KILN_DRAW_SPRITES_COARSE_H
 #define KILN_DRAW_SPRITES_COARSE_H
 
@@ -9,10 +10,11 @@
 struct kiln_coarse_stage;
 
 struct kiln_coarse_params {
-    struct kiln_particles_stage *particles; /* draws them */
-    bool in_gl;    /* where depth is made smaller and pictures larger; both ways make the same, to
-                    * rounding, and on the host to the bit on every machine */
-    GLenum format; /* of the colours */
+    struct kiln_particles_stage *particles; /* draws the particles of both pictures */
+    /* true: GL shrinks the depth and enlarges the pictures; false: the host does. Both give the
+     * same pictures to rounding; those of the host are the same to the bit on every machine. */
+    bool in_gl;
+    GLenum format; /* pixel format of colour and bloom */
 };
 
 /* Makes the stage. The scene's resolution must not be full. The arguments must outlive the stage;

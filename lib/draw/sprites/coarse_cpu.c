@@ -1,6 +1,6 @@
-/* This file goes between the frame and its coarse picture on the host: it measures depths and
- * edges, and enlarges the pictures, by threads over rows, with the widest vectors that the machine
- * has. */
+/* This file converts between the frame and its coarse picture on the host: it measures depths and
+ * edges, and enlarges the pictures. Threads share the rows, and coarse_rows_simd.c processes them
+ * with the widest vectors that the machine has. */
 #include "draw/sprites/coarse_cpu.h"
 
 #include <stdlib.h>
@@ -10,14 +10,14 @@
 #include "draw/sprites/coarse_rows.h"
 #include "shared/coarse.h"
 
-enum { ROWS_AT_A_TIME = 4 };
+enum { ROWS_AT_A_TIME = 4 }; /* rows that a thread takes at once */
 
 struct kiln_coarse_cpu {
     struct kiln_coarse_images *images;
     struct kiln_threads *threads;
     const struct kiln_coarse_loops *loops;
-    struct kiln_coarse_place *columns, *rows; /* of the frame */
-    uint8_t *bent;                            /* as in struct kiln_coarse_rows */
+    struct kiln_coarse_place *columns, *rows; /* by column and by row of the frame */
+    uint8_t *bent;                            /* this and the next as in struct kiln_coarse_rows */
     struct kiln_coarse_shown *mixed;
     struct kiln_coarse_columns *known;
 };
@@ -27,11 +27,13 @@ static int32_t limit(int32_t index, uint32_t count)
     return index < 0 ? 0 : index < (int32_t)count ? index : (int32_t)count - 1;
 }
 
+/* Returns where a column or a row of the frame lies among `count` coarse ones; beyond: px of the
+ * frame by which the coarse picture reaches beyond the frame's edge. */
 static struct kiln_coarse_place find_place(uint32_t pixel, float beyond, uint32_t factor,
                                            uint32_t count)
 {
     struct kiln_coarse_place place = {.at = ((float)pixel + 0.5f + beyond) / (float)factor - 0.5f};
-    int32_t low = (int32_t)(place.at + 1.0f) - 1; /* floor: it is beyond -1 */
+    int32_t low = (int32_t)(place.at + 1.0f) - 1; /* floor, since `at` > -1 */
     place.part = place.at - (float)low;
     place.own = limit(place.part < 0.5f ? low : low + 1, count);
     const float4 weights = coarse_spline(place.part);
@@ -146,7 +148,8 @@ bool kiln_coarse_cpu_measure(struct kiln_coarse_cpu *coarse, struct kiln_image *
     return rows.fine_depth && run(coarse, images->height, coarse->loops->mask, &rows, error);
 }
 
-/* Takes the images' pixels on the host; returns false if one of them cannot be had. */
+/* Makes the pixels of the images that `spread` reads available on the host; returns false with an
+ * error. */
 static bool open_images(struct kiln_coarse_images *images, struct kiln_image *depth,
                         struct kiln_coarse_rows *rows, struct kiln_error *error)
 {

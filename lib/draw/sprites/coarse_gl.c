@@ -1,5 +1,5 @@
-/* This file goes between the frame and its coarse picture in GL: it measures depths and edges, and
- * enlarges the pictures, by full-screen passes. */
+/* This file converts between the frame and its coarse picture in GL: it measures depths and edges,
+ * and enlarges the pictures, by full-screen passes. */
 #include "draw/sprites/coarse_gl.h"
 
 #include <stdlib.h>
@@ -20,9 +20,9 @@ struct kiln_coarse_gl {
     struct kiln_device *device;
     struct kiln_coarse_images *images;
     GLuint programs[PROGRAM_COUNT];
-    GLint has_fine;
+    GLint has_fine; /* uniform of SPREAD */
     GLuint vertex_array;
-    struct kiln_image bent; /* 1 where a coarse pixel's depth is not that of a plane; else 0 */
+    struct kiln_image bent; /* 1 where depths in a coarse pixel do not lie on a plane; else 0 */
     struct kiln_framebuffer depth_target, edges_target, mask_target;
 };
 
@@ -93,7 +93,7 @@ void kiln_coarse_gl_destroy(struct kiln_coarse_gl **coarse)
     *coarse = NULL;
 }
 
-/* Draws with a program from images at texture units 0 and up. */
+/* Runs a full-screen pass of a program into `target`. Binds images to texture units from 0 on. */
 static bool run_pass(struct kiln_coarse_gl *coarse, enum program program,
                      struct kiln_framebuffer *target, struct kiln_image *const *images,
                      GLuint count, struct kiln_error *error)

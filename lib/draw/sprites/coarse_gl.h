@@ -1,5 +1,5 @@
-/* A kiln_coarse_gl converts between a frame and its smaller picture by fragment shaders;
- * draw/sprites/coarse_cpu.h describes its functions. */
+/* A kiln_coarse_gl converts between a frame and its coarse picture by fragment shaders. Its
+ * functions do what those of kiln_coarse_cpu do on the host (draw/sprites/coarse_cpu.h). */
 #ifndef KILN_DRAW_SPRITES_COARSE_GL_H
 #define KILN_DRAW_SPRITES_COARSE_GL_H
 
@@ -7,7 +7,7 @@
 
 struct kiln_coarse_gl;
 
-/* NULL with an error. images and device must outlive it. */
+/* Returns NULL with an error. images and device must outlive the result. */
 struct kiln_coarse_gl *kiln_coarse_gl_create(struct kiln_device *device,
                                              struct kiln_coarse_images *images,
                                              struct kiln_error *error);

@@ -1,7 +1,7 @@
 /* This file measures rows of the coarse depth and enlarges coarse pictures to rows of the frame.
  * Where the scene is smooth, a pixel of the frame is interpolated by a spline from the sixteen
- * coarse ones around it. Near edges it takes the mean of those of the nine nearest that have a
- * depth like its own. */
+ * coarse pixels around it. Near edges it is the mean of the nine nearest coarse pixels, weighted by
+ * how similar their depth is to the depth of the pixel. */
 #include <string.h>
 
 #include "draw/sprites/coarse_rows.h"
@@ -39,7 +39,7 @@ struct range {
     uint32_t from, to;
 };
 
-/* Returns the pixels of the frame that lie in a coarse one. */
+/* Returns the range of the frame's columns or rows that lie in a coarse one. */
 static inline struct range pixels_of(uint32_t coarse, float beyond, uint32_t factor, uint32_t size)
 {
     uint32_t past = (uint32_t)beyond, from = coarse * factor;
@@ -47,8 +47,8 @@ static inline struct range pixels_of(uint32_t coarse, float beyond, uint32_t fac
                           from + factor - past < size ? from + factor - past : size};
 }
 
-/* Adds a row of the frame to the columns of its coarse row: the farthest depth, and whether the
- * depths of a pixel and its neighbours do not lie on a plane, along either axis. */
+/* Adds a row of the frame to the measurements of its coarse row: the farthest depth, and whether
+ * the depths of a pixel and its two neighbours along either axis do not lie on a plane. */
 static inline void add_row(const struct kiln_coarse_images *images, const float *depth, uint32_t y,
                            struct kiln_coarse_columns *columns)
 {
@@ -143,14 +143,16 @@ static void mask_rows(void *context, size_t begin, size_t end, uint32_t worker)
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
-/* Interpolates between the middle two of four by their spline, without overshooting the two. */
+/* Interpolates between the middle two of four pixels by a cubic spline, clamped to the range of
+ * these two. */
 static inline quad interpolate(quad before, quad low, quad high, quad after, const float weights[4])
 {
     quad sum = (before * weights[0] + low * weights[1]) + (high * weights[2] + after * weights[3]);
     return least(most(sum, least(low, high)), most(low, high));
 }
 
-/* Mixes four coarse rows. Returns the columns between which everything visible in them lies. */
+/* Interpolates a row between four coarse rows. Returns the range of columns outside of which the
+ * four rows are empty. */
 static inline struct range mix_rows(const struct kiln_coarse_rows *s,
                                     const struct kiln_coarse_place *row,
                                     struct kiln_coarse_shown *mixed)
@@ -180,8 +182,8 @@ static inline struct range mix_rows(const struct kiln_coarse_rows *s,
     return shown;
 }
 
-/* Returns the mean, weighted by likeness of depth, of the coarse pixel that a pixel lies in and the
- * eight around it. */
+/* Returns the mean of the coarse pixel in which a pixel lies and of the eight around it, weighted
+ * by distance and by how similar their depth is to the pixel's. */
 static inline struct kiln_coarse_shown choose(const struct kiln_coarse_rows *s,
                                               const struct kiln_coarse_place *x,
                                               const struct kiln_coarse_place *y, float depth)
@@ -257,7 +259,7 @@ static inline void spread_row(const struct kiln_coarse_rows *s, uint32_t y,
 {
     const uint32_t width = s->images->width;
     const struct range shown = mix_rows(s, &s->rows[y], mixed);
-    struct range pixels = {0, width}; /* that take from there, or may from finer ones */
+    struct range pixels = {0, width}; /* pixels that may not be empty */
     if (!s->fine_color) {
         while (pixels.from < width && s->columns[pixels.from].taps[3] < (int64_t)shown.from)
             pixels.from++;
