@@ -1,7 +1,7 @@
-/* This file blends a tile's particles in an order that each pixel sorts on its own. It finds the
- * fragments of a sprite by drawing the sprite alone into an empty tile, so that no rasteriser needs
- * to know of lists; it then sorts and blends the fragments of each pixel. A row with too many
- * fragments is drawn again for the nearer ones, so none is left out. */
+/* This file sorts and blends the fragments of each pixel of a tile. It finds the fragments of a
+ * sprite by drawing the sprite alone into an empty tile, so that the code that draws sprites needs
+ * no lists. A row with too many fragments is drawn again for the nearer ones, so that no fragment
+ * is left out. */
 #include "draw/sprites/fragments.h"
 
 #include <stdlib.h>
@@ -13,9 +13,9 @@ enum { FRAGMENTS_AT_A_TIME = 1 << 19, TILE_PIXELS = KILN_TILE_WIDTH * KILN_TILE_
 
 struct fragment {
     float rgb[3], alpha; /* premultiplied */
-    uint64_t key;        /* the least is the farthest; then by the order of sprites */
+    uint64_t key;        /* grows from far to near; for equal depths, in the order of sprites */
     uint32_t sprite;
-    uint32_t pixel; /* of the scratch tile */
+    uint32_t pixel; /* number of the pixel in the scratch tile */
 };
 
 /* Links a fragment to the list of its pixel. */
@@ -25,12 +25,12 @@ struct link {
 };
 
 struct kiln_fragments {
-    struct kiln_tile *scratch;  /* shows one sprite, of some rows of the tile */
-    struct fragment *fragments; /* FRAGMENTS_AT_A_TIME of both */
+    struct kiln_tile *scratch;  /* some rows of the tile, with one sprite at a time */
+    struct fragment *fragments; /* FRAGMENTS_AT_A_TIME elements, as in links */
     struct link *links;
-    size_t count;
-    uint64_t from, until;       /* keys that are gathered now: those before until */
-    uint32_t ends[TILE_PIXELS]; /* of the pixels' lists in links */
+    size_t count;               /* number of fragments */
+    uint64_t from, until;       /* fragments with from <= key < until are gathered now */
+    uint32_t ends[TILE_PIXELS]; /* end of each pixel's list in links */
 };
 
 struct kiln_fragments *kiln_fragments_create(void)
@@ -64,6 +64,7 @@ struct box {
     int x_from, x_to, y_from, y_to;
 };
 
+/* Returns the pixels of a tile that a sprite may touch. */
 static struct box find_box(const struct kiln_tile *tile, const struct kiln_sprite *s)
 {
     return (struct box){
@@ -74,7 +75,7 @@ static struct box find_box(const struct kiln_tile *tile, const struct kiln_sprit
     };
 }
 
-/* Makes the scratch tile an empty copy of some rows of another. */
+/* Makes the scratch tile an empty copy of some rows of a tile, with their depth. */
 static void begin_rows(struct kiln_fragments *f, const struct kiln_tile *tile, int y, int rows)
 {
     struct kiln_tile *scratch = f->scratch;
@@ -99,8 +100,8 @@ static void clear_box(struct kiln_tile *tile, const struct box *box)
     }
 }
 
-/* Holds the view depth of a sprite's plane at a pixel, m, and the distance from it of each half of
- * its thickness. */
+/* Holds the view depth of a sprite's plane at a pixel, m, and half of the sprite's thickness there,
+ * m. */
 struct place {
     float depth, half_depth;
 };
@@ -123,6 +124,8 @@ static struct place find_place(const struct kiln_sprite *s, float x, float y)
     return place;
 }
 
+/* Adds a fragment, unless its key is not gathered now. place: its number among fragments of equal
+ * depth. */
 static void put(struct kiln_fragments *f, const struct fragment *fragment, float depth,
                 uint32_t place)
 {
@@ -134,6 +137,7 @@ static void put(struct kiln_fragments *f, const struct fragment *fragment, float
     to->key = key;
 }
 
+/* Adds the fragment of a sprite in a pixel of the scratch tile; two for a thick sprite. */
 static void put_pixel(struct kiln_fragments *f, const struct kiln_sprite *s, int x, int y,
                       uint32_t number, uint32_t order)
 {
@@ -169,8 +173,8 @@ static size_t count_before(const struct kiln_fragments *f, uint64_t key)
     return count;
 }
 
-/* Keeps about the farther half of the fragments for this time. A key occurs no more often in a row
- * than there are pixels, so a key in between exists. */
+/* Drops about the nearer half of the fragments, and gathers only farther ones from now on. A key
+ * occurs in a row at most once a pixel, so there is a key that divides the fragments. */
 static void keep_farther(struct kiln_fragments *f)
 {
     uint64_t low = f->from, high = f->until;
@@ -191,9 +195,9 @@ static void keep_farther(struct kiln_fragments *f)
     f->count = kept;
 }
 
-/* Gathers the fragments of rows of a tile. Of a single row it gathers as many as there is room for,
- * the farthest that have not been blended. Returns false for several rows that have too many
- * together. */
+/* Gathers the fragments of some rows of a tile. In a single row it gathers as many as there is room
+ * for: the farthest of those that have not been blended yet. Returns false if several rows together
+ * have too many fragments. */
 static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct kiln_tile *tile,
                    int y, int rows, const struct kiln_sprite *sprites,
                    const struct kiln_cells *cells, const uint32_t *list, size_t count)
@@ -222,7 +226,8 @@ static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct 
 
 /* ---- blending -------------------------------------------------------------------------------- */
 
-/* Makes the list of each pixel: counts fragments, sums the counts to places, fills in the links. */
+/* Makes the list of each pixel: it counts fragments, turns counts into places by a prefix sum, and
+ * writes the links. */
 static void make_lists(struct kiln_fragments *f)
 {
     memset(f->ends, 0, sizeof f->ends);
@@ -239,7 +244,8 @@ static void make_lists(struct kiln_fragments *f)
             (struct link){f->fragments[i].key, (uint32_t)i};
 }
 
-/* Sorts a list by Shell's sort, which is short, and quick on lists that are almost in order. */
+/* Sorts a list by Shell's sort, whose code is short and which is quick on lists that are almost
+ * sorted. */
 static void sort_list(struct link *links, size_t count)
 {
     size_t gap = 1;

@@ -1,9 +1,9 @@
-/* This file blends particles in GL in an order that each pixel sorts on its own. It draws the
- * particles twice, more often where lists are long: once to count fragments, then to fill lists,
- * whose places a scan on the host computes from the counts. Short lists are sorted each by one
- * invocation, long ones in merge passes, so that no invocation runs more loop iterations than
- * software GL allows. Sorting makes the order in which fragments arrive irrelevant. As many rows
- * are taken at a time as fit a fixed amount of memory, so no fragment is left out. */
+/* This file sorts and blends the fragments of each pixel in GL. It draws the particles once to
+ * count fragments. A prefix sum on the host gives each pixel's list a place. It then draws the
+ * particles again to fill the lists, once for each part of the picture whose lists fit into a fixed
+ * amount of memory, so no fragment is left out. One invocation sorts a short list; long lists are
+ * sorted in merge passes, so that no invocation runs more loop iterations than software GL allows.
+ * Since lists are sorted, the order in which GL writes fragments does not matter. */
 #include "draw/sprites/fragments_gl.h"
 
 #include <assert.h>
@@ -14,29 +14,31 @@
 
 enum { FRAGMENTS_AT_A_TIME = 1 << 21, KEY_BYTES = 16, FRAGMENT_BYTES = 32 };
 
-/* The fragments of a list that an invocation blends on software, besides sorting a short list. */
+/* The most fragments of a list that an invocation blends at once on software GL; it may also sort a
+ * short list. */
 enum { SOFTWARE_STRETCH = 1 << 14 };
 static_assert(KILN_FRAGMENT_SHORT * KILN_FRAGMENT_SHORT * 7 / 10 + KILN_FRAGMENT_SHORT * 10 +
                       SOFTWARE_STRETCH <
                   KILN_SOFTWARE_ITERATIONS,
               "fragments_resolve.frag");
 
-/* Holds the data of a pixel's list that shaders read besides its length. */
+/* Holds where a pixel's list starts, and how many of its fragments are written; `counts` has its
+ * length. */
 struct place {
     uint32_t first, filled;
 };
 
-/* Describes fragments of a long list that a work group sorts. */
+/* Describes KILN_FRAGMENT_BLOCK fragments of a long list, which one work group sorts. */
 struct block {
-    uint32_t pixel, first;
+    uint32_t pixel, first; /* first: number of its first fragment in the list */
 };
 
 enum program { LISTS, RESOLVE, MERGE, PROGRAM_COUNT };
 
-/* Describes the pixels whose lists are in memory together. */
+/* Describes a rectangle of pixels whose lists are in memory together. */
 struct part {
     uint32_t x, y, width, height;
-    uint32_t longest; /* fragments of one list */
+    uint32_t longest; /* fragments in the longest of the lists */
 };
 
 struct kiln_fragments_gl {
@@ -44,9 +46,9 @@ struct kiln_fragments_gl {
     GLuint programs[PROGRAM_COUNT];
     GLint row_length[PROGRAM_COUNT], fills, stretch;
     GLuint vertex_array;
-    struct kiln_buffer counts, places; /* of each pixel; the places in its part */
+    struct kiln_buffer counts, places; /* by pixel: length of its list; struct place */
     struct kiln_buffer keys, fragments;
-    struct kiln_buffer merged, blocks; /* of long lists: keys, by every other pass; work groups */
+    struct kiln_buffer merged, blocks; /* for long lists: second buffer of keys; struct block */
     struct part *parts;
     size_t part_count, part_room;
 };
@@ -129,8 +131,8 @@ static void use_program(const struct kiln_fragments_gl *f, enum program program,
     glUniform1ui(f->row_length[program], size->width);
 }
 
-/* Draws the particles to count fragments or to fill lists. Colour is masked, since a program
- * without outputs leaves its targets undefined. */
+/* Draws the particles to count fragments or to fill lists. Colour writes are masked, since a
+ * program without outputs would leave the colour targets undefined. */
 static void submit_to_lists(const struct kiln_fragments_gl *f, bool fills,
                             const struct kiln_image *size, void (*submit)(void *context),
                             void *context)
@@ -182,17 +184,17 @@ static bool add_part(struct kiln_fragments_gl *f, const struct part *part, struc
     return true;
 }
 
-/* Describes how a picture is divided into parts whose lists fit in memory together: whole rows, or
- * pieces of one row. */
+/* Holds the state of dividing a picture into parts whose lists fit into memory together: whole
+ * rows, or pieces of one row. */
 struct cutting {
     struct kiln_fragments_gl *f;
     size_t width;
     const uint32_t *counts;
     struct place *places;
-    size_t limit;     /* fragments of a part */
-    size_t most;      /* of one so far */
-    struct part part; /* the one at hand; height 0: none */
-    size_t total;     /* of its fragments */
+    size_t limit;     /* most fragments of a part, unless one pixel alone has more */
+    size_t most;      /* most fragments of a part so far */
+    struct part part; /* the part that is being made; height 0: none */
+    size_t total;     /* number of its fragments so far */
 };
 
 static bool end_part(struct cutting *c, struct kiln_error *error)
@@ -204,6 +206,7 @@ static bool end_part(struct cutting *c, struct kiln_error *error)
     return ok;
 }
 
+/* Gives the lists of `count` pixels of a row, from (x, y) on, places in the part. */
 static void give_places(struct cutting *c, uint32_t x, uint32_t y, uint32_t count)
 {
     for (size_t i = y * c->width + x, end = i + count; i < end; i++) {
@@ -213,7 +216,7 @@ static void give_places(struct cutting *c, uint32_t x, uint32_t y, uint32_t coun
     }
 }
 
-/* Divides a row whose lists do not fit in memory together. */
+/* Divides a row whose lists do not fit into memory together. */
 static bool cut_row(struct cutting *c, uint32_t y, struct kiln_error *error)
 {
     for (uint32_t x = 0; x < c->width; x++) {
@@ -228,6 +231,7 @@ static bool cut_row(struct cutting *c, uint32_t y, struct kiln_error *error)
     return end_part(c, error);
 }
 
+/* Divides a picture of `height` rows. */
 static bool cut(struct cutting *c, uint32_t height, struct kiln_error *error)
 {
     const uint32_t width = (uint32_t)c->width;
@@ -250,8 +254,8 @@ static bool cut(struct cutting *c, uint32_t height, struct kiln_error *error)
     return end_part(c, error);
 }
 
-/* Makes the parts and gives each pixel its place in its part. Returns the most fragments of a part,
- * or 0 with an error. */
+/* Divides the picture into parts and gives each pixel's list a place in its part. Returns the
+ * number of fragments of the largest part, or 0 with an error. */
 static size_t scan(struct kiln_fragments_gl *f, const struct kiln_image *size,
                    struct kiln_error *error)
 {
@@ -279,7 +283,7 @@ static size_t scan(struct kiln_fragments_gl *f, const struct kiln_image *size,
 
 /* ---- long lists ------------------------------------------------------------------------------ */
 
-/* Lists the blocks of a part's long lists and returns how many; with NULL, it only counts. */
+/* Writes the blocks of a part's long lists, unless `blocks` is NULL, and returns their number. */
 static uint32_t list_blocks(const uint32_t *counts, uint32_t row_length, const struct part *part,
                             struct block *blocks)
 {
@@ -298,7 +302,7 @@ static uint32_t list_blocks(const uint32_t *counts, uint32_t row_length, const s
     return number;
 }
 
-/* Binds the blocks of a part; returns how many, or 0 with an error. */
+/* Uploads and binds the blocks of a part; returns their number, or 0 with an error. */
 static uint32_t bind_blocks(struct kiln_fragments_gl *f, const struct kiln_image *size,
                             const struct part *part, struct kiln_error *error)
 {
@@ -315,8 +319,8 @@ static uint32_t bind_blocks(struct kiln_fragments_gl *f, const struct kiln_image
     return bind_buffer(&f->blocks, KILN_BIND_FRAGMENT_BLOCKS, KILN_READ, error) ? number : 0;
 }
 
-/* Sorts the long lists of a part. The number of passes is even, so that all keys end in the buffer
- * where those of short lists are. */
+/* Sorts the long lists of a part. A pass merges sorted runs from one buffer of keys to the other.
+ * The number of passes is even, so that the sorted keys end in `keys`, as in short lists. */
 static bool sort_long_lists(struct kiln_fragments_gl *f, const struct kiln_image *size,
                             const struct part *part, struct kiln_error *error)
 {
@@ -346,8 +350,8 @@ static bool sort_long_lists(struct kiln_fragments_gl *f, const struct kiln_image
 
 /* ---- a pass ---------------------------------------------------------------------------------- */
 
-/* Blends the lists of a part; on software, a stretch of each list at a time, over the stretches
- * before. */
+/* Blends the lists of a part. On software GL it blends a stretch of each list at a time, over the
+ * result of the stretches before. */
 static void resolve(const struct kiln_fragments_gl *f, const struct kiln_particles_draw *draw,
                     const struct part *part)
 {

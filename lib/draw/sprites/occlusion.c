@@ -1,7 +1,7 @@
 /* This file fills a depth buffer with the depth of the scene, so that fragments of hidden particles
- * are rejected before they are shaded. A fragment is rejected only if it is farther than the scene
- * by more than rounding can be, so that pictures stay the same to the bit; the fragment shader
- * decides about the rest. */
+ * are rejected before they are shaded. The depth test rejects a fragment only if it is farther than
+ * the scene by more than the rounding error, so that pictures stay the same to the bit. The
+ * fragment shader discards the other hidden fragments. */
 #include "draw/sprites/occlusion.h"
 
 #include <stdlib.h>
@@ -9,18 +9,19 @@
 #include "base/error.h"
 #include "gpu/program.h"
 
-/* On software a test costs some hundredths of shading a fragment, and saves four fifths: it is
- * worth its cost where one in eight of the sampled particles is hidden. On GPUs it costs
- * nothing. */
+/* On software GL a depth test costs a few hundredths of the time to shade a fragment, and saves
+ * four fifths of that time for a hidden one. So it is used only if at least one in PAYS of the
+ * sampled particles is hidden. On GPUs it costs nothing. SAMPLES: particles that are sampled,
+ * about. */
 enum { SAMPLES = 1024, PAYS = 8 };
 
 struct kiln_occlusion {
     struct kiln_device *device;
     GLuint fill_program, sample_program, vertex_array;
-    GLuint buffer; /* no smaller than any picture so far */
+    GLuint buffer; /* renderbuffer, at least as large as any picture so far */
     uint32_t width, height;
-    struct kiln_buffer hidden; /* particles: one number */
-    bool tests;
+    struct kiln_buffer hidden; /* one number: how many sampled particles are hidden */
+    bool tests;                /* true: the depth test is used in this pass */
 };
 
 static bool create_programs(struct kiln_occlusion *o, struct kiln_error *error)
@@ -65,7 +66,7 @@ void kiln_occlusion_destroy(struct kiln_occlusion **occlusion)
     *occlusion = NULL;
 }
 
-/* Finds out whether tests are worth their cost. */
+/* Decides whether the depth test is worth its cost in this pass: sets `tests`. */
 static bool sample(struct kiln_occlusion *o, uint32_t count, struct kiln_error *error)
 {
     o->tests = true;

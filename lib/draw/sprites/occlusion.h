@@ -7,13 +7,14 @@
 
 struct kiln_occlusion;
 
-/* NULL with an error. device must outlive it. */
+/* Returns NULL with an error. device must outlive the result. */
 struct kiln_occlusion *kiln_occlusion_create(struct kiln_device *device, struct kiln_error *error);
 void kiln_occlusion_destroy(struct kiln_occlusion **occlusion);
 
-/* Until kiln_occlusion_end, fragments behind the scene are not shaded; their depth is
- * occlusion_place() of shaders/draw/sprites/occlusion.glsl. Does nothing where that would take
- * longer. draw->framebuffer must be bound, as must the bindings of kiln_geometry_bind_draw. */
+/* Rejects fragments behind the scene until kiln_occlusion_end; shaders must place fragments by
+ * occlusion_place() of shaders/draw/sprites/occlusion.glsl. Does nothing where rejecting would cost
+ * more time than it saves. draw->framebuffer must be bound, and the bindings of
+ * kiln_geometry_bind_draw must be in place. */
 bool kiln_occlusion_begin(struct kiln_occlusion *occlusion, const struct kiln_particles_draw *draw,
                           struct kiln_error *error);
 void kiln_occlusion_end(struct kiln_occlusion *occlusion);
