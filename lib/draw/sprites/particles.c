@@ -1,4 +1,4 @@
-/* This file runs the stage that draws particles by the technique that was chosen for it. */
+/* This file creates and runs the stage that draws particles, by one of four techniques. */
 #include "draw/sprites/particles.h"
 
 #include <stdlib.h>
@@ -11,13 +11,13 @@
 
 struct kiln_particles_stage {
     enum kiln_raster_technique technique;
-    struct kiln_draw_blocks blocks; /* of techniques in GL */
+    struct kiln_draw_blocks blocks; /* for techniques in GL */
     struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_atlas *atlas;
-    struct kiln_geometry *geometry; /* of GL */
-    struct kiln_tiled *tiled;       /* `tiled` */
-    struct kiln_tiles *tiles;       /* `cpu` */
+    struct kiln_geometry *geometry; /* NULL for `cpu` */
+    struct kiln_tiled *tiled;       /* NULL unless `tiled` */
+    struct kiln_tiles *tiles;       /* NULL unless `cpu` */
 };
 
 struct kiln_particles_stage *
@@ -58,8 +58,9 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
 
 bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
 {
-    /* `tiled` draws chunks from the nearest on, which may hide all others. Where pixels sort, it
-     * leaves the drawing to a technique that blends. */
+    /* `tiled` draws from front to back, so that it can stop where nearer particles hide the rest.
+     * For post.compose: oit it leaves the drawing to kiln_geometry, whose order is back to front.
+     */
     return stage->technique == KILN_RASTER_TILED && stage->scene->post.compose != KILN_COMPOSE_OIT;
 }
 

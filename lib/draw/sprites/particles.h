@@ -17,32 +17,36 @@ enum kiln_raster_technique {
 
 struct kiln_particles_stage;
 
-/* scene, atlas and threads must outlive the stage; device may be NULL for `cpu`. */
+/* Creates the stage. scene, atlas, device and threads must outlive it; device may be NULL for
+ * `cpu`. Returns NULL with an error. */
 struct kiln_particles_stage *
 kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene,
                       struct kiln_atlas *atlas, enum kiln_raster_technique technique,
                       struct kiln_threads *threads, struct kiln_error *error);
 void kiln_particles_destroy(struct kiln_particles_stage **stage);
 
-/* Returns whether the technique takes sorted particles from the nearest to the farthest; otherwise
- * it takes them from the farthest. */
+/* Returns whether the technique takes sorted particles in order from the nearest to the farthest;
+ * otherwise it takes them from the farthest to the nearest. */
 bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage);
 
+/* Describes a pass: the particles, their light, and the images. */
 struct kiln_particles_draw {
     const struct kiln_moment *moment; /* for `cpu`, with its particles on the host */
     struct kiln_buffer *entries;      /* draw entries in drawing order */
     uint32_t count;
-    const struct kiln_view *view;              /* the moment's, for a picture of this size */
-    const struct kiln_draw_backdrop *backdrop; /* what lights them */
+    const struct kiln_view *view; /* the moment's view, for a picture of the framebuffer's size */
+    const struct kiln_draw_backdrop *backdrop; /* sky, sun and lights, which light the particles */
     const struct kiln_lighting *lighting;
-    struct kiln_image *depth;             /* of the scene */
-    struct kiln_framebuffer *framebuffer; /* color, and bloom unless there is none: premultiplied */
-    bool keep_bloom;                      /* of an earlier pass; colour is always cleared first */
-    bool sum_alpha; /* false: premultiplied `over`, in which additive particles cover nothing; true:
-                     * colours and alpha are summed (figure 3.1, fire) */
-    bool by_fragment; /* each pixel sorts what it shows on its own (lib/draw/sprites/fragments.h);
-                       * without sum_alpha and fire_covers */
-    bool fire_covers; /* premultiplied `over` in which additive particles cover like others */
+    struct kiln_image *depth;             /* depth of the scene, m */
+    struct kiln_framebuffer *framebuffer; /* colour, and bloom if there is any; premultiplied */
+    bool keep_bloom; /* true: keeps the bloom of an earlier pass; colour is always cleared first */
+    /* false: blends by premultiplied `over`, in which additive particles cover nothing; true: sums
+     * colours and alpha (Heinz 2019, figure 3.1, fire). */
+    bool sum_alpha;
+    /* true: each pixel sorts its fragments (lib/draw/sprites/fragments.h); sum_alpha and
+     * fire_covers must be false. */
+    bool by_fragment;
+    bool fire_covers; /* true: blends by premultiplied `over`; additive particles cover, too */
 };
 
 /* Draws the particles of a pass into draw->framebuffer. */

@@ -1,6 +1,6 @@
-/* This file draws particles on the host in pieces of limited size, so that memory stays bounded: it
- * makes sprites of the particles, lists them for the tiles that they touch, then draws tile by
- * tile, in order. */
+/* This file draws particles on the host in pieces of limited size, so that memory stays bounded.
+ * For each piece it makes sprites of the particles, lists the sprites for the tiles that they
+ * touch, then draws the tiles on threads, each tile's sprites in order. */
 #include "draw/sprites/particles_cpu.h"
 
 #include <stdlib.h>
@@ -12,9 +12,9 @@
 #include "draw/sprites/fragments.h"
 
 enum {
-    SPRITES_AT_A_TIME = 1 << 18,
-    SPRITES_OF_A_TILE = 1 << 22, /* where pixels sort: in a tile alone, if they must */
-    MAKE_AT_A_TIME = 512
+    SPRITES_AT_A_TIME = 1 << 18, /* sprites of a piece */
+    SPRITES_OF_A_TILE = 1 << 22, /* most sprites of one tile in a scene with post.compose: oit */
+    MAKE_AT_A_TIME = 512         /* particles of which a thread makes sprites at once */
 };
 
 struct kiln_tiles {
@@ -24,8 +24,8 @@ struct kiln_tiles {
     struct kiln_bins bins;
     struct kiln_sprite *sprites;
     uint32_t sprite_room;
-    struct kiln_tile *tiles;           /* one a thread */
-    struct kiln_fragments **fragments; /* one a thread, of a scene whose pixels sort; else NULL */
+    struct kiln_tile *tiles;           /* one for each thread */
+    struct kiln_fragments **fragments; /* one for each thread; NULL unless post.compose is oit */
     kiln_sprites_make *make;
     kiln_tile_draw *draw;
 };
@@ -113,8 +113,8 @@ static bool make_room(struct kiln_tiles *tiles, uint32_t wanted, struct kiln_err
     if (wanted <= tiles->sprite_room)
         return true;
     free(tiles->sprites);
-    /* Tiles read sprites in no order of addresses; with small pages a quarter of the drawing waits
-     * for address translation. */
+    /* Tiles read sprites at scattered addresses; with small pages, a quarter of the drawing time is
+     * spent on address translation. */
     tiles->sprites = kiln_alloc_pages(wanted * sizeof *tiles->sprites);
     tiles->sprite_room = tiles->sprites ? wanted : 0;
     return tiles->sprites || out_of_memory(error);
@@ -124,16 +124,17 @@ static bool make_room(struct kiln_tiles *tiles, uint32_t wanted, struct kiln_err
 
 struct drawing {
     struct kiln_tiles *tiles;
-    float *color, *bloom; /* pixels of the targets; no bloom: NULL */
+    float *color, *bloom; /* pixels of the targets; bloom NULL: there is none */
     const float *depth;
     uint32_t width, height;
-    bool first; /* piece of the pass */
+    bool first; /* true: this is the first piece of the pass, before which pixels are empty */
     bool keep_bloom, sum, by_fragment;
-    size_t first_tile;
+    size_t first_tile; /* number of the first tile to draw */
     enum kiln_tile_glow glow;
-    float weights[3]; /* of what glows, if it is apart */
+    float weights[3]; /* for KILN_TILE_GLOW_APART: bloom weights of all glowing sprites */
 };
 
+/* Empties a row of a tile and loads the scene's depth into it; at: the row's first pixel. */
 static void begin_row(const struct drawing *d, struct kiln_tile *tile, int y, size_t at)
 {
     float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
@@ -144,7 +145,7 @@ static void begin_row(const struct drawing *d, struct kiln_tile *tile, int y, si
 typedef float four __attribute__((vector_size(16)));
 typedef float four_unaligned __attribute__((vector_size(16), aligned(4), may_alias));
 
-/* Transposes channels of four pixels to four pixels. */
+/* Transposes four channels of four pixels into four pixels of four channels, or back. */
 static inline void transpose(four c[4])
 {
     four low = __builtin_shufflevector(c[0], c[1], 0, 4, 1, 5);
@@ -157,7 +158,8 @@ static inline void transpose(four c[4])
     c[3] = __builtin_shufflevector(high, high2, 2, 3, 6, 7);
 }
 
-/* Blends four pixels over others, or replaces these. */
+/* Writes up to four pixels to `to`; keep: blends them over the pixels there. passed: the part of
+ * each pixel there that stays. */
 static inline void put_over(const four drawn[4], const float passed[4], bool keep, float *to,
                             size_t count)
 {
@@ -167,7 +169,8 @@ static inline void put_over(const four drawn[4], const float passed[4], bool kee
     }
 }
 
-/* Blends a row over the result of earlier pieces; its glow also over that of an earlier pass. */
+/* Blends a row of a tile over the result of earlier pieces, and its glow over the bloom of an
+ * earlier pass, too, if that is kept. */
 static void store_row(const struct drawing *d, const struct kiln_tile *tile, int y, size_t at)
 {
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
@@ -196,7 +199,7 @@ static void store_row(const struct drawing *d, const struct kiln_tile *tile, int
     }
 }
 
-/* Clears a tile in which a piece has no sprites, if it is the first piece. */
+/* Clears the pixels of a tile without sprites in the first piece; does nothing in later pieces. */
 static void leave_empty(const struct drawing *d, size_t at, uint32_t width, uint32_t height)
 {
     const size_t bytes = 4 * sizeof(float) * (width < KILN_TILE_WIDTH ? width : KILN_TILE_WIDTH);
@@ -262,22 +265,22 @@ static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *
     return kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, drawing, error);
 }
 
-/* ---- pixels that sort, of more sprites than are there at a time ------------------------------ */
+/* ---- sorted pixels with more sprites than a piece -------------------------------------------- */
 
-/* Holds the state of drawing where pixels sort. Lists need all sprites that touch a tile, so they
- * are made for some tiles at a time. */
+/* Holds the state of drawing a pass with by_fragment that has more sprites than a piece. Sorting a
+ * pixel needs all sprites of its tile, so sprites are kept and drawn for some tiles at a time. */
 struct sorting {
     struct kiln_tiles *tiles;
     const struct kiln_sprite_pass *pass;
     const uint32_t *entries;
     uint32_t count;
-    size_t *totals; /* sprites of each tile */
-    bool *wanted;   /* of a piece */
-    struct kiln_sprite *kept;
+    size_t *totals;           /* number of sprites of each tile */
+    bool *wanted;             /* by sprite of a piece: it touches the present tiles */
+    struct kiln_sprite *kept; /* the sprites of all pieces that touch the present tiles */
     uint32_t kept_count;
 };
 
-/* Makes a piece and its bins; returns how many sprites it has, or 0 with an error. */
+/* Makes the sprites and the bins of a piece. Returns the number of sprites, or 0 with an error. */
 static uint32_t make_piece(const struct sorting *s, uint32_t first, struct kiln_error *error)
 {
     const uint32_t left = s->count - first;
@@ -288,6 +291,8 @@ static uint32_t make_piece(const struct sorting *s, uint32_t first, struct kiln_
     return ok ? count : 0;
 }
 
+/* Counts the sprites of each tile, and mixes the cells that they want. Returns false with an error
+ * if a tile has more than SPRITES_OF_A_TILE sprites. */
 static bool count_tiles(const struct sorting *s, size_t tile_count, struct kiln_error *error)
 {
     const uint32_t *first = s->tiles->bins.first;
@@ -309,7 +314,7 @@ static bool count_tiles(const struct sorting *s, size_t tile_count, struct kiln_
     return kiln_cells_mix(s->tiles->cells, s->tiles->threads, error);
 }
 
-/* Makes all sprites again and keeps those of some tiles, in their order. */
+/* Makes all sprites again, piece by piece, and keeps those that touch some tiles, in order. */
 static bool keep_sprites(struct sorting *s, size_t first_tile, size_t end_tile,
                          struct kiln_error *error)
 {
@@ -373,7 +378,7 @@ static bool draw_sorting(struct sorting *s, struct drawing *drawing, struct kiln
     return ok;
 }
 
-/* Returns the weights of a system's glow, if they are the same at any age. */
+/* Writes a system's bloom weights and returns true if they are the same at any age. */
 static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
 {
     const float4 *row =
@@ -388,8 +393,8 @@ static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
     return true;
 }
 
-/* Chooses how tiles draw the glow: not at all if there is none, and with the least work where all
- * glowing particles have the same weights, as in most scenes. */
+/* Chooses how tiles draw the glow: not at all if there is none, and with less work where all
+ * glowing particles have the same bloom weights, as in most scenes. */
 static void choose_glow(const struct kiln_moment *moment, struct drawing *d)
 {
     d->glow = KILN_TILE_GLOW_NONE;
@@ -413,7 +418,7 @@ static void choose_glow(const struct kiln_moment *moment, struct drawing *d)
         d->glow = KILN_TILE_GLOW_WEIGHED;
 }
 
-/* Takes the pixels that a pass reads and writes. */
+/* Makes the pixels that a pass reads and writes available on the host. */
 static bool open_images(const struct kiln_particles_draw *draw, struct drawing *d,
                         struct kiln_error *error)
 {
@@ -462,7 +467,7 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
         return draw_sorting(&sorting, &drawing, error);
     }
     uint32_t done = 0;
-    do { /* at least once, for the clear picture of no particles */
+    do { /* at least once, to clear the picture if there are no particles */
         uint32_t count = draw->count - done < most ? draw->count - done : most;
         drawing.first = done == 0;
         if (!draw_piece(tiles, &pass, entries + done, count, &drawing, error))

@@ -1,5 +1,6 @@
-/* Technique `cpu` draws particles as sprites into tiles, by threads and the machine's widest
- * vectors. The pixels are the same bytes on every machine and for any number of threads. */
+/* A kiln_tiles draws particles by technique `cpu`: as sprites into tiles, on threads, with the
+ * widest vectors that the machine has. The pixels are the same bytes on every machine and for any
+ * number of threads. */
 #ifndef KILN_DRAW_SPRITES_PARTICLES_CPU_H
 #define KILN_DRAW_SPRITES_PARTICLES_CPU_H
 
@@ -11,7 +12,7 @@ struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struc
                                      struct kiln_threads *threads, struct kiln_error *error);
 void kiln_tiles_destroy(struct kiln_tiles **tiles);
 
-/* Does what kiln_particles_run does. */
+/* Draws the particles of a pass, as kiln_particles_run does. */
 bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *draw,
                     struct kiln_error *error);
 

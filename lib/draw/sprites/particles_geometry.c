@@ -1,7 +1,7 @@
 /* This file draws particles in GL as points that the geometry shader turns into billboards, or as
  * instances of a quad. One draw call draws all systems of a pass, whatever their looks; an entry
- * names system and slot, and the vertex shader fetches the rest (Heinz 2019, 3.2.2: one draw call,
- * nothing stored but what changes). */
+ * names system and slot, and the vertex shader fetches the record and computes all else (Heinz
+ * 2019, 3.2.2). */
 #include "draw/sprites/particles_geometry.h"
 
 #include <stdio.h>
@@ -20,16 +20,16 @@ struct kiln_geometry {
     const struct kiln_scene *scene;
     const struct kiln_atlas *atlas;
     enum kiln_raster_technique technique;
-    GLuint program;                      /* 0: only binds what others draw */
-    struct kiln_fragments_gl *fragments; /* of a scene whose pixels sort */
+    GLuint program; /* 0: the stage draws nothing, and only binds data for technique `tiled` */
+    struct kiln_fragments_gl *fragments; /* NULL unless post.compose is oit */
     struct kiln_occlusion *occlusion;
     GLuint vertex_array;
     GLint additive_alpha;
 };
 
-/* Returns whether any system needs more than billboards parallel to the picture. One program draws
- * all particles that are sorted together, in one call, however the depths of the shapes interleave.
- * The program for all shapes is slower, so only scenes that need it use it. */
+/* Returns whether any system needs other shapes than billboards parallel to the picture. One
+ * program must draw all particles, in one call, since particles of different shapes may interleave
+ * in depth. The program for all shapes is slower, so only scenes that need it use it. */
 static bool needs_shapes(const struct kiln_scene *scene)
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
@@ -85,7 +85,7 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
     }
     *stage = (struct kiln_geometry){
         .device = device, .scene = scene, .atlas = atlas, .technique = technique};
-    /* `tiled` uses this technique where pixels sort. */
+    /* Technique `tiled` draws by this stage for post.compose: oit. */
     bool draws = technique == KILN_RASTER_GEOMETRY || technique == KILN_RASTER_INSTANCED ||
                  (technique == KILN_RASTER_TILED && scene->post.compose == KILN_COMPOSE_OIT);
     if (draws && !create_program(stage, error)) {
@@ -131,7 +131,7 @@ bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_part
     return true;
 }
 
-/* Describes a draw call of a technique. */
+/* Describes the draw call of a pass, for `submit`. */
 struct submission {
     const struct kiln_geometry *stage;
     GLsizei count;
@@ -147,7 +147,7 @@ static void submit(void *context)
         glDrawArrays(GL_POINTS, 0, s->count);
 }
 
-/* Draws the visible particles into the bound framebuffer. */
+/* Draws the particles into the bound framebuffer; bindings and occlusion are in place. */
 static bool draw_visible(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
                          struct kiln_error *error)
 {

@@ -1,5 +1,6 @@
-/* A kiln_geometry draws particles by techniques `geometry` and `instanced`. `instanced` is for
- * drivers whose geometry shaders are slow. */
+/* A kiln_geometry draws particles by technique `geometry`, in which a geometry shader makes
+ * billboards of points, or `instanced`, which needs none, for drivers whose geometry shaders are
+ * slow. */
 #ifndef KILN_DRAW_SPRITES_PARTICLES_GEOMETRY_H
 #define KILN_DRAW_SPRITES_PARTICLES_GEOMETRY_H
 
@@ -7,8 +8,8 @@
 
 struct kiln_geometry;
 
-/* Makes the stage. For technique `tiled` it binds the data that its kernels read, and draws where
- * pixels sort. */
+/* Makes the stage. For technique `tiled` the stage only binds the data that the kernels read,
+ * unless post.compose is oit: then it draws, too. Returns NULL with an error. */
 struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
                                            const struct kiln_scene *scene,
                                            const struct kiln_atlas *atlas,
@@ -16,11 +17,12 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
                                            struct kiln_error *error);
 void kiln_geometry_destroy(struct kiln_geometry **stage);
 
-/* The defines of shaders that draw particles of a scene (shaders/draw/sprites/particle.glsl). */
+/* Writes the "#define" lines of shaders that draw a scene's particles
+ * (shaders/draw/sprites/particle.glsl). */
 void kiln_geometry_defines(const struct kiln_scene *scene, char *out, size_t size);
 
-/* Binds the data of kiln_moment_bind, and the light, atlas, motion and depth of the scene, which
- * shaders/draw/sprites/shade.glsl reads. */
+/* Binds the data of kiln_moment_bind, and the lighting, the atlas and its motion, and the scene's
+ * depth, which shaders/draw/sprites/shade.glsl reads. */
 bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,
                              struct kiln_error *error);
 bool kiln_geometry_run(struct kiln_geometry *stage, const struct kiln_particles_draw *draw,

@@ -1,10 +1,10 @@
-/* This file draws particles in GL by compute kernels, in chunks of limited size, the nearest first,
- * so that memory stays bounded. Each particle becomes a sprite, which sets its bit in the masks of
- * the picture's bins that it touches; each bin's mask becomes a list, whose sprites likewise mark
- * the tiles of the bin; and each tile draws the sprites of its mask from front to back in
- * registers, and writes its pixels once. Bits keep the order without sorting, and no sprite is
- * dropped, however many lie in a tile and however large they are. Where llvmpipe limits how often a
- * loop may run (gpu/device.h), a tile is drawn by several dispatches. */
+/* This file draws particles in GL by compute kernels, in chunks of limited size, the nearest chunk
+ * first, so that memory stays bounded. Each particle becomes a sprite, which sets its bit in the
+ * mask of each bin (8 x 8 tiles) that it touches. Each bin's mask becomes a list of sprites, and
+ * the sprites of the list set bits in the masks of the bin's tiles. Each tile then draws the
+ * sprites of its mask from front to back in registers, and writes its pixels once. Bits keep the
+ * order without sorting, and no sprite is dropped, however many lie in a tile. Where llvmpipe
+ * limits the iterations of a loop (gpu/device.h), several dispatches draw a tile. */
 #include "draw/sprites/particles_tiled.h"
 
 #include <assert.h>
@@ -19,25 +19,26 @@ static_assert(sizeof(struct tiled_bin) == 20, "std430");
 
 /* Describes how the work is divided, which changes no result beyond rounding. */
 struct shape {
-    uint32_t edge;         /* of a tile, px */
-    uint32_t rows;         /* of invocations in a tile */
-    uint32_t chunk;        /* particles, a power of two */
-    uint32_t most_entries; /* of all lists of a chunk; each takes three words */
+    uint32_t edge;         /* edge of a tile, px */
+    uint32_t rows;         /* rows of invocations in a tile */
+    uint32_t chunk;        /* particles of a chunk, a power of two */
+    uint32_t most_entries; /* entries of all lists of a chunk; an entry takes three words */
 };
 
-/* On software the cost of a tile is its pixels times its sprites; GPUs also need many
- * invocations. */
+/* On software GL the cost of a tile is its pixels times its sprites, so tiles are small; GPUs need
+ * many invocations in a work group. */
 static const struct shape FOR_SOFTWARE = {8, 2, 1 << 16, 1 << 18},
                           FOR_GPUS = {16, 16, 1 << 18, 1 << 23};
 
-/* Chunks are smaller than the shape says when the picture has so many bins that their masks would
- * take more words than this, or when sprites touch so many that there would be too many entries;
- * but not smaller than the least. */
+/* A chunk is smaller than the shape says when the picture has so many bins that the masks would
+ * take more than MOST_WORDS words, or when sprites touch so many bins that there would be too many
+ * entries. A chunk of LEAST_CHUNK particles or fewer is not made smaller. */
 enum { MOST_WORDS = 1 << 24, LEAST_CHUNK = 64 };
 
 enum { SPRITE_BYTES = TILED_SPRITE_ROWS * sizeof(float4), MOST_GROUP_SIZE = 1024 };
 
-/* A part of a channel below this may be left out. */
+/* Sprites may be left out of a pass where together they could add less than this to any channel of
+ * a pixel. */
 static const float UNSEEN = 1.0f / 2048.0f;
 
 struct kiln_tiled {
@@ -45,10 +46,10 @@ struct kiln_tiled {
     struct kiln_geometry *geometry;
     struct shape shape;
     uint32_t group_size; /* invocations of a work group that makes, counts or lists sprites */
-    uint32_t most_words; /* of a mask that one dispatch draws, a multiple of TILED_ROUND_WORDS */
+    uint32_t most_words; /* mask words that one dispatch draws, a multiple of TILED_ROUND_WORDS */
     GLuint make_program, count_program, list_program, mark_program, depth_program, draw_program;
-    GLint additive_alpha; /* of draw_program */
-    GLuint sprite_texels; /* the buffer of sprites as a texture */
+    GLint additive_alpha; /* uniform of draw_program */
+    GLuint sprite_texels; /* buffer texture of the sprites */
     struct kiln_buffer boxes, sprites, bin_masks, counts, bins, lists, masks, farthest, carry;
 };
 
@@ -87,8 +88,8 @@ static bool create_programs(struct kiln_tiled *tiled, const struct kiln_scene *s
     return true;
 }
 
-/* Chooses the shape for the device. A tile has the same size for a work group of another size, so
- * that the picture is the same: each invocation has more or fewer rows of the tile, but at least
+/* Chooses the shape for the device. The size of a tile does not depend on the size of a work group,
+ * so that the picture is the same: each invocation draws more or fewer rows of the tile, at least
  * one. */
 static struct shape choose_shape(const struct kiln_device *device)
 {
@@ -99,20 +100,21 @@ static struct shape choose_shape(const struct kiln_device *device)
     return shape;
 }
 
-/* ---- what software may loop ------------------------------------------------------------------ */
+/* ---- loop iterations on software GL ---------------------------------------------------------- */
 
-/* Returns how many iterations the loops of an invocation run that lists sprites of a chunk: for
- * each of its words, the sum over its group and the word's bits. Other kernels run fewer, except
- * the one that draws (round_iterations). */
+/* Returns how many loop iterations an invocation runs that lists the sprites of a chunk: for each
+ * of its words, those of the sum over its work group and of the word's bits. Other kernels run
+ * fewer, except the one that draws (round_iterations). */
 static uint32_t listing_iterations(uint32_t chunk, uint32_t group_size)
 {
-    enum { SUM = 12, BITS = 33 }; /* doublings of up to 1024, bits of a word; each and one more */
+    enum { SUM = 12, BITS = 33 }; /* steps to sum 1024 words, bits of a word; one more each */
     return (chunk / 32 / group_size + 1) * (1 + SUM + BITS) + 1;
 }
 
-/* Returns the iterations of an invocation that draws a round of a tile's mask, whether or not the
- * driver unrolls the loop over pixels: the possible rest of each pixel; for its share of the words,
- * the words before each and its bits; all sprites, and each one's pixels. */
+/* Returns how many loop iterations an invocation runs that draws a round of a tile's mask: over its
+ * pixels, to see if anything is left to draw; over its share of the words, and for each over the
+ * words before and over its bits; over all sprites, and for each over its pixels. The loops over
+ * pixels count even where the driver may unroll them. */
 static uint32_t round_iterations(const struct shape *shape)
 {
     uint32_t pixels = shape->edge / shape->rows, group_size = shape->edge * shape->rows;
@@ -121,6 +123,7 @@ static uint32_t round_iterations(const struct shape *shape)
            TILED_ROUND_WORDS * 32 * (1 + pixels + 1) + 1;
 }
 
+/* On software GL, limits chunk and most_words so that no invocation runs too many iterations. */
 static void limit_loops(struct kiln_tiled *tiled)
 {
     struct shape *shape = &tiled->shape;
@@ -190,10 +193,10 @@ struct run {
     const struct kiln_particles_draw *draw;
     uint32_t width, height; /* px */
     uint32_t tile_columns, tile_rows;
-    uint32_t columns, rows, bins; /* of bins */
-    uint32_t first, count, chunk; /* of this time, from the nearest; the most at a time */
-    uint32_t entries;             /* of all lists of this time, a multiple of TILED_PIECE */
-    uint32_t longest;             /* sprites of one list */
+    uint32_t columns, rows, bins; /* bins along the picture's edges, and all bins */
+    uint32_t first, count, chunk; /* particles of the chunk, from the nearest; most of a chunk */
+    uint32_t entries;             /* entries of all lists, a multiple of TILED_PIECE */
+    uint32_t longest;             /* sprites in the longest list */
     float additive_alpha;
 };
 
@@ -202,6 +205,7 @@ static uint32_t divide_up(uint32_t a, uint32_t b)
     return a / b + (a % b != 0);
 }
 
+/* Computes the grids of tiles and bins, and the size of chunks. */
 static void plan(const struct kiln_tiled *tiled, struct run *run)
 {
     const struct kiln_image *color = run->draw->framebuffer->images[0];
@@ -221,7 +225,7 @@ static void plan(const struct kiln_tiled *tiled, struct run *run)
     run->additive_alpha = run->draw->sum_alpha || run->draw->fire_covers ? 1.0f : 0.0f;
 }
 
-/* Returns the words of a bin's mask. */
+/* Returns the number of words of a bin's mask. */
 static uint32_t words_of(const struct run *run)
 {
     return divide_up(run->count, 32);
@@ -270,7 +274,7 @@ static bool make_sprites(struct kiln_tiled *tiled, const struct run *run, struct
     return true;
 }
 
-/* Counts the sprites of each bin and gives its list a place. */
+/* Counts the sprites of each bin and gives each bin's list a place. */
 static bool place_lists(struct kiln_tiled *tiled, struct run *run, struct kiln_error *error)
 {
     kiln_buffer_reserve(&tiled->bins, run->bins * sizeof(struct tiled_bin));
@@ -346,14 +350,15 @@ static bool bind_images(const struct run *run, struct kiln_error *error)
     if (!to || (glows && !glow))
         return false;
     glBindImageTexture(TILED_IMAGE_COLOR, to, 0, GL_FALSE, 0, GL_WRITE_ONLY, color->gl_format);
-    /* Where there is no image, nothing is stored. */
+    /* GL ignores stores to unit TILED_IMAGE_BLOOM where no image is bound. */
     glBindImageTexture(TILED_IMAGE_BLOOM, glow, 0, GL_FALSE, 0, GL_WRITE_ONLY, color->gl_format);
     glActiveTexture(GL_TEXTURE0 + TILED_UNIT_BEFORE);
     glBindTexture(GL_TEXTURE_2D, keeps ? glow : 0);
     return true;
 }
 
-/* Draws the lists, as much of their masks at a time as the driver's loop limit allows. */
+/* Draws the tiles. A dispatch draws as many words of the tiles' masks as the driver's loop limit
+ * allows. first, last: the chunk is the first or the last of the pass. */
 static void draw_spans(const struct kiln_tiled *tiled, const struct run *run, bool first, bool last)
 {
     uint32_t words = divide_up(run->longest, 32), from = 0;
@@ -411,12 +416,12 @@ bool kiln_tiled_run(struct kiln_tiled *tiled, const struct kiln_particles_draw *
     if (!kiln_geometry_bind_draw(tiled->geometry, draw, error) || !bind_images(&run, error) ||
         !measure_depth(tiled, &run, error))
         return false;
-    do { /* at least once, for the clear picture of no particles */
+    do { /* at least once, to clear the picture if there are no particles */
         if (!draw_chunk(tiled, &run, error))
             return false;
         run.first += run.count;
     } while (run.first < draw->count);
-    /* Images are drawn over, sampled and fetched hereafter. */
+    /* Later stages draw over the images, sample them and read them back. */
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT);
     return kiln_device_check(tiled->device, "particles", error);
