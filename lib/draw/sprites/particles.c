@@ -59,8 +59,7 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
 bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
 {
     /* `tiled` draws from front to back, so that it can stop where nearer particles hide the rest.
-     * For post.compose: oit it leaves the drawing to kiln_geometry, whose order is back to front.
-     */
+     * For post.compose: oit it leaves the drawing to kiln_geometry, which draws back to front. */
     return stage->technique == KILN_RASTER_TILED && stage->scene->post.compose != KILN_COMPOSE_OIT;
 }
 

@@ -1,7 +1,7 @@
-/* A kiln_sprite is a particle projected to the picture, with all data that a pixel of it needs; the
- * CPU rasteriser draws it. Its texture coordinates are linear in those of the picture; where the
- * sprite is not parallel to the picture, they are so divided by its depth (q is one over the
- * depth). */
+/* A kiln_sprite is a particle projected to the picture, with all data that its pixels need. The CPU
+ * rasteriser draws it (tile_draw.h). Its texture coordinates u and v are linear functions of the
+ * pixel's position. For a sprite that is not parallel to the picture, u / depth, v / depth
+ * and q = 1 / depth are linear instead, and stored. */
 #ifndef KILN_DRAW_SPRITES_SPRITE_H
 #define KILN_DRAW_SPRITES_SPRITE_H
 
@@ -15,58 +15,58 @@
 /* Names how a pixel of a sprite gets its colour. */
 enum kiln_sprite_shade {
     KILN_SHADE_GLOW,  /* mask: base + slope times the cell's heat */
-    KILN_SHADE_LIT,   /* mask: and light by the cell's normal */
-    KILN_SHADE_COLOR, /* the cell's colour, times base */
-    KILN_SHADE_PLAIN, /* base in a rectangle or a disc with edges as sharp as pixels allow */
-    KILN_SHADES,
+    KILN_SHADE_LIT,   /* mask: the same, plus light by the cell's normal */
+    KILN_SHADE_COLOR, /* the cell's colour times base */
+    KILN_SHADE_PLAIN, /* base in a rectangle or a disc, antialiased over a pixel */
+    KILN_SHADES,      /* number of shades */
 };
 
 enum {
-    KILN_SPRITE_DEEP = 1,    /* its depth changes over the picture */
-    KILN_SPRITE_COVERS = 2,  /* its alpha counts */
-    KILN_SPRITE_DISC = 4,    /* plain: round */
-    KILN_SPRITE_LITERAL = 8, /* soft formula as printed: Heinz 2019, equation 3.3 */
-    KILN_SPRITE_MIXED = 16,  /* its cell is mixed beforehand */
-    KILN_SPRITE_EMITS = 32,  /* base and slope are not 0 */
-    KILN_SPRITE_FINE = 64,   /* its cells do not move, and are sampled by floats */
+    KILN_SPRITE_DEEP = 1,    /* the sprite's depth differs between its pixels */
+    KILN_SPRITE_COVERS = 2,  /* its alpha covers sprites behind it */
+    KILN_SPRITE_DISC = 4,    /* KILN_SHADE_PLAIN: it is a disc, not a rectangle */
+    KILN_SPRITE_LITERAL = 8, /* it fades by the formula as printed: Heinz 2019, equation 3.3 */
+    KILN_SPRITE_MIXED = 16,  /* its cell is mixed beforehand, so that next_cell is not used */
+    KILN_SPRITE_EMITS = 32,  /* base or slope is not 0 */
+    KILN_SPRITE_FINE = 64,   /* its cells have no motion and are sampled in floats */
 };
 
 struct kiln_sprite {
-    _Alignas(64) uint32_t cell;     /* of the pass's cells; of a plain one, none */
-    uint32_t next_cell;             /* unless mixed */
-    float part, motion;             /* of the way to the next cell; texels that a full move means */
-    float x, y;                     /* where the planes below have their constants, px */
-    float u, u_x, u_y, v, v_x, v_y; /* texels; plain: px from its middle */
+    _Alignas(64) uint32_t cell;     /* number of its cell in the pass's cells; unused if plain */
+    uint32_t next_cell;             /* number of the next cell; unused if mixed */
+    float part, motion;             /* weight of the next cell; a full move in texels */
+    float x, y;                     /* the pixel position where u, v and q are constants, px */
+    float u, u_x, u_y, v, v_x, v_y; /* texels; plain: px from the sprite's middle */
     float q, q_x, q_y;              /* 1/m */
-    float edge_u, edge_v;           /* texels; plain: half the size, px */
-    float depth;                    /* view-space, m, of one that is not deep */
-    float soft, distance;           /* 1/m; m */
+    float edge_u, edge_v;           /* edge of the cell, texels; plain: half the size, px */
+    float depth;                    /* view depth, m; unused if deep */
+    float soft, distance;           /* soft fade, 1/m; distance from the eye, m */
     float opacity;
     float bulge; /* half the thickness in its middle, m */
     float base[3], slope[3];
-    float light[4][3]; /* times the albedo: from everywhere, right, up, towards the viewer */
+    float light[4][3]; /* light times albedo: constant; factors of the normal: right, up, viewer */
     float bloom[3];
-    int16_t x_from, y_from, x_to, y_to; /* pixels that it may touch */
-    uint16_t pitch;
-    uint8_t shade, flags;
+    int16_t x_from, y_from, x_to, y_to; /* pixels that it may touch; *_to is one past the last */
+    uint16_t pitch;                     /* texels in a row of its cell */
+    uint8_t shade, flags;               /* enum kiln_sprite_shade; KILN_SPRITE_* */
 };
 
 /* Holds the data that all sprites of a pass share. */
 struct kiln_sprite_pass {
     const struct kiln_scene *scene;
-    const struct kiln_draw_look *looks;  /* of KILN_MAX_SYSTEMS */
-    const float4 *table;                 /* of kiln_looks_sample */
-    const struct kiln_particle *records; /* of the pool */
+    const struct kiln_draw_look *looks;  /* KILN_MAX_SYSTEMS looks */
+    const float4 *table;                 /* the table that kiln_looks_sample fills */
+    const struct kiln_particle *records; /* the pool's records */
     const struct kiln_view *view;
     const struct kiln_draw_backdrop *backdrop;
     const struct kiln_lighting *lighting;
     struct kiln_cells *cells;
-    struct kiln_cells_content content; /* of the cells */
-    bool fire_covers; /* additive particles cover, too, or have their alpha summed up */
+    struct kiln_cells_content content; /* the data of `cells` */
+    bool fire_covers; /* true: additive particles cover, too, or their alpha is summed */
 };
 
-/* Makes the sprites of draw entries and wants their cells. Invisible sprites touch no pixels
- * (x_from = x_to). */
+/* Makes the sprites of draw entries and calls kiln_cells_want for their cells. Invisible sprites
+ * touch no pixels (x_from = x_to). */
 typedef void kiln_sprites_make(const struct kiln_sprite_pass *pass, const uint32_t *entries,
                                size_t count, struct kiln_sprite *sprites);
 

@@ -1,16 +1,17 @@
-/* This header chooses the cells that sprites show (Heinz 2019, 3.2.4). */
+/* This header chooses the cells of flipbooks that sprites show (Heinz 2019, 3.2.4), for
+ * sprite_simd.c. */
 #ifndef KILN_DRAW_SPRITES_SPRITE_CELLS_H
 #define KILN_DRAW_SPRITES_SPRITE_CELLS_H
 
 #include "draw/sprites/sprite_subjects.h"
 
-/* Holds the cells of the billboards in a vector. */
+/* Holds the cells of a vector of billboards, as members of struct kiln_cell_name. */
 struct chosen_cells {
-    vi layer, next_layer, phase, level; /* struct kiln_cell_name */
+    vi layer, next_layer, phase, level;
     vf motion;
 };
 
-/* Chooses which of their system's textures particles have. */
+/* Chooses at random which of their system's textures the particles have. */
 SIMD struct columns choose_textures(const struct subjects *p)
 {
     const uint32_t count = p->look->flags.w;
@@ -25,8 +26,8 @@ SIMD struct columns choose_textures(const struct subjects *p)
     return columns_load((const float *)(const void *)textures, &places);
 }
 
-/* Returns the level with one to two texels a pixel: 7 less the power of two that is not below the
- * size. */
+/* Returns the level with one to two texels a pixel: 7 less the exponent of the least power of two
+ * that is not below the size in pixels. */
 SIMD vi level_of(vf diameter_px)
 {
     vi bits = (vi)vf_clamp(diameter_px, 1.0f, (float)KILN_ATLAS_CELL);
@@ -38,7 +39,8 @@ SIMD vi cell_number(vi layer, vi phase, vi level)
     return (layer * KILN_CELL_PHASES + phase) * KILN_ATLAS_LEVELS + level;
 }
 
-/* Wants a cell for each lane that is visible; most have been wanted before. */
+/* Calls kiln_cells_want for the cell of each visible lane. It first checks whether all of them were
+ * wanted before, as is usual. */
 SIMD void want_cells(const struct subjects *p, const struct chosen_cells *chosen, vi number,
                      vi lanes)
 {
@@ -56,6 +58,7 @@ SIMD void want_cells(const struct subjects *p, const struct chosen_cells *chosen
     }
 }
 
+/* Reads the hulls of the cells; lanes with an empty hull become invisible. */
 SIMD void read_hulls(struct subjects *p, vi layer)
 {
     enum { FLOATS = sizeof(struct kiln_cell_hull) / sizeof(float) };
@@ -77,7 +80,7 @@ static void choose_cells(struct subjects *p)
     position = vf_clamp(position, 0.0f, 1e6f);
     vf edge = (vf)((127 + KILN_ATLAS_LEVELS - 1 - p->level) << 23);
     vf motion = p->texture.c[3] * edge;
-    vi alone = (count == 1) & (motion == 0.0f); /* the next one is itself */
+    vi alone = (count == 1) & (motion == 0.0f); /* the next cell is the cell itself */
     position = vf_where(~alone, position);
     vi mixed = (p->level >= KILN_CELL_MIXED_LEVEL) & (motion <= KILN_CELL_MIXED_MOVE) & p->many;
     mixed |= alone;
@@ -87,7 +90,7 @@ static void choose_cells(struct subjects *p)
                          vf_all((float)(KILN_CELL_PHASES / KILN_CELL_LARGE_STEP)));
     vi phase = step * vi_of(position * steps + 0.5f);
     vi number = vi_select(mixed, (vi)((vu)phase / KILN_CELL_PHASES), vi_of(position));
-    /* Of numbers below 2^20 the quotient rounds to none above its own. */
+    /* number is below 2^20, so the rounded quotient never reaches the next integer. */
     vi cell = number - vi_of(vf_of(number) / counted) * count;
     vi after = cell + 1;
     after &= after < count;

@@ -6,14 +6,14 @@
 #include "draw/sprites/sprite_subjects.h"
 #include "shared/billboard_place.h"
 
-/* A sprite with more texels a pixel is too thin to be visible, and its coordinates would not fit 32
- * bits. */
+/* A sprite with more texels a pixel than this is too thin to be visible, and its coordinates would
+ * not fit 32 bits. */
 #define MOST_TEXELS_A_PIXEL 4096.0f
 
 static_assert(WORD_OF(x_from) == WORD_OF(y_from) && WORD_OF(x_to) == WORD_OF(y_to),
               "ranges of pixels are two to a word");
 
-/* Returns the pixels whose centres are from low to high, within 0 to size. */
+/* Finds the range of pixels whose centres lie from low to high, clamped to 0 to size. */
 SIMD void limit_range(vf low, vf high, float size, vi *from, vi *to)
 {
     *from = vi_of(vf_clamp(low + 0.5f, 0.0f, size));
@@ -70,8 +70,8 @@ static void place_flat(struct subjects *p)
               (struct picture_point){x + reach_x, y + reach_y});
 }
 
-/* Bounds the pixels around the corners of the visible part; a sprite that reaches behind the eye
- * may touch any. */
+/* Bounds the pixels by the projected corners of the visible part of the cell; a sprite that reaches
+ * behind the eye may touch any pixel. */
 SIMD void limit_corners(struct subjects *p, struct vf3 right, struct vf3 up)
 {
     const struct kiln_view *view = p->pass->view;

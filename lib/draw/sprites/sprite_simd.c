@@ -7,8 +7,8 @@
 #include "draw/vector/real.h"
 
 enum {
-    AT_A_TIME = 512, /* particles that are put in order of systems */
-    AHEAD = 32,      /* of which so many are fetched beforehand */
+    AT_A_TIME = 512, /* particles of a piece, which are sorted by system */
+    AHEAD = 32,      /* particles that are prefetched */
 };
 
 /* ---- form ------------------------------------------------------------------------------------ */
@@ -65,6 +65,7 @@ SIMD void widen(struct subjects *p, vf pixels_per_m)
 
 /* ---- colour ---------------------------------------------------------------------------------- */
 
+/* Returns a mask of the particles that reflect light. */
 SIMD vi reflecting(const struct subjects *p)
 {
     return (p->cover.c[0] > 0.0f) | (p->cover.c[1] > 0.0f) | (p->cover.c[2] > 0.0f);
@@ -115,7 +116,7 @@ static void color_sprites(struct subjects *p)
         p->w[WORD_OF(bulge)] = p->half_size * bloom.c[3];
 }
 
-/* ---- all of it ------------------------------------------------------------------------------- */
+/* ---- from particle to sprite ----------------------------------------------------------------- */
 
 static void read_particles(struct subjects *p)
 {
@@ -137,7 +138,7 @@ static void read_particles(struct subjects *p)
     p->depth = -p->center.z;
 }
 
-/* Computes the opacity of particles by their look at their age. */
+/* Computes the opacity of particles from their look at their age and from the near fade. */
 static void fade_particles(struct subjects *p)
 {
     const float near = p->pass->view->eye.w;
@@ -195,8 +196,8 @@ static void finish_sprites(struct subjects *p)
         p->w[WORD_OF(distance)] = vf_sqrt(vf3_dot(p->center, p->center));
 }
 
-/* Holds entries of a piece in the order of their systems, and within a system in their own
- * order. */
+/* Holds the entries of a piece, and in `order` their numbers sorted by system; entries of one
+ * system keep their order. */
 struct piece {
     const uint32_t *entries;
     struct kiln_sprite *sprites;
@@ -204,7 +205,8 @@ struct piece {
     uint16_t order[AT_A_TIME];
 };
 
-/* Orders a piece by system. first: where a system's entries begin. */
+/* Sorts a piece by system. Writes where each system's entries start in `order`, and the end, to
+ * first. */
 static void order_piece(struct piece *piece, uint32_t first[KILN_MAX_SYSTEMS + 1])
 {
     memset(first, 0, (KILN_MAX_SYSTEMS + 1) * sizeof *first);
@@ -219,9 +221,9 @@ static void order_piece(struct piece *piece, uint32_t first[KILN_MAX_SYSTEMS + 1
         piece->order[next[KILN_ENTRY_SYSTEM(piece->entries[i])]++] = (uint16_t)i;
 }
 
-/* Prefetches records and sprites: neighbours in depth are far apart in memory, and the sprites'
- * memory is too large for the caches. The function is inline because gcc removes a function that
- * only prefetches as one without effect. */
+/* Prefetches records and sprites, since neighbours in depth are far apart in memory, and the
+ * sprites' memory is too large for the caches. The function is inline because gcc drops calls of a
+ * function that only prefetches, as one without effect. */
 SIMD void fetch(const struct kiln_sprite_pass *pass, const struct piece *piece, uint32_t from,
                 uint32_t to)
 {
@@ -237,7 +239,7 @@ SIMD void fetch(const struct kiln_sprite_pass *pass, const struct piece *piece, 
     }
 }
 
-/* Makes the sprites of a vector. lanes: their numbers in the piece. */
+/* Makes the sprites of a vector of particles. lanes: numbers of their entries in the piece. */
 static void make_vector(struct subjects *p, const struct piece *piece, const uint16_t lanes[LANES])
 {
     for (int i = 0; i < LANES; i++)
@@ -272,7 +274,7 @@ static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
         p.many = vi_all(-(capacity >= KILN_CELL_MIXED_LEAST));
         p.few = vi_all(-(capacity <= KILN_CELL_FINE_MOST));
         for (uint32_t i = first[system]; i < end; i += LANES) {
-            uint16_t rest[LANES]; /* padded with the last one */
+            uint16_t rest[LANES]; /* the last entries, padded with the last one */
             for (uint32_t k = 0; end - i < LANES && k < LANES; k++)
                 rest[k] = piece->order[i + k < end ? i + k : end - 1];
             fetch(pass, piece, i + AHEAD, i + AHEAD + LANES);

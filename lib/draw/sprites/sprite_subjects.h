@@ -1,5 +1,6 @@
-/* A `subjects` holds a vector of particles while they become sprites. Each lane is a particle; all
- * are of one system, so that decisions by its look are the same for all lanes. */
+/* A `subjects` holds a vector of particles of which sprite_simd.c makes sprites. Each lane is a
+ * particle. All lanes are of one system, so that branches on the system's look are the same for all
+ * lanes. */
 #ifndef KILN_DRAW_SPRITES_SPRITE_SUBJECTS_H
 #define KILN_DRAW_SPRITES_SPRITE_SUBJECTS_H
 
@@ -12,19 +13,19 @@
 
 enum { SPRITE_WORDS = sizeof(struct kiln_sprite) / sizeof(float) };
 
-/* Returns the word of a sprite at which a field is. */
+/* The index of the word of a sprite in which a field lies. */
 #define WORD_OF(field) (offsetof(struct kiln_sprite, field) / sizeof(float))
 
 struct subjects {
     const struct kiln_sprite_pass *pass;
     const struct kiln_draw_look *look;
-    const float *rows; /* of their system in the table */
-    vi many;           /* all lanes, if it has so many that cells are mixed */
-    vi few;            /* ...and so few that small cells are sampled by floats */
-    vi seen;           /* lanes of which something may be seen */
+    const float *rows; /* the system's rows of the look table */
+    vi many;           /* mask: the system has at least KILN_CELL_MIXED_LEAST slots */
+    vi few;            /* mask: the system has at most KILN_CELL_FINE_MOST slots */
+    vi seen;           /* mask: the lane's particle may be visible */
     vi slots;
     struct vf_particles record;
-    vu stream;
+    vu stream; /* random stream of each particle */
     vf progress, age_s;
     struct places samples; /* of their looks: where in a row, in floats */
     vf sample_part[4];     /* of the way to the next sample, as columns_load_between takes it */
@@ -37,8 +38,8 @@ struct subjects {
     struct billboard_plane plane;
     struct columns texture; /* bits of a texture of struct kiln_draw_look */
     vi level;
-    struct columns hull_from, hull_to; /* of their cells */
-    vi shade, flags;                   /* as a sprite has them */
+    struct columns hull_from, hull_to; /* hulls of the cells */
+    vi shade, flags;                   /* as in struct kiln_sprite */
     _Alignas(64) vf w[SPRITE_WORDS];   /* the sprites, word by word */
 };
 
@@ -49,6 +50,7 @@ SIMD struct columns look_row(const struct subjects *p, uint32_t row)
                                 p->sample_part);
 }
 
+/* Transforms a direction from the world to view space. */
 SIMD struct vf3 to_view(const struct kiln_view *view, struct vf3 v)
 {
     const float4 *rows = view->world_to_view;
