@@ -1,12 +1,13 @@
-/* This header samples texels of cells by the vectors of simd.h.
+/* This header samples texels of cells with the vectors of draw/vector/simd.h, for tile_draw.h.
  *
- * A texel of 8 bytes is red, green, blue and alpha of two rows: red, red below, green..., each less
- * 128. A bilinear sample is the 16 bytes of two adjacent texels, weighted by integers: downwards by
- * two bytes, then across by two words, both pairs with a sum of 255. A texel of 4 bytes has two
- * channels, half the work.
+ * A texel of 8 bytes holds red, green, blue and alpha of two rows: red, red of the row below, green
+ * and so on, each less 128. A bilinear sample reads the 16 bytes of two adjacent texels and weights
+ * them by integers: first down by two bytes, then across by two words; each two weights have the
+ * sum 255. A texel of 4 bytes has only two channels, and takes half the work.
  *
- * A place in a cell is two unsigned words, u and v: the texel, and the 255ths of the way to the
- * next one, which are its weight. */
+ * A place in a cell is two unsigned words, u and v. The high byte of a word is the texel. The low
+ * byte is the place between that texel and the next one, in 255ths; it is the weight of the next
+ * one. */
 #ifndef KILN_DRAW_SPRITES_TEXELS_H
 #define KILN_DRAW_SPRITES_TEXELS_H
 
@@ -14,10 +15,12 @@
 
 enum { PLACE_BITS = 8, PLACE_ONE = 1 << PLACE_BITS, PLACE_STEPS = 255 };
 
-/* Where the first texel's near edge lies, in steps: half a texel in, and half a step to round. */
+/* The steps that are added to a coordinate: half a texel, since the outer texels are repeated
+ * around a cell, and half a step for rounding. */
 #define PLACE_MIDDLE (0.5f * (PLACE_STEPS + 1))
 
-/* Sums of weighed texels of four or of two channels, before they are sorted by channel. */
+/* Holds weighted sums of texels of four channels (quads) or two channels (pairs), pixel after
+ * pixel. */
 struct quads {
     vi k[4];
 };
@@ -26,25 +29,25 @@ struct pairs {
     vi k[2];
 };
 
-/* Four channels. */
+/* Holds four channels of a vector of pixels. */
 struct vf4 {
     vf c[4];
 };
 
-/* What makes a sampled channel: sum * SAMPLED_UNIT + SAMPLED_ZERO, where the parts of the samples
- * in a sum are PART_ONE in all; the unit of a sample alone is that of part 1. */
+/* A channel of a single sample, with part 1, is sum * SAMPLED_UNIT + SAMPLED_ZERO. For a sum of
+ * several samples, the parts add up to PART_ONE, and the unit is SAMPLED_UNIT / PART_ONE. */
 enum { PART_ONE = 128 };
 #define SAMPLED_UNIT (1.0f / (255.0f * 255.0f * 255.0f))
 #define SAMPLED_ZERO (128.0f / 255.0f)
 
-/* A way in the motion texture: its words are this where they are a full move. */
+/* The value of a word of ways_of() that stands for a full move. */
 #define WAY_ONE (255.0f * 255.0f * 127.0f / 256.0f)
 
 #if KILN_SIMD_LEVEL == 4
 #include "draw/sprites/texels_neon.h"
 #elif KILN_SIMD_LEVEL > 0
 
-/* 8 bytes each. */
+/* Loads the 8 bytes at each of two offsets. */
 SIMD __m128i two_texels(const uint8_t *texels, const int32_t *at)
 {
     return (__m128i)_mm_loadh_pi((__m128)_mm_loadl_epi64((const __m128i_u *)(texels + at[0])),
@@ -73,7 +76,7 @@ SIMD words fetch_pairs(const uint8_t *texels, const int32_t *at)
                                            two_texels(texels, at + 12), 1);
     return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
-/* The same in each 128 bits. */
+/* Returns the four integers in each 128 bits. */
 SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 {
     return _mm512_broadcast_i32x4(_mm_setr_epi32(a, b, c, d));
@@ -115,11 +118,12 @@ SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 }
 #endif
 
-/* From 255ths of texels, rounded down. Beyond 16 bits they become the least or greatest. */
+/* Converts coordinates in 255ths of a texel to places, rounding down and clamping to 16 bits. */
 SIMD vi places_of(vf u, vf v)
 {
     words both = WORDS(packus_epi32)((words)vi_of(u), (words)vi_of(v));
-    /* One more a texel: the product over 2^23 is the quotient by 255 of all 16 bits. */
+    /* A texel is 256 in a place and 255 steps, so 1 is added for each texel. For every word x,
+     * x * 0x8081 >> 23 is x / 255. */
     words texels = WORDS(srli_epi16)(WORDS(mulhi_epu16)(both, WORDS(set1_epi16)((short)0x8081)), 7);
     both = WORDS(adds_epu16)(both, texels);
     return (vi)WORDS(shuffle_epi8)(both, pattern(0x09080100, 0x0b0a0302, 0x0d0c0504, 0x0f0e0706));
@@ -131,7 +135,7 @@ SIMD vi places_clamped(vi places, int32_t least, int32_t most)
     return (vi)WORDS(min_epu16)(WORDS(max_epu16)((words)places, low), high);
 }
 
-/* Masks of pixels with least <= u, v <= most. */
+/* Returns a mask of the pixels with least <= u <= most and least <= v <= most. */
 SIMD vi places_between(vi places, int32_t least, int32_t most)
 {
     words from_least = WORDS(sub_epi16)((words)places, WORDS(set1_epi16)((short)least));
@@ -139,10 +143,10 @@ SIMD vi places_between(vi places, int32_t least, int32_t most)
     return (vi)beyond == 0;
 }
 
-/* Along a part of the way, and clamped. part: places that a full way makes, at most 32767. */
+/* Moves places by way * part / 2^15 and clamps them to least..most. part: at most 32767. */
 SIMD vi places_moved(vi places, vi way, int32_t part, int32_t least, int32_t most)
 {
-    const int32_t sign = (int32_t)0x80008000; /* words with signs saturate at both ends */
+    const int32_t sign = (int32_t)0x80008000; /* signed words saturate at both ends */
     words low = WORDS(set1_epi16)((short)(least - 32768));
     words high = WORDS(set1_epi16)((short)(most - 32768));
     words moved = WORDS(mulhrs_epi16)((words)way, WORDS(set1_epi16)((short)part));
@@ -150,16 +154,16 @@ SIMD vi places_moved(vi places, vi way, int32_t part, int32_t least, int32_t mos
     return (vi)WORDS(min_epi16)(WORDS(max_epi16)(moved, low), high) ^ sign;
 }
 
-/* Where the texels of places lie. pitch: bytes of a row; texel: of a texel. */
+/* Returns the byte offsets of the texels of places. pitch, texel: bytes of a row and of a texel. */
 SIMD vi texel_offsets(vi places, int32_t pitch, int32_t texel)
 {
     return (vi)WORDS(madd_epi16)(WORDS(srli_epi16)((words)places, PLACE_BITS),
                                  WORDS(set1_epi32)(pitch << 16 | texel));
 }
 
-/* How the texels of places are weighed. */
+/* Holds the weights of the texels around places. */
 struct weights {
-    words rows, columns; /* of each pixel: pairs of bytes, twice; pair of words */
+    words rows, columns; /* for each pixel: a pair of bytes, twice; a pair of words */
 };
 
 SIMD struct weights weigh(vi places, int32_t part)
@@ -175,7 +179,7 @@ SIMD struct weights weigh(vi places, int32_t part)
     return (struct weights){(words)((vi)rows ^ 0x00ff00ff), columns};
 }
 
-/* part: of PART_ONE; 1 for a sample alone. */
+/* Samples four channels, times part. part: the sample's part of PART_ONE; 1 for a single sample. */
 SIMD struct quads sample_quads(const uint8_t *texels, const int32_t *offsets, vi places,
                                int32_t part)
 {
@@ -230,7 +234,7 @@ SIMD struct vf4 channels_of(struct quads q)
     return result;
 }
 
-/* Returns two channels as the third and fourth. */
+/* Returns the two channels as the third and the fourth of four. */
 SIMD struct vf4 channels_of_pairs(struct pairs p)
 {
     vf a = (vf)p.k[0], b = (vf)p.k[1];
@@ -240,6 +244,7 @@ SIMD struct vf4 channels_of_pairs(struct pairs p)
     return result;
 }
 
+/* Returns samples of motion as two signed words, right and down; WAY_ONE is a full move. */
 SIMD vi ways_of(struct pairs p)
 {
     return (vi)WORDS(packs_epi32)((words)(p.k[0] >> 8), (words)(p.k[1] >> 8));
@@ -311,7 +316,7 @@ SIMD vi texel_offsets(vi places, int32_t pitch, int32_t texel)
     return places;
 }
 
-/* Channel c of texels with so many channels, of two bytes each. */
+/* Samples channel c of texels that have `channels` channels of two bytes each. */
 SIMD vi sample_channel(const uint8_t *texels, const int32_t *offsets, vi places, int32_t part,
                        size_t channels, size_t c)
 {

@@ -1,13 +1,14 @@
-/* This header has the functions of texels.h for NEON. It is part of texels.h, which declares the
- * types. It uses only integers: products and sums are exact, in any order. */
+/* This header defines the functions of texels.h for NEON. Only texels.h includes it, after
+ * declaring the types. It computes in integers, whose products and sums are exact in any order. */
 #ifndef KILN_DRAW_SPRITES_TEXELS_NEON_H
 #define KILN_DRAW_SPRITES_TEXELS_NEON_H
 
-/* From 255ths of texels, rounded down. Beyond 16 bits they become the least or greatest. */
+/* Converts coordinates in 255ths of a texel to places, rounding down and clamping to 16 bits. */
 SIMD vi places_of(vf u, vf v)
 {
     uint16x4_t right = vqmovun_s32((int32x4_t)vi_of(u)), down = vqmovun_s32((int32x4_t)vi_of(v));
-    /* One more a texel: the product over 2^23 is the quotient by 255 of all 16 bits. */
+    /* A texel is 256 in a place and 255 steps, so 1 is added for each texel. For every word x,
+     * x * 0x8081 >> 23 is x / 255. */
     uint16x4_t columns = vshr_n_u16(vshrn_n_u32(vmull_n_u16(right, 0x8081), 16), 7);
     uint16x4_t rows = vshr_n_u16(vshrn_n_u32(vmull_n_u16(down, 0x8081), 16), 7);
     uint16x4x2_t both = vzip_u16(vqadd_u16(right, columns), vqadd_u16(down, rows));
@@ -20,16 +21,16 @@ SIMD vi places_clamped(vi places, int32_t least, int32_t most)
     return (vi)vminq_u16(vmaxq_u16((uint16x8_t)places, low), high);
 }
 
-/* Masks of pixels with least <= u, v <= most. */
+/* Returns a mask of the pixels with least <= u <= most and least <= v <= most. */
 SIMD vi places_between(vi places, int32_t least, int32_t most)
 {
     return places_clamped(places, least, most) == places;
 }
 
-/* Along a part of the way, and clamped. part: places that a full way makes, at most 32767. */
+/* Moves places by way * part / 2^15 and clamps them to least..most. part: at most 32767. */
 SIMD vi places_moved(vi places, vi way, int32_t part, int32_t least, int32_t most)
 {
-    const int32_t sign = (int32_t)0x80008000; /* words with signs saturate at both ends */
+    const int32_t sign = (int32_t)0x80008000; /* signed words saturate at both ends */
     int16x8_t low = vdupq_n_s16((int16_t)(least - 32768));
     int16x8_t high = vdupq_n_s16((int16_t)(most - 32768));
     int16x8_t moved = vqrdmulhq_n_s16((int16x8_t)way, (int16_t)part);
@@ -37,7 +38,7 @@ SIMD vi places_moved(vi places, vi way, int32_t part, int32_t least, int32_t mos
     return (vi)vminq_s16(vmaxq_s16(moved, low), high) ^ sign;
 }
 
-/* Where the texels of places lie. pitch: bytes of a row; texel: of a texel. */
+/* Returns the byte offsets of the texels of places. pitch, texel: bytes of a row and of a texel. */
 SIMD vi texel_offsets(vi places, int32_t pitch, int32_t texel)
 {
     const int16x4_t units = {(int16_t)texel, (int16_t)pitch, (int16_t)texel, (int16_t)pitch};
@@ -45,10 +46,10 @@ SIMD vi texel_offsets(vi places, int32_t pitch, int32_t texel)
     return (vi)vpaddq_s32(vmull_s16(vget_low_s16(at), units), vmull_s16(vget_high_s16(at), units));
 }
 
-/* How the texels of places are weighed: two words a pixel, across and down. */
+/* Holds the weights of the texels around places: two words a pixel, across and down. */
 struct weights {
-    int16x8_t near, far;           /* down, of 255: the texel's row, and the one below */
-    int16x8_t near_part, far_part; /* across, times the part */
+    int16x8_t near, far;           /* weights of 255 in all; down: this row, and the row below */
+    int16x8_t near_part, far_part; /* the same times the part, for weighting across */
 };
 
 SIMD struct weights weigh(vi places, int32_t part)
@@ -59,7 +60,7 @@ SIMD struct weights weigh(vi places, int32_t part)
                             vmulq_n_s16(far, (int16_t)part)};
 }
 
-/* part: of PART_ONE; 1 for a sample alone. */
+/* Samples four channels, times part. part: the sample's part of PART_ONE; 1 for a single sample. */
 SIMD struct quads sample_quads(const uint8_t *texels, const int32_t *offsets, vi places,
                                int32_t part)
 {
@@ -86,7 +87,7 @@ SIMD struct pairs sample_pairs(const uint8_t *texels, const int32_t *offsets, vi
 {
     const struct weights w = weigh(places, part);
     int32x2_t sampled[LANES];
-    /* Two channels of a texel and of the next one, each in two rows: 8 bytes. */
+    /* The 8 bytes are two channels of a texel and of the next one, each in two rows. */
 #define PAIR(n)                                                                                    \
     do {                                                                                           \
         int8x8_t both = vld1_s8((const int8_t *)texels + offsets[n]);                              \
@@ -121,7 +122,7 @@ SIMD struct vf4 channels_of(struct quads q)
     return result;
 }
 
-/* Returns two channels as the third and fourth. */
+/* Returns the two channels as the third and the fourth of four. */
 SIMD struct vf4 channels_of_pairs(struct pairs p)
 {
     int32x4x2_t channels = vuzpq_s32((int32x4_t)p.k[0], (int32x4_t)p.k[1]);

@@ -1,6 +1,5 @@
-/* A kiln_tile is a part of the picture that stays in the first cache while all sprites that touch
- * it are drawn, in order. Sprites are drawn by the widest vectors that the machine has, with the
- * same bits. */
+/* A kiln_tile is a part of the picture that stays in the first-level cache while all sprites that
+ * touch it are drawn, in order. Every width of vectors draws the same bits. */
 #ifndef KILN_DRAW_SPRITES_TILE_H
 #define KILN_DRAW_SPRITES_TILE_H
 
@@ -11,19 +10,21 @@ enum {
     KILN_TILE_WIDTH = 64,
     KILN_TILE_HEIGHT = 16,
     KILN_TILE_PITCH = KILN_TILE_WIDTH + 8, /* a unit of 8 pixels may reach beyond the right edge */
-    /* Units in it, and room for those that are written and not kept. */
+    /* The number of units in a tile, and room for 8 units that are written and not kept. */
     KILN_TILE_UNITS = KILN_TILE_HEIGHT * KILN_TILE_WIDTH / 8 + 8,
 };
 
 /* Names the contents of the glow's planes. */
 enum kiln_tile_glow {
-    KILN_TILE_GLOW_NONE,    /* nothing */
-    KILN_TILE_GLOW_APART,   /* colour: all that glows does so by the same weights, and is drawn */
-                            /* here instead of into the planes of colour */
-    KILN_TILE_GLOW_WEIGHED, /* colour times the weights of each sprite */
+    KILN_TILE_GLOW_NONE, /* nothing */
+    /* the colour of all glowing sprites, which have the same bloom weights; it is in these planes
+     * instead of the planes of colour */
+    KILN_TILE_GLOW_APART,
+    KILN_TILE_GLOW_WEIGHED, /* the colour of each sprite times its bloom weights */
 };
 
-/* Colour, alpha and glow of what was drawn, premultiplied; the depth of the scene, m. */
+/* Names the planes of a tile: premultiplied colour, alpha and glow of the drawn sprites; the depth
+ * of the scene, m. */
 enum kiln_tile_plane {
     KILN_TILE_RED,
     KILN_TILE_GREEN,
@@ -37,18 +38,20 @@ enum kiln_tile_plane {
 };
 
 struct kiln_tile {
-    /* The last row is of pixels that lie nowhere. */
+    /* The last row lies outside of the tile; padding units are drawn into it. */
     _Alignas(64) float pixels[KILN_TILE_HEIGHT + 1][KILN_TILE_PLANES][KILN_TILE_PITCH];
     int x, y, width, height; /* in the picture, px */
     enum kiln_tile_glow glow;
-    float nearest;                   /* depth in it, m */
-    uint64_t seen[KILN_TILE_HEIGHT]; /* while drawing: pixels behind which more is seen... */
-    bool hides;                      /* ...unless that is all of them */
-    bool over; /* what covers hides what is behind it: else alpha is summed up */
+    float nearest; /* least depth of the scene in the tile, m */
+    /* a bit for each pixel in which sprites behind the drawn ones are visible; valid if hides */
+    uint64_t seen[KILN_TILE_HEIGHT];
+    bool hides; /* true: some pixels hide the sprites behind them */
+    bool over;  /* true: sprites cover those behind them; false: alpha is summed */
 };
 
-/* Draws sprites into the tile. The list has the farthest first, but sprites are drawn from the
- * nearest on, so that cover changes no colour but a sprite's own; their cells have been mixed. */
+/* Draws sprites into the tile. The list has the farthest sprite first. Sprites are drawn from the
+ * nearest to the farthest, so that each only adds to the pixels the part that nearer sprites let
+ * through. Their cells must exist (kiln_cells_mix). */
 typedef void kiln_tile_draw(struct kiln_tile *tile, const struct kiln_sprite *sprites,
                             const struct kiln_cells *cells, const uint32_t *list, size_t count);
 

@@ -1,32 +1,32 @@
-/* This header draws sprites into a tile. A file for each level of KILN_SIMD_LEVEL includes it and
- * defines the name TILE_DRAW. The operations of a pixel are those of
- * shaders/draw/sprites/shade.glsl (Heinz 2019, 3.2.3 to 3.2.6); all lanes do them, those outside of
- * the sprite with alpha 0. Sprites come from the nearest on; what lies behind pixels that let
- * nothing through is left out. */
+/* This header draws sprites into a tile. tile_simd.c, which is compiled for each KILN_SIMD_LEVEL,
+ * defines the name TILE_DRAW and includes it. The operations of a pixel are those of
+ * shaders/draw/sprites/shade.glsl (Heinz 2019, 3.2.3 to 3.2.6). All lanes do them; lanes outside of
+ * the sprite have alpha 0. Sprites are drawn from the nearest to the farthest, and those behind
+ * opaque pixels are left out. */
 #include "draw/sprites/texels.h"
 #include "draw/sprites/tile_rows.h"
 
 enum {
-    TILE_AHEAD = 6,  /* sprites that are fetched beforehand */
-    LOOK_EVERY = 24, /* sprites that cover: then it is found out what is still seen behind */
+    TILE_AHEAD = 6,  /* sprites that are prefetched */
+    LOOK_EVERY = 24, /* covering sprites between two calls of look_behind */
 };
 
-/* Where less than this part of the light from behind is left, no more is drawn. */
+/* A pixel that lets through less than this part of the light from behind counts as opaque. */
 #define UNSEEN 0x1p-16f
 
 /* Holds the data that all pixels of a sprite share. */
 struct brush {
-    const uint8_t *cell, *next, *moves; /* next: NULL if mixed; moves: NULL where nothing does */
-    int32_t pitch, texel;               /* of the cells, bytes */
-    int32_t edge;                       /* of the cells, places */
-    int32_t part;                       /* of the way to the next cell, of PART_ONE */
-    int32_t from, to;              /* places that a full move makes, of the cell and of the next */
-    int32_t move_shift, move_mask; /* of a place in the cells to one in the motion */
-    float sampled;                 /* the unit of sampled channels */
-    bool emits;                    /* base or slope are not 0 */
-    bool whole;                    /* all of the tile lies so far behind it that nothing fades */
-    int32_t layer;                 /* the first of the planes that get its colour */
-    bool weighs;                   /* its colour for the glow's planes */
+    const uint8_t *cell, *next, *moves; /* next: NULL if mixed; moves: NULL without motion */
+    int32_t pitch, texel;               /* bytes of a row and of a texel of the cells */
+    int32_t edge;                       /* edge of the cells, as a place */
+    int32_t part;                       /* weight of the next cell, of PART_ONE */
+    int32_t from, to;              /* `part` of places_moved, for the cell and for the next cell */
+    int32_t move_shift, move_mask; /* turn a place in the cells into a place in the motion */
+    float sampled;                 /* the unit of sampled channels, SAMPLED_UNIT or a part of it */
+    bool emits;                    /* base or slope is not 0 */
+    bool whole;                    /* true: the scene is too far behind it for any pixel to fade */
+    int32_t layer;                 /* the first of the three planes that its colour goes to */
+    bool weighs;                   /* true: colour times bloom weights goes to the glow's planes */
 };
 
 static inline float least(float a, float b)
@@ -34,7 +34,8 @@ static inline float least(float a, float b)
     return a < b ? a : b;
 }
 
-/* The colour of a vector of pixels without its alpha, or with it if it comes from a cell. */
+/* Holds the shade of a vector of pixels: the colour, not yet multiplied by alpha except for colour
+ * cells, which are premultiplied. */
 struct shaded {
     vf rgb[3], alpha;
 };
@@ -68,7 +69,7 @@ SIMD struct shaded shade_lit(const struct kiln_sprite *s, const struct brush *b,
     return shaded;
 }
 
-/* Colour cells are stored under a square root. */
+/* Returns the colour of a colour cell. Channels are squared, since cells hold square roots. */
 SIMD struct shaded shade_color(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
 {
     for (int c = 0; c < 4; c++) {
@@ -90,8 +91,7 @@ SIMD struct shaded shade_plain(const struct kiln_sprite *s, vf u, vf v)
     return (struct shaded){{vf_all(s->base[0]), vf_all(s->base[1]), vf_all(s->base[2])}, alpha};
 }
 
-/* Returns the opacity of a sprite before the scene: equation 3.3, clamped to a fade, or as
- * printed. */
+/* Returns the opacity of a sprite before the scene: equation 3.3, clamped or as printed. */
 SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
 {
     vi visible = inside & (depth <= scene);
@@ -102,7 +102,7 @@ SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
     return vf_where(inside, vf_clamp01((scene - depth) * s->soft) * s->opacity);
 }
 
-/* Adds light behind the pixels at the offsets. */
+/* Adds colour to the pixels at the offsets, and its glow. */
 SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struct brush *b,
                 const float bloom[3], const vf rgb[3])
 {
@@ -116,31 +116,30 @@ SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struc
     }
 }
 
-/* ---- vectors of pixels ------------------------------------------------------------------------
- */
+/* ---- vectors of pixels ----------------------------------------------------------------------- */
 
-/* A vector of pixels, its units anywhere in the tile. */
+/* Holds a vector of pixels, whose units may lie anywhere in the tile. */
 struct pixels {
     vf u, v, q;
-    vi inside;         /* those that count */
-    int32_t at[UNITS]; /* in the planes */
+    vi inside;         /* mask: the pixel is drawn */
+    int32_t at[UNITS]; /* offsets in kiln_tile.pixels */
 };
 
 enum { BATCH = 16 };
 
-/* Holds vectors of pixels that take each step together: a step alone needs few resources of the
- * processor, so that several vectors overlap while texels are fetched. It has places and texels of
- * a cell and, if not mixed, of the next one. */
+/* Holds vectors of pixels that go through each step of drawing together. So the processor overlaps
+ * the work of several vectors while it fetches texels. The first index of texels and places is 0
+ * for the cell and, if not mixed, 1 for the next cell. */
 struct batch {
     _Alignas(64) int32_t texels[2][BATCH][LANES];
     vi places[2][BATCH], inside[BATCH];
     struct vf4 cells[BATCH];
-    vf u[BATCH], v[BATCH], depth[BATCH]; /* of plain and of deep ones */
+    vf u[BATCH], v[BATCH], depth[BATCH]; /* u, v: of plain sprites; depth: of deep sprites */
     int32_t at[BATCH][UNITS];
     int count;
 };
 
-/* Holds the sprite that steps draw, and its tile. */
+/* Holds the sprite that is drawn, and its tile. */
 struct drawn {
     struct kiln_tile *tile;
     const struct kiln_sprite *s;
@@ -213,7 +212,7 @@ SIMD void follow(struct batch *batch, const struct brush *b)
     }
 }
 
-/* Vector i of what a sprite shows. pair: only heat and alpha. */
+/* Returns the sampled channels of vector i; with pair, only those of heat and alpha. */
 SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b, bool pair,
                        bool mixed)
 {
@@ -230,7 +229,7 @@ SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b, 
                              : quads_sum(quads, sample_quads(b->next, next_texels, next, b->part)));
 }
 
-/* Vector i of a batch behind what was drawn. */
+/* Draws vector i of a batch behind the sprites that were drawn before. */
 SIMD void draw_vector(const struct batch *batch, int i, const struct drawn *d, struct shaded c,
                       bool multiplied, bool deep, bool covers)
 {
@@ -243,7 +242,7 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct drawn *d, s
         vf depth = deep ? batch->depth[i] : vf_all(s->depth);
         left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
     }
-    if (s->flags & KILN_SPRITE_LITERAL) /* has no bound of its own: alpha up to 1 */
+    if (s->flags & KILN_SPRITE_LITERAL) /* equation 3.3 has no bound: limits alpha to 1 */
         left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
     if (over || covers)
         before = vf_load_units(planes[KILN_TILE_ALPHA], at);
@@ -265,7 +264,7 @@ SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprit
     const struct kiln_sprite *s = d->s;
     const struct brush *b = &d->brush;
     const bool textured = kind != KILN_SHADE_PLAIN;
-    __asm__("" : "+m"(*batch)); /* through memory: to take a vector apart costs twice as much */
+    __asm__("" : "+m"(*batch)); /* keeps it in memory: taking vectors apart costs twice as much */
     if (textured && !mixed)
         follow(batch, b);
     for (int i = 0; i < batch->count && textured; i++)
@@ -280,8 +279,7 @@ SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprit
     batch->count = 0;
 }
 
-/* ---- wide sprites: units of their rows ---------------------------------------------------------
- */
+/* ---- wide sprites: units of their rows ------------------------------------------------------- */
 
 SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, const struct box *box,
                     struct batch *batch, enum kiln_sprite_shade kind, bool deep, bool covers,
@@ -324,8 +322,7 @@ SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, co
     }
 }
 
-/* ---- sprites no wider than a unit: one a row ----------------------------------------------------
- */
+/* ---- sprites no wider than a unit: one a row ------------------------------------------------- */
 
 SIMD void draw_narrow(const struct drawn *d, const struct box *box, struct batch *batch,
                       enum kiln_sprite_shade kind, bool covers, bool mixed)
@@ -361,8 +358,7 @@ SIMD void draw_narrow(const struct drawn *d, const struct box *box, struct batch
     draw_batch(batch, d, kind, false, covers, mixed);
 }
 
-/* ---- any sprite --------------------------------------------------------------------------------
- */
+/* ---- any sprite ------------------------------------------------------------------------------ */
 
 SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_content *cells,
                      const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
@@ -411,7 +407,7 @@ SIMD struct box box_in(const struct kiln_tile *tile, const struct kiln_sprite *s
     };
 }
 
-/* Returns whether all pixels of a box are hidden. */
+/* Returns whether all pixels of a box hide the sprites behind them. */
 SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
 {
     uint64_t seen = 0;
@@ -421,8 +417,8 @@ SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
     return seen == 0;
 }
 
-/* Finds the pixels where anything behind the drawn sprites is still visible; returns false when
- * there are none. */
+/* Finds the pixels in which sprites behind the drawn ones are still visible; returns false if there
+ * are none. */
 static bool look_behind(struct kiln_tile *tile)
 {
     const uint64_t whole = ~(uint64_t)0 >> (KILN_TILE_WIDTH - tile->width);
@@ -457,10 +453,9 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
         draw_wide(&drawn, kiln_cells_hull(cells, s->cell), &box, &batch, kind, deep, covers, mixed);
 }
 
-/* ---- small sprites of which there are few ------------------------------------------------------
- */
+/* ---- small sprites of systems with few slots ------------------------------------------------- */
 
-/* Samples texels by floats, at places among the texels of a cell. first: of four channels. */
+/* Samples a cell in floats at u, v, texels, for the channels from `first` to 3. */
 SIMD struct vf4 sample_floats(const struct brush *b, const uint8_t *cell, size_t first, vf u, vf v)
 {
     struct vf4 sampled = {{{0}}};
@@ -479,7 +474,7 @@ SIMD struct vf4 sample_floats(const struct brush *b, const uint8_t *cell, size_t
     return sampled;
 }
 
-/* Draws a unit of each of UNITS rows, or part of one. u, v: texels. */
+/* Draws a unit in each of UNITS rows, or a part of one unit. u, v: texels. */
 SIMD void draw_floats(const struct drawn *d, struct batch *batch, vf u, vf v)
 {
     const struct kiln_sprite *s = d->s;
@@ -549,7 +544,7 @@ DRAW_FORMS(mixed_glow, KILN_SHADE_GLOW, true)
 DRAW_FORMS(mixed_lit, KILN_SHADE_LIT, true)
 DRAW_FORMS(mixed_color, KILN_SHADE_COLOR, true)
 
-/* By KILN_SPRITE_DEEP and KILN_SPRITE_COVERS. */
+/* Lists functions indexed by the flags KILN_SPRITE_DEEP and KILN_SPRITE_COVERS. */
 #define ROW(name)                                                                                  \
     {                                                                                              \
         name##_flat_adds, name##_deep_adds, name##_flat_covers, name##_deep_covers                 \

@@ -1,24 +1,24 @@
 /* This header finds the pixels of a tile that a wide sprite touches: a span in each row, in units
- * of 8 pixels. */
+ * of 8 pixels. tile_draw.h uses it. */
 #ifndef KILN_DRAW_SPRITES_TILE_ROWS_H
 #define KILN_DRAW_SPRITES_TILE_ROWS_H
 
 #include "draw/sprites/tile.h"
 #include "draw/vector/simd.h"
 
-/* Units of pixels that a sprite touches, one after the other. */
+/* Holds the units of pixels that a sprite touches. */
 struct units {
-    int32_t at[KILN_TILE_UNITS];                                      /* in the tile's planes */
-    float u[KILN_TILE_UNITS], v[KILN_TILE_UNITS], q[KILN_TILE_UNITS]; /* at its first pixel */
+    int32_t at[KILN_TILE_UNITS]; /* offset in kiln_tile.pixels */
+    float u[KILN_TILE_UNITS], v[KILN_TILE_UNITS], q[KILN_TILE_UNITS]; /* at the first pixel */
 };
 
 typedef float four __attribute__((vector_size(16)));
 typedef int32_t four_ints __attribute__((vector_size(16)));
 
-/* Holds limits of u, v, u + v and u - v. */
+/* Holds the limits of u, v, u + v and u - v in a hull. */
 struct limits {
     four least, most;   /* texels */
-    four pixels_a_step; /* 1 / their change with x; 0: hardly any */
+    four pixels_a_step; /* 1 / change a pixel in x, px; 0 if they hardly change with x */
 };
 
 SIMD void find_limits(const struct kiln_sprite *s, const struct kiln_cell_hull *hull,
@@ -33,7 +33,9 @@ SIMD void find_limits(const struct kiln_sprite *s, const struct kiln_cell_hull *
     limits->most *= s->edge_u;
 }
 
-/* Narrows a row's columns to those where least <= place + step * x < most, slightly widened. */
+/* Narrows each row's columns to those with least <= place + x / pixels_a_step < most, slightly
+ * widened. place: the value at the sprite's anchor; offset: the anchor's column in the tile less
+ * 0.5. */
 SIMD void narrow(vf place, float pixels_a_step, float least, float most, float offset, vf *from,
                  vf *to)
 {
@@ -45,18 +47,18 @@ SIMD void narrow(vf place, float pixels_a_step, float least, float most, float o
     *to = vf_min(vf_max(one, other) + 2.0f, *to);
 }
 
-/* Holds the rows of a tile that a sprite touches, each from a column on. */
+/* Holds the span of a sprite in each row of a tile. */
 struct rows {
     _Alignas(64) float u[KILN_TILE_HEIGHT], v[KILN_TILE_HEIGHT], q[KILN_TILE_HEIGHT];
-    int32_t from[KILN_TILE_HEIGHT], units[KILN_TILE_HEIGHT];
+    int32_t from[KILN_TILE_HEIGHT], units[KILN_TILE_HEIGHT]; /* first column; number of units */
 };
 
-/* Holds the part of a sprite that lies in a tile, px. */
+/* Holds the range of pixels of a tile that a sprite may touch, px. */
 struct box {
     int x_from, x_to, y_from, y_to;
 };
 
-/* Finds the rows. hull: the visible part of the cell, or NULL. */
+/* Finds the spans of a sprite. hull: the visible part of its cell, or NULL. */
 SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
                     const struct box *box, const struct kiln_cell_hull *hull, struct rows *rows)
 {
@@ -87,8 +89,9 @@ SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
     }
 }
 
-/* Lists the units of all rows. For each row it writes as many as any row may have and keeps those
- * that the row has, so that there is no branch to predict. */
+/* Lists the units of all rows and returns their number. For each row it writes as many units as the
+ * longest row may have, then advances by the number that the row has, so that there is no branch to
+ * predict. */
 SIMD int list_units(const struct rows *rows, const struct box *box, const float steps[3], bool deep,
                     struct units *units)
 {
@@ -114,7 +117,7 @@ SIMD int list_units(const struct rows *rows, const struct box *box, const float 
     return count;
 }
 
-/* Removes units of which no pixel is visible. */
+/* Removes units whose pixels are all hidden; returns the number of units that remain. */
 SIMD int drop_hidden(const struct kiln_tile *tile, struct units *units, int count)
 {
     int kept = 0;
@@ -130,7 +133,7 @@ SIMD int drop_hidden(const struct kiln_tile *tile, struct units *units, int coun
     return kept;
 }
 
-/* Appends a unit that lies outside of the tile, so that units can be taken in pairs. */
+/* Appends a padding unit that lies outside of the tile, so that units can be drawn in pairs. */
 SIMD void add_nowhere(struct units *units, int count)
 {
     units->at[count] = KILN_TILE_HEIGHT * KILN_TILE_PLANES * KILN_TILE_PITCH;

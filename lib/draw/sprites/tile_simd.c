@@ -1,5 +1,5 @@
-/* This file compiles the tile drawing of the CPU rasteriser for one level of vectors. The other
- * levels are tested against `plain`. */
+/* This file compiles the CPU rasteriser's drawing of tiles (tile_draw.h) for one level of vectors.
+ * Tests compare the other levels with `plain`. */
 #include "base/simd.h"
 
 #define TILE_DRAW KILN_SIMD_NAME(kiln_tile_draw)
