@@ -12,7 +12,7 @@ enum { KILN_INSTANCE_LARGEST_TILE = 64 }; /* texels along an edge */
 struct kiln_instance_mesh {
     uint32_t first;     /* index of the first corner in kiln_instances.corners */
     uint32_t triangles; /* number of triangles; 0: the system's particles are not meshes */
-    float reach;        /* distance from the middle to the farthest corner, in longest edges */
+    float reach;        /* from the middle to the farthest corner; the longest edge is 1 */
 };
 
 /* Holds the meshes of all systems. Each mesh is scaled so that the longest edge of its bounding box

@@ -1,4 +1,4 @@
-/* A kiln_meshes holds the backdrop's meshes, in the space of their files, and its terrain. */
+/* A kiln_meshes holds the backdrop's meshes, in the space of their files, and its terrains. */
 #ifndef KILN_DRAW_MOMENT_MESHES_H
 #define KILN_DRAW_MOMENT_MESHES_H
 

@@ -29,8 +29,8 @@ struct kiln_moment {
     uint64_t look_changes;               /* a number that grows when the table changes */
     struct kiln_meshes meshes;           /* the backdrop's meshes: posed, painted, with bounds */
     struct kiln_draw_shapes shapes;      /* the backdrop's objects, by kiln_shapes_fill */
-    const struct kiln_particle *records; /* the pool's records on the host; NULL: not on_host */
-    const struct kiln_spin *spins; /* the pool's spins on the host; NULL: not on_host, or none */
+    const struct kiln_particle *records; /* the pool's records on the host; NULL unless on_host */
+    const struct kiln_spin *spins; /* the pool's spins on the host; NULL unless on_host and any */
 };
 
 /* Initialises a moment. Scene, device and atlas must outlive it. device may be NULL. atlas holds

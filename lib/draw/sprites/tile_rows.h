@@ -9,7 +9,7 @@
 /* Holds the units of pixels that a sprite touches. */
 struct units {
     int32_t at[KILN_TILE_UNITS]; /* offset in kiln_tile.pixels */
-    float u[KILN_TILE_UNITS], v[KILN_TILE_UNITS], q[KILN_TILE_UNITS]; /* at the first pixel */
+    float u[KILN_TILE_UNITS], v[KILN_TILE_UNITS], q[KILN_TILE_UNITS]; /* at its first pixel */
 };
 
 typedef float four __attribute__((vector_size(16)));
