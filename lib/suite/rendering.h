@@ -4,21 +4,21 @@
 
 #include "suite/golden.h"
 
-/* Chooses the frames that a test judges of a scene with so many: its own, or the middle and the
- * last one, which are put in `usual`. Returns how many; *numbers: ascending, the test's or `usual`.
- */
+/* Chooses the frames that a test judges: those that it names, or else the middle and the last of
+ * the scene's frames, which go into `usual`. Returns their count; *numbers points to them,
+ * ascending. */
 size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames, uint32_t usual[2],
                         const uint32_t **numbers);
 
 struct kiln_rendering_params {
     const struct kiln_test *test;
-    const char *device;            /* wanted, as in kiln_device_params; NULL: KILN_DEVICE_CPU, or */
-                                   /* the default one with GL, if a technique needs GL */
-    const char *const *techniques; /* "stage=name", over all others */
+    const char *device;            /* as in kiln_device_params; NULL: KILN_DEVICE_CPU, or the */
+                                   /* default device with GL if a technique needs GL */
+    const char *const *techniques; /* "stage=name"; they override all others */
     size_t technique_count;
     uint32_t threads;
-    const char *folder;   /* for pictures; it exists */
-    const char *addition; /* to their names: frame_0024ADDITION.png */
+    const char *folder;   /* for pictures; it must exist */
+    const char *addition; /* goes into their names: frame_0024ADDITION.png */
     bool (*stop)(void *user);
     void *user;
     struct kiln_log log;
@@ -32,10 +32,10 @@ struct kiln_rendered_frame {
     char path[KILN_PATH_SIZE];
 };
 
-/* What is known of a rendering. Zero-initialised, nothing is known; what is known before an error
- * stays. */
+/* What a rendering found and made. After an error, the members that were filled before it stay; the
+ * others are zero. */
 struct kiln_rendering {
-    bool no_device; /* no device of the wanted name exists */
+    bool no_device; /* there is no device with the requested name */
     struct kiln_device_info device;
     char device_name[KILN_DEVICE_NAME_SIZE];
     struct kiln_scene_info scene;
@@ -46,10 +46,10 @@ struct kiln_rendering {
     struct kiln_rendered_frame *frames; /* ascending */
 };
 
-/* Loads the scene, opens the device, renders and hashes; all texts lie in the arena. Techniques are
- * those that every machine has, then the test's, then the given ones. False with the error of the
- * step that failed, KILN_INVALID_INPUT for a frame that the scene does not have, KILN_FRAME_FAILED
- * for a frame that was not drawn. */
+/* Loads the scene, opens the device, renders and hashes; all texts lie in the arena. The test's
+ * techniques override those that every test pins, and params->techniques override both. Returns
+ * false with the error of the step that failed, KILN_INVALID_INPUT for a frame that the scene does
+ * not have, KILN_FRAME_FAILED for a frame that was not drawn. */
 bool kiln_rendering_make(struct kiln_arena *arena, const struct kiln_rendering_params *params,
                          struct kiln_rendering *rendering, struct kiln_error *error);
 

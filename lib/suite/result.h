@@ -1,6 +1,6 @@
-/* Declares the result of a test, which the process that ran the test writes, and reports, `approve`
- * and the run read. It is a JSON file, RESULTS/NAME/result.json, beside the pictures that it names.
- */
+/* Declares the result of a test. The process that runs the test writes it as a JSON file,
+ * RESULTS/NAME/result.json, beside the pictures that it names. `kiln test`, `kiln test approve` and
+ * the reports read it. */
 #ifndef KILN_SUITE_RESULT_H
 #define KILN_SUITE_RESULT_H
 
@@ -12,59 +12,59 @@ enum { KILN_TEST_MAX_FRAMES = 1000, KILN_RESULT_MAX_ENTRIES = 1000 };
 
 /* What decided the verdict on a frame. */
 enum kiln_judged_by {
-    KILN_JUDGED_BY_NOTHING, /* no golden, or nothing was rendered, or each time something else */
+    KILN_JUDGED_BY_NOTHING, /* no golden, nothing rendered, or repeated renders differ */
     KILN_JUDGED_BY_STATE,   /* the state hash differs: the simulation changed */
-    KILN_JUDGED_BY_PIXELS,  /* the pixels' hash is known */
+    KILN_JUDGED_BY_PIXELS,  /* the hash of the pixels was compared with the accepted one */
     KILN_JUDGED_BY_METRICS,
     KILN_JUDGED_BY_COUNT
 };
-/* "nothing", "state", "pixels", "metrics" */
+/* Returns "nothing", "state", "pixels" or "metrics". */
 const char *kiln_judged_by_name(enum kiln_judged_by judged_by);
 
-/* The result of a frame. Texts are never NULL, and "" where there is nothing. Files are relative to
- * the result's folder and have no '/' in their names. */
+/* The result of a frame. Texts are "" where there is nothing, and never NULL. The picture, the
+ * reference and the error map are names of files in the result's folder, without '/'. */
 struct kiln_result_frame {
     uint32_t number;
     enum kiln_test_status status;
     enum kiln_judged_by judged_by;
-    const char *message;   /* why, "" for a pass */
-    const char *picture;   /* what was rendered */
-    const char *reference; /* a copy of the golden that was nearest; "" without one */
+    const char *message;   /* the reason of the status, "" for a pass */
+    const char *picture;   /* the rendered picture */
+    const char *reference; /* a copy of the nearest golden; "" without one */
     const char *error_map; /* FLIP's, in magma; "" where it was not measured */
-    const char *golden;    /* the golden's own path, as a person would open it; where it would be */
-    const char *state, *state_expected;   /* 16 hex digits; expected "" when nothing is */
+    const char *golden;    /* path of the golden itself, or the path where it would be */
+    const char *state, *state_expected;   /* 16 hex digits; expected: "" if none was accepted */
     const char *pixels, *pixels_expected; /* SHA-256 of the decoded pixels */
-    const char *kiln_expected;            /* that drew what was accepted; "" where not known */
-    bool measured;                        /* what follows means something */
-    double values[KILN_MAX_COLUMNS];      /* by the result's columns */
+    const char *kiln_expected;       /* the kiln that drew the accepted pixels; "" if not known */
+    bool measured;                   /* the members below are valid */
+    double values[KILN_MAX_COLUMNS]; /* in the order of the result's columns */
     bool beyond[KILN_MAX_COLUMNS];
     double score;
     uint32_t worst_x, worst_y;
     uint32_t window_x, window_y, window_width, window_height, window_differing;
 };
 
-/* A key of the scene that is not as it was when the goldens were accepted. */
+/* A key of the scene that has changed since the goldens were accepted. */
 struct kiln_result_change {
     const char *key;            /* "systems.fire.emit.rate" */
-    const char *before, *after; /* as a scene would write them; "" where it is not there */
+    const char *before, *after; /* values as a scene would write them; "" without the key */
 };
 
 struct kiln_result {
-    const char *name;   /* of the test, with its device */
+    const char *name;   /* full name of the test, with its device */
     const char *test;   /* path of the test file or scene */
     const char *scene;  /* path of the scene */
     const char *about;  /* the test's own description */
     const char *golden; /* the folder of its goldens */
     enum kiln_test_status status;
-    enum kiln_code code;     /* ok for pass, skip and warn, and only for these */
-    const char *message;     /* the cause in one line: of an error, or of the worst frame */
-    const char *log;         /* file with what its process printed, or "" */
+    enum kiln_code code;     /* KILN_OK for pass, skip, warn and change, and only for these */
+    const char *message;     /* one line: the error, or the message of the worst frame */
+    const char *log;         /* file with the output of the test's process, or "" */
     const char *device;      /* GL renderer */
     const char *device_name; /* as in expect.yaml: "llvmpipe-llvm-15.0.6-256-bits" */
     const char *driver;      /* GL version and vendor */
     const char *platform;
     const char *techniques, *techniques_expected;
-    const char *version; /* of kiln, with its commit where that is known */
+    const char *version; /* version of kiln, with its commit if known */
     bool pins_gl;        /* the test itself names a device or a technique of GL */
     uint32_t seed;
     uint32_t width, height;
@@ -72,7 +72,7 @@ struct kiln_result {
     const char *scene_hash, *scene_hash_expected;
     const char *started; /* 2026-01-31T12:00:00Z */
     double total_s;
-    double warn; /* the score beyond which a frame that passes is warned of */
+    double warn; /* a frame that passes with a higher score is a warning */
     bool hdr;
     const char *rerun, *approve; /* the exact commands */
     size_t column_count;
@@ -85,15 +85,16 @@ struct kiln_result {
     const char **notes; /* for people: stale limits, goldens written */
 };
 
-/* Initialise a result, or a frame of it, with its name or number alone: texts are "", numbers 0. */
+/* Initialise a result with its name and a frame with its number; other texts are "", numbers 0. */
 void kiln_result_init(struct kiln_result *result, const char *name);
 void kiln_result_frame_init(struct kiln_result_frame *frame, uint32_t number);
 
-/* Returns the score of a result's worst frame: the highest of the measured ones, 0 without any. */
+/* Returns the highest score of the measured frames, or 0 without any. */
 double kiln_result_score(const struct kiln_result *result);
 
-/* Returns the frame that a person should see first: of the worst status, the one with the highest
- * score. A frame without values has the highest one unless it passed. 0 without frames. */
+/* Returns the index of the frame that a person should see first: among the frames of the worst
+ * status, the one with the highest score. A frame that was not measured comes before them unless it
+ * passed. Returns 0 without frames. */
 size_t kiln_result_worst_frame(const struct kiln_result *result);
 
 /* Writes FOLDER/result.json, whole or not at all; makes missing folders. KILN_IO. */
@@ -113,9 +114,9 @@ struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text
 /* Adds the text of result.json. False when memory is short. */
 bool kiln_result_print(const struct kiln_result *result, struct kiln_text *text);
 
-/* Adds the members of result.json but its version to an open object of JSON, whose lines begin
- * with two spaces. An infinite value is null. Of more changes or notes than
- * KILN_RESULT_MAX_ENTRIES, the last one says how many are left out. */
+/* Adds the members of result.json, except its version, to an open JSON object whose lines begin
+ * with two spaces. An infinite value is written as null. If there are more changes or notes than
+ * KILN_RESULT_MAX_ENTRIES, the last entry says how many are left out. */
 void kiln_result_add_json(struct kiln_json *json, const struct kiln_result *result);
 
 #endif

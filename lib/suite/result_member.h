@@ -1,11 +1,12 @@
-/* Declares the tables of members of the objects in result.json, by which it is written and read. */
+/* Declares the tables of the members of result.json, by which result_write.c writes it and
+ * result_read.c reads it. */
 #ifndef KILN_SUITE_RESULT_MEMBER_H
 #define KILN_SUITE_RESULT_MEMBER_H
 
 #include "kiln_program.h"
 #include "suite/result.h"
 
-enum { KILN_RESULT_VERSION = 2 }; /* result_read.c names it, too */
+enum { KILN_RESULT_VERSION = 2 }; /* an error message in result_read.c names it, too */
 
 enum kiln_member_kind {
     KILN_MEMBER_TEXT,
@@ -34,7 +35,7 @@ extern const struct kiln_member kiln_result_members[], kiln_result_column_member
 void kiln_member_write(struct kiln_json *json, const char *key, const struct kiln_member *member,
                        const void *object);
 
-/* Members of frames that were measured, beside "metrics" and "beyond". */
+/* The table of the further members of a measured frame, except "metrics" and "beyond". */
 extern const struct kiln_member kiln_result_measured_members[];
 
 #endif

@@ -1,6 +1,6 @@
-/* Keeps the folder of a run's results. kiln removes and replaces there only files that it wrote
- * itself, unless they were changed since: the file .kiln-results lists them with their SHA-256, in
- * the format of sha256sum. */
+/* Keeps the folder of a run's results. In this folder, kiln removes and replaces only files that it
+ * wrote itself and that have not changed since. The file .kiln-results lists them with their
+ * SHA-256, in the format of sha256sum. */
 #ifndef KILN_SUITE_RESULTS_FOLDER_H
 #define KILN_SUITE_RESULTS_FOLDER_H
 
@@ -9,8 +9,8 @@
 
 #define KILN_RESULTS_LIST ".kiln-results"
 
-/* Lists the files of a run's tests and run.json after the run, beside files that are still listed
- * from other runs. KILN_IO, KILN_DEVICE_FAILED when memory is short. */
+/* Adds the files of a run's tests and run.json to the list after the run. Entries of other runs
+ * stay. KILN_IO, KILN_DEVICE_FAILED when memory is short. */
 bool kiln_results_folder_end(const struct kiln_suite *suite, struct kiln_error *error);
 
 #endif

@@ -18,15 +18,15 @@ struct kiln_test_mask {
     const char *reason;
 };
 
-/* A test, as a test file says or, for a scene that is a test by itself, by the defaults. Paths can
- * be opened as they are. */
+/* A test, as its test file describes it. A scene that is a test by itself has the defaults. Paths
+ * can be opened as they are. */
 struct kiln_test {
     const char *name;          /* without a device */
     const char *full_name;     /* with "@device" where the test names several */
-    const char *path;          /* of the file that makes it a test */
+    const char *path;          /* the test file, or the scene itself */
     const char *results;       /* RESULTS/FULL_NAME */
     const char *golden;        /* GOLDEN/NAME */
-    struct kiln_error problem; /* the test file is wrong: what follows means nothing */
+    struct kiln_error problem; /* a fault of the test file; then the members below may be wrong */
     const char *scene;
     const char *about;
     const char **overrides; /* "key=value" */
@@ -35,9 +35,9 @@ struct kiln_test {
     size_t frame_count;
     enum kiln_test_format format;
     enum kiln_test_golden kept;
-    const char *device;      /* wanted, or NULL: that of the run */
+    const char *device;      /* as in kiln_device_params; NULL: the run's device */
     bool may_skip;           /* the device may be absent: the test is skipped then */
-    const char **techniques; /* "stage=name", over those that every test pins */
+    const char **techniques; /* "stage=name"; they override those that every test pins */
     size_t technique_count;
     const char **limits; /* "metric=value"; none: the default ones */
     size_t limit_count;
@@ -54,11 +54,11 @@ struct kiln_suite {
     struct kiln_arena *arena;
     struct kiln_test *tests;
     size_t count;
-    uint32_t shard, shards; /* as asked for; 0 and 0: all tests */
-    size_t all_count;       /* tests of all shards */
-    const char **starts;    /* how names of tests start in the folders that were searched */
+    uint32_t shard, shards; /* as requested; 0 and 0: all tests */
+    size_t all_count;       /* count of the tests of all shards */
+    const char **starts;    /* prefixes of the names of tests in the searched folders */
     size_t start_count;
-    const char **unused; /* folders of goldens */
+    const char **unused; /* folders of goldens that no test uses */
     size_t unused_count, unused_capacity;
     char *results_folder;
 };

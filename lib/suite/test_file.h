@@ -12,14 +12,15 @@ struct kiln_test_file {
     size_t device_count;
 };
 
-/* Whether a file of this name is a test file, "x.test.yaml", and whether it is a YAML file at all.
+/* Return whether the name is that of a test file, such as "x.test.yaml", and that of a YAML file.
  */
 bool kiln_test_file_is(const char *path);
 bool kiln_test_file_is_yaml(const char *path);
 
-/* Reads the file, by its name a test file or a scene; what it says lies in the arena. A file that
- * is wrong is no error but the problem of the test, which has a scene all the same where the file
- * names one. False with KILN_DEVICE_FAILED when memory is short. */
+/* Reads a test file, or takes the defaults for a scene; the file's name decides. Texts lie in the
+ * arena. A fault of the file is no error here but becomes the test's problem; the test still has
+ * the scene that the file names, if any. Returns false with KILN_DEVICE_FAILED when memory is
+ * short. */
 bool kiln_test_file_read(struct kiln_arena *arena, const char *path, struct kiln_test_file *file,
                          struct kiln_error *error);
 

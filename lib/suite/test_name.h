@@ -1,5 +1,4 @@
-/* Checks and mends names of tests. A name is that of a file without its end, and becomes a folder.
- */
+/* Checks and mends names of tests. A test is named by the path of its file without the suffix. */
 #ifndef KILN_SUITE_TEST_NAME_H
 #define KILN_SUITE_TEST_NAME_H
 
@@ -7,15 +6,15 @@
 
 #include "base/arena.h"
 
-enum { KILN_TEST_MAX_NAME = 200 }; /* bytes; with a device it goes into a summary's 256 */
+enum { KILN_TEST_MAX_NAME = 200 }; /* bytes; with a device it must fit into a summary's 256 */
 
-/* Whether a name is good: made of letters (of any script), digits, '.', '_' and '-' in folders,
- * none of which starts with a '.'. It must not look like an option in the commands that reports
- * give. */
+/* Returns whether a name is good: it consists of letters of any script, digits, '.', '_', '-' and
+ * '/', and no part between '/' starts with '.'. It must not start with '-', which would make it an
+ * option in the commands that reports print. */
 bool kiln_test_name_is_good(const char *name);
 
-/* Returns a good name that is like this one, with '_' for each byte that cannot be in a name; NULL
- * when memory is short. */
+/* Returns a good name that resembles this one, with '_' for each byte that cannot be in a name;
+ * NULL when memory is short. */
 const char *kiln_test_name_mended(struct kiln_arena *arena, const char *name);
 
 #endif

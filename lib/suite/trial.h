@@ -1,18 +1,18 @@
-/* Declares a trial, which is a run of one test under way: what the files of a run hand to each
- * other. */
+/* Declares a trial: the state of one test while it runs, which run.c, judge.c, update.c and others
+ * share. */
 #ifndef KILN_SUITE_TRIAL_H
 #define KILN_SUITE_TRIAL_H
 
 #include "kiln_program.h"
 #include "suite/rendering.h"
 
-/* What is known of a frame beside its result. */
+/* What a trial knows of a frame and does not write into its result. */
 struct kiln_trial_frame {
-    enum kiln_code code; /* of an error */
+    enum kiln_code code; /* of the frame's error */
     bool has_golden;
-    bool broken_golden; /* the golden cannot be decoded, while the picture could take its place */
+    bool broken_golden; /* the golden cannot be decoded, but the picture can replace it */
     bool equals_golden; /* the picture's pixels are those of a golden */
-    bool unlisted;      /* like its golden, but no expect.yaml says what was accepted */
+    bool unlisted;      /* within the limits of its golden, but there is no expect.yaml */
     char golden_hash[65];
     const char *unsteady; /* how another render differed; NULL: none did */
 };
@@ -23,27 +23,27 @@ struct kiln_trial {
     const struct kiln_test *test;
     const struct kiln_test_params *params;
     struct kiln_expect *expect;
-    struct kiln_rendering rendering; /* the first one */
-    const char **limits;             /* of all sources, in the order in which they override */
+    struct kiln_rendering rendering; /* the first render */
+    const char **limits;             /* of all sources; later ones override earlier ones */
     size_t limit_count;
-    bool own_limits; /* not just the default ones */
-    bool other_keys; /* a kiln that writes scenes with other keys wrote the accepted one */
+    bool own_limits; /* the test or expect.yaml sets limits */
+    bool other_keys; /* the accepted scene was written by a kiln with other keys */
     struct kiln_compare_mask *masks;
     size_t mask_count;
     double warn;
     struct kiln_result *result;
-    struct kiln_trial_frame *frames; /* by the result's */
+    struct kiln_trial_frame *frames; /* in the order of the result's */
     size_t note_capacity;
-    bool no_memory; /* sticky: a text is missing */
+    bool no_memory; /* sticky: a text could not be allocated */
     enum kiln_code code;
     double started_s;
 };
 
-/* Sets limits, masks and the level of warnings, from the test and what was accepted, and the
- * result's columns. KILN_USAGE for a limit without sense. */
+/* Sets limits, masks and the warning score from the test and its expect.yaml, and with them the
+ * result's columns. KILN_USAGE for an invalid limit. */
 bool kiln_trial_set_limits(struct kiln_trial *trial, struct kiln_error *error);
 
-/* Formats a text in the arena; "" and no_memory when memory is short. */
+/* Formats a text in the arena. When memory is short, it returns "" and sets no_memory. */
 const char *kiln_trial_text(struct kiln_trial *trial, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -55,31 +55,32 @@ void kiln_trial_note(struct kiln_trial *trial, const char *format, ...)
 bool kiln_trial_path(const struct kiln_trial *trial, const char *file, char path[KILN_PATH_SIZE],
                      struct kiln_error *error);
 
-/* Compares a rendered picture with a golden as the test wants it; error_map is a path or NULL. A
- * picture that cannot be read is an error; a difference is not. */
+/* Compares a rendered picture with a golden by the limits and masks of the test; error_map is a
+ * path or NULL. A picture that cannot be read is an error; a difference is not. */
 struct kiln_trial_comparison {
     struct kiln_compare_frame frame; /* without its texts */
     struct kiln_compare_result result;
-    char message[KILN_MESSAGE_SIZE]; /* why it has no values */
+    char message[KILN_MESSAGE_SIZE]; /* why the frame was not measured */
 };
 bool kiln_trial_compare(const struct kiln_trial *trial, const char *golden, const char *picture,
                         const char *error_map, struct kiln_trial_comparison *comparison,
                         struct kiln_error *error);
 
-/* Fills frame `index` of the result, whose number, picture, state and pixels are there (judge.c).
- * What goes wrong is the frame's status. */
+/* Judges frame `index` of the result, whose number, picture, state and pixels are set (judge.c). An
+ * error becomes the frame's status and message. */
 void kiln_trial_judge(struct kiln_trial *trial, size_t index);
 
-/* Accepts what the parameters ask for, or notes what it would accept (update.c). KILN_IO. */
+/* Accepts what --update asks for or, in a dry run, notes what it would accept (update.c). KILN_IO.
+ */
 bool kiln_trial_update(struct kiln_trial *trial, struct kiln_error *error);
 
 /* Lists the keys that differ between two scenes as kiln_scene_print writes them (scene_diff.c);
- * name stands for the first in messages. */
+ * name stands for the first scene in messages. */
 bool kiln_scene_diff(struct kiln_arena *arena, const char *before, const char *name,
                      const char *after, struct kiln_result_change **changes, size_t *count,
                      struct kiln_error *error);
 
-/* Notes what a tester should know although nothing failed (notes.c). */
+/* Adds notes about what a tester should know although nothing failed (notes.c). */
 void kiln_trial_take_notes(struct kiln_trial *trial);
 
 /* Return the commands that run this test again, and that approve its pictures (commands.c). */
