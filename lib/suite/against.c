@@ -1,6 +1,6 @@
-/* Draws the accepted side of a frame with another kiln. Only a renderer whose pixels are the same
- * everywhere can do that: a note says where the pixels of its picture do not hash to what was
- * accepted. */
+/* Draws a frame with another build of kiln, so that a report can show how the frame looked when it
+ * was accepted. That needs a renderer whose pixels are the same everywhere, so a note says if the
+ * hash of the drawn pixels is not the accepted one. */
 #include "suite/against.h"
 
 #include <errno.h>
@@ -15,7 +15,7 @@
 #include "base/file.h"
 #include "suite/golden.h"
 
-/* A command's words, in the trial's arena. */
+/* The arguments of a command, which lie in the trial's arena. */
 struct words {
     struct kiln_trial *trial;
     const char **items;
@@ -47,8 +47,8 @@ static void add_techniques(struct words *words)
     }
 }
 
-/* Makes the command PROGRAM render SCENE, with what the test changes of the scene, into a picture.
- */
+/* Returns the command that renders the test's scene, with its overrides, into a picture; NULL when
+ * memory is short. */
 static const char **command_of(struct kiln_trial *trial, uint32_t frame, const char *picture)
 {
     const struct kiln_test *test = trial->test;
@@ -73,8 +73,8 @@ static const char **command_of(struct kiln_trial *trial, uint32_t frame, const c
     return words.items;
 }
 
-/* Runs a command; what it prints goes to a file. Returns its exit code; below 0, with errno, when
- * it cannot be run; 128 and the number of the signal that ended it. */
+/* Runs a command, whose output goes to the file `log`. Returns its exit code, 128 plus the number
+ * of the signal that ended it, or a value below 0, with errno, if it cannot be run. */
 static int run(const char **command, const char *log)
 {
     posix_spawn_file_actions_t actions;
@@ -84,7 +84,7 @@ static int run(const char **command, const char *log)
         posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log, O_WRONLY | O_CREAT | O_TRUNC,
                                          0644);
         posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-        /* A copy of the words' addresses: posix_spawnp does not change what they point to. */
+        /* The cast is safe: posix_spawnp does not change the arguments. */
         failure =
             posix_spawnp(&process, command[0], &actions, NULL, (char *const *)command, environ);
         posix_spawn_file_actions_destroy(&actions);

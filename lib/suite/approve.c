@@ -1,6 +1,6 @@
-/* Accepts pictures that a run left behind. Nothing is rendered, so everything that the pictures
- * depend on is checked: the scene is loaded again and must be the one that was rendered, and the
- * pictures must be those that were judged. Only then is the first file written. */
+/* Accepts pictures of an earlier run, for `kiln test approve`. Nothing is rendered, so everything
+ * that the pictures depend on is checked before the first file is written: the scene is loaded
+ * again and must be the one that was rendered, and the pictures must be those that were judged. */
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ struct approval {
     const struct kiln_approve_params *params;
     struct kiln_error *error;
     struct kiln_arena *arena;
-    char folder[KILN_PATH_SIZE]; /* of the result */
+    char folder[KILN_PATH_SIZE]; /* the result's folder */
     struct kiln_result *result;
     struct kiln_test_file file;
     struct kiln_expect *expect;
@@ -35,7 +35,7 @@ static bool out_of_memory(struct approval *a)
     return kiln_error_set(a->error, KILN_DEVICE_FAILED, "out of memory while approving");
 }
 
-/* Refuses to approve for a reason that another run mends. */
+/* Sets the error for a reason that another run removes; the message names the command. */
 static bool run_again(struct approval *a, const char *what)
 {
     return kiln_error_set(a->error, KILN_INVALID_INPUT, "%s: %s; run it again%s%s", a->params->name,
@@ -68,8 +68,9 @@ static void add_name(struct names *names, const char *name)
     names->failed |= names->items[names->count++] == NULL;
 }
 
-/* Lists the folders that hold a result.json, by their paths below the first. A folder that cannot
- * be read holds no result that could be approved. */
+/* Adds the names of the folders in `folder` that hold a result.json. `name` is the path of `folder`
+ * below the folder of all results. A folder that cannot be read is skipped, since no result in it
+ * could be approved. */
 static void list_results(struct names *names, const char *folder, const char *name)
 {
     struct dirent **entries = NULL;
@@ -112,7 +113,7 @@ static bool find_result(struct approval *a)
 
 /* ---- whether the result is current ----------------------------------------------------------- */
 
-/* Whether a folder is that of the test's goldens and no other. */
+/* Returns whether `golden` is GOLDEN/NAME for the test's name without its device. */
 static bool is_golden_of(const char *golden, const char *name)
 {
     size_t length = strcspn(name, "@"), folder = strlen(golden);
@@ -120,8 +121,8 @@ static bool is_golden_of(const char *golden, const char *name)
            strncmp(golden + folder - length, name, length) == 0;
 }
 
-/* Whether a result is passed over: it is of another device than is wanted, or was skipped and is
- * one of many to approve. */
+/* Returns whether the result is left alone: it is of another device than params->device, or the
+ * test was skipped and is one of many to approve. */
 static bool is_passed_over(const struct approval *a)
 {
     const char *wanted = a->params->device;
@@ -227,7 +228,8 @@ static bool has_suffix(const struct kiln_test *test, const char *picture)
     return suffix && strcmp(suffix, kiln_test_suffix(test)) == 0;
 }
 
-/* Checks that the hashes that the frame was judged by are as they were, or were accepted before. */
+/* Checks that expect.yaml still has the pixel hash that the frame was judged by, or already has the
+ * hash of the frame's picture. */
 static bool check_hashes(struct approval *a, const struct kiln_result_frame *frame,
                          const char *changed)
 {
@@ -241,8 +243,8 @@ static bool check_hashes(struct approval *a, const struct kiln_result_frame *fra
            run_again(a, changed);
 }
 
-/* Checks that the golden that the picture was judged by is as it was, or that there is still none.
- * A golden that is the picture itself was approved before. */
+/* Checks that the golden that the picture was judged by has not changed, or that there is still
+ * none. A golden with the picture's own pixels is allowed: the picture was approved before. */
 static bool check_golden(struct approval *a, const struct kiln_result_frame *frame)
 {
     static const char changed[] = "its goldens have changed since the run";
@@ -274,7 +276,7 @@ static bool check_golden(struct approval *a, const struct kiln_result_frame *fra
 static bool check_frame(struct approval *a, const struct kiln_result_frame *frame)
 {
     char picture[KILN_PATH_SIZE], pixels[65];
-    /* A frame that fails without a judge fails because its renders differ from each other. */
+    /* A frame that fails with KILN_JUDGED_BY_NOTHING fails because its renders differ. */
     if (frame->status == KILN_TEST_FAIL && frame->judged_by == KILN_JUDGED_BY_NOTHING)
         return kiln_error_set(a->error, KILN_INVALID_INPUT, "%s: cannot be accepted: %s",
                               a->params->name, frame->message);
@@ -344,8 +346,8 @@ static bool accept_frame(struct approval *a, const struct kiln_result_frame *fra
     return true;
 }
 
-/* Writes all that is accepted. The scene goes with it, since no picture is left that was not
- * accepted. */
+/* Accepts all wanted frames, and with them the scene, since no frame remains that is not accepted.
+ */
 static bool write_all(struct approval *a)
 {
     const struct kiln_test *test = &a->file.test;
@@ -368,8 +370,8 @@ static bool write_all(struct approval *a)
     return true;
 }
 
-/* Checks and writes under the lock, so that what is checked and what is written are the same
- * goldens. */
+/* Checks and writes while the goldens are locked, so that no other process changes them in between.
+ */
 static bool approve_locked(struct approval *a)
 {
     a->expect = kiln_expect_read(a->arena, a->file.test.golden, a->error);

@@ -1,7 +1,7 @@
-/* Proposes limits from measurements. It renders the same frames with other threads, techniques and
- * devices, whose differences should not matter, and compares them with the goldens. A proposal
- * leaves a margin above the worst that was measured, and never goes below what another driver's
- * rounding would give. */
+/* Proposes limits of a test from measurements, for `kiln test calibrate`. It renders the test's
+ * frames with several thread counts, techniques and devices, which should not matter, and compares
+ * the pictures with the goldens. A proposed limit has a margin above the worst measured value, and
+ * is never stricter than another driver's rounding allows. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -44,11 +44,11 @@ struct calibrating {
     struct kiln_test_params test_params;
     const struct kiln_calibrate_params *params;
     struct kiln_calibration *calibration;
-    const char *folder; /* of the pictures, which are kept as long as they are needed */
+    const char *folder; /* of the pictures, which are removed once measured */
     uint32_t threads[MAX_THREAD_COUNTS];
     size_t thread_counts, combinations, devices;
     struct kiln_rendering first;
-    char device_names[256]; /* of all that rendered, for the reason */
+    char device_names[256]; /* of all devices that rendered, for the reason */
     double worst[KILN_MAX_COLUMNS];
     uint32_t measured; /* frames that were measured */
 };
@@ -71,15 +71,15 @@ static void list_variants(struct calibrating *c)
     if (cores > 2)
         c->threads[c->thread_counts++] = cores;
     struct kiln_technique_list list;
-    c->combinations = 1; /* the pinned ones, always */
+    c->combinations = 1; /* combination 0, the pinned techniques, always exists */
     while (kiln_techniques_combination(c->combinations, &list))
         c->combinations++;
     c->devices = c->params->device_count ? c->params->device_count : 1;
 }
 
-/* Chooses what render `index` varies. Devices change fastest, then techniques; threads change with
- * every round of the devices, and one step more with every round of the techniques, so that all
- * pairs come up. */
+/* Chooses device, techniques and threads of render `index`. The device changes with every render;
+ * techniques and threads change after each round of the devices. After each round of the
+ * techniques, the threads advance by one more step, so that all pairs of both come up. */
 static struct variant choose_variant(const struct calibrating *c, size_t index)
 {
     const struct kiln_test *test = c->trial.test;
@@ -92,7 +92,7 @@ static struct variant choose_variant(const struct calibrating *c, size_t index)
     return variant;
 }
 
-/* Tells the caller what is rendered: "threads=2 simulate=inplace sort=cpu backdrop=cpu
+/* Reports a variant to the caller: "threads=2 simulate=inplace sort=cpu backdrop=cpu
  * raster=geometry device=llvmpipe". */
 static void tell(const struct calibrating *c, const struct variant *variant)
 {
@@ -107,7 +107,8 @@ static void tell(const struct calibrating *c, const struct variant *variant)
     kiln_text_free(&text);
 }
 
-/* Renders a variant. False with the error; *refused when the device cannot run these techniques. */
+/* Renders a variant. Returns false with the error; *refused tells that the device cannot run these
+ * techniques. */
 static bool render(struct calibrating *c, const struct variant *variant,
                    struct kiln_rendering *rendering, bool *refused, struct kiln_error *error)
 {
@@ -155,8 +156,8 @@ static void take_values(struct calibrating *c, const struct kiln_compare_frame *
     c->measured++;
 }
 
-/* Checks that states are the same everywhere. Otherwise there is nothing to measure: the pictures
- * show two different simulations. */
+/* Checks that a frame has the state of the first render and the accepted one. Pictures of different
+ * simulations cannot be measured. */
 static bool check_state(const struct calibrating *c, const struct kiln_rendered_frame *frame,
                         const struct kiln_rendered_frame *first, bool has_golden,
                         struct kiln_error *error)
@@ -269,7 +270,7 @@ static bool measure_all(struct calibrating *c, struct kiln_error *error)
 
 /* ---- What is proposed --------------------------------------------------------------------- */
 
-/* Rounds to two digits, never below the value. */
+/* Rounds a value up to two significant digits. */
 static double round_up(double value)
 {
     if (!(value > 0))
@@ -318,7 +319,8 @@ static void propose_all(struct calibrating *c)
     }
 }
 
-/* Names limits that are looser than the default ones in the reason, and to the caller. */
+/* Adds the names of limits that are looser than the default ones to the reason, and logs a warning
+ * for each. */
 static void note_looser(const struct calibrating *c, struct kiln_text *reason)
 {
     static const char *const default_limits[] = {KILN_COMPARE_DEFAULT_LIMITS};
@@ -345,7 +347,7 @@ static void note_looser(const struct calibrating *c, struct kiln_text *reason)
     }
 }
 
-/* Makes the reason of the limits: "calibrated 2026-01-31: 8 renders on llvmpipe-..., 1 to 4
+/* Returns the reason of the limits: "calibrated 2026-01-31: 8 renders on llvmpipe-..., 1 to 4
  * threads; margin 3". */
 static const char *make_reason(struct calibrating *c)
 {

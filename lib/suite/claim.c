@@ -1,4 +1,5 @@
-/* Declares the files that a run of tests reads and writes. */
+/* Declares to kiln_claims which files a run of tests reads and writes, so that no output of the
+ * command overwrites an input or another output. */
 #include <dirent.h>
 #include <stdlib.h>
 
@@ -7,7 +8,7 @@
 #include "scene/scene.h"
 #include "suite/results_folder.h"
 
-/* Declares what lies in the folder of a test's goldens as read; there need be no folder. */
+/* Declares the files in the folder of a test's goldens as read; the folder may be missing. */
 static bool claim_goldens(const struct kiln_test *test, struct kiln_claims *claims,
                           struct kiln_error *error)
 {

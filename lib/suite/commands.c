@@ -7,7 +7,7 @@
 
 static void add_word(struct kiln_text *text, const char *word)
 {
-    kiln_text_add(text, *word == '-' ? " ./" : " "); /* a path, no option */
+    kiln_text_add(text, *word == '-' ? " ./" : " "); /* so that no path is an option */
     kiln_text_add_shell_word(text, word);
 }
 
@@ -17,8 +17,8 @@ static void add_option(struct kiln_text *text, const char *option, const char *v
     add_word(text, value);
 }
 
-/* Adds the folders of the run where they are not the default ones. The golden folder follows from
- * test->golden, which is GOLDEN/NAME. */
+/* Adds options for the run's folders that are not the default ones. The folder GOLDEN is
+ * test->golden, which is GOLDEN/NAME, without the name. */
 static void add_folders(const struct kiln_trial *trial, struct kiln_text *text, bool golden)
 {
     const struct kiln_test *test = trial->test;
@@ -33,7 +33,8 @@ static void add_folders(const struct kiln_trial *trial, struct kiln_text *text, 
         add_option(text, "--results", results);
 }
 
-/* Adds the words that find the test under its name. */
+/* Adds the arguments that select the test: its file and, for one of several devices, its full name.
+ */
 static void add_selection(const struct kiln_trial *trial, struct kiln_text *text)
 {
     const struct kiln_test *test = trial->test;

@@ -25,7 +25,7 @@ struct search {
     const char *root;       /* real path of the folder that the goldens lie in; NULL: not known */
     struct stat skipped[2]; /* the folders of goldens and of results */
     size_t skipped_count;
-    size_t seen; /* files of tests that were seen, those that were known included */
+    size_t seen; /* files of tests that were seen, repeated ones included */
 };
 
 static bool out_of_memory(struct search *search)
@@ -38,8 +38,8 @@ static bool out_of_memory(struct search *search)
 static const char marker[] = ".kiln-tests";
 
 /* Returns the length of the part of a file's real path that is the folder from which names begin,
- * '/' included: the nearest folder with a marker, or that of the goldens, or the file's own. So a
- * test has one name, however it is found. */
+ * '/' included: the nearest folder with a marker, or the parent of the goldens' folder, or the
+ * file's own folder. So a test has one name, however it is found. */
 static size_t root_length(const struct search *search, const char *path)
 {
     const size_t own = (size_t)(strrchr(path, '/') - path) + 1;
@@ -57,8 +57,8 @@ static size_t root_length(const struct search *search, const char *path)
     return root > 0 && strncmp(path, search->root, root) == 0 && path[root] == '/' ? root + 1 : own;
 }
 
-/* Returns the real path of the folder that a folder lies in; where the folder does not exist yet,
- * by its name. */
+/* Returns the real path of the folder that a folder lies in. If the folder does not exist yet, its
+ * name tells the parent. */
 static const char *find_parent(struct kiln_arena *arena, const char *folder)
 {
     char *there = realpath(folder, NULL);
@@ -287,7 +287,8 @@ static bool search_folder(struct search *search, const char *folder)
 
 /* ---- operands ------------------------------------------------------------------------------- */
 
-/* Adds how names of tests in a folder start, unless a folder below it is marked. */
+/* Adds the prefix of the names of tests in a folder. Names below a folder with a marker have
+ * another. */
 static bool add_start(struct search *search, const char *folder)
 {
     struct kiln_findings *findings = search->findings;

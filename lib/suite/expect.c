@@ -1,6 +1,6 @@
-/* Reads and writes expect.yaml, what was accepted of a test. It is read by an option table, as
- * scenes are. It is written by code of its own, which names only what is known, with frames in one
- * line a device. */
+/* Reads and writes expect.yaml, which records what was accepted of a test. An option table reads
+ * it, as with scenes. Separate code writes it, since it writes only the members that are known, and
+ * a frame's entry for a device in one line. */
 #include "suite/expect.h"
 
 #include <errno.h>
@@ -78,7 +78,7 @@ static const struct kiln_option pixels_rows[] = {
     END,
 };
 
-/* Reads a map of devices to their hashes; the field is the whole frame. */
+/* Reads a map of devices to their hashes; `field` is the struct kiln_expect_frame. */
 static bool read_pixels(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
@@ -142,7 +142,7 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Reads a map of frames; the field is the whole document. */
+/* Reads a map of frames; `field` is the struct document. */
 static bool read_frames(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
@@ -213,7 +213,8 @@ static const struct kiln_option rows[] = {
     END,
 };
 
-/* Makes paths of mask pictures, which are named from the folder of goldens. */
+/* Makes the paths of mask pictures, which are relative to the folder of goldens, such that they can
+ * be opened. */
 static bool resolve_masks(struct kiln_arena *arena, struct document *document, const char *golden)
 {
     for (uint32_t i = 0; i < document->mask_count; i++) {
@@ -227,8 +228,8 @@ static bool resolve_masks(struct kiln_arena *arena, struct document *document, c
     return true;
 }
 
-/* Makes what is expected of a document. The document lies in the arena, too, so its arrays are
- * taken over. */
+/* Returns the kiln_expect of a document. It points to the document's arrays, since both lie in the
+ * arena. */
 static struct kiln_expect *take_document(struct document *document)
 {
     document->expect = (struct kiln_expect){
@@ -476,7 +477,7 @@ static struct kiln_expect_pixels *insert_pixels(struct kiln_arena *arena,
                                                 struct kiln_expect_frame *frame, const char *device)
 {
     size_t at = 0, count = frame->pixel_count;
-    for (size_t i = 0; i < count; i++) { /* a person may have written them in any order */
+    for (size_t i = 0; i < count; i++) { /* a file edited by hand may have any order */
         int order = strcmp(frame->pixels[i].device, device);
         if (order == 0)
             return &frame->pixels[i];
@@ -495,7 +496,7 @@ static struct kiln_expect_pixels *insert_pixels(struct kiln_arena *arena,
     return &pixels[at];
 }
 
-/* Copies a text into the arena; NULL stays NULL. False when memory is short. */
+/* Copies a text into the arena; NULL stays NULL. Returns false when memory is short. */
 static bool copy_text(struct kiln_arena *arena, const char **to, const char *text)
 {
     *to = text ? kiln_arena_text(arena, text, strlen(text)) : NULL;

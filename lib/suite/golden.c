@@ -133,7 +133,8 @@ static bool add_number(struct numbers *numbers, unsigned number)
     return true;
 }
 
-/* Takes one entry of the folder. Entries of a more specific device take the place of the others. */
+/* Adds an entry of the folder if it is a golden of the frame. Goldens of a more specific device
+ * replace those found before. */
 static bool take_entry(const char *entry, const struct kiln_test *test, uint32_t frame,
                        const char *device_name, char device[KILN_DEVICE_NAME_SIZE],
                        struct numbers *numbers, struct kiln_error *error)
@@ -168,7 +169,7 @@ static bool read_folder(const struct kiln_test *test, uint32_t frame, const char
     struct dirent **entries = NULL;
     int count = scandir(test->golden, &entries, NULL, NULL);
     if (count < 0) {
-        int reason = errno; /* a link that leads nowhere is not a folder that is missing */
+        int reason = errno; /* a broken link is an error, a missing folder is not */
         if (reason == ENOENT && lstat(test->golden, &status) != 0 && errno == ENOENT)
             return true;
         return kiln_error_set_errno(error, KILN_IO, reason, "%s: the folder cannot be read",
@@ -261,7 +262,7 @@ void kiln_goldens_unlock(int lock)
 {
     if (lock < 0)
         return;
-    flock(lock, LOCK_UN); /* closing alone would not, if a child process has the descriptor, too */
+    flock(lock, LOCK_UN); /* close does not unlock if a child has the descriptor, too */
     close(lock);
 }
 
@@ -341,8 +342,8 @@ bool kiln_goldens_write_scene(const struct kiln_test *test, const char *text,
            kiln_temporary_write_file(path, text, strlen(text), error);
 }
 
-/* Chooses where the picture goes. As one more, it goes where its pixels already are, if they are
- * anywhere. */
+/* Chooses the path of the accepted picture. If an alternative has the pixels of a golden of the
+ * frame, that golden's path is chosen. */
 static bool choose_place(const struct kiln_test *test, const struct kiln_acceptance *acceptance,
                          const char *pixels, char path[KILN_PATH_SIZE], struct kiln_error *error)
 {

@@ -1,6 +1,7 @@
-/* Judges one frame of a test. The state comes first, which is the same everywhere; then pixels that
- * are known to be right on this device; then how different the picture looks. A test that keeps
- * hashes alone fails with pixels that are not known to be right. */
+/* Judges one frame of a test. A frame whose state is not the accepted one fails, since states are
+ * the same on every device. Pixels that were accepted on this device pass. Otherwise metrics judge
+ * how the picture differs from the nearest golden. A test that keeps hashes alone fails with any
+ * pixels but the accepted ones. */
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -38,8 +39,8 @@ static bool check_picture(struct judging *j, struct kiln_error *error)
     return kiln_trial_compare(j->trial, j->picture, j->picture, NULL, &comparison, error);
 }
 
-/* Hashes a golden. A golden that cannot be decoded is the frame's error, but an update can mend it.
- */
+/* Hashes a golden. A golden that cannot be decoded is the frame's error, but an update can replace
+ * it. */
 static bool hash_golden(struct judging *j, size_t index)
 {
     struct kiln_error ignored = {0};
@@ -83,8 +84,8 @@ static void take_expected(struct judging *j, const struct kiln_expect_pixels *pi
     j->frame->kiln_expected = pixels->kiln ? pixels->kiln : "";
 }
 
-/* Finds the pixels that were accepted on this device, while the golden that they were accepted with
- * is there. */
+/* Finds the accepted state, and the pixels that were accepted on this device. The pixels count only
+ * while the golden that they were accepted with is there. */
 static void find_expected(struct judging *j)
 {
     const struct kiln_trial *trial = j->trial;
@@ -107,8 +108,8 @@ static void find_expected(struct judging *j)
     }
 }
 
-/* Copies the golden beside the picture, so that a report shows what the picture was judged by
- * whatever becomes of the golden. */
+/* Copies the nearest golden beside the picture, so that a report can show it even if the golden
+ * changes later. */
 static bool copy_reference(struct judging *j)
 {
     const char *golden = j->goldens.paths[j->nearest];
@@ -145,7 +146,8 @@ static void take_values(struct judging *j, const struct kiln_trial_comparison *c
     j->trial->result->hdr = comparison->result.hdr;
 }
 
-/* Compares with every golden and keeps the nearest; the error map is made of that one alone. */
+/* Compares the picture with every golden and chooses the nearest. Only the nearest gets an error
+ * map. */
 static bool measure(struct judging *j, struct kiln_trial_comparison *best)
 {
     double least = INFINITY;
@@ -168,7 +170,7 @@ static bool measure(struct judging *j, struct kiln_trial_comparison *best)
     return true;
 }
 
-/* Prints a value to four digits, or to as many as tell it from the limit. */
+/* Prints a value to four digits, or to as many, up to nine, as distinguish it from the limit. */
 static void print_value(char out[32], double value, double limit)
 {
     char other[32];
@@ -180,8 +182,8 @@ static void print_value(char out[32], double value, double limit)
     }
 }
 
-/* Describes the metrics that are beyond their limits, "flip.mean is 0.02, beyond 0.01; ...", or all
- * that have a limit. */
+/* Describes the metrics that are beyond their limits, "flip.mean is 0.02, beyond 0.01; ...", or, if
+ * `beyond` is false, all metrics that have a limit. */
 static const char *describe(struct judging *j, const struct kiln_trial_comparison *comparison,
                             bool beyond)
 {
@@ -231,8 +233,8 @@ static bool judge_new(struct judging *j)
                                   j->frame->number, j->goldens.paths[0]));
 }
 
-/* Judges a frame that is like its golden while no expect.yaml says which state was accepted: a
- * picture alone does not show whether the state is another. */
+/* Judges a frame within the limits of its golden if no expect.yaml says which state was accepted.
+ * Such a frame is new, since a picture alone does not show whether the state has changed. */
 static bool judge_unlisted(struct judging *j)
 {
     j->own->unlisted = true;
@@ -244,7 +246,8 @@ static bool judge_unlisted(struct judging *j)
                                   j->frame->number, j->trial->test->golden));
 }
 
-/* Whether scene and state are as they were accepted, so that only the renderer can have changed. */
+/* Returns whether scene and state are the accepted ones, so that only the renderer can have
+ * changed. */
 static bool renderer_changed(const struct judging *j)
 {
     const struct kiln_trial *trial = j->trial;
@@ -254,7 +257,8 @@ static bool renderer_changed(const struct judging *j)
     return same_scene && *state && strcmp(state, j->frame->state) == 0;
 }
 
-/* Says of a frame that its pixels are not those that were accepted, and how its picture is. */
+/* Returns the message that a frame's pixels are not the accepted ones. It ends in `picture`, which
+ * says how the picture differs. */
 static const char *describe_change(struct judging *j, const char *picture)
 {
     const char *before = j->frame->kiln_expected;
@@ -334,8 +338,9 @@ static bool judge_by_hashes(struct judging *j)
                                          : "no picture is kept; --against PROGRAM draws it"));
 }
 
-/* Shows a frame whose pixels differ beside what another kiln draws. Where a picture was accepted,
- * that picture stays the reference. */
+/* Lets the program of --against draw a frame whose pixels differ. If the test keeps hashes alone,
+ * that picture becomes the reference. Otherwise the golden stays the reference, and the picture is
+ * removed after it was hashed. */
 static bool show_against(struct judging *j)
 {
     struct kiln_result_frame *frame = j->frame;

@@ -11,8 +11,8 @@
 
 enum { STALE_FACTOR = 10 };
 
-/* Returns how far a value is from that of equal pictures, on a scale on which factors mean
- * something. */
+/* Returns how far a value is from that of equal pictures, on a linear scale, so that distances can
+ * be divided by each other. Decibels are converted. */
 static double distance(const struct kiln_compare_column *column, double value)
 {
     if (strcmp(column->unit, "dB") == 0)
@@ -55,8 +55,8 @@ static bool worst_measured(const struct kiln_trial *trial, size_t column, double
     return found;
 }
 
-/* Notes metrics that have a limit by default and none here. The test's limits replace the default
- * ones, so a metric without a limit may have any value. */
+/* Notes metrics that have a limit by default and none in this test. The test's limits replace the
+ * default ones, so a metric without a limit may have any value. */
 static void note_missing_limits(struct kiln_trial *trial, const struct kiln_metric_set *defaults)
 {
     for (size_t i = 0; i < defaults->count; i++) {
@@ -151,12 +151,13 @@ static void note_scene(struct kiln_trial *trial)
     if (result->change_count > 0)
         kiln_trial_note(trial, "the scene has changed in %zu key%s, and everything passes",
                         result->change_count, result->change_count > 1 ? "s" : "");
-    else if (!trial->other_keys) /* other keys give another hash of the same scene */
+    else if (!trial->other_keys) /* with other keys, the same scene has another hash */
         kiln_trial_note(trial, "the scene or a file that it uses has changed, and everything "
                                "passes");
 }
 
-/* Whether the name of a golden has the number of one of the frames, and the test's format. */
+/* Returns whether a golden belongs to a frame of the test: its name has the frame's number and the
+ * suffix of the test's format. */
 static bool is_used(const struct kiln_trial *trial, const char *name)
 {
     const char *suffix = kiln_test_suffix(trial->test);
@@ -175,7 +176,7 @@ static bool is_used(const struct kiln_trial *trial, const char *name)
     return false;
 }
 
-/* Notes goldens that no frame is judged by any more, as when the list of frames got shorter. */
+/* Notes goldens that belong to no frame of the test, as after a frame was removed from its list. */
 static void note_unused(struct kiln_trial *trial)
 {
     struct dirent **entries = NULL;

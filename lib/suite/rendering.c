@@ -111,8 +111,8 @@ static bool wants_stop(void *user)
     return job->params->stop && job->params->stop(job->params->user);
 }
 
-/* Lists the techniques in the order in which they override each other; NULL when memory is short.
- */
+/* Returns the list of techniques, of which later ones override earlier ones; NULL when memory is
+ * short. */
 static const char **list_techniques(const struct job *job, size_t *count)
 {
     const struct kiln_test *test = job->params->test;

@@ -1,6 +1,6 @@
-/* Reads result.json, and trusts nothing in it. Results travel between machines, and reports open
- * the files that they name. So a missing or additional member is an error, and so is a name that
- * leaves the folder. */
+/* Reads result.json, and trusts nothing in it, since results travel between machines and reports
+ * open the files that they name. A missing or additional member is an error, and so is a file name
+ * that leads out of the result's folder. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -178,7 +178,7 @@ static bool read_members(const struct reading *reading, const struct kiln_node *
     return true;
 }
 
-/* Whether the object has no more members than were read. */
+/* Checks that the object has no more members than were read. */
 static bool check_count(const struct reading *reading, const struct kiln_node *node, uint32_t count)
 {
     return node->count == count ||
@@ -193,7 +193,7 @@ static bool read_object(const struct reading *reading, const struct kiln_node *n
            check_count(reading, node, count);
 }
 
-/* Finds a list of at most `most` entries, or returns NULL with the error. */
+/* Returns a list of at most `most` entries, or NULL with the error. */
 static const struct kiln_node *find_list(const struct reading *reading,
                                          const struct kiln_node *node, const char *name,
                                          uint32_t most)
@@ -210,7 +210,7 @@ static const struct kiln_node *find_list(const struct reading *reading,
     return list;
 }
 
-/* Allocates one entry more, so that an empty list is no NULL. */
+/* Allocates one entry more than needed, so that an empty list is not NULL. */
 static void *allocate(const struct reading *reading, uint32_t count, size_t size)
 {
     void *entries = kiln_arena_alloc(reading->arena, (size_t)count + 1, size);
@@ -221,8 +221,8 @@ static void *allocate(const struct reading *reading, uint32_t count, size_t size
 
 /* ---- The parts of a result ---------------------------------------------------------------- */
 
-/* Checks that the code fits the status: a run that is red in its report and green in its exit code
- * would be believed. */
+/* Checks that the code fits the status. Otherwise a run could fail in its report and still succeed
+ * by its exit code. */
 static bool check_code(const struct reading *reading, const struct kiln_node *root,
                        const struct kiln_result *result)
 {
@@ -379,7 +379,7 @@ struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text
     }
     *origin = (struct kiln_origin){.name = name, .has_lines = true, .kind = "a result"};
     const struct kiln_node *root = kiln_node_parse(arena, text, size, origin, error);
-    uint32_t count = 5; /* the version and the lists */
+    uint32_t count = 5; /* the version and the four lists */
     bool ok = root && check_version(&reading, root) &&
               read_members(&reading, root, kiln_result_members, result, &count) &&
               check_code(&reading, root, result) && read_columns(&reading, root, result) &&

@@ -1,4 +1,4 @@
-/* Writes result.json by the tables of members by which it is read. */
+/* Writes result.json by the tables of members (result.c) by which result_read.c reads it. */
 #include <stdio.h>
 
 #include "base/error.h"

@@ -1,12 +1,14 @@
-/* Keeps the list of a folder of results, and removes what an earlier run left:
+/* Keeps the list of a folder of results, .kiln-results, and removes files that an earlier run left.
+ * For example:
  *
  *     # kiln results 1
  *     # writing effects/fire
  *     60303ae22b998861bce3b28f33eec1be758a213c86c93c076dbe9f558c11c752  run.json
  *     fd61a03af4f77d870fc21e05e7e80678095c92d808cfb3b5c279ee04c74aca13  effects/smoke/result.json
  *
- * "writing" names the tests of a run that has not ended, or was killed: what such a run writes in
- * their folders is not known beforehand. */
+ * "writing" names the tests of a run that has not ended or was killed. Unlisted files in the
+ * folders of these tests are removed, too, since it is not known beforehand which files a run
+ * writes. */
 #include "suite/results_folder.h"
 
 #include <dirent.h>
@@ -27,8 +29,8 @@
 enum { MAX_LIST_SIZE = 256 << 20, HASH_SIZE = 64 };
 
 struct entry {
-    const char *path;         /* path from the folder; of a test that is being written, its name */
-    char hash[HASH_SIZE + 1]; /* "": written when the run ended early */
+    const char *path; /* path below the folder of results; in `writing`, a test's full name */
+    char hash[HASH_SIZE + 1]; /* SHA-256; "" in `writing` and `removed` */
 };
 
 struct entries {
@@ -41,8 +43,8 @@ struct folder {
     struct kiln_arena *arena;
     struct entries listed;  /* ordered by path */
     struct entries writing; /* tests; ordered */
-    struct entries removed; /* of `listed` or of `writing`; ordered once it is complete */
-    struct entries added;   /* added to the list */
+    struct entries removed; /* to be removed, or replaced in the list; ordered once complete */
+    struct entries added;   /* new entries of the list */
     struct kiln_error *error;
 };
 
@@ -91,7 +93,7 @@ static const struct entry *find(const struct entries *entries, const char *path)
                : bsearch(&wanted, entries->items, entries->count, sizeof wanted, by_path);
 }
 
-/* Adds a name as sha256sum escapes it, in a line that begins with a backslash. */
+/* Adds a path as sha256sum escapes it. A line with an escaped path begins with a backslash. */
 static void add_escaped(struct kiln_text *text, const char *path)
 {
     for (; *path; path++) {
@@ -122,7 +124,7 @@ static bool add_unescaped(const struct folder *f, struct entries *entries, const
     return add(f, entries, path, used, hash);
 }
 
-/* Takes a line without its end; comments that mean nothing are passed over. */
+/* Reads one line of the list, without its newline. Comments other than "# writing" are skipped. */
 static bool take_line(struct folder *f, const char *line, size_t length)
 {
     static const char digits[] = "0123456789abcdef";
@@ -175,7 +177,7 @@ static void add_line(struct kiln_text *text, const struct entry *entry)
     kiln_text_add(text, "\n");
 }
 
-/* Writes the list without what is removed and with what is added. */
+/* Writes the list: the listed entries that are not in `removed`, and the entries in `added`. */
 static bool write_list(struct folder *f)
 {
     char path[KILN_PATH_SIZE];
@@ -206,7 +208,8 @@ static int is_contents(const struct dirent *entry)
     return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
 }
 
-/* How many entries a folder has, or below 0 with errno; free_entries frees them. */
+/* Returns the number of entries of a folder, or a value below 0 with errno. free_entries frees
+ * them. */
 static int list_entries(const char *folder, struct dirent ***entries)
 {
     *entries = NULL;
@@ -259,15 +262,15 @@ static bool is_written_by_tests(const char *name)
     if (strncmp(name, "frame_", 6) == 0)
         return ends_in(name, ".png") || ends_in(name, ".exr");
     if (strncmp(name, ".frame_", 7) == 0)
-        return ends_in(name, ".tmp"); /* of a process that was killed */
+        return ends_in(name, ".tmp"); /* left by a process that was killed */
     return strcmp(name, "log.txt") == 0 || strcmp(name, "against.txt") == 0 ||
            strcmp(name, "result.json") == 0;
 }
 
 typedef bool visit_file(struct folder *f, const char *path, const char *from_root, bool writing);
 
-/* Visits the files of a test's folder that have names which a run gives; the folder need not exist.
- */
+/* Visits the files in a test's folder whose names are those that a run gives. The folder may be
+ * missing. */
 static bool visit_test(struct folder *f, const struct kiln_test *test, visit_file *visit)
 {
     char folder[KILN_PATH_SIZE];
@@ -303,7 +306,8 @@ static bool visit_all(struct folder *f, visit_file *visit)
     return ok;
 }
 
-/* Chooses a file to be removed, if an earlier run left it. */
+/* Adds a file to `removed`. It is an error if no earlier run wrote the file, or if it changed
+ * since. */
 static bool choose_removed(struct folder *f, const char *path, const char *from_root, bool writing)
 {
     const struct entry *listed = find(&f->listed, from_root);
@@ -386,7 +390,7 @@ static bool begin(struct folder *f)
     return list_writing(f) && write_list(f) && remove_chosen(f);
 }
 
-/* Takes the tests of this run out of a list of names. */
+/* Removes the tests of this run from `writing`. */
 static void end_writing(struct folder *f)
 {
     size_t kept = 0;

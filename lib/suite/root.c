@@ -1,5 +1,6 @@
 /* Checks that the scene of a test lies below the root of the suite. Test files may come from
- * strangers, and an error message would tell what is in a file elsewhere. */
+ * strangers. A test could name any file as its scene, and an error message would show a part of
+ * that file. */
 #include "suite/root.h"
 
 #include <limits.h>
@@ -9,8 +10,8 @@
 #include "base/error.h"
 #include "base/file.h"
 
-/* Finds where a path leads; for a file that is missing, where it would be. False where not even its
- * folder exists. */
+/* Resolves the links of a path, or those of its folder if the file is missing. Returns false if the
+ * folder is missing, too. */
 static bool find_real(const char *path, char real[PATH_MAX])
 {
     char folder[PATH_MAX];
@@ -26,7 +27,8 @@ static bool find_real(const char *path, char real[PATH_MAX])
            (int)(PATH_MAX - length);
 }
 
-/* Finds the folder in which a test outside the working directory was searched for. */
+/* Finds the root for a test outside the working directory: the folder among params->paths that
+ * contains the test, or else the test's own folder. */
 static void find_folder(const struct kiln_suite_params *params, const char *test,
                         char folder[PATH_MAX])
 {

@@ -1,5 +1,5 @@
-/* Runs one test, from its file to its result. What goes wrong on the way is in the result, so that
- * a run of many tests tells of each. */
+/* Runs one test, from its file to its result. Errors go into the result, so that a run of many
+ * tests reports every test. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -129,8 +129,8 @@ static bool judge_frames(struct kiln_trial *trial, struct kiln_error *error)
     return true;
 }
 
-/* Checks the masks here, so that wrong ones are found even where known pixels pass and no mask is
- * used. */
+/* Checks the masks before frames are judged, so that a wrong mask is found even if accepted pixels
+ * pass and no mask is used. */
 static bool check_masks(struct kiln_trial *trial, struct kiln_error *error)
 {
     struct kiln_mask mask = {0};
@@ -185,15 +185,15 @@ static const char *complete_scene(struct kiln_trial *trial, const char *text, co
     return complete ? complete : text;
 }
 
-/* Lists what changed since the accepted scene. If that scene cannot be read, a note says so:
- * nothing is judged by it. */
+/* Lists what changed since the accepted scene. If that scene cannot be read, a note says so, which
+ * is enough since nothing is judged by it. */
 static void take_changes(struct kiln_trial *trial)
 {
     struct kiln_result *result = trial->result;
     struct kiln_error error = {0};
     char path[KILN_PATH_SIZE];
     size_t size;
-    if (trial->test->kept == KILN_GOLDEN_HASH) /* no scene is kept of such a test */
+    if (trial->test->kept == KILN_GOLDEN_HASH) /* such a test keeps no scene */
         return;
     if (!kiln_path_join(path, trial->test->golden, "scene.yaml", &error) || access(path, F_OK) != 0)
         return;
@@ -281,8 +281,8 @@ static uint32_t count_threads(uint32_t wanted)
     return count;
 }
 
-/* Runs the test and writes its result. Errors are in the result, but for a stop and for files that
- * cannot be written. */
+/* Runs the test and writes its result. Errors go into the result; only a stop and files that cannot
+ * be written are returned. */
 static bool run_to_result(struct kiln_trial *trial, struct kiln_error *error)
 {
     struct kiln_result *result = trial->result;

@@ -69,8 +69,8 @@ static const char *join(struct kiln_arena *arena, const char *path, const char *
     return key;
 }
 
-/* Adds entries for all keys below a node. The recursion is as deep as the parser allows, which is
- * limited. */
+/* Adds entries for all keys below a node. The parser limits the depth of nodes, and with it the
+ * recursion. */
 static void flatten(struct flattening *f, const char *path, const struct kiln_node *node)
 {
     if (node->kind == KILN_NODE_SCALAR || !node->first ||

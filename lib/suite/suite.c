@@ -68,8 +68,9 @@ static bool read_files(struct loader *loader)
     return true;
 }
 
-/* Drops scenes of a folder that test files name: they belong to those tests. A scene with the name
- * of a test file that cannot be read probably does, too. */
+/* Drops scenes that were found in a folder and that a test file names, since they belong to its
+ * test. A scene with the name of a faulty test file is dropped, too, since it probably belongs to
+ * that test. */
 static void drop_named_scenes(struct loader *loader)
 {
     for (size_t i = 0; i < loader->count; i++) {
@@ -99,8 +100,8 @@ static void drop_named_scenes(struct loader *loader)
 
 /* ---- names ---------------------------------------------------------------------------------- */
 
-/* Gives a file of an odd name a good name that is like it; the odd name is the error of its own
- * test. */
+/* Gives a test with an invalid name a similar good name, and sets the invalid name as the test's
+ * problem. */
 static bool mend_name(struct loader *loader, struct entry *entry)
 {
     char quoted[64];
@@ -134,7 +135,7 @@ static bool check_names(struct loader *loader)
 
 /* ---- tests ---------------------------------------------------------------------------------- */
 
-/* Adds one test of an entry; device NULL: that of the run. */
+/* Adds one test of an entry. With a device of NULL, the test has the run's device. */
 static bool add_test(struct loader *loader, const struct entry *entry, const char *device)
 {
     struct kiln_suite *suite = loader->suite;
@@ -192,8 +193,8 @@ static bool make_tests(struct loader *loader)
 
 /* ---- choosing ------------------------------------------------------------------------------- */
 
-/* Whether a test has a name that is wanted. A name without a device means the test on all devices.
- */
+/* Returns whether a test has a wanted name or fits it as a pattern. A name without a device means
+ * the test on all devices. */
 static bool has_name(const struct kiln_test *test, const char *wanted)
 {
     return strcmp(wanted, test->full_name) == 0 || strcmp(wanted, test->name) == 0 ||
@@ -272,8 +273,8 @@ static bool check_params(const struct kiln_suite_params *params, struct kiln_err
                           params->shards);
 }
 
-/* Checks that results and goldens have two folders: in one folder, each picture would become the
- * golden that it is judged by. */
+/* Checks that results and goldens have different folders: in one folder, each picture would become
+ * the golden that it is judged by. */
 static bool check_folders(const struct kiln_suite_params *params, struct kiln_error *error)
 {
     struct stat golden, results;
@@ -295,7 +296,8 @@ static char *tidy_folder(struct kiln_arena *arena, const char *folder)
     return length ? kiln_arena_text(arena, folder, length) : kiln_arena_text(arena, ".", 1);
 }
 
-/* Whether all tests of folders are asked for, though it be by shards. */
+/* Returns whether a run is of all tests in folders, perhaps in shards, so that unused goldens can
+ * be told. */
 static bool is_whole(const struct kiln_suite_params *params)
 {
     struct stat status;

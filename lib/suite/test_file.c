@@ -1,5 +1,5 @@
-/* Reads test files by an option table, as scenes are read. So errors and reference have the same
- * form. */
+/* Reads test files by an option table, as scenes are read, so that error messages and the reference
+ * have the same form. */
 #include "suite/test_file.h"
 
 #include <stdlib.h>
@@ -139,7 +139,8 @@ static bool out_of_memory(struct kiln_error *error)
     return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading tests");
 }
 
-/* Returns a path as the file at `base` means it. */
+/* Returns a path in the file `base`, which is relative to that file's folder, as one that can be
+ * opened. */
 static const char *resolve(struct kiln_arena *arena, const char *base, const char *path)
 {
     const char *slash = strrchr(base, '/');
@@ -181,8 +182,8 @@ static bool take_overrides(struct kiln_arena *arena, const struct document *docu
     return ok;
 }
 
-/* Fills the test from a document. The document lies in the arena, too, so its arrays are the
- * test's. */
+/* Fills the test from a document. The test points to the document's arrays, since both lie in the
+ * arena. */
 static bool take_document(struct kiln_arena *arena, struct document *document, const char *path,
                           struct kiln_test_file *file)
 {
@@ -248,7 +249,8 @@ static bool check_devices(struct kiln_reader *reader, const struct kiln_node *ro
     return true;
 }
 
-/* Checks that a test that keeps hashes has no limits and masks, which are of pictures. */
+/* Checks that a test that keeps hashes alone has no limits and masks, which need golden pictures.
+ */
 static bool check_golden(struct kiln_reader *reader, const struct kiln_node *root,
                          const struct document *document)
 {
@@ -258,7 +260,7 @@ static bool check_golden(struct kiln_reader *reader, const struct kiln_node *roo
                                 "hash keeps no picture, so there is nothing for limits or masks");
 }
 
-/* Takes what a test has when no file says anything. */
+/* Fills the test with the defaults of all options. */
 static bool take_defaults(struct kiln_arena *arena, struct kiln_arena *scratch, const char *path,
                           struct kiln_test_file *file, struct kiln_error *error)
 {
@@ -273,7 +275,8 @@ static bool take_defaults(struct kiln_arena *arena, struct kiln_arena *scratch, 
            (take_document(arena, document, path, file) || out_of_memory(error));
 }
 
-/* Takes the test file's own text; a fault of it is the problem. */
+/* Fills the test from the text of its file. Returns false with `problem` for a fault in the text.
+ */
 static bool take_text(struct kiln_arena *arena, struct kiln_arena *scratch, const char *text,
                       size_t size, struct kiln_test_file *file, struct kiln_error *problem)
 {
@@ -300,7 +303,8 @@ static bool take_text(struct kiln_arena *arena, struct kiln_arena *scratch, cons
            (take_document(arena, document, path, file) || out_of_memory(problem));
 }
 
-/* Takes the defaults, and over them the text; NULL: the file is a scene, or could not be read. */
+/* Fills the test with the defaults and then from `text`, which is NULL if the file is a scene or
+ * could not be read. */
 static bool take_file(struct kiln_arena *arena, const char *text, size_t size, const char *path,
                       struct kiln_test_file *file, struct kiln_error *error)
 {

@@ -1,5 +1,5 @@
-/* Helps the files of a trial with texts, notes, paths, limits and masks, and comparisons with
- * goldens. */
+/* Provides what the files of a trial share: texts, notes, paths, limits and masks, and comparisons
+ * with goldens. */
 #include "suite/trial.h"
 
 #include <math.h>

@@ -128,8 +128,8 @@ static bool read_frame_number(const char **text, uint32_t *frame)
     return true;
 }
 
-/* Adds frames from a text to those that there are: "24", "0-23" or several with commas between
- * them. */
+/* Adds the frames of a text to `frames`. The text is "24", "0-23" or several of these with commas
+ * between them. */
 static bool add_frames(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct kiln_node *node, uint32_t *frames, uint32_t *count)
 {
@@ -205,7 +205,7 @@ static bool read_limit(struct kiln_reader *reader, const struct kiln_option *opt
     int length = node->kind == KILN_NODE_SCALAR
                      ? snprintf(limit, sizeof limit, "%s=%s", name, node->text)
                      : -1;
-    /* Neither name nor number may bring in a second limit. */
+    /* Neither the name nor the number may contain a second limit. */
     if (length < 0 || (size_t)length >= sizeof limit || name[strcspn(name, ",=")] != '\0' ||
         !kiln_text_to_double(node->text, &value->value))
         return kiln_reader_mismatch(reader, option, node);

@@ -18,7 +18,7 @@ static bool is_test(const struct kiln_suite *suite, const char *name)
     return false;
 }
 
-/* Whether a test of this name was searched for. */
+/* Returns whether a test of this name would lie in a searched folder. */
 static bool is_searched(const struct kiln_suite *suite, const char *name)
 {
     for (size_t i = 0; i < suite->start_count; i++) {
@@ -44,8 +44,8 @@ static bool add(struct kiln_suite *suite, const char *path)
     return true;
 }
 
-/* Searches a folder. name is that of the test whose goldens the folder has, "" for the folder of
- * all goldens. */
+/* Searches a folder for unused goldens. `name` is the name of the test whose goldens the folder
+ * would have, "" for the folder of all goldens. */
 static bool search(struct kiln_suite *suite, const char *folder, const char *name, int depth)
 {
     struct dirent **entries = NULL;

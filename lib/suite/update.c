@@ -11,15 +11,15 @@
 #include "base/error.h"
 #include "suite/trial.h"
 
-/* What is to be done about a frame. */
+/* What an update does with a frame. */
 enum action {
     LEAVE,
-    ACCEPT_HASHES,  /* the picture is a golden already */
+    ACCEPT_HASHES,  /* only hashes go into expect.yaml */
     ACCEPT_PICTURE, /* the picture becomes a golden */
 };
 
-/* Chooses what is done about a frame. A frame is left alone if two renders of it differed, or if it
- * could not be judged for another reason than a golden that cannot be decoded. */
+/* Chooses what an update does with a frame. A frame is left alone if two renders of it differed, or
+ * if it could not be judged for another reason than a golden that cannot be decoded. */
 static enum action choose_action(const struct kiln_trial *trial, size_t index)
 {
     const struct kiln_result_frame *frame = &trial->result->frames[index];
@@ -38,8 +38,8 @@ static enum action choose_action(const struct kiln_trial *trial, size_t index)
         return *frame->state_expected || !own->equals_golden ? LEAVE : ACCEPT_HASHES;
     if (trial->test->kept == KILN_GOLDEN_HASH)
         return ACCEPT_HASHES;
-    /* A golden with these pixels stays. So does one that only lacks an entry in expect.yaml, and
-     * that is like the picture, but not with --update all. */
+    /* A golden with these pixels stays. A golden that is like the picture and only lacks an entry
+     * in expect.yaml stays, too, unless --update all is given. */
     bool keeps = own->equals_golden || (own->unlisted && trial->params->update != KILN_UPDATE_ALL);
     return keeps ? ACCEPT_HASHES : ACCEPT_PICTURE;
 }
