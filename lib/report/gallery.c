@@ -1,5 +1,5 @@
-/* Plans which pictures are inside a report page and which are linked, and writes those inside.
- * Every picture is looked at twice: once for its size and kind, to plan, and once to be written. */
+/* Plans which pictures are inside a report page and which are linked, and writes those inside. A
+ * picture inside is read only when it is written, so that one is in memory at a time. */
 #include "report/gallery.h"
 
 #include <stdlib.h>
@@ -16,20 +16,20 @@
 struct kiln_gallery {
     const struct kiln_results *results;
     struct kiln_arena *arena;
-    const char *page_folder;           /* absolute; "" when it cannot be told */
+    const char *page_folder;           /* absolute; "" if it is not known */
     bool link;                         /* link all pictures */
-    struct kiln_gallery_place **tests; /* of each test: roles of all frames */
-    const char **inside;               /* paths by number */
+    struct kiln_gallery_place **tests; /* for each test, the places of all frames by role */
+    const char **inside;               /* paths of the pictures inside, by number */
     uint32_t inside_count, crowded_out;
     uint64_t bytes; /* of the pictures inside */
 };
 
 /* ---- Links -------------------------------------------------------------------------------- */
 
-/* Adds the path of a folder as seen from the page's folder `from`; both are absolute. */
+/* Adds the path of a folder relative to the page's folder `from`; both are absolute. */
 static void add_relative(struct kiln_text *out, const char *from, const char *folder)
 {
-    size_t common = 0; /* the length that both have in common, of whole names */
+    size_t common = 0; /* length of the common start, in whole names */
     size_t i = 0;
     for (; from[i] && from[i] == folder[i]; i++)
         if (from[i] == '/')
@@ -55,7 +55,7 @@ static char *absolute_folder_of(const char *path)
     return realpath(folder, NULL);
 }
 
-/* Returns the path of a picture as seen from the page's folder; NULL when memory is short. */
+/* Returns the path of a picture relative to the page's folder; NULL when memory is short. */
 static const char *relative_path(struct kiln_gallery *gallery, const char *path)
 {
     char *folder = absolute_folder_of(path);
@@ -73,7 +73,7 @@ static const char *relative_path(struct kiln_gallery *gallery, const char *path)
     return copy;
 }
 
-/* Names the preview of a picture: frame_0024.exr has frame_0024.preview.png. */
+/* Makes the path of a picture's preview: for frame_0024.exr, it is frame_0024.preview.png. */
 static void preview_path(const char *path, char out[KILN_PATH_SIZE])
 {
     const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
@@ -244,7 +244,7 @@ uint32_t kiln_gallery_crowded_out(const struct kiln_gallery *gallery)
 
 /* ---- The pictures ------------------------------------------------------------------------- */
 
-/* Reads the bytes of a PNG that a browser shows, which the caller frees. */
+/* Returns the bytes of a picture as a PNG that a browser can show. The caller frees them. */
 static unsigned char *read_shown(const char *path, size_t *size, struct kiln_error *error)
 {
     if (kiln_preview_is_plain(path))

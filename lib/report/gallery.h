@@ -1,8 +1,8 @@
 /* Plans and writes the pictures of a report page. Each picture is inside the page or linked.
  *
- * lib/report/html.c plans them before it writes the page, test_data.c asks where those of a frame
- * are, and html.c writes the pictures inside at last. The page's script finds a picture by its
- * number, so the id that kiln_gallery_write gives it must be the number of the plan. */
+ * lib/report/html.c plans them before it writes the page, test_data.c asks where a frame's pictures
+ * are, and html.c writes the pictures inside last. The page's script finds a picture by its number,
+ * so the id that kiln_gallery_write gives it must be the number of the plan. */
 #ifndef KILN_REPORT_GALLERY_H
 #define KILN_REPORT_GALLERY_H
 
@@ -10,7 +10,8 @@
 #include "report/report.h"
 
 /* The most bytes of pictures inside a page. A browser takes seconds and gigabytes for a page with
- * more. So a picture that would exceed it is linked; tests with the worst results come first. */
+ * more. So a picture that would exceed this size is linked. The worst tests get their places first.
+ */
 enum { KILN_GALLERY_BYTES = 160 << 20 };
 
 enum kiln_gallery_role {
@@ -24,7 +25,7 @@ enum kiln_gallery_role {
 struct kiln_gallery_place {
     enum kiln_gallery_kind {
         KILN_GALLERY_NONE,   /* there is no such picture */
-        KILN_GALLERY_INSIDE, /* in the page, by its number */
+        KILN_GALLERY_INSIDE, /* in the page, under its number */
         KILN_GALLERY_LINKED, /* a path relative to the page's folder */
         KILN_GALLERY_BROKEN, /* it cannot be shown; the text says why */
     } kind;

@@ -1,8 +1,8 @@
-/* Writes the report page: one file that needs nothing else. The list of tests is plain HTML, which
- * is there before any script. What is known of each test is JSON that is read when the test is
- * opened. Pictures come last, the most urgent first, so that all else works before they have
- * arrived. A content security policy names the page's own style and script by their hashes: nothing
- * else runs, and nothing is fetched. */
+/* Writes the report page, one file that needs no other unless pictures are linked. The list of
+ * tests is plain HTML, which a browser shows before any script runs. The data of each test are
+ * JSON, which the script reads when the test is opened. Pictures come last, those of the worst
+ * tests first, so that the page works before they have loaded. A content security policy names the
+ * page's own style and script by their hashes, so nothing else runs and nothing is fetched. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@
 struct page {
     const struct kiln_results *results;
     struct kiln_results_summary summary;
-    size_t *order; /* of the tests: the worst first */
+    size_t *order; /* indices of the tests, the worst first */
     struct kiln_gallery *gallery;
     struct kiln_text style, script;
     char hashes[2][65]; /* of style and script, in hex */
@@ -210,7 +210,7 @@ static void write_score(FILE *out, const struct kiln_result *result)
         fprintf(out, score < 10 ? "%.2f" : "%.0f", score);
 }
 
-/* Writes a name as its folder and its last part, by which tests are told apart. */
+/* Writes a name as two parts: its folder, which is shown muted, and its last part. */
 static void write_name(FILE *out, const char *name)
 {
     const char *slash = strrchr(name, '/');

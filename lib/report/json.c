@@ -1,5 +1,5 @@
-/* Writes a report as one JSON document with everything: the head of the run, and of each test its
- * folder, its score and all that its result.json says. */
+/* Writes a report as one JSON document: the head of the run and, for each test, its folder, its
+ * score and all members of its result.json. */
 #include "report/words.h"
 
 enum { VERSION = 1 };
@@ -44,7 +44,7 @@ static bool write_json(const struct kiln_results *results, const struct kiln_res
     }
     kiln_json_end(&json);
     kiln_json_end_line(&json, 0);
-    kiln_json_finish(&json); /* the caller asks the stream for failures */
+    kiln_json_finish(&json); /* the caller checks the stream for failures */
     return true;
 }
 

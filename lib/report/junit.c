@@ -1,7 +1,7 @@
-/* Writes a report as JUnit XML that Jenkins and GitLab read. A test of kiln is a suite with one
- * case. What describes the test are properties, which only a suite may have in every dialect. The
- * pictures of frames that are not right are attachments, named by "[[ATTACHMENT|path]]" in the
- * output of the case. */
+/* Writes a report as JUnit XML that Jenkins and GitLab read. A test of kiln becomes a suite with
+ * one case: properties describe the test, and a suite is the only element that may have properties
+ * in every dialect. The pictures of frames that do not pass are attachments, named by
+ * "[[ATTACHMENT|path]]" in the output of the case. */
 #include <string.h>
 
 #include "base/text.h"
@@ -11,8 +11,8 @@
 
 /* ---- XML ---------------------------------------------------------------------------------- */
 
-/* Whether a character of valid UTF-8 may stand in the document. XML 1.0 does not have all controls;
- * those from U+007F, which it has, are left out with the others. */
+/* Returns whether a character of valid UTF-8 is written to the document. XML 1.0 forbids most
+ * control characters; those from U+007F to U+009F are allowed, but left out, too. */
 static bool is_allowed(const unsigned char *s)
 {
     if (s[0] < 0x20)
@@ -22,8 +22,8 @@ static bool is_allowed(const unsigned char *s)
     return !control && !no_character;
 }
 
-/* Returns the entity of a character that would be markup, or a blank that readers change; or NULL.
- */
+/* Returns the entity of a character that is markup, or white space that XML parsers change; or
+ * NULL. */
 static const char *entity_of(char c)
 {
     switch (c) {
@@ -80,7 +80,7 @@ static void write_property(FILE *out, const char *name, const char *value)
     fputs("/>\n", out);
 }
 
-/* Writes every text and number of the result as a property, but for those that the report says
+/* Writes every text and whole number of the result as a property, except those that the report has
  * elsewhere. */
 static void write_facts(FILE *out, const struct kiln_result *result)
 {
@@ -170,7 +170,7 @@ static const char *failure_type(const struct kiln_result *result)
         if (result->frames[i].status == KILN_TEST_FAIL)
             return types[result->frames[i].judged_by];
     }
-    return "not-repeatable"; /* each frame is right, and the test is not */
+    return "not-repeatable"; /* the test failed although no frame did */
 }
 
 static const char *error_type(enum kiln_code code)
@@ -193,8 +193,8 @@ static const char *error_type(enum kiln_code code)
     }
 }
 
-/* Calls `tell` for each of the first frames that are not right, and returns how many such frames
- * are left out. */
+/* Calls `tell` for the first KILN_REPORT_MAX_FRAMES frames that did not pass, and returns how many
+ * such frames are left out. */
 static uint32_t tell_frames(FILE *out, const struct kiln_result *result, const char *folder,
                             void (*tell)(FILE *out, const struct kiln_result_frame *frame,
                                          const char *folder))
@@ -221,7 +221,7 @@ static void tell_cause(FILE *out, const struct kiln_result_frame *frame, const c
     fputs("\n", out);
 }
 
-/* Writes what is wrong with each frame, and what to do. */
+/* Writes what is wrong with each frame, what changed in the scene, and the commands that help. */
 static void write_causes(FILE *out, const struct kiln_result *result)
 {
     write_text(out, result->message);
@@ -281,7 +281,7 @@ static void tell_pictures(FILE *out, const struct kiln_result_frame *frame, cons
     write_attachment(out, folder, frame->error_map);
 }
 
-/* Writes the output of a case; a case with nothing to say gets none. */
+/* Writes the output of a case, if there are causes, notes or attachments. */
 static void write_output(FILE *out, const struct kiln_result *result, const char *folder)
 {
     bool quiet = result->status <= KILN_TEST_SKIP ||
@@ -351,7 +351,7 @@ static void write_suite(FILE *out, const struct kiln_result *result, const char 
 {
     char seconds[32], started[32];
     kiln_words_seconds(seconds, result->total_s);
-    /* The dialects that have a pattern for times know no time zone. */
+    /* The dialects that have a pattern for times allow no time zone. */
     snprintf(started, sizeof started, "%.*s", (int)strcspn(result->started, "Z"), result->started);
     uint32_t counts[KILN_TEST_STATUS_COUNT] = {0};
     counts[result->status]++;

@@ -57,8 +57,9 @@ const char *kiln_markup_entity(char c)
     }
 }
 
-/* Whether a text begins with a character that XML does not have (controls, U+FFFE and U+FFFF), or
- * with one that makes a page show another text than there is (overrides of direction, C1). */
+/* Returns whether a text begins with a character that XML does not have (controls, U+FFFE and
+ * U+FFFF), or with one that changes how a page shows the text around it (overrides of direction, C1
+ * controls). */
 static bool is_foreign(const char *text)
 {
     unsigned char c = (unsigned char)*text;

@@ -1,6 +1,6 @@
-/* Converts pictures to 8-bit PNG for browsers. Linear light goes through a fit of the ACES curve
- * (Narkowicz 2015), which as in HDR-FLIP maps 0.6 x. Black stays black, and light far beyond white
- * is compressed towards it instead of being cut off. */
+/* Converts pictures to 8-bit PNG for browsers. Linear light x is tone-mapped by a fit of the ACES
+ * curve (Narkowicz 2015), which is applied to 0.6 x as in HDR-FLIP. Black stays black, and light
+ * far beyond white is compressed instead of clipped. */
 #include "report/preview.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 bool kiln_preview_is_plain(const char *path)
 {
     static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    enum { DEPTH_OFFSET = 24 }; /* in IHDR, which comes first */
+    enum { DEPTH_OFFSET = 24 }; /* of the bit depth in IHDR, the first chunk */
     unsigned char head[DEPTH_OFFSET + 1];
     FILE *file = fopen(path, "rb");
     bool plain = file && fread(head, 1, sizeof head, file) == sizeof head &&
@@ -47,7 +47,7 @@ static float encode_srgb(float x)
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1.0f / 2.4f) - 0.055f;
 }
 
-/* Converts 0..1 to a byte. NaN, too, becomes black. */
+/* Converts 0 to 1 to a byte. Other values are clamped, and NaN becomes 0. */
 static uint8_t to_byte(float x)
 {
     return (uint8_t)(x > 0.0f ? (x < 1.0f ? x * 255.0f + 0.5f : 255.0f) : 0.0f);
@@ -55,7 +55,7 @@ static uint8_t to_byte(float x)
 
 static void convert(const struct kiln_asset_image *image, uint8_t *out)
 {
-    enum { BRIGHTEST = 65504 }; /* the largest half float; the curve is flat long before */
+    enum { BRIGHTEST = 65504 }; /* the largest half float; the curve is flat far below it */
     size_t pixels = (size_t)image->width * image->height;
     for (size_t i = 0; i < pixels; i++) {
         float alpha = value_at(image, 4 * i + 3);

@@ -29,7 +29,7 @@ static const struct kiln_report_format *find_format(const char *name, struct kil
     return NULL;
 }
 
-/* Writes a report to a stream. Any write may fail; the stream is asked once at the end. */
+/* Writes a report to a stream. Any write may fail; the stream is checked once at the end. */
 static bool write_to(const struct kiln_report_format *format, const struct kiln_results *results,
                      const struct kiln_results_output *output, FILE *out, struct kiln_error *error)
 {
@@ -43,7 +43,7 @@ static bool write_to(const struct kiln_report_format *format, const struct kiln_
                                 "%s: the report cannot be written", name);
 }
 
-/* Opens another stream on the file, which is to be closed before the file is committed. */
+/* Opens another stream on the file. The caller closes the stream before it commits the file. */
 static FILE *open_stream(const struct kiln_temporary *file)
 {
     int copy = dup(file->file);
@@ -53,7 +53,7 @@ static FILE *open_stream(const struct kiln_temporary *file)
     return out;
 }
 
-/* Whether the file is a report of that format by kiln; false when it cannot be read. */
+/* Returns whether a file is a report of the format that kiln wrote; false if it cannot be read. */
 static bool is_own(const struct kiln_report_format *format, const char *path)
 {
     char start[256] = "";

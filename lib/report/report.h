@@ -10,18 +10,18 @@
 struct kiln_results {
     struct kiln_arena *arena;
     struct kiln_result **tests; /* ordered by name */
-    const char **folders;       /* of each test's result, with its pictures */
+    const char **folders;       /* folder of each test's result and pictures */
     size_t count;
     double total_s;
-    const char *started;            /* of the earliest test */
-    uint32_t missing_shard, shards; /* as in the summary */
+    const char *started;            /* when the earliest test started */
+    uint32_t missing_shard, shards; /* as in kiln_results_summary */
 };
 
 struct kiln_report_format {
     const char *name; /* NULL ends the table */
     const char *help;
-    const char *option; /* of `kiln test` */
-    const char *start;  /* what every such file of kiln's begins with; NULL: it is no file */
+    const char *option; /* the option of `kiln test` for this format */
+    const char *start;  /* the first bytes of every file of this format; NULL: not a file */
     bool (*write)(const struct kiln_results *results, const struct kiln_results_output *output,
                   FILE *out, struct kiln_error *error);
 };

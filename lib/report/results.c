@@ -1,6 +1,6 @@
-/* Writes the list of a run, RESULTS/run.json, and loads the results of runs: that list, and a
- * result of each test in RESULTS/NAME. It puts together the shards of one run, each from another
- * machine, and finds shards that are missing. */
+/* Writes the list of a run's tests, RESULTS/run.json, and loads the results of runs: that list, and
+ * the result of each test, RESULTS/NAME/result.json. It merges the shards of one run, which may
+ * come from several machines, and finds shards that are missing. */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +15,8 @@
 #include "report/report.h"
 #include "suite/results_folder.h"
 
-/* Tests are listed in groups, since a list of a file that kiln reads ends at 1024 entries. */
+/* Tests are listed in groups, since a list in a file that kiln reads may have at most 1024 entries.
+ */
 enum { RUN_VERSION = 1, GROUP_SIZE = 1000, MAX_RUN_SIZE = 64 << 20 };
 
 static bool out_of_memory(struct kiln_error *error)
@@ -74,11 +75,11 @@ bool kiln_suite_write_run(const struct kiln_suite *suite, double total_s, struct
 /* A test of a run that was loaded. */
 struct entry {
     struct kiln_result *result;
-    const char *folder; /* of the result */
+    const char *folder; /* the result's folder */
     const char *run;    /* the folder of the run */
 };
 
-/* A run that was one of several shards, which share the same tests between them. */
+/* A run that was one of `count` shards, which have `tests` tests together. */
 struct shard {
     uint64_t number, count, tests;
 };
@@ -88,14 +89,14 @@ struct loading {
     struct kiln_error *error;
     struct entry *entries;
     size_t count, capacity;
-    struct shard *shards; /* with room for one of each run */
+    struct shard *shards; /* with room for one per run */
     size_t shard_count;
-    uint32_t missing_shard, missing_of; /* the first that is missing, of how many; 0: none */
+    uint32_t missing_shard, missing_of; /* first missing shard, number of shards; 0: none */
     double total_s;
 };
 
-/* Whether a text may be a test's name. A name becomes a folder below the run's, so it must not lead
- * anywhere else. */
+/* Returns whether a text may be a test's name. A name becomes a folder below the run's folder, so
+ * it must not lead out of it. */
 static bool is_test_name(const char *name)
 {
     for (const char *part = name;; part++) {
@@ -283,7 +284,8 @@ static int by_run(const void *a, const void *b)
     return compare_counts(x->number, y->number);
 }
 
-/* Adds a result for the tests of the shards `first` to `last`, which were judged nowhere. */
+/* Adds one result, an error, for the missing shards `first` to `last`, whose tests were judged
+ * nowhere. */
 static bool add_missing(struct loading *loading, uint64_t first, uint64_t last, uint64_t count)
 {
     char name[64], message[128], range[32] = "";
@@ -307,13 +309,14 @@ static bool add_missing(struct loading *loading, uint64_t first, uint64_t last, 
     return true;
 }
 
-/* Looks for gaps in the numbers of each run's shards; `tell` adds an entry for each. */
+/* Finds gaps in the numbers of each run's shards. If `tell` is true, it adds a result for each gap.
+ */
 static bool find_missing(struct loading *loading, bool tell)
 {
     struct shard *shards = loading->shards;
     if (loading->shard_count)
         qsort(shards, loading->shard_count, sizeof *shards, by_run);
-    uint64_t due = 1; /* the number that comes next */
+    uint64_t due = 1; /* the next number that is expected */
     for (size_t i = 0; i < loading->shard_count; i++) {
         const struct shard *shard = &shards[i], *next = shard + 1;
         bool last = i + 1 == loading->shard_count || next->count != shard->count ||

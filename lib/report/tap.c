@@ -1,12 +1,12 @@
-/* Writes a report in the Test Anything Protocol, with a block of YAML under each test. All that is
- * used of the protocol is in version 13 and means the same in version 14. The head says 13, because
- * the prove of Debian 12 fails on any report that says 14. */
+/* Writes a report in the Test Anything Protocol, with a block of YAML under each test. The report
+ * uses features of version 13 alone, which mean the same in version 14. Its head says 13, because
+ * `prove` of Debian 12 fails on any report that says 14. */
 #include <math.h>
 
 #include "base/text.h"
 #include "report/words.h"
 
-/* Writes a description, which must be one line and would end at '#'. */
+/* Writes a description in one line. '#' is escaped, since it would end the description. */
 static void write_description(FILE *out, const char *text)
 {
     for (; *text; text++) {

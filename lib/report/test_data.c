@@ -1,6 +1,5 @@
-/* Writes what the page's scripts read of a test: the members of result.json, whose names are
- * written as scripts write names ("device_name" is "deviceName"), and data that are made for the
- * page. */
+/* Writes the data of a test that the page's scripts read: the members of result.json, with their
+ * names in camel case ("device_name" becomes "deviceName"), and data that only the page needs. */
 #include "report/test_data.h"
 
 #include <ctype.h>
@@ -13,7 +12,7 @@
 
 enum { KEY_SIZE = 64 };
 
-/* Converts a member's name to a script's: "device_name" to "deviceName". */
+/* Converts a member's name to camel case: "device_name" to "deviceName". */
 static const char *script_name(char key[KEY_SIZE], const char *name)
 {
     size_t length = 0;

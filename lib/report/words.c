@@ -1,4 +1,4 @@
-/* Writes numbers, counts and summaries as the text formats of reports have them. */
+/* Writes numbers, counts and summaries in the form that several formats of reports share. */
 #include "report/words.h"
 
 #include <inttypes.h>
@@ -24,8 +24,8 @@ void kiln_words_seconds(char out[32], double seconds)
     snprintf(out, 32, "%" PRIu64 ".%03" PRIu64, ms / 1000, ms % 1000);
 }
 
-/* Writes by what frames were judged: "66 by pixels, 1 by metrics". These two are always written,
- * since a run is judged by them. */
+/* Writes by what frames were judged: "66 by pixels, 1 by metrics". These two counts are always
+ * written, since a reader judges a run by them; the others are written if they are not 0. */
 static void write_judges(FILE *out, const struct kiln_results_frames *frames)
 {
     const uint32_t judged = frames->by_pixels + frames->by_metrics + frames->by_state;

@@ -1,14 +1,14 @@
-/* Words what several text formats of reports say in the same way. */
+/* Declares functions that write what several formats of reports say in the same way. */
 #ifndef KILN_REPORT_WORDS_H
 #define KILN_REPORT_WORDS_H
 
 #include "kiln_program.h"
 #include "report/report.h"
 
-/* The most frames of a test that are not right and are told of one by one. */
+/* The most frames of a test that did not pass and that a report lists one by one. */
 enum { KILN_REPORT_MAX_FRAMES = 20 };
 
-/* Writes a value with few digits, "0.0153" or "inf". The point is '.' in any locale. */
+/* Writes a value to four digits, such as "0.0153", or "inf". The point is '.' in any locale. */
 void kiln_words_number(char out[32], double value);
 
 /* Writes seconds to the millisecond: "12.345". */

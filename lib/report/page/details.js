@@ -1,6 +1,8 @@
-/* What is known of a test and a frame, in words and numbers. */
+/* Shows the details of a test and a frame as cards: metrics, commands, changes, notes, run, hashes.
+ */
 
-/* Four digits that count; the numbers that JSON has not come as texts. */
+/* Returns a number to four significant digits. Numbers that JSON lacks, such as infinity, are
+ * texts. */
 function formatNumber(value) {
     if (value === "inf") return "\u221e";
     if (value === "-inf") return "\u2212\u221e";
@@ -16,7 +18,7 @@ function card(name, small, ...children) {
         make("h3", {}, name, small ? make("small", {}, small) : null), ...children);
 }
 
-/* How much of its limit a value takes up: 1 is all of it. */
+/* Returns the share of its limit that a value takes up: 1 is at the limit. */
 function shareOf(column, value) {
     const number = (v) => (v === "inf" ? Infinity : typeof v === "number" ? v : NaN);
     const over = column.higherIsBetter ? column.limit : number(value);
@@ -26,7 +28,7 @@ function shareOf(column, value) {
     return under > 0 ? over / under : over > under ? Infinity : 0;
 }
 
-/* The limit is in the middle. */
+/* Returns a bar for a share of the limit. The limit is in the middle. */
 function barOf(share) {
     const width = Math.min(100, share * 50);
     return makeSvg("svg", { viewBox: "0 0 100 10", preserveAspectRatio: "none", "aria-hidden": "true" },
@@ -69,7 +71,7 @@ function metricsCard(test, frame) {
         where ? make("p", { class: "command muted" }, where) : null);
 }
 
-/* A value beside what was accepted. */
+/* Returns an element with a value and, beside it, the accepted value. */
 function compared(now, accepted, name) {
     if (!now && !accepted) return make("span", { class: "muted" }, "not known");
     const value = make("span", { class: name }, now || "none");

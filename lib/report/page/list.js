@@ -1,15 +1,16 @@
-/* The list of tests: searched, filtered, sorted, walked through. */
+/* Handles the list of tests: search, filters, order and arrow keys. */
 
 const list = {
     rows: [],
-    statuses: new Set(), /* those that are shown; none: all */
+    statuses: new Set(), /* the statuses that are shown; empty: all */
     current: null,
 
     visible() {
         return [...byId("rows").children].filter((row) => !row.hidden);
     },
 
-    /* The text that a search goes through is taken from the page when it is first needed. */
+    /* Returns the text of a row that a search goes through. The first call takes it from the page.
+     */
     textOf(row) {
         if (row.searched === undefined) row.searched = row.textContent.toLowerCase();
         return row.searched;
@@ -18,7 +19,8 @@ const list = {
     filter() {
         const words = byId("search").value.toLowerCase().split(/\s+/).filter(Boolean);
         let count = 0;
-        /* Chromium takes 60 times as long to hide a thousand rows one by one where they are shown. */
+        /* The list is hidden meanwhile: Chromium takes 60 times as long to hide a thousand rows one
+         * by one in a visible list. */
         byId("rows").hidden = true;
         void byId("rows").offsetHeight;
         for (const row of this.rows) {
@@ -46,7 +48,7 @@ const list = {
         byId("rows").append(...this.rows.sort(orders[byId("sort").value]));
     },
 
-    /* One row is in the order of the Tab key; arrow keys reach the others. */
+    /* Makes one row reachable by the Tab key; arrow keys reach the others. */
     rove() {
         const visible = this.visible();
         const at = visible.includes(this.current) ? this.current : visible[0];
@@ -61,7 +63,7 @@ const list = {
         this.rove();
     },
 
-    /* The row so many places from the current one, or null. */
+    /* Returns the visible row that is `step` places after the current one, or null. */
     neighbor(step) {
         const visible = this.visible(), at = visible.indexOf(this.current);
         if (at < 0) return visible[0] || null;
@@ -113,7 +115,7 @@ const list = {
         byId("clear").addEventListener("click", () => this.clear());
         for (const button of document.querySelectorAll(".count"))
             button.addEventListener("click", () => this.toggle(button));
-        byId("sort").value = "status"; /* browsers keep another one over a reload */
+        byId("sort").value = "status"; /* browsers keep the last choice over a reload */
         byId("search").value = "";
         this.filter();
     },

@@ -1,8 +1,8 @@
-/* Pictures: taken out of the page when they are first shown, and kept while there is room. */
+/* Decodes pictures when they are first shown, and keeps them in a cache of limited size. */
 
 const KEPT_PIXELS = 32 << 20;
 
-/* An element with properties and children; texts become text nodes, never markup. */
+/* Returns an element with properties and children. Texts become text nodes, never markup. */
 function make(tag, properties, ...children) {
     const element = document.createElement(tag);
     for (const [name, value] of Object.entries(properties || {})) {
@@ -23,14 +23,14 @@ function makeSvg(tag, attributes, ...children) {
 
 const byId = (id) => document.getElementById(id);
 
-/* A canvas of pictures is opaque: alpha is shown on black. */
+/* Returns a canvas for pictures. It is opaque, so transparent parts are shown on black. */
 function makeCanvas(width, height) {
     const canvas = make("canvas", { width, height });
     return { canvas, context: canvas.getContext("2d", { alpha: false, willReadFrequently: true }) };
 }
 
-/* While the page is still arriving, an element may be there in part: it is whole when something
- * follows it. */
+/* Returns a promise of an element, which is kept once the element is complete. While the page
+ * loads, an element is complete when another node follows it. */
 function arrived(id) {
     return new Promise((resolve) => {
         const look = () => {
@@ -51,7 +51,7 @@ async function sourceOf(place) {
     return "data:image/png;base64," + element.textContent;
 }
 
-/* The colours are those of the file: nothing is converted to the screen's profile. */
+/* Returns a bitmap with the colours of the file, without a conversion to the screen's profile. */
 async function decode(place) {
     const image = new Image();
     image.src = await sourceOf(place);
@@ -68,7 +68,7 @@ const pictures = {
     kept: new Map(), /* key -> promise of an ImageBitmap; the least recently used first */
     pixels: 0,
 
-    /* A promise of a picture, or of null where there is none. */
+    /* Returns a promise of a picture, or of null if there is none. */
     load(place) {
         if (place === null || place === undefined) return Promise.resolve(null);
         const key = typeof place === "number" ? place : place.url || place.problem;
@@ -83,7 +83,8 @@ const pictures = {
         return promise;
     },
 
-    /* Those of the frame that is shown were used last, and stay. */
+    /* Drops the least recently used pictures. Those of the shown frame were used last, so they
+     * stay. */
     shrink() {
         for (const [key, promise] of this.kept) {
             if (this.pixels <= KEPT_PIXELS || this.kept.size <= 6) break;
@@ -97,8 +98,8 @@ const pictures = {
 
 const reader = makeCanvas(1, 1);
 
-/* The colour of a pixel, 0 to 255; null outside; undefined when the browser does not tell, as it
- * does for files that are linked from a page that is a file. */
+/* Returns the colour of a pixel, 0 to 255; null outside the picture; undefined if the browser
+ * refuses to tell it, as for a picture that is linked from a page that is a file. */
 function pixelOf(picture, x, y) {
     if (!picture || x < 0 || y < 0 || x >= picture.width || y >= picture.height) return null;
     reader.context.fillRect(0, 0, 1, 1);
@@ -106,14 +107,15 @@ function pixelOf(picture, x, y) {
     try {
         return [...reader.context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
     } catch {
-        const fresh = makeCanvas(1, 1); /* that one will never tell again */
+        const fresh = makeCanvas(1, 1); /* the refused canvas can never be read again */
         reader.canvas = fresh.canvas;
         reader.context = fresh.context;
         return undefined;
     }
 }
 
-/* |a - b| * gain, a power of two: blending does it, which needs no pixel to be read. */
+/* Returns a canvas with |a - b| * gain, where gain is a power of two. Blending computes it, so no
+ * pixel has to be read. */
 function differenceOf(a, b, gain) {
     const width = Math.max(a.width, b.width), height = Math.max(a.height, b.height);
     const { canvas, context } = makeCanvas(width, height);

@@ -1,4 +1,5 @@
-/* The page as a whole: which test, frame and view the address names, and the keys. */
+/* Handles the page as a whole: the test, frame and view that the address names, the theme, the
+ * buttons and the keys. */
 
 const page = { test: null, frame: 0, tests: new Map(), shown: 0 };
 
@@ -8,7 +9,7 @@ function testOf(row) {
     return page.tests.get(index);
 }
 
-/* #test=NAME&frame=NUMBER&mode=ID, each of them optional. */
+/* Reads the address, #test=NAME&frame=NUMBER&mode=ID. Each part is optional. */
 function readAddress() {
     const address = {};
     for (const part of location.hash.slice(1).split("&")) {
@@ -16,7 +17,7 @@ function readAddress() {
         try {
             if (equals > 0) address[part.slice(0, equals)] = decodeURIComponent(part.slice(equals + 1));
         } catch {
-            /* not one that this page made */
+            /* a part that this page did not write is skipped */
         }
     }
     return address;
@@ -51,7 +52,7 @@ function showReason(test, frame) {
     if (about.length) reason.append(make("small", {}, about.join(". ")));
 }
 
-/* The pictures arrive later; an answer to an older wish is dropped. */
+/* Shows the pictures of a frame once they are loaded, unless another call was made meanwhile. */
 async function showPictures(test, frame) {
     const wish = ++page.shown;
     const kinds = ["reference", "result", "error"];
@@ -117,7 +118,7 @@ function showTest(row, frameNumber) {
     showFrame(wanted >= 0 ? wanted : test.first);
 }
 
-/* Opens what the address names; without a test in it, the worst one. */
+/* Opens the test, frame and view that the address names; without a test, the first of the list. */
 function route() {
     const address = readAddress();
     const named = address.test !== undefined &&
@@ -134,7 +135,7 @@ function testName(row) {
     return row.querySelector(".name").textContent;
 }
 
-/* Another test is another place in the history. */
+/* Opens a test by its link, which adds an entry to the browser's history. */
 function open(row) {
     if (row) row.firstChild.click();
 }
@@ -156,7 +157,7 @@ function setTheme(theme) {
     try {
         localStorage.setItem("kiln-report-theme", theme);
     } catch {
-        /* a page that may keep nothing follows the system */
+        /* without storage, the next visit follows the system */
     }
 }
 
@@ -170,7 +171,7 @@ function startTheme() {
     try {
         theme = localStorage.getItem("kiln-report-theme") || "auto";
     } catch {
-        /* as above */
+        /* without storage, the theme follows the system */
     }
     setTheme(["auto", "light", "dark"].includes(theme) ? theme : "auto");
 }
@@ -251,7 +252,7 @@ function onKey(event) {
     entry.act();
 }
 
-/* Tabs: arrow keys go from one to the next that can be chosen. */
+/* Makes the tabs of the modes. Arrow keys go to the next tab that is enabled. */
 function startModes() {
     byId("modes").append(...MODES.map((mode, i) => {
         const tab = make("button", {
@@ -320,4 +321,4 @@ viewer.onMode = writeAddress;
 timeline.onPick = setFrame;
 addEventListener("hashchange", route);
 route();
-performance.mark("kiln-ready"); /* the list and the first test are there */
+performance.mark("kiln-ready"); /* the list and the first test are shown */

@@ -1,11 +1,12 @@
-/* The frames of a test: the error of each as a bar, and the one that is shown. */
+/* Shows the frames of a test as bars of their scores, and marks the frame that is shown. */
 
 const timeline = {
     test: null,
     index: 0,
     onPick: () => {},
 
-    /* Small errors stay visible beside large ones: the height goes with the root. */
+    /* Returns the height of a bar. It grows with the square root, so that small errors stay
+     * visible. */
     heightOf(score) {
         return 100 * Math.sqrt(score / this.top);
     },

@@ -1,4 +1,4 @@
-/* The viewer: the pictures of one frame, in panes that zoom and pan in step. */
+/* Shows the pictures of one frame in panes, which zoom and pan together. */
 
 const MODES = [
     { id: "side", name: "Side by side", needs: 0, amount: "gain" },
@@ -11,7 +11,8 @@ const MODES = [
     { id: "error", name: "Error map", needs: "error" },
 ];
 
-/* What the slider of a mode sets. Faster flicker than three changes a second has to be chosen. */
+/* The values that a mode's slider sets. Flicker starts below three changes a second; only a
+ * person's choice makes it faster. */
 const AMOUNTS = {
     split: { name: "Position", min: 0, max: 100, step: 1, start: 50, say: (v) => v + " %" },
     opacity: { name: "Result", min: 0, max: 100, step: 5, start: 50, say: (v) => v + " %" },
@@ -28,7 +29,7 @@ const viewer = {
     shown: { reference: null, result: null, error: null }, /* bitmaps */
     problems: {},
     panes: [],   /* {figure, canvas, caption, kind} */
-    zoom: null,  /* CSS pixels a pixel; null fits */
+    zoom: null,  /* CSS pixels per picture pixel; null: fit */
     center: [0, 0],
     cursor: null, /* the pixel that is read out */
     marks: false,
@@ -44,7 +45,7 @@ const viewer = {
         return [Math.max(1, ...all.map((p) => p.width)), Math.max(1, ...all.map((p) => p.height))];
     },
 
-    /* Shows the pictures of a frame; the view stays where it is. */
+    /* Shows the pictures of a frame; the view stays unless their size changes. */
     show(shown, problems, places, placeholder) {
         const [width, height] = this.size();
         this.shown = shown;
@@ -98,7 +99,7 @@ const viewer = {
         if (kinds.join() !== this.panes.map((pane) => pane.kind).join()) {
             this.panes = kinds.map((kind) => {
                 const name = TITLES[kind] || MODES.find((mode) => mode.id === kind).name;
-                const canvas = make("canvas", { role: "img", "aria-label": name }); /* until it is drawn */
+                const canvas = make("canvas", { role: "img", "aria-label": name }); /* the label until it is drawn */
                 const figure = make("figure", { class: "pane" }, canvas);
                 const caption = make("figcaption", {});
                 const right = make("figcaption", { class: "right", hidden: true });
@@ -156,8 +157,8 @@ const viewer = {
         if (key) this.setAmount(this.amounts[key] + direction * (key === "split" ? 5 : AMOUNTS[key].step));
     },
 
-    /* The lowest of the arrangements in which pictures are about as large as they can be, in a stage
-     * no higher than they need. */
+    /* Chooses the lowest of the arrangements in which pictures are nearly as large as possible. The
+     * stage gets no higher than they need. */
     layout() {
         const stage = byId("stage"), count = Math.max(1, this.panes.length);
         const [width, height] = this.size();
@@ -201,7 +202,7 @@ const viewer = {
         return Math.min(w / width, h / height);
     },
 
-    /* Where the pictures' corner is in a pane, in CSS pixels. */
+    /* Returns the upper left corner of the pictures in a pane, in CSS pixels. */
     origin() {
         const [width, height] = this.size(), [w, h] = this.paneSize(), scale = this.scale();
         const [x, y] = this.zoom === null ? [width / 2, height / 2] : this.center;
@@ -232,7 +233,7 @@ const viewer = {
         };
         context.fillStyle = getComputedStyle(pane.figure).backgroundColor;
         context.fillRect(0, 0, width, height);
-        /* Nearest neighbour when pixels are enlarged; an average of them when they are shrunk. */
+        /* Pixels are enlarged by nearest neighbour, and averaged when they are shrunk. */
         context.imageSmoothingEnabled = scale < 1;
         context.imageSmoothingQuality = "high";
         this.drawKind(pane, context, put, x, scale);
@@ -307,7 +308,7 @@ const viewer = {
         pane.canvas.setAttribute("aria-label", label);
     },
 
-    /* Starts or stops the clock of flicker. */
+    /* Starts or stops the timer of flicker. */
     run() {
         clearInterval(this.flicker.timer);
         this.flicker.timer = 0;
@@ -328,7 +329,7 @@ const viewer = {
 
     /* ---- Zoom, pan and the pixel ---------------------------------------------------------- */
 
-    /* The pixel under a place of a pane, not rounded. */
+    /* Returns the position in the pictures under a place of a pane, in pixels, not rounded. */
     toPixel(x, y) {
         const [left, top] = this.origin(), scale = this.scale();
         return [(x - left) / scale, (y - top) / scale];
@@ -343,7 +344,7 @@ const viewer = {
         this.draw();
     },
 
-    /* From step to step of whole powers of two, through the size that fits. */
+    /* Zooms to the next whole power of two, from any scale. */
     zoomBy(direction, x, y) {
         const now = Math.log2(this.scale());
         const next = direction > 0 ? Math.floor(now + 1.001) : Math.ceil(now - 1.001);
@@ -380,7 +381,7 @@ const viewer = {
         this.draw();
     },
 
-    /* Moves by keys, and keeps the pixel in sight. */
+    /* Moves the cursor by pixels, and keeps it in sight. */
     moveCursor(dx, dy) {
         const [width, height] = this.size();
         const [x, y] = this.cursor || this.center.map((v, i) => Math.floor(v || this.size()[i] / 2));
@@ -467,7 +468,7 @@ const viewer = {
 
 const hexOf = (rgb) => "#" + rgb.map((v) => v.toString(16).padStart(2, "0")).join("");
 
-/* Shows both colours of a pixel and their difference; returns it as a sentence. */
+/* Shows both colours of a pixel and their difference; returns the same as a text to be spoken. */
 function showReadout(shown, cursor) {
     const out = byId("readout");
     if (!cursor) {
