@@ -16,18 +16,18 @@
 
 struct comparison {
     const struct kiln_compare_params *params;
-    const char *beside, *option; /* a file that the caller writes, or NULL, and for which option */
+    const char *beside, *option;     /* a file that the caller writes, and its option; or NULL */
     struct kiln_footage *footage[2]; /* reference, test */
     struct kiln_metric_set set;
     struct kiln_difference_plan diff, error_map;
-    struct kiln_claims *claims; /* of all that is read and written */
-    struct kiln_mask mask;      /* made for the size of the frame before */
+    struct kiln_claims *claims; /* of all files that are read and written */
+    struct kiln_mask mask;      /* made for the previous frame's size */
     struct kiln_threads *threads;
     struct kiln_compare_result result;
     double sums[KILN_MAX_COLUMNS];
     double worst_score;        /* of result.worst_frame; below 0: there is none */
-    struct kiln_error failure; /* the first thing that could not be read */
-    bool ended;                /* by an error, or by a video that cannot be read on */
+    struct kiln_error failure; /* the first error of a frame that could not be read */
+    bool ended;                /* a video cannot be read any further */
 };
 
 const char *kiln_compare_verdict_name(enum kiln_compare_verdict verdict)
@@ -74,8 +74,8 @@ static void note_places(const struct kiln_measurement *measurement,
     frame->flip_s = measurement->flip_s;
 }
 
-/* Measures and judges a pair of pictures, and draws the difference. Pictures that do not match are
- * a verdict, no error. */
+/* Measures and judges a pair of pictures, and draws the difference. Pictures whose sizes or
+ * channels do not match get a verdict and are no error. */
 static bool compare_subjects(struct comparison *comparison,
                              const struct kiln_subject *const subjects[2],
                              struct kiln_compare_frame *frame, uint32_t number,
@@ -123,8 +123,8 @@ static bool load_images(struct comparison *comparison, struct kiln_asset_image *
     return images[0] && images[1];
 }
 
-/* Makes the mask for a pair of pictures; there is none for pictures of two sizes, which differ
- * anyway. */
+/* Makes the mask for a pair of pictures. *mask is NULL without masks, and for pictures of two
+ * sizes, which differ anyway. */
 static bool make_mask(struct comparison *comparison, struct kiln_asset_image *const images[2],
                       const struct kiln_mask **mask, struct kiln_error *error)
 {
@@ -194,7 +194,7 @@ static bool compare_frame(struct comparison *comparison, struct kiln_compare_fra
 
 /* ---- All frames ---------------------------------------------------------------------------- */
 
-/* Copies a name with only those characters that can be shown: it may be the name of any file. */
+/* Copies a name such that every character can be shown, since it may be the name of any file. */
 static void note_name(char out[256], const char *name)
 {
     kiln_shown(out, 256, name);
@@ -226,7 +226,8 @@ static void add_to_result(struct comparison *comparison, const struct kiln_compa
     }
 }
 
-/* Which side has the frame that comes first: below 0 the reference, above 0 the test, 0 both. */
+/* Returns which side has the next frame: below 0 for the reference, above 0 for the test, 0 for
+ * both. */
 static int order(const struct comparison *comparison, const struct kiln_footage_frame next[2],
                  const bool has[2])
 {
@@ -326,8 +327,8 @@ static bool check_kinds(const struct comparison *comparison, struct kiln_error *
                           kiln_footage_path(comparison->footage[1]), names[b]);
 }
 
-/* Declares what is read and written, so that no picture that is compared, and no mask, is replaced.
- */
+/* Declares the files that are read and written, so that no output replaces a compared picture or a
+ * mask. */
 static bool claim_files(struct comparison *comparison, struct kiln_error *error)
 {
     static const char *const names[2] = {"a picture of the reference", "a picture of the test"};
@@ -385,7 +386,8 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
            kiln_error_set(error, KILN_DEVICE_FAILED, "the system refuses to start threads");
 }
 
-/* Takes the caller's parameters, with the masks in an array of its own, which is to be freed. */
+/* Copies the caller's parameters. The masks are copied to the array *masks, which is to be freed.
+ */
 static bool take(struct kiln_compare_params *taken, const struct kiln_compare_params *given,
                  struct kiln_compare_mask **masks, struct kiln_error *error)
 {

@@ -1,7 +1,7 @@
-/* Computes LDR-FLIP tile by tile. Colours are brought to the opponent space of the contrast
- * sensitivity filters once; each tile is then filtered across and down and judged while it lies in
- * the cache. Inner loops run over plain arrays, which the compiler turns into vector code.
- * Constants and steps are those of HPG 2020, sections 4 and 5. */
+/* Computes LDR-FLIP tile by tile. Colours are converted once to the opponent space of the contrast
+ * sensitivity filters; each tile is then filtered across and down and judged while it lies in the
+ * cache. Inner loops run over plain arrays, which the compiler turns into vector code. Constants
+ * and steps are those of HPG 2020, sections 4 and 5. */
 #include "compare/flip.h"
 
 #include <assert.h>
@@ -36,7 +36,7 @@ struct filters {
     float weights[FILTER_COUNT][2 * MAX_RADIUS + 1];
 };
 
-/* The opponent planes of a picture, and the achromatic one rescaled for features. */
+/* The opponent planes of a picture: achromatic (y), red-green (x) and blue-yellow (z). */
 struct planes {
     float *y, *x, *z;
 };
@@ -45,7 +45,7 @@ struct flip {
     const struct kiln_flip_pair *pair;
     struct filters filters;
     float from_xyz[3][3];
-    float largest; /* HyAB distance of green and blue, powered: cmax */
+    float largest; /* HyAB distance of green and blue to the power 0.7: cmax */
     struct planes planes[2];
     float *errors;
     uint32_t tiles_across;
@@ -72,7 +72,8 @@ static void invert(const double m[3][3], float out[3][3])
     }
 }
 
-/* G(x) = sqrt(a sqrt(pi / b)) exp(-pi^2 x^2 / b), x in degrees; returns its sum. */
+/* Fills the weights with G(x) = sqrt(a sqrt(pi / b)) exp(-pi^2 x^2 / b), where x is in degrees.
+ * Returns their sum. */
 static double gaussian(float *weights, int radius, double ppd, double a, double b)
 {
     const double pi = acos(-1.0);
@@ -146,7 +147,7 @@ static inline float power(float x, float p)
 {
     uint32_t bits;
     memcpy(&bits, &x, sizeof bits);
-    /* The exponent of x / sqrt(1/2) rounds m to [sqrt(1/2), sqrt(2)). */
+    /* Splitting off the exponent of x / sqrt(1/2) leaves m in [sqrt(1/2), sqrt(2)). */
     int32_t exponent = (int32_t)(bits - 0x3f3504f3u) >> 23;
     bits -= (uint32_t)exponent << 23;
     float m;
@@ -274,7 +275,7 @@ static void filter_down(const float *from, size_t stride, const float *weights, 
     }
 }
 
-/* A tile holds what the filters across make of both images. */
+/* A tile holds the rows of both images after each filter has gone across. */
 enum { TILE_ROWS = TILE_HEIGHT + 2 * MAX_RADIUS };
 
 struct tile {
@@ -326,7 +327,7 @@ static void filter_row_down(const struct flip *flip, const struct tile *tile, in
                             struct row *out)
 {
     const struct filters *f = &flip->filters;
-    /* The rows are filtered by FIRST, and the columns of that by SECOND. */
+    /* The rows are filtered by FIRST, and the columns of the result by SECOND. */
     static const int FIRST[FEATURE_COUNT] = {GAUSS_1, GAUSS, GAUSS_2, GAUSS};
     static const int SECOND[FEATURE_COUNT] = {GAUSS, GAUSS_1, GAUSS, GAUSS_2};
     for (int image = 0; image < 2; image++) {
@@ -342,15 +343,15 @@ static void filter_row_down(const struct flip *flip, const struct tile *tile, in
     }
 }
 
-/* Returns the size of a feature. Features were filtered in units of Y; (Y + 16) / 116 has slopes
- * 116 times smaller. */
+/* Returns the size of a feature. Features were filtered from the plane y; FLIP defines them on (y +
+ * 16) / 116, whose slopes are 116 times smaller. */
 static inline float feature_size(float across, float down)
 {
     return sqrtf(across * across + down * down) * (1.0f / 116.0f);
 }
 
-/* Computes the errors of a row: the colour error, remapped at the knee, is raised by the feature
- * error (HPG 2020, 4.1.3, 4.2 and 4.3). */
+/* Computes the errors of a row: the colour error, remapped at the knee, is raised to the power of 1
+ * minus the feature error (HPG 2020, 4.1.3, 4.2 and 4.3). */
 KILN_WIDE_VECTORS
 static void judge_row(const struct row *row, const float from_xyz[3][3], float largest,
                       float *errors, int count)

@@ -9,7 +9,7 @@
 #include "kiln.h"
 
 struct kiln_flip_params {
-    float pixels_per_degree; /* of the viewer's eye; 4 to 400 */
+    float pixels_per_degree; /* of the viewer's field of view; 4 to 400 */
 };
 
 /* A 3840 pixel wide, 0.7 m wide screen seen from 0.7 m. */
@@ -20,8 +20,8 @@ struct kiln_flip_pair {
     uint32_t width, height; /* both at least 1 */
 };
 
-/* False with KILN_INVALID_INPUT and the place when one picture of the pair has a value that is not
- * finite. */
+/* Checks that picture, one of the pair, has finite values only. Returns false with
+ * KILN_INVALID_INPUT and the place of another value. */
 bool kiln_flip_check_finite(const float *picture, const struct kiln_flip_pair *pair,
                             struct kiln_error *error);
 
@@ -38,10 +38,10 @@ struct kiln_flip_exposures {
 };
 enum { KILN_FLIP_MAX_EXPOSURES = 64 };
 
-/* Chooses the exposures from the reference alone: from the one at which its brightest pixel is just
- * not burnt out, to the one at which its median is as bright as that. A reference whose median is
- * black (fire on black) gets the darkest exposure that its light bears, never an empty range, in
- * which any two pictures would be equal. The test picture may be NULL. False with
+/* Chooses the exposures from the reference alone. At the first one, its brightest pixel is
+ * tone-mapped to 0.85; at the last one, its median is. A reference whose median is black (fire on
+ * black) counts as one with a median of 2^-16 of its brightest pixel: the range is never empty,
+ * since any two pictures would be equal in an empty range. The test picture may be NULL. False with
  * KILN_INVALID_INPUT when a value of the reference is not finite, with KILN_DEVICE_FAILED when
  * memory is short. */
 bool kiln_flip_choose_exposures(const struct kiln_flip_pair *pair,

@@ -1,5 +1,5 @@
-/* Computes HDR-FLIP (EG 2021): LDR-FLIP at every exposure at which something of the reference can
- * be seen. The worst error of each pixel counts. */
+/* Computes HDR-FLIP (EG 2021): LDR-FLIP at several exposures, which cover the light of the
+ * reference. The largest error of each pixel counts. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 static const double ACES[6] = {0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.0,
                                0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
 
-/* The darkest median that still tells how to expose, relative to the brightest pixel: 2^-16. */
+/* The least median that the last exposure is chosen by, relative to the brightest pixel: 2^-16. */
 static const double LEAST_MEDIAN = 1.0 / 65536.0;
 
 static float luminance(const float rgb[3])
@@ -53,7 +53,8 @@ bool kiln_flip_choose_exposures(const struct kiln_flip_pair *pair,
     double median = (double)values[pixels / 2];
     free(values);
 
-    /* With a black reference, any light of the test picture shows at the picture's own exposure. */
+    /* If the reference is black, any light of the test picture shows without an exposure, at 0
+     * stops. */
     if (!(brightest > 0.0)) {
         *exposures = (struct kiln_flip_exposures){.start = 0.0f, .stop = 1.0f, .count = 2};
         return true;

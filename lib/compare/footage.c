@@ -1,6 +1,6 @@
 /* Lists the frames of a picture, a folder, a numbered pattern or a video, and decodes them in
- * order. Folders and patterns are listed at once, so that frames that are missing or too many on
- * either side show. Of a video, kiln knows only by decoding whether there is a next frame. */
+ * order. Folders and patterns are listed when they are opened, so that missing and additional
+ * frames of either side are found. Only decoding tells whether a video has a next frame. */
 #include "compare/footage.h"
 
 #include <dirent.h>
@@ -30,7 +30,7 @@ struct kiln_footage {
     struct entry *entries;
     size_t count, capacity, next;
 
-    struct kiln_loader *loader; /* keeps the process that decodes for the next picture */
+    struct kiln_loader *loader; /* keeps the decoding process for the next picture */
     struct kiln_video_in *video;
     struct kiln_asset_image *image; /* decoded ahead */
     struct kiln_error video_error;
@@ -72,7 +72,7 @@ static bool is_picture(const char *name)
     return false;
 }
 
-/* Whether the name is what the pattern makes of a number, which goes to *number. */
+/* Returns whether the pattern makes this name of a number, which *number receives. */
 static bool has_number(const struct kiln_path_pattern *pattern, const char *folder,
                        const char *name, uint32_t *number)
 {
@@ -134,7 +134,7 @@ static bool list_entries(struct kiln_footage *footage, const struct kiln_path_pa
 
 /* ---- Opening ------------------------------------------------------------------------------ */
 
-/* Splits the path of a picture into its folder, with the slash, and the name behind it. */
+/* Splits the path of a picture into its folder, with the slash, and the name after it. */
 static bool open_still(struct kiln_footage *footage, struct kiln_error *error)
 {
     const char *slash = strrchr(footage->path, '/');

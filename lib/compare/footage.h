@@ -26,23 +26,23 @@ void kiln_footage_close(struct kiln_footage **footage);
 enum kiln_footage_kind kiln_footage_kind(const struct kiln_footage *footage);
 const char *kiln_footage_path(const struct kiln_footage *footage);
 
-/* The next frame. */
+/* A frame that is next to be taken. */
 struct kiln_footage_frame {
-    const char *name; /* the name of its file, or its number; until the next call */
+    const char *name; /* the name of its file, or its number; valid until the next call */
     uint32_t number;
 };
 
-/* Tells of the next frame; false at the end. A frame that cannot be decoded is found by
- * kiln_footage_take. */
+/* Finds the next frame without taking it; returns false at the end. Only kiln_footage_take finds
+ * out whether the frame can be decoded. */
 bool kiln_footage_peek(struct kiln_footage *footage, struct kiln_footage_frame *frame);
 
-/* Gives the file of the frame that kiln_footage_peek told of. KILN_INVALID_INPUT when its path is
- * too long. */
+/* Makes the path of the file of the frame that kiln_footage_peek found. KILN_INVALID_INPUT when it
+ * is too long. */
 bool kiln_footage_file(const struct kiln_footage *footage, char path[KILN_PATH_SIZE],
                        struct kiln_error *error);
 
-/* Visits the frames that are known to be there, wherever reading has come to: all of them, but only
- * the first of a video. Stops and returns false when a visit does. */
+/* Visits all frames, also those that were taken already; of a video, whose count is not known, it
+ * visits only the first frame. Stops and returns false when a visit does. */
 bool kiln_footage_visit(const struct kiln_footage *footage,
                         bool (*visit)(void *user, const struct kiln_footage_frame *frame),
                         void *user);
@@ -51,8 +51,8 @@ bool kiln_footage_visit(const struct kiln_footage *footage,
 bool kiln_footage_claim(const struct kiln_footage *footage, const char *what,
                         struct kiln_claims *claims, struct kiln_error *error);
 
-/* Decodes the frame that kiln_footage_peek told of, which the caller destroys, and goes on to the
- * next frame; NULL with the error. A video ends at its first error. */
+/* Decodes the frame that kiln_footage_peek found and goes on to the next one. The caller destroys
+ * the picture. Returns NULL with the error. A video ends at its first error. */
 struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct kiln_error *error);
 void kiln_footage_skip(struct kiln_footage *footage);
 

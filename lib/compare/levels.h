@@ -5,7 +5,8 @@
 
 #include "compare/subject.h"
 
-/* A pixel's difference is that of its worst channel, alpha included. */
+/* The difference of two pictures. A pixel's difference is that of its worst channel, alpha
+ * included. */
 struct kiln_level_difference {
     double maximum;     /* levels */
     double mean;        /* over all pixels and channels */
@@ -15,12 +16,13 @@ struct kiln_level_difference {
     uint32_t window_width,
         window_height;           /* the window's edge, or the picture's where that is less */
     uint32_t window_x, window_y; /* the upper left corner of the densest window */
-    uint64_t window_differing;   /* pixels beyond the threshold in it */
+    uint64_t window_differing;   /* differing pixels in that window */
 };
 
-/* Measures the difference. Pixels that differ by more than threshold levels (0 or more) are
- * differing. The densest window is the one of window x window pixels (1 or more) with most of them.
- * The two pictures must match. False with KILN_DEVICE_FAILED when memory is short. */
+/* Measures the difference. A pixel counts as differing if it differs by more than threshold levels
+ * (0 or more). The densest window is the one of window x window pixels (1 or more) with most
+ * differing pixels. The two pictures must match. False with KILN_DEVICE_FAILED when memory is
+ * short. */
 bool kiln_level_difference_measure(const struct kiln_subject *reference,
                                    const struct kiln_subject *test, double threshold,
                                    uint32_t window, struct kiln_level_difference *difference,

@@ -1,5 +1,5 @@
-/* Takes all measures of the difference of two pictures. The table of metric.c makes numbers with
- * names of them. */
+/* Takes all measures of the difference of two pictures. The table in metric.c turns them into named
+ * metrics. */
 #ifndef KILN_COMPARE_MEASURE_H
 #define KILN_COMPARE_MEASURE_H
 
@@ -7,7 +7,7 @@
 #include "compare/pool.h"
 
 struct kiln_measure_params {
-    bool hdr;                 /* FLIP at several exposures of the reference, instead of clamped */
+    bool hdr;                 /* HDR-FLIP at several exposures, instead of clamped values */
     double pixels_per_degree; /* 4 to 400 */
     double threshold;         /* levels; a pixel that differs by more is a differing one */
     uint32_t window;          /* pixels, at least 1 */
@@ -24,7 +24,8 @@ struct kiln_measurement {
 
 /* Measures two pictures. FLIP and SSIM of pictures with alpha are taken on black and on white, and
  * the worse of the two counts. Returns false when the pictures do not match (KILN_FRAME_FAILED), or
- * when a part of the measurement fails. The measurement must be finished in either case. */
+ * when a part of the measurement fails. In either case, the caller must call
+ * kiln_measurement_finish. */
 bool kiln_measurement_take(struct kiln_measurement *measurement,
                            const struct kiln_subject *reference, const struct kiln_subject *test,
                            const struct kiln_measure_params *params, struct kiln_threads *threads,

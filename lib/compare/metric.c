@@ -15,13 +15,13 @@ struct metric_value {
 };
 
 struct kiln_metric {
-    const char *name; /* ending in N: N stands for any number from 0 to 100; such a metric is in a
+    const char *name; /* an N at its end stands for any number from 0 to 100; such a metric is in a
                          report only if a limit asks for it */
     const char *unit;
     const char *help;
     bool higher_is_better;
     double percentile;
-    double least, most; /* limits that make sense */
+    double least, most; /* the range of valid limits */
     bool (*compute)(struct metric_value *value);
 };
 
@@ -185,7 +185,7 @@ static bool unknown_metric(const char *limit, const char *name, struct kiln_erro
                           nearest ? nearest : "", nearest ? "'?)" : "");
 }
 
-/* Returns the column of that name, which is made for a percentile that has none yet. */
+/* Returns the column of that name. A percentile that has no column yet gets one. */
 static struct kiln_compare_column *find_column(struct kiln_metric_set *set, const char *limit,
                                                const char *name, struct kiln_error *error)
 {
@@ -266,7 +266,7 @@ bool kiln_metric_set_make(struct kiln_metric_set *set, const char *const *limits
     return true;
 }
 
-/* Returns how much of its limit a value takes up; 1 is all of it. */
+/* Returns the share of its limit that a value takes up; 1 is at the limit. */
 static double score_of(const struct kiln_compare_column *column, double value)
 {
     double over = column->higher_is_better ? column->limit : value;

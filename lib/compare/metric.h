@@ -1,5 +1,5 @@
-/* Declares the metrics of comparisons: one table makes the columns of reports, the names of limits
- * and the help. */
+/* Declares the metrics of comparisons. The table in metric.c makes the columns of reports, the
+ * names of limits and the help. */
 #ifndef KILN_COMPARE_METRIC_H
 #define KILN_COMPARE_METRIC_H
 
@@ -21,7 +21,8 @@ struct kiln_metric_set {
 bool kiln_metric_set_make(struct kiln_metric_set *set, const char *const *limits,
                           size_t limit_count, struct kiln_error *error);
 
-/* Fills the values of a frame, which of them are beyond their limits, its score and its verdict. */
+/* Fills the values of a frame, the flags of values beyond their limits, its score and its verdict.
+ */
 bool kiln_metric_set_judge(const struct kiln_metric_set *set,
                            const struct kiln_measurement *measurement,
                            struct kiln_compare_frame *frame, struct kiln_error *error);

@@ -34,8 +34,8 @@ bool kiln_pool_errors(const float *errors, size_t count, struct kiln_error_pool 
     return kiln_pool_percentile(errors, count, 0.5, &pool->weighted_median, error);
 }
 
-/* Adds each error to the bucket of its upper half, or of its lower half where the upper one is
- * `upper`. */
+/* Adds each error to the bucket of its bits' upper half or, with `lower`, to the bucket of their
+ * lower half if the upper half is `upper`. */
 static void fill_buckets(const float *errors, size_t count, bool lower, uint32_t upper,
                          double *buckets)
 {
@@ -49,8 +49,8 @@ static void fill_buckets(const float *errors, size_t count, bool lower, uint32_t
     }
 }
 
-/* Returns the first bucket at which *sum, grown by the buckets before, exceeds limit; if none does,
- * the last one with something in it. */
+/* Adds buckets to *sum and returns the first one that would make it exceed limit; if none does,
+ * returns the last bucket that is not empty. *sum is without the bucket that is returned. */
 static uint32_t find_bucket(const double *buckets, double limit, double *sum)
 {
     uint32_t last = 0;

@@ -5,7 +5,7 @@
 #include "kiln.h"
 
 /* Percentiles are weighted by the errors themselves: with errors in ascending order, a percentile
- * is the first one at which the running sum exceeds that part of the sum of all. */
+ * is the first error at which the running sum exceeds that part of the total sum. */
 struct kiln_error_pool {
     double mean, weighted_median, minimum, maximum;
 };

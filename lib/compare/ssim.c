@@ -34,7 +34,7 @@ static struct work work_of(const struct ssim *ssim, uint32_t worker)
     return (struct work){start, start + (BAND_ROWS + 1) * row, start + BAND_ROWS * row};
 }
 
-/* Returns what the weights of a window around `at` sum to, when the window is cut off at the ends.
+/* Returns the sum of the weights of a window around `at`, which is cut off at the picture's edges.
  */
 static float total_weight(const struct ssim *ssim, size_t at, size_t count)
 {

@@ -12,7 +12,7 @@ struct conversion {
     const struct kiln_asset_image *image;
     const uint8_t *masked; /* or NULL */
     struct kiln_subject *subject;
-    float linear_of[256], level_of[256]; /* for eight bits */
+    float linear_of[256], level_of[256]; /* for 8-bit pictures */
     atomic_size_t bad;                   /* the first pixel that is not finite; SIZE_MAX: none */
 };
 

@@ -7,14 +7,14 @@
 #include "base/thread.h"
 
 /* One side of a comparison, with rows from the top. A level is 1/255 of the way from black to white
- * in sRGB's encoding. The encoding goes on as it is beyond white and is mirrored below black, so
- * that light of any strength has a level. */
+ * in sRGB's encoding. Beyond white, the encoding's formula goes on; below black, it is mirrored. So
+ * light of any strength has a level. */
 struct kiln_subject {
     uint32_t width, height;
     uint32_t channels; /* of the file: 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha */
-    bool hdr;          /* made from floats: may go beyond white */
+    bool hdr;          /* made from floats: values may exceed white */
     float *linear;     /* three a pixel, multiplied by alpha */
-    float *levels;     /* three a pixel, of what is in linear */
+    float *levels;     /* three a pixel, the levels of linear */
     float *alpha;      /* 0..1; NULL without alpha */
 };
 
@@ -26,7 +26,8 @@ struct kiln_subject *kiln_subject_create(const struct kiln_asset_image *image,
                                          struct kiln_threads *threads, struct kiln_error *error);
 void kiln_subject_destroy(struct kiln_subject **subject);
 
-/* False with KILN_FRAME_FAILED when sizes or channels differ; the message says what they are. */
+/* Checks that sizes and channels are equal. Returns false with KILN_FRAME_FAILED and a message that
+ * names them. */
 bool kiln_subject_match(const struct kiln_subject *reference, const struct kiln_subject *test,
                         struct kiln_error *error);
 
