@@ -83,7 +83,7 @@ static enum kiln_code convert_integer(struct conversion *conversion)
                           : fail(conversion, KILN_INVALID_INPUT, "the image cannot be converted");
 }
 
-/* A palette may have alpha; whether it does shows in the pixels. */
+/* Returns the channels of a frame. Only the pixels tell whether a palette has alpha. */
 static uint32_t count_channels(const AVPixFmtDescriptor *layout,
                                const struct kiln_asset_image *image)
 {
@@ -138,7 +138,8 @@ enum kiln_code decode_avframe(const AVFrame *frame, struct kiln_asset_image **im
     return code;
 }
 
-/* The fast transforms of JPEG and MPEG round differently on each kind of processor. */
+/* Without these settings, the fast transforms of JPEG and MPEG round differently on each kind of
+ * processor. */
 void decode_same_everywhere(AVCodecContext *decoder)
 {
     decoder->flags |= AV_CODEC_FLAG_BITEXACT;

@@ -5,8 +5,9 @@
 #include "asset/image/image.h"
 #include "base/ffmpeg.h"
 
-/* Makes a picture of a decoded frame; the caller destroys it. A code other than KILN_OK comes with
- * the fault as static text: KILN_INVALID_INPUT, or KILN_DEVICE_FAILED when memory is short. */
+/* Makes a picture of a decoded frame; the caller destroys it. With a code other than KILN_OK,
+ * *problem is the fault as static text: KILN_INVALID_INPUT, or KILN_DEVICE_FAILED when memory is
+ * short. */
 enum kiln_code decode_avframe(const AVFrame *frame, struct kiln_asset_image **image,
                               const char **problem);
 

@@ -1,7 +1,7 @@
-/* This file locks the process in before it reads a byte of an untrusted file. It limits memory,
+/* This file confines the process before it reads a byte of an untrusted file. It limits memory,
  * files and processor time, and allows no files by name, no new descriptors but those that kiln
- * sends, no other processes and no new code. The decoders are not trusted; what one layer lets
- * through, the next one stops. */
+ * sends, no other processes and no new code. The decoders are not trusted, so several layers
+ * confine them: resource limits, Landlock and seccomp. */
 #include "base/confine.h"
 
 #include <errno.h>
@@ -18,8 +18,9 @@
 #include "base/error.h"
 #include "decode.h"
 
-/* Bytes beyond what the process has when it begins. A picture of the largest size takes 1 GiB as
- * floats, as the decoder has it and as kiln wants it. */
+/* The most memory for each kind of file, in bytes beyond those that the process has when it begins.
+ * A picture of the largest size takes 1 GiB as floats in the decoder, and 1 GiB in kiln's layout.
+ */
 static const uint64_t most_memory_of[] = {
     [KILN_DECODE_PNG] = (uint64_t)1 << 30,     [KILN_DECODE_PICTURE] = (uint64_t)3 << 30,
     [KILN_DECODE_EXR] = (uint64_t)3 << 30,     [KILN_DECODE_VIDEO] = (uint64_t)4 << 30,
@@ -27,14 +28,14 @@ static const uint64_t most_memory_of[] = {
 };
 
 enum {
-    MOST_CPU_SECONDS = 3600, /* in all; kiln waits for less with each file, or frame of a video */
-    MOST_DESCRIPTORS = 16,   /* the three of every process, the socket, files that kiln sends */
+    MOST_CPU_SECONDS = 3600, /* for all files; kiln waits less long for one file or frame */
+    MOST_DESCRIPTORS = 16,   /* the three of every process, the socket, and files from kiln */
 };
 
-/* The limit of memory, bytes, if this process has set it; 0: another one was there and is lower. */
+/* The limit of memory that this process has set, in bytes; 0 if a lower limit was there already. */
 static uint64_t own_limit;
 
-/* That is the limit of the job, and not what the kind of file may take at most. */
+/* Whether own_limit is the limit of the job, which is lower than that of the kind of file. */
 static bool is_limited;
 
 bool decode_out_of_memory(struct kiln_error *error)
@@ -46,7 +47,7 @@ bool decode_out_of_memory(struct kiln_error *error)
                           (unsigned long long)(own_limit >> 20));
 }
 
-/* Returns the bytes of data in use, by the sixth number of statm. */
+/* Returns the bytes of data in use, from the sixth number of /proc/self/statm. */
 static uint64_t bytes_in_use(void)
 {
     char text[256] = "";
@@ -61,12 +62,12 @@ static uint64_t bytes_in_use(void)
         number = strchr(number, ' ');
         number = number ? number + 1 : NULL;
     }
-    /* In a sandbox of kiln's, /proc cannot be read: libraries take less than this. */
+    /* In kiln's sandbox, /proc cannot be read. The libraries take less than this. */
     const uint64_t unknown = (uint64_t)256 << 20;
     return number ? strtoull(number, NULL, 10) * (uint64_t)sysconf(_SC_PAGESIZE) : unknown;
 }
 
-/* Lowers a limit; true if it was higher. */
+/* Lowers a resource limit. Returns true if the soft limit was higher. */
 static bool lower(int resource, uint64_t soft, uint64_t hard)
 {
     struct rlimit limit;
@@ -90,7 +91,7 @@ static void limit_resources(enum kiln_decode_kind kind, uint64_t most_memory)
     lower(RLIMIT_NOFILE, MOST_DESCRIPTORS, MOST_DESCRIPTORS);
     if (kind != KILN_DECODE_VIDEO)
         lower(RLIMIT_CPU, MOST_CPU_SECONDS, MOST_CPU_SECONDS);
-    /* The sanitizers' own tables are larger than any limit. */
+    /* Sanitizers have tables that are larger than any limit, so there is no limit with them. */
     if (!KILN_UNCONFINED && lower(RLIMIT_DATA, bytes_in_use() + most, bytes_in_use() + most) &&
         getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur == RLIM_INFINITY)
         own_limit = most;
@@ -117,7 +118,7 @@ static const struct kiln_system_call allowed[] = {
     CALL(close),
     CALL(fstat),
     CALL(fstat64),
-    /* what is sent and received goes over the one socket that there is */
+    /* the only socket is the one to kiln */
     CALL(recvmsg),
     CALL(recvfrom),
     CALL(recv),
@@ -126,7 +127,7 @@ static const struct kiln_system_call allowed[] = {
     CALL(sendmsg),
     CALL(poll),
     CALL(ppoll),
-    /* memory, but none that holds code */
+    /* memory, but none that is executable */
     CALL(brk),
     CALL(munmap),
     CALL(mremap),
@@ -156,7 +157,8 @@ bool decode_confine(enum kiln_decode_kind kind, uint64_t most_memory, struct kil
     struct kiln_system_call calls[sizeof allowed / sizeof *allowed + 3];
     size_t count = sizeof allowed / sizeof *allowed;
     memcpy(calls, allowed, sizeof allowed);
-    /* Only memory of its own, which the limit counts: not shared, and no stack that grows. */
+    /* mmap may only map private memory, which the limit counts: no shared memory, and no stack that
+     * grows. */
     static const int maps[] = {SCMP_SYS(mmap), SCMP_SYS(mmap2)};
     for (size_t i = 0; i < 2; i++)
         calls[count++] = (struct kiln_system_call){.number = maps[i],
@@ -164,11 +166,12 @@ bool decode_confine(enum kiln_decode_kind kind, uint64_t most_memory, struct kil
                                                    .mask = PROT_EXEC,
                                                    .and_argument = 3,
                                                    .and_mask = MAP_SHARED | MAP_GROWSDOWN};
-    /* abort() sends itself a signal, and nobody else gets one. */
+    /* abort() sends a signal to this process. No other process may get one. */
     calls[count++] = (struct kiln_system_call){
         .number = SCMP_SYS(tgkill), .mask = UINT32_MAX, .value = (uint64_t)getpid()};
     limit_resources(kind, most_memory);
-    /* The process does not outlive the thread of kiln that started it, whatever it does. */
+    /* The kernel ends this process with the thread of kiln that started it, whatever the process
+     * does. */
     return (prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) == 0 ||
             kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "PR_SET_PDEATHSIG")) &&
            kiln_seccomp_open(error) &&

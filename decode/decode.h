@@ -1,6 +1,6 @@
 /* Declares kiln-decode, a process that decodes files from untrusted sources for kiln. It confines
  * itself, so that a malicious file that takes it over can do no more than send wrong pictures. Its
- * messages do not have the file's name, which only kiln knows. */
+ * messages do not name the file, since only kiln knows the name. */
 #ifndef KILN_DECODE_H
 #define KILN_DECODE_H
 
@@ -11,12 +11,13 @@
 /* ---- confinement (confine.c) ----------------------------------------------------------------- */
 
 /* Gives up every right except to compute, to take memory and to use the descriptors that are open.
- * What the kernel is too old for is left out. False when the kernel refuses what its version
- * supports. */
+ * Mechanisms that the kernel is too old for are skipped. Returns false when the kernel refuses a
+ * mechanism that its version supports. */
 bool decode_confine(enum kiln_decode_kind kind, uint64_t most_memory, struct kiln_error *error);
 
-/* Reports a failed allocation: KILN_INVALID_INPUT when the process's own limit caused it, which
- * only a file that asks for too much reaches, else KILN_DEVICE_FAILED. Returns false. */
+/* Reports a failed allocation: KILN_OVER_LIMIT when the job's limit caused it, KILN_INVALID_INPUT
+ * when the limit for the kind of file did, which only a file that asks for too much reaches, else
+ * KILN_DEVICE_FAILED. Returns false. */
 bool decode_out_of_memory(struct kiln_error *error);
 
 /* ---- pictures -------------------------------------------------------------------------------- */
@@ -34,7 +35,8 @@ struct decode_picture {
 };
 
 /* Checks a picture's size against the limits of image.h and most_pixels (KILN_OVER_LIMIT), and
- * stores it. It is called before memory is taken for pixels. name: "PNG". */
+ * stores it. It is called before memory is taken for pixels. name is that of the format, such as
+ * "PNG". */
 bool decode_allows_size(struct decode_picture *picture, const char *name, int64_t width,
                         int64_t height);
 
@@ -47,12 +49,12 @@ struct kiln_asset_image *decode_exr(struct decode_picture *picture);
 
 struct decode_video;
 
-/* Opens the one video stream of a file, whose descriptor stays the caller's. */
+/* Opens the video stream of a file. The caller keeps the descriptor. */
 struct decode_video *decode_video_open(int file, struct kiln_error *error);
 void decode_video_close(struct decode_video **video);
 
-/* The next frame, in the order of display: true with the image, which the caller destroys, or with
- * NULL after the last one. */
+/* Decodes the next frame, in the order of display. Returns true with the image, which the caller
+ * destroys, or with NULL after the last frame. */
 bool decode_video_read(struct decode_video *video, struct kiln_asset_image **image,
                        struct kiln_error *error);
 
@@ -60,36 +62,37 @@ bool decode_video_read(struct decode_video *video, struct kiln_asset_image **ima
 
 struct decode_mesh {
     enum kiln_mesh_format format;
-    bool uvs;    /* wanted */
-    bool moving; /* nodes, bones and clips are wanted, and vertices before these */
+    bool uvs;    /* texture coordinates are wanted */
+    bool moving; /* nodes, bones and clips are wanted, and vertices that these have not moved */
     const void *bytes;
     size_t size;
-    /* Another file that this one names, whose bytes the importer frees; NULL: it may not be had. */
+    /* Returns the bytes of another file that this one names, which the importer frees, or NULL if
+     * it may not be read. */
     unsigned char *(*open)(void *user, const char *name, size_t *size);
     void *user;
 };
 
-/* Opens the importer. */
+/* Opens the importer's library, before the process is confined. */
 bool decode_mesh_begin(struct kiln_error *error);
 
-/* Imports on this process, whatever that takes. */
+/* Imports a mesh in this process. Only kiln limits the time (lib/asset/loader/helper.c). */
 bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
                  struct kiln_error *error);
 
 struct aiScene;
 
-/* Says that a mesh is too large; returns false. */
+/* Sets the error that a mesh is too large; returns false. */
 bool decode_refuse_size(struct kiln_error *error);
 
-/* All of a scene that stands still, in one piece. */
+/* Makes one surface of all meshes of a scene that does not move. */
 bool decode_surface(const struct decode_mesh *wanted, const struct aiScene *scene,
                     struct kiln_mesh_result *result, struct kiln_error *error);
 
-/* Appends all meshes of a scene that moves, and what moves them. */
+/* Appends all meshes of a scene that moves, and the nodes, bones and clips that move them. */
 bool decode_skin(const struct decode_mesh *wanted, const struct aiScene *scene,
                  struct kiln_mesh_result *result, struct kiln_error *error);
 
-/* The text of a glTF file, or that of the first chunk of a GLB. */
+/* Returns the text of a glTF file, or that of the first chunk of a GLB. */
 const char *decode_mesh_json(const struct decode_mesh *mesh, size_t *size);
 
 #endif

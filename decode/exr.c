@@ -1,14 +1,14 @@
 /* This file decodes one layer of an OpenEXR file by OpenEXR's C core. decode/main.c calls
  * decode_exr once a request of kind KILN_DECODE_EXR, in the process kiln-decode, which has confined
- * itself. choose_kind in lib/asset/image/image.c decides which files come here: of tiled files,
- * FFmpeg decodes the layer "beauty" instead (picture.c).
+ * itself. choose_kind in lib/asset/image/image.c decides which files come here: FFmpeg decodes the
+ * layer "beauty" of tiled files instead (picture.c).
  *
  * A confined process can open no file, so OpenEXR reads the file from memory, through on_read. Each
  * chunk of scan lines is decoded straight into the picture, as four floats a pixel.
  *
  * The file may be malicious, so the picture's size is checked before memory is taken for the
- * pixels. Only parts in scan lines are read, and only channels of full resolution: read_pixels
- * knows no other. */
+ * pixels. Only parts in scan lines are read, and only channels of full resolution: read_pixels can
+ * read no others. */
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,7 @@ struct reading {
     struct decode_picture *picture;
     exr_context_t file;
     int part;
-    const char *channels[4]; /* name in the file for R, G, B and A; NULL: the layer has none */
+    const char *channels[4]; /* names in the file for R, G, B and A; NULL: the layer lacks it */
     int32_t left, top;       /* first pixel of the data window, which need not be at 0 */
     struct kiln_asset_image *image;
 };

@@ -1,6 +1,6 @@
-/* This file is the program kiln-decode: it opens the libraries of one kind of files, locks itself
- * in, and then decodes what kiln sends, file by file, until kiln's end of the socket closes.
- * Pictures of all kinds and meshes are read whole; of a video, frame after frame is sent. */
+/* This file is the program kiln-decode: it opens the libraries of one kind of files, confines
+ * itself, and then decodes the files that kiln sends, one by one, until kiln's end of the socket
+ * closes. Pictures and meshes are read as a whole; a video is read and sent frame by frame. */
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -31,7 +31,7 @@ static bool watch_socket(void)
 {
     struct stat status;
     struct sigaction action = {.sa_handler = on_socket, .sa_flags = SA_RESTART};
-    static const int ignored[] = {SIGINT, SIGQUIT, SIGHUP, SIGPIPE}; /* of kiln's terminal */
+    static const int ignored[] = {SIGINT, SIGQUIT, SIGHUP, SIGPIPE}; /* from kiln's terminal */
     for (size_t i = 0; i < sizeof ignored / sizeof *ignored; i++)
         signal(ignored[i], SIG_IGN);
     return fstat(KILN_DECODE_SOCKET, &status) == 0 && S_ISSOCK(status.st_mode) &&
@@ -75,7 +75,8 @@ static void send_failure(const struct kiln_error *error, const struct decode_pic
     send_answer(&answer);
 }
 
-/* Returns the descriptor that came with the bytes, -1 without one. Ends with kiln. */
+/* Receives bytes from kiln. Returns the descriptor that came with them, or -1. Ends the process
+ * when kiln has ended. */
 static int receive(void *bytes, size_t size)
 {
     union {
@@ -265,7 +266,7 @@ static bool open_libraries(enum kiln_decode_kind kind, struct kiln_error *error)
     case KILN_DECODE_KIND_COUNT:
         break;
     }
-    return true; /* they are linked, being small */
+    return true; /* their libraries are small and linked */
 }
 
 static bool find_kind(const char *word, enum kiln_decode_kind *kind)
@@ -281,7 +282,7 @@ static bool find_kind(const char *word, enum kiln_decode_kind *kind)
     return false;
 }
 
-/* kiln-decode KIND BYTES, where BYTES is the most memory that it may take. */
+/* Runs `kiln-decode KIND BYTES`, where BYTES is the most memory that it may take. */
 int main(int argc, char **argv)
 {
     enum kiln_decode_kind kind;

@@ -193,8 +193,8 @@ static enum aiReturn on_seek(struct aiFile *file, size_t offset, enum aiOrigin o
 {
     struct reading *reading = (struct reading *)file->UserData;
     size_t base = origin == aiOrigin_CUR ? reading->at : origin == aiOrigin_END ? reading->size : 0;
-    /* Some importers count the offset from the end backwards, others forwards. They only ever use 0
-     * there, so both are right. */
+    /* Some importers count the offset from the end backwards, others forwards. All of them use only
+     * an offset of 0 from the end, so the direction does not matter. */
     size_t at = base + offset;
     if (at > reading->size)
         return aiReturn_FAILURE;

@@ -1,6 +1,6 @@
-/* This file decodes pictures by FFmpeg's decoders. The whole file is one packet: the format names
- * the decoder, so nothing is probed by name and no demuxer runs. A decoder asks for memory through
- * get_buffer, where the size is checked before a pixel of it exists. */
+/* This file decodes pictures by FFmpeg's decoders. The whole file is one packet, and the request
+ * names the format, so FFmpeg probes nothing and no demuxer runs. A decoder asks for memory through
+ * get_buffer, which checks the size before memory is taken for pixels. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,7 +66,8 @@ bool decode_allows_size(struct decode_picture *picture, const char *name, int64_
            kiln_error_set(picture->error, KILN_OVER_LIMIT, "more pixels than are left");
 }
 
-/* Called by the decoder once it knows the size and before it takes memory for the pixels. */
+/* Checks the size and takes the memory of the pixels. The decoder calls it once it knows the size.
+ */
 static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
 {
     struct decoding *decoding = decoder->opaque;
@@ -76,7 +77,8 @@ static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
         return AVERROR(EINVAL);
     }
     int status = kiln_ff.avcodec_default_get_buffer2(decoder, frame, flags);
-    /* The EXR decoder passes over blocks that are missing or broken; filled with NaN, they show. */
+    /* The EXR decoder skips missing and broken blocks. NaN in their pixels makes avframe.c find
+     * them. */
     if (status >= 0 && decoder->codec_id == AV_CODEC_ID_EXR) {
         for (int i = 0; i < AV_NUM_DATA_POINTERS && frame->buf[i]; i++)
             memset(frame->buf[i]->data, 0xff, frame->buf[i]->size);
@@ -105,7 +107,7 @@ static bool open_decoder(struct decoding *decoding)
     decoding->decoder->thread_count = 1; /* the messages and the limits stay on this thread */
     decoding->decoder->max_pixels = KILN_MAX_IMAGE_PIXELS;
     decoding->decoder->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER;
-    if (id != AV_CODEC_ID_TIFF) /* there it would refuse every tag that FFmpeg does not know */
+    if (id != AV_CODEC_ID_TIFF) /* for TIFF it would refuse every tag that FFmpeg does not know */
         decoding->decoder->err_recognition |= AV_EF_EXPLODE;
     const int status = kiln_ff.avcodec_open2(decoding->decoder, codec, NULL);
     if (status == AVERROR(ENOMEM))
@@ -115,8 +117,9 @@ static bool open_decoder(struct decoding *decoding)
     return true;
 }
 
-/* Checks that a JPEG file is whole, since the decoder makes up what is missing at the end. Scan
- * data holds neither marker, and an embedded thumbnail comes before the scan. */
+/* Checks that a JPEG file is whole, since the decoder makes up pixels that are missing at the end.
+ * The last marker of a scan's start or of the image's end must be the latter: scan data holds
+ * neither marker, and an embedded thumbnail comes before the scan. */
 static bool jpeg_ends(const unsigned char *bytes, size_t size)
 {
     for (size_t i = size; i >= 2; i--) {
@@ -142,7 +145,7 @@ static bool decode_frame(struct decoding *decoding)
         status = kiln_ff.avcodec_receive_frame(decoding->decoder, decoding->frame);
     if (status == AVERROR(ENOMEM))
         return fail_memory(decoding);
-    /* A decoder that had to guess says so as an error and may still give a picture. */
+    /* A decoder that had to guess pixels logs an error and may still give a picture. */
     if (status < 0 || decoding->frame->decode_error_flags || decoding->avlog.first_error[0] ||
         (decoding->frame->flags & AV_FRAME_FLAG_CORRUPT) ||
         (decoding->decoder->codec_id == AV_CODEC_ID_MJPEG && !jpeg_ends(bytes, size))) {

@@ -10,7 +10,7 @@
 
 struct reading {
     struct decode_picture *picture;
-    size_t at; /* of the file's bytes */
+    size_t at; /* position in the file's bytes */
     png_structp png;
     png_infop info;
     struct kiln_asset_image *image;
@@ -64,19 +64,18 @@ static bool open_file(struct reading *reading)
 
 static void choose_chunks(struct reading *reading)
 {
-    /* Everything that libpng knows and a picture does not need. */
+    /* All chunks that libpng knows and that do not change a pixel. */
     static const png_byte ignored[] = "iCCP\0iTXt\0tEXt\0zTXt\0sPLT\0hIST\0eXIf\0pCAL\0sCAL\0oFFs\0"
                                       "pHYs\0tIME\0bKGD\0sBIT\0cHRM";
     enum { IGNORED = sizeof ignored / 5 };
     png_set_keep_unknown_chunks(reading->png, PNG_HANDLE_CHUNK_NEVER, ignored, IGNORED);
     png_set_keep_unknown_chunks(reading->png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
     png_set_crc_action(reading->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-    png_set_user_limits(reading->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); /* judged here instead */
+    png_set_user_limits(reading->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); /* make_image checks it */
     png_set_read_fn(reading->png, reading, on_read);
 }
 
-/* Counts the channels of the file, before a palette or a transparent colour becomes what it stands
- * for. */
+/* Counts the channels of the file, before libpng expands a palette or a transparent colour. */
 static uint32_t count_channels(const struct reading *reading)
 {
     const int type = png_get_color_type(reading->png, reading->info);
@@ -133,7 +132,8 @@ static void read_rows(struct reading *reading)
     png_read_end(reading->png, NULL);
 }
 
-/* A palette may have alpha; whether it does shows in the pixels. */
+/* Sets the channels of a picture with a palette. Only the pixels tell whether a palette has alpha.
+ */
 static void look_for_alpha(const struct reading *reading)
 {
     struct kiln_asset_image *image = reading->image;
@@ -144,7 +144,8 @@ static void look_for_alpha(const struct reading *reading)
         image->channels = pixel[4 * i + 3] != 255 ? 4 : 3;
 }
 
-/* Reads the picture. All of libpng's errors longjmp to here; locals do not change after setjmp. */
+/* Reads the picture. All of libpng's errors longjmp to this function, so its locals must not change
+ * after setjmp. */
 static bool read_file(struct reading *reading)
 {
     if (setjmp(png_jmpbuf(reading->png))) {

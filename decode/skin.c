@@ -1,6 +1,6 @@
-/* This file converts the nodes, bones and clips of a mesh that moves from assimp's scene. Assimp
- * drops how keys are interpolated and which of them the file has, so these are read from the glTF
- * file itself. */
+/* This file converts the nodes, bones and clips of a mesh that moves from assimp's scene. Assimp's
+ * scene does not tell how keys are interpolated, nor which rotations the file has, so both are read
+ * from the glTF file itself. */
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
 #include <libfyaml.h>
@@ -17,10 +17,10 @@ struct skinning {
     const struct aiScene *scene;
     struct kiln_mesh_result *result;
     struct kiln_error *error;
-    struct fy_document *json; /* NULL: the file has none */
+    struct fy_document *json; /* NULL: the file has no JSON */
     const struct aiNode *nodes[KILN_MAX_SKIN_NODES];
-    long numbers[KILN_MAX_SKIN_NODES]; /* of nodes in the file; -1: not in it */
-    bool turned[KILN_MAX_SKIN_NODES];  /* has the clip a rotation of the node? */
+    long numbers[KILN_MAX_SKIN_NODES]; /* numbers of the nodes in the file; -1: not in it */
+    bool turned[KILN_MAX_SKIN_NODES];  /* whether the clip at hand rotates the node */
 };
 
 #define SET(s, ...) kiln_error_set((s)->error, KILN_INVALID_INPUT, __VA_ARGS__)
@@ -48,7 +48,7 @@ static const char *text_of(struct fy_node *node)
     return text ? text : "";
 }
 
-/* Members of a list or of an object (glTF 1), one after the other; NULL: no more of them. */
+/* Returns the next member of a list, or of an object (glTF 1); NULL after the last one. */
 static struct fy_node *next_of(struct fy_node *node, void **at)
 {
     if (node && fy_node_is_sequence(node))
@@ -73,7 +73,7 @@ static bool read_json(struct skinning *s)
 {
     if (s->wanted->format == KILN_MESH_OBJ)
         return true;
-    /* what an exporter adds for itself may have a key twice */
+    /* an exporter's own additions may have a key twice */
     const struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_JSON_FORCE |
                                                  FYPCF_ALLOW_DUPLICATE_KEYS};
     size_t size;
@@ -104,7 +104,8 @@ static bool check_interpolation(const struct skinning *s)
     return true;
 }
 
-/* Assimp's nodes have the names of the file's, or are called after their numbers. */
+/* Finds the numbers of nodes by their names. Assimp's nodes have the names of the file's nodes or,
+ * without a name, "nodes[NUMBER]". */
 static void find_numbers(struct skinning *s)
 {
     const uint32_t count = s->result->skin.node_count;
@@ -256,7 +257,7 @@ static void put_vertex(const struct aiMesh *mesh, unsigned i, float out[6])
     const struct aiVector3D *p = &mesh->mVertices[i];
     struct aiVector3D n = mesh->mNormals ? mesh->mNormals[i] : (struct aiVector3D){0, 1, 0};
     float length = sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
-    if (!(length > 1e-12f && length < 1e12f)) /* of a triangle without an area */
+    if (!(length > 1e-12f && length < 1e12f)) /* the normal of a triangle without an area */
         n = (struct aiVector3D){0, length = 1, 0};
     const float vertex[6] = {p->x, p->y, p->z, n.x / length, n.y / length, n.z / length};
     memcpy(out, vertex, sizeof vertex);
@@ -346,9 +347,9 @@ static bool put_turns(struct skinning *s, const struct aiQuatKey *keys, unsigned
     return true;
 }
 
-/* A node that a clip does not turn gets a rotation from assimp 5.2 nonetheless, that of its matrix:
- * a half turn where it is mirrored, of which the scale that goes with it knows nothing. Such a
- * matrix has its scale alone. */
+/* Removes a rotation that assimp 5.2 adds to a node which the clip does not rotate. Assimp takes it
+ * from the node's matrix; for a mirrored node it is a half turn, although the clip's scale mirrors
+ * the node, too. If the matrix has only a scale, with the same signs, the rotation becomes none. */
 static void mend_turn(const struct skinning *s, const struct kiln_skin_channel *channel)
 {
     struct kiln_skin_result *out = &s->result->skin;
@@ -407,7 +408,7 @@ static bool put_clips(struct skinning *s)
             (int)sizeof clip->name)
             return SET(s, "the name of an animation is longer than %d bytes",
                        KILN_MAX_CLIP_NAME - 1);
-        /* assimp's default where a file says nothing */
+        /* ticks a second; without any, assimp's default */
         const double rate = from->mTicksPerSecond > 0.0 ? from->mTicksPerSecond : 25.0;
         for (unsigned c = 0; c < from->mNumChannels; c++) {
             if (!put_channel(s, from->mChannels[c], rate))

@@ -1,7 +1,7 @@
 /* This file makes one surface of a mesh file that does not move: it places the parts where the
  * file's nodes put them, adds normals where the file has none, and joins equal vertices. Assimp
- * could do that, but its sums are rounded differently on different processors. Here sums are of
- * doubles, and nothing is fused. */
+ * could do that, but its sums are rounded differently on different processors. Here, sums are in
+ * double, and no multiplication is fused with an addition. */
 #include <assimp/scene.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,17 +10,18 @@
 #include "base/error.h"
 #include "decode.h"
 
-/* Edges between triangles are smooth up to 50 degrees: the cosine. Where very many triangles meet,
- * they are smooth together. */
+/* The cosine of 50 degrees, up to which an edge between triangles is smooth. Where more than
+ * MOST_CREASED triangles meet, all edges are smooth. */
 static const double CREASE = 0.6427876096865394;
 enum { MOST_CREASED = 64 };
 
 enum { TABLE_SIZE = 2 * KILN_MAX_MESH_VERTICES }; /* a power of two */
 
-/* A mesh of the file, and where a node has it: rows that take its vertices to their places. */
+/* A mesh of the file as a node places it. `rows` is the matrix that takes its vertices to their
+ * places. */
 struct part {
     const struct aiMesh *mesh;
-    size_t order; /* in the file */
+    size_t order; /* position in the file */
     double rows[3][4];
 };
 
@@ -48,7 +49,7 @@ struct placed {
     double rows[3][4];
 };
 
-/* Places a node by its parent's placement. */
+/* Returns the placement of a node: its parent's matrix times its own. */
 static struct placed place(const struct aiNode *node, const double parent[3][4])
 {
     const struct aiMatrix4x4 *m = &node->mTransformation;
@@ -76,7 +77,7 @@ static size_t count_triangles(const struct aiMesh *mesh)
     return count;
 }
 
-/* Adds a part; one without a triangle is left out. */
+/* Adds a mesh as a part, unless it has no triangle. */
 static bool add_part(struct surface *s, const struct aiMesh *mesh, const double rows[3][4])
 {
     const size_t triangles = count_triangles(mesh);
@@ -113,8 +114,8 @@ static struct placed *push(struct placed **stack, size_t *count, size_t *capacit
     return *stack + *count - more;
 }
 
-/* Walks the tree of nodes, each before its children, without recursion, since an untrusted file
- * decides its depth. */
+/* Adds the parts of all nodes. It walks the tree, each node before its children, without recursion,
+ * since an untrusted file decides the depth. */
 static bool find_parts(struct surface *s, const struct aiScene *scene)
 {
     static const double world[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
@@ -138,7 +139,7 @@ static bool find_parts(struct surface *s, const struct aiScene *scene)
     return ok;
 }
 
-/* Orders parts by material, then as they stand in the file. */
+/* Orders parts by material, then by their position in the file. */
 static int by_material(const void *a, const void *b)
 {
     const struct part *x = a, *y = b;
@@ -149,8 +150,8 @@ static int by_material(const void *a, const void *b)
 
 /* ---- corners --------------------------------------------------------------------------------- */
 
-/* Finds the cofactors of a matrix, which transform normals so that they stay upright on a scaled
- * surface. */
+/* Finds the cofactors of a matrix, which transform normals such that they stay perpendicular to a
+ * scaled surface. */
 static void find_cofactors(const double rows[3][4], double out[3][3])
 {
     for (int row = 0; row < 3; row++) {
@@ -221,8 +222,8 @@ static void put_corners(struct surface *s)
 
 /* ---- normals --------------------------------------------------------------------------------- */
 
-/* The angle of a cosine, to 7e-5 (Abramowitz and Stegun 1964, 4.4.45): by operations that round
- * alike everywhere, which a library's acos does not. */
+/* Returns the angle of a cosine, in radians, within 7e-5 (Abramowitz and Stegun 1964, 4.4.45). Its
+ * operations round alike everywhere, which a library's acos does not. */
 static double angle_of(double cosine)
 {
     const double x = fabs(cosine) < 1 ? fabs(cosine) : 1;
@@ -231,7 +232,7 @@ static double angle_of(double cosine)
     return cosine < 0 ? 3.14159265358979 - angle : angle;
 }
 
-/* Two edges of a triangle, from one of its corners to the next and to the one before. */
+/* Finds two edges of a triangle, from one of its corners to the next one and to the one before. */
 static void find_edges(const struct corner triangle[3], int corner, double a[3], double b[3])
 {
     const float *at = triangle[corner].position;
@@ -264,9 +265,9 @@ static uint32_t hash_of(const void *bytes, size_t size)
     return hash ^ hash >> 15;
 }
 
-/* Adds up the normals of all triangles at a place, or those that do not lie beyond a crease from
- * `own`; each counts by its angle there, so that it does not matter how a surface is divided
- * (Thuermer and Wuethrich 1998). */
+/* Adds up the normals of all triangles at a place or, with `own`, of those without a crease between
+ * them and `own`. A normal is weighted by its triangle's angle there, so that the sum does not
+ * depend on how a surface is divided into triangles (Thuermer and Wuethrich 1998). */
 static void add_up(const struct surface *s, const uint32_t *next, uint32_t first, const double *own,
                    double sum[3])
 {
@@ -280,7 +281,7 @@ static void add_up(const struct surface *s, const uint32_t *next, uint32_t first
     }
 }
 
-/* Gives the corners at a place their normals where the file has none. */
+/* Computes the normals of the corners at a place that have none in the file. */
 static void smooth(struct surface *s, const uint32_t *next, uint32_t first)
 {
     double together[3], sum[3];
@@ -298,7 +299,8 @@ static void smooth(struct surface *s, const uint32_t *next, uint32_t first)
     }
 }
 
-/* Chains the corners at each place, in their order; first[] has the chains. */
+/* Links the corners at each place to a list, in their order. first[] has the first corner of each
+ * list, and next[] the one after each corner. Returns the number of lists. */
 static size_t chain(const struct surface *s, uint32_t *table, uint32_t *next, uint32_t *first)
 {
     size_t count = 0;
@@ -343,7 +345,7 @@ static bool find_normals(struct surface *s)
 
 /* ---- vertices -------------------------------------------------------------------------------- */
 
-/* The number of the vertex that a corner has: an equal one, or a new one. */
+/* Finds the number of a corner's vertex, which is an equal vertex or a new one. */
 static bool join(struct surface *s, uint32_t *table, const struct corner *corner, uint32_t *number)
 {
     struct kiln_mesh_result *result = s->result;

@@ -1,6 +1,6 @@
-/* This file demuxes and decodes videos by FFmpeg. What FFmpeg passes over silently (a file that
- * ends too early, a damaged frame) is an error here, since a comparison must not pass on missing
- * frames. */
+/* This file demuxes and decodes videos by FFmpeg. A file that ends too early or has a damaged
+ * frame, which FFmpeg accepts silently, is an error here, since a comparison must not pass on
+ * missing frames. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@
 enum { IO_BUFFER_SIZE = 1 << 16, MAX_STREAMS = 32, PROBE_BYTES = 5000000 };
 
 struct decode_video {
-    struct kiln_error *error; /* of the call at hand */
+    struct kiln_error *error; /* the error of the present call */
     bool reported;
     struct kiln_avlog avlog;
     int file;
@@ -99,12 +99,12 @@ static bool open_container(struct decode_video *video)
         return fail_memory(video);
     }
     video->container->pb = video->io;
-    video->container->flags |= AVFMT_FLAG_CUSTOM_IO; /* the io is ours to close, opened or not */
+    video->container->flags |= AVFMT_FLAG_CUSTOM_IO; /* this file closes the io in any case */
     video->container->io_open = refuse_file;
     video->container->max_streams = MAX_STREAMS;
     video->container->probesize = PROBE_BYTES;
     AVDictionary *options = NULL;
-    /* What is refused must not be opened because memory was too short to refuse it. */
+    /* If memory is too short for the lists of what is allowed, the file must not be opened. */
     int status = kiln_ff.av_dict_set(&options, "format_whitelist",
                                      "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,gif,apng", 0);
     if (status >= 0)
@@ -126,7 +126,7 @@ static uint64_t big_endian(const unsigned char *bytes, int count)
     return value;
 }
 
-/* Does the file end with these bytes? */
+/* Returns whether the file ends with these bytes. */
 static bool ends_with(const struct decode_video *video, const char *end, size_t size)
 {
     char found[16];
@@ -134,9 +134,9 @@ static bool ends_with(const struct decode_video *video, const char *end, size_t 
            memcmp(found, end, size) == 0;
 }
 
-/* Checks that a file is whole, since FFmpeg takes what is there. MP4 and MOV are a row of boxes,
- * each with its size; AVI is one chunk with its size; GIF and APNG have a last block. Matroska's
- * demuxer reports a missing end itself. */
+/* Checks that a file is whole, since FFmpeg accepts a file that is cut short. MP4 and MOV are a row
+ * of boxes, each with its size; AVI is one chunk with its size; GIF and APNG have a last block.
+ * Matroska's demuxer reports a missing end itself. */
 static bool is_whole(const struct decode_video *video)
 {
     unsigned char b[16];
@@ -164,7 +164,8 @@ static bool is_whole(const struct decode_video *video)
     return true;
 }
 
-/* Called by the decoder once it knows the size and before it takes memory for the pixels. */
+/* Checks the size and takes the memory of the pixels. The decoder calls it once it knows the size.
+ */
 static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
 {
     struct decode_video *video = decoder->opaque;
@@ -181,7 +182,8 @@ static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
     return kiln_ff.avcodec_default_get_buffer2(decoder, frame, flags);
 }
 
-/* The alpha of a WebM video is a second stream, which FFmpeg's own decoder of VP9 leaves out. */
+/* Chooses libvpx for VP9 with alpha, if it is there. The alpha of a WebM video is a second stream,
+ * which FFmpeg's own decoder of VP9 leaves out. */
 static const AVCodec *choose_decoder(const struct decode_video *video, const AVCodec *codec)
 {
     const AVStream *stream = video->container->streams[video->stream];
@@ -263,7 +265,7 @@ void decode_video_close(struct decode_video **video)
 
 /* ---- Reading ------------------------------------------------------------------------------ */
 
-/* Checks that all packets came, whose number MP4 and MOV state. */
+/* Checks that all packets were read. MP4 and MOV state their number. */
 static bool check_end(struct decode_video *video)
 {
     const AVStream *stream = video->container->streams[video->stream];
@@ -296,7 +298,8 @@ static bool feed(struct decode_video *video)
     return status >= 0 || fail_status(video, status, "the video has a broken frame");
 }
 
-/* FFmpeg gives every GIF an alpha; whether it has one shows in the pixels. */
+/* Returns the channels of a GIF's frame. FFmpeg gives every GIF an alpha, so only the pixels tell
+ * whether it has one. */
 static uint32_t count_gif_channels(const struct kiln_asset_image *image)
 {
     const uint8_t *pixels = image->pixels;
