@@ -27,7 +27,7 @@ bool kiln_metric_set_judge(const struct kiln_metric_set *set,
                            const struct kiln_measurement *measurement,
                            struct kiln_compare_frame *frame, struct kiln_error *error);
 
-/* Whether value a of column i is worse than b. */
+/* Returns whether value a of column i is worse than b. */
 bool kiln_metric_set_is_worse(const struct kiln_metric_set *set, size_t i, double a, double b);
 
 #endif

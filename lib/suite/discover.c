@@ -141,8 +141,8 @@ static bool add_file(struct search *search, const char *path, bool in_folder)
 
 /* ---- whether a file is a test ---------------------------------------------------------------- */
 
-/* Whether a line of a text has a key. This decides where the text cannot be parsed: a scene with a
- * fault is a test that fails. */
+/* Returns whether a line of a text has a key. This decides where the text cannot be parsed: a scene
+ * with a fault is a test that fails. */
 static bool has_line_with_key(const char *text, const char *key)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
@@ -214,7 +214,8 @@ static bool is_skipped(const struct search *search, const struct stat *status)
     return false;
 }
 
-/* Whether the folder has goldens, perhaps of another run. The scene beside goldens is no test. */
+/* Returns whether the folder has goldens, perhaps of another run. The scene beside goldens is no
+ * test. */
 static bool has_expect_file(struct dirent *const *entries, int count)
 {
     for (int i = 0; i < count; i++) {

@@ -270,7 +270,7 @@ static const char *describe_change(struct judging *j, const char *picture)
                            *before ? before : "known", j->trial->result->version, picture);
 }
 
-/* Whether the device is `cpu`, which makes the same pixels everywhere. */
+/* Returns whether the device is `cpu`, which makes the same pixels everywhere. */
 static bool is_cpu(const struct judging *j)
 {
     return strcmp(j->trial->rendering.device_name, "cpu") == 0;

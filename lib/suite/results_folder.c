@@ -202,7 +202,7 @@ static bool write_list(struct folder *f)
     return ok;
 }
 
-/* Whether an entry of a folder is neither "." nor "..". */
+/* Returns whether an entry of a folder is neither "." nor "..". */
 static int is_contents(const struct dirent *entry)
 {
     return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
@@ -256,7 +256,7 @@ static bool ends_in(const char *name, const char *suffix)
     return length > end && strcmp(name + length - end, suffix) == 0;
 }
 
-/* Whether a run gives this name to a file in the folder of a test. */
+/* Returns whether a run gives this name to a file in the folder of a test. */
 static bool is_written_by_tests(const char *name)
 {
     if (strncmp(name, "frame_", 6) == 0)
