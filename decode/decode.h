@@ -75,7 +75,7 @@ struct decode_mesh {
 /* Opens the importer's library, before the process is confined. */
 bool decode_mesh_begin(struct kiln_error *error);
 
-/* Imports a mesh in this process. Only kiln limits the time (lib/asset/loader/helper.c). */
+/* Imports a mesh in this process; kiln limits its time (lib/asset/loader/helper.c). */
 bool decode_mesh(const struct decode_mesh *mesh, struct kiln_mesh_result *result,
                  struct kiln_error *error);
 
