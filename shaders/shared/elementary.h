@@ -3,10 +3,12 @@
  * range where its polynomial serves; callers see to the others.
  *
  * shared/exact.h includes this file for single numbers, draw/vector/ray_math.h for vectors, so it
- * has no guard. Before that, each defines ELEMENT, ELEMENT_INT        the type of a number, and of
- * its bits as a signed integer ELEMENT_FN                  what stands before functions
+ * has no guard. Before that, each of them defines:
+ *   ELEMENT, ELEMENT_INT                the type of a number, and of its bits as a signed integer
+ *   ELEMENT_FN                          what stands before functions
  *   ELEMENT_BITS, ELEMENT_OF_BITS, ELEMENT_TRUNCATE, ELEMENT_WHOLE    conversions
- *   ELEMENT_FLOOR, and the names of the functions here: ELEMENT_RCP and so on. */
+ *   ELEMENT_FLOOR                       rounding down
+ *   ELEMENT_RCP and so on               the names of the functions here */
 
 /* Returns 1 / a within 1.5 ulp for 2^-100 <= a <= 2^100: a first guess from the exponent (off by at
  * most 5.1 %) and three Newton steps. */

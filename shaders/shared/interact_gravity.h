@@ -2,10 +2,8 @@
  * distances (Plummer).
  *
  * The sources of a sum are added one by one in the order of their slots, so that it is the same
- * bits however they are cut into tiles; empty slots pull with strength 0.
- * lib/sim/crowd/gravity_simd.c does the same in vectors. Sources may be the particles of another
- * system.
- */
+ * bits however they are cut into tiles; empty slots pull with strength 0. Sources may be the
+ * particles of another system. */
 #ifndef KILN_SHARED_INTERACT_GRAVITY_H
 #define KILN_SHARED_INTERACT_GRAVITY_H
 
@@ -28,27 +26,25 @@ FN float4 gravity_no_source(void)
     return y;
 }
 
-/* Returns 1 / sqrt(x) with a relative error of 8e-7 for 2^-30 <= x <= 2^60. It has one step less
- * than exact_rsqrt, from a better guess, since gravity spends most of its time here (constants: J.
- * Kadlec 2010). */
-FN float gravity_rsqrt(float x)
-{
-    EXACT float guess = BITS_FLOAT(0x5f1ffff9u - (FLOAT_BITS(x) >> 1u));
-    EXACT float square = (x * guess) * guess;
-    EXACT float better = guess * (0.703952253f * (2.38924456f - square));
-    EXACT float halved = 0.5f * x;
-    EXACT float rest = 1.5f - (halved * better) * better;
-    EXACT float y = better * rest;
-    return y;
-}
+#define PULL            float
+#define PULL_FN         FN
+#define PULL_BITS(x)    FLOAT_BITS(x)
+#define PULL_OF_BITS(i) BITS_FLOAT(i)
+#define PULL_RSQRT      gravity_rsqrt
+#define PULL_A_METRE    gravity_a_metre
+#include "shared/gravity_pull.h"
+#undef PULL
+#undef PULL_FN
+#undef PULL_BITS
+#undef PULL_OF_BITS
+#undef PULL_RSQRT
+#undef PULL_A_METRE
 
 /* Adds the acceleration at a place by one more source. */
 FN float3 gravity_add(float3 sum, float3 at, float4 source, float softening_square)
 {
     EXACT float3 to = FLOAT3(source.x - at.x, source.y - at.y, source.z - at.z);
-    EXACT float square = ((to.x * to.x + to.y * to.y) + to.z * to.z) + softening_square;
-    EXACT float inverse = gravity_rsqrt(square);
-    EXACT float pull = ((inverse * inverse) * inverse) * source.w;
+    EXACT float pull = gravity_a_metre(to.x, to.y, to.z, source.w, softening_square);
     EXACT float3 y = FLOAT3(sum.x + to.x * pull, sum.y + to.y * pull, sum.z + to.z * pull);
     return y;
 }

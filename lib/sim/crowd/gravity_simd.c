@@ -1,4 +1,4 @@
-/* This file sums up the gravity between particles in vectors, as gravity_add does for one particle.
+/* This file sums up the gravity between particles in vectors.
  * Each lane adds up all sources in their order, so the width of a vector changes no bit. Two
  * vectors at a time share the loads of a source. */
 #include "sim/crowd/gravity.h"
@@ -30,22 +30,18 @@ static inline struct targets targets_at(const float4 *places)
     return t;
 }
 
-static inline floats rsqrt(floats x)
-{
-    floats guess = (floats)(0x5f1ffff9u - ((words)x >> 1));
-    floats square = (x * guess) * guess;
-    floats better = guess * (0.703952253f * (2.38924456f - square));
-    floats halved = 0.5f * x;
-    floats rest = 1.5f - (halved * better) * better;
-    return better * rest;
-}
+#define PULL            floats
+#define PULL_FN         static inline
+#define PULL_BITS(x)    ((words)(x))
+#define PULL_OF_BITS(i) ((floats)(i))
+#define PULL_RSQRT      rsqrt
+#define PULL_A_METRE    pull_a_metre
+#include "shared/gravity_pull.h"
 
 static inline void add(struct targets *t, const float4 *source, float softening_square)
 {
     floats x = source->x - t->x, y = source->y - t->y, z = source->z - t->z;
-    floats square = ((x * x + y * y) + z * z) + softening_square;
-    floats inverse = rsqrt(square);
-    floats pull = ((inverse * inverse) * inverse) * source->w;
+    floats pull = pull_a_metre(x, y, z, source->w, softening_square);
     t->sum_x += x * pull;
     t->sum_y += y * pull;
     t->sum_z += z * pull;
