@@ -6,15 +6,16 @@
 
 static const struct kiln_option gravity[] = {
     VECTOR(MOTION, "acceleration", vector, KILN_ACCELERATION, -10000, 10000, BOTH, "[0, -9.81, 0]",
-           "Acceleration; upwards for what is lighter than air."),
+           "Acceleration of the particles. It points upwards for gas that is lighter than air."),
     END,
 };
 
 static const struct kiln_option drag[] = {
     VALUE(MOTION, "strength", pull, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
-          "Part of the velocity that is lost a second, for small values."),
+          "Part of the velocity that is lost in a second, for small values."),
     VALUE(MOTION, "quadratic", quadratic, KILN_PER_METRE, 0, 1000, BOTH, "0",
-          "The same by the speed: what air does to all but the smallest and slowest."),
+          "Part of the velocity that is lost in a second for each m/s of speed. Air slows all but "
+          "the smallest and slowest particles this way."),
     END,
 };
 
@@ -26,8 +27,9 @@ static const char *const modes[] = {
 
 #define MODE                                                                                       \
     CHOICE(MOTION, "mode", mode, modes, "pull",                                                    \
-           "pull: towards the velocity of the air; add: it is added in each step, whatever "       \
-           "pull says (UberFlow 2004, 4.2, equation 1), so that more steps accelerate more.")
+           "pull draws particles towards the velocity of the air. add adds the velocity of the "   \
+           "air in each step, regardless of `pull` (UberFlow 2004, 4.2, equation 1), so that "     \
+           "more steps accelerate more.")
 
 static const struct kiln_option wind[] = {
     VECTOR(MOTION, "velocity", vector, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
@@ -44,18 +46,18 @@ static const struct kiln_option curl[] = {
     VALUE(MOTION, "scale", scale, KILN_METRES, 0.001, FAR, TIME, "1 m",
           "Size of the largest eddies."),
     VECTOR(MOTION, "drift", drift, KILN_SPEED, -10000, 10000, TIME, "[0, 0, 0]",
-           "Velocity of the eddies as a whole."),
+           "Velocity at which the whole pattern of eddies moves."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
-    INTEGER(MOTION, "octaves", octaves, 1, 4, "1", "Layers of ever smaller eddies."),
+    INTEGER(MOTION, "octaves", octaves, 1, 4, "1", "Number of layers of ever smaller eddies."),
     MODE,
     END,
 };
 
 static const struct kiln_option field[] = {
     {ROW(MOTION, "file", grid, AT(file), NULL,
-         "Velocities of the air at points of a lattice; between them it moves as they say, beyond "
-         "them as at the edge.")},
+         "A grid of air velocities. They are interpolated between the points of the grid. Outside "
+         "of the grid, the air moves as at the nearest edge.")},
     VALUE(MOTION, "strength", strength, KILN_PLAIN, -1000, 1000, BOTH, "1",
           "Factor on the velocities."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
@@ -74,18 +76,18 @@ static const char *const falloffs[] = {
 
 static const struct kiln_option attract[] = {
     VECTOR(MOTION, "position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
-           "Where they are drawn to."),
+           "Point that particles are drawn to."),
     VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -100000, 100000, BOTH, "1 m/s^2",
-          "Acceleration at a distance of 1 m, but for what the radius takes; away from there where "
-          "it "
-          "is negative."),
+          "Acceleration at a distance of 1 m, before the softening by `radius`. A negative value "
+          "pushes particles away."),
     CHOICE(MOTION, "falloff", falloff, falloffs, "inverse_square",
-           "By the distance: inverse_square like gravity, inverse, constant, or linear like a "
-           "spring."),
+           "How the acceleration falls off with the distance: inverse_square like gravity, "
+           "inverse, constant, or linear like a spring."),
     VALUE(MOTION, "radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.1 m",
-          "Softens at every distance (Plummer): the acceleration is strength * d / (d^2 + "
-          "radius^2)^(n/2), with n of 3, 2, 1 or 0 by the falloff. It is nothing at the position "
-          "itself, and at a distance of three radii 15, 10 or 5 % less than without."),
+          "Softening radius (Plummer): at the distance d, the acceleration is strength * d / (d^2 "
+          "+ radius^2)^(n/2), with n of 3, 2, 1 or 0 by the falloff. The acceleration is 0 at the "
+          "position itself. At a distance of three radii it is 15, 10 or 5 % less than without "
+          "softening, for n of 3, 2 or 1."),
     END,
 };
 
@@ -99,17 +101,20 @@ static const struct kiln_option vortex[] = {
     VECTOR(MOTION, "position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "A point of the axis."),
     VECTOR(MOTION, "axis", drift, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
-           "Direction of the axis, of any length; seen against it, the air turns anticlockwise."),
+           "Direction of the axis, of any length. The air turns anticlockwise when the axis points "
+           "at the viewer."),
     VALUE(MOTION, "speed", strength, KILN_SPEED, -10000, 10000, BOTH, "1 m/s",
-          "Of the air around the axis, at the edge of the core, where it is fastest."),
-    VALUE(MOTION, "radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Of the core."),
+          "Speed of the air around the axis at the edge of the core, where it is fastest."),
+    VALUE(MOTION, "radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Radius of the core."),
     CHOICE(MOTION, "profile", profile, profiles, "rankine",
-           "rankine: the core turns like a solid body, the rest is slower with the distance; "
-           "lamb_oseen: smooth between the two."),
+           "rankine: the core turns like a solid body, and the air outside of it is slower with "
+           "the distance. lamb_oseen: the change from core to outside is smooth."),
     VALUE(MOTION, "inward", inward, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
-          "Of the air towards the axis, at the edge of the core; by the distance like speed."),
+          "Speed of the air towards the axis at the edge of the core. It varies with the distance "
+          "as `speed` does."),
     VALUE(MOTION, "lift", lift, KILN_SPEED, -10000, 10000, TIME, "0 m/s",
-          "Of the air along the axis, on it; half of that at the edge of the core."),
+          "Speed of the air along the axis, measured on the axis. Half of it is left at the edge "
+          "of the core."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air."),
     MODE,
@@ -118,7 +123,7 @@ static const struct kiln_option vortex[] = {
 
 static const struct kiln_option limit[] = {
     VALUE(MOTION, "speed", strength, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
-          "What is above it is taken off the speed, in every step."),
+          "Speed limit: a particle that is faster is slowed down to it in every step."),
     END,
 };
 
@@ -137,12 +142,12 @@ const struct kiln_option_kind kiln_force_kinds[] = {
      .value = KILN_FORCE_CURL,
      .members = curl,
      .shortcut = "strength",
-     .help = "Turbulent air: noise without sources, in which smoke swirls."},
+     .help = "Turbulent air in which smoke swirls: noise without divergence."},
     {.name = "attract",
      .value = KILN_FORCE_ATTRACT,
      .members = attract,
      .shortcut = "strength",
-     .help = "A point that particles seek, or flee (Drone 2007, 7.5.1)."},
+     .help = "A point that attracts particles or repels them (Drone 2007, 7.5.1)."},
     {.name = "vortex",
      .value = KILN_FORCE_VORTEX,
      .members = vortex,
@@ -152,13 +157,13 @@ const struct kiln_option_kind kiln_force_kinds[] = {
      .value = KILN_FORCE_LIMIT,
      .members = limit,
      .shortcut = "speed",
-     .help = "No faster than this; of several, the lowest counts."},
+     .help = "An upper limit of the speed. Of several limits, the lowest counts."},
     {.name = "wind",
      .variant = "uniform",
      .value = KILN_FORCE_WIND,
      .members = wind,
      .shortcut = "velocity",
-     .help = "Air that moves alike everywhere."},
+     .help = "Air that has the same velocity everywhere."},
     {.name = "wind",
      .variant = "curl",
      .value = KILN_FORCE_CURL,
@@ -173,6 +178,6 @@ const struct kiln_option_kind kiln_force_kinds[] = {
      .variant = "grid",
      .value = KILN_FORCE_FIELD,
      .members = field,
-     .help = "Air that moves as a file says (UberFlow 2004, 4.2)."},
+     .help = "Air whose velocities come from a file (UberFlow 2004, 4.2)."},
     {.name = NULL},
 };

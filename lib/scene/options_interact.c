@@ -12,87 +12,100 @@ static const char *const contact_modes[] = {
 
 static const struct kiln_option collide[] = {
     CHOICE(MOTION, "mode", mode, contact_modes, "exact",
-           "exact misses no pair that touches; staggered looks at 8 neighbours to each side in the "
+           "exact misses no pair that touches. staggered tests 8 neighbours to each side in the "
            "order of two grids, as the paper does."),
     VALUE(MOTION, "radius", radius, KILN_METRES, 0, 1000, BOTH, "5 cm",
-          "Of each particle, as a ball."),
+          "Radius of each particle, which collides as a ball."),
     BOOLEAN(MOTION, "as_drawn", as_drawn, "false",
-            "Radii are half of look.size times look.scale instead; the larger are heavier."),
+            "Radii are half of look.size times look.scale instead of `radius`. Larger particles "
+            "are heavier."),
     VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",
-          "Part of the speed of approach that is kept; 1 keeps all energy."),
+          "Part of the speed of approach that two particles keep when they bounce; 1 keeps all "
+          "energy."),
     VALUE(MOTION, "apart", apart, KILN_FRACTION, 0, 1, TIME, "0.5",
-          "Part of what overlaps all the same that is pushed apart in a round."),
+          "Part of an overlap of two particles that is pushed apart in a round."),
     {ROW(MOTION, "fastest", value, AT(fastest), "auto",
-         "Two that approach each other by no more are found before they meet, and do not pass "
-         "through each other, but for who meets another first: that leaves no second collision in "
-         "the step. auto: what the speeds of each step ask for, up to two widths of a particle in "
-         "a step; 0 foresees nothing. For mode exact."),
+         "Speed of approach up to which a pair is found before it meets, for mode exact. Such a "
+         "pair does not pass through each other, unless one of the two has another collision first "
+         "in the same step. auto takes the speed from the particles of each step, up to two widths "
+         "of a particle in a step. 0 looks for no pair ahead of time."),
      LIMITS(KILN_SPEED, 0, 10000), .clocks = TIME, .word = "auto"},
     INTEGER(MOTION, "rounds", rounds, 1, 64, "4",
-            "Collisions that a particle may have in a step; the others wait for the next one."),
+            "Collisions that a particle may have in a step. Further collisions wait for the next "
+            "step."),
     BOOLEAN(MOTION, "spin", spins, "false",
-            "They turn, as solid balls: friction acts where they touch each other, and surfaces "
-            "(collide.friction), so that they come to roll."),
+            "Particles turn as solid balls. Friction acts where they touch each other and where "
+            "they touch surfaces (collide.friction), so that they come to roll."),
     VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 10, TIME, "0.2",
-          "Of those that spin, on each other: so much of what they give each other along the line "
-          "between them, but no more than stops the slip."),
+          "Coefficient of friction between two particles that spin: the impulse along the contact "
+          "as a part of the impulse between their centres, limited to what stops the slip."),
     RANGE(MOTION, "turning", turning, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), TIME,
-          "0 deg/s", "How fast those that spin turn at birth, drawn for each."),
+          "0 deg/s", "Angular speed at birth of particles that spin, drawn for each particle."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -1000, 1000, TIME, "[0, 0, 0]",
-           "About which they turn at birth, of any length; [0, 0, 0] draws one for each."),
+           "Axis about which a particle turns at birth, of any length. [0, 0, 0] draws an axis for "
+           "each particle."),
     VALUE(MOTION, "rolling", rolling, KILN_FRACTION, 0, 1, TIME, "0",
-          "Of those that spin, what rolling costs on surfaces: a moment as if these pushed by so "
-          "much of the radius off the middle."),
+          "Rolling resistance on surfaces of particles that spin: the surface pushes as if it "
+          "touched the ball off its middle by this part of the radius."),
     END,
 };
 
 static const struct kiln_option gravity[] = {
     VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -1e6, 1e6, BOTH, "0.01",
-          "Acceleration that each particle causes at a distance of 1 m; below 0 they repel."),
+          "Acceleration that each particle causes at a distance of 1 m. With a value below 0, "
+          "particles repel each other."),
     VALUE(MOTION, "softening", softening, KILN_METRES, 0.0001, 1000, TIME, "5 cm",
-          "Distance below which attraction fades, as if particles were clouds so large."),
-    {ROW(
-        MOTION, "of", name, AT(of), "self",
-        "The system whose particles attract, if not these themselves: few heavy ones and many that "
-        "only follow take little work. strength is then over the life of those.")},
+          "Softening length: the distance below which attraction fades, as if each particle were a "
+          "cloud of this size."),
+    {ROW(MOTION, "of", name, AT(of), "self",
+         "The system whose particles attract the particles of this system. self means that "
+         "particles of this system attract each other. A few heavy particles that attract many "
+         "light ones take little work. strength varies over the life of the particles that "
+         "attract.")},
     END,
 };
 
 static const struct kiln_option flock_global[] = {
-    VALUE(MOTION, "cohesion", flock.all_cohesion, KILN_ACCELERATION, 0, 1e6, TIME, "0",
-          "For each metre, towards the average position."),
+    VALUE(
+        MOTION, "cohesion", flock.all_cohesion, KILN_ACCELERATION, 0, 1e6, TIME, "0",
+        "Acceleration towards the average position of all particles, for each metre of distance."),
     VALUE(MOTION, "alignment", flock.all_alignment, KILN_PER_SECOND, 0, 1000, TIME, "0",
-          "Towards the average velocity."),
+          "Rate at which a particle takes up the average velocity of all particles."),
     END,
 };
 
 static const struct kiln_option flock[] = {
     VALUE(MOTION, "radius", flock.radius, KILN_METRES, 0.001, 1000, TIME, "1 m",
-          "Of what each sees around itself; the work grows with how many that are."),
+          "Radius within which a particle sees others. The work grows with the number of particles "
+          "that are seen."),
     VALUE(MOTION, "view", flock.view, KILN_ANGLE, 0, KILN_DEG(360), TIME, "360 deg",
-          "Angle of what it sees, about where it flies."),
+          "Angle of the field of view, centred on the direction of flight."),
     VALUE(MOTION, "space", flock.space, KILN_METRES, 0.001, 1000, TIME, "0.4 m",
-          "That it keeps free about itself; at most the radius counts."),
+          "Distance that a particle keeps free around itself. A value above radius counts as "
+          "radius."),
     VALUE(MOTION, "separation", flock.separation, KILN_ACCELERATION, 0, 1e6, TIME, "4 m/s^2",
-          "Away from each that is in that space: so strong at no distance, nothing at its edge."),
-    VALUE(
-        MOTION, "avoidance", flock.avoidance, KILN_ACCELERATION, 0, 1e6, TIME, "0",
-        "Out of the way of each that will come into that space: so strong for what is going to be "
-        "met head-on and at once."),
+          "Acceleration away from each particle within `space`, at a distance of 0. It falls to "
+          "nothing at the edge of the space."),
+    VALUE(MOTION, "avoidance", flock.avoidance, KILN_ACCELERATION, 0, 1e6, TIME, "0",
+          "Acceleration out of the way of each particle that will come within `space`, for one "
+          "that is going to be met head-on and at once."),
     VALUE(MOTION, "horizon", flock.horizon, KILN_SECONDS, 0.001, 1000, TIME, "0.5 s",
-          "How soon that is for avoidance to count."),
+          "How far ahead in time avoidance looks."),
     VALUE(MOTION, "cohesion", flock.cohesion, KILN_ACCELERATION, 0, 1e6, TIME, "1 m/s^2",
-          "For each metre, towards the average position of those that it sees."),
+          "Acceleration towards the average position of the particles that a particle sees, for "
+          "each metre of distance."),
     VALUE(MOTION, "alignment", flock.alignment, KILN_PER_SECOND, 0, 1000, TIME, "1",
-          "Towards their average velocity; differences up to twice the top speed count."),
+          "Rate at which a particle takes up the average velocity of the particles that it sees. "
+          "Differences of velocity count up to twice `fastest`."),
     GROUP(MOTION, "global", 0, flock_global,
-          "The same with all of the system, wherever they are, as the paper does."),
+          "Cohesion and alignment with all particles of the system at any distance, as in the "
+          "paper."),
     VALUE(MOTION, "acceleration", flock.acceleration, KILN_ACCELERATION, 0, 1e6, TIME, "20 m/s^2",
-          "The most by which all of this together steers."),
+          "Largest acceleration by which all of this together steers a particle."),
     VALUE(MOTION, "slowest", flock.slowest, KILN_SPEED, 0, 100000, TIME, "0 m/s",
-          "They fly no slower."),
+          "Lowest speed of a particle."),
     VALUE(MOTION, "fastest", flock.fastest, KILN_SPEED, 0.001, 100000, TIME, "10 m/s",
-          "They fly no faster, but for what forces add."),
+          "Highest speed of a particle, before forces are added."),
     END,
 };
 
@@ -101,25 +114,23 @@ const struct kiln_option_kind kiln_interaction_kinds[] = {
      .value = KILN_INTERACT_COLLIDE,
      .members = collide,
      .shortcut = "radius",
-     .help =
-         "They bounce off each other like balls (UberFlow 2004, 4.4 and 4.5), and meet surfaces "
-         "with their radius (volumes and depth maps of meshes with their centre), from the step "
-         "after their birth on; how fast they may be without "
-         "passing through each other is a matter of simulation.rate, or of fastest."},
+     .help = "Particles bounce off each other like balls (UberFlow 2004, 4.4 and 4.5), from the "
+             "step after their birth on. They meet surfaces with their radius, but volumes and "
+             "depth maps of meshes with their centre. A higher simulation.rate or `fastest` lets "
+             "faster particles collide without passing through each other."},
     {.name = "gravity",
      .value = KILN_INTERACT_GRAVITY,
      .members = gravity,
      .shortcut = "strength",
-     .help = "Each attracts all others (Drone 2007, 7.4.3), or those of another system attract "
-             "these; the "
-             "work grows with how many attract times how many are attracted."},
+     .help = "Each particle attracts all others (Drone 2007, 7.4.3), or the particles of another "
+             "system attract the particles of this one. The work grows with the number that "
+             "attract times the number that are attracted."},
     {.name = "flock",
      .value = KILN_INTERACT_FLOCK,
      .members = flock,
      .shortcut = "radius",
-     .help =
-         "They fly like birds (Drone 2007, 7.4.4): apart, out of each other's way, together, and "
-         "the same way. Forces do the rest: attract is a goal, or a danger where it is "
-         "negative."},
+     .help = "Particles fly like birds (Drone 2007, 7.4.4): they keep apart, avoid each other, "
+             "stay together and fly the same way. Forces add goals and dangers: attract is a goal, "
+             "or a danger where its strength is negative."},
     {.name = NULL},
 };

@@ -54,11 +54,11 @@ bool kiln_tonemap_find(const char *name, enum kiln_tonemap *tonemap)
 
 static const struct kiln_option particles[] = {
     CHOICE(LOOK, "resolution", resolution, resolutions, "full",
-           "Size of the picture that particles are drawn into, in parts of the frame's width: the "
-           "smaller, the "
-           "faster and the softer. For large, soft sprites."),
+           "Width of the picture that particles are drawn into, as a part of the frame's width. A "
+           "smaller picture is faster and softer. It suits large, soft sprites."),
     BOOLEAN(LOOK, "mixed", mixed_resolution, "false",
-            "Full resolution where the depth of the scene has edges, half or quarter elsewhere."),
+            "Particles are drawn in full resolution where the depth of the scene has edges, and in "
+            "half or quarter resolution elsewhere."),
     END,
 };
 
@@ -66,25 +66,28 @@ static const struct kiln_option bloom[] = {
     CHOICE(LOOK, "kind", bloom, bloom_kinds, "gaussian",
            "How the glow is spread: gaussian by some 40 pixels, pyramid by parts of the picture."),
     CHOICE(LOOK, "source", bloom_source, bloom_sources, "weights",
-           "What glows: particles by look.bloom, or all that is brighter than the threshold."),
+           "What glows: weights takes particles by look.bloom, bright takes all that is brighter "
+           "than `threshold`."),
     VALUE(LOOK, "strength", bloom_strength, KILN_PLAIN, 0, 100, TIME, "1", "Factor on the glow."),
     VALUE(LOOK, "threshold", bloom_threshold, KILN_PLAIN, 0, 1000000, TIME, "1",
-          "Exposed light beyond which the source bright glows."),
+          "Exposed light above which the source bright glows."),
     VALUE(LOOK, "radius", bloom_radius, KILN_FRACTION, 0, 1, TIME, "0.7",
           "How far the pyramid spreads the glow."),
     END,
 };
 
 const struct kiln_option kiln_options_post[] = {
-    CHOICE(LOOK, "compose", compose, composes, "merged",
-           "merged sorts fire and smoke together; separate draws fire over smoke; alpha is merged "
-           "with fire that covers what is behind it; oit is merged with each pixel sorted on its "
-           "own, by the depths of what is seen there (look.thickness)."),
+    CHOICE(
+        LOOK, "compose", compose, composes, "merged",
+        "merged sorts fire and smoke together. separate draws fire over smoke. alpha works like "
+        "merged, and fire covers what is behind it. oit works like merged, and sorts the particles "
+        "of each pixel on its own, by the depths that the pixel sees (look.thickness)."),
     GROUP(LOOK, "particles", 0, particles, "How finely particles are drawn."),
     GROUP(LOOK, "bloom", 0, bloom, "The glow around bright things."),
     VALUE(LOOK, "exposure", exposure, KILN_STOPS, -20, 20, TIME, "0",
-          "Doubles the light per stop."),
-    CHOICE(LOOK, "tonemap", tonemap, tonemaps, "agx", "How light becomes a picture."),
-    BOOLEAN(LOOK, "dither", dither, "true", "Hides the steps of 8-bit pictures."),
+          "Exposure in stops; each stop doubles the light."),
+    CHOICE(LOOK, "tonemap", tonemap, tonemaps, "agx",
+           "Tone mapping of light into the colours of the picture."),
+    BOOLEAN(LOOK, "dither", dither, "true", "Dithering hides the banding of 8-bit pictures."),
     END,
 };

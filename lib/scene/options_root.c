@@ -5,22 +5,25 @@
 
 static const struct kiln_option shutter[] = {
     INTEGER(ORDER, "samples", shutter_samples, 1, 256, "1",
-            "Moments of a frame, each after a step of its own; 1 is sharp."),
+            "Number of moments whose mean is a frame. Each moment takes a simulation step of its "
+            "own. 1 gives a sharp picture."),
     {ROW(ORDER, "angle", number, AT(shutter_angle), "180 deg",
-         "How long the shutter is open: a full turn is the whole time of a frame."),
+         "Shutter angle: 360 deg keeps the shutter open for the whole time of a frame."),
      LIMITS(KILN_ANGLE, KILN_DEG(1), KILN_DEG(360))},
     END,
 };
 
 static const struct kiln_option camera[] = {
-    VECTOR(ORDER, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]", "The eye."),
-    VECTOR(ORDER, "target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "What it looks at."),
+    VECTOR(ORDER, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]",
+           "Position of the eye."),
+    VECTOR(ORDER, "target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]",
+           "Point that the camera looks at."),
     VALUE(LOOK, "fov", fov, KILN_ANGLE, KILN_DEG(1), KILN_DEG(170), TIME, "45 deg",
           "Vertical field of view."),
     VALUE(LOOK, "roll", roll, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME, "0 deg",
-          "Turn about the line of sight."),
+          "Angle by which the camera is turned about its line of sight."),
     VALUE(LOOK, "near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
-          "Nothing nearer than this is drawn."),
+          "Distance of the near plane; nothing nearer than this is drawn."),
     GROUP(ORDER, "shutter", 0, shutter, "Motion blur: a frame is the mean of several moments."),
     END,
 };
@@ -36,7 +39,7 @@ static const struct kiln_option output[] = {
     {ROW(ORDER, "fps", rational, AT(fps), "30",
          "Frames a second: 30, 30000/1001 or 29.97 (= 2997/100)."),
      LIMITS(KILN_PLAIN, 1, KILN_MAX_RATE)},
-    INTEGER(LOOK, "frames", frames, 1, KILN_MAX_FRAMES, "150", "Length of the clip."),
+    INTEGER(LOOK, "frames", frames, 1, KILN_MAX_FRAMES, "150", "Number of frames in the clip."),
     END,
 };
 
@@ -50,20 +53,20 @@ static const char *const integrations[] = {
 
 static const struct kiln_option simulation[] = {
     {ROW(MOTION, "rate", rational, AT(rate), "auto",
-         "Steps a second, a whole multiple of output.fps; auto: the smallest that is at least 60 "
-         "and has "
-         "a step for each moment of the shutter."),
+         "Simulation steps a second, a whole multiple of output.fps. auto takes the smallest rate "
+         "that is at least 60 and has a step for each moment of the shutter."),
      LIMITS(KILN_PLAIN, 1, 100000), .word = "auto"},
     {ROW(MOTION, "warmup", number, AT(warmup_s), "0 s",
-         "Simulated before the first frame, in whole steps; clip time is negative there."),
+         "Time that is simulated before the first frame, in whole steps. Clip time is negative "
+         "during the warm-up."),
      LIMITS(KILN_SECONDS, 0, 100000)},
-    CHOICE(
-        MOTION, "integration", integration, integrations, "semi_implicit",
-        "How a step moves: semi_implicit by the new velocity, position_first by the old, trapezoid "
-        "by the mean of both (error by the square of the step), rk4 by four looks at the forces "
-        "(by its fourth power)."),
+    CHOICE(MOTION, "integration", integration, integrations, "semi_implicit",
+           "How a step integrates the motion. semi_implicit moves a particle by its new velocity, "
+           "position_first by its old velocity. trapezoid moves it by the mean of both, with an "
+           "error of second order in the step. rk4 evaluates the forces four times, with an error "
+           "of fourth order."),
     BOUNDS(MOTION, "bounds", bounds, "none",
-           "Where particles may be, for systems without their own."),
+           "Box outside of which particles die, for systems without bounds of their own."),
     END,
 };
 
@@ -73,12 +76,14 @@ const struct kiln_option kiln_options_root[] = {
             "Another seed gives another run of the same scene."),
     GROUP(ORDER, "output", 0, output, "The clip."),
     GROUP(MOTION, "simulation", 0, simulation, "The clock of the simulation."),
-    GROUP(ORDER, "camera", AT(camera), camera, "Where the picture is taken from."),
+    GROUP(ORDER, "camera", AT(camera), camera, "The camera that takes the pictures."),
     GROUP(MOTION, "backdrop", AT(backdrop), kiln_options_backdrop,
-          "What stands around the particles."),
+          "Sky, sun, floor, objects and lights around the particles."),
     {ROW(MOTION, "systems", map, AT(systems), "{}", "The particle systems by their names."),
      .members = kiln_options_system, .item_size = sizeof(struct kiln_system),
      .count_offset = AT(system_count), .max_count = KILN_MAX_SYSTEMS},
-    GROUP(LOOK, "post", AT(post), kiln_options_post, "From light to picture."),
+    GROUP(LOOK, "post", AT(post), kiln_options_post,
+          "Post-processing: composition, bloom, exposure and tone mapping turn light into the "
+          "picture."),
     END,
 };

@@ -108,7 +108,7 @@ $ kiln complete -- figure sheet --sweep post.tonemap=none,a
 $ kiln complete -- figure sheet --variant 'seed=1;post.tonemap=ac'
 1|word	seed=1;post.tonemap=aces	
 $ kiln complete -- figure sheet --variant 'seed=1;post.tonem'
-1|part	seed=1;post.tonemap=	How light becomes a picture.
+1|part	seed=1;post.tonemap=	Tone mapping of light into the colours of the picture.
 
 Nothing follows what makes no sense.
 
