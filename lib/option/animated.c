@@ -57,7 +57,7 @@ static bool begin_curve(struct kiln_reader *reader, const struct kiln_node *node
                         struct curve *curve, uint32_t clock)
 {
     if (node->count == 0)
-        return kiln_reader_error(reader, node, "needs at least one key");
+        return kiln_reader_error(reader, node, "found no keys; at least one is needed");
     if (!reader->keys)
         reader->keys = kiln_arena_alloc(reader->scratch, KILN_MAX_VALUE_KEYS, sizeof *reader->keys);
     if (!reader->keys)
@@ -65,7 +65,8 @@ static bool begin_curve(struct kiln_reader *reader, const struct kiln_node *node
     uint32_t needed = curve->count * node->count; /* node->count <= KILN_NODE_MAX_ENTRIES */
     if (needed > KILN_MAX_VALUE_KEYS - reader->key_count)
         return kiln_reader_error(
-            reader, node, "%u keys are too many; %s has at most %d and used %u before", needed,
+            reader, node,
+            "%u keys are too many; %s has at most %d, and %u of them are used already", needed,
             reader->origin->kind, KILN_MAX_VALUE_KEYS, reader->key_count);
     for (unsigned i = 0; i < curve->count; i++) {
         uint32_t first = reader->key_count + i * node->count;
@@ -92,10 +93,12 @@ static bool add_point(struct kiln_reader *reader, const struct kiln_node *node, 
         if (curve->points == 0)
             continue;
         if (x <= key[-1].x)
-            return kiln_reader_error(reader, node, "keys must ascend, each after the one before");
+            return kiln_reader_error(
+                reader, node, "the time of a key must be later than that of the key before it");
         float slope = (y[i] - key[-1].y) / (x - key[-1].x);
         if (!isfinite(slope))
-            return kiln_reader_error(reader, node, "too close to the key before");
+            return kiln_reader_error(reader, node,
+                                     "the time of a key is too close to that of the key before it");
         key[-1].z = without_denormals(slope);
         float area = (x - key[-1].x) * (0.5f * (key[-1].y + y[i]));
         key->w = without_denormals(key[-1].w + area);

@@ -120,7 +120,8 @@ static struct kiln_node *create_node(struct builder *builder, struct fy_event *e
         node->column = (uint32_t)mark->column + 1;
     }
     if (++builder->total > KILN_NODE_MAX_TOTAL) {
-        kiln_node_error(node, builder->error, "more than %d entries in all", KILN_NODE_MAX_TOTAL);
+        kiln_node_error(node, builder->error, "more than %d entries in all; no more are allowed",
+                        KILN_NODE_MAX_TOTAL);
         return NULL;
     }
     return node;
@@ -137,7 +138,8 @@ static bool place_node(struct builder *builder, struct kiln_node *node)
     struct kiln_node *parent = builder->open[builder->depth - 1];
     struct kiln_node **key = &builder->key[builder->depth - 1];
     if (parent->count == KILN_NODE_MAX_ENTRIES)
-        return kiln_node_error(node, error, "more than %d entries in one list or mapping",
+        return kiln_node_error(node, error,
+                               "more than %d entries in one list or mapping; no more are allowed",
                                KILN_NODE_MAX_ENTRIES);
     if (parent->kind == KILN_NODE_LIST || *key) {
         node->key = *key;
@@ -174,7 +176,8 @@ static bool open_collection(struct builder *builder, struct fy_event *event,
     if (!node || !place_node(builder, node))
         return false;
     if (builder->depth == KILN_NODE_MAX_DEPTH)
-        return kiln_node_error(node, builder->error, "nested deeper than %d levels",
+        return kiln_node_error(node, builder->error,
+                               "nested deeper than the %d levels that are allowed",
                                KILN_NODE_MAX_DEPTH);
     builder->open[builder->depth] = node;
     builder->key[builder->depth] = NULL;
@@ -205,9 +208,8 @@ static bool add_scalar(struct builder *builder, struct fy_event *event)
     const enum fy_scalar_style style =
         event->scalar.value ? fy_scalar_token_get_style(event->scalar.value) : FYSS_PLAIN;
     if (style == FYSS_DOUBLE_QUOTED && continues(builder, event))
-        return kiln_node_error(
-            node, builder->error,
-            "a text in quotes must not continue in the next line by a backslash");
+        return kiln_node_error(node, builder->error,
+                               "a backslash must not continue a quoted text in the next line");
     size_t length = 0;
     const char *text = event->scalar.value ? fy_token_get_text(event->scalar.value, &length) : "";
     if (!text || memchr(text, '\0', length))
@@ -232,7 +234,7 @@ static bool refuse(struct builder *builder, struct fy_event *event, const char *
 static bool refuse_second_document(struct builder *builder, struct fy_event *event)
 {
     char reason[96];
-    snprintf(reason, sizeof reason, "%s is one document; a second starts here",
+    snprintf(reason, sizeof reason, "%s has one document; a second one starts here",
              builder->origin->kind);
     return refuse(builder, event, reason);
 }
@@ -319,10 +321,10 @@ static bool report_nothing(const struct kiln_origin *origin, struct kiln_error *
 {
     struct kiln_node place = {.origin = origin};
     if (!origin->has_lines)
-        return kiln_node_error(&place, error, "there is no value after '='; '#' begins a comment");
+        return kiln_node_error(&place, error, "the value after '=' is empty; '#' begins a comment");
     if (!origin->version)
-        return kiln_node_error(&place, error, "empty; %s was to be here", origin->kind);
-    return kiln_node_error(&place, error, "empty; %s starts with '%s'", origin->kind,
+        return kiln_node_error(&place, error, "the file is empty; expected %s", origin->kind);
+    return kiln_node_error(&place, error, "the file is empty; %s starts with '%s'", origin->kind,
                            origin->version);
 }
 
@@ -348,7 +350,8 @@ static bool check_bytes(const char *text, size_t size, const struct kiln_origin 
                       : strchr(" \t\r", text[i]) ? blank_lines
                                                  : 0;
         if (blank_lines > MOST_BLANK_LINES)
-            return kiln_node_error(&place, error, "more than %d blank lines without a break",
+            return kiln_node_error(&place, error,
+                                   "more than the %d blank lines in a row that are allowed",
                                    MOST_BLANK_LINES);
         if (text[i] == '\n') {
             place.line++;

@@ -88,7 +88,7 @@ static bool unknown_name(struct override *override, const struct kiln_node *node
         names[count++] = entry->key->text;
     char suggestion[512];
     kiln_option_suggest(suggestion, sizeof suggestion, name, names, count);
-    return fail(override, "there is no '%s'%s", name, suggestion);
+    return fail(override, "there is no key '%s'%s", name, suggestion);
 }
 
 /* Describes the keys that are allowed under a node. */
@@ -119,7 +119,7 @@ static struct kiln_node *find_child(struct override *override, struct kiln_node 
     if (node->kind == KILN_NODE_LIST) {
         uint64_t index = 0;
         if (!kiln_text_to_uint64(name, &index)) {
-            fail(override, "'%s' is no index into a list", name);
+            fail(override, "'%s' is not an index into a list", name);
             return NULL;
         }
         if (index >= node->count) {
@@ -231,5 +231,5 @@ bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
     if (!override.value || !split_key(&override, key) ||
         !walk(&override, root, (struct place){.members = rows}, 0))
         return false;
-    return override.places > 0 || fail(&override, "there is nothing of that name");
+    return override.places > 0 || fail(&override, "no key of the scene has this name");
 }

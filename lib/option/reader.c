@@ -197,7 +197,7 @@ static const struct kiln_node *default_of(struct kiln_reader *reader,
     if (option->fallback)
         return parse_default(reader, option);
     if (group)
-        kiln_reader_error(reader, group, "missing; it must be given");
+        kiln_reader_error(reader, group, "the key is missing and must be given");
     return NULL;
 }
 
@@ -262,9 +262,9 @@ static bool unit_error(struct kiln_reader *reader, const struct kiln_option *opt
     char quoted[64];
     kiln_node_quote(quoted, unit);
     if (option->dimension == KILN_PLAIN)
-        return kiln_reader_error(reader, node, "'%s' does not fit; this number has no unit",
+        return kiln_reader_error(reader, node, "unit '%s' is wrong; this number takes no unit",
                                  quoted);
-    return kiln_reader_error(reader, node, "'%s' does not fit; the unit is %s", quoted,
+    return kiln_reader_error(reader, node, "unit '%s' is wrong; allowed is %s", quoted,
                              kiln_unit_choices(option->dimension));
 }
 
@@ -289,7 +289,7 @@ static bool read_si(struct kiln_reader *reader, const struct kiln_option *option
     if (node->kind != KILN_NODE_SCALAR)
         return kiln_reader_mismatch(reader, option, node);
     if (!node->quoted && is_named_number(node->text))
-        return kiln_reader_error(reader, node, "%s is no finite number", node->text);
+        return kiln_reader_error(reader, node, "%s is not a finite number", node->text);
     if (!kiln_unit_split(node->text, value, &unit))
         return kiln_reader_mismatch(reader, option, node);
     if (*unit == '\0') {

@@ -80,7 +80,7 @@ static void visit_field(struct walk *walk, const char *path, const struct kiln_o
     const struct kiln_option row = {.type = &kiln_type_choice,
                                     .choices = variants,
                                     .fallback = first->variant,
-                                    .help = "Which of these it is."};
+                                    .help = "Kind of the field."};
     if (!name.failed)
         visit_row(walk, name.data, &row);
     walk->failed |= name.failed;

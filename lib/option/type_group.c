@@ -113,7 +113,8 @@ static uint32_t *begin_entries(struct kiln_reader *reader, const struct kiln_opt
 {
     if (node->count <= option->max_count)
         return kiln_option_count_of(option, field);
-    kiln_reader_error(reader, node, "%u are too many; at most %zu", node->count, option->max_count);
+    kiln_reader_error(reader, node, "found %u entries; at most %zu are allowed", node->count,
+                      option->max_count);
     return NULL;
 }
 

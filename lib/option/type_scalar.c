@@ -249,8 +249,8 @@ static bool read_text(struct kiln_reader *reader, const struct kiln_option *opti
     if ((double)length < option->min)
         return kiln_reader_error(reader, node, "must not be empty");
     if ((double)length > option->max)
-        return kiln_reader_error(reader, node, "%zu bytes are too many; at most %.0f", length,
-                                 option->max);
+        return kiln_reader_error(reader, node, "the text has %zu bytes; at most %.0f are allowed",
+                                 length, option->max);
     return kiln_reader_keep_text(reader, node->text, field);
 }
 

@@ -15,11 +15,12 @@ static const char scene_introduction[] =
     "    {life: [0.1, 1.2]}            over a particle's life, evenly spread from birth to death\n"
     "    {life: {0: 0, 0.2: 1, 1: 0}}  the same with the parts of the life named\n"
     "\n"
-    "joined by straight lines, held before the first and after the last. A vector or colour "
-    "varies\n"
-    "as a whole ({keys: {0 s: [1, 0, 0], 1 s: [0, 1, 0]}}) or in each component.\n"
+    "The values of two neighbouring keys are interpolated linearly. The first value holds before\n"
+    "the first key, and the last value after the last key. A vector or colour varies as a whole\n"
+    "({keys: {0 s: [1, 0, 0], 1 s: [0, 1, 0]}}) or in each component.\n"
     "\n"
-    "Metres, y up, right-handed; colours linear, Rec. 709 primaries.\n"
+    "Lengths are in metres. The axes are right-handed, with y up.\n"
+    "Colours are linear, with Rec. 709 primaries.\n"
     "\n";
 
 bool kiln_scene_write_reference(FILE *out)

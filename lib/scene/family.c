@@ -130,8 +130,10 @@ static bool check_generations(struct kiln_reader *reader, const struct kiln_node
     snprintf(path, sizeof path, "systems.%s.emit.parent.system", scene->systems[index].name);
     if (ring)
         return kiln_reader_error_at(reader, root, path,
-                                    "born of its own descendants; the first parent must have none");
-    return kiln_reader_error_at(reader, root, path, "%u generations of systems; at most %d",
+                                    "the system is born of its own descendants; the first system "
+                                    "of a family has no parent");
+    return kiln_reader_error_at(reader, root, path,
+                                "found %u generations of systems; at most %d are allowed",
                                 generations, KILN_MAX_GENERATIONS);
 }
 
@@ -145,15 +147,18 @@ static bool check_births(struct kiln_reader *reader, const struct kiln_node *roo
     char path[128];
     snprintf(path, sizeof path, "systems.%s.emit.rate", system->name);
     if (kiln_scene_value_max(scene, &system->emit.rate) > 0)
-        return kiln_reader_error_at(reader, root, path,
-                                    "must be 0 where there is a parent: emit.parent.on counts");
+        return kiln_reader_error_at(
+            reader, root, path,
+            "must be 0 for a system with a parent; emit.parent.on sets the number of births");
     snprintf(path, sizeof path, "systems.%s.emit.bursts", system->name);
     if (system->emit.burst_count > 0)
-        return kiln_reader_error_at(reader, root, path,
-                                    "must be {} where there is a parent: emit.parent.on counts");
+        return kiln_reader_error_at(
+            reader, root, path,
+            "must be {} for a system with a parent; emit.parent.on sets the number of births");
     snprintf(path, sizeof path, "systems.%s.emit.parent.on", system->name);
     if (parent->event == KILN_EVENT_TRAIL && kiln_scene_value_max(scene, &parent->rate) <= 0)
-        return kiln_reader_error_at(reader, root, path, "the rate is 0 all along");
+        return kiln_reader_error_at(reader, root, path,
+                                    "the rate is 0 at all times; it must be above 0");
     if (parent->event == KILN_EVENT_BOUNCE && !born_of->collide.enabled)
         return kiln_reader_error_at(reader, root, path,
                                     "particles of '%s' never bounce: set systems.%s.collide",
@@ -169,8 +174,9 @@ static bool settle_slots(struct kiln_reader *reader, const struct kiln_node *roo
     snprintf(path, sizeof path, "systems.%s.emit.parent.on", system->name);
     if (slots > KILN_MAX_PARTICLES)
         return kiln_reader_error_at(reader, root, path,
-                                    "up to %" PRIu64 " particles born of one; at most %d", slots,
-                                    KILN_MAX_PARTICLES);
+                                    "up to %" PRIu64
+                                    " particles are born of one particle; at most %d are allowed",
+                                    slots, KILN_MAX_PARTICLES);
     system->emit.parent.slots = (uint32_t)slots;
     return true;
 }

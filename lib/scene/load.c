@@ -206,8 +206,9 @@ struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *n
     copy[size] = '\0';
     struct kiln_scene *scene = NULL;
     if (size > KILN_MAX_SCENE_SIZE)
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: %zu bytes; a scene file has at most %d",
-                       name, size, KILN_MAX_SCENE_SIZE);
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: the scene file has %zu bytes; at most %d are allowed", name, size,
+                       KILN_MAX_SCENE_SIZE);
     else
         scene = create(copy, size, name, NULL, &params, error);
     free(copy);

@@ -28,9 +28,9 @@ bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_nod
     look->mesh.shown = mesh;
     look->mesh.shade = measure.shade / measure.edge;
     if (mesh->triangle_count > KILN_MAX_PARTICLE_TRIANGLES)
-        return kiln_reader_error_at(reader, root, path,
-                                    "%u triangles; the mesh of a particle has at most %d",
-                                    mesh->triangle_count, KILN_MAX_PARTICLE_TRIANGLES);
+        return kiln_reader_error_at(
+            reader, root, path, "the mesh has %u triangles; the mesh of a particle has at most %d",
+            mesh->triangle_count, KILN_MAX_PARTICLE_TRIANGLES);
     return true;
 }
 
@@ -47,17 +47,17 @@ bool kiln_particle_mesh_count(struct kiln_reader *reader, const struct kiln_node
         char path[128];
         snprintf(path, sizeof path, "systems.%s.emit", system->name);
         if (meshes > KILN_MAX_INSTANCES)
-            return kiln_reader_error_at(reader, root, path,
-                                        "up to %" PRIu64
-                                        " particles at once are meshes; a scene may "
-                                        "have %d: lower rate, bursts or life",
-                                        meshes, KILN_MAX_INSTANCES);
+            return kiln_reader_error_at(
+                reader, root, path,
+                "up to %" PRIu64
+                " particles at once are meshes; a scene has at most %d: lower rate, bursts or life",
+                meshes, KILN_MAX_INSTANCES);
         if (triangles > KILN_MAX_INSTANCE_TRIANGLES)
             return kiln_reader_error_at(
                 reader, root, path,
-                "up to %" PRIu64 " triangles of particles at once; a scene "
-                "may have %d: lower rate, bursts or life, or take a mesh of "
-                "fewer than %u",
+                "up to %" PRIu64
+                " triangles are drawn for particles at once; a scene has at most %d: lower rate, "
+                "bursts or life, or take a mesh of fewer than %u triangles",
                 triangles, KILN_MAX_INSTANCE_TRIANGLES, system->look.mesh.shown->triangle_count);
     }
     return true;

@@ -71,7 +71,8 @@ static bool count_winds(struct kiln_reader *reader, const struct kiln_node *root
             continue;
         snprintf(path, sizeof path, "systems.%s.forces.%u.wind.file", system->name, i);
         if (winds->count == KILN_MAX_WINDS)
-            return kiln_reader_error_at(reader, root, path, "more than %d files of wind",
+            return kiln_reader_error_at(reader, root, path,
+                                        "more than %d files of wind; no more are allowed",
                                         KILN_MAX_WINDS);
         winds->files[winds->count++] = force->file;
         if (!count_wind(reader, root, path, force->file, count))

@@ -12,8 +12,8 @@ static bool read_bursts(struct kiln_reader *reader, const struct kiln_option *op
     if (node->kind != KILN_NODE_MAP)
         return kiln_reader_mismatch(reader, option, node);
     if (node->count > option->max_count)
-        return kiln_reader_error(reader, node, "%u bursts are too many; at most %zu", node->count,
-                                 option->max_count);
+        return kiln_reader_error(reader, node, "found %u bursts; at most %zu are allowed",
+                                 node->count, option->max_count);
     *count = 0;
     for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
         struct kiln_burst *burst = &bursts[*count];
@@ -22,8 +22,9 @@ static bool read_bursts(struct kiln_reader *reader, const struct kiln_option *op
             !kiln_read_whole(reader, option, entry, &burst->count))
             return false;
         if (*count > 0 && burst->time_s <= burst[-1].time_s)
-            return kiln_reader_error(reader, entry->key,
-                                     "bursts must ascend, each after the one before");
+            return kiln_reader_error(
+                reader, entry->key,
+                "the time of a burst must be later than that of the burst before it");
         kiln_reader_leave(reader, before);
         ++*count;
     }

@@ -74,18 +74,20 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
     if (scene->steps_per_frame < least_steps_a_frame(scene)) {
         char least[32];
         print_multiple(least, scene->fps, least_steps_a_frame(scene));
-        return kiln_reader_error_at(reader, root, "camera.shutter.samples",
-                                    "%u moments need a step each: a simulation.rate of at least %s",
-                                    scene->camera.shutter_samples, least);
+        return kiln_reader_error_at(
+            reader, root, "camera.shutter.samples",
+            "the %u moments of the shutter need a step each: simulation.rate must be at least %s",
+            scene->camera.shutter_samples, least);
     }
 
     double warmup = scene->warmup_s * (double)scene->rate.num / (double)scene->rate.den;
     double steps = floor(warmup + 0.5) + (double)(scene->frames - 1) * scene->steps_per_frame +
                    (scene->camera.shutter_samples > 1 ? scene->steps_per_frame - 1 : 0);
     if (steps > (double)KILN_MAX_STEPS)
-        return kiln_reader_error_at(reader, root, "output.frames",
-                                    "the clip and its warm-up are %.0f steps; a run has at most %u",
-                                    steps, KILN_MAX_STEPS);
+        return kiln_reader_error_at(
+            reader, root, "output.frames",
+            "the clip and its warm-up have %.0f steps; a run has at most %u", steps,
+            KILN_MAX_STEPS);
     scene->warmup_steps = (uint32_t)floor(warmup + 0.5);
     return true;
 }
@@ -136,14 +138,13 @@ static bool settle_capacity(struct kiln_reader *reader, const struct kiln_node *
                                         KILN_MAX_PARTICLES * bytes / mebibyte, total, advice);
         if (bound.total > UINT32_MAX)
             return kiln_reader_error_at(reader, root, path,
-                                        "%" PRIu64 " births in the run; at most %" PRIu32
-                                        " can be told apart",
+                                        "the run has %" PRIu64 " births; at most %" PRIu32
+                                        " are allowed",
                                         bound.total, UINT32_MAX);
         if (slots > KILN_MAX_FLOCK && kiln_scene_interaction(scene, order[i], KILN_INTERACT_FLOCK))
             return kiln_reader_error_at(reader, root, path,
-                                        "up to %" PRIu64
-                                        " particles at once in a flock; at most %d: "
-                                        "lower %s",
+                                        "a flock has up to %" PRIu64
+                                        " particles at once; at most %d are allowed: lower %s",
                                         slots, KILN_MAX_FLOCK, advice);
         system->capacity = (uint32_t)slots;
         total += slots;
@@ -245,10 +246,10 @@ static bool check_flock(struct kiln_reader *reader, const struct kiln_node *root
     const float slowest = kiln_scene_value_max(kiln_reader_scene(reader), &flock->slowest);
     const float fastest = kiln_scene_value_max(kiln_reader_scene(reader), &flock->fastest);
     if (slowest > fastest)
-        return kiln_reader_error_at(reader, root, path,
-                                    "the slowest of a flock, %g m/s, is faster than its fastest, "
-                                    "%g m/s",
-                                    (double)slowest, (double)fastest);
+        return kiln_reader_error_at(
+            reader, root, path,
+            "the slowest speed of a flock, %g m/s, is above its fastest, %g m/s", (double)slowest,
+            (double)fastest);
     return true;
 }
 
@@ -264,14 +265,16 @@ static bool check_interactions(struct kiln_reader *reader, const struct kiln_nod
         for (uint32_t k = 0; k < i; k++) {
             if (system->interactions[k].kind == interaction->kind)
                 return kiln_reader_error_at(
-                    reader, root, path, "entries %u and %u are of one kind; at most one of each", k,
+                    reader, root, path,
+                    "entries %u and %u are of the same kind; one entry of each kind is allowed", k,
                     i);
         }
         if (interaction->kind == KILN_INTERACT_COLLIDE && !interaction->as_drawn &&
             kiln_scene_value_max(kiln_reader_scene(reader), &interaction->radius) <= 0.0f)
-            return kiln_reader_error_at(
-                reader, root, path, "the radius of entry %u is 0 all along: nothing can collide",
-                i);
+            return kiln_reader_error_at(reader, root, path,
+                                        "the radius of entry %u is 0 at all times, so nothing can "
+                                        "collide; it must be above 0",
+                                        i);
         if (interaction->kind == KILN_INTERACT_FLOCK &&
             !check_flock(reader, root, path, &interaction->flock))
             return false;
@@ -294,18 +297,20 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
         snprintf(path, sizeof path, "systems.%s.look.cells", system->name);
         uint32_t cells = system->look.columns * system->look.rows;
         if (cells > KILN_MAX_CELLS)
-            return kiln_reader_error_at(reader, root, path, "%u cells are too many; at most %d",
-                                        cells, KILN_MAX_CELLS);
+            return kiln_reader_error_at(reader, root, path,
+                                        "found %u cells; at most %d are allowed", cells,
+                                        KILN_MAX_CELLS);
         snprintf(path, sizeof path, "systems.%s.look.motion", system->name);
         if (system->look.motion[0] == '/' &&
             (system->look.atlas_count > 1 || system->look.atlas[0][0] != '/'))
             return kiln_reader_error_at(reader, root, path,
-                                        "a motion file goes with one atlas file");
+                                        "a motion file needs exactly one atlas file");
         snprintf(path, sizeof path, "systems.%s.paint.when", system->name);
         if (system->paint.enabled && system->paint.when == KILN_PAINT_IMPACT &&
             !system->collide.enabled)
             return kiln_reader_error_at(reader, root, path,
-                                        "impact needs systems.%s.collide, or there are none",
+                                        "impact needs systems.%s.collide: without it, no particle "
+                                        "bounces or ends at a surface",
                                         system->name);
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
             !check_interactions(reader, root, system) ||
@@ -368,11 +373,12 @@ static bool check_paint(struct kiln_reader *reader, const struct kiln_node *root
     char path[64];
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint", index);
     if (object->animation.enabled)
-        return kiln_reader_error_at(reader, root, path, "not of a mesh with an animation");
+        return kiln_reader_error_at(reader, root, path,
+                                    "a mesh with an animation cannot take paint");
     snprintf(path, sizeof path, "backdrop.objects.%u.mesh.paint.size", index);
     if ((size & (size - 1)) != 0)
         return kiln_reader_error_at(reader, root, path,
-                                    "%u is no power of two, of which 16 to 2048 are allowed", size);
+                                    "found %u; allowed are powers of two from 16 to 2048", size);
     struct kiln_error error = {0};
     struct kiln_chart *chart = kiln_chart_create(object->shown, size, object->file, &error);
     const bool good = chart != NULL;
@@ -407,14 +413,14 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
         if (object->collide && object->animation.enabled &&
             object->collider != KILN_COLLIDER_VOLUME)
             return kiln_reader_error_at(reader, root, path,
-                                        "a mesh with an animation collides as a volume alone: set "
-                                        "its collider to volume");
+                                        "a mesh with an animation needs the collider volume");
         if (object->kind == KILN_OBJECT_MESH && !check_solid(reader, root, i))
             return false;
         if (kiln_object_takes_paint(object) && !check_paint(reader, root, i))
             return false;
         if (++meshes > KILN_MAX_MESHES)
-            return kiln_reader_error_at(reader, root, "backdrop.objects", "more than %d meshes",
+            return kiln_reader_error_at(reader, root, "backdrop.objects",
+                                        "more than %d meshes; no more are allowed",
                                         KILN_MAX_MESHES);
     }
     return true;
@@ -441,7 +447,7 @@ static bool check_camera(struct kiln_reader *reader, const struct kiln_node *roo
     const struct kiln_value3 *ends[2] = {&scene->camera.position, &scene->camera.target};
     if (!at_all_keys(scene, ends, 2, are_apart))
         return kiln_reader_error_at(reader, root, "camera.target",
-                                    "must not be where the camera is");
+                                    "must not be the position of the camera");
     return true;
 }
 

@@ -141,8 +141,8 @@ static void a_shutter_has_its_steps(void **state)
     struct kiln_error error = {0};
     assert_null(try_scene(automatic, overrides, &error));
     assert_string_equal(error.message,
-                        SCENE_NAME ":3:29: camera.shutter.samples: 5 moments need a step each: a "
-                                   "simulation.rate of at least 450");
+                        SCENE_NAME ":3:29: camera.shutter.samples: the 5 moments of the shutter "
+                                   "need a step each: simulation.rate must be at least 450");
 }
 
 int main(void)

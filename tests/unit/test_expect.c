@@ -119,13 +119,13 @@ static void wrong_files_say_where(void **state)
         {"", ": empty; what is expected starts with 'kiln_expect: 1'"},
         {"[]\n", ":1:1: expected a mapping of keys, found a list"},
         {"kiln_expect: 2\n", ":1:14: kiln_expect: 2 is out of range; allowed is 1"},
-        {"frames: {}\n", ":1:1: kiln_expect: missing; it must be given"},
+        {"frames: {}\n", ":1:1: kiln_expect: the key is missing and must be given"},
         {START "frame: {}\n", ":2:1: frame: unknown key (did you mean 'frames'?)"},
         {START "scene_hash: 12\n",
          ":2:13: scene_hash: expected a hash of 64 hex digits, found '12'"},
         {START "limits: {flip.men: 1}\n",
          ":2:10: limits.flip.men: unknown metric 'flip.men' (did you mean 'flip.mean'?)"},
-        {START "warn: .nan\n", ":2:7: warn: .nan is no finite number"},
+        {START "warn: .nan\n", ":2:7: warn: .nan is not a finite number"},
         {START "frames: [24]\n",
          ":2:9: frames: expected {number: {state: ..., pixels: ...}, ...}, found a list"},
         {START "frames: {x: {}}\n", ":2:10: frames.x: expected a whole number from 0 to 999999, "
@@ -173,13 +173,14 @@ static void deep_and_wide_files_are_refused(void **state)
     struct kiln_arena *arena = kiln_arena_create();
     struct kiln_error error = {0};
     assert_null(kiln_expect_parse(arena, text, strlen(text), "g", &error));
-    assert_non_null(strstr(error.message, "nested deeper than 64 levels"));
+    assert_non_null(strstr(error.message, "nested deeper than the 64 levels that are allowed"));
     size_t length = (size_t)sprintf(text, START "frames:\n");
     for (int i = 0; i < 1100; i++)
         length += (size_t)sprintf(text + length, "  %d: {}\n", i);
     assert_null(kiln_expect_parse(arena, text, length, "g", &error));
-    assert_string_equal(error.message, "g/expect.yaml:1027:3: more than 1024 entries in one list "
-                                       "or mapping");
+    assert_string_equal(
+        error.message,
+        "g/expect.yaml:1027:3: more than 1024 entries in one list or mapping; no more are allowed");
     kiln_arena_destroy(&arena);
     free(text);
 }

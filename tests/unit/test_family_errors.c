@@ -14,7 +14,7 @@ static const struct bad families[] = {
      ":4:35: systems.stars.emit.parent.system: unknown system 'rokets' (did you mean 'rockets'?)"},
     {"kiln: 1\n"
      "systems: {a: {emit: {parent: {on: {death: 5}}}}}\n",
-     ":2:30: systems.a.emit.parent.system: missing; it must be given"},
+     ":2:30: systems.a.emit.parent.system: the key is missing and must be given"},
     {"kiln: 1\n"
      "systems: {a: {emit: {parent: {system: 3}}}}\n",
      ":2:39: systems.a.emit.parent.system: expected the name of another system, found '3'"},
@@ -36,7 +36,7 @@ static const struct bad families[] = {
     {"kiln: 1\n"
      "systems:\n"
      "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{trail: {life: [0, 0]}}"),
-     ":4:38: systems.b.emit.parent.on: the rate is 0 all along"},
+     ":4:38: systems.b.emit.parent.on: the rate is 0 at all times; it must be above 0"},
     {"kiln: 1\n"
      "systems:\n"
      "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{trail: {keys: {0 s: 1}}}"),
@@ -48,20 +48,22 @@ static const struct bad families[] = {
      ":4:38: systems.b.emit.parent.on: particles of 'a' never bounce: set systems.a.collide"},
     {"kiln: 1\n"
      "systems: {a: {emit: {rate: 1}}, b: {emit: {rate: 5, parent: {system: a}}}}\n",
-     ":2:50: systems.b.emit.rate: must be 0 where there is a parent: emit.parent.on counts"},
+     ":2:50: systems.b.emit.rate: must be 0 for a system with a parent; emit.parent.on sets the "
+     "number of births"},
     {"kiln: 1\n"
      "systems: {a: {emit: {rate: 1}}, b: {emit: {bursts: {1 s: 3}, parent: {system: a}}}}\n",
-     ":2:52: systems.b.emit.bursts: must be {} where there is a parent: emit.parent.on counts"},
+     ":2:52: systems.b.emit.bursts: must be {} for a system with a parent; emit.parent.on sets the "
+     "number of births"},
     {"kiln: 1\n"
      "systems:\n" CHILD("a", "c", "{death: 5}") CHILD("b", "a", "{death: 5}")
          CHILD("c", "b", "{death: 5}"),
-     ":3:31: systems.a.emit.parent.system: born of its own descendants; the first parent must have "
-     "none"},
+     ":3:31: systems.a.emit.parent.system: the system is born of its own descendants; the first "
+     "system of a family has no parent"},
     {"kiln: 1\n"
      "systems:\n"
      "  a: {emit: {rate: 1}}\n" CHILD("b", "a", "{death: 5}") CHILD("c", "b", "{death: 5}")
          CHILD("d", "c", "{death: 5}") CHILD("e", "d", "{death: 5}"),
-     ":7:31: systems.e.emit.parent.system: 5 generations of systems; at most 4"},
+     ":7:31: systems.e.emit.parent.system: found 5 generations of systems; at most 4 are allowed"},
     {"kiln: 1\n"
      "systems:\n"
      "  a: {emit: {rate: 1000}}\n" CHILD("b", "a", "{death: 60000}"),
@@ -71,13 +73,14 @@ static const struct bad families[] = {
     {"kiln: 1\n"
      "systems:\n"
      "  a: {emit: {rate: 1, life: 10000 s}}\n" CHILD("b", "a", "{trail: 100000}"),
-     ":4:38: systems.b.emit.parent.on: up to 1000001931 particles born of one; at most 16777216"},
+     ":4:38: systems.b.emit.parent.on: up to 1000001931 particles are born of one particle; at "
+     "most 16777216 are allowed"},
     {"kiln: 1\n"
      "output: {frames: 30000}\n"
      "systems:\n"
      "  a: {emit: {rate: 1000, life: 0.01 s}}\n"
      "  b: {emit: {life: 0.01 s, parent: {system: a, on: {death: 10000}}}}\n",
-     ":5:13: systems.b.emit: 9999670000 births in the run; at most 4294967295 can be told apart"},
+     ":5:13: systems.b.emit: the run has 9999670000 births; at most 4294967295 are allowed"},
     {"kiln: 1\n"
      "systems: {a: {look: {rotation: [{life: [0, 0]}, {keys: {0 s: 0}}]}}}\n",
      ":2:32: systems.a.look.rotation: both must vary over time, or both over life"},

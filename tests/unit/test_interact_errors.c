@@ -10,12 +10,14 @@ static const struct bad interactions[] = {
      "systems:\n"
      "  a:\n"
      "    interact: [collide: 1 cm, collide: {radius: 2 cm}]\n",
-     ":4:15: systems.a.interact: entries 0 and 1 are of one kind; at most one of each"},
+     ":4:15: systems.a.interact: entries 0 and 1 are of the same kind; one entry of each kind is "
+     "allowed"},
     {"kiln: 1\n"
      "systems:\n"
      "  a:\n"
      "    interact: [collide: 0 m]\n",
-     ":4:15: systems.a.interact: the radius of entry 0 is 0 all along: nothing can collide"},
+     ":4:15: systems.a.interact: the radius of entry 0 is 0 at all times, so nothing can collide; "
+     "it must be above 0"},
     {"kiln: 1\n"
      "systems:\n"
      "  a:\n"
@@ -42,7 +44,7 @@ static const struct bad interactions[] = {
      "systems:\n"
      "  a:\n"
      "    interact: [{flock: {slowest: 2, fastest: 1}}]\n",
-     ":4:15: systems.a.interact: the slowest of a flock, 2 m/s, is faster than its fastest, 1 m/s"},
+     ":4:15: systems.a.interact: the slowest speed of a flock, 2 m/s, is above its fastest, 1 m/s"},
     {"kiln: 1\n"
      "systems:\n"
      "  a:\n"
@@ -54,8 +56,8 @@ static const struct bad interactions[] = {
      "  a:\n"
      "    emit: {rate: 600000, life: 2 s}\n"
      "    interact: [flock: 1 m]\n",
-     ":4:11: systems.a.emit: up to 1220000 particles at once in a flock; at most 1048576: lower "
-     "rate, bursts or life"},
+     ":4:11: systems.a.emit: a flock has up to 1220000 particles at once; at most 1048576 are "
+     "allowed: lower rate, bursts or life"},
 };
 BAD_TEST(interactions)
 

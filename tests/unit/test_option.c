@@ -238,15 +238,15 @@ static void errors_say_where_and_in_what(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"", "p.yaml: empty; a plotter starts with 'plotter: 1'"},
+        {"", "p.yaml: the file is empty; a plotter starts with 'plotter: 1'"},
         {"[]", "p.yaml:1:1: expected a mapping of keys, found a list"},
         {"plotter: 1\n---\nplotter: 1\n",
-         "p.yaml:2:1: a plotter is one document; a second starts here"},
-        {"pens: {}", "p.yaml:1:1: plotter: missing; it must be given"},
+         "p.yaml:2:1: a plotter has one document; a second one starts here"},
+        {"pens: {}", "p.yaml:1:1: plotter: the key is missing and must be given"},
         {"plotter: 1\npens: {cuont: 3}",
          "p.yaml:2:8: pens.cuont: unknown key (did you mean 'count'?)"},
         {"plotter: 1\nlimit: {time: 2 d}",
-         "p.yaml:2:15: limit.time: 'd' does not fit; the unit is s, ms, min or h"},
+         "p.yaml:2:15: limit.time: unit 'd' is wrong; allowed is s, ms, min or h"},
         {"plotter: 1\ntitle: 123456789012345678901",
          "p.yaml:2:8: title: 21 bytes are too many; at most 20"},
         {"plotter: 1\nmarks: [dot: 1 mm, circle: {}]",
@@ -293,7 +293,7 @@ static void keys_are_overridden_by_the_table(void **state)
     assert_true(r.plotter.limit_s == 5 && r.plotter.marks[1].length == 1 && r.plotter.pens == 2);
     assert_false(kiln_override(&r.reader, rows, root, "trays.uper.sheets=1"));
     assert_string_equal(r.error.message,
-                        "--set trays.uper.sheets: there is no 'uper' (did you mean 'upper'?)");
+                        "--set trays.uper.sheets: there is no key 'uper' (did you mean 'upper'?)");
     end(&r);
 }
 

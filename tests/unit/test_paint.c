@@ -494,7 +494,8 @@ static void bad_scenes_are_refused(void **state)
     static const struct {
         const char *setting, *reason;
     } cases[] = {
-        {"backdrop.objects.0.mesh.paint.size=100", "mesh.paint.size: 100 is no power of two"},
+        {"backdrop.objects.0.mesh.paint.size=100",
+         "mesh.paint.size: found 100; allowed are powers of two"},
         {"backdrop.objects.0.mesh.file=meshes/cabin.obj",
          "cabin.obj': the mesh, or a part of it, has no texture coordinates"},
         {"systems.drops.paint.when=impact", "systems.drops.paint.when: impact needs"},

@@ -23,7 +23,7 @@ static const struct {
      ":2:39: backdrop.objects.0.box.friction: -1 is out of range; allowed is from 0 to 100"},
     {"kiln: 1\n"
      "backdrop: {objects: [{mesh: {}}]}\n",
-     ":2:29: backdrop.objects.0.mesh.file: missing; it must be given"},
+     ":2:29: backdrop.objects.0.mesh.file: the key is missing and must be given"},
     {"kiln: 1\n"
      "backdrop: {objects: [{mesh: {file: 7}}]}\n",
      ":2:36: backdrop.objects.0.mesh.file: expected the path of an OBJ, glTF or GLB file, from the "
@@ -44,7 +44,7 @@ static const struct {
      "backdrop: {objects: [{terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: "
      "{}}, "
      "{terrain: {}}, {terrain: {}}, {terrain: {}}, {terrain: {}}]}\n",
-     ":2:21: backdrop.objects: more than 8 meshes"},
+     ":2:21: backdrop.objects: more than 8 meshes; no more are allowed"},
     {"kiln: 1\n"
      "backdrop: {sky: {image: /etc/passwd}}\n",
      ":2:25: backdrop.sky.image: '/etc/passwd' is outside the asset root; a path starts at the "

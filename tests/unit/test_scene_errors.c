@@ -44,13 +44,13 @@ static const struct bad keys[] = {
      "\"a\\e[31mb\": 3\n",
      ":2:1: a?[31mb: unknown key (there are: kiln, seed, output, simulation, camera, backdrop, "
      "systems, post)"},
-    {"seed: 1\n", ":1:1: kiln: missing; it must be given"},
+    {"seed: 1\n", ":1:1: kiln: the key is missing and must be given"},
     {"kiln: 2\n", ":1:7: kiln: 2 is out of range; allowed is 1"},
 };
 
 static const struct bad texts[] = {
-    {"", ": empty; a scene starts with 'kiln: 1'"},
-    {"# nothing here\n", ": empty; a scene starts with 'kiln: 1'"},
+    {"", ": the file is empty; a scene starts with 'kiln: 1'"},
+    {"# nothing here\n", ": the file is empty; a scene starts with 'kiln: 1'"},
     {"hello\n", ":1:1: expected a mapping of keys, found 'hello'"},
     {"- 1\n", ":1:1: expected a mapping of keys, found a list"},
     {"kiln: &x 1\n", ":1:10: anchors and aliases are not allowed"},
@@ -59,7 +59,7 @@ static const struct bad texts[] = {
     {"kiln: 1\n"
      "---\n"
      "kiln: 1\n",
-     ":2:1: a scene is one document; a second starts here"},
+     ":2:1: a scene has one document; a second one starts here"},
     {"kiln: [1, 2\n"
      "seed: 4\n",
      ":3:1: not valid YAML: flow sequence without a closing bracket"},
@@ -71,7 +71,7 @@ static const struct bad texts[] = {
      "seed: \"a\\0b\"\n",
      ":2:8: a text must not contain zero bytes"},
     {"kiln: 1\nseed: \"1\\\n  2\"\n",
-     ":2:8: a text in quotes must not continue in the next line by a backslash"},
+     ":2:8: a backslash must not continue a quoted text in the next line"},
 };
 
 static const struct bad types[] = {
@@ -190,13 +190,13 @@ static const struct bad limits[] = {
      "'2000'"},
     {"kiln: 1\n"
      "camera: {near: .nan}\n",
-     ":2:16: camera.near: .nan is no finite number"},
+     ":2:16: camera.near: .nan is not a finite number"},
     {"kiln: 1\n"
      "camera: {near: -.inf}\n",
-     ":2:16: camera.near: -.inf is no finite number"},
+     ":2:16: camera.near: -.inf is not a finite number"},
     {"kiln: 1\n"
      "camera: {near: nan}\n",
-     ":2:16: camera.near: nan is no finite number"},
+     ":2:16: camera.near: nan is not a finite number"},
     {"kiln: 1\n"
      "camera: {near: 1e39}\n",
      ":2:16: camera.near: 1e39 is out of range; allowed is from 0.001 m to 100 m"},
@@ -243,13 +243,13 @@ static const struct bad units[] = {
      ":2:15: camera.fov: an angle needs its unit: 45 deg or 45 rad"},
     {"kiln: 1\n"
      "camera: {fov: 45 s}\n",
-     ":2:15: camera.fov: 's' does not fit; the unit is deg or rad"},
+     ":2:15: camera.fov: unit 's' is wrong; allowed is deg or rad"},
     {"kiln: 1\n"
      "camera: {near: 5 %}\n",
-     ":2:16: camera.near: '%' does not fit; the unit is m, cm or mm"},
+     ":2:16: camera.near: unit '%' is wrong; allowed is m, cm or mm"},
     {"kiln: 1\n"
      "output: {frames: 3 s}\n",
-     ":2:18: output.frames: 's' does not fit; this number has no unit"},
+     ":2:18: output.frames: unit 's' is wrong; this number takes no unit"},
     {"kiln: 1\n"
      "systems: {a: {look: {shape: ball}}}\n",
      ":2:29: systems.a.look.shape: expected billboard, point, line, sphere or mesh, found 'ball'"},
@@ -259,7 +259,7 @@ static const struct bad units[] = {
      "found 'eye'"},
     {"kiln: 1\n"
      "systems: {a: {look: {point: {size: 3 m}}}}\n",
-     ":2:36: systems.a.look.point.size: 'm' does not fit; the unit is px"},
+     ":2:36: systems.a.look.point.size: unit 'm' is wrong; allowed is px"},
     {"kiln: 1\n"
      "systems: {a: {look: {line: {width: -1}}}}\n",
      ":2:36: systems.a.look.line.width: -1 is out of range; allowed is from 0 px to "
@@ -269,10 +269,10 @@ static const struct bad units[] = {
      ":2:32: systems.a.look.spin: an angle needs its unit: 3 deg/s or 3 rad/s"},
     {"kiln: 1\n"
      "systems: {a: {look: {fade: {in: 3 s}}}}\n",
-     ":2:33: systems.a.look.fade.in: 's' does not fit; the unit is none or %"},
+     ":2:33: systems.a.look.fade.in: unit 's' is wrong; allowed is none or %"},
     {"kiln: 1\n"
      "systems: {a: {emit: {life: 2 minutes}}}\n",
-     ":2:28: systems.a.emit.life: 'minutes' does not fit; the unit is s, ms, min or h"},
+     ":2:28: systems.a.emit.life: unit 'minutes' is wrong; allowed is s, ms, min or h"},
 };
 
 static const struct bad curves[] = {
@@ -292,7 +292,7 @@ static const struct bad curves[] = {
      ":2:22: camera.fov.keys: expected a mapping {time: value, ...}, found a list"},
     {"kiln: 1\n"
      "camera: {fov: {keys: {}}}\n",
-     ":2:22: camera.fov.keys: needs at least one key"},
+     ":2:22: camera.fov.keys: found no keys; at least one is needed"},
     {"kiln: 1\n"
      "camera: {fov: {keys: {now: 40 deg}}}\n",
      ":2:23: camera.fov.keys.now: expected a number from -100000 s to 1000000 s, found 'now'"},
@@ -301,10 +301,11 @@ static const struct bad curves[] = {
      ":2:28: camera.fov.keys.0 s: expected a number from 1 deg to 170 deg, found a list"},
     {"kiln: 1\n"
      "camera: {fov: {keys: {1 s: 40 deg, 0 s: 50 deg}}}\n",
-     ":2:36: camera.fov.keys.0 s: keys must ascend, each after the one before"},
+     ":2:36: camera.fov.keys.0 s: the time of a key must be later than that of the key before it"},
     {"kiln: 1\n"
      "camera: {fov: {keys: {1 s: 40 deg, 1000 ms: 50 deg}}}\n",
-     ":2:36: camera.fov.keys.1000 ms: keys must ascend, each after the one before"},
+     ":2:36: camera.fov.keys.1000 ms: the time of a key must be later than that of the key before "
+     "it"},
     {"kiln: 1\n"
      "camera: {fov: {keys: {0 s: 40 deg}, life: [1]}}\n",
      ":2:15: camera.fov: expected a constant or {keys: {...}} over time, found a mapping"},
@@ -320,13 +321,14 @@ static const struct bad curves[] = {
      "'3'"},
     {"kiln: 1\n"
      "systems: {a: {look: {size: {life: []}}}}\n",
-     ":2:35: systems.a.look.size.life: needs at least one key"},
+     ":2:35: systems.a.look.size.life: found no keys; at least one is needed"},
     {"kiln: 1\n"
      "camera: {position: {keys: {0 s: [1, 2]}}}\n",
      ":2:33: camera.position.keys.0 s: expected [x, y, z], found a list"},
     {"kiln: 1\n"
      "camera: {position: {keys: {0 s: [1e5, 0, 0], 1e-40 s: [0, 0, 1]}}}\n",
-     ":2:46: camera.position.keys.1e-40 s: keys must ascend, each after the one before"},
+     ":2:46: camera.position.keys.1e-40 s: the time of a key must be later than that of the key "
+     "before it"},
     {"kiln: 1\n"
      "camera: {position: {keys: {0 s: [0, 1e5, 0], 1e-30: 0}}}\n",
      ":2:53: camera.position.keys.1e-30: expected [x, y, z], found '0'"},
@@ -409,13 +411,14 @@ static const struct bad agreement[] = {
     {"kiln: 1\n"
      "output: {frames: 1000000}\n"
      "simulation: {rate: 300}\n",
-     ":2:18: output.frames: the clip and its warm-up are 9999990 steps; a run has at most 4194303"},
+     ":2:18: output.frames: the clip and its warm-up have 9999990 steps; a run has at most "
+     "4194303"},
     {"kiln: 1\n"
      "camera: {position: [1, 2, 3], target: [1, 2, 3]}\n",
-     ":2:39: camera.target: must not be where the camera is"},
+     ":2:39: camera.target: must not be the position of the camera"},
     {"kiln: 1\n"
      "camera: {position: {keys: {0 s: [0, 0, 0], 1 s: [0, 1, 0]}}, target: [0, 1, 0]}\n",
-     ":2:70: camera.target: must not be where the camera is"},
+     ":2:70: camera.target: must not be the position of the camera"},
     {"kiln: 1\n"
      "backdrop: {floor: {height: {keys: {0 s: 0, 1 s: 1}}}}\n",
      ":2:28: backdrop.floor.height: cannot vary while the floor collides; set "
@@ -428,7 +431,8 @@ static const struct bad agreement[] = {
      ":2:47: systems.a.emit.from.cone.direction: must not be [0, 0, 0]"},
     {"kiln: 1\n"
      "systems: {a: {emit: {bursts: {1 s: 5, 500 ms: 1}}}}\n",
-     ":2:39: systems.a.emit.bursts.500 ms: bursts must ascend, each after the one before"},
+     ":2:39: systems.a.emit.bursts.500 ms: the time of a burst must be later than that of the "
+     "burst before it"},
     {"kiln: 1\n"
      "systems: {a: {emit: {rate: 10000000, life: 100 s}}}\n",
      ":2:21: systems.a.emit: up to 49666667 particles at once need 1515 MiB; the systems of a "
@@ -440,7 +444,7 @@ static const struct bad agreement[] = {
     {"kiln: 1\n"
      "output: {frames: 100000}\n"
      "systems: {a: {emit: {rate: 10000000, life: 0.1 s}}}\n",
-     ":3:21: systems.a.emit: 33333000000 births in the run; at most 4294967295 can be told apart"},
+     ":3:21: systems.a.emit: the run has 33333000000 births; at most 4294967295 are allowed"},
 };
 
 BAD_TEST(keys)
@@ -477,17 +481,19 @@ static char *repeat(const char *start, const char *piece, size_t count, const ch
 static void bad_growth(void **state)
 {
     (void)state;
-    expect_generated(repeat("kiln: ", "[", 100000, "\n"), ":1:70: nested deeper than 64 levels");
+    expect_generated(repeat("kiln: ", "[", 100000, "\n"),
+                     ":1:70: nested deeper than the 64 levels that are allowed");
     expect_generated(repeat("kiln: ", "{a: ", 100000, "\n"),
-                     ":1:259: nested deeper than 64 levels");
+                     ":1:259: nested deeper than the 64 levels that are allowed");
     expect_generated(repeat("kiln: [", "1,", 5000, "]\n"),
-                     ":1:2056: more than 1024 entries in one list or mapping");
+                     ":1:2056: more than 1024 entries in one list or mapping; no more are allowed");
     /* A bomb of aliases has no fuse. */
     expect_generated(repeat("a: &a [x, x]\n", "b: [*a, *a]\n", 20, ""),
                      ":1:7: anchors and aliases are not allowed");
     /* Wide within each limit, but not in all. */
     char *row = repeat("  - [", "1,", 999, "1]\n");
-    expect_generated(repeat("kiln:\n", row, 200, ""), ":132:1882: more than 131072 entries in all");
+    expect_generated(repeat("kiln:\n", row, 200, ""),
+                     ":132:1882: more than 131072 entries in all; no more are allowed");
     free(row);
 }
 

@@ -69,7 +69,8 @@ static void files_that_are_no_scenes(void **state)
     assert_int_equal(mkfifo("pipe.yaml", 0666), 0);
     expect_error("pipe.yaml", params, "pipe.yaml: is not a regular file"); /* and does not wait */
     write_file("empty.yaml", "", 0);
-    expect_error("empty.yaml", params, "empty.yaml: empty; a scene starts with 'kiln: 1'");
+    expect_error("empty.yaml", params,
+                 "empty.yaml: the file is empty; a scene starts with 'kiln: 1'");
     static const char elf[] = "\x7f"
                               "ELF\2\1\1\0\0\0";
     write_file("binary.yaml", elf, sizeof elf);
@@ -92,7 +93,7 @@ static void huge_files_are_refused_early(void **state)
     assert_int_equal(ftruncate(file, (off_t)100 << 30), 0);
     close(file);
     expect_error("huge.yaml", NULL,
-                 "huge.yaml: 107374182400 bytes; a scene file has at most 4194304");
+                 "huge.yaml: the file has 107374182400 bytes; a scene file has at most 4194304");
 
     struct kiln_error error = {0};
     size_t size = 5 << 20;

@@ -459,8 +459,8 @@ static void scenes_say_what_is_wrong(void **state)
                  "s:4:18: backdrop.objects.0.mesh.file: 'tetrahedron.obj': the file has no "
                  "animation");
     expect_error("file: moving.gltf, animation: {}, collide: true",
-                 "s:4:55: backdrop.objects.0.mesh.collide: a mesh with an animation collides as a "
-                 "volume alone: set its collider to volume");
+                 "s:4:55: backdrop.objects.0.mesh.collide: a mesh with an animation needs the "
+                 "collider volume");
     expect_error(
         "file: moving.gltf, animation: {clip: []}",
         "s:4:49: backdrop.objects.0.mesh.animation.clip: expected the name of an animation "

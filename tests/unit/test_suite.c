@@ -469,14 +469,14 @@ static void a_test_file_says_all(void **state)
 static const struct {
     const char *text, *message;
 } wrong_files[] = {
-    {"", ": empty; a test starts with 'kiln_test: 1'"},
+    {"", ": the file is empty; a test starts with 'kiln_test: 1'"},
     {"- 1\n", ":1:1: expected a mapping of keys, found a list"},
-    {"scene: a.yaml\n", ":1:1: kiln_test: missing; it must be given"},
-    {"kiln_test: 1\n", ":1:1: scene: missing; it must be given"},
+    {"scene: a.yaml\n", ":1:1: kiln_test: the key is missing and must be given"},
+    {"kiln_test: 1\n", ":1:1: scene: the key is missing and must be given"},
     {"kiln_test: 2\nscene: s.yaml\n", ":1:12: kiln_test: 2 is out of range; allowed is 1"},
     {START "frame: 3\n", ":3:1: frame: unknown key (did you mean 'frames'?)"},
     {START "scene: b.yaml\n", ":3:1: duplicate key 'scene' (first in line 2)"},
-    {START "---\nscene: b.yaml\n", ":3:1: a test is one document; a second starts here"},
+    {START "---\nscene: b.yaml\n", ":3:1: a test has one document; a second one starts here"},
     {START "about: &a x\n", ":3:11: anchors and aliases are not allowed"},
     {"kiln_test: 1\nscene: \"\"\n", ":2:8: scene: must not be empty"},
     {"kiln_test: 1\nscene: [a]\n", ":2:8: scene: expected a text, found a list"},
@@ -492,7 +492,7 @@ static const struct {
                                      "\"0-23,40\", or auto, found '1000000'"},
     {START "frames: []\n", ":3:9: frames: expected up to 1000 frames as [24, 96] or "
                            "\"0-23,40\", or auto, found a list"},
-    {START "frames: 0-1000\n", ":3:9: frames: more than 1000 frames"},
+    {START "frames: 0-1000\n", ":3:9: frames: more than 1000 frames; no more are allowed"},
     {START "format: pgn\n", ":3:9: format: unknown word 'pgn' (did you mean 'png'?)"},
     {START "devices: ['()']\n", ":3:11: devices.0: expected software, a part of a device's "
                                 "name, or its number, found the text \"()\""},

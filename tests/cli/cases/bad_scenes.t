@@ -30,16 +30,16 @@ $ printf 'kiln: 1\noutput: {frames: -1}\n' | ./try negative
 2|negative.yaml:2:18: output.frames: -1 is out of range; allowed is from 1 to 1000000
 = 3
 $ printf 'kiln: 1\ncamera: {fov: .nan}\n' | ./try nan
-2|nan.yaml:2:15: camera.fov: .nan is no finite number
+2|nan.yaml:2:15: camera.fov: .nan is not a finite number
 = 3
 $ printf 'kiln: 1\ncamera: {fov: .inf}\n' | ./try inf
-2|inf.yaml:2:15: camera.fov: .inf is no finite number
+2|inf.yaml:2:15: camera.fov: .inf is not a finite number
 = 3
 $ printf 'kiln: 1\ncamera: {fov: 1e999}\n' | ./try huge
 2|huge.yaml:2:15: camera.fov: expected a number from 1 deg to 170 deg, found '1e999'
 = 3
 $ printf 'kiln: 1\nsimulation: {warmup: 2 deg}\n' | ./try wrong_unit
-2|wrong_unit.yaml:2:22: simulation.warmup: 'deg' does not fit; the unit is s, ms, min or h
+2|wrong_unit.yaml:2:22: simulation.warmup: unit 'deg' is wrong; allowed is s, ms, min or h
 = 3
 $ printf 'kiln: 1\nseed: 1\nseed: 2\n' | ./try duplicate
 2|duplicate.yaml:3:1: duplicate key 'seed' (first in line 2)
@@ -48,7 +48,7 @@ $ printf 'kiln: 2\n' | ./try version
 2|version.yaml:1:7: kiln: 2 is out of range; allowed is 1
 = 3
 $ printf 'seed: 2\n' | ./try no_version
-2|no_version.yaml:1:1: kiln: missing; it must be given
+2|no_version.yaml:1:1: kiln: the key is missing and must be given
 = 3
 $ printf 'kiln: 1\npost: {tonemap: agxx}\n' | ./try choice
 2|choice.yaml:2:17: post.tonemap: unknown word 'agxx' (did you mean 'agx'?)
@@ -66,7 +66,7 @@ $ kiln render scenes -o x.png
 2|scenes: is a folder, not a scene file
 = 3
 $ printf '' | ./try empty
-2|empty.yaml: empty; a scene starts with 'kiln: 1'
+2|empty.yaml: the file is empty; a scene starts with 'kiln: 1'
 = 3
 $ printf '\x7fELF\x00\x01\x02' | ./try binary
 2|binary.yaml:1:5: not a text: a zero byte
@@ -84,7 +84,7 @@ $ printf 'kiln: 1\n<<: {seed: 2}\n' | ./try merge
 2|merge.yaml:2:1: merge keys are not allowed
 = 3
 $ { printf 'kiln: 1\nseed: '; printf '[%.0s' {1..200}; printf ']%.0s' {1..200}; echo; } | ./try deep
-2|deep.yaml:2:70: nested deeper than 64 levels
+2|deep.yaml:2:70: nested deeper than the 64 levels that are allowed
 = 3
 $ truncate -s 100M large.yaml && kiln render large.yaml -o x.png; code=$?; rm large.yaml; exit $code
 2|large.yaml: 104857600 bytes; a scene file has at most 4194304

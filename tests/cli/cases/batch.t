@@ -79,7 +79,7 @@ What is no job is refused before any begins, and so are frames, limits and files
 
 $ printf '%s\n' 'printf "kiln_jobs: 1\njobs:\n" >bad.yaml; printf -- "  - %s\n" "$@" >>bad.yaml; exec kiln render --batch bad.yaml' >jobs; chmod +x jobs; sed -i '1i #!/bin/bash' jobs
 $ printf 'kiln_jobs: 1\njobs: [{scene: scenes/tiny.yaml}]\n' >bad.yaml; kiln render --batch bad.yaml
-2|bad.yaml:2:8: jobs.0.output: missing; it must be given
+2|bad.yaml:2:8: jobs.0.output: the key is missing and must be given
 = 3
 $ printf 'kiln_jobs: 1\njobs: [{scene: a.yaml, output: b.png, timeout: soon}]\n' >bad.yaml; kiln render --batch bad.yaml
 2|bad.yaml:2:48: jobs.0.timeout: expected a number from 0 s to 10000000 s, found 'soon'

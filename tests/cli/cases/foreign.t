@@ -86,7 +86,7 @@ $ kiln scenes/tiny.yaml -o x.mp4
 = 2
 $ for color in red '#ff0000' 0xff0000 "'#ff0000'"; do kiln check -q scenes/tiny.yaml --set "backdrop.floor.color=$color"; done
 2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found 'red'
-2|--set backdrop.floor.color: there is no value after '='; '#' begins a comment
+2|--set backdrop.floor.color: the value after '=' is empty; '#' begins a comment
 2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found '0xff0000'
 2|--set backdrop.floor.color: expected [red, green, blue] or one number for grey, linear, each from 0 to 1, or {keys: {time: value}}, found the text "#ff0000"
 = 3

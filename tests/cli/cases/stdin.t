@@ -22,7 +22,7 @@ $ printf 'kiln: 1\nsystems:\n  fire: {emti: {}}\n' | kiln check /dev/stdin
 2|/dev/stdin:3:10: systems.fire.emti: unknown key (did you mean 'emit'?)
 = 3
 $ kiln check - </dev/null
-2|standard input: empty; a scene starts with 'kiln: 1'
+2|standard input: the file is empty; a scene starts with 'kiln: 1'
 = 3
 $ kiln check - <&-
 2|kiln: standard input: the scene cannot be read: Bad file descriptor
