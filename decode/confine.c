@@ -43,7 +43,7 @@ bool decode_out_of_memory(struct kiln_error *error)
     if (own_limit == 0)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while decoding");
     return kiln_error_set(error, is_limited ? KILN_OVER_LIMIT : KILN_INVALID_INPUT,
-                          "it takes more than %llu MiB of memory to decode",
+                          "decoding takes more than %llu MiB of memory",
                           (unsigned long long)(own_limit >> 20));
 }
 

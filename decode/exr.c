@@ -149,7 +149,7 @@ static bool find_part(struct reading *reading)
     char found[256] = "none";
     list_channels(reading, parts, found, sizeof found);
     return kiln_error_set(reading->picture->error, KILN_INVALID_INPUT,
-                          "no layer '%s' in lines of full size; the file has the channels %s",
+                          "no layer '%s' whose lines have full size; the file has the channels %s",
                           reading->picture->layer, found);
 }
 

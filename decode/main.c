@@ -109,7 +109,8 @@ static unsigned char *read_file(int file, uint64_t most, size_t *size, struct ki
 {
     const off_t end = lseek(file, 0, SEEK_END); /* fstat would need a call that also takes paths */
     if (end < 0 || (uint64_t)end > most) {
-        kiln_error_set(error, KILN_IO, "it cannot be read, or has become longer meanwhile");
+        kiln_error_set(error, KILN_IO,
+                       "the file cannot be read, or became longer while it was read");
         return NULL;
     }
     *size = (size_t)end;
@@ -122,7 +123,8 @@ static unsigned char *read_file(int file, uint64_t most, size_t *size, struct ki
         if (got < 0 && errno == EINTR)
             continue;
         if (got <= 0) {
-            kiln_error_set(error, KILN_IO, "it cannot be read, or has become shorter meanwhile");
+            kiln_error_set(error, KILN_IO,
+                           "the file cannot be read, or became shorter while it was read");
             free(bytes);
             return NULL;
         }

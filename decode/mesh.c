@@ -91,7 +91,7 @@ static bool check_depth(const struct decode_mesh *mesh, struct kiln_error *error
     }
     return deepest <= MOST ||
            kiln_error_set(error, KILN_INVALID_INPUT,
-                          "its JSON is nested %zu levels deep; allowed are at most %d", deepest,
+                          "the JSON is nested %zu levels deep; at most %d are allowed", deepest,
                           MOST);
 }
 
@@ -141,7 +141,8 @@ static bool check_contents(const struct decode_mesh *mesh, struct kiln_error *er
         break;
     }
     if (!good)
-        return kiln_error_set(error, KILN_INVALID_INPUT, "by its contents, this is no %s file",
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "the contents of the file are not those of a %s file",
                               extensions[mesh->format]);
     return mesh->format == KILN_MESH_OBJ ? check_lines(mesh, error) : check_depth(mesh, error);
 }

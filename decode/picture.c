@@ -63,7 +63,8 @@ bool decode_allows_size(struct decode_picture *picture, const char *name, int64_
     picture->width = (uint32_t)width;
     picture->height = (uint32_t)height;
     return (uint64_t)(width * height) <= picture->most_pixels ||
-           kiln_error_set(picture->error, KILN_OVER_LIMIT, "more pixels than are left");
+           kiln_error_set(picture->error, KILN_OVER_LIMIT,
+                          "the image has more pixels than the limit asset_pixels leaves");
 }
 
 /* Checks the size and takes the memory of the pixels. The decoder calls it once it knows the size.

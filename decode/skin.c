@@ -81,7 +81,7 @@ static bool read_json(struct skinning *s)
     s->json = fy_document_build_from_string(&config, json, size);
     if (s->json)
         return true;
-    return SET(s, "its JSON can not be read: it is broken, or nested deeper than %d levels",
+    return SET(s, "the JSON cannot be read: it is broken, or nested deeper than %d levels",
                FYPCF_GUARANTEED_MINIMUM_DEPTH_LIMIT - 1);
 }
 
@@ -165,7 +165,7 @@ static bool put_nodes(struct skinning *s)
         if (!put_matrix(s, &node->mTransformation, out->nodes[i].rest))
             return false;
         if (node->mNumChildren > KILN_MAX_SKIN_NODES - out->node_count)
-            return SET(s, "more than %d nodes", KILN_MAX_SKIN_NODES);
+            return SET(s, "more than %d nodes; no more are allowed", KILN_MAX_SKIN_NODES);
         for (unsigned c = 0; c < node->mNumChildren; c++) {
             out->nodes[out->node_count].parent = i;
             s->nodes[out->node_count++] = node->mChildren[c];
@@ -185,7 +185,7 @@ static bool find_node(const struct skinning *s, const struct aiString *name, uin
     }
     if (count == 1)
         return true;
-    return SET(s, "%s nodes are called '%.100s', which moves; allowed is one",
+    return SET(s, "%s nodes are called '%.100s', which moves; exactly one node must have this name",
                count ? "several" : "no", name->data);
 }
 
@@ -199,7 +199,7 @@ static bool put_bone(struct skinning *s, uint32_t node, mat4 offset, uint16_t *n
            (out->bones[i].node != node || memcmp(out->bones[i].offset, offset, sizeof(mat4)) != 0))
         i++;
     if (i == KILN_MAX_SKIN_BONES)
-        return SET(s, "more than %d bones", KILN_MAX_SKIN_BONES);
+        return SET(s, "more than %d bones; no more are allowed", KILN_MAX_SKIN_BONES);
     if (i == out->bone_count) {
         out->bones[i].node = node;
         glm_mat4_copy(offset, out->bones[i].offset);
@@ -219,7 +219,8 @@ static bool add_weight(struct skinning *s, uint32_t vertex, uint16_t bone, float
             return true;
         }
     }
-    return SET(s, "more than %d bones move vertex %u", KILN_SKIN_INFLUENCES, vertex);
+    return SET(s, "more than %d bones move vertex %u; no more are allowed", KILN_SKIN_INFLUENCES,
+               vertex);
 }
 
 /* Stores the weights of a mesh's vertices by its bones; a mesh without bones follows its node. */
@@ -311,7 +312,7 @@ static struct kiln_skin_key *add_key(struct skinning *s, struct kiln_skin_track 
 {
     struct kiln_skin_result *out = &s->result->skin;
     if (out->key_count == KILN_MAX_CLIP_KEYS) {
-        SET(s, "more than %d keys", KILN_MAX_CLIP_KEYS);
+        SET(s, "more than %d keys; no more are allowed", KILN_MAX_CLIP_KEYS);
         return NULL;
     }
     if (track->count++ == 0)
@@ -373,7 +374,8 @@ static bool put_channel(struct skinning *s, const struct aiNodeAnim *from, doubl
 {
     struct kiln_skin_result *out = &s->result->skin;
     if (out->channel_count == KILN_MAX_CLIP_CHANNELS)
-        return SET(s, "clips move more than %d nodes", KILN_MAX_CLIP_CHANNELS);
+        return SET(s, "animations move more than %d nodes; no more are allowed",
+                   KILN_MAX_CLIP_CHANNELS);
     struct kiln_skin_channel *channel = &out->channels[out->channel_count++];
     struct kiln_skin_track *tracks = channel->tracks;
     const bool put = find_node(s, &from->mNodeName, &channel->node) &&
@@ -398,9 +400,9 @@ static bool put_clips(struct skinning *s)
         find_turned(s, next_of(animations, &at));
         const struct aiAnimation *from = s->scene->mAnimations[i];
         if (i == KILN_MAX_CLIPS)
-            return SET(s, "more than %d animations", KILN_MAX_CLIPS);
+            return SET(s, "more than %d animations; no more are allowed", KILN_MAX_CLIPS);
         if (from->mNumMeshChannels + from->mNumMorphMeshChannels > 0)
-            return SET(s, "an animation moves more than nodes and bones");
+            return SET(s, "an animation moves something other than nodes and bones");
         struct kiln_skin_clip *clip = &out->clips[out->clip_count++];
         clip->first = out->channel_count;
         clip->count = from->mNumChannels;

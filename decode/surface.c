@@ -390,9 +390,9 @@ static bool check_uvs(const struct surface *s)
 {
     for (size_t i = 0; s->wanted->uvs && i < s->part_count; i++) {
         if (!s->parts[i].mesh->mTextureCoords[0])
-            return kiln_error_set(s->error, KILN_INVALID_INPUT,
-                                  "the mesh, or a part of it, has no texture coordinates, by which "
-                                  "paint would find its places");
+            return kiln_error_set(
+                s->error, KILN_INVALID_INPUT,
+                "the mesh, or a part of it, has no texture coordinates, which paint needs");
     }
     return true;
 }

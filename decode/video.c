@@ -113,7 +113,7 @@ static bool open_container(struct decode_video *video)
         status = kiln_ff.avformat_open_input(&video->container, NULL, NULL, &options);
     kiln_ff.av_dict_free(&options);
     if (status < 0)
-        return fail_status(video, status, "not a video; allowed are " ALLOWED " files");
+        return fail_status(video, status, "the file is not a video; allowed are " ALLOWED " files");
     status = kiln_ff.avformat_find_stream_info(video->container, NULL);
     return status >= 0 || fail_status(video, status, "the video is broken or cut short");
 }
@@ -174,7 +174,7 @@ static int get_buffer(AVCodecContext *decoder, AVFrame *frame, int flags)
         (int64_t)frame->width * frame->height > KILN_MAX_IMAGE_PIXELS) {
         char what[160];
         snprintf(what, sizeof what,
-                 "a video of %d x %d pixels; allowed are 1 to %d a side and at most %d in all",
+                 "the video has %d x %d pixels; allowed are 1 to %d a side and at most %d in all",
                  frame->width, frame->height, KILN_MAX_IMAGE_EDGE, KILN_MAX_IMAGE_PIXELS);
         fail(video, KILN_INVALID_INPUT, what);
         return AVERROR(EINVAL);

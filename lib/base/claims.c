@@ -219,8 +219,8 @@ static bool check(const struct claim *earlier, const struct claim *now, const ch
         return true;
     const struct claim *reads = earlier->written ? now : earlier;
     const struct claim *writes = earlier->written ? earlier : now;
-    return kiln_error_set(error, KILN_USAGE, "%s: %s would replace %s, which this call reads", path,
-                          writes->what, reads->what);
+    return kiln_error_set(error, KILN_USAGE, "%s: %s would replace %s, which this command reads",
+                          path, writes->what, reads->what);
 }
 
 static bool add(struct kiln_claims *claims, struct claim *claim, const char *path,

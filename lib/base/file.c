@@ -31,11 +31,14 @@ static bool check_file(int file, const char *path, const char *what, size_t limi
     if (fstat(file, &status) != 0)
         return kiln_error_set_errno(error, KILN_IO, errno, "%s", path);
     if (S_ISDIR(status.st_mode))
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is a folder, not %s", path, what);
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is a folder, not %s", path,
+                              what);
     if (!S_ISREG(status.st_mode))
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a regular file", path);
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is not a regular file",
+                              path);
     if ((uint64_t)status.st_size > limit)
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: %lld bytes; %s has at most %zu", path,
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the file has %lld bytes; %s has at most %zu", path,
                               (long long)status.st_size, what, limit);
     *size = (size_t)status.st_size;
     return true;

@@ -20,7 +20,7 @@ bool kiln_file_check(int file, const char *path, const char *what, const char *a
     *size = (size_t)status.st_size;
     return S_ISREG(status.st_mode) ||
            kiln_error_set(error, KILN_INVALID_INPUT,
-                          "%s: not a file but a %s; allowed are %s files", path,
+                          "%s: the path is not a file but a %s; allowed are %s files", path,
                           S_ISDIR(status.st_mode) ? "folder" : "device or pipe", allowed);
 }
 

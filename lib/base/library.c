@@ -16,7 +16,7 @@ bool kiln_library_open(const char *file, const char *package,
         const char *reason = dlerror(); /* NOLINT(concurrency-mt-unsafe): it is glibc's */
         return kiln_error_set(error, KILN_IO,
                               "the library %s cannot be loaded; install Debian's package %s (%s)",
-                              file, package, reason ? reason : "no reason is known");
+                              file, package, reason ? reason : "the reason is unknown");
     }
     for (size_t i = 0; i < count; i++) {
         void *found = dlsym(library, functions[i].name);

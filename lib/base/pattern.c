@@ -46,8 +46,8 @@ static size_t read_number(const struct reading *reading, const char *c)
         pattern->digits = (uint32_t)(length <= MAX_DIGITS ? length : MAX_DIGITS + 1);
     if (length == 0)
         kiln_error_set(reading->error, KILN_USAGE,
-                       "%s: '%.3s' in the file name; after a percent sign only d, a width and d "
-                       "(%%04d), a # or a second percent sign may follow",
+                       "%s: '%.3s' in the file name is not allowed; after a percent sign only d, a "
+                       "width and d (%%04d), a # or a second percent sign may follow",
                        reading->path, c);
     else if (pattern->numbered)
         kiln_error_set(reading->error, KILN_USAGE, "%s: the file name has two frame numbers",
@@ -111,16 +111,17 @@ bool kiln_path_pattern_parse(struct kiln_path_pattern *pattern, const char *path
                               path, KILN_PATH_SIZE - DEFAULT_DIGITS - 2,
                               MAX_NAME - DEFAULT_DIGITS - 1);
     if (folder_has_number(path, name))
-        return kiln_error_set(error, KILN_USAGE,
-                              "%s: a frame number in a folder's name; it goes into the file name",
-                              path);
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "%s: the name of a folder has a frame number; only the file name may have one", path);
     struct reading reading = {pattern, path, error};
     if (!read_name(&reading, name))
         return false;
     if (pattern->numbered && numbering == KILN_NUMBER_NEVER)
         return kiln_error_set(
             error, KILN_USAGE,
-            "%s: a frame number in the name of a video or flipbook, which is one file", path);
+            "%s: the name of a video or flipbook has a frame number; it is one file and takes none",
+            path);
     if (!pattern->numbered && numbering == KILN_NUMBER_ALWAYS)
         add_number(pattern);
     return true;

@@ -57,7 +57,7 @@ bool kiln_simd_choose(enum kiln_simd *simd, struct kiln_error *error)
         }
     }
     if (!found)
-        kiln_error_set(error, KILN_USAGE, "KILN_SIMD is '%s'; this machine has: %s", wanted,
+        kiln_error_set(error, KILN_USAGE, "KILN_SIMD is '%s'; this machine has %s", wanted,
                        names.data ? names.data : "");
     kiln_text_free(&names);
     return found;

@@ -20,10 +20,10 @@ bool kiln_sized_check(const void *out, const char *what, struct kiln_error *erro
 {
     const size_t size = out ? size_of(out) : sizeof(size_t);
     return (size >= sizeof(size_t) && size <= MOST) ||
-           kiln_error_set(error, KILN_USAGE,
-                          "struct %s: its size is %zu; fill it by the function that is named after "
-                          "it",
-                          what, size);
+           kiln_error_set(
+               error, KILN_USAGE,
+               "struct %s: the size is %zu; fill the struct by the function that is named after it",
+               what, size);
 }
 
 bool kiln_sized_take(void *own, const void *given, const char *what, struct kiln_error *error)

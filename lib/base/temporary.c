@@ -86,7 +86,8 @@ bool kiln_make_parent_folders(const char *path, struct kiln_error *error)
             return kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be made",
                                         folder);
         if (!S_ISDIR(status.st_mode))
-            return kiln_error_set(error, KILN_USAGE, "%s: not a folder, but %s needs one here",
+            return kiln_error_set(error, KILN_USAGE,
+                                  "%s: the path is not a folder, but %s needs a folder here",
                                   folder, path);
         *slash = '/';
     }

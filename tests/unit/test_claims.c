@@ -100,7 +100,7 @@ static void what_is_read_is_not_written(void **state)
         assert_false(both);
         assert_int_equal(error.code, KILN_USAGE);
         assert_non_null(
-            strstr(error.message, ": --output would replace a mask, which this call reads"));
+            strstr(error.message, ": --output would replace a mask, which this command reads"));
         kiln_claims_destroy(&claims);
     }
 }

@@ -324,7 +324,8 @@ static void a_missing_file_is_empty_and_a_broken_one_an_error(void **state)
 
     assert_int_equal(mkdir("folder", 0777) + mkdir("folder/expect.yaml", 0777), 0);
     assert_null(kiln_expect_read(arena, "folder", &error));
-    assert_string_equal(error.message, "folder/expect.yaml: is a folder, not an expect.yaml");
+    assert_string_equal(error.message,
+                        "folder/expect.yaml: the path is a folder, not an expect.yaml");
     kiln_arena_destroy(&arena);
 }
 

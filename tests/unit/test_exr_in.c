@@ -91,7 +91,7 @@ static void an_unknown_layer_is_refused(void **state)
     size_t size = 0;
     unsigned char *bytes = write_exr(16, &size);
     assert_refused(bytes, size, "smoke",
-                   "no layer 'smoke' in lines of full size; the file has the channels A, B, "
+                   "no layer 'smoke' whose lines have full size; the file has the channels A, B, "
                    "G, R, Z, fire.A, fire.B, fire.G, fire.R");
     assert_refused(bytes, size, "fir", "no layer 'fir'");
     assert_refused(bytes, size, "", "no layer ''");

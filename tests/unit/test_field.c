@@ -109,7 +109,7 @@ static void what_has_no_inside_is_refused(void **state)
 {
     (void)state;
     expect_refusal(CORNERS "f 1 3 2\nf 1 2 4\nf 1 4 3\n",
-                   "bad.obj: the mesh is not closed, so that nothing is inside of it: 1 triangle "
+                   "bad.obj: the mesh is not closed, so it has no inside: 1 triangle "
                    "is at the edge from ");
     expect_refusal(CORNERS "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n",
                    "2 triangles are at the edge from ");

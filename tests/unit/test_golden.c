@@ -296,7 +296,8 @@ static void the_lock_lets_one_in(void **state)
     test_write_file("file", "");
     const struct kiln_test wrong = {.golden = "file"};
     assert_int_equal(kiln_goldens_lock(&wrong, &error), -1);
-    assert_string_equal(error.message, "file: not a folder, but file/ needs one here");
+    assert_string_equal(error.message,
+                        "file: the path is not a folder, but file/ needs a folder here");
 }
 
 /* ---- Accepting ---------------------------------------------------------------------------- */

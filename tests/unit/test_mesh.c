@@ -230,7 +230,7 @@ static void buffers_elsewhere_are_refused(void **state)
     kiln_mesh_destroy(&mesh);
     char text[2048];
     snprintf(text, sizeof text, GLTF, "t.bin");
-    refuse_text(text, "memory.gltf", "it may name no other files");
+    refuse_text(text, "memory.gltf", "a file of this name must not name other files");
 }
 
 /* ---- what is no mesh ------------------------------------------------------------------------- */
@@ -248,11 +248,11 @@ static void nonsense_is_refused(void **state)
 {
     (void)state;
     refuse_text(CUBE, "cube.stl", "allowed are OBJ, glTF or GLB");
-    refuse_text(CUBE, "cube", "not a mesh by its name");
+    refuse_text(CUBE, "cube", "the name is not that of a mesh");
     refuse_text("", "empty.obj", "the mesh file is empty");
-    refuse_text(CUBE, "cube.glb", "this is no .glb file");
-    refuse_text(CUBE, "cube.gltf", "this is no .gltf file");
-    refuse("v 0 0 0\0", 8, "zero.obj", "this is no .obj file");
+    refuse_text(CUBE, "cube.glb", "not those of a .glb file");
+    refuse_text(CUBE, "cube.gltf", "not those of a .gltf file");
+    refuse("v 0 0 0\0", 8, "zero.obj", "not those of a .obj file");
     refuse_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "points.obj", "points.obj");
     refuse_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n", "lines.obj", "lines.obj");
     refuse_text("v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n", "far.obj", "allowed are numbers within");

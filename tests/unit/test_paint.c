@@ -485,7 +485,7 @@ static void needles_without_end_are_refused(void **state)
             triangles[i][k] = k;
     assert_null(kiln_chart_create(&mesh, 2048, "needles", &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_non_null(strstr(error.message, "needles: its triangles lie in more than 16777216 rows"));
+    assert_non_null(strstr(error.message, "needles: the triangles lie in more than 16777216 rows"));
 }
 
 static void bad_scenes_are_refused(void **state)

@@ -513,7 +513,7 @@ static void bad_key_count(void **state)
 
     snprintf(text + length, sizeof text - (size_t)length, "}}, roll: {keys: {0: 0}}}\n");
     expect_generated(strdup(text), ":2:13264: camera.roll.keys: 1 keys are too many; a scene has "
-                                   "at most 1024 and used 1024 before");
+                                   "at most 1024, and 1024 of them are used already");
 }
 
 int main(void)

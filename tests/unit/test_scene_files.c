@@ -99,7 +99,8 @@ static void huge_files_are_refused_early(void **state)
     size_t size = 5 << 20;
     char *text = calloc(size, 1);
     assert_null(kiln_scene_parse(text, size, "memory", NULL, &error));
-    assert_string_equal(error.message, "memory: 5242880 bytes; a scene file has at most 4194304");
+    assert_string_equal(error.message,
+                        "memory: the scene file has 5242880 bytes; at most 4194304 are allowed");
     free(text);
 }
 
@@ -255,9 +256,8 @@ static void what_collides_must_be_closed(void **state)
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_string_equal(error.message,
                         "scenes/open.yaml:2:64: backdrop.objects.0.mesh.collide: "
-                        "'textures/open.obj': the mesh is not closed, so that nothing is inside of "
-                        "it: 1 triangle is at the edge from 0 0 0 to 0 1 0, where there must be "
-                        "two");
+                        "'textures/open.obj': the mesh is not closed, so it has no inside: 1 "
+                        "triangle is at the edge from 0 0 0 to 0 1 0, where there must be two");
 }
 
 static void depth_maps_need_directions_and_no_inside(void **state)

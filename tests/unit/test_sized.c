@@ -109,7 +109,7 @@ static void no_version_had_such_a_size(void **state)
         given.size = sizes[i];
         assert_false(kiln_sized_take(&own, &given, "params", &error));
         assert_int_equal(error.code, KILN_USAGE);
-        assert_non_null(strstr(error.message, "struct params: its size is "));
+        assert_non_null(strstr(error.message, "struct params: the size is "));
         assert_false(kiln_sized_check(&given, "params", &error));
     }
     assert_memory_equal(&own, &defaults, sizeof own);

@@ -323,7 +323,7 @@ static void keys_may_come_twice(void **state)
     kiln_skin_destroy(&skin);
     variant.skin = SKIN;
     variant.animations = WAVE "\"extras\": {\"by\": " EIGHT(EIGHT("[")) EIGHT(EIGHT("]")) "},";
-    refuse(&rig, &variant, "its JSON is nested 66 levels deep; allowed are at most 20");
+    refuse(&rig, &variant, "the JSON is nested 66 levels deep; at most 20 are allowed");
 }
 
 static void clips_are_found(void **state)
@@ -345,7 +345,8 @@ static void clips_are_found(void **state)
     assert_false(kiln_skin_find_clip(skin, "walk", "f", &number, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_string_equal(
-        error.message, "f: no animation is called 'walk'; there are 'wave', '0', by number 0 to 1");
+        error.message,
+        "f: no animation is called 'walk'; the file has 'wave', '0', by number 0 to 1");
     kiln_skin_destroy(&skin);
 }
 
@@ -408,7 +409,8 @@ static void what_is_unsound_is_refused(void **state)
     refuse(&rig, &variant, "the file has no animation");
     variant = SOUND;
     variant.second = "body";
-    refuse(&rig, &variant, "several nodes are called 'body', which moves; allowed is one");
+    refuse(&rig, &variant,
+           "several nodes are called 'body', which moves; exactly one node must have this name");
 
     rig.weights[7][1] += 0.25f;
     refuse(&rig, &SOUND, "the weights of vertex 7 sum to 1.25; allowed are");
@@ -454,7 +456,7 @@ static void scenes_say_what_is_wrong(void **state)
     (void)state;
     expect_error("file: moving.gltf, animation: {clip: run}",
                  "s:4:49: backdrop.objects.0.mesh.animation.clip: 'moving.gltf': no animation is "
-                 "called 'run'; there are 'turn', 'go', by number 0 to 1");
+                 "called 'run'; the file has 'turn', 'go', by number 0 to 1");
     expect_error("file: tetrahedron.obj, animation: {}",
                  "s:4:18: backdrop.objects.0.mesh.file: 'tetrahedron.obj': the file has no "
                  "animation");

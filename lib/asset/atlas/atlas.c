@@ -196,8 +196,8 @@ bool kiln_atlas_send(struct kiln_atlas *atlas, struct kiln_error *error)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "a host atlas is not in GL");
     if ((int64_t)atlas->layers > device->info.max_array_layers)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "the atlases have %u cells together; %s takes %d", atlas->layers,
-                              device->info.name, device->info.max_array_layers);
+                              "the atlases have %u cells together; %s takes at most %d",
+                              atlas->layers, device->info.name, device->info.max_array_layers);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     upload_cells(atlas);
     upload_moves(atlas);

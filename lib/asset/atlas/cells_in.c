@@ -212,9 +212,10 @@ static bool read_frames(const struct kiln_cells_source *source,
         struct kiln_asset_image *image = NULL;
         ok = kiln_video_in_read(video, &image, error);
         if (ok && !image)
-            ok = kiln_error_set(error, KILN_INVALID_INPUT,
-                                "%s: a video of %u frames; the %u columns and %u rows take %u",
-                                source->path, i, source->columns, source->rows, count);
+            ok =
+                kiln_error_set(error, KILN_INVALID_INPUT,
+                               "%s: the video has %u frames; %u columns and %u rows need %u frames",
+                               source->path, i, source->columns, source->rows, count);
         ok = ok && (!take || take(user, image, i, error));
         kiln_asset_image_destroy(&image);
     }

@@ -166,7 +166,7 @@ static void refuse_overlap(const struct making *m, uint32_t a, uint32_t b, size_
     kiln_error_set(
         error, KILN_INVALID_INPUT,
         "%s: the triangles %u (around %.4g %.4g %.4g) and %u (around %.4g %.4g %.4g) both lie at "
-        "the texture coordinates %.4g %.4g; for paint, each needs a place of its own",
+        "the texture coordinates %.4g %.4g; for paint, triangles must not overlap there",
         m->name, a, at[0], at[1], at[2], b, other[0], other[1], other[2],
         ((double)(texel % m->edge) + 0.5) / m->edge, ((double)(texel / m->edge) + 0.5) / m->edge);
 }
@@ -184,8 +184,8 @@ static bool add_triangle(struct making *m, uint32_t number, struct kiln_error *e
     m->rows += row <= end ? end - row + 1 : 0;
     if (m->rows > MOST_ROWS) {
         kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: its triangles lie in more than %d rows of texels altogether; for "
-                       "paint, unwrap it with less narrow ones, or set a smaller size",
+                       "%s: the triangles lie in more than %d rows of texels altogether; for "
+                       "paint, unwrap the mesh into less narrow triangles, or set a smaller size",
                        m->name, MOST_ROWS);
         return false;
     }

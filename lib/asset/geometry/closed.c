@@ -86,8 +86,8 @@ static bool check_edges(const struct kiln_mesh *mesh, const struct edge *edges, 
         const float *b = mesh->vertices[vertex_of[edges[first].high]];
         return kiln_error_set(
             error, KILN_INVALID_INPUT,
-            "%s: the mesh is not closed, so that nothing is inside of it: %zu %s at the edge from "
-            "%g %g %g to %g %g %g%s",
+            "%s: the mesh is not closed, so it has no inside: %zu %s at the edge from %g %g %g to "
+            "%g %g %g%s",
             name, next - first, next - first == 1 ? "triangle is" : "triangles are", (double)a[0],
             (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],
             next - first == 1 ? ", where there must be two" : ", and do not face the same side");

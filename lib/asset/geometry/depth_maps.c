@@ -482,8 +482,8 @@ bool kiln_depth_maps_check(const struct kiln_mesh *mesh, const char *name,
     free(making.corners);
     return visits <= MOST_VISITS ||
            kiln_error_set(error, KILN_INVALID_INPUT,
-                          "%s: its %u triangles lie in %lld samples of a depth map altogether; "
-                          "allowed are %d: lower the resolution",
+                          "%s: the %u triangles of the mesh lie in %lld samples of a depth map "
+                          "altogether; at most %d are allowed: lower the resolution",
                           name, mesh->triangle_count, (long long)visits, MOST_VISITS);
 }
 

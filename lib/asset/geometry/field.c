@@ -126,8 +126,8 @@ static bool check_inside(const struct kiln_field *field, const struct kiln_mesh 
     free(turns);
     return inside ||
            kiln_error_set(error, KILN_INVALID_INPUT,
-                          "%s: the mesh is thinner than one of %u cells everywhere, so "
-                          "that particles would not find it; at most %d cells are allowed",
+                          "%s: the mesh is thinner than one of %u cells everywhere, so particles "
+                          "would not collide with it; at most %d cells are allowed",
                           name, cells, KILN_MAX_FIELD_CELLS);
 }
 

@@ -39,7 +39,8 @@ static bool note_contents(struct request *request, int file, struct kiln_error *
 {
     char hex[65];
     if (request->hash_length + 64 >= sizeof request->hashes)
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: it names more than %d files",
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the mesh file names more than %d files; no more are allowed",
                               request->name, MAX_FILES - 1);
     if (!kiln_hash_sha256_descriptor(file, hex))
         return kiln_error_set(error, KILN_IO, "%s: the mesh cannot be read", request->name);
@@ -69,15 +70,15 @@ static int open_named(struct request *request, const char *name, struct kiln_err
     const int folder = slash ? (int)(slash - request->name) + 1 : 0;
     char path[KILN_PATH_SIZE];
     if (request->alone || !stays_below(name)) {
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: it names the file '%.200s'; %s",
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: the mesh file names the file '%.200s'; %s",
                        request->name, name,
-                       request->alone ? "it may name no other files"
+                       request->alone ? "a file of this name must not name other files"
                                       : "its files must lie in its folder or below");
         return -1;
     }
     if (snprintf(path, sizeof path, "%.*s%s", folder, request->name, name) >= (int)sizeof path) {
         kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: it names a file with a path that is too long", request->name);
+                       "%s: the mesh file names a file whose path is too long", request->name);
         return -1;
     }
     const struct kiln_loader_file file = {path, "buffer", "glTF buffer", KILN_MAX_MESH_BYTES};
@@ -88,7 +89,8 @@ static int open_named(struct request *request, const char *name, struct kiln_err
         /* the reason alone: the message begins with the path, which `name` replaces */
         const char *said = strstr(reason.message, ": ");
         kiln_error_set(error, reason.code == KILN_IO ? KILN_INVALID_INPUT : reason.code,
-                       "%s: it names the file '%.200s'%s", request->name, name, said ? said : "");
+                       "%s: the mesh file names the file '%.200s'%s", request->name, name,
+                       said ? said : "");
     }
     if (opened >= 0 && !note_contents(request, opened, error)) {
         close(opened);
@@ -131,7 +133,8 @@ static bool check(const char *name, const struct kiln_mesh_result *result, struc
     }
     if (!good)
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: the mesh is broken: the importer made nonsense of it", name);
+                              "%s: the mesh is broken: the importer returned inconsistent data",
+                              name);
     for (uint32_t i = 0; i < result->vertex_count; i++) {
         if (!check_vertex(result->vertices[i]))
             return kiln_error_set(error, KILN_INVALID_INPUT,
@@ -218,7 +221,7 @@ static bool await(struct request *request, struct kiln_decode_answer *answer,
         if (!hand_over(request, answer->text, error))
             return false;
     }
-    return kiln_error_set(error, KILN_INVALID_INPUT, "it asks for files without end");
+    return kiln_error_set(error, KILN_INVALID_INPUT, "the mesh file names too many files");
 }
 
 /* Asks for the mesh in a file, and waits for it. */
@@ -237,7 +240,8 @@ static bool receive(struct request *request, int file, struct kiln_mesh_result *
         ok = are_counts_sound(result, moving)
                  ? kiln_mesh_visit_arrays(result, request->wanted.uvs, moving, receive_array,
                                           &receiving)
-                 : kiln_error_set(&reason, KILN_INVALID_INPUT, "its importer makes nonsense of it");
+                 : kiln_error_set(&reason, KILN_INVALID_INPUT,
+                                  "the importer returned inconsistent data");
     }
     if (request->refusal.code != KILN_OK)
         return kiln_error_set(error, request->refusal.code, "%s", request->refusal.message);
@@ -286,7 +290,7 @@ static bool find_format(struct request *request, struct kiln_error *error)
         }
     }
     return kiln_error_set(error, KILN_INVALID_INPUT,
-                          "%s: not a mesh by its name; allowed are " ALLOWED
+                          "%s: the name is not that of a mesh; allowed are " ALLOWED
                           " files (.obj, .gltf, .glb)",
                           request->name);
 }

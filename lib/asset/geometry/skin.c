@@ -246,9 +246,10 @@ static bool check_counts(const struct check *check)
             keys += track->count;
         }
     }
-    return good || kiln_error_set(check->error, KILN_INVALID_INPUT,
-                                  "%s: the animation is broken: the importer made nonsense of it",
-                                  check->name);
+    return good ||
+           kiln_error_set(check->error, KILN_INVALID_INPUT,
+                          "%s: the animation is broken: the importer returned inconsistent data",
+                          check->name);
 }
 
 static bool check_matrices(const struct check *check)
@@ -274,13 +275,13 @@ static bool check_track(const struct check *check, const struct kiln_skin_track 
             (i > 0 && !(seconds > keys[i - 1].seconds)))
             return kiln_error_set(check->error, KILN_INVALID_INPUT,
                                   "%s: a key lies at %g s; allowed are times from 0 s to %g s, "
-                                  "each later than the one before",
+                                  "each later than the time of the key before it",
                                   check->name, (double)seconds, (double)FARTHEST);
         const float square = glm_quat_dot(key.value, key.value);
         if (!is_near(key.value, 4) || (turns && !(square > 0.25f && square < 4.0f)))
             return kiln_error_set(check->error, KILN_INVALID_INPUT,
                                   "%s: the key at %g s has the value %g %g %g %g; allowed are "
-                                  "numbers within -%g and %g, of turns unit quaternions",
+                                  "numbers within -%g and %g, and unit quaternions for rotations",
                                   check->name, (double)seconds, (double)key.value[0],
                                   (double)key.value[1], (double)key.value[2], (double)key.value[3],
                                   (double)FARTHEST, (double)FARTHEST);
@@ -473,7 +474,7 @@ bool kiln_skin_find_clip(const struct kiln_skin *skin, const char *clip, const c
     *number = is_number(clip) ? (uint32_t)strtoul(clip, NULL, 10) : skin->clip_count;
     return *number < skin->clip_count ||
            kiln_error_set(error, KILN_INVALID_INPUT,
-                          "%s: no animation is called '%.63s'; there are %s, by number 0 to %u",
+                          "%s: no animation is called '%.63s'; the file has %s, by number 0 to %u",
                           name, clip, known, skin->clip_count - 1);
 }
 

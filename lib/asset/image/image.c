@@ -60,7 +60,8 @@ static bool refuse_unknown(const struct head *head, const char *name, struct kil
         snprintf(found + 3 * i, sizeof found - 3 * i, " %02x", head->bytes[i]);
     return kiln_error_set(
         error, KILN_INVALID_INPUT,
-        "%s: not an image: it starts with the bytes%s; allowed are " ALLOWED " files", name, found);
+        "%s: the file is not an image: it starts with the bytes%s; allowed are " ALLOWED " files",
+        name, found);
 }
 
 /* Returns whether a file is an animated WebP, by its extended header. FFmpeg has no decoder for
@@ -94,7 +95,8 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
     if (signature->format == KILN_PICTURE_WEBP && is_animated_webp(head))
         return kiln_error_set(
             error, KILN_INVALID_INPUT,
-            "%s: an animated WebP, which FFmpeg does not decode; use a video or APNG", name);
+            "%s: the file is an animated WebP, which FFmpeg does not decode; use a video or APNG",
+            name);
     if (layer && signature->format == KILN_PICTURE_EXR && !(beauty && is_tiled_exr(head))) {
         *kind = KILN_DECODE_EXR;
         return snprintf(request->layer, sizeof request->layer, "%s", layer) <
@@ -149,8 +151,9 @@ static struct kiln_asset_image *load(struct kiln_loader *loader, const char *pat
     if (image && kiln_loader_knows(loader, path, known) &&
         (image->width != known[0] || image->height != known[1])) {
         kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: it was changed meanwhile: %u x %u pixels, and %u x %u before", path,
-                       image->width, image->height, known[0], known[1]);
+                       "%s: the image changed while it was read: it has %u x %u pixels, and had %u "
+                       "x %u before",
+                       path, image->width, image->height, known[0], known[1]);
         kiln_asset_image_destroy(&image);
     }
     return image;

@@ -47,7 +47,7 @@ static bool receive_pixels(const struct kiln_received *received, struct kiln_ass
         return false;
     return image->type != KILN_IMAGE_F32 || !received->finite || are_finite(image) ||
            kiln_error_set(reason, KILN_INVALID_INPUT,
-                          "the image is cut short or has pixels that are not finite numbers");
+                          "the image is cut short, or has pixels that are not finite numbers");
 }
 
 /* Counts the pixels of a picture in the budget. Of a video, whose frames are in memory one at a
@@ -72,8 +72,8 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
         return NULL;
     struct kiln_asset_image *image = calloc(1, sizeof *image);
     bool ok = image || kiln_error_set(reason, KILN_DEVICE_FAILED, "out of memory");
-    ok = ok && (is_sound(&answer) ||
-                kiln_error_set(reason, KILN_INVALID_INPUT, "its decoder makes nonsense of it"));
+    ok = ok && (is_sound(&answer) || kiln_error_set(reason, KILN_INVALID_INPUT,
+                                                    "the decoder returned inconsistent data"));
     if (ok) {
         *image = (struct kiln_asset_image){.width = answer.width,
                                            .height = answer.height,

@@ -36,8 +36,9 @@ bool kiln_texture_init(struct kiln_texture *texture, struct kiln_device *device,
     uint32_t most = (uint32_t)device->info.max_texture_size;
     bool ok = image->width <= most && image->height <= most;
     if (!ok) {
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: %u x %u pixels; %s takes at most %u a side",
-                       path, image->width, image->height, device->info.name, most);
+        kiln_error_set(error, KILN_INVALID_INPUT,
+                       "%s: the picture has %u x %u pixels; %s takes at most %u a side", path,
+                       image->width, image->height, device->info.name, most);
     } else {
         texture->width = image->width;
         texture->height = image->height;

@@ -91,8 +91,8 @@ bool kiln_helper_find(char path[KILN_PATH_SIZE], struct kiln_error *error)
     if (put_path(path, KILN_LIBEXEC_DIR, ""))
         return true;
     return kiln_error_set(error, KILN_DEVICE_FAILED,
-                          "%s: the program that decodes pictures, videos and meshes is missing; "
-                          "it is a part of kiln's installation",
+                          "%s: the program that decodes pictures, videos and meshes is missing; it "
+                          "belongs to kiln's installation",
                           path);
 }
 
@@ -217,15 +217,15 @@ static bool greet(struct kiln_helper *helper, const struct kiln_caller *caller, 
     struct kiln_error reason = {0};
     if (!kiln_helper_answer(helper, caller, 1u << KILN_DECODE_READY, &answer, &reason)) {
         if (reason.code == KILN_INVALID_INPUT)
-            kiln_error_set(&reason, KILN_DEVICE_FAILED, "it ends before it has begun");
+            kiln_error_set(&reason, KILN_DEVICE_FAILED, "the program ended before it began");
         else if (!is_of_caller(&reason))
             reason.code = KILN_DEVICE_FAILED;
         return kiln_helper_fail(path, &reason, error);
     }
     return strcmp(answer.text, KILN_VERSION) == 0 ||
            kiln_error_set(error, KILN_DEVICE_FAILED,
-                          "%s: it is of kiln %s, and this is kiln " KILN_VERSION, path,
-                          answer.text);
+                          "%s: the program belongs to kiln %s, and this is kiln " KILN_VERSION,
+                          path, answer.text);
 }
 
 struct kiln_helper *kiln_helper_start(enum kiln_decode_kind kind, uint64_t most_memory,
@@ -247,7 +247,8 @@ struct kiln_helper *kiln_helper_start(enum kiln_decode_kind kind, uint64_t most_
     const int status = spawn(&helper->process, path, kind, most_memory, pair[1]);
     close(pair[1]);
     if (status) {
-        kiln_error_set_errno(error, KILN_DEVICE_FAILED, status, "%s: it cannot be started", path);
+        kiln_error_set_errno(error, KILN_DEVICE_FAILED, status, "%s: the program cannot be started",
+                             path);
         close(helper->socket);
         free(helper);
         return NULL;
@@ -354,18 +355,20 @@ static bool fail_gone(struct kiln_helper *helper, const struct kiln_caller *call
     if (info.si_pid != 0 && WIFSIGNALED(status) && !is_own_fault(WTERMSIG(status)))
         return kiln_error_set(
             error, KILN_DEVICE_FAILED, "the process that decodes it was ended by signal %d%s",
-            WTERMSIG(status), WTERMSIG(status) == SIGKILL ? "; is memory short?" : "");
+            WTERMSIG(status),
+            WTERMSIG(status) == SIGKILL ? "; perhaps the machine is short of memory" : "");
     if (asked != 0)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "the process that decodes it is gone, and nobody knows why");
-    return kiln_error_set(error, KILN_INVALID_INPUT, "it is broken: its decoder fails on it");
+                              "the process that decodes it ended for an unknown reason");
+    return kiln_error_set(error, KILN_INVALID_INPUT, "the file is broken: the decoder fails on it");
 }
 
 static bool fail_time(struct kiln_helper *helper, int seconds, const char *of,
                       struct kiln_error *error)
 {
     helper->is_broken = true;
-    return kiln_error_set(error, KILN_INVALID_INPUT, "it is not decoded after %d s%s", seconds, of);
+    return kiln_error_set(error, KILN_INVALID_INPUT, "decoding took longer than %d s%s", seconds,
+                          of);
 }
 
 bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size, int file,
@@ -394,7 +397,7 @@ bool kiln_helper_send(struct kiln_helper *helper, const void *bytes, size_t size
     if (sent != (ssize_t)size && !helper->is_broken && (errno == EAGAIN || errno == EWOULDBLOCK)) {
         helper->is_broken = true;
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "it is broken: its decoder does not listen");
+                              "the file is broken: the decoder does not answer");
     }
     return sent == (ssize_t)size || fail_gone(helper, NULL, error);
 }
@@ -448,5 +451,5 @@ bool kiln_helper_answer(struct kiln_helper *helper, const struct kiln_caller *ca
         return true;
     helper->is_broken = true;
     return kiln_error_set(error, KILN_INVALID_INPUT,
-                          "it is broken: its decoder makes nonsense of it");
+                          "the file is broken: the decoder returned inconsistent data");
 }

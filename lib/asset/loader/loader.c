@@ -151,13 +151,13 @@ static int open_file(const struct kiln_loader *loader, const struct kiln_loader_
     const char *root = loader ? loader->params.root : NULL;
     const char *relative = root ? kiln_path_below(file->path, root) : NULL;
     if (root && !relative) {
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: it leads outside the asset root",
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path leads outside the asset root",
                        file->path);
         return -1;
     }
     const int found = root ? open_below(root, relative) : open(file->path, KILN_FILE_FLAGS);
     if (found < 0 && root && (errno == EXDEV || errno == ELOOP))
-        kiln_error_set(error, KILN_INVALID_INPUT, "%s: it leads outside the asset root",
+        kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path leads outside the asset root",
                        file->path);
     else if (found < 0)
         kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be opened", file->path,

@@ -63,7 +63,7 @@ $ kiln render nowhere.yaml -o x.png
 2|nowhere.yaml: No such file or directory
 = 3
 $ kiln render scenes -o x.png
-2|scenes: is a folder, not a scene file
+2|scenes: the path is a folder, not a scene file
 = 3
 $ printf '' | ./try empty
 2|empty.yaml: the file is empty; a scene starts with 'kiln: 1'
@@ -87,7 +87,7 @@ $ { printf 'kiln: 1\nseed: '; printf '[%.0s' {1..200}; printf ']%.0s' {1..200}; 
 2|deep.yaml:2:70: nested deeper than the 64 levels that are allowed
 = 3
 $ truncate -s 100M large.yaml && kiln render large.yaml -o x.png; code=$?; rm large.yaml; exit $code
-2|large.yaml: 104857600 bytes; a scene file has at most 4194304
+2|large.yaml: the file has 104857600 bytes; a scene file has at most 4194304
 = 3
 
 Textures.

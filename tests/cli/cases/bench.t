@@ -199,7 +199,7 @@ $ TMPDIR=kept kiln bench jobs --size 33x33 --device cpu --quiet 2>&1 | sed 's/ki
 A folder that takes no files is found before anything is measured.
 
 $ kiln bench bytes --quick --device software -o scenes/tiny.yaml
-2|kiln: bench: scenes/tiny.yaml: not a folder, but scenes/tiny.yaml/bench.txt needs one here
+2|kiln: bench: scenes/tiny.yaml: the path is not a folder, but scenes/tiny.yaml/bench.txt needs a folder here
 = 2
 $ kiln bench bytes --quick --device software -o /proc/kiln 2>&1 | sed 's/: [A-Z].*/: <why>/'
 1|kiln: /proc/kiln: the folder cannot be made: <why>

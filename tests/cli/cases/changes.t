@@ -81,7 +81,7 @@ $ kiln test --filter hash --no-report --against ./nowhere
 No report replaces the program that draws.
 
 $ kiln test --filter hash --against ./other --report ./other --force
-2|kiln: ./other: --report would replace --against, which this call reads
+2|kiln: ./other: --report would replace --against, which this command reads
 = 2
 $ grep -c exec other
 1|1

@@ -18,16 +18,16 @@ $ kiln render a.yaml -q -o fq.png --flipbook 2x2 --flipbook-motion --manifest no
 2|kiln: nowhere/../fq_motion.png: --output and --manifest would both write this file
 = 2
 $ kiln render a.yaml -q --frames 0 -o a.png --manifest a.yaml --force
-2|kiln: a.yaml: --manifest would replace the scene, which this call reads
+2|kiln: a.yaml: --manifest would replace the scene, which this command reads
 = 2
 $ kiln render a.yaml -q --frames 0 -o a.png --manifest folder/../link.yaml --force
-2|kiln: folder/../link.yaml: --manifest would replace the scene, which this call reads
+2|kiln: folder/../link.yaml: --manifest would replace the scene, which this command reads
 = 2
 $ kiln render a.yaml -q --frames 0 -o a.png --manifest hard.yaml --force
-2|kiln: hard.yaml: --manifest would replace the scene, which this call reads
+2|kiln: hard.yaml: --manifest would replace the scene, which this command reads
 = 2
 $ kiln render a.yaml b.yaml -q --frames 0 -o {scene}.png --manifest {scene}.yaml --force
-2|kiln: a.yaml: --manifest would replace the scene, which this call reads
+2|kiln: a.yaml: --manifest would replace the scene, which this command reads
 = 2
 $ kiln render a.yaml b.yaml -q --frames 0 -o {scene}.png --manifest ./{scene}.png
 2|kiln: ./a.png: --output and --manifest would both write this file
@@ -46,10 +46,10 @@ Nor what its scene is made of, under whatever name.
 $ cp scenes/puff.png t.png && ln t.png same.png && sed 's/^camera:/&/; s|atlas: [^,}]*|atlas: t.png|' a.yaml >t.yaml && grep -c t.png t.yaml
 1|2
 $ kiln render t.yaml -q --frames 0 -o ./t.png --force
-2|kiln: ./t.png: --output would replace a file of the scene, which this call reads
+2|kiln: ./t.png: --output would replace a file of the scene, which this command reads
 = 2
 $ kiln render t.yaml -q --frames 0 -o x.exr --manifest same.png --force
-2|kiln: same.png: --manifest would replace a file of the scene, which this call reads
+2|kiln: same.png: --manifest would replace a file of the scene, which this command reads
 = 2
 
 Comparing: references, tests and masks stay, and the two pictures of a pair of frames have two names.
@@ -62,16 +62,16 @@ $ kiln compare one two --diff e_%01d.png --error-map e_%d.png
 2|kiln: e_0.png: --diff and --error-map would both write this file
 = 2
 $ kiln compare one two --diff one/f_%04d.png --force
-2|kiln: one/f_0000.png: --diff would replace a picture of the reference, which this call reads
+2|kiln: one/f_0000.png: --diff would replace a picture of the reference, which this command reads
 = 2
 $ kiln compare one two --diff two/ --force
-2|kiln: two/f_0000.png: --diff would replace a picture of the test, which this call reads
+2|kiln: two/f_0000.png: --diff would replace a picture of the test, which this command reads
 = 2
 $ kiln compare one/f_0001.png two/f_0001.png --mask t.png --diff same.png --force
-2|kiln: same.png: --diff would replace a mask, which this call reads
+2|kiln: same.png: --diff would replace a mask, which this command reads
 = 2
 $ kiln compare one/f_%04d.png two/f_%04d.png --error-map one/f_####.png --force -q
-2|kiln: one/f_0000.png: --error-map would replace a picture of the reference, which this call reads
+2|kiln: one/f_0000.png: --error-map would replace a picture of the reference, which this command reads
 = 2
 $ ls one two
 1|one:
@@ -125,22 +125,22 @@ $ ls v
 The file of --json is claimed as well.
 
 $ kiln compare one/f_0001.png two/f_0001.png -q --json=two/../one/f_0001.png --force
-2|kiln: two/../one/f_0001.png: --json would replace a picture of the reference, which this call reads
+2|kiln: two/../one/f_0001.png: --json would replace a picture of the reference, which this command reads
 = 2
 $ kiln compare one/f_0001.png two/f_0001.png -q --mask t.png --json=same.png --force
-2|kiln: same.png: --json would replace a mask, which this call reads
+2|kiln: same.png: --json would replace a mask, which this command reads
 = 2
 $ kiln compare one two -q --diff e_%d.png --json=e_2.png
 2|kiln: e_2.png: --json and --diff would both write this file
 = 2
 $ kiln plan t.yaml --device cpu --json=same.png --force
-2|kiln: same.png: --json would replace a file of the scene, which this call reads
+2|kiln: same.png: --json would replace a file of the scene, which this command reads
 = 2
 $ kiln plan t.yaml --device cpu --json=./t.yaml --force
-2|kiln: ./t.yaml: --json would replace the scene, which this call reads
+2|kiln: ./t.yaml: --json would replace the scene, which this command reads
 = 2
 $ kiln bake t.yaml --device cpu -q -o states --json=t.yaml --force
-2|kiln: t.yaml: --json would replace the scene, which this call reads
+2|kiln: t.yaml: --json would replace the scene, which this command reads
 = 2
 $ kiln bake t.yaml --device cpu -q -o states --json=./states
 2|kiln: ./states: --output and --json would both write this file
@@ -155,13 +155,13 @@ $ cmp t.yaml <(sed 's|atlas: [^,}]*|atlas: t.png|' a.yaml) && cmp t.png scenes/p
 Figures.
 
 $ kiln figure strip one/f_%04d.png -o one/f_0001.png --force
-2|kiln: figure strip: one/f_0001.png: the figure would replace a frame that it is made of, which this call reads
+2|kiln: figure strip: one/f_0001.png: the figure would replace a frame that it is made of, which this command reads
 = 2
 $ kiln figure sheet t.yaml --frames 1 -o ./t.png --force
-2|kiln: figure sheet: <folder>/work/t.png: the figure would replace a file of the scene, which this call reads
+2|kiln: figure sheet: <folder>/work/t.png: the figure would replace a file of the scene, which this command reads
 = 2
 $ kiln figure triptych one/f_0001.png two/f_0001.png -o one/../two/f_0001.png --force
-2|kiln: figure triptych: one/../two/f_0001.png: the figure would replace a file that it is made of, which this call reads
+2|kiln: figure triptych: one/../two/f_0001.png: the figure would replace a file that it is made of, which this command reads
 = 2
 $ ls
 1|a.yaml

@@ -171,7 +171,7 @@ $ kiln compare -q grey.png box.png --diff out/d.jpg
 2|kiln: out/d.jpg: pictures of differences are PNG; the name must end in .png, or be a folder
 = 2
 $ kiln compare -q grey.png box.png --diff grey.png/d.png
-2|kiln: grey.png: not a folder, but grey.png/d.png needs one here
+2|kiln: grey.png: the path is not a folder, but grey.png/d.png needs a folder here
 = 2
 
 $ kiln compare -q grey.png box.png --error-map out/map.png --diff out/both.png
@@ -341,7 +341,7 @@ $ for kind in mov avi mkv; do
 1|mkv cut short: 3
 $ cp grey.png fake.mp4
 $ kiln compare -q fake.mp4 v.mp4 2>&1 | sed 's/ (.*//'
-1|fake.mp4: not a video; allowed are MP4, MOV, Matroska, WebM, AVI, GIF or APNG files
+1|fake.mp4: the file is not a video; allowed are MP4, MOV, Matroska, WebM, AVI, GIF or APNG files
 
 Layers of EXR files.
 
@@ -354,7 +354,7 @@ $ kiln compare -q x.exr y.exr --layer fire
 = 1
 $ kiln compare -q x.exr y.exr --layer depth
 $ kiln compare -q x.exr x.exr --layer fier
-2|x.exr: no layer 'fier' in lines of full size; the file has the channels A, B, G, R, Z, bloom.A, bloom.B, bloom.G, bloom.R, fire.A, fire.B, fire.G, fire.R, smoke.A, smoke.B, smoke.G, smoke.R
+2|x.exr: no layer 'fier' whose lines have full size; the file has the channels A, B, G, R, Z, bloom.A, bloom.B, bloom.G, bloom.R, fire.A, fire.B, fire.G, fire.R, smoke.A, smoke.B, smoke.G, smoke.R
 = 3
 $ kiln compare -q grey.png grey.png --layer fire
 2|grey.png: no layer 'fire': PNG images have no layers but 'beauty'

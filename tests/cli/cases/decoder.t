@@ -30,7 +30,7 @@ $ python3 - <<'P'
 > P
 $ timeout 5 true && ./atlas text.png
 $ ./mesh deep.glb; ./mesh lines.obj
-2|scene.yaml:2:36: backdrop.objects.0.mesh.file: 'deep.glb': its JSON is nested 65 levels deep; allowed are at most 20
+2|scene.yaml:2:36: backdrop.objects.0.mesh.file: 'deep.glb': the JSON is nested 65 levels deep; at most 20 are allowed
 2|scene.yaml:2:36: backdrop.objects.0.mesh.file: 'lines.obj': the mesh has no triangles, only points or lines
 = 3
 

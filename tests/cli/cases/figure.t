@@ -79,7 +79,7 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --plain --title T
 2|kiln: figure sheet: --plain leaves no room for a title or labels
 = 2
 $ kiln figure triptych scenes/puff.png scenes/puff.png -o scenes/../scenes/puff.png --force
-2|kiln: figure triptych: scenes/../scenes/puff.png: the figure would replace a file that it is made of, which this call reads
+2|kiln: figure triptych: scenes/../scenes/puff.png: the figure would replace a file that it is made of, which this command reads
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep seed=1,2 --label one
 2|kiln: figure sheet: found 1 labels where 2 are needed
@@ -94,7 +94,7 @@ $ kiln figure triptych scenes/puff.png -o a.png
 2|kiln: figure triptych: needs REFERENCE TEST
 = 2
 $ kiln figure triptych scenes/puff.png scenes/tiny.yaml -o a.png
-2|scenes/tiny.yaml: not an image: it starts with the bytes 23 20 41 20; allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files
+2|scenes/tiny.yaml: the file is not an image: it starts with the bytes 23 20 41 20; allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files
 = 3
 $ kiln figure strip missing.mp4 -o a.png
 2|missing.mp4: No such file or directory
@@ -261,7 +261,7 @@ $ kiln figure sheet scenes/tiny.yaml -o odd2.png --depfile odd.d
 2|kiln: figure sheet: odd.d: the file exists (--force replaces it)
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o odd2.png --depfile scenes/tiny.yaml --force
-2|kiln: figure sheet: scenes/tiny.yaml: --depfile would replace a file that it is made of, which this call reads
+2|kiln: figure sheet: scenes/tiny.yaml: --depfile would replace a file that it is made of, which this command reads
 = 2
 $ rm -r odd*
 

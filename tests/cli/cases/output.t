@@ -12,7 +12,7 @@ $ kiln render scenes/tiny.yaml -q -o nosuffix
 2|kiln: nosuffix: the output needs a file name with a suffix that tells its format: .png, .jpg, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png/b.png
-2|kiln: a.png: not a folder, but a.png/b.png needs one here
+2|kiln: a.png: the path is not a folder, but a.png/b.png needs a folder here
 = 2
 $ kiln render scenes/tiny.yaml -q -o odd.mp4 --size 63x36
 2|kiln: odd.mp4: a video of 63 x 36 pixels; H.264 needs even sizes, the nearest is 64x36
@@ -21,19 +21,19 @@ $ kiln render scenes/tiny.yaml -q -o gap.mp4 --frames 0-3,8
 2|kiln: gap.mp4: a clip cannot leave out frames, but frames 4-7 would be missing; write images, or one range
 = 2
 $ kiln render scenes/tiny.yaml -q -o frame_%s.png
-2|kiln: frame_%s.png: '%s.' in the file name; after a percent sign only d, a width and d (%04d), a # or a second percent sign may follow
+2|kiln: frame_%s.png: '%s.' in the file name is not allowed; after a percent sign only d, a width and d (%04d), a # or a second percent sign may follow
 = 2
 $ kiln render scenes/tiny.yaml -q -o frame_%d_%d.png
 2|kiln: frame_%d_%d.png: the file name has two frame numbers
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o /dev/null/x.png
-2|kiln: /dev/null: not a folder, but /dev/null/x.png needs one here
+2|kiln: /dev/null: the path is not a folder, but /dev/null/x.png needs a folder here
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o /sys/x.png
 2|kiln: /sys/x.png: the file cannot be created: Permission denied
 = 6
 $ kiln render scenes/tiny.yaml -q --frames 0 -o b.png --manifest /dev/null/x.json
-2|kiln: /dev/null: not a folder, but /dev/null/x.json needs one here
+2|kiln: /dev/null: the path is not a folder, but /dev/null/x.json needs a folder here
 = 2
 $ mkfifo pipe.png && kiln render scenes/tiny.yaml -q --frames 0 -o pipe.png --force
 2|kiln: pipe.png: a device, pipe or socket has this name

@@ -128,13 +128,13 @@ $ kiln test fire -q --junit notes --force && head -n 1 notes
 $ for file in fire.test.yaml scenes/tiny.yaml scenes/puff.png golden/fire/frame_0006.png golden/fire/expect.yaml golden/fire/../fire/scene.yaml out/test/fire/frame_0006.png out/test/run.json out/test/fire/result.json out/test/.kiln-results; do kiln test fire -q --force --report $file; done
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
-2|kiln: fire.test.yaml: --report would replace a test file, which this call reads
-2|kiln: scenes/tiny.yaml: --report would replace a scene, which this call reads
-2|kiln: scenes/puff.png: --report would replace a file of a scene, which this call reads
-2|kiln: golden/fire/frame_0006.png: --report would replace a golden, which this call reads
-2|kiln: golden/fire/expect.yaml: --report would replace a golden, which this call reads
-2|kiln: golden/fire/../fire/scene.yaml: --report would replace a golden, which this call reads
-2|kiln: out/test/fire/frame_0006.png: --report would replace a picture of a result, which this call reads
+2|kiln: fire.test.yaml: --report would replace a test file, which this command reads
+2|kiln: scenes/tiny.yaml: --report would replace a scene, which this command reads
+2|kiln: scenes/puff.png: --report would replace a file of a scene, which this command reads
+2|kiln: golden/fire/frame_0006.png: --report would replace a golden, which this command reads
+2|kiln: golden/fire/expect.yaml: --report would replace a golden, which this command reads
+2|kiln: golden/fire/../fire/scene.yaml: --report would replace a golden, which this command reads
+2|kiln: out/test/fire/frame_0006.png: --report would replace a picture of a result, which this command reads
 2|kiln: out/test/run.json: the results and --report would both write this file
 2|kiln: out/test/fire/result.json: the results and --report would both write this file
 2|kiln: out/test/.kiln-results: the results and --report would both write this file
@@ -152,9 +152,9 @@ $ for file in out/test/run.json out/test/fire/result.json out/test/fire/frame_00
 1|1 frame: 1 by pixels, 0 by metrics
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
-2|kiln: out/test/run.json: --report would replace a run, which this call reads
-2|kiln: out/test/fire/result.json: --report would replace a result, which this call reads
-2|kiln: out/test/fire/frame_0006.png: --report would replace a picture of a result, which this call reads
+2|kiln: out/test/run.json: --report would replace a run, which this command reads
+2|kiln: out/test/fire/result.json: --report would replace a result, which this command reads
+2|kiln: out/test/fire/frame_0006.png: --report would replace a picture of a result, which this command reads
 = 2
 $ kiln test fire -q --no-report && diff -r golden first/../golden && grep -c kiln: scenes/tiny.yaml
 1|1

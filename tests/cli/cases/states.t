@@ -85,7 +85,7 @@ $ kiln bake scenes/tiny.yaml -o states --every 1.5
 2|kiln: bake: --every: found '1.5', expected a time of at least a frame, such as 10s, or a number of frames from 1 to 1000000
 = 2
 $ kiln bake scenes/tiny.yaml -o scenes/tiny.yaml
-2|kiln: scenes/tiny.yaml: not a folder, but scenes/tiny.yaml/ needs one here
+2|kiln: scenes/tiny.yaml: the path is not a folder, but scenes/tiny.yaml/ needs a folder here
 = 2
 $ kiln render scenes/tiny.yaml -q -o none --states nowhere
 2|kiln: nowhere: the folder of states cannot be read: No such file or directory

@@ -31,7 +31,7 @@ $ kiln check - </
 2|kiln: standard input: the scene cannot be read: Is a directory
 = 6
 $ head -c 5000000 /dev/zero | tr '\0' '#' | kiln check -
-2|standard input: 4194305 bytes; a scene file has at most 4194304
+2|standard input: the scene file has 4194305 bytes; at most 4194304 are allowed
 = 3
 $ kiln check - /dev/stdin </dev/null
 2|kiln: check: /dev/stdin can be read only once

@@ -261,20 +261,20 @@ $ kiln test fire --report page.html --junit fire.test.yaml/junit.xml; echo $?; l
 1|1 frame: 1 by pixels, 0 by metrics
 1|2
 1|page.html
-2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
+2|kiln: fire.test.yaml: the path is not a folder, but fire.test.yaml/junit.xml needs a folder here
 $ kiln test wrong -q --junit fire.test.yaml/junit.xml
 1|error   wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 1|1 test in <s> s: 1 error
 1|report: out/test/report.html
 1|0 frames: 0 by pixels, 0 by metrics
-2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
+2|kiln: fire.test.yaml: the path is not a folder, but fire.test.yaml/junit.xml needs a folder here
 = 3
 $ kiln test slow -q --time-limit 0.25 --junit fire.test.yaml/junit.xml
 1|error   slow  took longer than 0.25 s
 1|1 test in <s> s: 1 error
 1|report: out/test/report.html
 1|0 frames: 0 by pixels, 0 by metrics
-2|kiln: fire.test.yaml: not a folder, but fire.test.yaml/junit.xml needs one here
+2|kiln: fire.test.yaml: the path is not a folder, but fire.test.yaml/junit.xml needs a folder here
 = 5
 $ kiln test fire -o fire.test.yaml
 2|kiln: fire.test.yaml: cannot open the folder: Not a directory
