@@ -98,12 +98,12 @@ static bool check_tonemap(struct encode *encode, struct kiln_error *error)
     const bool is_light = encode->image->type == KILN_IMAGE_F32;
     if (is_light && !name)
         return kiln_error_set(error, KILN_USAGE,
-                              "%s: is a picture of light; say with --tonemap (none, agx or aces) "
-                              "how it becomes colours",
+                              "%s: the image is linear light; choose by --tonemap (none, agx or "
+                              "aces) how it becomes colours",
                               encode->first);
     if (!is_light && (name || encode->params->exposure != 0.0f))
         return kiln_error_set(error, KILN_USAGE,
-                              "--%s: %s is no picture of light but of colours already",
+                              "--%s: not allowed; %s has colours already, not linear light",
                               name ? "tonemap" : "exposure", encode->first);
     return !name || kiln_tonemap_find(name, &encode->tonemap) ||
            kiln_error_set(error, KILN_USAGE, "--tonemap %s: expected none, agx or aces", name);
@@ -141,8 +141,9 @@ static bool find_rate(const struct encode *encode, uint64_t *num, uint64_t *den,
                               "--fps %s: expected a rate from 1 to %d, such as 30, 29.97 or "
                               "30000/1001",
                               text, KILN_MAX_RATE);
-    return kiln_error_set(error, KILN_USAGE, "%s: %s; give it with --fps", encode->first,
-                          *text ? "has a rate that no clip has" : "does not say its rate");
+    return kiln_error_set(error, KILN_USAGE, "%s: the image %s; give the rate with --fps",
+                          encode->first,
+                          *text ? "has a rate that no clip can have" : "does not say its rate");
 }
 
 /* Returns the hash of the scene that an image names, or "" where it is no hash: any program may
@@ -157,11 +158,10 @@ static bool check_format(const struct kiln_output_params *files, struct kiln_err
 {
     if (!files->format)
         return false;
-    return files->format->video ||
-           kiln_error_set(error, KILN_USAGE,
-                          "%s: %s are no clip; expected .mp4, .webm, .mkv, .mov, .gif, .apng or "
-                          ".webp",
-                          files->path, files->format->name);
+    return files->format->video || kiln_error_set(error, KILN_USAGE,
+                                                  "%s: %s are not a clip; expected .mp4, "
+                                                  ".webm, .mkv, .mov, .gif, .apng or .webp",
+                                                  files->path, files->format->name);
 }
 
 /* Claims all files, so that the clip replaces no image that is read. */
@@ -215,7 +215,7 @@ static void warn_of_missing(const struct encode *encode)
                        job_last = job->clip[job->clip_count - 1].last;
         if (job_first < encode->number || job_last > last)
             kiln_log_write(&encode->params->log, KILN_LOG_WARNING,
-                           "%s: the job has frames %u-%u, and of them %u-%u are here",
+                           "%s: the job has frames %u-%u, but only %u-%u are here",
                            encode->params->frames, job_first, job_last, encode->number, last);
     }
     kiln_arena_destroy(&arena);
@@ -226,8 +226,8 @@ static void warn_of_depth(const struct encode *encode)
     const uint32_t wanted = kiln_output_needs(encode->output).bits;
     if (encode->image->type != KILN_IMAGE_F32 && encode->bits != wanted)
         kiln_log_write(&encode->params->log, KILN_LOG_WARNING,
-                       "%s: has %u bits a channel, %s takes %u: the clip differs a little from one "
-                       "drawn at once",
+                       "%s: the images have %u bits a channel, but %s takes %u: the clip differs a "
+                       "little from one that is rendered at once",
                        encode->first, encode->bits, encode->params->output, wanted);
 }
 
@@ -302,15 +302,15 @@ static bool check_frame(const struct encode *encode, const struct kiln_asset_ima
     const bool may_be = image->type == KILN_IMAGE_F32 && !*carried->alpha && !alpha;
     if (image->type != first->type || (alpha != encode->alpha && !may_be))
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: %s a channel, %s alpha; %s has %s, %s", path, name_type(image),
-                              alpha ? "with" : "without", encode->first, name_type(first),
-                              encode->alpha ? "with alpha" : "without");
+                              "%s: the image has %s a channel, %s alpha; %s has %s, %s", path,
+                              name_type(image), alpha ? "with" : "without", encode->first,
+                              name_type(first), encode->alpha ? "with alpha" : "without");
     if (strcmp(carried->scene, encode->carried.scene) == 0 &&
         strcmp(carried->seed, encode->carried.seed) == 0)
         return true;
     return kiln_error_set(error, KILN_INVALID_INPUT,
-                          *carried->scene ? "%s: is of another scene or seed than %s"
-                                          : "%s: does not say of which scene it is, %s does",
+                          *carried->scene ? "%s: the image belongs to another scene or seed than %s"
+                                          : "%s: the image does not name its scene, but %s does",
                           path, encode->first);
 }
 
@@ -375,8 +375,8 @@ static bool add_frame(struct encode *encode, uint32_t due, struct kiln_error *er
     bool ok = image != NULL;
     if (ok && number != due)
         ok = kiln_error_set(error, KILN_INVALID_INPUT,
-                            "%s: is frame %u where frame %u is due; a clip leaves out none, and "
-                            "takes the files of a folder in the order of their names",
+                            "%s: found frame %u where frame %u must follow; a clip leaves out no "
+                            "frame, and takes the files of a folder in the order of their names",
                             path, number, due);
     ok = ok && check_frame(encode, image, &carried, path, error) &&
          write_frame(encode, image, number, error);

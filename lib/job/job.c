@@ -355,8 +355,8 @@ static bool begin_to_resume(struct kiln_job *job, struct kiln_error *error)
 static bool check_stream(const struct kiln_job *job, struct kiln_error *error)
 {
     return !writes_stream(job) || !(job->resumes || job->params->flipbook) ||
-           kiln_error_set(error, KILN_USAGE, "%s: a stream is no %s", job->files.path,
-                          job->resumes ? "file that can be gone on with" : "flipbook");
+           kiln_error_set(error, KILN_USAGE, "%s: standard output cannot be %s", job->files.path,
+                          job->resumes ? "resumed" : "a flipbook");
 }
 
 static bool check_shard(const struct kiln_render_params *params, struct kiln_error *error)
@@ -367,7 +367,7 @@ static bool check_shard(const struct kiln_render_params *params, struct kiln_err
         return kiln_error_set(error, KILN_USAGE, "shard %u of %u: shards count from 0",
                               params->shard, params->shards);
     return params->output ||
-           kiln_error_set(error, KILN_USAGE, "shard %u of %u: there is no output to share",
+           kiln_error_set(error, KILN_USAGE, "shard %u of %u: the job has no output to share",
                           params->shard, params->shards);
 }
 

@@ -54,8 +54,8 @@ static bool refuse_missing(const struct join *join, struct kiln_error *error)
                 kiln_text_add(&text, "-%u", range->last);
         }
     }
-    kiln_error_set(error, KILN_IO, "%s: not all is there; missing or damaged:%s%s",
-                   join->params->output, text.data ? text.data : "", count > MOST ? "..." : "");
+    kiln_error_set(error, KILN_IO, "%s: parts are missing or damaged:%s%s", join->params->output,
+                   text.data ? text.data : "", count > MOST ? "..." : "");
     kiln_text_free(&text);
     return false;
 }

@@ -166,8 +166,8 @@ bool kiln_journal_head_read(struct kiln_journal_head *head, const char *journal,
     struct members m = {.line = line, .arena = arena};
     struct kiln_output_params output = {.path = path, .threads = 1};
     if (take_number(&m, "kiln_journal") != KILN_JOURNAL_VERSION || m.bad)
-        return kiln_error_set(error, KILN_USAGE, "%s: is not a journal that this kiln reads",
-                              journal);
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: the file is not a journal that this kiln reads", journal);
     take_settings(&m, &output);
     const char *made_by = take_text(&m, "made_by"), *scene = take_text(&m, "manifest");
     const char *job = take_text(&m, "job");
@@ -181,6 +181,6 @@ bool kiln_journal_head_read(struct kiln_journal_head *head, const char *journal,
     if (!kiln_journal_head_make(head, &output, made_by, scene))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal);
     return strcmp(head->job, job) == 0 ||
-           kiln_error_set(error, KILN_USAGE, "%s: is the journal of another output than %s",
+           kiln_error_set(error, KILN_USAGE, "%s: the journal belongs to another output than %s",
                           journal, path);
 }

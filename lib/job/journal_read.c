@@ -115,13 +115,14 @@ bool kiln_journal_check_head(const struct kiln_journal *journal, const struct ki
     uint64_t version = 0;
     const char *other = NULL;
     if (!line || !read_number(kiln_node_entry(line, "kiln_journal"), &version))
-        other = "is not a journal";
+        other = "the file is not a journal";
     else if (version != KILN_JOURNAL_VERSION)
-        other = "is a journal of another version of kiln";
+        other = "the journal belongs to another version of kiln";
     else if (!says(line, "scene", head->output.scene_hash))
-        other = "is the journal of another scene, or of this one with other values or another size";
+        other = "the journal belongs to another scene, or to this scene with other values or "
+                "another size";
     else if (!says(line, "job", head->job))
-        other = "is the journal of other frames, or other settings of the output";
+        other = "the journal belongs to other frames, or to other settings of the output";
     if (other)
         return kiln_error_set(error, KILN_USAGE, "%s: %s (--force starts anew)", journal->path,
                               other);
@@ -129,12 +130,12 @@ bool kiln_journal_check_head(const struct kiln_journal *journal, const struct ki
         return true;
     const struct kiln_node *made_by = kiln_node_entry(line, "made_by");
     /* KILN_IO: a scheduler may find the machine again that has begun the job. */
-    return kiln_error_set(
-        error, KILN_IO,
-        "%s: was begun by another program, device or techniques (%.200s), this is "
-        "%s; --force starts anew",
-        journal->path, made_by && made_by->kind == KILN_NODE_SCALAR ? made_by->text : "",
-        head->made_by);
+    return kiln_error_set(error, KILN_IO,
+                          "%s: the output was begun by another program, device or techniques "
+                          "(%.200s) than this job has (%s); --force starts anew",
+                          journal->path,
+                          made_by && made_by->kind == KILN_NODE_SCALAR ? made_by->text : "",
+                          head->made_by);
 }
 
 /* Reads one line into the records. The first line must be the head of this job. */
@@ -187,7 +188,8 @@ char *kiln_journal_read_text(const struct kiln_journal *journal, struct kiln_err
         error->code = KILN_USAGE;
     if (!text || strncmp(text, start, compared) == 0)
         return text;
-    kiln_error_set(error, KILN_USAGE, "%s: is not a journal (--force starts anew)", journal->path);
+    kiln_error_set(error, KILN_USAGE, "%s: the file is not a journal (--force starts anew)",
+                   journal->path);
     free(text);
     return NULL;
 }

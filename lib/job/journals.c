@@ -252,8 +252,8 @@ bool kiln_journal_find(const char *output, struct kiln_journal_head *head, struc
     struct finding finding = {.head = head, .output = output, .arena = arena};
     const bool none = visit_journals(output, read_head, &finding, error);
     if (none)
-        kiln_error_set(error, KILN_IO,
-                       "%s: has no journal beside it: no job with --resume or --shard has begun it",
-                       output);
+        kiln_error_set(
+            error, KILN_IO,
+            "%s: the output has no journal: no job with --resume or --shard has begun it", output);
     return finding.found;
 }

@@ -15,15 +15,17 @@ static const struct row {
     const char *help;
 } rows[] = {
     [KILN_LIMIT_pixels] = {"16777216", "Width times height of the pictures."},
-    [KILN_LIMIT_frames] = {"100000", "Length of the clip."},
+    [KILN_LIMIT_frames] = {"100000", "Length of the clip in frames."},
     [KILN_LIMIT_steps] = {"1000000", "Steps of the simulation up to its last frame."},
     [KILN_LIMIT_particles] = {"4000000", "Particles that may live at once, of all systems."},
-    [KILN_LIMIT_memory] = {"4 GiB", "What the process takes, and what a scene is expected to."},
-    [KILN_LIMIT_time] = {"1 h", "From the start of the command to its end; as --timeout."},
+    [KILN_LIMIT_memory] = {"4 GiB",
+                           "Memory that the process takes, or that a scene is expected to take."},
+    [KILN_LIMIT_time] = {"1 h", "Time from the start of the command to its end, like --timeout."},
     [KILN_LIMIT_cpu] = {"none", "Time of all processors together."},
-    [KILN_LIMIT_asset_pixels] = {"268435456", "Pixels of the pictures that it names, decoded."},
+    [KILN_LIMIT_asset_pixels] = {"268435456",
+                                 "Pixels of the pictures that the scene names, decoded."},
     [KILN_LIMIT_asset_bytes] = {"1 GiB", "Bytes of the files that the scene names."},
-    [KILN_LIMIT_triangles] = {"2000000", "Triangles of the meshes that it names."},
+    [KILN_LIMIT_triangles] = {"2000000", "Triangles of the meshes that the scene names."},
     [KILN_LIMIT_output] = {"64 GiB", "Bytes that are written."},
 };
 
@@ -97,10 +99,12 @@ static bool refuse_name(const char *name, struct kiln_error *error)
     }
     const char *nearest = kiln_text_nearest(name, names, KILN_LIMIT_COUNT + 1);
     if (nearest)
-        kiln_error_set(error, KILN_USAGE, "'%.40s' is no limit; did you mean '%s'?", name, nearest);
+        kiln_error_set(error, KILN_USAGE, "'%.40s' is not a limit; did you mean '%s'?", name,
+                       nearest);
     else
-        kiln_error_set(error, KILN_USAGE, "'%.40s' is no limit; there are %sand the preset service",
-                       name, list.data ? list.data : "");
+        kiln_error_set(error, KILN_USAGE,
+                       "'%.40s' is not a limit; there are %sand the preset service", name,
+                       list.data ? list.data : "");
     kiln_text_free(&list);
     return false;
 }
@@ -119,11 +123,11 @@ static bool read_item(struct kiln_limits *limits, char *item, struct kiln_error 
     if (equals)
         *equals = '\0';
     if (strcmp(item, "service") == 0)
-        return kiln_error_set(error, KILN_USAGE, "'service' stands by itself, without a value");
+        return kiln_error_set(error, KILN_USAGE, "'service' takes no value");
     if (!find_limit(item, &limit))
         return refuse_name(item, error);
     if (!equals || !read_amount(limit, equals + 1, &amount))
-        return kiln_error_set(error, KILN_USAGE, "%s: found '%.40s', expected %s, or none", item,
+        return kiln_error_set(error, KILN_USAGE, "%s: found '%.40s'; expected %s, or none", item,
                               equals ? equals + 1 : "", expected[units[limit]]);
     limits->most[limit] = amount;
     return true;
@@ -147,15 +151,16 @@ bool kiln_limits_parse(struct kiln_limits *limits, const char *text, struct kiln
 
 bool kiln_write_limits(FILE *out)
 {
-    fputs("--limits KEY=VALUE,... or the environment's KILN_LIMITS; the former is read last. "
-          "`service`\n"
-          "stands for all values of its column, `none` lifts a limit. What is over a limit ends "
-          "with\n"
-          "exit code 8; nothing half-written is left, and --resume may go on. render, bake, plan "
-          "and\n"
-          "check have limits, of which encode and join heed memory, time, cpu and output; tests "
-          "have\n"
-          "a time limit of their own.\n\n",
+    fputs("--limits KEY=VALUE,... sets limits, and so does the environment's KILN_LIMITS; --limits "
+          "is read\n"
+          "last. `service` stands for all values of its column, `none` lifts a limit. A job that "
+          "goes over a\n"
+          "limit ends with exit code 8 and leaves no half-written file; --resume may go on. "
+          "render, bake,\n"
+          "plan and check have all limits. encode and join have memory, time, cpu and output. "
+          "Tests have a\n"
+          "time limit of their own.\n"
+          "\n",
           out);
     fputs("KEY           service\n", out);
     for (size_t i = 0; i < KILN_LIMIT_COUNT; i++)

@@ -77,10 +77,11 @@ static bool look_at_image(struct kiln_resume *resume, uint32_t frame, const char
         return adopt(resume, path, frame, error);
     if (!could_look(&reason, error))
         return false;
-    return found || kiln_error_set(error, KILN_USAGE,
-                                   "%s: the file exists, and is not a whole frame %u of this job "
-                                   "(--force replaces it)",
-                                   path, frame);
+    return found ||
+           kiln_error_set(
+               error, KILN_USAGE,
+               "%s: the file exists, and is not a whole frame %u of this job (--force replaces it)",
+               path, frame);
 }
 
 static bool look_at_images(struct kiln_resume *resume, bool found, struct kiln_error *error)
@@ -166,8 +167,8 @@ static bool check_clip_files(const struct kiln_resume *resume, struct kiln_error
             return false;
         if (!resume->may_replace && is_there(path))
             return kiln_error_set(error, KILN_USAGE,
-                                  "%s: the file exists, and no journal says that this job has made "
-                                  "it (--force replaces it)",
+                                  "%s: the file exists, and no journal says that this job made it "
+                                  "(--force replaces it)",
                                   path);
     }
 }
@@ -183,7 +184,8 @@ static bool find_folder(const struct kiln_output_params *output, char folder[KIL
     /* A link is refused: parts would be written and removed in the folder that it leads to. */
     struct stat status;
     return lstat(folder, &status) != 0 || S_ISDIR(status.st_mode) ||
-           kiln_error_set(error, KILN_USAGE, "%s: it is no folder, and parts of the clip go there",
+           kiln_error_set(error, KILN_USAGE,
+                          "%s: not a folder; the parts of the clip need a folder of this name",
                           folder);
 }
 

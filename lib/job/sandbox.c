@@ -32,7 +32,8 @@ static bool add(struct places *places, const char *path, unsigned may)
 {
     if (places->count == MOST_PLACES)
         return kiln_error_set(places->error, KILN_USAGE,
-                              "a sandbox of more than %d files and folders", MOST_PLACES);
+                              "a sandbox allows at most %d files and folders, and there are more",
+                              MOST_PLACES);
     places->items[places->count++] = (struct kiln_place){path, may};
     return true;
 }

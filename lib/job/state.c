@@ -168,12 +168,12 @@ static bool read_start(int file, const char *path, struct cursor *c, uint32_t *s
     const size_t length = (size_t)snprintf(line, sizeof line, MAGIC "%d\n", FORMAT);
     *c = (struct cursor){.size = length + 4};
     if (!kiln_pack_read_bytes(file, c->bytes, c->size, path, error))
-        return refuse(path, "is not a saved state", error);
+        return refuse(path, "the file is not a saved state", error);
     if (memcmp(c->bytes, MAGIC, strlen(MAGIC)) != 0)
-        return refuse(path, "is not a saved state", error);
+        return refuse(path, "the file is not a saved state", error);
     if (memcmp(c->bytes, line, length) != 0)
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: is a state of another format; this kiln reads format %d", path,
+                              "%s: the state has another format; this kiln reads format %d", path,
                               FORMAT);
     c->at = length;
     pass_word(c, size);
@@ -323,13 +323,13 @@ bool kiln_state_write(const struct kiln_state *state, const char *path, bool ove
 static bool is_at_end(int file, const char *path, struct kiln_error *error)
 {
     uint8_t more;
-    return read(file, &more, 1) == 0 || refuse(path, "the file goes on behind its end", error);
+    return read(file, &more, 1) == 0 || refuse(path, "the file has bytes after its end", error);
 }
 
 bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kiln_error *error)
 {
     size_t size;
-    const int file = kiln_file_open(path, "saved state", "a file of kiln bake", &size, error);
+    const int file = kiln_file_open(path, "saved state", "kiln bake", &size, error);
     if (file < 0)
         return false;
     struct head head;
@@ -358,7 +358,7 @@ static bool shape_pool(struct kiln_pool *pool, const struct head *head, const ch
     for (uint32_t i = 0; i < pool->system_count && fits; i++)
         fits = pool->spins.size == 0 || pool->systems[i].spins == spins[i];
     if (!fits)
-        return refuse(path, "is a state of other systems", error);
+        return refuse(path, "the state belongs to other systems", error);
     kiln_pool_add_spins(pool, spins);
     for (uint32_t i = 0; i < head->canvas_count; i++) {
         const struct kiln_canvas_shape *from = &head->canvases[i];
@@ -388,7 +388,7 @@ static bool read_state(struct kiln_state *state, const struct visitor *visitor,
     if (!state->slots) /* the order is the last table; without slots it is not read */
         head.info.order[0] = '\0';
     else if (!head.info.order[0])
-        return refuse(visitor->path, "has no order of a spread sort", error);
+        return refuse(visitor->path, "the state has no order of a spread sort", error);
     return visit_tables(visitor, &head, &places, error);
 }
 
@@ -396,7 +396,7 @@ bool kiln_state_read(struct kiln_state *state, const char *path, struct kiln_thr
                      struct kiln_error *error)
 {
     size_t size;
-    const int file = kiln_file_open(path, "saved state", "a file of kiln bake", &size, error);
+    const int file = kiln_file_open(path, "saved state", "kiln bake", &size, error);
     if (file < 0)
         return false;
     const struct visitor visitor = {

@@ -184,18 +184,18 @@ static bool check(const struct kiln_states *states, uint32_t step, struct kiln_s
     if (!kiln_states_path(states, step, path, error) || !kiln_state_check(path, info, error))
         return false;
     if (strcmp(info->motion, states->motion) != 0)
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is a state of another motion, %.16s",
-                              path, info->motion);
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the state belongs to another motion, %.16s", path, info->motion);
     if (!fits(states->scene, info))
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a state of '%s'", path,
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: not a state of '%s'", path,
                               states->scene->name);
     if (info->step != step)
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: is the state of step %u", path,
-                              info->step);
+        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: the file holds the state of step %u",
+                              path, info->step);
     if (states->order[0] && strcmp(info->order, states->order) != 0)
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: does not have the order that this spread sort keeps; bake with "
-                              "the same --technique, camera and rates",
+                              "%s: the state lacks the order that this spread sort keeps; bake "
+                              "with the same --technique, camera and rates",
                               path);
     return true;
 }
@@ -229,7 +229,8 @@ static bool verify_hash(struct kiln_loop *loop, const struct kiln_state_info *in
         return false;
     return (memcmp(&hash, &info->hash, sizeof hash) == 0 && alive == info->alive) ||
            kiln_error_set(error, KILN_INVALID_INPUT,
-                          "%s: holds %" PRIu64 " particles of state %08x%08x, not the %" PRIu64
+                          "%s: the file holds %" PRIu64
+                          " particles of state %08x%08x, not the %" PRIu64
                           " of %08x%08x that it names",
                           path, alive, hash.lane[0], hash.lane[1], info->alive, info->hash.lane[0],
                           info->hash.lane[1]);
@@ -259,9 +260,10 @@ static void tell_of_none(const struct kiln_states *states, uint32_t frame)
 {
     char others[64] = "";
     if (states->count == 0 && states->others > 0)
-        snprintf(others, sizeof others, " (%zu of other motions: bake again)", states->others);
+        snprintf(others, sizeof others, " (%zu states belong to other motions: bake again)",
+                 states->others);
     kiln_log_write(&states->log, KILN_LOG_WARNING,
-                   "%s: no state of '%s' at or before frame %u%s; stepping from the start",
+                   "%s: there is no state of '%s' at or before frame %u%s; stepping from the start",
                    states->folder, states->scene->name, frame, others);
 }
 
@@ -275,7 +277,7 @@ bool kiln_states_take_up(const struct kiln_states *states, struct kiln_loop *loo
         struct kiln_error reason = {0};
         if (check(states, step, &info, &reason))
             return take_up(states, loop, step, error);
-        kiln_log_write(&states->log, KILN_LOG_WARNING, "%s; it is not used", reason.message);
+        kiln_log_write(&states->log, KILN_LOG_WARNING, "%s; the state is not used", reason.message);
         step--;
     }
     if (now == 0 && kiln_scene_frame_step(states->scene, frame) > 0)

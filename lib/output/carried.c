@@ -63,7 +63,7 @@ static bool look_at_png(const uint8_t *bytes, size_t size, struct kiln_carried *
 static bool look_into_png(const char *path, struct kiln_carried *carried, struct kiln_error *reason)
 {
     size_t size;
-    uint8_t *bytes = kiln_file_read(path, "picture", "a PNG file", MAX_PICTURE, &size, reason);
+    uint8_t *bytes = kiln_file_read(path, "picture", "PNG", MAX_PICTURE, &size, reason);
     const bool ok = bytes && look_at_png(bytes, size, carried);
     free(bytes);
     return ok;
@@ -131,7 +131,7 @@ static bool look_into_jpeg(const char *path, struct kiln_carried *carried,
                            struct kiln_error *reason)
 {
     size_t size;
-    uint8_t *bytes = kiln_file_read(path, "picture", "a JPEG file", MAX_PICTURE, &size, reason);
+    uint8_t *bytes = kiln_file_read(path, "picture", "JPEG", MAX_PICTURE, &size, reason);
     const bool ok = bytes && look_at_jpeg(bytes, size, carried);
     free(bytes);
     return ok;

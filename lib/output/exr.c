@@ -45,9 +45,10 @@ static struct kiln_output_needs needs(const struct kiln_output_params *params)
 static bool check(const struct kiln_output_params *params, struct kiln_error *error)
 {
     if (params->exr_bits != 16 && params->exr_bits != 32)
-        return kiln_error_set(error, KILN_USAGE,
-                              "an EXR of %u bits a channel; allowed are 16 (half) or 32 (float)",
-                              params->exr_bits);
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "found %u bits a channel for an EXR; allowed are 16 (half) or 32 (float)",
+            params->exr_bits);
     return true;
 }
 

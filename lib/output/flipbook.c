@@ -57,15 +57,17 @@ bool kiln_flipbook_sample(const struct kiln_flipbook *given, const struct kiln_f
         return false;
     if (flipbook->columns < 1 || flipbook->columns > MAX_CELLS_A_SIDE || flipbook->rows < 1 ||
         flipbook->rows > MAX_CELLS_A_SIDE)
-        return kiln_error_set(error, KILN_USAGE, "a flipbook of %u x %u cells; allowed are 1 to %d",
+        return kiln_error_set(error, KILN_USAGE,
+                              "found a flipbook of %u x %u cells; allowed are 1 to %d",
                               flipbook->columns, flipbook->rows, MAX_CELLS_A_SIDE);
     uint32_t count = flipbook->columns * flipbook->rows;
     uint64_t frames = kiln_ranges_count(ranges, range_count);
     if (frames < count)
-        return kiln_error_set(error, KILN_USAGE,
-                              "a flipbook of %u x %u cells from %" PRIu64
-                              " frames; it needs at least %u: take fewer cells, or a higher rate",
-                              flipbook->columns, flipbook->rows, frames, count);
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "the %u x %u cells of a flipbook need more than the %" PRIu64
+            " frames that there are; at least %u are needed: take fewer cells, or a higher rate",
+            flipbook->columns, flipbook->rows, frames, count);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t frame = kiln_ranges_at(ranges, range_count, i * frames / count);
         cells[i] = (struct kiln_frame_range){frame, frame};
@@ -103,8 +105,8 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
     if (flipbook->columns < 1 || flipbook->columns > MAX_CELLS_A_SIDE || flipbook->rows < 1 ||
         flipbook->rows > MAX_CELLS_A_SIDE || flipbook->padding > MAX_PADDING)
         return kiln_error_set(error, KILN_USAGE,
-                              "%s: a flipbook of %u x %u cells, padded by %u; allowed are 1 to %d "
-                              "cells, and 0 to %d pixels",
+                              "%s: found a flipbook of %u x %u cells, padded by %u; allowed are 1 "
+                              "to %d cells, and 0 to %d pixels",
                               params->path, flipbook->columns, flipbook->rows, flipbook->padding,
                               MAX_CELLS_A_SIDE, MAX_PADDING);
     uint64_t width =
@@ -113,13 +115,12 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
     if (width > MAX_EDGE || height > MAX_EDGE)
         return kiln_error_set(
             error, KILN_USAGE,
-            "%s: a flipbook of %" PRIu64 " x %" PRIu64
-            " pixels; allowed are %d a side: make the frames smaller (%u x %u) or "
-            "the cells fewer",
+            "%s: the flipbook would have %" PRIu64 " x %" PRIu64
+            " pixels; allowed are %d a side: make the frames smaller (%u x %u) or the cells fewer",
             params->path, width, height, MAX_EDGE, params->width, params->height);
     uint64_t frames = kiln_ranges_count(params->clip, params->clip_count);
     return frames == cell_count(params) ||
-           kiln_error_set(error, KILN_USAGE, "%s: %" PRIu64 " frames for %u x %u cells",
+           kiln_error_set(error, KILN_USAGE, "%s: found %" PRIu64 " frames for %u x %u cells",
                           params->path, frames, flipbook->columns, flipbook->rows);
 }
 

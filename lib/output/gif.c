@@ -62,9 +62,10 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
     if (!kiln_video_check(params, error))
         return false;
     return (uint64_t)params->fps_den * TICKS_PER_S <= (uint64_t)params->fps_num * MAX_DELAY ||
-           kiln_error_set(error, KILN_USAGE,
-                          "%s: %u/%u frames a second; GIF shows a frame for at most 655.35 s",
-                          params->path, params->fps_num, params->fps_den);
+           kiln_error_set(
+               error, KILN_USAGE,
+               "%s: the rate is %u/%u frames a second, but GIF shows a frame for at most 655.35 s",
+               params->path, params->fps_num, params->fps_den);
 }
 
 static void warn_of_times(const struct gif_encoder *encoder)
@@ -79,11 +80,12 @@ static void warn_of_times(const struct gif_encoder *encoder)
                  (double)(ticks / params->fps_num + 1) / TICKS_PER_S, encoder->stride / rate);
     if (encoder->stride > 1)
         kiln_log_write(&params->log, KILN_LOG_WARNING,
-                       "%s: GIF plays at most %d frames a second; of %.6g, 1 in %u is written%s%s",
+                       "%s: GIF plays at most %d frames a second; of the %.6g frames a second, 1 "
+                       "in %u is written%s%s",
                        params->path, MAX_RATE, rate, encoder->stride, *times ? "; " : "", times);
     else if (*times)
         kiln_log_write(&params->log, KILN_LOG_WARNING,
-                       "%s: GIF holds times in 1/100 s; of %.6g frames a second, %s", params->path,
+                       "%s: GIF counts times in 1/100 s; at %.6g frames a second, %s", params->path,
                        rate, times);
 }
 

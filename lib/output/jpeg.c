@@ -164,7 +164,7 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
                               "write .png or .exr, or make the backdrop opaque",
                               params->path);
     if (params->quality > 100)
-        return kiln_error_set(error, KILN_USAGE, "%s: quality %u; allowed are 0 to 100",
+        return kiln_error_set(error, KILN_USAGE, "%s: found quality %u; allowed are 0 to 100",
                               params->path, params->quality);
     return find_codec(&reason) ||
            kiln_error_set(error, reason.code, "%s: %s", params->path, reason.message);

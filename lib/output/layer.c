@@ -22,17 +22,19 @@ static bool check(const struct kiln_frame_layer *layer, const char *path, struct
     const uint64_t row = (uint64_t)layer->width * layer->channels * sample_bytes(layer);
     if (layer->width < 1 || layer->width > KILN_MAX_EDGE || layer->height < 1 ||
         layer->height > KILN_MAX_EDGE)
-        return kiln_error_set(error, KILN_USAGE, "%s: %u x %u pixels; allowed are 1 to %d a side",
-                              path, layer->width, layer->height, KILN_MAX_EDGE);
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: found %u x %u pixels; allowed are 1 to %d a side", path,
+                              layer->width, layer->height, KILN_MAX_EDGE);
     if (layer->samples > KILN_SAMPLES_FLOAT)
         return kiln_error_set(error, KILN_USAGE, "%s: there are no samples of kind %d", path,
                               (int)layer->samples);
     if (layer->channels != 4 && !(is_float(layer) && layer->channels == 1))
-        return kiln_error_set(error, KILN_USAGE, "%s: %u channels; allowed are %s", path,
+        return kiln_error_set(error, KILN_USAGE, "%s: found %u channels; allowed are %s", path,
                               layer->channels, is_float(layer) ? "4 or 1" : "4");
     if (!layer->pixels || layer->row_bytes < row)
-        return kiln_error_set(error, KILN_USAGE, "%s: rows of %zu bytes; %u pixels have %zu", path,
-                              layer->pixels ? layer->row_bytes : 0, layer->width, (size_t)row);
+        return kiln_error_set(error, KILN_USAGE, "%s: found rows of %zu bytes; %u pixels have %zu",
+                              path, layer->pixels ? layer->row_bytes : 0, layer->width,
+                              (size_t)row);
     return true;
 }
 

@@ -464,13 +464,13 @@ static bool check_picture(const struct kiln_output *output, const struct kiln_pi
     struct kiln_output_needs needs = kiln_output_needs(output);
     const struct kiln_output_params *params = &output->params;
     if (output->due_range >= params->range_count || picture->frame != output->due_frame)
-        return kiln_error_set(error, KILN_USAGE, "%s: frame %u came where frame %u was due",
+        return kiln_error_set(error, KILN_USAGE, "%s: frame %u came where frame %u was expected",
                               params->path, picture->frame, output->due_frame);
     if (picture->width != params->width || picture->height != params->height ||
         (needs.bits > 0 && (picture->bits != needs.bits || !picture->display)) ||
         (needs.layers && picture->layer_count == 0))
         return kiln_error_set(error, KILN_USAGE,
-                              "%s: frame %u is not the picture that was announced", params->path,
+                              "%s: frame %u is not of the announced kind or size", params->path,
                               picture->frame);
     return true;
 }

@@ -174,7 +174,7 @@ bool kiln_part_write(struct kiln_part_writer *writer, const struct kiln_picture 
 bool kiln_part_finish(struct kiln_part_writer *writer, struct kiln_error *error)
 {
     if (writer->frames != writer->head.frames)
-        return kiln_error_set(error, KILN_USAGE, "%s: %u of %u frames of part %u came",
+        return kiln_error_set(error, KILN_USAGE, "%s: found %u of the %u frames of part %u",
                               writer->params->path, writer->frames, writer->head.frames,
                               writer->head.part);
     if (writer->packets && !kiln_part_packets_finish(writer->packets, error))
@@ -196,16 +196,15 @@ static bool open_part(const struct kiln_output_params *params, uint32_t part, co
     const struct kiln_part_head *head = &in->head;
     bool ok = true;
     if (strcmp(head->clip, wanted.clip) != 0)
-        ok = kiln_part_refuse(in,
-                              "is a part of another clip: of another scene, size, quality or "
-                              "other frames",
-                              error);
+        ok = kiln_part_refuse(
+            in, "the part belongs to another clip: of another scene, size, quality or other frames",
+            error);
     else if (strcmp(head->made_by, wanted.made_by) != 0)
-        ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: was made by %s; this is %s", path,
-                            head->made_by, wanted.made_by);
+        ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: the part was made by %s; this is %s",
+                            path, head->made_by, wanted.made_by);
     else if (head->part != part || head->parts != wanted.parts || head->first != wanted.first ||
              head->frames != wanted.frames || head->packets != wanted.packets)
-        ok = kiln_part_refuse(in, "is another part of the clip", error);
+        ok = kiln_part_refuse(in, "the file is another part of the clip", error);
     if (!ok)
         kiln_part_close(in);
     return ok;

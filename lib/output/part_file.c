@@ -115,7 +115,7 @@ static bool check_sum(struct kiln_part_in *in, struct kiln_error *error)
     const long size = ftell(in->file);
     rewind(in->file);
     if (size < CRC_BYTES)
-        return kiln_part_refuse(in, "is not a part of a clip", error);
+        return kiln_part_refuse(in, "the file is not a part of a clip", error);
     in->left = (uint64_t)size - CRC_BYTES;
     while (in->left > 0) {
         const size_t count = in->left < sizeof block ? (size_t)in->left : sizeof block;
@@ -138,11 +138,11 @@ static bool read_head(struct kiln_part_in *in, struct kiln_error *error)
     uint32_t packets = 0;
     uint32_t *const words[] = {&head->part, &head->parts, &head->first, &head->frames, &packets};
     if (in->left < sizeof magic)
-        return kiln_part_refuse(in, "is not a part of a clip", error);
+        return kiln_part_refuse(in, "the file is not a part of a clip", error);
     if (!kiln_part_read(in, magic, sizeof magic, error))
         return false;
     if (memcmp(magic, MAGIC, sizeof magic) != 0)
-        return kiln_part_refuse(in, "is not a part of a clip that this kiln reads", error);
+        return kiln_part_refuse(in, "the file is not a part of a clip that this kiln reads", error);
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         if (!kiln_part_read_word(in, words[i], error))
             return false;
@@ -158,7 +158,7 @@ static bool read_head(struct kiln_part_in *in, struct kiln_error *error)
 bool kiln_part_open(struct kiln_part_in *in, const char *path, struct kiln_error *error)
 {
     size_t size;
-    const int file = kiln_file_open(path, "part of a clip", "what kiln wrote", &size, error);
+    const int file = kiln_file_open(path, "part of a clip", "kiln part", &size, error);
     if (file < 0)
         return false;
     *in = (struct kiln_part_in){.path = path, .file = fdopen(file, "rb")};

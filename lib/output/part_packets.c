@@ -203,7 +203,7 @@ bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip, const struct ki
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
     if (ok && !kiln_video_begin_part(clip, in->head.first, header, size))
         ok = kiln_error_set(error, KILN_INVALID_INPUT,
-                            "%s: another encoder made it than makes the clip's header (%s)",
+                            "%s: another encoder made the part than makes the clip's header (%s)",
                             in->path, in->head.made_by);
     ok = ok && pass_packets(in, clip, packet, caller, error);
     kiln_ff.av_packet_free(&packet);

@@ -26,7 +26,8 @@ static struct kiln_output_needs needs(const struct kiln_output_params *params)
 static bool check(const struct kiln_output_params *params, struct kiln_error *error)
 {
     if (params->png_bits != 8 && params->png_bits != 16)
-        return kiln_error_set(error, KILN_USAGE, "a PNG of %u bits a channel; allowed are 8 or 16",
+        return kiln_error_set(error, KILN_USAGE,
+                              "found %u bits a channel for a PNG; allowed are 8 or 16",
                               params->png_bits);
     return true;
 }

@@ -35,16 +35,16 @@ static bool check_size(const struct kiln_output_params *params, struct kiln_erro
 {
     const struct kiln_video_settings *settings = params->format->video;
     if (settings->even_sizes && (params->width % 2 || params->height % 2))
-        return kiln_error_set(error, KILN_USAGE,
-                              "%s: a video of %u x %u pixels; %s needs even sizes, the nearest is "
-                              "%ux%u",
-                              params->path, params->width, params->height, settings->codec,
-                              params->width + params->width % 2,
-                              params->height + params->height % 2);
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "%s: the video would have %u x %u pixels; %s needs even sizes, the nearest is %ux%u",
+            params->path, params->width, params->height, settings->codec,
+            params->width + params->width % 2, params->height + params->height % 2);
     return (params->width <= settings->max_edge && params->height <= settings->max_edge) ||
-           kiln_error_set(
-               error, KILN_USAGE, "%s: a video of %u x %u pixels; %s allows at most %u a side",
-               params->path, params->width, params->height, settings->codec, settings->max_edge);
+           kiln_error_set(error, KILN_USAGE,
+                          "%s: the video would have %u x %u pixels; %s allows at most %u a side",
+                          params->path, params->width, params->height, settings->codec,
+                          settings->max_edge);
 }
 
 static bool refuse_build(const struct kiln_video_settings *settings, const char *what,
@@ -85,7 +85,7 @@ bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error
     if (!check_size(params, error))
         return false;
     if (params->png_bits != 8 && params->png_bits != 16)
-        return kiln_error_set(error, KILN_USAGE, "%s: %u bits a channel; allowed are 8 or 16",
+        return kiln_error_set(error, KILN_USAGE, "%s: found %u bits a channel; allowed are 8 or 16",
                               params->path, params->png_bits);
     if (kiln_coder_pixels(params) == AV_PIX_FMT_NONE)
         return kiln_error_set(error, KILN_USAGE,
@@ -93,12 +93,14 @@ bool kiln_video_check(const struct kiln_output_params *params, struct kiln_error
                               "a .webm or a .mov, or make the backdrop opaque",
                               params->path, params->format->video->kind);
     if (params->quality > 100)
-        return kiln_error_set(error, KILN_USAGE, "%s: quality %u; allowed are 0 to 100",
+        return kiln_error_set(error, KILN_USAGE, "%s: found quality %u; allowed are 0 to 100",
                               params->path, params->quality);
     if (params->fps_num == 0 || params->fps_den == 0 || params->fps_num > INT_MAX ||
         params->fps_den > INT_MAX)
-        return kiln_error_set(error, KILN_USAGE, "%s: %u/%u is no frame rate for a video",
-                              params->path, params->fps_num, params->fps_den);
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "%s: found %u/%u frames a second, which is not a frame rate for a video", params->path,
+            params->fps_num, params->fps_den);
     return find(params, error);
 }
 

@@ -178,8 +178,8 @@ static int prepare_apng(const struct kiln_output_params *params, AVDictionary **
     if (!kiln_ff.av_reduce(&delay.num, &delay.den, params->fps_den, params->fps_num,
                            MAX_APNG_DELAY))
         kiln_log_write(&params->log, KILN_LOG_WARNING,
-                       "%s: APNG cannot hold %u/%u frames a second; it gets %d/%d", params->path,
-                       params->fps_num, params->fps_den, delay.den, delay.num);
+                       "%s: APNG cannot hold %u/%u frames a second, so the file has %d/%d",
+                       params->path, params->fps_num, params->fps_den, delay.den, delay.num);
     char text[32];
     snprintf(text, sizeof text, "%d/%d", delay.num, delay.den);
     return kiln_ff.av_dict_set(options, "final_delay", text, 0);

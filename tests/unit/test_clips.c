@@ -281,18 +281,20 @@ static void gif_keeps_time_and_says_how(void **state)
         {25, 1, 24, 25, 100, ""},
         {50, 1, 9, 10, 20, ""},
         {30, 1, 29, 30, 100,
-         "clip.gif: GIF holds times in 1/100 s; of 30 frames a second, frames last 0.03 or 0.04 s, "
-         "on average 0.0333 s"},
+         "clip.gif: GIF counts times in 1/100 s; at 30 frames a second, frames last 0.03 or 0.04 "
+         "s, on average 0.0333 s"},
         {60, 1, 30, 16, 52,
-         "clip.gif: GIF plays at most 50 frames a second; of 60, 1 in 2 is written; frames last "
-         "0.03 or 0.04 s, on average 0.0333 s"},
+         "clip.gif: GIF plays at most 50 frames a second; of the 60 frames a second, 1 in 2 is "
+         "written; frames last 0.03 or 0.04 s, on average 0.0333 s"},
         {100, 1, 9, 5, 10,
-         "clip.gif: GIF plays at most 50 frames a second; of 100, 1 in 2 is written"},
+         "clip.gif: GIF plays at most 50 frames a second; of the 100 frames a second, 1 in 2 is "
+         "written"},
         {100, 1, 8, 5, 10, /* the last frame alone would last 1/100 s */
-         "clip.gif: GIF plays at most 50 frames a second; of 100, 1 in 2 is written"},
+         "clip.gif: GIF plays at most 50 frames a second; of the 100 frames a second, 1 in 2 is "
+         "written"},
         {120, 1, 9, 4, 10, /* and here nothing */
-         "clip.gif: GIF plays at most 50 frames a second; of 120, 1 in 3 is written; frames last "
-         "0.02 or 0.03 s, on average 0.0250 s"},
+         "clip.gif: GIF plays at most 50 frames a second; of the 120 frames a second, 1 in 3 is "
+         "written; frames last 0.02 or 0.03 s, on average 0.0250 s"},
         {1, 3, 1, 2, 600, ""},
     };
     char path[64], line[256];
@@ -324,7 +326,7 @@ static void apng_says_when_a_rate_does_not_fit(void **state)
     params.fps_den = 1001;
     params.log = (struct kiln_log){keep_line, line};
     write_clip(&params);
-    assert_non_null(strstr(line, "APNG cannot hold 120000/1001 frames a second; it gets "));
+    assert_non_null(strstr(line, "APNG cannot hold 120000/1001 frames a second, so the file has "));
     unlink(path);
 }
 
@@ -479,7 +481,8 @@ static void impossible_clips_are_refused(void **state)
     params = good;
     params.fps_num = 1;
     params.fps_den = 656;
-    refuse(params, "gif", KILN_USAGE, "1/656 frames a second; GIF shows a frame for at most 655");
+    refuse(params, "gif", KILN_USAGE,
+           "1/656 frames a second, but GIF shows a frame for at most 655");
     params = good;
     params.width = 16384;
     refuse(params, "webp", KILN_USAGE, "16384 x 36 pixels; WebP allows at most 16383 a side");
@@ -488,7 +491,7 @@ static void impossible_clips_are_refused(void **state)
     refuse(params, "webm", KILN_USAGE, "quality 101; allowed are 0 to 100");
     params = good;
     params.png_bits = 12;
-    refuse(params, "mkv", KILN_USAGE, "12 bits a channel; allowed are 8 or 16");
+    refuse(params, "mkv", KILN_USAGE, "found 12 bits a channel; allowed are 8 or 16");
     __typeof__(avcodec_find_encoder_by_name) *find = kiln_ff.avcodec_find_encoder_by_name;
     kiln_ff.avcodec_find_encoder_by_name = find_no_encoder;
     for (size_t i = 0; i < sizeof encoders / sizeof *encoders; i++) {

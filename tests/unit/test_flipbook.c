@@ -48,8 +48,9 @@ static void frames_are_spread_evenly(void **state)
         assert_int_equal(cells[i].first, expected[i]);
     assert_false(kiln_flipbook_sample(&eight, parts, 2, cells, &error));
     assert_int_equal(error.code, KILN_USAGE);
-    assert_string_equal(error.message, "a flipbook of 8 x 8 cells from 12 frames; it needs at "
-                                       "least 64: take fewer cells, or a higher rate");
+    assert_string_equal(error.message,
+                        "the 8 x 8 cells of a flipbook need more than the 12 frames that there "
+                        "are; at least 64 are needed: take fewer cells, or a higher rate");
     const struct kiln_flipbook none = {
         .size = sizeof(struct kiln_flipbook), .columns = 0, .rows = 3};
     assert_false(kiln_flipbook_sample(&none, &whole, 1, cells, &error));
@@ -292,16 +293,18 @@ static void impossible_ones_are_refused(void **state)
     good.flipbook = (struct kiln_flipbook){.columns = 2, .rows = 2, .motion = true};
     struct kiln_output_params params = good;
     params.flipbook.rows = 3;
-    refuse(params, KILN_USAGE, "4 frames for 2 x 3 cells");
+    refuse(params, KILN_USAGE, "found 4 frames for 2 x 3 cells");
     params = good;
     params.flipbook.rows = 65;
-    refuse(params, KILN_USAGE, "a flipbook of 2 x 65 cells, padded by 0; allowed are 1 to 64");
+    refuse(params, KILN_USAGE,
+           "found a flipbook of 2 x 65 cells, padded by 0; allowed are 1 to 64");
     params = good;
     params.flipbook.padding = 257;
     refuse(params, KILN_USAGE, "padded by 257; allowed are 1 to 64 cells, and 0 to 256 pixels");
     params = good;
     params.width = 8193;
-    refuse(params, KILN_USAGE, "a flipbook of 16386 x 72 pixels; allowed are 16384 a side");
+    refuse(params, KILN_USAGE,
+           "the flipbook would have 16386 x 72 pixels; allowed are 16384 a side");
     params = good;
     snprintf(other, sizeof other, "%s/book.exr", folder);
     params.path = other;

@@ -170,15 +170,15 @@ static void parts_that_do_not_fit_are_refused(void **state)
     params.parts = "parts";
     struct kiln_output_params other = params;
     other.quality = 79;
-    refuse(&other, "parts/00000.part: is a part of another clip");
+    refuse(&other, "parts/00000.part: the part belongs to another clip");
     other = params;
     other.scene_hash = "00";
-    refuse(&other, "parts/00000.part: is a part of another clip");
+    refuse(&other, "parts/00000.part: the part belongs to another clip");
     assert_int_equal(rename("parts/00001.part", "parts/00003.part"), 0);
     refuse(&params, "parts/00001.part: the part of a clip cannot be opened: No such file");
     assert_int_equal(rename("parts/00000.part", "parts/00001.part"), 0);
     assert_int_equal(rename("parts/00003.part", "parts/00000.part"), 0);
-    refuse(&params, "parts/00000.part: is another part of the clip");
+    refuse(&params, "parts/00000.part: the file is another part of the clip");
     assert_int_equal(rename("parts/00000.part", "parts/00003.part"), 0);
     assert_int_equal(rename("parts/00001.part", "parts/00000.part"), 0);
     assert_int_equal(rename("parts/00003.part", "parts/00001.part"), 0);
@@ -201,7 +201,7 @@ static void parts_that_do_not_fit_are_refused(void **state)
     }
     free(bytes);
     assert_int_equal(truncate("parts/00001.part", 2), 0);
-    refuse(&params, "parts/00001.part: is not a part of a clip");
+    refuse(&params, "parts/00001.part: the file is not a part of a clip");
 }
 
 int main(void)

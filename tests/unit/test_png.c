@@ -104,7 +104,7 @@ static void other_depths_are_refused(void **state)
     struct kiln_error error = {0};
     assert_null(kiln_output_open(&params, &error));
     assert_int_equal(error.code, KILN_USAGE);
-    assert_string_equal(error.message, "a PNG of 12 bits a channel; allowed are 8 or 16");
+    assert_string_equal(error.message, "found 12 bits a channel for a PNG; allowed are 8 or 16");
 }
 
 int main(void)

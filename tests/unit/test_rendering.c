@@ -241,11 +241,11 @@ static void layers_are_written_as_pictures(void **state)
     assert_string_equal(error.message, "display.exr: integer samples go into a file '*.png'");
     display.channels = 3;
     assert_false(kiln_layer_write(&display, "three.png", false, &error));
-    assert_string_equal(error.message, "three.png: 3 channels; allowed are 4");
+    assert_string_equal(error.message, "three.png: found 3 channels; allowed are 4");
     display.channels = 4;
     display.row_bytes = 47 * 4;
     assert_false(kiln_layer_write(&display, "short.png", false, &error));
-    assert_string_equal(error.message, "short.png: rows of 188 bytes; 48 pixels have 192");
+    assert_string_equal(error.message, "short.png: found rows of 188 bytes; 48 pixels have 192");
     display.width = 0;
     assert_false(kiln_layer_write(&display, "none.png", false, &error));
     assert_int_equal(error.code, KILN_USAGE);

@@ -146,7 +146,7 @@ static void orders_are_kept(void **state)
     with.pool = &run.pool;
     assert_false(kiln_state_read(&with, FILE_NAME, run.threads, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_string_equal(error.message, FILE_NAME ": has no order of a spread sort");
+    assert_string_equal(error.message, FILE_NAME ": the state has no order of a spread sort");
     free(slots);
     free(read);
     simulation_end(&run);
@@ -226,10 +226,10 @@ static void other_files_are_refused(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"", FILE_NAME ": is not a saved state"},
-        {"kiln: 1\nseed: 12345678\n", FILE_NAME ": is not a saved state"},
+        {"", FILE_NAME ": the file is not a saved state"},
+        {"kiln: 1\nseed: 12345678\n", FILE_NAME ": the file is not a saved state"},
         {"kiln state 2\n____",
-         FILE_NAME ": is a state of another format; this kiln reads format 1"},
+         FILE_NAME ": the state has another format; this kiln reads format 1"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kiln_state_info info;
@@ -259,7 +259,7 @@ static void other_systems_are_refused(void **state)
     struct kiln_state loaded = {.pool = &stranger.pool};
     struct kiln_error error = {0};
     assert_false(kiln_state_read(&loaded, FILE_NAME, run.threads, &error));
-    assert_string_equal(error.message, FILE_NAME ": is a state of other systems");
+    assert_string_equal(error.message, FILE_NAME ": the state belongs to other systems");
     simulation_end(&run);
     simulation_end(&stranger);
     kiln_scene_destroy(&scene);

@@ -100,7 +100,7 @@ $ ./jobs '{scene: a.yaml, output: b.png}' '{scene: a.yaml, output: c.png, frames
 2|bad.yaml:4:44: jobs.1.frames: found 'x', expected frames and ranges, such as 0-149,200 or 170- or -30 or last or 0-100/10
 = 3
 $ ./jobs '{scene: a.yaml, output: b.png, limits: "particles=3,stpes=1"}'
-2|bad.yaml:3:44: jobs.0.limits: 'stpes' is no limit; did you mean 'steps'?
+2|bad.yaml:3:44: jobs.0.limits: 'stpes' is not a limit; did you mean 'steps'?
 = 3
 $ ./jobs '{scene: a.yaml, output: out/b.mp4}' '{name: twin, scene: c.yaml, output: out/../out/./b.mp4}'
 2|bad.yaml:4:41: jobs.1.output: out/../out/./b.mp4: job 1 and twin would both write this file
@@ -225,7 +225,7 @@ $ kiln render --batch go_on.yaml --device cpu -q && rm go/undone.mp4 go/still_02
 1|still_03.png
 1|undone.mp4
 1|undone.mp4.journal
-2|clip: go/clip.mp4: the file exists, and no journal says that this job has made it (--force replaces it)
+2|clip: go/clip.mp4: the file exists, and no journal says that this job made it (--force replaces it)
 $ rm go/clip.mp4; kiln render --batch go_on.yaml --device cpu --resume -q && kiln render --batch go_on.yaml --device cpu --resume --events ndjson | jq -c 'select(.event == "job") | [.name, .code]'
 1|["stills",0]
 1|["clip",0]

@@ -193,7 +193,7 @@ $ mkdir kept; TMPDIR=kept kiln bench jobs --set systems.fire.emit.raet=1 --devic
 2|--set systems.fire.emit.raet: unknown key (did you mean 'rate'?)
 = 3
 $ TMPDIR=kept kiln bench jobs --size 33x33 --device cpu --quiet 2>&1 | sed 's/kiln-bench-[^/]*/<folder>/'; code=${PIPESTATUS[0]}; ls -A kept; exit $code
-1|kiln: bench: kiln render has exit code 2: kiln: kept/<folder>/turn/single.mp4: a video of 33 x 33 pixels; H.264 needs even sizes, the nearest is 34x34
+1|kiln: bench: kiln render has exit code 2: kiln: kept/<folder>/turn/single.mp4: the video would have 33 x 33 pixels; H.264 needs even sizes, the nearest is 34x34
 = 2
 
 A folder that takes no files is found before anything is measured.

@@ -23,21 +23,21 @@ $ kiln render scenes/tiny.yaml --quiet -o light/%02d.exr --exr-bits 32 && kiln e
 $ kiln encode light -o dark.mp4 --tonemap agx --exposure -3 --quiet && cmp -s dark.mp4 one.mp4
 = 1
 $ kiln encode light -o none.mp4
-2|kiln: light/00.exr: is a picture of light; say with --tonemap (none, agx or aces) how it becomes colours
+2|kiln: light/00.exr: the image is linear light; choose by --tonemap (none, agx or aces) how it becomes colours
 = 2
 $ kiln encode mp4 -o none.mp4 --tonemap agx
-2|kiln: --tonemap: mp4/f_000.png is no picture of light but of colours already
+2|kiln: --tonemap: not allowed; mp4/f_000.png has colours already, not linear light
 = 2
 
 Images of another depth, and of other programs, whose rate must be said.
 
 $ kiln encode gif -o deep.mp4 --quiet
-2|kiln: warning: gif/f_000.png: has 16 bits a channel, deep.mp4 takes 8: the clip differs a little from one drawn at once
+2|kiln: warning: gif/f_000.png: the images have 16 bits a channel, but deep.mp4 takes 8: the clip differs a little from one that is rendered at once
 $ ffmpeg -nostdin -i deep.mp4 -i one.mp4 -lavfi psnr -f null - 2>&1 | grep -o 'min:[0-9.]*' | awk -F: '{print ($2 > 45)}'
 1|1
 $ mkdir foreign && ffmpeg -nostdin -loglevel error -f lavfi -i testsrc=size=32x16:rate=10 -frames:v 12 -bitexact foreign/%d.bmp
 $ kiln encode foreign/%d.bmp -o none.mp4
-2|kiln: foreign/1.bmp: does not say its rate; give it with --fps
+2|kiln: foreign/1.bmp: the image does not say its rate; give the rate with --fps
 = 2
 $ kiln encode foreign/%d.bmp -o foreign.mp4 --fps 10
 1|foreign.mp4: 12 frames, 1-12
@@ -47,13 +47,13 @@ $ ffprobe -v error -of csv=p=0 -show_entries format_tags=comment foreign.mp4
 What is no clip, with the reason. Nothing is written then.
 
 $ kiln encode chunk -o none.mp4
-2|chunk/5.png: is frame 5 where frame 21 is due; a clip leaves out none, and takes the files of a folder in the order of their names
+2|chunk/5.png: found frame 5 where frame 21 must follow; a clip leaves out no frame, and takes the files of a folder in the order of their names
 = 3
 $ rm chunk/9.png && kiln encode chunk/%d.png -o none.mp4
-2|chunk/10.png: is frame 10 where frame 9 is due; a clip leaves out none, and takes the files of a folder in the order of their names
+2|chunk/10.png: found frame 10 where frame 9 must follow; a clip leaves out no frame, and takes the files of a folder in the order of their names
 = 3
 $ kiln render scenes/tiny.yaml --quiet --frames 9 --seed 77 --fps 30000/1001 --set simulation.rate=60000/1001 -o chunk/9.png && kiln encode chunk/%d.png -o none.mp4
-2|chunk/9.png: is of another scene or seed than chunk/5.png
+2|chunk/9.png: the image belongs to another scene or seed than chunk/5.png
 = 3
 $ cp foreign/1.bmp mp4/f_003.png && kiln encode mp4 -o none.mp4
 2|mp4/f_003.png: 32 x 16 pixels; mp4/f_000.png has 64 x 36
@@ -64,7 +64,7 @@ $ kiln encode one.mp4 -o none.mp4
 2|kiln: one.mp4: is a video; expected images: a folder, or a pattern such as frame_%04d.png
 = 2
 $ kiln encode mkv -o none.png
-2|kiln: none.png: PNG images are no clip; expected .mp4, .webm, .mkv, .mov, .gif, .apng or .webp
+2|kiln: none.png: PNG images are not a clip; expected .mp4, .webm, .mkv, .mov, .gif, .apng or .webp
 = 2
 $ kiln encode mkv
 2|kiln: encode: needs --output FILE
@@ -79,7 +79,7 @@ $ kiln encode mkv -o one.mp4
 2|kiln: one.mp4: the file exists (--force replaces it)
 = 2
 $ kiln encode mkv -o none.mp4 --exposure 1
-2|kiln: --exposure: mkv/f_000.png is no picture of light but of colours already
+2|kiln: --exposure: not allowed; mkv/f_000.png has colours already, not linear light
 = 2
 $ kiln encode mkv -o none.mp4 --fps 0.5
 2|kiln: --fps 0.5: expected a rate from 1 to 1000, such as 30, 29.97 or 30000/1001
@@ -110,6 +110,6 @@ Of a job that was not done, a warning says what is not there.
 
 $ kiln render scenes/tiny.yaml -q -o half/%02d.png --resume && rm half/2?.png && kiln encode half -o half.mp4
 1|half.mp4: 20 frames, 0-19
-2|kiln: warning: half: the job has frames 0-23, and of them 0-19 are here
+2|kiln: warning: half: the job has frames 0-23, but only 0-19 are here
 $ kiln encode half/%02d.png -q -o half.mkv
-2|kiln: warning: half/%02d.png: the job has frames 0-23, and of them 0-19 are here
+2|kiln: warning: half/%02d.png: the job has frames 0-23, but only 0-19 are here

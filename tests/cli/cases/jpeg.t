@@ -22,7 +22,7 @@ $ kiln render scenes/tiny.yaml -o f_%02d.jpg --frames 0-5 --progress none && rm 
 1|f_00.jpg and 6 more: 2 frames in <s> s, 5 kept
 $ kiln render scenes/tiny.yaml -o f_%02d.jpg --frames 0-6 --resume --progress none --quality 81
 1|device: <device>
-2|kiln: f_%02d.jpg.journal: is the journal of other frames, or other settings of the output (--force starts anew)
+2|kiln: f_%02d.jpg.journal: the journal belongs to other frames, or to other settings of the output (--force starts anew)
 = 2
 $ rm *.journal && kiln render scenes/tiny.yaml -o f_%02d.jpg --frames 0-6 --resume --progress none --quality 81
 1|device: <device>

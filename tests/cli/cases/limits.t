@@ -31,17 +31,17 @@ $ KILN_LIMITS=frames=10 kiln render scenes/tiny.yaml -o a.mp4
 $ KILN_LIMITS=frames=10 kiln render scenes/tiny.yaml -o a.mp4 --frames 0-5 -q --limits frames=none && ls a.mp4
 1|a.mp4
 $ KILN_LIMITS=frmes=10 kiln check scenes/tiny.yaml
-2|kiln: KILN_LIMITS: 'frmes' is no limit; did you mean 'frames'?
+2|kiln: KILN_LIMITS: 'frmes' is not a limit; did you mean 'frames'?
 = 2
 $ kiln check scenes/tiny.yaml --limits memory=1d
 2|kiln: check: --limits: memory: found '1d', expected a number of bytes, kB, MB, GB, TB, KiB, MiB, GiB or TiB, or none
 = 2
 $ kiln help limits | head -n 8
-1|--limits KEY=VALUE,... or the environment's KILN_LIMITS; the former is read last. `service`
-1|stands for all values of its column, `none` lifts a limit. What is over a limit ends with
-1|exit code 8; nothing half-written is left, and --resume may go on. render, bake, plan and
-1|check have limits, of which encode and join heed memory, time, cpu and output; tests have
-1|a time limit of their own.
+1|--limits KEY=VALUE,... sets limits, and so does the environment's KILN_LIMITS; --limits is read
+1|last. `service` stands for all values of its column, `none` lifts a limit. A job that goes over a
+1|limit ends with exit code 8 and leaves no half-written file; --resume may go on. render, bake,
+1|plan and check have all limits. encode and join have memory, time, cpu and output. Tests have a
+1|time limit of their own.
 1|
 1|KEY           service
 1|pixels        16777216    Width times height of the pictures.

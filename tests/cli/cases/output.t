@@ -9,13 +9,13 @@ $ kiln render scenes/tiny.yaml -q -o a.gfi
 2|kiln: a.gfi: unknown output format '.gfi' (did you mean '.gif'?); allowed are .png, .jpg, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
 = 2
 $ kiln render scenes/tiny.yaml -q -o nosuffix
-2|kiln: nosuffix: the output needs a file name with a suffix that tells its format: .png, .jpg, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
+2|kiln: nosuffix: the output needs a file name with a suffix that names its format: .png, .jpg, .exr, .mp4, .webm, .mkv, .mov, .gif, .apng, .webp
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0 -o a.png/b.png
 2|kiln: a.png: the path is not a folder, but a.png/b.png needs a folder here
 = 2
 $ kiln render scenes/tiny.yaml -q -o odd.mp4 --size 63x36
-2|kiln: odd.mp4: a video of 63 x 36 pixels; H.264 needs even sizes, the nearest is 64x36
+2|kiln: odd.mp4: the video would have 63 x 36 pixels; H.264 needs even sizes, the nearest is 64x36
 = 2
 $ kiln render scenes/tiny.yaml -q -o gap.mp4 --frames 0-3,8
 2|kiln: gap.mp4: a clip cannot leave out frames, but frames 4-7 would be missing; write images, or one range
@@ -64,7 +64,7 @@ $ kiln render scenes/tiny.yaml -q -o clips/a.gif
 $ ffprobe -v error -show_entries stream=nb_read_frames,duration -count_frames -of csv=p=0 clips/a.gif
 1|0.800000,24
 $ kiln render scenes/tiny.yaml -q -o clips/b.gif --fps 60
-2|kiln: warning: clips/b.gif: GIF plays at most 50 frames a second; of 60, 1 in 2 is written; frames last 0.03 or 0.04 s, on average 0.0333 s
+2|kiln: warning: clips/b.gif: GIF plays at most 50 frames a second; of the 60 frames a second, 1 in 2 is written; frames last 0.03 or 0.04 s, on average 0.0333 s
 $ kiln render scenes/tiny.yaml -q -o clips/c.gif --fps 20
 $ kiln render scenes/tiny.yaml -q -o clear.gif --set backdrop.transparent=true
 2|kiln: clear.gif: the backdrop is transparent, but a GIF animation has no alpha; write images, a .webm or a .mov, or make the backdrop opaque
@@ -76,7 +76,7 @@ $ kiln render scenes/tiny.yaml -q -o gap.webm --frames 0-3,8
 2|kiln: gap.webm: a clip cannot leave out frames, but frames 4-7 would be missing; write images, or one range
 = 2
 $ kiln render scenes/tiny.yaml -q -o clip_%d.mov
-2|kiln: clip_%d.mov: a frame number in the name of a video or flipbook, which is one file
+2|kiln: clip_%d.mov: the name of a video or flipbook has a frame number; it is one file and takes none
 = 2
 $ kiln render scenes/tiny.yaml -q -o clips/a.gif
 2|kiln: clips/a.gif: the file exists (--force replaces it)
@@ -158,10 +158,10 @@ $ kiln render scenes/tiny.yaml -q -o more.exr --flipbook 2x2
 2|kiln: more.exr: a flipbook is one .png file, not .exr
 = 2
 $ kiln render scenes/tiny.yaml -q -o more_%d.png --flipbook 2x2
-2|kiln: more_%d.png: a frame number in the name of a video or flipbook, which is one file
+2|kiln: more_%d.png: the name of a video or flipbook has a frame number; it is one file and takes none
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 4x4 --size 8192x64
-2|kiln: more.png: a flipbook of 32768 x 256 pixels; allowed are 16384 a side: make the frames smaller (8192 x 64) or the cells fewer
+2|kiln: more.png: the flipbook would have 32768 x 256 pixels; allowed are 16384 a side: make the frames smaller (8192 x 64) or the cells fewer
 = 2
 $ kiln render scenes/tiny.yaml -q -o book.png --flipbook 3x4
 2|kiln: book.png: the file exists (--force replaces it)

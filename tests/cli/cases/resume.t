@@ -54,18 +54,18 @@ $ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --progress none
 What is of another job is refused, --force starts anew.
 
 $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --seed 1
-2|kiln: f_%d.png.journal: is the journal of another scene, or of this one with other values or another size (--force starts anew)
+2|kiln: f_%d.png.journal: the journal belongs to another scene, or to this scene with other values or another size (--force starts anew)
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0-4 -o f_%d.png --resume
-2|kiln: f_%d.png.journal: is the journal of other frames, or other settings of the output (--force starts anew)
+2|kiln: f_%d.png.journal: the journal belongs to other frames, or to other settings of the output (--force starts anew)
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --png-bits 16
-2|kiln: f_%d.png.journal: is the journal of other frames, or other settings of the output (--force starts anew)
+2|kiln: f_%d.png.journal: the journal belongs to other frames, or to other settings of the output (--force starts anew)
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --technique simulate=inplace 2>&1 | sed "s/(kiln.*//"
 1|kiln: f_%d.png.journal: was begun by another program, device or techniques 
 $ echo mine >f_%d.png.journal; kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume
-2|kiln: f_%d.png.journal: is not a journal (--force starts anew)
+2|kiln: f_%d.png.journal: the file is not a journal (--force starts anew)
 = 2
 $ kiln render scenes/tiny.yaml --frames 0-5 -o f_%d.png --resume --force --progress none
 1|device: <device>
@@ -109,7 +109,7 @@ $ cmp ref.mp4 c.mp4
 $ echo mine >d.mp4; kiln render scenes/tiny.yaml -q -o d.mp4 --resume; ls d.mp4* x_*
 1|d.mp4
 1|x_1.png
-2|kiln: d.mp4: the file exists, and no journal says that this job has made it (--force replaces it)
+2|kiln: d.mp4: the file exists, and no journal says that this job made it (--force replaces it)
 
 Of a journal, the job does not heed what its format does not: a PNG has no bits of EXR.
 
@@ -122,4 +122,4 @@ The folder of parts is no link: nothing is written or removed behind it.
 $ mkdir elsewhere && touch elsewhere/00000.part && ln -s elsewhere linked.mp4.parts && kiln render scenes/tiny.yaml -q -o linked.mp4 --resume --device cpu; ls -d linked* elsewhere/*
 1|elsewhere/00000.part
 1|linked.mp4.parts
-2|kiln: linked.mp4.parts: it is no folder, and parts of the clip go there
+2|kiln: linked.mp4.parts: not a folder; the parts of the clip need a folder of this name

@@ -13,9 +13,9 @@ $ kiln join c.mp4; ls -d c.mp4*
 1|c.mp4.1-of-3.journal
 1|c.mp4.3-of-3.journal
 1|c.mp4.parts
-2|kiln: c.mp4: not all is there; missing or damaged: part 3 (frames 40-59)
+2|kiln: c.mp4: parts are missing or damaged: part 3 (frames 40-59)
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o c.mp4 --shard 2/3 && truncate -s -1 c.mp4.parts/00001.part && kiln join c.mp4
-2|kiln: c.mp4: not all is there; missing or damaged: part 2 (frames 20-39)
+2|kiln: c.mp4: parts are missing or damaged: part 2 (frames 20-39)
 = 6
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --shard 1/3 --progress none
 1|device: <device>
@@ -48,7 +48,7 @@ $ for shard in 1/3 3/3 2/2 9/9; do kiln render scenes/tiny.yaml --fps 10 --set o
 1|c.mp4
 1|c.mp4.journal
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 --seed 2 -q -o c.mp4 --resume --shard 1/3
-2|kiln: c.mp4.journal: is the journal of another scene, or of this one with other values or another size (--force starts anew)
+2|kiln: c.mp4.journal: the journal belongs to another scene, or to this scene with other values or another size (--force starts anew)
 = 2
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o c.mp4 --force --shard 3/3 --progress none | tail -n 1; ls -d c.mp4*
 1|c.mp4: part 4: 1 frame in <s> s
@@ -73,8 +73,8 @@ $ kiln join c.mp4 && cmp ref.mp4 c.mp4 && ls -d c.mp4*
 Shards of different jobs are not joined.
 
 $ for i in 1 2; do kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -q -o d.webm --shard $i/2 --seed $i; done; kiln join d.webm; ls -d d.webm d.webm.journal
-2|kiln: d.webm.1-of-2.journal: is the journal of another scene, or of this one with other values or another size (--force starts anew)
-2|kiln: d.webm: not all is there; missing or damaged: part 3 (frames 40-59), part 4 (frames 60-60)
+2|kiln: d.webm.1-of-2.journal: the journal belongs to another scene, or to this scene with other values or another size (--force starts anew)
+2|kiln: d.webm: parts are missing or damaged: part 3 (frames 40-59), part 4 (frames 60-60)
 2|ls: cannot access 'd.webm': No such file or directory
 2|ls: cannot access 'd.webm.journal': No such file or directory
 = 2
@@ -122,7 +122,7 @@ $ kiln join m.mp4 --manifest m.mp4.journal
 = 2
 $ echo mine >m.mp4 && kiln join m.mp4; cat m.mp4
 1|mine
-2|kiln: m.mp4: the file exists, and no journal says that this job has made it (--force replaces it)
+2|kiln: m.mp4: the file exists, and no journal says that this job made it (--force replaces it)
 $ kiln join m.mp4 --force --manifest m.json && kiln join m.mp4 --manifest m.json && jq .result.files[0].file m.json
 1|m.mp4: 24 frames in 2 parts
 1|m.mp4: 24 frames in 2 parts, whole already
@@ -140,7 +140,7 @@ $ for i in 1 2 3 4 5; do kiln render scenes/tiny.yaml --fps 10 --set output.fram
 1|f_%02d.png: part 4: 1 frame in <s> s
 1|f_%02d.png: none of its parts is for this shard
 $ rm f_30.png && echo x >f_31.png; kiln join f_%02d.png
-2|kiln: f_%02d.png: not all is there; missing or damaged: frames 30-31
+2|kiln: f_%02d.png: parts are missing or damaged: frames 30-31
 = 6
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 -o f_%02d.png --resume --progress none && kiln join f_%02d.png && ls *.journal
 1|device: <device>
@@ -211,7 +211,7 @@ $ kiln render scenes/tiny.yaml -o x.mp4 --manifest x.json --shard 1/2
 2|kiln: render: --manifest: of shards, 'kiln join --manifest' writes it
 = 2
 $ kiln join nothing.mp4
-2|kiln: nothing.mp4: has no journal beside it: no job with --resume or --shard has begun it
+2|kiln: nothing.mp4: the output has no journal: no job with --resume or --shard has begun it
 = 6
 
 A player that jumps to the start of a part shows the frame that it shows there when it plays on.

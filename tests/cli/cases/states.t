@@ -20,7 +20,7 @@ $ kiln render scenes/tiny.yaml -q --fps 10 --set output.frames=50 --set post.exp
 1|  steps        30
 $ kiln render scenes/tiny.yaml -q --fps 10 --set output.frames=50 --seed 3 --frames 45 -o none --states states --stats | grep steps
 1|  steps        282
-2|kiln: warning: states: no state of 'scenes/tiny.yaml' at or before frame 45 (3 of other motions: bake again); stepping from the start
+2|kiln: warning: states: there is no state of 'scenes/tiny.yaml' at or before frame 45 (3 states belong to other motions: bake again); stepping from the start
 
 Every N frames or seconds; what is there is kept with --resume, replaced with --force.
 
@@ -47,28 +47,28 @@ Of several states the last before the frame is used, one that is damaged is not.
 $ printf X | dd of=$(ls states/*-00000252.kilnstate) bs=1 seek=300 conv=notrunc status=none
 $ kiln render scenes/tiny.yaml -q --fps 10 --set output.frames=50 --frames 44 -o again_%d.png --states states --stats | grep steps
 1|  steps        84
-2|kiln: warning: states/a37c7513dbddf799-00000252.kilnstate: the file is damaged; it is not used
+2|kiln: warning: states/a37c7513dbddf799-00000252.kilnstate: the file is damaged; the state is not used
 $ cmp full_44.png again_44.png
 $ for state in states/*; do truncate -s 100 $state; done
 $ kiln render scenes/tiny.yaml -q --fps 10 --set output.frames=50 --frames 21 -o none --states states --stats | grep steps
 1|  steps        138
-2|kiln: warning: states/a37c7513dbddf799-00000132.kilnstate: the file is cut off; it is not used
-2|kiln: warning: states/a37c7513dbddf799-00000072.kilnstate: the file is cut off; it is not used
-2|kiln: warning: states/a37c7513dbddf799-00000012.kilnstate: the file is cut off; it is not used
-2|kiln: warning: states: no state of 'scenes/tiny.yaml' at or before frame 21; stepping from the start
+2|kiln: warning: states/a37c7513dbddf799-00000132.kilnstate: the file is cut off; the state is not used
+2|kiln: warning: states/a37c7513dbddf799-00000072.kilnstate: the file is cut off; the state is not used
+2|kiln: warning: states/a37c7513dbddf799-00000012.kilnstate: the file is cut off; the state is not used
+2|kiln: warning: states: there is no state of 'scenes/tiny.yaml' at or before frame 21; stepping from the start
 $ kiln bake scenes/tiny.yaml -o states --fps 10 --set output.frames=50 --resume | tail -n 1
 1|states: 3 states of motion a37c7513dbddf799 after 252 steps in <s> s
-2|kiln: warning: states/a37c7513dbddf799-00000012.kilnstate: the file is cut off; it is not used
-2|kiln: warning: states: no state of 'scenes/tiny.yaml' at or before frame 0; stepping from the start
-2|kiln: warning: states/a37c7513dbddf799-00000132.kilnstate: the file is cut off; it is not used
-2|kiln: warning: states/a37c7513dbddf799-00000072.kilnstate: the file is cut off; it is not used
-2|kiln: warning: states/a37c7513dbddf799-00000252.kilnstate: the file is cut off; it is not used
-2|kiln: warning: states/a37c7513dbddf799-00000192.kilnstate: the file is cut off; it is not used
+2|kiln: warning: states/a37c7513dbddf799-00000012.kilnstate: the file is cut off; the state is not used
+2|kiln: warning: states: there is no state of 'scenes/tiny.yaml' at or before frame 0; stepping from the start
+2|kiln: warning: states/a37c7513dbddf799-00000132.kilnstate: the file is cut off; the state is not used
+2|kiln: warning: states/a37c7513dbddf799-00000072.kilnstate: the file is cut off; the state is not used
+2|kiln: warning: states/a37c7513dbddf799-00000252.kilnstate: the file is cut off; the state is not used
+2|kiln: warning: states/a37c7513dbddf799-00000192.kilnstate: the file is cut off; the state is not used
 $ mv $(ls other/*-00000132.kilnstate) $(ls states/*-00000252.kilnstate)
 $ kiln render scenes/tiny.yaml -q --fps 10 --set output.frames=50 --frames 44 -o none --states states --stats | grep steps
 1|  steps        144
-2|kiln: warning: states/a37c7513dbddf799-00000252.kilnstate: is the state of step 132; it is not used
-2|kiln: warning: states/a37c7513dbddf799-00000192.kilnstate: the file is cut off; it is not used
+2|kiln: warning: states/a37c7513dbddf799-00000252.kilnstate: the file holds the state of step 132; the state is not used
+2|kiln: warning: states/a37c7513dbddf799-00000192.kilnstate: the file is cut off; the state is not used
 
 Wrong requests.
 

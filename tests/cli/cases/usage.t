@@ -297,7 +297,7 @@ $ kiln help compare
 1|                              map side by side. For several frames, '%04d' or
 1|                              '####' stands for the number, and a folder gets a
 1|                              file named after each.
-1|      --error-map FILE        Write a PNG of FLIP's error map alone, of the
+1|      --error-map FILE        Write a PNG of FLIP's error map alone, in the
 1|                              pictures' size; names as --diff.
 1|      --force                 Let --diff, --error-map and --json replace files
 1|                              that exist.
@@ -486,39 +486,45 @@ $ kiln help outputs
 1|  .apng  animated PNG: lossless, 8 or 16 bits (--png-bits), with alpha; plays forever
 1|  .webp  animated WebP: with alpha; quality 0 to 100 (lossless); times in whole ms; plays forever
 1|
-1|Images are numbered: frame_####.png and frame_%04d.png both give frame_0000.png;
-1|without a number in the name of several frames, _0000 is added before the suffix.
-1|A percent sign or hash of the name itself is written as %% or %#.
-1|Missing folders are made. A file appears under its name only when it is whole.
+1|The names of images are numbered: frame_####.png and frame_%04d.png both give frame_0000.png.
+1|Where a name of several frames has no number, _0000 is added before the suffix. A percent
+1|sign or hash of the name itself is written as %% or %#. Missing folders are made. A file
+1|appears under its name only when it is whole.
 1|
-1|A clip is one file of neighbouring frames that starts at time 0; nothing in it tells
-1|date or machine, and the same frames give the same bytes with any --threads. The
-1|clips of --frames 0-74 and 75-149 are no halves of the whole one's bytes: to split
-1|work, render images and encode those. Rates are exact in MP4, MOV and APNG (up to 65535
-1|in its fraction, else the nearest, with a warning). GIF counts 1/100 s: of up to 50 frames
-1|a second it holds all, some 1/100 s longer than others, so that time is kept; of more,
-1|each second, third... one. A warning says which. While frames are drawn, a GIF takes 3
-1|bytes a pixel and frame beside the file, since one palette is made for all.
+1|A clip is one file of consecutive frames that starts at time 0. It holds neither date nor
+1|machine, and the same frames give the same bytes with any --threads. The clips of
+1|--frames 0-74 and 75-149 cannot be put together to the bytes of the whole clip. To split
+1|work, use --shard and 'kiln join', or render images and encode them.
 1|
-1|Alpha comes from backdrop.transparent; MP4, GIF and JPEG have none and refuse. It is
-1|straight, not multiplied into colours. Colours are sRGB; of videos BT.709 with sRGB's
-1|transfer function, tagged so.
+1|MP4, MOV and APNG hold exact frame rates. APNG has fractions up to 65535; another rate
+1|becomes the nearest fraction, with a warning. GIF counts times in 1/100 s. A GIF of up to
+1|50 frames a second holds all frames; some last 1/100 s longer than others, so that the
+1|clip keeps its length. A GIF of a higher rate holds only every second, third or later
+1|frame, and a warning says which. One palette serves the whole GIF. Until it is known, the
+1|frames wait in a file beside the GIF, of 3 bytes a pixel.
 1|
-1|--flipbook 8x8 writes 64 frames as cells of one PNG, rows from the top, for game
-1|engines. Cell k of n shows frame k/n of --frames, and --size is a cell's; padding
-1|comes on top, inside the cell. Beside FILE.png stands FILE.json: the grid, which frames,
-1|cells a second, alpha. Straight alpha has the neighbours' colours where it is zero;
-1|premultiplied is what shows over black, for additive or premultiplied blending.
-1|--flipbook-motion adds FILE_motion.png, to be read as linear, not sRGB: red and green
-1|say how far right and down a pixel is in the next cell, (value * 2 - 1) * scale cells,
-1|with scale from the JSON (engines with v upwards: negate green). An engine at t between
-1|cells a and b mixes a at uv - t * motion and b at uv + (1 - t) * motion. Of the last
-1|cell it is 0. All cells must be drawn by one command: chunks of frames make no flipbook.
-1|Its files appear together, the .json last: where that is, they are whole.
+1|An alpha channel comes from backdrop.transparent. MP4, GIF and JPEG have no alpha, and
+1|writing one is an error. Alpha is straight: colours are not multiplied by it. Colours are
+1|sRGB. Videos are BT.709 with sRGB's transfer function, and are tagged so.
 1|
-1|-o - writes frames to standard output: Y4M (4:2:0, BT.709 in limited range, as an MP4's),
-1|or by --pipe bytes in sRGB (rgb24, rgba: straight alpha) or floats (rgbaf32: little-endian,
-1|linear, premultiplied), rows from the top, without any header.
+1|--flipbook 8x8 writes 64 frames as cells of one PNG for game engines, in rows from the
+1|top. Cell k of n shows the frame at k/n of --frames. --size is the size of a cell;
+1|padding is added inside the cell. FILE.json beside FILE.png has the grid, the frames, the
+1|cells a second and the kind of alpha. With straight alpha, pixels of alpha 0 have the
+1|colours of their neighbours. With premultiplied alpha, colours are those over black, for
+1|additive or premultiplied blending.
+1|
+1|--flipbook-motion adds FILE_motion.png, which is linear, not sRGB. Red and green say how
+1|far right and down a pixel moves until the next cell: (value * 2 - 1) * scale cells, with
+1|scale from the JSON. An engine whose v points upwards negates green. At t between cells a
+1|and b, an engine mixes a at uv - t * motion and b at uv + (1 - t) * motion. The motion of
+1|the last cell is 0. One command must draw all cells; chunks of frames make no flipbook.
+1|The files appear together, the .json last. Where the .json is, all of them are whole.
+1|
+1|-o - writes frames to standard output, in rows from the top, without a header. The
+1|default is Y4M (4:2:0, BT.709 in limited range, as in an MP4). --pipe rgb24 and rgba
+1|write bytes in sRGB, with straight alpha; rgbaf32 writes floats (little-endian, linear,
+1|premultiplied).
 $ kiln help scene | head -n 4
 1|A scene is a YAML file. Every key below may also be given with --set KEY=VALUE; '*' in a KEY
 1|stands for every entry of a mapping or list, and entries of a list are counted from 0.
