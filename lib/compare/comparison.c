@@ -49,11 +49,12 @@ static bool choose_mode(struct comparison *comparison, const struct kiln_subject
 {
     enum kiln_compare_mode mode = comparison->params->mode;
     if (mode == KILN_COMPARE_AUTO && subjects[0]->hdr != subjects[1]->hdr)
-        return kiln_error_set(error, KILN_USAGE,
-                              "%s is %s and %s is not: choose the range of light, ldr or hdr",
-                              kiln_footage_path(comparison->footage[0]),
-                              subjects[0]->hdr ? "of floats" : "of integers",
-                              kiln_footage_path(comparison->footage[1]));
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "%s is %s and %s is not: choose the range of light by --range ldr or hdr",
+            kiln_footage_path(comparison->footage[0]),
+            subjects[0]->hdr ? "of floats" : "of integers",
+            kiln_footage_path(comparison->footage[1]));
     *hdr = mode == KILN_COMPARE_AUTO ? subjects[0]->hdr : mode == KILN_COMPARE_HDR;
     comparison->result.hdr = *hdr;
     return true;
@@ -296,13 +297,14 @@ static bool compare_all(struct comparison *comparison, struct kiln_error *error)
 static bool check_params(const struct kiln_compare_params *params, struct kiln_error *error)
 {
     if (!(params->pixels_per_degree >= 4 && params->pixels_per_degree <= 400))
-        return kiln_error_set(error, KILN_USAGE, "%g pixels a degree; allowed are 4 to 400",
+        return kiln_error_set(error, KILN_USAGE, "found %g pixels a degree; allowed are 4 to 400",
                               params->pixels_per_degree);
     if (!(params->threshold >= 0 && params->threshold <= 255))
-        return kiln_error_set(error, KILN_USAGE, "a threshold of %g levels; allowed are 0 to 255",
+        return kiln_error_set(error, KILN_USAGE,
+                              "found a threshold of %g levels; allowed are 0 to 255",
                               params->threshold);
     if (params->window < 1)
-        return kiln_error_set(error, KILN_USAGE, "a window of 0 pixels; it needs 1 or more");
+        return kiln_error_set(error, KILN_USAGE, "found a window of 0 pixels; it needs 1 or more");
     if (!params->layer || !*params->layer)
         return kiln_error_set(error, KILN_USAGE, "the name of the layer is empty");
     return true;

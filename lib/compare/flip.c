@@ -443,7 +443,7 @@ bool kiln_flip_ldr(const struct kiln_flip_pair *pair, const struct kiln_flip_par
 {
     static_assert(CSF_Y == 0 && CSF_X == 1 && CSF_Z1 == 2, "the order of struct row's colours");
     if (!(params->pixels_per_degree >= 4.0f && params->pixels_per_degree <= 400.0f))
-        return kiln_error_set(error, KILN_USAGE, "%g pixels a degree: expected 4 to 400",
+        return kiln_error_set(error, KILN_USAGE, "found %g pixels a degree; expected 4 to 400",
                               (double)params->pixels_per_degree);
     if (!kiln_flip_check_finite(pair->reference, pair, error) ||
         !kiln_flip_check_finite(pair->test, pair, error))

@@ -97,8 +97,8 @@ bool kiln_flip_hdr(const struct kiln_flip_pair *pair, const struct kiln_flip_par
 {
     size_t pixels = (size_t)pair->width * pair->height;
     if (exposures->count < 2 || exposures->count > KILN_FLIP_MAX_EXPOSURES)
-        return kiln_error_set(error, KILN_USAGE, "%u exposures: expected 2 to %d", exposures->count,
-                              KILN_FLIP_MAX_EXPOSURES);
+        return kiln_error_set(error, KILN_USAGE, "found %u exposures; expected 2 to %d",
+                              exposures->count, KILN_FLIP_MAX_EXPOSURES);
     /* Values are checked here, since tone mapping would turn any value into a finite number. */
     if (!kiln_flip_check_finite(pair->reference, pair, error) ||
         !kiln_flip_check_finite(pair->test, pair, error))

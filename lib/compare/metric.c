@@ -91,24 +91,24 @@ static bool window_share(struct metric_value *v)
 static const struct kiln_metric metrics[] = {
     {.name = "flip.mean",
      .unit = "",
-     .help = "FLIP, how different they look when flipped: 0 to 1, the mean over all pixels",
+     .help = "FLIP: how different the pictures look when flipped; mean over all pixels, 0 to 1",
      .most = 1,
      .compute = flip_mean},
     {.name = "flip.p50",
      .unit = "",
-     .help = "FLIP's median, weighted by the errors",
+     .help = "median of FLIP, weighted by the errors",
      .percentile = 50,
      .most = 1,
      .compute = flip_percentile},
     {.name = "flip.p99",
      .unit = "",
-     .help = "FLIP's 99th percentile, weighted by the errors",
+     .help = "99th percentile of FLIP, weighted by the errors",
      .percentile = 99,
      .most = 1,
      .compute = flip_percentile},
     {.name = "flip.pN",
      .unit = "",
-     .help = "any other percentile, such as flip.p99.9",
+     .help = "any other percentile of FLIP, such as flip.p99.9",
      .most = 1,
      .compute = flip_percentile},
     {.name = "flip.max",
@@ -141,17 +141,18 @@ static const struct kiln_metric metrics[] = {
      .compute = level_mean},
     {.name = "differing.count",
      .unit = "pixels",
-     .help = "pixels that differ by more than --threshold levels",
+     .help = "number of pixels that differ by more than --threshold levels",
      .most = INFINITY,
      .compute = differing_count},
     {.name = "differing.share",
      .unit = "",
-     .help = "their share of the picture, 0 to 1",
+     .help = "part of the picture that differs by more than --threshold levels, 0 to 1",
      .most = 1,
      .compute = differing_share},
     {.name = "window.share",
      .unit = "",
-     .help = "their share of the --window where they are densest: finds small faults",
+     .help = "part of the densest --window that differs by more than --threshold levels; it finds "
+             "small faults",
      .most = 1,
      .compute = window_share},
 };
@@ -200,9 +201,10 @@ static struct kiln_compare_column *find_column(struct kiln_metric_set *set, cons
             !kiln_text_to_double(name + stem, &percentile))
             continue;
         if (!(percentile >= 0 && percentile <= 100)) {
-            kiln_error_set(error, KILN_USAGE,
-                           "limit '%s': percentile '%s'; allowed are 0 to 100, as in flip.p99.9",
-                           limit, name + stem);
+            kiln_error_set(
+                error, KILN_USAGE,
+                "limit '%s': found the percentile '%s'; allowed are 0 to 100, as in flip.p99.9",
+                limit, name + stem);
             return NULL;
         }
         if (set->count == KILN_MAX_COLUMNS) {
@@ -312,8 +314,10 @@ bool kiln_write_metrics(FILE *out)
     for (size_t i = 0; i < METRIC_COUNT; i++)
         fprintf(out, "  %-16s %-7s %s\n", metrics[i].name, metrics[i].unit, metrics[i].help);
     fprintf(out,
-            "\nA limit is the worst value that passes: the least of ssim and psnr, the most of "
-            "the\nothers. Without --limit it is %s.\n",
+            "\n"
+            "A limit is the worst value that passes: the least value of ssim and psnr, and the "
+            "greatest value\n"
+            "of the other metrics. Without --limit it is %s.\n",
             KILN_COMPARE_DEFAULT_LIMITS);
     return !ferror(out);
 }

@@ -70,7 +70,8 @@ bool kiln_pool_percentile(const float *errors, size_t count, double part, double
                           struct kiln_error *error)
 {
     if (!(part >= 0.0 && part <= 1.0))
-        return kiln_error_set(error, KILN_USAGE, "percentile of part %g: expected 0 to 1", part);
+        return kiln_error_set(error, KILN_USAGE, "found part %g of a percentile; expected 0 to 1",
+                              part);
     if (count == 0)
         return kiln_error_set(error, KILN_INVALID_INPUT, "no pixels: nothing was compared");
     double *buckets = malloc(BUCKETS * sizeof *buckets);

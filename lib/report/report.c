@@ -25,7 +25,8 @@ static const struct kiln_report_format *find_format(const char *name, struct kil
         length += (size_t)snprintf(allowed + length, sizeof allowed - length, "%s%s", i ? ", " : "",
                                    formats[i]->name);
     }
-    kiln_error_set(error, KILN_USAGE, "'%s' is no format of a report; there are %s", name, allowed);
+    kiln_error_set(error, KILN_USAGE, "'%s' is not a format of a report; there are %s", name,
+                   allowed);
     return NULL;
 }
 
@@ -76,8 +77,7 @@ static bool check_target(const struct kiln_report_format *format,
     return output->overwrite || stat(output->path, &status) != 0 || status.st_size == 0 ||
            is_own(format, output->path) ||
            kiln_error_set(error, KILN_USAGE,
-                          "%s: the file exists, and is nothing that %s has written (--force "
-                          "replaces it)",
+                          "%s: the file exists, and %s did not write it (--force replaces it)",
                           output->path, format->option);
 }
 

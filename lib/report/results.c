@@ -130,7 +130,7 @@ static struct kiln_result *missing_result(const struct loading *loading, const c
         result->test = test;
         result->status = KILN_TEST_ERROR;
         result->code = KILN_DEVICE_FAILED;
-        result->message = "left no result: it was not run, or its process ended early";
+        result->message = "no result: the test was not run, or its process ended early";
     }
     return result;
 }
@@ -160,7 +160,7 @@ static bool load_test(struct loading *loading, const char *run, const struct kil
     char quoted[64], path[KILN_PATH_SIZE], file[KILN_PATH_SIZE];
     kiln_node_quote(quoted, name);
     if (!is_test_name(name))
-        return kiln_node_error(node, error, "'%s' is no name of a test", quoted);
+        return kiln_node_error(node, error, "'%s' is not the name of a test", quoted);
     if (!kiln_path_join(path, run, name, error) ||
         !kiln_path_join(file, path, "result.json", error))
         return false;
@@ -176,8 +176,8 @@ static bool load_test(struct loading *loading, const char *run, const struct kil
         char found[64];
         kiln_node_quote(found, result->name);
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: the result of '%s'; that of '%s' was to be here", file, found,
-                              quoted);
+                              "%s: the file has the result of '%s', but that of '%s' is expected",
+                              file, found, quoted);
     }
     loading->entries[loading->count++] = (struct entry){result, folder, run};
     return true;
@@ -352,8 +352,8 @@ static bool check_names(const struct loading *loading)
         const struct entry *a = &loading->entries[i - 1], *b = &loading->entries[i];
         if (strcmp(a->result->name, b->result->name) == 0)
             return kiln_error_set(loading->error, KILN_INVALID_INPUT,
-                                  "%s: there are two results, in %s and in %s; of a test, one "
-                                  "shard alone may have one",
+                                  "%s: there are two results, in %s and in %s; each test must have "
+                                  "one result of one shard",
                                   a->result->name, a->run, b->run);
     }
     return true;

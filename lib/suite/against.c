@@ -147,8 +147,8 @@ bool kiln_trial_draw_against(struct kiln_trial *trial, struct kiln_result_frame 
     }
     if (*frame->pixels_expected && strcmp(hash, frame->pixels_expected) != 0)
         kiln_trial_note(trial,
-                        "%s draws frame %u otherwise than was accepted%s%s: it or the scene is "
-                        "another",
+                        "%s draws frame %u with other pixels than were accepted%s%s: its version "
+                        "differs, or the scene has changed",
                         program, frame->number, *frame->kiln_expected ? " of kiln " : "",
                         frame->kiln_expected);
     return true;

@@ -140,22 +140,23 @@ static bool read_result(struct approval *a)
     const struct kiln_result *r = a->result;
     char device[KILN_DEVICE_NAME_SIZE];
     if (strcmp(r->name, a->params->name) != 0 || !is_golden_of(r->golden, r->name))
-        return kiln_error_set(a->error, KILN_INVALID_INPUT,
-                              "%s/result.json: is not of this test: it names '%s', with goldens "
-                              "in %s",
-                              a->folder, r->name, r->golden);
+        return kiln_error_set(
+            a->error, KILN_INVALID_INPUT,
+            "%s/result.json: the result belongs to another test: it names '%s', with goldens in %s",
+            a->folder, r->name, r->golden);
     if (is_passed_over(a))
         return true;
     if (r->status == KILN_TEST_SKIP)
-        return run_again(a, "it was skipped and has no pictures");
+        return run_again(a, "the test was skipped and has no pictures");
     if (r->status == KILN_TEST_ERROR || r->frame_count == 0)
         return kiln_error_set(a->error, KILN_INVALID_INPUT,
-                              "%s: the test ended with an error, and nothing can be accepted: %s",
+                              "%s: the test ended with an error, so nothing can be accepted: %s",
                               a->params->name, r->message);
     kiln_device_name(r->device_name, device);
     if (!*device || strcmp(device, r->device_name) != 0)
         return kiln_error_set(a->error, KILN_INVALID_INPUT,
-                              "%s/result.json: no device's name: '%s'", a->folder, r->device_name);
+                              "%s/result.json: '%s' is not a device's name", a->folder,
+                              r->device_name);
     return true;
 }
 
@@ -289,10 +290,11 @@ static bool check_frame(struct approval *a, const struct kiln_result_frame *fram
         !kiln_pixel_hash(picture, pixels, a->error))
         return false;
     if (strcmp(pixels, frame->pixels) != 0)
-        return kiln_error_set(a->error, KILN_INVALID_INPUT,
-                              "%s: is not the picture that was judged: its pixels have changed "
-                              "since the run",
-                              picture);
+        return kiln_error_set(
+            a->error, KILN_INVALID_INPUT,
+            "%s: the file is not the picture that was judged: its pixels have changed "
+            "since the run",
+            picture);
     return check_golden(a, frame);
 }
 

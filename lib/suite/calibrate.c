@@ -165,15 +165,15 @@ static bool check_state(const struct calibrating *c, const struct kiln_rendered_
     const struct kiln_expect_frame *expected = kiln_expect_find(c->trial.expect, frame->number);
     if (strcmp(frame->state, first->state) != 0)
         return kiln_error_set(error, KILN_FRAME_FAILED,
-                              "render %u has the state %s at frame %u, the first one had %s: the "
-                              "simulation is not deterministic",
+                              "render %u has the state %s at frame %u, but the first render had "
+                              "%s: the simulation is not deterministic",
                               c->calibration->renders + 1, frame->state, frame->number,
                               first->state);
     if (has_golden && expected && expected->state && *expected->state &&
         strcmp(expected->state, frame->state) != 0)
         return kiln_error_set(error, KILN_FRAME_FAILED,
-                              "the simulation changed: state %s at frame %u, accepted was %s; "
-                              "update the goldens before calibrating",
+                              "the simulation changed: the state is %s at frame %u, but %s was "
+                              "accepted; update the goldens before calibrating",
                               frame->state, frame->number, expected->state);
     return true;
 }
@@ -228,8 +228,8 @@ static bool measure_render(struct calibrating *c, const struct kiln_rendering *r
                            struct kiln_error *error)
 {
     if (rendering->frame_count != c->first.frame_count)
-        return kiln_error_set(error, KILN_INVALID_INPUT, "%s: the scene changed meanwhile",
-                              c->trial.test->path);
+        return kiln_error_set(error, KILN_INVALID_INPUT,
+                              "%s: the scene changed during the calibration", c->trial.test->path);
     for (size_t i = 0; i < rendering->frame_count; i++) {
         if (!measure_frame(c, rendering, i, error))
             return false;
@@ -337,9 +337,9 @@ static void note_looser(const struct calibrating *c, struct kiln_text *reason)
                 !is_worse(column, proposal->proposed, column->limit))
                 continue;
             kiln_text_add(reason, "%s%s",
-                          any ? ", " : "; looser than the default: ", proposal->metric);
+                          any ? ", " : "; looser than the default limits: ", proposal->metric);
             kiln_log_write(&c->params->log, KILN_LOG_WARNING,
-                           "%s: limit %s=%g is looser than the default one, %g: %g was measured",
+                           "%s: limit %s=%g is looser than the default limit, %g: %g was measured",
                            c->trial.test->full_name, proposal->metric, proposal->proposed,
                            column->limit, proposal->worst);
             any = true;
@@ -412,10 +412,11 @@ static bool check_params(const struct kiln_calibrate_params *params, struct kiln
 {
     bool margin = params->margin >= 1 && params->margin <= 1000;
     if (params->renders < 2)
-        kiln_error_set(error, KILN_USAGE, "%u renders; calibration needs 2 or more",
+        kiln_error_set(error, KILN_USAGE, "found %u renders; a calibration needs 2 or more",
                        params->renders);
     else if (!margin)
-        kiln_error_set(error, KILN_USAGE, "a margin of %g; allowed are 1 to 1000", params->margin);
+        kiln_error_set(error, KILN_USAGE, "found a margin of %g; allowed are 1 to 1000",
+                       params->margin);
     return params->renders >= 2 && margin;
 }
 

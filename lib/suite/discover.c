@@ -198,7 +198,7 @@ static bool add_if_scene(struct search *search, const char *path)
     if (ok && keys.test)
         return kiln_error_set(
             search->error, KILN_USAGE,
-            "%s: has the key kiln_test, but a test file's name ends in .test.yaml", path);
+            "%s: a file with the key kiln_test needs a name that ends in .test.yaml", path);
     return ok && (!keys.scene || add_file(search, path, true));
 }
 
@@ -317,7 +317,7 @@ static bool search_operand_folder(struct search *search)
     return ok &&
            (search->seen > before ||
             kiln_error_set(search->error, KILN_USAGE,
-                           "%s: no test in this folder: no *.test.yaml, and no scene", operand));
+                           "%s: the folder has no tests: no *.test.yaml, and no scene", operand));
 }
 
 static bool search_operand(struct search *search)

@@ -74,7 +74,8 @@ static const struct kiln_option pixels_rows[] = {
      .offset = AT(golden),
      .fallback = "\"\"",
      LIMITS(KILN_PLAIN, 0, 64)},
-    {ROW(NO_PART, "kiln", text, AT(kiln), "\"\"", "That was accepted."), LIMITS(KILN_PLAIN, 0, 60)},
+    {ROW(NO_PART, "kiln", text, AT(kiln), "\"\"", "State and pixels that were accepted."),
+     LIMITS(KILN_PLAIN, 0, 60)},
     END,
 };
 
@@ -99,8 +100,8 @@ static bool read_pixels(struct kiln_reader *reader, const struct kiln_option *op
         kiln_device_name(device, name);
         if (strcmp(name, device) != 0)
             return kiln_reader_error(reader, entry->key,
-                                     "no device's name; those have lower-case letters, digits, "
-                                     "'.' and '-', as in llvmpipe-llvm-15.0.6-256-bits");
+                                     "no device's name; a name has lower-case letters, digits, '.' "
+                                     "and '-', as in llvmpipe-llvm-15.0.6-256-bits");
         if (!kiln_reader_keep_text(reader, device, &pixels->device) ||
             !kiln_read_members(reader, pixels_rows, entry, pixels))
             return false;
@@ -159,7 +160,7 @@ static bool read_frames(struct kiln_reader *reader, const struct kiln_option *op
             return false;
         for (uint32_t i = 0; i < document->frame_count; i++) {
             if (document->frames[i].number == frame->number)
-                return kiln_reader_error(reader, entry->key, "frame %u is here twice",
+                return kiln_reader_error(reader, entry->key, "frame %u is given twice",
                                          frame->number);
         }
         if (!kiln_read_members(reader, frame_rows, entry, frame))
@@ -195,7 +196,8 @@ static const struct kiln_option rows[] = {
      .offset = AT(scene_hash),
      .fallback = "\"\"",
      LIMITS(KILN_PLAIN, 0, 64)},
-    {ROW(NO_PART, "techniques", list, AT(techniques), "[]", "Those that were accepted."),
+    {ROW(NO_PART, "techniques", list, AT(techniques), "[]",
+         "Scene, kiln and device that were accepted."),
      .item = &technique_item, .item_size = sizeof(const char *),
      .count_offset = AT(technique_count), .max_count = KILN_TEST_MAX_TECHNIQUES},
     {ROW(NO_PART, "limits", limits, AT(limits), "{}", "Over those of the test."),
@@ -261,7 +263,7 @@ static struct kiln_expect *read_document(struct kiln_arena *arena, struct kiln_a
         return NULL;
     }
     const struct kiln_origin origin = {
-        .name = path, .has_lines = true, .kind = "what is expected", .version = "kiln_expect: 1"};
+        .name = path, .has_lines = true, .kind = "an expect.yaml", .version = "kiln_expect: 1"};
     struct kiln_reader reader = {
         .origin = &origin, .arena = arena, .scratch = scratch, .error = error, .target = document};
     if (!kiln_read_document(&reader, rows, text, size))

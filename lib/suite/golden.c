@@ -142,11 +142,11 @@ static bool take_entry(const char *entry, const struct kiln_test *test, uint32_t
     struct golden_name name;
     enum match match = parse_name(entry, test, frame, &name);
     if (match == MALFORMED)
-        return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s/%.200s: no golden's name; those are frame_%04u%s and, before the "
-                              "suffix, @ with a device's name in lower case, ~ with a number from "
-                              "2, or both",
-                              test->golden, entry, frame, kiln_test_suffix(test));
+        return kiln_error_set(
+            error, KILN_INVALID_INPUT,
+            "%s/%.200s: not the name of a golden; a name is frame_%04u%s, and may have before the "
+            "suffix @ with a device's name in lower case, ~ with a number from 2, or both",
+            test->golden, entry, frame, kiln_test_suffix(test));
     if (match == OTHER_FILE || !is_for(name.device, device_name))
         return true;
     size_t length = strlen(name.device), before = strlen(device);
@@ -157,8 +157,8 @@ static bool take_entry(const char *entry, const struct kiln_test *test, uint32_t
     memcpy(device, name.device, length + 1);
     return add_number(numbers, name.number) ||
            kiln_error_set(error, KILN_INVALID_INPUT,
-                          "%s: more than %d accepted pictures of frame %u", test->golden,
-                          KILN_MAX_GOLDENS, frame);
+                          "%s: more than %d accepted pictures of frame %u; no more are allowed",
+                          test->golden, KILN_MAX_GOLDENS, frame);
 }
 
 static bool read_folder(const struct kiln_test *test, uint32_t frame, const char *device_name,
@@ -232,7 +232,7 @@ bool kiln_goldens_place(const struct kiln_test *test, uint32_t frame, const char
         return write_path(test, frame, device, numbers.count ? numbers.values[0] : 1, path, error);
     if (numbers.count == KILN_MAX_GOLDENS)
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: frame %u has %d accepted pictures; there can be no more",
+                              "%s: frame %u has %d accepted pictures; no more are allowed",
                               test->golden, frame, KILN_MAX_GOLDENS);
     return write_path(test, frame, device, free_number(&numbers), path, error);
 }
@@ -290,7 +290,7 @@ bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error)
     if (file < 0 || fstat(file, &status) != 0)
         ok = kiln_error_set_errno(error, KILN_IO, errno, "%s", from);
     else if (!S_ISREG(status.st_mode))
-        ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: is not a regular file", from);
+        ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: the path is not a regular file", from);
     ok = ok && kiln_make_parent_folders(to, error) && kiln_target_check(to, true, error) &&
          kiln_temporary_open(&target, to, error);
     if (ok) {

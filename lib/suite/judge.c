@@ -216,9 +216,9 @@ static bool state_changed(const struct judging *j)
 
 static const char *describe_state(struct judging *j, const char *picture)
 {
-    return kiln_trial_text(j->trial,
-                           "the simulation changed: state %s at frame %u, accepted was %s; %s",
-                           j->frame->state, j->frame->number, j->frame->state_expected, picture);
+    return kiln_trial_text(
+        j->trial, "the simulation changed: the state is %s at frame %u, but %s was accepted; %s",
+        j->frame->state, j->frame->number, j->frame->state_expected, picture);
 }
 
 static bool judge_new(struct judging *j)
@@ -227,9 +227,9 @@ static bool judge_new(struct judging *j)
         return false;
     if (state_changed(j))
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE,
-                      describe_state(j, "there is no golden picture"));
+                      describe_state(j, "the frame has no golden picture"));
     return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING,
-                  kiln_trial_text(j->trial, "frame %u has no golden: there is no %s",
+                  kiln_trial_text(j->trial, "frame %u has no golden: the file %s is missing",
                                   j->frame->number, j->goldens.paths[0]));
 }
 
@@ -242,7 +242,7 @@ static bool judge_unlisted(struct judging *j)
     return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_METRICS,
                   kiln_trial_text(j->trial,
                                   "frame %u is like its golden, but there is no %s/expect.yaml, so "
-                                  "the state that was accepted is not known",
+                                  "the accepted state is not known",
                                   j->frame->number, j->trial->test->golden));
 }
 
@@ -263,10 +263,11 @@ static const char *describe_change(struct judging *j, const char *picture)
 {
     const char *before = j->frame->kiln_expected;
     if (!renderer_changed(j))
-        return kiln_trial_text(j->trial, "frame %u has other pixels than were accepted on %s; %s",
+        return kiln_trial_text(j->trial,
+                               "frame %u has other pixels than the accepted ones on %s; %s",
                                j->frame->number, j->trial->rendering.device_name, picture);
     return kiln_trial_text(j->trial, "frame %u: the renderer changed, from %s %s to kiln %s; %s",
-                           j->frame->number, *before ? "kiln" : "one that is not",
+                           j->frame->number, *before ? "kiln" : "a version that is not",
                            *before ? before : "known", j->trial->result->version, picture);
 }
 
@@ -316,10 +317,11 @@ static bool judge_by_hashes(struct judging *j)
     if (!check_picture(j, &j->error))
         return false;
     if (j->trial->params->ignore_hashes)
-        return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING,
-                      kiln_trial_text(
-                          j->trial, "frame %u: the test keeps hashes alone, and these are ignored",
-                          j->frame->number));
+        return decide(
+            j, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING,
+            kiln_trial_text(j->trial,
+                            "frame %u: the test keeps hashes alone, and the hashes are ignored",
+                            j->frame->number));
     if (state_changed(j))
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE,
                       describe_state(j, "no picture is kept"));

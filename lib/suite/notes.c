@@ -67,9 +67,10 @@ static void note_missing_limits(struct kiln_trial *trial, const struct kiln_metr
                 own = &trial->result->columns[k];
         }
         if (usual->limited && (!own || !own->limited))
-            kiln_trial_note(trial,
-                            "%s has no limit, but would by default, %.4g, and there is no reason",
-                            usual->name, usual->limit);
+            kiln_trial_note(
+                trial,
+                "%s has no limit, although its default limit is %.4g, and no reason is given",
+                usual->name, usual->limit);
     }
 }
 
@@ -79,10 +80,11 @@ static void note_settings(struct kiln_trial *trial)
     const struct kiln_compare_params usual = kiln_compare_defaults();
     const struct kiln_test *test = trial->test;
     if (test->threshold > usual.threshold)
-        kiln_trial_note(trial, "threshold %.4g is above the default one, %.4g, and has no reason",
-                        test->threshold, usual.threshold);
+        kiln_trial_note(
+            trial, "threshold %.4g is above the default threshold, %.4g, and no reason is given",
+            test->threshold, usual.threshold);
     if (test->window > usual.window)
-        kiln_trial_note(trial, "window %u is above the default one, %u, and has no reason",
+        kiln_trial_note(trial, "window %u is above the default window, %u, and no reason is given",
                         test->window, usual.window);
 }
 
@@ -109,13 +111,13 @@ static void note_limits(struct kiln_trial *trial)
         double worst = 0;
         if (worst_measured(trial, i, &worst) &&
             distance(c, c->limit) > STALE_FACTOR * distance(c, worst))
-            kiln_trial_note(trial, "limit %s=%.4g is stale: nothing %s %.4g was ever measured",
+            kiln_trial_note(trial, "limit %s=%.4g is stale: no value %s %.4g was ever measured",
                             c->name, c->limit, c->higher_is_better ? "below" : "above", worst);
         if (!reason)
-            kiln_trial_note(trial,
-                            "limit %s=%.4g is looser than the default one, %.4g, and has "
-                            "no reason",
-                            c->name, c->limit, usual->limit);
+            kiln_trial_note(
+                trial,
+                "limit %s=%.4g is looser than the default limit, %.4g, and no reason is given",
+                c->name, c->limit, usual->limit);
     }
 }
 
@@ -137,7 +139,7 @@ static void note_states(struct kiln_trial *trial)
         count++;
     }
     if (count > 0)
-        kiln_trial_note(trial, "no state was accepted of frame%s %s: --update all adds it",
+        kiln_trial_note(trial, "no state is accepted for frame%s %s: --update all adds it",
                         count > 1 ? "s" : "", list);
 }
 
@@ -149,11 +151,10 @@ static void note_scene(struct kiln_trial *trial)
         strcmp(result->scene_hash, result->scene_hash_expected) == 0)
         return;
     if (result->change_count > 0)
-        kiln_trial_note(trial, "the scene has changed in %zu key%s, and everything passes",
+        kiln_trial_note(trial, "the scene has changed in %zu key%s, and the test passes",
                         result->change_count, result->change_count > 1 ? "s" : "");
-    else if (!trial->other_keys) /* with other keys, the same scene has another hash */
-        kiln_trial_note(trial, "the scene or a file that it uses has changed, and everything "
-                               "passes");
+    else if (!trial->other_keys) /* other keys give another hash of the same scene */
+        kiln_trial_note(trial, "the scene or a file that it uses has changed, and the test passes");
 }
 
 /* Returns whether a golden belongs to a frame of the test: its name has the frame's number and the
@@ -192,10 +193,11 @@ static void note_unused(struct kiln_trial *trial)
         unused++;
     }
     if (unused == 1)
-        kiln_trial_note(trial, "%s/%s is the golden of no frame of the test", trial->test->golden,
-                        first);
+        kiln_trial_note(trial, "%s/%s is a golden of a frame that the test does not have",
+                        trial->test->golden, first);
     else if (unused > 1)
-        kiln_trial_note(trial, "%s/%s and %d more are goldens of no frame of the test",
+        kiln_trial_note(trial,
+                        "%s/%s and %d more are goldens of frames that the test does not have",
                         trial->test->golden, first, unused - 1);
     for (int i = 0; i < count; i++)
         free(entries[i]);
@@ -212,6 +214,6 @@ void kiln_trial_take_notes(struct kiln_trial *trial)
     note_unused(trial);
     if (*result->techniques_expected &&
         strcmp(result->techniques, result->techniques_expected) != 0)
-        kiln_trial_note(trial, "the techniques are %s, accepted were %s", result->techniques,
+        kiln_trial_note(trial, "the techniques are %s, but %s were accepted", result->techniques,
                         result->techniques_expected);
 }

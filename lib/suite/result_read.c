@@ -182,7 +182,8 @@ static bool read_members(const struct reading *reading, const struct kiln_node *
 static bool check_count(const struct reading *reading, const struct kiln_node *node, uint32_t count)
 {
     return node->count == count ||
-           kiln_node_error(node, reading->error, "%u members; allowed are %u", node->count, count);
+           kiln_node_error(node, reading->error, "found %u members; allowed are %u", node->count,
+                           count);
 }
 
 static bool read_object(const struct reading *reading, const struct kiln_node *node,
@@ -230,8 +231,8 @@ static bool check_code(const struct reading *reading, const struct kiln_node *ro
     bool good = result->status < KILN_TEST_NEW;
     return good == (result->code == KILN_OK) ||
            refuse(reading, code, "code",
-                  good ? "0, as the status is no failure"
-                       : "another than 0, as the status is a failure");
+                  good ? "0, because the status is not a failure"
+                       : "a number other than 0, because the status is a failure");
 }
 
 static bool read_columns(const struct reading *reading, const struct kiln_node *root,

@@ -153,11 +153,12 @@ static bool read_list(struct folder *f, const char *path)
     char *text = kiln_text_file_read(path, "a list of results", MAX_LIST_SIZE, &size, f->error);
     if (!text)
         return false;
-    bool ok = strncmp(text, HEAD, strlen(HEAD)) == 0 ||
-              kiln_error_set(f->error, KILN_USAGE,
-                             "%s: is not a list of results of this kiln; name another folder by "
-                             "--results",
-                             path);
+    bool ok =
+        strncmp(text, HEAD, strlen(HEAD)) == 0 ||
+        kiln_error_set(
+            f->error, KILN_USAGE,
+            "%s: not a list of results by this version of kiln; name another folder by --results",
+            path);
     for (const char *line = text; ok && *line;) {
         size_t length = strcspn(line, "\n");
         ok = take_line(f, line, length);
@@ -243,8 +244,9 @@ static bool open_list(struct folder *f)
         return read_list(f, path);
     return is_empty(f->suite->results_folder) ||
            kiln_error_set(f->error, KILN_USAGE,
-                          "%s: the folder has contents, but no " KILN_RESULTS_LIST
-                          ", so they may be anybody's; name another one by --results, or empty it",
+                          "%s: the folder is not empty, but has no " KILN_RESULTS_LIST
+                          ", so its files may not be kiln's; name another folder by --results, or "
+                          "empty this one",
                           f->suite->results_folder);
 }
 
@@ -362,8 +364,9 @@ static bool check_goldens(const struct folder *f)
             !kiln_path_join(path, folder, "expect.yaml", f->error))
             return false;
         if (access(path, F_OK) == 0)
-            return kiln_error_set(f->error, KILN_USAGE,
-                                  "%s: is a folder of goldens, and not for results", folder);
+            return kiln_error_set(
+                f->error, KILN_USAGE,
+                "%s: the folder holds goldens; results need a folder of their own", folder);
     }
     return true;
 }

@@ -51,8 +51,9 @@ void kiln_suite_check_root(const struct kiln_suite_params *params, struct kiln_t
     if (!params->asset_root && (!found || !kiln_path_below(path, root)))
         find_folder(params, path, root);
     if (!found && params->asset_root)
-        kiln_error_set(&test->problem, KILN_INVALID_INPUT, "%s: --asset-root %s: no such folder",
-                       test->path, params->asset_root);
+        kiln_error_set(&test->problem, KILN_INVALID_INPUT,
+                       "%s: --asset-root %s: there is no such folder", test->path,
+                       params->asset_root);
     else if (!is_there || !kiln_path_below(scene, root))
         kiln_error_set(&test->problem, KILN_INVALID_INPUT,
                        "%s: scene: '%s' is not below the root of the suite, %s (--asset-root)",

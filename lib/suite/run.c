@@ -143,7 +143,7 @@ static bool check_masks(struct kiln_trial *trial, struct kiln_error *error)
     for (size_t i = 0; ok && i < count; i++)
         masked += mask.masked[i];
     if (2 * masked > count)
-        kiln_trial_note(trial, "the masks leave %.2g %% of the picture to judge",
+        kiln_trial_note(trial, "the masks leave only %.2g %% of the picture to judge",
                         100.0 * (double)(count - masked) / (double)count);
     if (!ok && error->code == KILN_USAGE)
         error->code = KILN_INVALID_INPUT; /* the mistake is the test's, not the command line's */
@@ -206,7 +206,7 @@ static void take_changes(struct kiln_trial *trial)
     trial->other_keys = text && strcmp(text, before) != 0;
     if (!text || !kiln_scene_diff(trial->arena, before, path, trial->rendering.scene_text,
                                   &result->changes, &result->change_count, &error))
-        kiln_trial_note(trial, "what changed in the scene is not known: %s", error.message);
+        kiln_trial_note(trial, "it is not known what changed in the scene: %s", error.message);
     free(text);
 }
 
@@ -269,7 +269,7 @@ static void note_error(struct kiln_trial *trial, const struct kiln_error *error)
         if (frame->status != KILN_TEST_PASS || frame->judged_by != KILN_JUDGED_BY_NOTHING)
             continue;
         frame->status = KILN_TEST_ERROR;
-        frame->message = "not judged: see the test's error";
+        frame->message = "not judged, because the test ended with an error";
     }
 }
 

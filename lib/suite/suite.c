@@ -107,8 +107,8 @@ static bool mend_name(struct loader *loader, struct entry *entry)
     char quoted[64];
     kiln_node_quote(quoted, entry->found.name);
     kiln_error_set(&entry->file.test.problem, KILN_INVALID_INPUT,
-                   "%s: '%s' cannot name a test: up to %d bytes of letters, digits, '.', '_' and "
-                   "'-' can, and none that starts with '.' or '-'",
+                   "%s: '%s' cannot name a test: a name has up to %d bytes of letters, digits, "
+                   "'.', '_' and '-', and does not start with '.' or '-'",
                    entry->found.path, quoted, KILN_TEST_MAX_NAME);
     entry->found.name = kiln_test_name_mended(loader->suite->arena, entry->found.name);
     return entry->found.name || out_of_memory(loader);
@@ -126,8 +126,8 @@ static bool check_names(struct loader *loader)
         const struct kiln_found *found = &loader->entries[i].found;
         if (strcmp(found->name, loader->entries[i - 1].found.name) == 0)
             return kiln_error_set(loader->error, KILN_USAGE,
-                                  "%s and %s: two tests of the name '%s'; an empty file "
-                                  ".kiln-tests marks the folder that names begin from",
+                                  "%s and %s: both tests are named '%s'; an empty file .kiln-tests "
+                                  "marks the folder that names begin from",
                                   loader->entries[i - 1].found.path, found->path, found->name);
     }
     return true;
@@ -152,10 +152,10 @@ static bool add_test(struct loader *loader, const struct entry *entry, const cha
     if (!test->full_name)
         return out_of_memory(loader);
     if (strlen(test->full_name) > MAX_FULL_NAME)
-        return kiln_error_set(loader->error, KILN_USAGE,
-                              "%s: the name with its device, '%.40s...', "
-                              "is longer than %d bytes",
-                              test->path, test->full_name, MAX_FULL_NAME);
+        return kiln_error_set(
+            loader->error, KILN_USAGE,
+            "%s: the name of the test with its device, '%.40s...', is longer than %d bytes",
+            test->path, test->full_name, MAX_FULL_NAME);
     test->results =
         kiln_arena_format(suite->arena, "%s/%s", suite->results_folder, test->full_name);
     test->golden = kiln_arena_format(suite->arena, "%s/%s", loader->params->golden, test->name);
@@ -214,7 +214,7 @@ static bool unknown_name(struct loader *loader, const char *name)
     kiln_node_quote(quoted, name);
     return kiln_error_set(loader->error, KILN_USAGE, "no test has the name '%s'%s%s%s", quoted,
                           nearest ? " (did you mean '" : "", nearest ? nearest : "",
-                          nearest ? "'?)" : "; 'kiln test list' shows what there is");
+                          nearest ? "'?)" : "; 'kiln test list' lists the tests");
 }
 
 static bool choose_names(struct loader *loader)
@@ -282,8 +282,8 @@ static bool check_folders(const struct kiln_suite_params *params, struct kiln_er
     bool same = there ? golden.st_dev == results.st_dev && golden.st_ino == results.st_ino
                       : strcmp(params->golden, params->results) == 0;
     return !same || kiln_error_set(error, KILN_USAGE,
-                                   "%s: the folder of the results is that of the goldens; results "
-                                   "need one of their own",
+                                   "%s: the folder of the results is also the folder of the "
+                                   "goldens; results need a folder of their own",
                                    params->results);
 }
 

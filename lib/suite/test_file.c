@@ -76,41 +76,44 @@ static const struct kiln_option technique_item = {.type = &kiln_type_technique,
 static const struct kiln_option rows[] = {
     INTEGER(NO_PART, "kiln_test", version, 1, 1, NULL, "Version of the format of test files."),
     TEXT("scene", scene, 1, NULL, "The scene's path, from the test file's folder."),
-    TEXT("about", about, 0, "\"\"", "What the test is for; it is shown in reports."),
-    LIST("set", set, override_item, set_count, MAX_OVERRIDES, "Keys of the scene to change."),
+    TEXT("about", about, 0, "\"\"", "Purpose of the test, which reports show."),
+    LIST("set", set, override_item, set_count, MAX_OVERRIDES, "Changes of keys of the scene."),
     {ROW(NO_PART, "size", size, AT(size), "scene", "Width and height of the pictures."),
      LIMITS(KILN_PIXELS, 16, 16384)},
     {ROW(NO_PART, "frames", frames, AT(frames), "auto",
-         "The frames to judge; auto: the middle and the last one of the scene."),
+         "The frames to judge. auto takes the middle frame and the last frame of the scene."),
      .count_offset = AT(frame_count), .max_count = KILN_TEST_MAX_FRAMES},
-    CHOICE(NO_PART, "format", format, formats, "png", "Of the pictures, the goldens too."),
+    CHOICE(NO_PART, "format", format, formats, "png", "Format of the pictures, goldens included."),
     CHOICE(NO_PART, "golden", golden, goldens, "picture",
-           "What is kept of what was accepted: pictures, or hashes of state and pixels alone, of "
-           "which any change fails."),
+           "What is kept of an accepted frame: pictures, or only the hashes of state and pixels. "
+           "With hashes alone, any change fails."),
     LIST("devices", devices, device_item, device_count, KILN_TEST_MAX_DEVICES,
-         "Devices to test, each as a test of its own if there are several; it is skipped where "
-         "there is no such device. None takes that of the run."),
+         "Devices to test. Several devices make a test for each. A test is skipped where its "
+         "device is missing. With none, the device of the run is used."),
     LIST("techniques", techniques, technique_item, technique_count, KILN_TEST_MAX_TECHNIQUES,
-         "Techniques of stages; for the others it is cpu or, where there is none, the first."),
+         "Techniques of stages. Other stages use cpu or, where a stage has no such technique, its "
+         "first one."),
     {ROW(NO_PART, "limits", limits, AT(limits), "{}",
-         "The worst values that pass, in place of the default ones, which "
+         "The worst values that pass, in place of the default limits, which "
          "are " KILN_COMPARE_DEFAULT_LIMITS "."),
      .count_offset = AT(limit_count), .max_count = KILN_MAX_COLUMNS},
-    TEXT("reason", reason, 0, "\"\"", "Why these limits."),
+    TEXT("reason", reason, 0, "\"\"", "Reason for these limits."),
     {ROW(NO_PART, "warn", number, AT(warn), "0.5",
-         "A frame that passes with a score above this is a warning; 1 is just within the limits."),
+         "A frame that passes with a score above this is a warning. A score of 1 is just within "
+         "the limits."),
      LIMITS(KILN_PLAIN, 0, 1)},
     {ROW(NO_PART, "threshold", number, AT(threshold), "2",
-         "Pixels that differ by more levels are counted."),
+         "Threshold in 1/255 of sRGB's range. Pixels that differ by more are counted."),
      LIMITS(KILN_PLAIN, 0, 255)},
-    INTEGER(NO_PART, "window", window, 1, 16384, "32",
-            "Edge of the square, in pixels, whose densest place is looked for."),
+    INTEGER(
+        NO_PART, "window", window, 1, 16384, "32",
+        "Edge in pixels of the window that is searched for where differing pixels are densest."),
     {ROW(NO_PART, "masks", list, AT(masks), "[]", "Parts of the pictures that are not judged."),
      .item = &kiln_mask_item, .kind_offset = KILN_KIND_NONE,
      .item_size = sizeof(struct kiln_test_mask), .count_offset = AT(mask_count),
      .max_count = KILN_TEST_MAX_MASKS},
     {ROW(NO_PART, "time_limit", number, AT(time_limit_s), "120 s",
-         "A test that takes longer is stopped."),
+         "Time limit. A test that takes longer is stopped."),
      LIMITS(KILN_SECONDS, 0.1, 86400)},
     END,
 };
@@ -127,7 +130,7 @@ bool kiln_test_write_reference(FILE *out)
         "    frames: [24, 96]\n"
         "    size: [320, 180]\n"
         "\n"
-        "A scene that no such file names is a test with every default.\n"
+        "A scene that no such file names is a test with the default of every key.\n"
         "\n";
     return kiln_reference_write(out, introduction, rows);
 }
@@ -257,7 +260,7 @@ static bool check_golden(struct kiln_reader *reader, const struct kiln_node *roo
     const bool compares = document->limit_count > 0 || document->mask_count > 0;
     return document->golden != KILN_GOLDEN_HASH || !compares ||
            kiln_reader_error_at(reader, root, "golden",
-                                "hash keeps no picture, so there is nothing for limits or masks");
+                                "hash keeps no picture, so limits and masks are not allowed");
 }
 
 /* Fills the test with the defaults of all options. */

@@ -146,7 +146,8 @@ static bool add_frames(struct kiln_reader *reader, const struct kiln_option *opt
                 return kiln_reader_mismatch(reader, option, node);
         }
         if (last - first >= option->max_count - *count)
-            return kiln_reader_error(reader, node, "more than %zu frames", option->max_count);
+            return kiln_reader_error(reader, node, "more than %zu frames; no more are allowed",
+                                     option->max_count);
         for (uint32_t frame = first; frame <= last; frame++)
             frames[(*count)++] = frame;
         text += strspn(text, " ");
@@ -228,8 +229,8 @@ static bool read_limits(struct kiln_reader *reader, const struct kiln_option *op
     if (node->kind != KILN_NODE_MAP)
         return kiln_reader_mismatch(reader, option, node);
     if (node->count > option->max_count)
-        return kiln_reader_error(reader, node, "%u are too many; at most %zu", node->count,
-                                 option->max_count);
+        return kiln_reader_error(reader, node, "%u entries are too many; at most %zu are allowed",
+                                 node->count, option->max_count);
     for (const struct kiln_node *entry = node->first; entry; entry = entry->next) {
         size_t before = kiln_reader_enter(reader, entry->key->text);
         if (!read_limit(reader, option, entry, &values[*count]))
@@ -265,7 +266,8 @@ static bool read_rectangle(struct kiln_reader *reader, const struct kiln_option 
         if (!kiln_read_whole(reader, option, item, &rect[i]))
             return false;
         if (i >= 2 && rect[i] == 0)
-            return kiln_reader_error(reader, item, "a rectangle without an area masks nothing");
+            return kiln_reader_error(reader, item,
+                                     "the rectangle has no area; both edges must be above 0");
     }
     return true;
 }
@@ -304,10 +306,11 @@ const struct kiln_option_type kiln_type_mask = {.read = read_mask, .describe = d
 #define AT(field) offsetof(struct kiln_test_mask, field)
 
 static const struct kiln_option mask_members[] = {
-    {ROW(NO_PART, "rect", rectangle, AT(rect), "none", "What is not judged."),
+    {ROW(NO_PART, "rect", rectangle, AT(rect), "none",
+         "Parts of the pictures that are not judged."),
      LIMITS(KILN_PLAIN, 0, 16384)},
     {ROW(NO_PART, "picture", text, AT(picture), "\"\"",
-         "A picture of the same size, black where nothing is judged."),
+         "A picture of the same size. Places where it is black are not judged."),
      LIMITS(KILN_PLAIN, 0, 4000)},
     {ROW(NO_PART, "reason", text, AT(reason), "\"\"", "Why not."), LIMITS(KILN_PLAIN, 0, 4000)},
     END,

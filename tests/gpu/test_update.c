@@ -191,7 +191,7 @@ static void a_scene_that_looks_the_same_is_accepted_by_all(void **state)
     spark_write("set: [output.frames=7]\n");
     struct spark_run run = spark_run(NULL);
     assert_int_equal(run.summary.status, KILN_TEST_PASS);
-    assert_true(spark_has_note(&run, "the scene has changed in 1 key, and everything passes"));
+    assert_true(spark_has_note(&run, "the scene has changed in 1 key, and the test passes"));
     spark_end(&run);
     run = run_update(KILN_UPDATE_ALL, true);
     assert_true(spark_has_note(&run, "would write golden/spark/scene.yaml"));
@@ -290,11 +290,11 @@ static void what_is_not_judged_is_noted(void **state)
     spark_write(loose);
     struct spark_run run = spark_run(NULL);
     assert_int_equal(run.summary.status, KILN_TEST_PASS);
-    assert_true(spark_has_note(&run, "flip.mean has no limit, but would by default, 0.01"));
+    assert_true(spark_has_note(&run, "flip.mean has no limit, although its default limit is 0.01"));
     assert_true(spark_has_note(&run, "window.share has no limit"));
-    assert_true(spark_has_note(&run, "threshold 255 is above the default one, 2"));
-    assert_true(spark_has_note(&run, "window 4000 is above the default one, 32"));
-    assert_true(spark_has_note(&run, "the masks leave 6.2 % of the picture to judge"));
+    assert_true(spark_has_note(&run, "threshold 255 is above the default threshold, 2"));
+    assert_true(spark_has_note(&run, "window 4000 is above the default window, 32"));
+    assert_true(spark_has_note(&run, "the masks leave only 6.2 % of the picture to judge"));
     spark_end(&run);
     snprintf(text, sizeof text, "%sreason: fog\n", loose);
     spark_write(text);
@@ -312,11 +312,12 @@ static void goldens_of_no_frame_are_noted(void **state)
     spark_replace("spark.test.yaml", "[3, 5]", "[3]");
     struct spark_run run = spark_run(NULL);
     assert_int_equal(run.summary.status, KILN_TEST_PASS);
-    assert_true(spark_has_note(&run, SECOND_GOLDEN " is the golden of no frame of the test"));
+    assert_true(
+        spark_has_note(&run, SECOND_GOLDEN " is a golden of a frame that the test does not have"));
     spark_end(&run);
     assert_true(kiln_file_copy(SPARK_GOLDEN, "golden/spark/frame_3.png", &error));
     run = spark_run(NULL);
-    assert_true(spark_has_note(&run, SECOND_GOLDEN " and 1 more are goldens of no frame"));
+    assert_true(spark_has_note(&run, SECOND_GOLDEN " and 1 more are goldens of frames that"));
     spark_end(&run);
 }
 
@@ -331,12 +332,12 @@ static void stale_limits_are_noted(void **state)
 
     /* Nothing was ever measured: nobody knows whether it is stale. */
     struct spark_run run = spark_run(&usual);
-    assert_true(spark_has_note(&run, "limit flip.mean=0.3 is looser than the default one"));
+    assert_true(spark_has_note(&run, "limit flip.mean=0.3 is looser than the default limit"));
     assert_false(spark_has_note(&run, "stale"));
     spark_end(&run);
 
     run = spark_run(&params);
-    assert_true(spark_has_note(&run, "limit flip.mean=0.3 is stale: nothing above 0 was ever"));
+    assert_true(spark_has_note(&run, "limit flip.mean=0.3 is stale: no value above 0 was ever"));
     assert_false(spark_has_note(&run, "flip.p99"));
     char note[KILN_MESSAGE_SIZE];
     assert_true(kiln_test_read_note(run.suite, 0, 0, note, &run.error));
@@ -361,7 +362,7 @@ static void what_was_accepted_of_another_kind_is_noted(void **state)
     spark_replace(EXPECT, "simulate=cpu", "simulate=inplace");
     struct spark_run run = spark_run(NULL);
     assert_int_equal(run.summary.status, KILN_TEST_PASS);
-    assert_true(spark_has_note(&run, "accepted were simulate=inplace "));
+    assert_true(spark_has_note(&run, "but simulate=inplace "));
     char accepted[32];
     snprintf(accepted, sizeof accepted, "state: \"%s\"", run.result->frames[0].state);
     spark_end(&run);
@@ -369,7 +370,7 @@ static void what_was_accepted_of_another_kind_is_noted(void **state)
     spark_replace(EXPECT, accepted, "");
     run = spark_run(NULL);
     assert_int_equal(run.summary.status, KILN_TEST_PASS);
-    assert_true(spark_has_note(&run, "no state was accepted of frame 3: --update all adds it"));
+    assert_true(spark_has_note(&run, "no state is accepted for frame 3: --update all adds it"));
     spark_end(&run);
     spark_update(KILN_UPDATE_ALL);
     assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 0);

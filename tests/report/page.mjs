@@ -120,7 +120,7 @@ test("shows both sides, the error map and the difference", async () => {
     near(await drawn(page, 1, ...PIXEL), b, 0, "result");
     near(await drawn(page, 2, ...PIXEL), await source(page, "error", ...PIXEL), 0, "error map");
     near(await drawn(page, 3, ...PIXEL), a.map((v, i) => Math.min(255, 8 * Math.abs(v - b[i]))), 0, "difference");
-    assert.match(await text(page, "#reason"), /^the simulation changed: state \w+ at frame 89, .*flip.mean is 0\.\d+, beyond 0.01.*\nFrame 89, the worst of 24/);
+    assert.match(await text(page, "#reason"), /^the simulation changed: the state is \w+ at frame 89, .*flip.mean is 0\.\d+, beyond 0.01.*\nFrame 89, the worst of 24/);
     await photograph(page, "side-light");
     await page.emulateMedia({ colorScheme: "dark" });
     await settle(page);

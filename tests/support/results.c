@@ -80,7 +80,7 @@ static void test_fill_good(struct test_results *all)
     result = test_result(all, 1, "effects/smoke", KILN_TEST_WARN, "near its limits");
     test_frame(result, 24, KILN_TEST_WARN, KILN_JUDGED_BY_METRICS, 0.00812345)->message =
         "flip.mean 0.0081 is near 0.01";
-    all->notes[0] = "limit ssim=0.9 is stale: nothing below 0.99 was ever measured";
+    all->notes[0] = "limit ssim=0.9 is stale: no value below 0.99 was ever measured";
     all->notes[1] = "the scene changed (2 keys)";
     result->notes = all->notes;
     result->note_count = 2;

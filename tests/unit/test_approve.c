@@ -319,14 +319,16 @@ static void what_has_changed_since_is_refused(void **state)
     test_write_file("fire.test.yaml", "kiln_test: 1\nscene: s.yaml\nset: [sed=7]\n");
     expect_refusal("--set sed: unknown key (did you mean 'seed'?)", KILN_INVALID_INPUT);
     test_write_file("fire.test.yaml", "kiln_test: 1\n");
-    expect_refusal("fire.test.yaml:1:1: scene: missing; it must be given", KILN_INVALID_INPUT);
+    expect_refusal("fire.test.yaml:1:1: scene: the key is missing and must be given",
+                   KILN_INVALID_INPUT);
     test_write_file("fire.test.yaml",
                     "kiln_test: 1\nscene: s.yaml\nset: [seed=7]\nframes: [1, 2, 3]\n");
 
     copy("out/test/fire/frame_0001.png", "out/test/fire/frame_0003.png");
-    expect_refusal("out/test/fire/frame_0003.png: is not the picture that was judged: its pixels "
-                   "have changed since the run",
-                   KILN_INVALID_INPUT);
+    expect_refusal(
+        "out/test/fire/frame_0003.png: the file is not the picture that was judged: its pixels "
+        "have changed since the run",
+        KILN_INVALID_INPUT);
     assert_int_equal(unlink("out/test/fire/frame_0003.png"), 0);
     expect_refusal("out/test/fire/frame_0003.png: the image cannot be opened: No such file "
                    "or directory",
@@ -359,15 +361,15 @@ static void results_without_a_verdict_are_refused(void **state)
     run->result.code = KILN_DEVICE_FAILED;
     run->result.message = "crashed: signal 11 (Segmentation fault)";
     write_result(run);
-    expect_refusal("fire: the test ended with an error, and nothing can be accepted: crashed: "
+    expect_refusal("fire: the test ended with an error, so nothing can be accepted: crashed: "
                    "signal 11 (Segmentation fault)",
                    KILN_INVALID_INPUT);
     run->result.status = KILN_TEST_SKIP;
     run->result.code = KILN_OK;
     write_result(run);
-    expect_refusal("fire: it was skipped and has no pictures; run it again: kiln test "
-                   "fire.test.yaml",
-                   KILN_INVALID_INPUT);
+    expect_refusal(
+        "fire: the test was skipped and has no pictures; run it again: kiln test fire.test.yaml",
+        KILN_INVALID_INPUT);
 
     run = make_run();
     run->frames[2].judged_by = KILN_JUDGED_BY_NOTHING;
@@ -379,13 +381,13 @@ static void results_without_a_verdict_are_refused(void **state)
     run = make_run();
     run->result.golden = "golden/smoke";
     write_result(run);
-    expect_refusal("out/test/fire/result.json: is not of this test: it names 'fire', with goldens "
-                   "in golden/smoke",
+    expect_refusal("out/test/fire/result.json: the result belongs to another test: it names "
+                   "'fire', with goldens in golden/smoke",
                    KILN_INVALID_INPUT);
     run->result.golden = "golden/fire";
     run->result.device_name = "llvmpipe (LLVM)";
     write_result(run);
-    expect_refusal("out/test/fire/result.json: no device's name: 'llvmpipe (LLVM)'",
+    expect_refusal("out/test/fire/result.json: 'llvmpipe (LLVM)' is not a device's name",
                    KILN_INVALID_INPUT);
 }
 

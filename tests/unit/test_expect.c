@@ -116,7 +116,7 @@ static void wrong_files_say_where(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"", ": empty; what is expected starts with 'kiln_expect: 1'"},
+        {"", ": the file is empty; an expect.yaml starts with 'kiln_expect: 1'"},
         {"[]\n", ":1:1: expected a mapping of keys, found a list"},
         {"kiln_expect: 2\n", ":1:14: kiln_expect: 2 is out of range; allowed is 1"},
         {"frames: {}\n", ":1:1: kiln_expect: the key is missing and must be given"},
@@ -133,13 +133,13 @@ static void wrong_files_say_where(void **state)
         {START "frames: {-1: {}}\n",
          ":2:10: frames.-1: -1 is out of range; allowed is from 0 to 999999"},
         {START "frames: {24: {}, 24: {}}\n", ":2:18: duplicate key '24' (first in line 2)"},
-        {START "frames: {24: {}, 24.0: {}}\n", ":2:18: frames.24.0: frame 24 is here twice"},
+        {START "frames: {24: {}, 24.0: {}}\n", ":2:18: frames.24.0: frame 24 is given twice"},
         {START "frames: {24: {stat: a}}\n",
          ":2:15: frames.24.stat: unknown key (did you mean 'state'?)"},
         {START "frames: {24: {state: 13E7BE772847A38F}}\n",
          ":2:22: frames.24.state: expected a hash of 16 hex digits, found '13E7BE772847A38F'"},
         {START "frames: {24: {pixels: {Mesa (1): " ENTRY "}}}\n",
-         ":2:24: frames.24.pixels.Mesa (1): no device's name; those have lower-case letters, "
+         ":2:24: frames.24.pixels.Mesa (1): no device's name; a name has lower-case letters, "
          "digits, '.' and '-', as in llvmpipe-llvm-15.0.6-256-bits"},
         {START "frames: {24: {pixels: {a: {hash: [], golden: " HASH_A "}}}}\n",
          ":2:34: frames.24.pixels.a.hash: expected a hash of 64 hex digits, found a list"},

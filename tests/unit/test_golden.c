@@ -128,7 +128,8 @@ static void strange_files_are_none_or_errors(void **state)
         put(wrong[i]);
         snprintf(path, sizeof path, "golden/fire/frame_0024%s", wrong[i]);
         snprintf(message, sizeof message,
-                 "%s: no golden's name; those are frame_0024.png and, before the suffix, @ with a "
+                 "%s: not the name of a golden; a name is frame_0024.png, and may have before the "
+                 "suffix @ with a "
                  "device's name in lower case, ~ with a number from 2, or both",
                  path);
         expect_not_found(message, KILN_INVALID_INPUT);
@@ -154,9 +155,10 @@ static void there_are_at_most_sixteen(void **state)
     char path[KILN_PATH_SIZE];
     assert_false(kiln_goldens_place(&fire, 24, llvmpipe, KILN_APPROVE_ALTERNATIVE, path, &error));
     assert_string_equal(error.message,
-                        "golden/fire: frame 24 has 16 accepted pictures; there can be no more");
+                        "golden/fire: frame 24 has 16 accepted pictures; no more are allowed");
     put("~17.png");
-    expect_not_found("golden/fire: more than 16 accepted pictures of frame 24", KILN_INVALID_INPUT);
+    expect_not_found("golden/fire: more than 16 accepted pictures of frame 24; no more are allowed",
+                     KILN_INVALID_INPUT);
 }
 
 static void a_folder_that_cannot_be_read_is_an_error(void **state)
@@ -254,7 +256,7 @@ static void copies_replace_links_not_what_they_lead_to(void **state)
 
     assert_int_equal(mkfifo("pipe", 0666), 0);
     assert_false(kiln_file_copy("pipe", "to", &error));
-    assert_string_equal(error.message, "pipe: is not a regular file");
+    assert_string_equal(error.message, "pipe: the path is not a regular file");
     assert_false(kiln_file_copy("gone", "to", &error));
     assert_string_equal(error.message, "gone: No such file or directory");
     assert_int_equal(error.code, KILN_IO);

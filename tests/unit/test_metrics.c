@@ -387,8 +387,8 @@ static void limits_are_read_strictly(void **state)
         {"flip.mean=0.1x", "limit 'flip.mean=0.1x': expected a number, 0 to 1"},
         {"flip.mean=nan", "limit 'flip.mean=nan': expected a number, 0 to 1"},
         {"abs.max=-1", "limit 'abs.max=-1': expected a number, 0 or more"},
-        {"flip.p101=0.1",
-         "limit 'flip.p101=0.1': percentile '101'; allowed are 0 to 100, as in flip.p99.9"},
+        {"flip.p101=0.1", "limit 'flip.p101=0.1': found the percentile '101'; allowed are 0 to "
+                          "100, as in flip.p99.9"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         struct kiln_metric_set set;

@@ -248,7 +248,7 @@ static void errors_say_where_and_in_what(void **state)
         {"plotter: 1\nlimit: {time: 2 d}",
          "p.yaml:2:15: limit.time: unit 'd' is wrong; allowed is s, ms, min or h"},
         {"plotter: 1\ntitle: 123456789012345678901",
-         "p.yaml:2:8: title: 21 bytes are too many; at most 20"},
+         "p.yaml:2:8: title: the text has 21 bytes; at most 20 are allowed"},
         {"plotter: 1\nmarks: [dot: 1 mm, circle: {}]",
          "p.yaml:2:20: marks.1.circle: unknown kind (there are: dot, bar)"},
     };

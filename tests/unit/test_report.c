@@ -311,7 +311,7 @@ static void broken_runs_are_refused(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"", "out/run.json: empty"},
+        {"", "out/run.json: the file is empty"},
         {"[]", "out/run.json:1:1: not the list of a run: \"kiln_run\" is missing"},
         {"{\"kiln_run\": 2}", "out/run.json:1:14: kiln_run: allowed is 1"},
         {"{\"kiln_run\": 1}", "total_s: a number of seconds must be here"},
@@ -337,7 +337,7 @@ static void broken_runs_are_refused(void **state)
                                         "/etc", "a//b", "a/", "a/./b", "a/.."};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         write_shard("out", names[i]);
-        assert_refused(out, 1, "is no name of a test");
+        assert_refused(out, 1, "is not the name of a test");
     }
 }
 
@@ -347,7 +347,9 @@ static void results_of_other_tests_are_refused(void **state)
     static const char *const out[] = {"out"};
     write_run("out", true);
     assert_int_equal(rename("out/effects/fire/result.json", "out/effects/smoke/result.json"), 0);
-    assert_refused(out, 1, "the result of 'effects/fire'; that of 'effects/smoke' was to be here");
+    assert_refused(
+        out, 1,
+        "the file has the result of 'effects/fire', but that of 'effects/smoke' is expected");
     write_text("out/effects/smoke/result.json", "{\"kiln_result\": 2}");
     assert_refused(out, 1, "out/effects/smoke/result.json:1:1: name is missing");
 }
@@ -461,7 +463,8 @@ static void reports_that_cannot_be_written(void **state)
     struct kiln_results_output output = {.format = "jnuit", .path = "report", .overwrite = true};
     assert_false(kiln_results_write(results, &output, &error));
     assert_int_equal(error.code, KILN_USAGE);
-    assert_non_null(strstr(error.message, "'jnuit' is no format of a report; there are junit, "));
+    assert_non_null(
+        strstr(error.message, "'jnuit' is not a format of a report; there are junit, "));
     assert_int_equal(access("report", F_OK), -1);
 
     output.format = "junit";

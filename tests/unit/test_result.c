@@ -230,12 +230,14 @@ static const struct broken {
     {"\"scene\": \"\",", "", "r.json:1:1: scene is missing"},
     {"\"scene\": \"\"", "\"scene\": []", "scene: found a list; allowed is a text in quotes"},
     {"\"scene\": \"\"", "\"scene\": x", "scene: found x; allowed is a text in quotes"},
-    {"\"scene\"", "\"scenery\": 1, \"scene\"", "r.json:1:1: 36 members; allowed are 35"},
+    {"\"scene\"", "\"scenery\": 1, \"scene\"", "r.json:1:1: found 36 members; allowed are 35"},
     {"\"scene\"", "\"name\": 1, \"scene\"", "duplicate key 'name' (first in line 3)"},
     {"\"status\": \"pass\"", "\"status\": \"god\"", "status: found \"god\"; allowed is pass,"},
     {"\"code\": 0", "\"code\": 8", "code: found 8; allowed is 0 to 7 or 130"},
-    {"\"code\": 0", "\"code\": 1", "code: found 1; allowed is 0, as the status is no failure"},
-    {"\"status\": \"pass\"", "\"status\": \"new\"", "code: found 0; allowed is another than 0"},
+    {"\"code\": 0", "\"code\": 1",
+     "code: found 1; allowed is 0, because the status is not a failure"},
+    {"\"status\": \"pass\"", "\"status\": \"new\"",
+     "code: found 0; allowed is a number other than 0"},
     {"\"seed\": 0", "\"seed\": 4294967296", "seed: found 4294967296; allowed is a whole"},
     {"\"seed\": 0", "\"seed\": \"0\"", "seed: found \"0\"; allowed is a whole number"},
     {"\"warn\": 0", "\"warn\": .nan", "warn: found .nan; allowed is a number, or null"},
@@ -249,14 +251,14 @@ static const struct broken {
     {"\"name\": \"psnr\"", "\"name\": \"a_name_that_is_much_too_long\"", "of 1 to 23 bytes"},
     {"\"psnr\": null", "\"psnr\": \"null\"", "psnr: found \"null\"; allowed is a number, or"},
     {"\"psnr\": null", "\"pnsr\": null", "metrics: psnr is missing"},
-    {"\"psnr\": null", "\"psnr\": null, \"x\": 1", "2 members; allowed are 1"},
+    {"\"psnr\": null", "\"psnr\": null, \"x\": 1", "found 2 members; allowed are 1"},
     {"\"beyond\": [\"psnr\"]", "\"beyond\": [\"ssim\"]", "found \"ssim\"; allowed is a metric"},
     {"\"beyond\": [\"psnr\"]", "\"beyond\": 1", "beyond: a list of metrics must be here"},
-    {"\"measured\": true", "\"measured\": false", "24 members; allowed are 14"},
+    {"\"measured\": true", "\"measured\": false", "found 24 members; allowed are 14"},
     {"\"notes\": []", "\"notes\": [{}]", "notes: found an object; allowed is a text in quotes"},
     {"\"changes\": []", "\"changes\": [1]", "key is missing"},
     {"\"notes\"", "&a \"notes\"", "anchors and aliases are not allowed"},
-    {"}\n", "}\n---\n", "a second starts here"},
+    {"}\n", "}\n---\n", "a second one starts here"},
 };
 
 static void broken_results_are_refused_with_their_place(void **state)
@@ -327,7 +329,7 @@ static void files_that_are_no_result(void **state)
     assert_non_null(strstr(error.message, "result.json:1:11: not a text: invalid UTF-8"));
     assert_int_equal(truncate(path, 0), 0);
     assert_null(kiln_result_read(arena, folder, &error));
-    assert_non_null(strstr(error.message, "result.json: empty"));
+    assert_non_null(strstr(error.message, "result.json: the file is empty"));
     kiln_arena_destroy(&arena);
     test_remove_folder(folder);
 }

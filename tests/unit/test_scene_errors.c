@@ -228,13 +228,13 @@ static const struct bad limits[] = {
     {"kiln: 1\n"
      "systems: {s0: {}, s1: {}, s2: {}, s3: {}, s4: {}, s5: {}, s6: {}, s7: {}, s8: {}, s9: {}, "
      "s10: {}, s11: {}, s12: {}, s13: {}, s14: {}, s15: {}, s16: {}}\n",
-     ":2:10: systems: 17 are too many; at most 16"},
+     ":2:10: systems: found 17 entries; at most 16 are allowed"},
     {"kiln: 1\n"
      "systems: {a: {demitters: [{min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, "
      "1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], "
      "max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, 1]}, {min: "
      "[0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 0], max: [1, 1, 1]}]}}\n",
-     ":2:26: systems.a.demitters: 9 are too many; at most 8"},
+     ":2:26: systems.a.demitters: found 9 entries; at most 8 are allowed"},
 };
 
 static const struct bad units[] = {
@@ -378,7 +378,7 @@ static const struct bad kinds[] = {
 static const struct bad agreement[] = {
     {"kiln: 1\n"
      "systems: {a: {look: {cells: [64, 33]}}}\n",
-     ":2:29: systems.a.look.cells: 2112 cells are too many; at most 2048"},
+     ":2:29: systems.a.look.cells: found 2112 cells; at most 2048 are allowed"},
     {"kiln: 1\n"
      "systems: {a: {look: {axis: [0, 0, 0]}}}\n",
      ":2:28: systems.a.look.axis: must not be [0, 0, 0]"},

@@ -64,10 +64,11 @@ static void files_that_are_no_scenes(void **state)
     (void)state;
     const struct kiln_scene_params *params = NULL;
     expect_error("missing.yaml", params, "missing.yaml: No such file or directory");
-    expect_error("scenes", params, "scenes: is a folder, not a scene file");
-    expect_error("/dev/zero", params, "/dev/zero: is not a regular file");
+    expect_error("scenes", params, "scenes: the path is a folder, not a scene file");
+    expect_error("/dev/zero", params, "/dev/zero: the path is not a regular file");
     assert_int_equal(mkfifo("pipe.yaml", 0666), 0);
-    expect_error("pipe.yaml", params, "pipe.yaml: is not a regular file"); /* and does not wait */
+    expect_error("pipe.yaml", params,
+                 "pipe.yaml: the path is not a regular file"); /* and does not wait */
     write_file("empty.yaml", "", 0);
     expect_error("empty.yaml", params,
                  "empty.yaml: the file is empty; a scene starts with 'kiln: 1'");

@@ -94,7 +94,7 @@ static void folders_are_searched(void **state)
     test_write_file("elsewhere/fire/scene.yaml", scene);
     static const char *const elsewhere[] = {"elsewhere"};
     params = paths(elsewhere, 1);
-    expect_usage(&params, "elsewhere: no test in this folder: no *.test.yaml, and no scene");
+    expect_usage(&params, "elsewhere: the folder has no tests: no *.test.yaml, and no scene");
     /* But no other file is, wherever an expect.yaml is dropped. */
     test_write_file("elsewhere/fire/torch.yaml", scene);
     test_write_file("elsewhere/fire/smoke.test.yaml", fire_test);
@@ -146,7 +146,7 @@ static void scenes_with_faults_are_not_passed_over(void **state)
     expect_names(&params, "a c d e");
 
     test_write_file("fire-test.yaml", fire_test);
-    expect_usage(&params, "fire-test.yaml: has the key kiln_test, but a test file's name ends in "
+    expect_usage(&params, "fire-test.yaml: a file with the key kiln_test needs a name that ends in "
                           ".test.yaml");
     assert_int_equal(unlink("fire-test.yaml"), 0);
 
@@ -167,7 +167,7 @@ static void operands_that_are_no_tests(void **state)
     } cases[] = {
         {"gone", "gone: No such file or directory"},
         {"readme.md", "readme.md: not a test; a test is a *.test.yaml or a scene, *.yaml or *.yml"},
-        {"empty/", "empty/: no test in this folder: no *.test.yaml, and no scene"},
+        {"empty/", "empty/: the folder has no tests: no *.test.yaml, and no scene"},
         {"/dev/null", "/dev/null: not a test; a test is a *.test.yaml or a scene, *.yaml or *.yml"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -189,9 +189,8 @@ static void two_tests_of_one_name(void **state)
     struct kiln_suite_params params = paths(files, 2);
     expect_names(&params, "a/fire b/fire");
     params.golden = "/nowhere/goldens";
-    expect_usage(&params,
-                 "a/fire.test.yaml and b/fire.yaml: two tests of the name 'fire'; an empty "
-                 "file .kiln-tests marks the folder that names begin from");
+    expect_usage(&params, "a/fire.test.yaml and b/fire.yaml: both tests are named 'fire'; an empty "
+                          "file .kiln-tests marks the folder that names begin from");
 
     /* A scene beside its broken test file is not a second test. */
     test_write_file("c/fire.test.yaml", "kiln_test: 1\nscene: [\n");
@@ -211,8 +210,8 @@ static void expect_mended(const char *path, const char *name, const char *quoted
     char message[512], shown[256];
     kiln_shown(shown, sizeof shown, path);
     snprintf(message, sizeof message,
-             "%s: '%s' cannot name a test: up to 200 bytes of letters, digits, '.', '_' and '-' "
-             "can, and none that starts with '.' or '-'",
+             "%s: '%s' cannot name a test: a name has up to 200 bytes of letters, digits, '.', '_' "
+             "and '-', and does not start with '.' or '-'",
              shown, quoted);
     assert_string_equal(suite->tests[0].problem.message, message);
     assert_int_equal(suite->tests[0].problem.code, KILN_INVALID_INPUT);
@@ -242,7 +241,7 @@ static void odd_names_are_errors_of_their_tests(void **state)
     static const char *const alike[] = {"my fire.test.yaml", "my,fire.test.yaml"};
     params = paths(alike, 2);
     expect_usage(&params,
-                 "my fire.test.yaml and my,fire.test.yaml: two tests of the name 'my_fire'; an "
+                 "my fire.test.yaml and my,fire.test.yaml: both tests are named 'my_fire'; an "
                  "empty file .kiln-tests marks the folder that names begin from");
 }
 
@@ -282,8 +281,7 @@ static void names_are_chosen(void **state)
     params.name_count = 1;
     expect_usage(&params, "no test has the name 'effects/fra' (did you mean 'effects/far'?)");
     params.names = strange;
-    expect_usage(&params, "no test has the name 'nothing?[31m'; 'kiln test list' shows what there "
-                          "is");
+    expect_usage(&params, "no test has the name 'nothing?[31m'; 'kiln test list' lists the tests");
 }
 
 static void shards_share_the_tests(void **state)
@@ -481,7 +479,7 @@ static const struct {
     {"kiln_test: 1\nscene: \"\"\n", ":2:8: scene: must not be empty"},
     {"kiln_test: 1\nscene: [a]\n", ":2:8: scene: expected a text, found a list"},
     {START "golden: hash\nlimits: {psnr: 30}\n",
-     ":3:9: golden: hash keeps no picture, so there is nothing for limits or masks"},
+     ":3:9: golden: hash keeps no picture, so limits and masks are not allowed"},
     {START "set: [seed]\n", ":3:7: set.0: expected key=value, as for --set, found 'seed'"},
     {START "size: [320]\n", ":3:7: size: expected [width, height], each from 16 px to 16384 "
                             "px, or scene, found a list"},
@@ -514,8 +512,8 @@ static const struct {
     {START "masks: [{rect: [0, 0, 1, 1], picture: a.png}]\n",
      ":3:9: masks.0: expected either rect or picture, found both"},
     {START "masks: [{rect: [0, 0, 0, 1]}]\n",
-     ":3:23: masks.0.rect: a rectangle without an area masks nothing"},
-    {START "time_limit: 9 m\n", ":3:13: time_limit: 'm' does not fit; the unit is s, ms, min or h"},
+     ":3:23: masks.0.rect: the rectangle has no area; both edges must be above 0"},
+    {START "time_limit: 9 m\n", ":3:13: time_limit: unit 'm' is wrong; allowed is s, ms, min or h"},
 };
 
 static void wrong_test_files_say_where(void **state)
@@ -545,9 +543,11 @@ static void test_files_that_cannot_be_read(void **state)
     static const char *const files[] = {"b.test.yaml", "c.test.yaml"};
     struct kiln_suite_params params = paths(files, 2);
     struct kiln_suite *suite = load(&params);
-    assert_string_equal(suite->tests[0].problem.message, "b.test.yaml: is not a regular file");
-    assert_string_equal(suite->tests[1].problem.message,
-                        "c.test.yaml: 1073741824 bytes; a test file has at most 1048576");
+    assert_string_equal(suite->tests[0].problem.message,
+                        "b.test.yaml: the path is not a regular file");
+    assert_string_equal(
+        suite->tests[1].problem.message,
+        "c.test.yaml: the file has 1073741824 bytes; a test file has at most 1048576");
     kiln_suite_destroy(&suite);
 }
 

@@ -6,13 +6,13 @@ $ kiln test fire -q --update missing --no-report && kiln test fire -q --no-repor
 A picture without what was accepted of its state is not accepted, strictly or not.
 
 $ rm golden/fire/expect.yaml && kiln test fire --no-report
-1|new     fire  1 frame in <s> s: frame 6 is like its golden, but there is no golden/fire/expect.yaml, so the state that was accepted is not known
+1|new     fire  1 frame in <s> s: frame 6 is like its golden, but there is no golden/fire/expect.yaml, so the accepted state is not known
 1|1 test in <s> s: 1 new
 1|where the pictures are right, accept them: kiln test approve fire
 1|1 frame: 0 by pixels, 1 by metrics
 = 7
 $ kiln test fire -q --strict --no-report
-1|new     fire  1 frame in <s> s: frame 6 is like its golden, but there is no golden/fire/expect.yaml, so the state that was accepted is not known
+1|new     fire  1 frame in <s> s: frame 6 is like its golden, but there is no golden/fire/expect.yaml, so the accepted state is not known
 1|1 test in <s> s: 1 new
 1|where the pictures are right, accept them: kiln test approve fire
 1|1 frame: 0 by pixels, 1 by metrics
@@ -33,7 +33,7 @@ $ sed -i '/dither:/d; /restitution:/d' golden/fire/scene.yaml && sed -i 's/^scen
 1|1 frame: 1 by pixels, 0 by metrics
 $ echo 'set: [systems.smoke.look.soft=3]' >>fire.test.yaml && kiln test fire --no-report; jq -r '.changes[] | .key, .before, .after' out/test/fire/result.json; sed -i '$d' fire.test.yaml
 1|pass    fire  1 frame in <s> s
-1|        the scene has changed in 1 key, and everything passes
+1|        the scene has changed in 1 key, and the test passes
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
 1|systems.smoke.look.soft
@@ -50,7 +50,7 @@ A file whose name cannot be that of a test is the error of one test. Names have 
 $ mkdir names && cd names && cp -r ../scenes . && for name in 'my fire' Glühen; do sed 's/, frames.*//' ../fire.test.yaml >"$name.test.yaml"; done && kiln test . --no-report --update missing; ls golden
 1|pass    Glühen        1 frame in <s> s
 1|        wrote golden/Glühen/frame_0006.png
-1|error   my_fire       my fire.test.yaml: 'my fire' cannot name a test: up to 200 bytes of letters, digits, '.', '_' and '-' can, and none that starts with '.' or '-'
+1|error   my_fire       my fire.test.yaml: 'my fire' cannot name a test: a name has up to 200 bytes of letters, digits, '.', '_' and '-', and does not start with '.' or '-'
 1|pass    scenes/empty  1 frame in <s> s
 1|        wrote golden/scenes/empty/frame_0001.png
 1|3 tests in <s> s: 2 pass, 1 error

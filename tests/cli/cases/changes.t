@@ -32,7 +32,7 @@ $ kiln test --filter a --no-report --strict
 1|1 frame: 1 by pixels, 0 by metrics
 = 1
 $ sed -i '/^scene_hash/s/"..../"0000/' golden/a/expect.yaml && kiln test --filter a --no-report; rm -r golden/a && cp -r right/a golden
-1|change  a  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; the picture is within its limits
+1|change  a  1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; the picture is within its limits
 1|1 test in <s> s: 1 change
 1|where the pictures are right, accept them: kiln test approve a
 1|1 frame: 0 by pixels, 1 by metrics
@@ -44,7 +44,7 @@ $ kiln test --filter hash --no-report
 = 1
 
 $ kiln test --filter hash --no-report --ignore-hashes
-1|new     hash  1 frame in <s> s: frame 6: the test keeps hashes alone, and these are ignored
+1|new     hash  1 frame in <s> s: frame 6: the test keeps hashes alone, and the hashes are ignored
 1|1 test in <s> s: 1 new
 1|where the pictures are right, accept them: kiln test approve hash
 1|1 frame: 0 by pixels, 0 by metrics, 1 by nothing
@@ -54,8 +54,8 @@ Another kiln draws what was accepted; one that draws something else, or nothing,
 
 $ printf '#!/bin/sh\nexec kiln "$@" --set post.exposure=0.3\n' >other; chmod +x other; cp -r right/. golden; sed -i '3a set: [post.exposure=0.4]' hash.test.yaml
 $ kiln test --filter hash --no-report --against ./other; ls out/test/hash
-1|fail    hash  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; no picture is kept
-1|        ./other draws frame 6 otherwise than was accepted of kiln 0.2.0: it or the scene is another
+1|fail    hash  1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; no picture is kept
+1|        ./other draws frame 6 with other pixels than were accepted of kiln 0.2.0: its version differs, or the scene has changed
 1|1 test in <s> s: 1 fail
 1|where the pictures are right, accept them: kiln test approve hash
 1|1 frame: 1 by pixels, 0 by metrics
@@ -66,7 +66,7 @@ $ kiln test --filter hash --no-report --against ./other; ls out/test/hash
 1|result.json
 $ sed -i '/^set/d' hash.test.yaml; sed -i 's/{hash: "..../{hash: "0000/' golden/hash/expect.yaml; kiln test --filter hash --no-report --against kiln | head -n 2
 1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; no picture is kept
-1|        kiln draws frame 6 otherwise than was accepted of kiln 0.2.0: it or the scene is another
+1|        kiln draws frame 6 with other pixels than were accepted of kiln 0.2.0: its version differs, or the scene has changed
 $ kiln test --filter hash --no-report --against false | head -n 2
 1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; no picture is kept
 1|        false does not draw frame 6, exit code 1
@@ -89,9 +89,9 @@ $ grep -c exec other
 One command accepts what a mass change has changed; others take names, patterns, and a device.
 
 $ sed -i '3a set: [post.exposure=0.4]' a.test.yaml b.test.yaml hash.test.yaml; kiln test --filter a --filter b --filter hash
-1|fail    a     1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1; window.share is <value>, beyond 0.1
-1|fail    b     1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1; window.share is <value>, beyond 0.1
-1|fail    hash  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; no picture is kept; --against PROGRAM draws it
+1|fail    a     1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1; window.share is <value>, beyond 0.1
+1|fail    b     1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1; window.share is <value>, beyond 0.1
+1|fail    hash  1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; no picture is kept; --against PROGRAM draws it
 1|3 tests in <s> s: 3 fail
 1|report: out/test/report.html
 1|where the pictures are right, accept them: kiln test approve --all
@@ -141,12 +141,12 @@ $ kiln test --filter skip --filter hash -q --no-report | tail -n 1; kiln test ap
 1|all tests: nothing to accept
 $ sed -i '/state:/d' golden/hash/expect.yaml; kiln test --filter hash --no-report; kiln test --filter hash -q --no-report --update all; grep -c state: golden/hash/expect.yaml
 1|pass    hash  1 frame in <s> s
-1|        no state was accepted of frame 6: --update all adds it
+1|        no state is accepted for frame 6: --update all adds it
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
 1|1
 $ kiln test --filter hash -q --no-report --against true; sed -i 's/0.5/0.6/' hash.test.yaml; kiln test --filter hash --no-report --against true | head -n 2
-1|fail    hash  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; no picture is kept
+1|fail    hash  1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; no picture is kept
 1|        true does not draw frame 6: out/test/hash/frame_0006_reference.png: the image cannot be opened: No such file or directory
 
 Pixels of cpu must be known, strictly.

@@ -76,24 +76,24 @@ $ kiln compare grey.png grey.png -l flip.mean
 2|kiln: compare: --limit: found 'flip.mean', expected METRIC=VALUE
 = 2
 $ kiln compare grey.png grey.png -l flip.p200=0.5
-2|kiln: limit 'flip.p200=0.5': percentile '200'; allowed are 0 to 100, as in flip.p99.9
+2|kiln: limit 'flip.p200=0.5': found the percentile '200'; allowed are 0 to 100, as in flip.p99.9
 = 2
 $ kiln help metrics
-1|  flip.mean                FLIP, how different they look when flipped: 0 to 1, the mean over all pixels
-1|  flip.p50                 FLIP's median, weighted by the errors
-1|  flip.p99                 FLIP's 99th percentile, weighted by the errors
-1|  flip.pN                  any other percentile, such as flip.p99.9
+1|  flip.mean                FLIP: how different the pictures look when flipped; mean over all pixels, 0 to 1
+1|  flip.p50                 median of FLIP, weighted by the errors
+1|  flip.p99                 99th percentile of FLIP, weighted by the errors
+1|  flip.pN                  any other percentile of FLIP, such as flip.p99.9
 1|  flip.max                 FLIP of the worst pixel
 1|  ssim                     structural similarity of luma (Wang 2004): 1 for equal pictures
 1|  psnr             dB      peak signal to noise over all channels: infinite for equal pictures
 1|  abs.max          levels  the largest difference of a channel, in 1/255 of sRGB's range
 1|  abs.mean         levels  the mean difference over all channels
 1|  differing.count  pixels  pixels that differ by more than --threshold levels
-1|  differing.share          their share of the picture, 0 to 1
-1|  window.share             their share of the --window where they are densest: finds small faults
+1|  differing.share          part of the picture that differs by more than --threshold levels, 0 to 1
+1|  window.share             part of the densest --window that differs by more than --threshold levels; it finds small faults
 1|
-1|A limit is the worst value that passes: the least of ssim and psnr, the most of the
-1|others. Without --limit it is flip.mean=0.01,flip.p99=0.1,window.share=0.1.
+1|A limit is the worst value that passes: the least value of ssim and psnr, and the greatest value
+1|of the other metrics. Without --limit it is flip.mean=0.01,flip.p99=0.1,window.share=0.1.
 
 What does not match is no pass.
 
@@ -360,7 +360,7 @@ $ kiln compare -q grey.png grey.png --layer fire
 2|grey.png: no layer 'fire': PNG images have no layers but 'beauty'
 = 3
 $ kiln compare -q x.exr grey.png
-2|kiln: x.exr is of floats and grey.png is not: choose the range of light, ldr or hdr
+2|kiln: x.exr is of floats and grey.png is not: choose the range of light by --range ldr or hdr
 = 2
 $ head -c $(($(wc -c <x.exr) / 2)) x.exr >short.exr
 $ kiln compare -q x.exr short.exr 2>&1 | sed 's/ (.*//'

@@ -7,7 +7,7 @@ Somebody's folder is refused, and left as it is.
 
 $ mkdir -p mine/fire && echo mine | tee mine/frame_0001.png mine/run.json mine/fire/result.json mine/fire/frame_0006.png >mine/notes
 $ kiln test fire -q --results mine
-2|kiln: mine: the folder has contents, but no .kiln-results, so they may be anybody's; name another one by --results, or empty it
+2|kiln: mine: the folder is not empty, but has no .kiln-results, so its files may not be kiln's; name another folder by --results, or empty this one
 = 2
 $ find mine -type f | sort | xargs grep -c mine
 1|mine/fire/frame_0006.png:1
@@ -17,7 +17,7 @@ $ find mine -type f | sort | xargs grep -c mine
 1|mine/run.json:1
 $ mkdir hidden && touch hidden/.profile && kiln test fire -q --results hidden; ls -A hidden
 1|.profile
-2|kiln: hidden: the folder has contents, but no .kiln-results, so they may be anybody's; name another one by --results, or empty it
+2|kiln: hidden: the folder is not empty, but has no .kiln-results, so its files may not be kiln's; name another folder by --results, or empty this one
 
 An empty one is taken. It gets a list of what was written, which sha256sum can read.
 
@@ -84,7 +84,7 @@ $ sed -i '/fire/d; 1a # writing fire' fresh/.kiln-results && touch fresh/fire/.f
 A list of something else, or of a later kiln, is none.
 
 $ mkdir other && echo '# kiln results 2' >other/.kiln-results && kiln test fire -q --results other
-2|kiln: other/.kiln-results: is not a list of results of this kiln; name another folder by --results
+2|kiln: other/.kiln-results: not a list of results by this version of kiln; name another folder by --results
 = 2
 $ printf '# kiln results 1\nrun.json\n' >other/.kiln-results && kiln test fire -q --results other
 2|kiln: other/.kiln-results: 'run.json' is not a line of a list of results
@@ -96,30 +96,30 @@ $ kiln test fire -q --report r.html --junit r.xml --json=r.json --tap r.tap && k
 1|TAP version 13
 1|# kiln
 $ for report in 'junit r.tap' 'tap r.json' 'json r.xml' 'report r.xml' 'junit r.html' 'junit notes'; do echo mine >notes; kiln test fire -q --${report% *}=${report#* } 2>&1 || kiln test report out/test -q --${report% *}=${report#* }; done
-1|kiln: r.tap: the file exists, and is nothing that --junit has written (--force replaces it)
+1|kiln: r.tap: the file exists, and --junit did not write it (--force replaces it)
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
-1|kiln: r.json: the file exists, and is nothing that --tap has written (--force replaces it)
+1|kiln: r.json: the file exists, and --tap did not write it (--force replaces it)
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
-1|kiln: r.xml: the file exists, and is nothing that --json has written (--force replaces it)
+1|kiln: r.xml: the file exists, and --json did not write it (--force replaces it)
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
-1|kiln: r.xml: the file exists, and is nothing that --report has written (--force replaces it)
+1|kiln: r.xml: the file exists, and --report did not write it (--force replaces it)
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
-1|kiln: r.html: the file exists, and is nothing that --junit has written (--force replaces it)
+1|kiln: r.html: the file exists, and --junit did not write it (--force replaces it)
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
-1|kiln: notes: the file exists, and is nothing that --junit has written (--force replaces it)
+1|kiln: notes: the file exists, and --junit did not write it (--force replaces it)
 1|1 test in <s> s: 1 pass
 1|1 frame: 1 by pixels, 0 by metrics
-2|kiln: r.tap: the file exists, and is nothing that --junit has written (--force replaces it)
-2|kiln: r.json: the file exists, and is nothing that --tap has written (--force replaces it)
-2|kiln: r.xml: the file exists, and is nothing that --json has written (--force replaces it)
-2|kiln: r.xml: the file exists, and is nothing that --report has written (--force replaces it)
-2|kiln: r.html: the file exists, and is nothing that --junit has written (--force replaces it)
-2|kiln: notes: the file exists, and is nothing that --junit has written (--force replaces it)
+2|kiln: r.tap: the file exists, and --junit did not write it (--force replaces it)
+2|kiln: r.json: the file exists, and --tap did not write it (--force replaces it)
+2|kiln: r.xml: the file exists, and --json did not write it (--force replaces it)
+2|kiln: r.xml: the file exists, and --report did not write it (--force replaces it)
+2|kiln: r.html: the file exists, and --junit did not write it (--force replaces it)
+2|kiln: notes: the file exists, and --junit did not write it (--force replaces it)
 = 2
 $ cat notes
 1|mine

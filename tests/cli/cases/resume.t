@@ -80,7 +80,7 @@ $ kiln render scenes/tiny.yaml -q -o none --resume
 2|kiln: render: --resume: there is no output to go on with
 = 2
 $ mkfifo p_%d.png.journal; kiln render scenes/tiny.yaml -q --frames 0-2 -o p_%d.png --resume
-2|kiln: p_%d.png.journal: is not a regular file
+2|kiln: p_%d.png.journal: the path is not a regular file
 = 2
 
 Clips wait in parts: here of 20 frames, the last of one.

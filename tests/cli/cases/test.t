@@ -13,7 +13,7 @@ $ kiln test list --files
 A golden that is missing is a failure, and is not written before one is told to.
 
 $ kiln test fire
-1|new     fire  1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
+1|new     fire  1 frame in <s> s: frame 6 has no golden: the file golden/fire/frame_0006.png is missing
 1|1 test in <s> s: 1 new
 1|report: out/test/report.html
 1|where the pictures are right, accept them: kiln test approve fire
@@ -23,7 +23,7 @@ $ ls golden
 2|ls: cannot access 'golden': No such file or directory
 = 2
 $ kiln test fire --update missing --dry-run
-1|new     fire  1 frame in <s> s: frame 6 has no golden: there is no golden/fire/frame_0006.png
+1|new     fire  1 frame in <s> s: frame 6 has no golden: the file golden/fire/frame_0006.png is missing
 1|        would write golden/fire/frame_0006.png
 1|1 test in <s> s: 1 new
 1|report: out/test/report.html
@@ -61,14 +61,14 @@ A picture that has changed fails, and can be accepted.
 
 $ echo 'set: [systems.fire.look.size=0.6]' >>fire.test.yaml
 $ kiln test fire
-1|fail    fire  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
+1|fail    fire  1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
 1|1 test in <s> s: 1 fail
 1|report: out/test/report.html
 1|where the pictures are right, accept them: kiln test approve fire
 1|1 frame: 0 by pixels, 1 by metrics
 = 1
 $ kiln test fire -q --update missing
-1|fail    fire  1 frame in <s> s: frame 6 has other pixels than were accepted on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
+1|fail    fire  1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; flip.mean is <value>, beyond 0.01; flip.p99 is <value>, beyond 0.1
 1|1 test in <s> s: 1 fail
 1|report: out/test/report.html
 1|where the pictures are right, accept them: kiln test approve fire
@@ -102,7 +102,7 @@ So does a simulation that has changed, however like the picture is.
 
 $ sed -i 's/^set:.*/set: [systems.fire.look.size=0.6, simulation.rate=120]/' fire.test.yaml
 $ kiln test fire
-1|fail    fire  1 frame in <s> s: the simulation changed: state a6edc2d5ec8d500c at frame 6, accepted was 3bdb35dd0e9813d8; the picture is within its limits
+1|fail    fire  1 frame in <s> s: the simulation changed: the state is a6edc2d5ec8d500c at frame 6, but 3bdb35dd0e9813d8 was accepted; the picture is within its limits
 1|1 test in <s> s: 1 fail
 1|report: out/test/report.html
 1|where the pictures are right, accept them: kiln test approve fire
@@ -111,7 +111,7 @@ $ kiln test fire
 $ kiln test fire --ignore-hashes --json | jq -c '.tests[] | [.name, .status]'
 1|["fire","pass"]
 2|pass    fire  1 frame in <s> s
-2|        the scene has changed in 1 key, and everything passes
+2|        the scene has changed in 1 key, and the test passes
 2|1 test in <s> s: 1 pass
 2|report: out/test/report.html
 2|1 frame: 0 by pixels, 1 by metrics
@@ -134,17 +134,17 @@ $ kiln test fier
 2|kiln: no test has the name 'fier' (did you mean 'fire'?)
 = 2
 $ kiln test 'f*z'
-2|kiln: no test has the name 'f*z'; 'kiln test list' shows what there is
+2|kiln: no test has the name 'f*z'; 'kiln test list' lists the tests
 = 2
 $ kiln test aprove
-2|kiln: no test has the name 'aprove'; 'kiln test list' shows what there is
+2|kiln: no test has the name 'aprove'; 'kiln test list' lists the tests
 2|kiln: test: 'aprove' is no command either (did you mean 'kiln test approve'?)
 = 2
 $ kiln test nowhere.yaml
 2|kiln: nowhere.yaml: No such file or directory
 = 2
 $ mkdir void; kiln test void
-2|kiln: void: no test in this folder: no *.test.yaml, and no scene
+2|kiln: void: the folder has no tests: no *.test.yaml, and no scene
 = 2
 $ kiln test fire --shard 2/2
 2|kiln: test: --shard: part 2 of 2 has no tests; take fewer parts
@@ -192,8 +192,8 @@ $ kiln test elsewhere
 2|kiln: test: every test was skipped, so nothing was tested: none is for a device of this machine
 = 4
 $ kiln test approve elsewhere wrong
-2|elsewhere: it was skipped and has no pictures; run it again: kiln test elsewhere.test.yaml
-2|wrong: the test ended with an error, and nothing can be accepted: wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
+2|elsewhere: the test was skipped and has no pictures; run it again: kiln test elsewhere.test.yaml
+2|wrong: the test ended with an error, so nothing can be accepted: wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 = 3
 $ kiln test elsewhere fire
 1|skip    elsewhere  there is no device 'no-such-device'; there are: <devices>
@@ -287,8 +287,8 @@ A test that is gone leaves its goldens, which a run of a whole folder tells.
 
 $ mkdir one; cp -r fire.test.yaml scenes one; mkdir golden/one; mv golden/fire golden/one/fir
 $ kiln test one --no-report; mv golden/one/fir golden/fire; rm -r one golden/one
-1|new     one/fire          1 frame in <s> s: frame 6 has no golden: there is no golden/one/fire/frame_0006.png
-1|new     one/scenes/empty  1 frame in <s> s: frame 1 has no golden: there is no golden/one/scenes/empty/frame_0001.png
+1|new     one/fire          1 frame in <s> s: frame 6 has no golden: the file golden/one/fire/frame_0006.png is missing
+1|new     one/scenes/empty  1 frame in <s> s: frame 1 has no golden: the file golden/one/scenes/empty/frame_0001.png is missing
 1|2 tests in <s> s: 2 new
 1|golden/one/fir: no test uses these goldens; was one renamed or lost?
 1|where the pictures are right, accept them: kiln test approve --all
@@ -298,15 +298,15 @@ Results do not go where goldens are, whose pictures they would replace.
 
 $ cp -r golden kept; ln -s golden link
 $ kiln test fire --results golden; kiln test fire --golden none --results none/
-2|kiln: golden: the folder of the results is that of the goldens; results need one of their own
-2|kiln: none: the folder of the results is that of the goldens; results need one of their own
+2|kiln: golden: the folder of the results is also the folder of the goldens; results need a folder of their own
+2|kiln: none: the folder of the results is also the folder of the goldens; results need a folder of their own
 = 2
 $ kiln test fire --results link/
-2|kiln: link: the folder of the results is that of the goldens; results need one of their own
+2|kiln: link: the folder of the results is also the folder of the goldens; results need a folder of their own
 = 2
 $ mkdir -p out/nested; cp -r golden/fire out/nested/fire
 $ kiln test fire --results out/nested --no-report
-2|kiln: out/nested/fire: is a folder of goldens, and not for results
+2|kiln: out/nested/fire: the folder holds goldens; results need a folder of their own
 = 2
 $ diff -r golden kept; diff -rq golden/fire out/nested/fire; rm -r kept link
 
