@@ -49,6 +49,6 @@ bool kiln_suite_balls(const struct kiln_bench_run *run, struct kiln_error *error
         if (!kiln_compare_lanes(run, &comparison, error))
             return false;
     }
-    return kiln_bench_add_note(run->bench, error,
-                               "Less the row without collisions, 1 ms is 10 ns a ball.");
+    return kiln_bench_add_note(
+        run->bench, error, "After the row without collisions is subtracted, 1 ms is 10 ns a ball.");
 }

@@ -19,7 +19,7 @@
 /* A row has a suite's name, its help, about how many minutes it takes on two cores without a GPU,
  * and its function. Suites run in this order if all of them run. */
 static const struct kiln_suite_row SUITES[] = {
-    {{"seed", "the first techniques against auto: whole frames with PNG, and stages", 2},
+    {{"seed", "the first techniques and auto compared: whole frames with PNG, and stages", 2},
      kiln_suite_seed},
     {{"sizes", "frames of the four sizes of Heinz 2019, table 4.1, pass by pass", 0.5},
      kiln_suite_sizes},
@@ -36,21 +36,23 @@ static const struct kiln_suite_row SUITES[] = {
     {{"groups", "kernels by the size of their work groups (Heinz 2019, 2.2.5)", 1.5},
      kiln_suite_groups},
     {{"forces", "simulation by its force and integrator", 0.3}, kiln_suite_forces},
-    {{"colliders", "simulation by what particles bounce off, and how volumes are built", 0.5},
+    {{"colliders",
+      "simulation by the objects that particles bounce off, and the building of volumes", 0.5},
      kiln_suite_colliders},
     {{"balls", "simulation of 100,000 balls that collide, without and with spin", 0.2},
      kiln_suite_balls},
-    {{"flock", "flocks of 4,096 and 16,384, by whom they look at (Drone 2007, 7.4.4)", 0.3},
+    {{"flock",
+      "flocks of 4,096 and 16,384, by the particles that each looks at (Drone 2007, 7.4.4)", 0.3},
      kiln_suite_flock},
-    {{"gravity", "gravity of all pairs, frames of it, and energy kept (Drone 2007, 7.4.3)", 0.5},
+    {{"gravity",
+      "gravity of all pairs, frames with it, and conservation of energy (Drone 2007, 7.4.3)", 0.5},
      kiln_suite_gravity},
     {{"paint", "painting with particles by its gather (Drone 2007, 7.6.1)", 0.4}, kiln_suite_paint},
     {{"bytes", "memory and communication of techniques (Heinz 2019, 4.2)", 0.2}, kiln_suite_bytes},
-    {{"states", "size of saved states, and time to save one and to take it up", 1.5},
-     kiln_suite_states},
-    {{JOBS, "64 parts of a clip with states against one run, and many workers", 5},
+    {{"states", "size of saved states, and time to save and to load one", 1.5}, kiln_suite_states},
+    {{JOBS, "64 parts of a clip with states compared with one run, and many workers", 5},
      kiln_suite_jobs},
-    {{"output", "end to end to PNG, EXR and mp4, against what the stages take", 1},
+    {{"output", "whole jobs to PNG, EXR and mp4, compared with the time of their stages", 1},
      kiln_suite_output},
 };
 enum { SUITE_COUNT = sizeof SUITES / sizeof *SUITES };
@@ -79,8 +81,9 @@ static const struct kiln_suite_row *find_suite(const char *name, struct kiln_err
             return &SUITES[i];
     }
     const char *nearest = kiln_text_nearest(name, names, SUITE_COUNT);
-    kiln_error_set(error, KILN_USAGE, "'%s' is no scene file (*.yaml) and no suite%s%s%s", name,
-                   nearest ? " (did you mean '" : "", nearest ? nearest : "", nearest ? "'?)" : "");
+    kiln_error_set(error, KILN_USAGE, "'%s' is neither a scene file (*.yaml) nor a suite%s%s%s",
+                   name, nearest ? " (did you mean '" : "", nearest ? nearest : "",
+                   nearest ? "'?)" : "");
     return NULL;
 }
 
@@ -104,7 +107,7 @@ static bool check(const struct kiln_bench_params *params, struct kiln_error *err
 {
     if (params->repetitions < KILN_BENCH_MIN_REPETITIONS ||
         params->repetitions > KILN_BENCH_MAX_REPETITIONS)
-        return kiln_error_set(error, KILN_USAGE, "%u repetitions; there can be %d to %d",
+        return kiln_error_set(error, KILN_USAGE, "found %u repetitions; allowed are %d to %d",
                               params->repetitions, KILN_BENCH_MIN_REPETITIONS,
                               KILN_BENCH_MAX_REPETITIONS);
     for (size_t i = 0; i < params->suite_count; i++) {

@@ -114,8 +114,9 @@ bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error
               add_ways(run, lanes, samples, particles, error);
     free(samples);
     kiln_scene_destroy(&scene);
-    return ok && kiln_bench_add_note(
-                     run->bench, error,
-                     "The picture is 64x36; its own bytes are among those that move. On a software "
-                     "device the bytes stay in the same memory, and are copied all the same.");
+    return ok &&
+           kiln_bench_add_note(
+               run->bench, error,
+               "The picture has 64x36 pixels; its bytes are among those that move. On a software "
+               "device, the bytes stay in the same memory but are copied all the same.");
 }

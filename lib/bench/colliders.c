@@ -74,7 +74,7 @@ static bool run_particles(const struct kiln_bench_run *run, const char *root,
 {
     const struct kiln_bench_part part = {
         .name = "colliders",
-        .title = "Simulation by what a cloud of particles bounces off",
+        .title = "Simulation by the object that a cloud of particles bounces off",
         .sweep = "particles",
         .unit = "ms",
     };
@@ -86,8 +86,8 @@ static bool run_particles(const struct kiln_bench_run *run, const char *root,
             return false;
     return kiln_bench_add_note(
         run->bench, error,
-        "Less the row without a collider, 1 ms is 1 ns a particle, whether it touches or not; a "
-        "volume that turns is also built in each step.");
+        "After the row without a collider is subtracted, 1 ms is 1 ns a particle, whether it "
+        "touches the collider or not. A volume that turns is also built in each step.");
 }
 
 /* Measures steps with two particles only, so that a step takes as long as building the collider's

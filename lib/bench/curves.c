@@ -155,11 +155,10 @@ bool kiln_suite_groups(const struct kiln_bench_run *run, struct kiln_error *erro
                "250,000 particles. kiln takes groups of 64 to simulate. The radix sort cuts the "
                "same tile among more "
                "invocations, with fewer digits where their counters would not fit.") &&
-           kiln_bench_add_note(
-               run->bench, error,
-               "Sorting networks take groups of 256. A group sorts eight times as many pairs in "
-               "shared memory, which more than 512 would not fit into; longer merges go through "
-               "the buffer.") &&
+           kiln_bench_add_note(run->bench, error,
+                               "Sorting networks take groups of 256. A group sorts eight times as "
+                               "many pairs in shared memory, which has no room for more than 512. "
+                               "Longer merges go through the buffer.") &&
            kiln_bench_add_note(
                run->bench, error,
                "raster=tiled, here of 50,000 sprites of 16 pixels, takes groups of %s. A tile is "

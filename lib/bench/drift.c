@@ -179,7 +179,7 @@ bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error
     };
     const struct kiln_bench_part part = {
         .name = "gravity_drift",
-        .title = "The most that the energy of bodies is off, in millionths, since the row before",
+        .title = "Largest change of the bodies' energy since the row before, in millionths",
         .sweep = "steps",
         .unit = "ppm",
     };
@@ -196,6 +196,5 @@ bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error
     }
     return kiln_bench_add_note(
         run->bench, error,
-        "The two fly about each other in 205 steps: 10, 100 and 1,000 times; "
-        "steps are of 1/60 s.");
+        "The two bodies orbit each other in 205 steps: 10, 100 and 1,000 times. A step is 1/60 s.");
 }

@@ -45,7 +45,7 @@ bool kiln_suite_flock(const struct kiln_bench_run *run, struct kiln_error *error
     static const double sizes[] = {4096, 16384};
     const struct kiln_bench_part part = {
         .name = "flock",
-        .title = "Flocks at 1280x720, by whom they look at",
+        .title = "Flocks at 1280x720, by the particles that each looks at",
         .sweep = "birds",
         .unit = "fps",
     };
@@ -59,6 +59,6 @@ bool kiln_suite_flock(const struct kiln_bench_run *run, struct kiln_error *error
         }
     }
     return kiln_bench_add_note(run->bench, error,
-                               "They start in the same place: the more there are, the denser they "
-                               "fly, and the more each sees.");
+                               "All flocks start in the same place: a larger flock is denser, and "
+                               "each particle sees more others.");
 }

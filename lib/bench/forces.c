@@ -49,6 +49,6 @@ bool kiln_suite_forces(const struct kiln_bench_run *run, struct kiln_error *erro
         if (!kiln_compare_cloud(run, &settings, particles, ROWS[i].name, particles, error))
             return false;
     }
-    return kiln_bench_add_note(run->bench, error,
-                               "Less the row without a force, 1 ms is 1 ns a particle.");
+    return kiln_bench_add_note(
+        run->bench, error, "After the row without a force is subtracted, 1 ms is 1 ns a particle.");
 }

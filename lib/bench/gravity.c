@@ -78,9 +78,9 @@ static bool set_up(struct pull *pull, struct kiln_error *error)
     }
     for (int i = 0; i < SPLATS; i++) {
         if (!device)
-            pull->problems[i] = "there is no GL";
+            pull->problems[i] = "there is no OpenGL";
         else if (device->info.software && pull->count > MOST_SPLATTED_IN_SOFTWARE)
-            pull->problems[i] = "it takes seconds on a software device";
+            pull->problems[i] = "the measurement takes seconds on a software device";
         else if (!(pull->splats[i] =
                        kiln_force_splat_create(device, formats[i], pull->count, error)))
             return false;
@@ -236,7 +236,8 @@ bool kiln_suite_gravity(const struct kiln_bench_run *run, struct kiln_error *err
     way_name(KILN_SIMD_NARROWEST, narrowest);
     const struct kiln_bench_part pairs = {
         .name = "gravity",
-        .title = "Gravity of all pairs (Drone 2007, 7.4.3): thousands of millions a second",
+        .title =
+            "Gravity of all pairs (Drone 2007, 7.4.3): thousands of millions of pairs a second",
         .sweep = "bodies",
         .unit = "G/s",
         .reference = kiln_arena_text(run->bench->arena, narrowest, strlen(narrowest)),

@@ -251,14 +251,14 @@ static bool add_costs(const struct farm *f, struct kiln_error *error)
     }
     return kiln_bench_add_note(f->run->bench, error,
                                "%s, %u x %u pixels, %u frames, %u a part. The joined clip had the "
-                               "bytes of the single run's in all %u turns.",
+                               "same bytes as the clip of the single run in all %u turns.",
                                f->name, info.width, info.height, info.frames, f->part_frames,
                                f->turns) &&
            kiln_bench_add_note(
                f->run->bench, error,
-               "Of all parts: start is until a device is open; first frame is from there until it "
-               "is drawn, and state is the part of that which checks and takes up the saved "
-               "state; end is all behind the last frame.");
+               "The stages of all parts: start lasts until a device is open; first frame lasts "
+               "from there until the frame is drawn; state is the part of first frame in which the "
+               "saved state is checked and loaded; end is everything after the last frame.");
 }
 
 static bool add_ratios(const struct farm *f, struct kiln_error *error)
@@ -331,8 +331,8 @@ static bool name_longest(const struct farm *f, struct kiln_error *error)
         kiln_parts_frames(longest, longest + 1, f->part_frames, f->parts * f->part_frames);
     return kiln_bench_add_note(
         f->run->bench, error,
-        "Simulated from measured times: the bake first, then the parts in their order, each on the "
-        "worker that is free first, then the join. A worker is a machine like this one. The bound "
+        "Simulated from measured times: the bake comes first, then the parts in their order, each "
+        "on the first free worker, then the join. A worker is a machine like this one. The bound "
         "is the bake (%.3f s), the longest part and the join (%.3f s). The longest part is part "
         "%u, frames %u-%u: %.3f s.",
         kiln_spread_of(f->elapsed_s[BAKE], f->turns).median,
@@ -351,7 +351,7 @@ static bool add_outlook(const struct farm *f, struct kiln_error *error)
     };
     const struct kiln_bench_part gain = {
         .name = "jobs_speedup",
-        .title = "How many times as fast as the single run, and that for each worker",
+        .title = "Speed-up compared with the single run, and speed-up for each worker",
         .sweep = "workers",
         .unit = "times; %",
     };

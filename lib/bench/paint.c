@@ -186,6 +186,6 @@ bool kiln_suite_paint(const struct kiln_bench_run *run, struct kiln_error *error
             return false;
     }
     return kiln_bench_add_note(run->bench, error,
-                               "Both gathers paint the same; a hundredth of the particles in each "
-                               "frame is how the paper spreads its own over frames (7.6.1.3).");
+                               "Both gathers paint the same. A hundredth of the particles paint in "
+                               "each frame, as in the paper (7.6.1.3).");
 }

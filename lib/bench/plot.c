@@ -217,8 +217,8 @@ char *kiln_bench_plot(const char *folder, const char *script, size_t *size,
         ;
     if (failure)
         snprintf(problem, KILN_MESSAGE_SIZE,
-                 "gnuplot is not there, so no *.svg is drawn: install gnuplot-nox, or take *.dat "
-                 "and *.gp elsewhere");
+                 "gnuplot is missing, so no *.svg is drawn: install gnuplot-nox, or draw *.dat "
+                 "with *.gp elsewhere");
     else if (!picture || status != 0 || *size == 0)
         snprintf(problem, KILN_MESSAGE_SIZE, "gnuplot failed on %s/%s", folder, script);
     else

@@ -165,8 +165,8 @@ bool kiln_suite_table_1(const struct kiln_bench_run *run, struct kiln_error *err
         if (!run_side(run, sides[i], error) || !publish(run, i, sides[i], error))
             return false;
     }
-    return kiln_bench_add_note(run->bench, error,
-                               "FP is bitonic-computed, GP/FP bitonic-passed. The published times "
-                               "have the making of the keys in them, and the moving of the "
-                               "particles. Sets of rows are sorted apart (5).");
+    return kiln_bench_add_note(
+        run->bench, error,
+        "FP is bitonic-computed, GP/FP is bitonic-passed. The published times include the making "
+        "of the keys and the moving of the particles. Sets of rows are sorted apart (5).");
 }

@@ -123,7 +123,7 @@ bool kiln_suite_states(const struct kiln_bench_run *run, struct kiln_error *erro
     static const double sizes[] = {1e3, 160e3, 1e6, 16e6};
     const struct kiln_bench_part part = {
         .name = "states",
-        .title = "Saved states: time to save one, and to check it and take it up; size",
+        .title = "Saved states: time to save one, and time to check and load one; size",
         .sweep = "particles",
         .unit = "ms; bytes a particle",
     };

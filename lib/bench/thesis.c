@@ -76,9 +76,9 @@ bool kiln_suite_figure_4_4(const struct kiln_bench_run *run, struct kiln_error *
         return false;
     return kiln_bench_add_note(
         run->bench, error,
-        "Published (4.2, GTX 1070 and Ryzen 2600X): the CPU is the fastest below about 4,000 "
-        "particles; of the others transform feedback is the slowest, and may lose particles; one "
-        "buffer in compute is a little faster than two.");
+        "Published (4.2, GTX 1070 and Ryzen 2600X): the CPU is the fastest technique below about "
+        "4,000 particles. Of the other techniques, transform feedback is the slowest and may lose "
+        "particles. One buffer in compute is a little faster than two.");
 }
 
 /* ---- Figure 4.5 ------------------------------------------------------------------------------ */
@@ -140,10 +140,9 @@ bool kiln_suite_figure_4_5(const struct kiln_bench_run *run, struct kiln_error *
         if (!draw_near(run, SIZES[i], lanes, count, error))
             return false;
     }
-    return kiln_bench_add_note(
-        run->bench, error,
-        "Published (4.2): smoke takes longer to render than fire, as blending "
-        "by alpha is more expensive than adding.");
+    return kiln_bench_add_note(run->bench, error,
+                               "Published (4.2): smoke takes longer to render than fire, because "
+                               "blending by alpha costs more than adding.");
 }
 
 /* ---- Figure 4.6 ------------------------------------------------------------------------------ */
@@ -171,11 +170,10 @@ bool kiln_suite_figure_4_6(const struct kiln_bench_run *run, struct kiln_error *
     if (!kiln_bench_begin(run, &part, error) ||
         !compare_unseen(run, lanes, count, KILN_MEASURE(sort), error))
         return false;
-    return kiln_bench_add_note(
-        run->bench, error,
-        "Published (4.2): sorting on the CPU is much more efficient than bitonic sort on the GPU, "
-        "which was not run on the largest systems; it is a little faster where transform feedback "
-        "is not used.");
+    return kiln_bench_add_note(run->bench, error,
+                               "Published (4.2): sorting on the CPU is much more efficient than "
+                               "bitonic sort on the GPU, which was not run on the largest systems. "
+                               "It is a little faster where transform feedback is not used.");
 }
 
 /* ---- Table 4.1 ------------------------------------------------------------------------------- */

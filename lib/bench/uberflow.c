@@ -134,10 +134,9 @@ bool kiln_suite_table_2(const struct kiln_bench_run *run, struct kiln_error *err
     return kiln_bench_add_note(
                run->bench, error,
                "E4 searches as the paper does, in two staggered grids and 8 particles to each "
-               "side; "
-               "or in all cells around, so that no pair is missed. Sorting networks on a software "
-               "device would take seconds for it.") &&
+               "side, or in all cells around, so that no pair is missed. Sorting networks on a "
+               "software device would take seconds for it.") &&
            kiln_bench_add_note(run->bench, error,
-                               "Sprites are of 4 pixels with texture, soft and tone-mapped; those "
-                               "of 2004 were points, each of its one colour.");
+                               "The sprites have 4 pixels with texture, soft and tone-mapped. "
+                               "Those of 2004 were points of one colour each.");
 }

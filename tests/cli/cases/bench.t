@@ -1,7 +1,7 @@
 kiln bench: what is measured and in which form. No number of it is looked at.
 
 $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
-1|  seed        <time>  the first techniques against auto: whole frames with PNG, and stages
+1|  seed        <time>  the first techniques and auto compared: whole frames with PNG, and stages
 1|  sizes       <time>  frames of the four sizes of Heinz 2019, table 4.1, pass by pass
 1|  figure4.4   <time>  Heinz 2019, figure 4.4: techniques of simulation by particles
 1|  figure4.5   <time>  Heinz 2019, figure 4.5: rendering fire and smoke, and the whole frame
@@ -11,15 +11,15 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  curves      <time>  cost over 1,000 to 4,000,000 particles and 4 to 256 pixels
 1|  groups      <time>  kernels by the size of their work groups (Heinz 2019, 2.2.5)
 1|  forces      <time>  simulation by its force and integrator
-1|  colliders   <time>  simulation by what particles bounce off, and how volumes are built
+1|  colliders   <time>  simulation by the objects that particles bounce off, and the building of volumes
 1|  balls       <time>  simulation of 100,000 balls that collide, without and with spin
-1|  flock       <time>  flocks of 4,096 and 16,384, by whom they look at (Drone 2007, 7.4.4)
-1|  gravity     <time>  gravity of all pairs, frames of it, and energy kept (Drone 2007, 7.4.3)
+1|  flock       <time>  flocks of 4,096 and 16,384, by the particles that each looks at (Drone 2007, 7.4.4)
+1|  gravity     <time>  gravity of all pairs, frames with it, and conservation of energy (Drone 2007, 7.4.3)
 1|  paint       <time>  painting with particles by its gather (Drone 2007, 7.6.1)
 1|  bytes       <time>  memory and communication of techniques (Heinz 2019, 4.2)
-1|  states      <time>  size of saved states, and time to save one and to take it up
-1|  jobs        <time>  64 parts of a clip with states against one run, and many workers
-1|  output      <time>  end to end to PNG, EXR and mp4, against what the stages take
+1|  states      <time>  size of saved states, and time to save and to load one
+1|  jobs        <time>  64 parts of a clip with states compared with one run, and many workers
+1|  output      <time>  whole jobs to PNG, EXR and mp4, compared with the time of their stages
 1|All together <time>, on two cores without a GPU.
 
 Of a scene: whole frames, then the techniques of each stage, that of `auto` first.
@@ -147,8 +147,8 @@ $ kiln bench jobs --quick --quiet --device cpu -o jobs --format json >jobs.json;
 $ jq -c '[.parts[].rows[].value.median > 0] | all' jobs.json
 1|true
 $ jq -r '.parts[0].notes[0]' jobs.json; jq -r '.parts[2].notes[0]' jobs.json | sed -E 's/[0-9]+\.[0-9]+/<s>/g; s/part [12], frames [0-9]+-[0-9]+/<part>/'
-1|fire_beam.yaml, 40 x 22 pixels, 20 frames, 10 a part. The joined clip had the bytes of the single run's in all 3 turns.
-1|Simulated from measured times: the bake first, then the parts in their order, each on the worker that is free first, then the join. A worker is a machine like this one. The bound is the bake (<s> s), the longest part and the join (<s> s). The longest part is <part>: <s> s.
+1|fire_beam.yaml, 40 x 22 pixels, 20 frames, 10 a part. The joined clip had the same bytes as the clip of the single run in all 3 turns.
+1|Simulated from measured times: the bake comes first, then the parts in their order, each on the first free worker, then the join. A worker is a machine like this one. The bound is the bake (<s> s), the longest part and the join (<s> s). The longest part is <part>: <s> s.
 $ ls jobs | grep -v '\.svg$'
 1|bench.csv
 1|bench.json
@@ -158,12 +158,12 @@ $ ls jobs | grep -v '\.svg$'
 1|jobs_elapsed.gp
 $ kiln bench jobs scenes/tiny.yaml --quick --quiet --device cpu --parts 3 --size 32x32 --set output.fps=2 | grep -e ' bytes ' -e ' all  *join' | sed -E 's/[0-9]+\.[0-9]+/<n>/g; s/ +/ /g'
 1| 3 all join <n> <n> - <n> 3
-1| scenes/tiny.yaml, 32 x 32 pixels, 12 frames, 4 a part. The joined clip had the bytes of the single run's in all 3 turns.
+1| scenes/tiny.yaml, 32 x 32 pixels, 12 frames, 4 a part. The joined clip had the same bytes as the clip of the single run in all 3 turns.
 
 What cannot be.
 
 $ kiln bench tabel1
-2|kiln: bench: 'tabel1' is no scene file (*.yaml) and no suite (did you mean 'table1'?)
+2|kiln: bench: 'tabel1' is neither a scene file (*.yaml) nor a suite (did you mean 'table1'?)
 = 2
 $ kiln bench no.yaml
 2|no.yaml: No such file or directory

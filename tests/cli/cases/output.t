@@ -60,7 +60,7 @@ $ for suffix in mkv apng; do kiln compare clips/frame_%d.png clips/a.$suffix | g
 1|  differing.count             0            0  frame_0.png                   -
 1|  differing.count             0            0  frame_0.png                   -
 $ kiln render scenes/tiny.yaml -q -o clips/a.gif
-2|kiln: warning: clips/a.gif: GIF holds times in 1/100 s; of 30 frames a second, frames last 0.03 or 0.04 s, on average 0.0333 s
+2|kiln: warning: clips/a.gif: GIF counts times in 1/100 s; at 30 frames a second, frames last 0.03 or 0.04 s, on average 0.0333 s
 $ ffprobe -v error -show_entries stream=nb_read_frames,duration -count_frames -of csv=p=0 clips/a.gif
 1|0.800000,24
 $ kiln render scenes/tiny.yaml -q -o clips/b.gif --fps 60

@@ -30,7 +30,7 @@ $ for suffix in webm mkv mov gif apng webp; do bash stop TERM clip.$suffix; done
 2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
 2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
 2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
-2|kiln: warning: clip.gif: GIF holds times in 1/100 s; of 30 frames a second, frames last 0.03 or 0.04 s, on average 0.0333 s
+2|kiln: warning: clip.gif: GIF counts times in 1/100 s; at 30 frames a second, frames last 0.03 or 0.04 s, on average 0.0333 s
 2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
 2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
 2|kiln: scenes/tiny.yaml: stopped by SIGTERM after <n> frames
