@@ -76,24 +76,26 @@ static const struct kiln_option override_item = {.type = &kiln_type_override,
 
 static const struct kiln_option job_rows[] = {
     TEXT(text, "name", name, 0, "\"\"",
-         "What results call the job; its number where it has no name."),
+         "Name of the job in the results. Without a name, results have its number."),
     TEXT(text, "scene", scene, 1, NULL, "The scene's path, from the folder of the file of jobs."),
     TEXT(placed, "output", output, 1, NULL,
-         "Where to write, as --output; from the same folder. 'none' writes nothing."),
-    {ROW(NO_PART, "set", list, AT(set), "[]", "Keys of the scene to change."),
+         "Where to write, like --output, from the folder of the file of jobs. 'none' writes "
+         "nothing."),
+    {ROW(NO_PART, "set", list, AT(set), "[]", "Changes of keys of the scene."),
      .item = &override_item, .kind_offset = KILN_KIND_NONE, .item_size = sizeof(const char *),
      .count_offset = AT(set_count), .max_count = MAX_OVERRIDES},
     TEXT(placed, "frames", frames, 0, "\"\"",
-         "Frames to draw, as --frames; all where none are named."),
-    TEXT(placed, "limits", limits, 0, "\"\"", "What the job may take, as --limits."),
+         "Frames to draw, like --frames. Without it, all frames are drawn."),
+    TEXT(placed, "limits", limits, 0, "\"\"", "Limits of the job, like --limits."),
     {ROW(NO_PART, "timeout", number, AT(timeout_s), "0 s",
-         "The job's deadline, as --timeout: seconds, or with a unit, ms, s, min or h; 0: none."),
+         "Time limit of the job, like --timeout: seconds, or a time with a unit, ms, s, min or h. "
+         "0 is no limit."),
      LIMITS(KILN_SECONDS, 0, 1e7)},
     TEXT(text, "asset_root", asset_root, 0, "\"\"",
-         "Files of the scene lie below it; the scene's folder where it is not given."),
-    TEXT(text, "states", states, 0, "\"\"", "A folder of 'kiln bake', as --states."),
+         "Folder that the scene's files must lie in. Without it, this is the scene's folder."),
+    TEXT(text, "states", states, 0, "\"\"", "A folder of 'kiln bake', like --states."),
     TEXT(placed, "manifest", manifest, 0, "\"\"",
-         "A JSON file that describes the run, as --manifest."),
+         "A JSON file that describes the run, like --manifest."),
     END,
 };
 
@@ -104,7 +106,7 @@ static const struct kiln_option job_item = {.type = &kiln_type_group, .members =
 
 static const struct kiln_option rows[] = {
     INTEGER(NO_PART, "kiln_jobs", version, 1, 1, NULL, "Version of the format of files of jobs."),
-    {ROW(NO_PART, "jobs", list, AT(jobs), NULL, "The jobs, which begin in their order."),
+    {ROW(NO_PART, "jobs", list, AT(jobs), NULL, "The jobs. They begin in this order."),
      .item = &job_item, .kind_offset = KILN_KIND_NONE, .item_size = sizeof(struct entry),
      .count_offset = AT(job_count), .max_count = MAX_JOBS},
     END,
@@ -121,7 +123,8 @@ bool kiln_batch_write_reference(FILE *out)
         "      - {scene: fire.yaml, output: out/fire.mp4, set: [seed=3], timeout: 600 s}\n"
         "      - {scene: rain.yaml, output: out/rain_####.png, frames: 0-9}\n"
         "\n"
-        "A file whose name ends in .ndjson or .jsonl, and '-', standard input, has a job a line:\n"
+        "A file whose name ends in .ndjson or .jsonl has one job a line, and so has standard "
+        "input, '-':\n"
         "\n"
         "    {\"scene\": \"fire.yaml\", \"output\": \"out/fire.mp4\", \"set\": [\"seed=3\"]}\n"
         "\n";
@@ -297,7 +300,7 @@ static struct kiln_batch *parse(const char *text, size_t size, const char *name,
     ok = ok && (format == KILN_BATCH_LINES ? read_lines(batch, text, size, name, base, error)
                                            : read_yaml(batch, text, size, name, base, error));
     if (ok && batch->count == 0)
-        ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: there are no jobs in it", name);
+        ok = kiln_error_set(error, KILN_INVALID_INPUT, "%s: the file has no jobs", name);
     if (!ok)
         kiln_batch_destroy(&batch);
     return batch;

@@ -101,9 +101,9 @@ static bool check_sizes(const struct kiln_figure_params *params, struct kiln_err
         return kiln_error_set(error, KILN_USAGE, "--width: found %g mm; allowed are 5 to 2000",
                               paper);
     if (paper != 0 && (params->width != 0 || params->dpi == 0))
-        return kiln_error_set(error, KILN_USAGE,
-                              "a width on paper needs the pixels of an inch, and "
-                              "no width of a panel");
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "--width on paper needs --dpi, and cannot be combined with a width in pixels");
     return true;
 }
 
@@ -112,7 +112,7 @@ static bool check_request(struct job *job)
 {
     const struct kiln_figure_params *params = job->params;
     if (!params->output)
-        return kiln_error_set(job->error, KILN_USAGE, "a figure without a file");
+        return kiln_error_set(job->error, KILN_USAGE, "the figure has no file name");
     job->format = kiln_figure_format_find(params->output, job->error);
     if (!job->format)
         return false;
@@ -122,7 +122,8 @@ static bool check_request(struct job *job)
         return kiln_error_set(job->error, KILN_USAGE,
                               "--plain leaves no room for a title or labels");
     if (params->input_count == 0)
-        return kiln_error_set(job->error, KILN_USAGE, "a figure of nothing");
+        return kiln_error_set(job->error, KILN_USAGE,
+                              "the figure has no pictures; it needs one or more");
     if (params->alt && strlen(params->alt) > LONGEST_ALT)
         return kiln_error_set(job->error, KILN_USAGE, "--alt: found %zu bytes; allowed are %d",
                               strlen(params->alt), (int)LONGEST_ALT);
@@ -284,14 +285,14 @@ static bool check_file(struct job *job, const struct kiln_record *record,
 {
     char file[65];
     if (access(job->params->output, F_OK) != 0) {
-        say_stale(result, "the figure is not there");
+        say_stale(result, "the figure is missing");
         return true;
     }
     if (!kiln_hash_sha256_file(job->params->output, file))
         return kiln_error_set(job->error, KILN_IO, "%s: the file cannot be read",
                               job->params->output);
     if (strcmp(file, record->file) != 0)
-        say_stale(result, "the file is not the one that was written with its sidecar");
+        say_stale(result, "the file is not the one that was written together with its sidecar");
     return true;
 }
 
@@ -303,7 +304,7 @@ static bool check_figure(struct job *job, struct kiln_figure_result *result)
         return false;
     if (!is_own_sidecar(job)) {
         result->stale = true;
-        snprintf(result->reason, sizeof result->reason, "its command makes another file, '%.300s'",
+        snprintf(result->reason, sizeof result->reason, "the command makes another file, '%.300s'",
                  job->params->output);
         return true;
     }

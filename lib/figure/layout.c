@@ -328,15 +328,14 @@ static void measure_text(struct layout *l)
 static void warn_of_enlarging(const struct layout *l)
 {
     if (l->widest < l->cell_width && !l->params->check)
-        kiln_log_write(
-            &l->params->log, KILN_LOG_WARNING,
-            "%s: pictures of %u pixels are enlarged to %u, which %u an inch take; scenes "
-            "have more with --size",
-            l->params->output, l->widest, l->cell_width, l->params->dpi);
+        kiln_log_write(&l->params->log, KILN_LOG_WARNING,
+                       "%s: pictures of %u pixels are enlarged to %u pixels for %u pixels an inch; "
+                       "a larger --size renders scenes sharper",
+                       l->params->output, l->widest, l->cell_width, l->params->dpi);
     else if (l->inset_own < l->inset_shown && !l->params->check)
         kiln_log_write(&l->params->log, KILN_LOG_WARNING,
-                       "%s: insets of %u pixels are enlarged to %u, which %u an inch take; scenes "
-                       "have more with --size",
+                       "%s: insets of %u pixels are enlarged to %u pixels for %u pixels an inch; a "
+                       "larger --size renders scenes sharper",
                        l->params->output, l->inset_own, l->inset_shown, l->params->dpi);
 }
 
@@ -350,8 +349,7 @@ static bool measure_cells_on_paper(struct layout *l)
     if (rest < (int64_t)LEAST * l->columns)
         return kiln_error_set(
             l->error, KILN_USAGE,
-            "--width %g mm: found %lld pixels at %u an inch; %u pictures in a row "
-            "need %lld",
+            "--width %g mm: found %lld pixels at %u pixels an inch; %u pictures in a row need %lld",
             params->paper_width_mm, (long long)paper, params->dpi, l->columns,
             (long long)(paper - rest) + (long long)LEAST * l->columns);
     l->drawing->width = (uint32_t)(paper < UINT32_MAX ? paper : UINT32_MAX);
@@ -394,11 +392,10 @@ static bool measure(struct layout *l)
         l->picture_height = height > l->picture_height ? height : l->picture_height;
         uint32_t row = inset_height(l, &panels->items[i].pixels, width, height);
         if (row == 0 && l->params->inset_count > 0)
-            return kiln_error_set(
-                l->error, KILN_USAGE,
-                "--inset: found %zu that are too flat to be shown below a picture "
-                "of %u pixels",
-                l->params->inset_count, width);
+            return kiln_error_set(l->error, KILN_USAGE,
+                                  "--inset: found %zu insets that are too flat to be shown below a "
+                                  "picture of %u pixels",
+                                  l->params->inset_count, width);
         l->inset_height = row > l->inset_height ? row : l->inset_height;
         measure_insets(l, &panels->items[i].pixels, row);
     }
@@ -463,7 +460,7 @@ bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *pa
         width * height > KILN_MAX_FIGURE_PIXELS)
         return kiln_error_set(error, KILN_USAGE,
                               "the figure would have %llu x %llu pixels; allowed are %d a side and "
-                              "%d in all: make its panels smaller with --width, or --dpi",
+                              "%d in all: make its panels smaller with --width or --dpi",
                               (unsigned long long)width, (unsigned long long)height,
                               (int)KILN_MAX_FIGURE_EDGE, (int)KILN_MAX_FIGURE_PIXELS);
     if (params->paper_width_mm > 0)

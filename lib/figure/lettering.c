@@ -19,19 +19,19 @@ bool kiln_lettering_check(const char *text, const char *place, struct kiln_error
     size_t length = kiln_text_utf8_length(found);
     if (length == 0)
         return kiln_error_set(error, KILN_USAGE,
-                              "%s: character %u: found the byte %02x, which is "
-                              "no UTF-8",
-                              place, count, (unsigned char)*found);
-    return kiln_error_set(error, KILN_USAGE,
-                          "%s: character %u: found '%.*s' (U+%04X), for which figures have no "
-                          "glyph; they have Latin, Greek, dashes, quotes and mathematics",
-                          place, count, (int)length, found, code);
+                              "%s: character %u: found the byte %02x, which is not UTF-8", place,
+                              count, (unsigned char)*found);
+    return kiln_error_set(
+        error, KILN_USAGE,
+        "%s: character %u: found '%.*s' (U+%04X), for which figures have no glyph; they have "
+        "glyphs for Latin, Greek, dashes, quotes and mathematics",
+        place, count, (int)length, found, code);
 }
 
 bool kiln_lettering_check_label(const char *label, size_t panel, struct kiln_error *error)
 {
     char place[PLACE_SIZE];
-    snprintf(place, sizeof place, "the label of panel %zu, '%.200s' (--label gives others)",
+    snprintf(place, sizeof place, "the label of panel %zu, '%.200s' (--label sets another one)",
              panel + 1, label);
     return kiln_lettering_check(label, place, error);
 }
@@ -43,9 +43,10 @@ static bool check_utf8(const char *text, struct kiln_error *error)
     for (size_t length; *c; c += length) {
         length = kiln_text_utf8_length(c);
         if (length == 0)
-            return kiln_error_set(error, KILN_USAGE,
-                                  "--alt: found the byte %02x behind %zu others, which is no UTF-8",
-                                  (unsigned char)*c, (size_t)(c - text));
+            return kiln_error_set(
+                error, KILN_USAGE,
+                "--alt: found the byte %02x behind %zu others, which is not UTF-8",
+                (unsigned char)*c, (size_t)(c - text));
     }
     return true;
 }

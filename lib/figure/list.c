@@ -160,8 +160,8 @@ static bool add_path(struct kiln_figure_list *list, const char *path, struct kil
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
     if (!search(list, folder, 0, error) || list->count > before)
         return list->count > before;
-    kiln_error_set(&problem, KILN_INVALID_INPUT, "%s: no figures in it: none with a %s", path,
-                   KILN_RECORD_SUFFIX);
+    kiln_error_set(&problem, KILN_INVALID_INPUT,
+                   "%s: no figures in the folder: none has a sidecar %s", path, KILN_RECORD_SUFFIX);
     return add_problem(list, path, &problem, error);
 }
 

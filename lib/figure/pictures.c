@@ -99,7 +99,8 @@ static bool compare(struct kiln_panels *panels, const struct kiln_figure_params 
     bool ok = subjects[0] && subjects[1];
     if (ok && subjects[0]->hdr != subjects[1]->hdr)
         ok = kiln_error_set(error, KILN_INVALID_INPUT,
-                            "%s and %s: one is of floats and the other is not", paths[0], paths[1]);
+                            "%s and %s: one has floats and the other has integers", paths[0],
+                            paths[1]);
     ok = ok && kiln_insets_check(params, subjects[0]->width, subjects[0]->height, error) &&
          measure(panels, subjects, threads, error);
     kiln_subject_destroy(&subjects[0]);
@@ -111,7 +112,7 @@ bool kiln_panels_of_triptych(struct kiln_panels *panels, const struct kiln_figur
                              struct kiln_error *error)
 {
     if (params->input_count != 2)
-        return kiln_error_set(error, KILN_USAGE, "a triptych of %zu pictures; it needs two",
+        return kiln_error_set(error, KILN_USAGE, "found %zu pictures; a triptych needs two",
                               params->input_count);
     static const char *const labels[3] = {"reference", "result", ""};
     panels->items = kiln_arena_alloc(panels->arena, 3, sizeof *panels->items);
@@ -252,7 +253,7 @@ static bool strip_of_clip(struct kiln_panels *panels, const struct kiln_figure_p
     }
     panels->count += (size_t)kiln_ranges_count(ranges, count);
     if (panels->count > 1024)
-        return kiln_error_set(error, KILN_USAGE, "%zu frames; a figure has up to 1024 panels",
+        return kiln_error_set(error, KILN_USAGE, "found %zu frames; a figure has up to 1024 panels",
                               panels->count);
     size_t wanted = panels->count;
     panels->items = kiln_arena_alloc(panels->arena, wanted, sizeof *panels->items);
@@ -304,10 +305,10 @@ bool kiln_panels_of_strip(struct kiln_panels *panels, const struct kiln_figure_p
                           struct kiln_error *error)
 {
     if (params->input_count != 1)
-        return kiln_error_set(error, KILN_USAGE, "a strip of %zu clips; it needs one",
+        return kiln_error_set(error, KILN_USAGE, "found %zu clips; a strip needs one",
                               params->input_count);
     if (params->strip < 1 || params->strip > 1024)
-        return kiln_error_set(error, KILN_USAGE, "a strip of %u frames; allowed are 1 to 1024",
+        return kiln_error_set(error, KILN_USAGE, "found %u frames; a strip has 1 to 1024",
                               params->strip);
     return kiln_is_scene_name(params->inputs[0]) ? strip_of_scene(panels, params, error)
                                                  : strip_of_clip(panels, params, error);

@@ -41,7 +41,8 @@ static bool no_memory(const struct expansion *e)
 static struct axis *add_axis(struct expansion *e, size_t count)
 {
     if (e->axis_count == KILN_MAX_AXES) {
-        kiln_error_set(e->error, KILN_USAGE, "a figure of more than %d axes", (int)KILN_MAX_AXES);
+        kiln_error_set(e->error, KILN_USAGE, "more than %d axes; no more are allowed",
+                       (int)KILN_MAX_AXES);
         return NULL;
     }
     struct axis *axis = &e->axes[e->axis_count];
@@ -208,9 +209,10 @@ static bool add_together(struct expansion *e, const char *text)
                               text);
     size_t count = count_values(value, ',');
     if (count != axis->count)
-        return kiln_error_set(e->error, KILN_USAGE,
-                              "--with %s: found %zu values; --sweep %s before it has %zu", text,
-                              count, axis->key, axis->count);
+        return kiln_error_set(
+            e->error, KILN_USAGE,
+            "--with %s: found %zu values; expected as many as --sweep %s before it has, %zu", text,
+            count, axis->key, axis->count);
     for (size_t i = 0; i < count; i++) {
         size_t length = value_length(value, ',');
         if (!add_override(e, &axis->settings[i], text, key_length, value, length, false))
@@ -231,7 +233,8 @@ static bool add_variant(struct expansion *e, const char *text)
         axis->variants = true;
     }
     if (axis->count == KILN_MAX_PANELS)
-        return kiln_error_set(e->error, KILN_USAGE, "more than %d panels", (int)KILN_MAX_PANELS);
+        return kiln_error_set(e->error, KILN_USAGE, "more than %d panels; no more are allowed",
+                              (int)KILN_MAX_PANELS);
     struct setting *setting = &axis->settings[axis->count++];
     for (const char *piece = text;; piece++) {
         size_t length = value_length(piece, ';');
@@ -273,11 +276,14 @@ static bool add_frames(struct expansion *e)
         return true;
     for (size_t i = 0; i < e->axis_count; i++) {
         if (e->axes[i].count > 0 && e->axes[i].settings[0].moment != KILN_MOMENT_NONE)
-            return kiln_error_set(e->error, KILN_USAGE,
-                                  "--frames: --sweep %s says already what to show", e->axes[i].key);
+            return kiln_error_set(
+                e->error, KILN_USAGE,
+                "--frames: not allowed with --sweep %s, which chooses frames itself",
+                e->axes[i].key);
     }
     if (count > KILN_MAX_PANELS)
-        return kiln_error_set(e->error, KILN_USAGE, "%llu frames; a figure has up to %d panels",
+        return kiln_error_set(e->error, KILN_USAGE,
+                              "found %llu frames; a figure has up to %d panels",
                               (unsigned long long)count, (int)KILN_MAX_PANELS);
     struct axis *axis = add_axis(e, (size_t)count);
     if (!axis)
@@ -350,7 +356,8 @@ bool kiln_choices_make(struct kiln_arena *arena, const struct kiln_figure_params
     for (size_t i = 0; i < e.axis_count; i++) {
         size_t count = e.axes[i].count;
         if (choices->count > KILN_MAX_PANELS / count)
-            return kiln_error_set(error, KILN_USAGE, "the sweeps make more than %d panels",
+            return kiln_error_set(error, KILN_USAGE,
+                                  "the sweeps make more than %d panels; no more are allowed",
                                   (int)KILN_MAX_PANELS);
         choices->count *= count;
         choices->axis_count += count > 1;

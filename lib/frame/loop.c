@@ -168,13 +168,14 @@ static bool check_limits(const struct kiln_loop *loop, struct kiln_error *error)
     int64_t largest = device->max_texture_size;
     if ((int64_t)scene->width > largest || (int64_t)scene->height > largest)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "output.size: %u x %u pixels; %s draws up to %d a side", scene->width,
-                              scene->height, device->name, device->max_texture_size);
+                              "output.size: found %u x %u pixels; %s draws up to %d a side",
+                              scene->width, scene->height, device->name, device->max_texture_size);
     uint64_t particles = kiln_scene_facts(scene).particle_capacity;
     uint64_t most = (uint64_t)device->max_storage_block_bytes / sizeof(struct kiln_particle);
     return device->software || particles <= most ||
            kiln_error_set(error, KILN_DEVICE_FAILED,
-                          "systems: up to %" PRIu64 " particles at once; %s draws up to %" PRIu64,
+                          "systems: found up to %" PRIu64
+                          " particles at once; %s draws up to %" PRIu64 PRIu64,
                           particles, device->name, most);
 }
 

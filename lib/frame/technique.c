@@ -36,11 +36,11 @@ static const struct row ROWS[] = {
     {SIMULATE, "cpu", KILN_SIMULATE_CPU, "host threads"},
     {SIMULATE, "inplace", KILN_SIMULATE_INPLACE, "compute, one buffer updated in place"},
     {SIMULATE, "pingpong", KILN_SIMULATE_PINGPONG,
-     "compute, from one buffer to another; twice the memory"},
+     "compute, from one buffer to another; it takes twice the memory"},
     {SIMULATE, "feedback", KILN_SIMULATE_FEEDBACK,
-     "geometry shaders and transform feedback; twice the memory"},
+     "geometry shaders and transform feedback; they take twice the memory"},
     {SIMULATE, "texels", KILN_SIMULATE_TEXELS,
-     "fragment shaders, from textures to textures; three times the memory"},
+     "fragment shaders, from textures to textures; they take three times the memory"},
     {SORT, "cpu", KILN_SORT_CPU, "stable radix sort, host threads"},
     {SORT, "radix", KILN_SORT_RADIX, "stable radix sort, compute"},
     {SORT, "bitonic", KILN_SORT_BITONIC, "bitonic merge sort, compute, padded to a power of two"},
@@ -53,7 +53,8 @@ static const struct row ROWS[] = {
      "points turned into billboards by a geometry shader"},
     {RASTER, "instanced", KILN_RASTER_INSTANCED,
      "a quad for each particle, without a geometry shader"},
-    {RASTER, "tiled", KILN_RASTER_TILED, "compute: bins, and tiles drawn from front to back"},
+    {RASTER, "tiled", KILN_RASTER_TILED,
+     "compute; sprites are sorted into bins, and tiles are drawn from front to back"},
     {BLOOM, "cpu", KILN_BLOOM_CPU, "host threads, rows"},
     {BLOOM, "gl", KILN_BLOOM_GL, "fragment shaders"},
     {COMPOSITE, "cpu", KILN_COMPOSITE_CPU, "host threads, rows"},
@@ -81,23 +82,29 @@ static const struct choice {
     const char *name, *why;
 } AUTO_CHOICES[STAGE_COUNT][CLASS_COUNT] = {
     [SIMULATE] = {[SOFTWARE] = {"cpu", "threads run the step faster than GL on the same cores"},
-                  [GPU] = {"inplace", "records stay where they are drawn; the least memory in GL"},
+                  [GPU] = {"inplace",
+                           "particles stay in one buffer; it takes the least memory in GL"},
                   [INEXACT_GPU] = {"cpu", "only exact arithmetic may move particles"}},
     [SORT] = {[SOFTWARE] = {"cpu", "threads sort several times as fast as GL on the same cores"},
-              [GPU] = {"cpu", "the sorts in compute are not measured on a GPU yet"},
+              [GPU] = {"cpu", "the sorts in compute have not been measured on a GPU yet"},
               [INEXACT_GPU] = {"cpu", "only exact arithmetic may order particles"}},
-    [BACKDROP] = {[SOFTWARE] = {"cpu", "several times as fast as GL on the same cores"},
-                  [GPU] = {"gl", "the hardware casts the rays"},
-                  [INEXACT_GPU] = {"gl", "the hardware casts the rays"}},
-    [RASTER] = {[SOFTWARE] = {"cpu", "vectors on the host draw several times as fast as GL there"},
-                [GPU] = {"geometry", "the hardware blends"},
-                [INEXACT_GPU] = {"geometry", "the hardware blends"}},
-    [BLOOM] = {[SOFTWARE] = {"cpu", "several times as fast as GL on the same cores"},
-               [GPU] = {"gl", "the picture is there already"},
-               [INEXACT_GPU] = {"gl", "the picture is there already"}},
-    [COMPOSITE] = {[SOFTWARE] = {"cpu", "faster than GL on the same cores"},
-                   [GPU] = {"gl", "the picture is there already"},
-                   [INEXACT_GPU] = {"gl", "the picture is there already"}},
+    [BACKDROP] =
+        {[SOFTWARE] = {"cpu",
+                       "vectors on the host are several times as fast as GL on the same cores"},
+         [GPU] = {"gl", "the hardware casts the rays"},
+         [INEXACT_GPU] = {"gl", "the hardware casts the rays"}},
+    [RASTER] =
+        {[SOFTWARE] = {"cpu",
+                       "vectors on the host draw several times as fast as GL on the same cores"},
+         [GPU] = {"geometry", "the hardware blends"},
+         [INEXACT_GPU] = {"geometry", "the hardware blends"}},
+    [BLOOM] = {[SOFTWARE] =
+                   {"cpu", "vectors on the host are several times as fast as GL on the same cores"},
+               [GPU] = {"gl", "the picture is in GL already"},
+               [INEXACT_GPU] = {"gl", "the picture is in GL already"}},
+    [COMPOSITE] = {[SOFTWARE] = {"cpu", "the host is faster than GL on the same cores"},
+                   [GPU] = {"gl", "the picture is in GL already"},
+                   [INEXACT_GPU] = {"gl", "the picture is in GL already"}},
 };
 
 /* Holds the chosen row of each stage. why is the reason of `auto`, or NULL if a flag chose the
@@ -137,7 +144,7 @@ static bool unknown_name(const char *what, const char *found, const char *const 
         snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
     }
     const char *nearest = kiln_text_nearest(found, names, count);
-    return kiln_error_set(error, KILN_USAGE, "%s '%s' is not known%s%s%s; there is: %s", what,
+    return kiln_error_set(error, KILN_USAGE, "%s '%s' is not known%s%s%s; allowed are %s", what,
                           found, nearest ? " (did you mean '" : "", nearest ? nearest : "",
                           nearest ? "'?)" : "", list);
 }
@@ -152,10 +159,11 @@ static bool take_spread(char *name, uint32_t *spread, struct kiln_error *error)
         return true;
     uint64_t frames = 0;
     if (!kiln_text_to_uint64(colon + 1, &frames) || frames < 1 || frames > KILN_SORT_MAX_SPREAD)
-        return kiln_error_set(error, KILN_USAGE,
-                              "technique: sort=%s: expected " SPREADABLE
-                              ":N with the frames that it is spread over, 1 to %d",
-                              name, KILN_SORT_MAX_SPREAD);
+        return kiln_error_set(
+            error, KILN_USAGE,
+            "technique: sort=%s: expected " SPREADABLE
+            ":N, where N is the number of frames, 1 to %d, that the sort is spread over",
+            name, KILN_SORT_MAX_SPREAD);
     *spread = (uint32_t)frames;
     *colon = '\0';
     return true;
@@ -247,11 +255,11 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
         return refuse_gl(find_gl(&choices), device->name, error);
     if (choices.rows[SIMULATE]->value != KILN_SIMULATE_CPU && !device->exact)
         return kiln_error_set(error, KILN_NO_DEVICE,
-                              "%s computes inexactly: it can not simulate; use simulate=cpu",
+                              "%s computes inexactly and cannot simulate; use simulate=cpu",
                               device->name);
     if (choices.rows[SORT]->value != KILN_SORT_CPU && !device->exact)
         return kiln_error_set(error, KILN_NO_DEVICE,
-                              "%s computes inexactly: it can not sort; use sort=cpu", device->name);
+                              "%s computes inexactly and cannot sort; use sort=cpu", device->name);
     *techniques = (struct kiln_techniques){
         .simulate = (enum kiln_simulate_technique)choices.rows[SIMULATE]->value,
         .sort = (enum kiln_sort_technique)choices.rows[SORT]->value,

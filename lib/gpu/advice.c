@@ -42,8 +42,8 @@ static void advise_permission(char advice[256])
         snprintf(node, sizeof node, "/dev/dri/renderD%u", number);
         if (access(node, F_OK) != 0 || access(node, R_OK | W_OK) == 0)
             continue;
-        snprintf(sentence, sizeof sentence, "no access to %s; add the user to the group render",
-                 node);
+        snprintf(sentence, sizeof sentence,
+                 "the user has no access to %s; add the user to the group render", node);
         add(advice, sentence);
         return;
     }
@@ -58,8 +58,8 @@ void kiln_device_advise(const struct kiln_device_info *infos, size_t count, cons
         return;
     }
     if (access("/dev/nvidia0", F_OK) == 0 && !has_gpu_of(infos, count, "NVIDIA"))
-        add(advice, "an NVIDIA GPU is here without its EGL; install the package libegl-nvidia0, in "
-                    "a container set NVIDIA_DRIVER_CAPABILITIES=all");
+        add(advice, "an NVIDIA GPU is here, but its EGL is missing; install the package "
+                    "libegl-nvidia0, or set NVIDIA_DRIVER_CAPABILITIES=all in a container");
     if (!has_gpu_of(infos, count, NULL))
         advise_permission(advice);
     if (!has_gpu_of(infos, count, NULL) && !has_software(infos, count))

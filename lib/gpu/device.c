@@ -166,7 +166,8 @@ static void describe(struct kiln_device_info *info)
     info->software = info->software || is_software(info->name);
     if (epoxy_gl_version() < 43) {
         snprintf(info->problem, sizeof info->problem,
-                 "it has OpenGL %s; 4.3 or later is needed, from a newer driver", info->gl_version);
+                 "the device has OpenGL %s; 4.3 or later is needed, from a newer driver",
+                 info->gl_version);
         return;
     }
     glGetIntegerv(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS, &info->max_work_group_invocations);
@@ -183,7 +184,7 @@ static void describe(struct kiln_device_info *info)
     glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &vertex_blocks);
     if (vertex_blocks < 1) {
         snprintf(info->problem, sizeof info->problem,
-                 "its vertex shaders cannot read storage buffers");
+                 "the device's vertex shaders cannot read storage buffers");
         return;
     }
     info->usable = true;
@@ -364,17 +365,18 @@ static const struct kiln_device *refuse_choice(const struct scan *scan, const ch
     if (!wanted && scan->count == 1)
         kiln_error_set(error, KILN_NO_DEVICE, "no device with OpenGL: %s", scan->problem);
     else if (!wanted)
-        kiln_error_set(error, KILN_NO_DEVICE, "no usable device with OpenGL; the first: %s",
+        kiln_error_set(error, KILN_NO_DEVICE, "no usable device with OpenGL; the first one: %s",
                        scan->devices[1].info.problem);
     else if (ambiguous)
-        kiln_error_set(error, KILN_USAGE, "device '%s' means more than one; say its number: %s",
-                       wanted, names.data);
+        kiln_error_set(error, KILN_USAGE,
+                       "more than one device is called '%s'; give its number: %s", wanted,
+                       names.data);
     else
-        kiln_error_set(error, KILN_NO_DEVICE, "there is no device '%s'; there are: %s%s", wanted,
-                       names.data,
-                       strcmp(wanted, "software") == 0
-                           ? "; the packages libegl-mesa0 and libgl1-mesa-dri bring a software one"
-                           : "");
+        kiln_error_set(
+            error, KILN_NO_DEVICE, "there is no device '%s'; there are: %s%s", wanted, names.data,
+            strcmp(wanted, "software") == 0
+                ? "; the packages libegl-mesa0 and libgl1-mesa-dri bring a software device"
+                : "");
     kiln_text_free(&names);
     return NULL;
 }

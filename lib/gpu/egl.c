@@ -130,7 +130,7 @@ static EGLDisplay open_display(const struct kiln_egl_source *source, char proble
                         source->device ? source->device : (void *)EGL_DEFAULT_DISPLAY, NULL);
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, NULL, NULL)) {
         snprintf(problem, 256,
-                 "its EGL display does not start (EGL error 0x%04x); install the package "
+                 "the device's EGL display does not start (EGL error 0x%04x); install the package "
                  "libgl1-mesa-dri, or the GPU vendor's driver",
                  (unsigned)eglGetError());
         return EGL_NO_DISPLAY;
@@ -149,23 +149,25 @@ bool kiln_egl_open(const struct kiln_egl_source *source, bool debug, void **disp
     const char *extensions = eglQueryString(*display, EGL_EXTENSIONS);
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++) {
         if (!has_extension(extensions, needed[i])) {
-            snprintf(problem, 256, "its EGL lacks %s; a newer driver is needed", needed[i]);
+            snprintf(problem, 256, "the device's EGL lacks %s; a newer driver is needed",
+                     needed[i]);
             return false;
         }
     }
     if (!eglBindAPI(EGL_OPENGL_API)) {
-        snprintf(problem, 256, "its EGL has no OpenGL, only OpenGL ES");
+        snprintf(problem, 256, "the device's EGL has no OpenGL, only OpenGL ES");
         return false;
     }
     *context = create_context(*display, debug);
     if (*context == EGL_NO_CONTEXT) {
         snprintf(problem, 256,
-                 "it gives no OpenGL 4.3 core context (EGL error 0x%04x); a newer driver is needed",
+                 "the device gives no OpenGL 4.3 core context (EGL error 0x%04x); a newer driver "
+                 "is needed",
                  (unsigned)eglGetError());
         return false;
     }
     if (!kiln_egl_make_current(*display, *context)) {
-        snprintf(problem, 256, "its context does not become current (EGL error 0x%04x)",
+        snprintf(problem, 256, "the device's context does not become current (EGL error 0x%04x)",
                  (unsigned)eglGetError());
         eglDestroyContext(*display, *context);
         *context = EGL_NO_CONTEXT;

@@ -98,8 +98,8 @@ static bool allocate_gl(struct kiln_image *image, struct kiln_error *error)
     const uint32_t most = (uint32_t)image->device->info.max_texture_size;
     if (image->width < 1 || image->height < 1 || image->width > most || image->height > most)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "%s: %u x %u pixels; the device takes 1 to %u each way", image->label,
-                              image->width, image->height, most);
+                              "%s: found %u x %u pixels; the device takes 1 to %u a side",
+                              image->label, image->width, image->height, most);
     GLuint gl = 0;
     glGenTextures(1, &gl);
     const GLuint before = bind(gl);

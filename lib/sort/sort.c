@@ -30,7 +30,7 @@ static bool create_technique(struct kiln_sort *sort, struct kiln_device *device,
         return kiln_error_set(error, KILN_USAGE, "this sort needs a device; use sort=cpu");
     if (!device->info.exact)
         return kiln_error_set(error, KILN_USAGE,
-                              "%s does not compute exactly: it can not sort; use sort=cpu",
+                              "%s computes inexactly and cannot sort; use sort=cpu",
                               device->info.name);
     if (sort->technique == KILN_SORT_RADIX)
         sort->radix = kiln_radix_create(device, error);

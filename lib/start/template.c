@@ -43,7 +43,9 @@ static void write_row(void *user, const char *name, const char *summary)
 
 bool kiln_write_templates(FILE *out)
 {
-    fputs("Scenes to begin with, for 'kiln new --template NAME':\n\n", out);
+    fputs("Scenes to begin with, for 'kiln new --template NAME':\n"
+          "\n",
+          out);
     kiln_visit_templates(write_row, out);
     return !ferror(out);
 }

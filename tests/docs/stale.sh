@@ -33,10 +33,10 @@ cd "$work"
 "$kiln" figure strip scenes/tiny.yaml -o docs/strip.pdf -n 2 --force
 expect 0 "docs/strip.pdf: up to date" "$kiln" figure --check docs
 printf x >>docs/strip.pdf
-expect 1 "docs/strip.pdf: stale: the file is not the one that was written with its sidecar" \
+expect 1 "docs/strip.pdf: stale: the file is not the one that was written together with its sidecar" \
     "$kiln" figure --check docs
 rm docs/strip.pdf
-expect 1 "docs/strip.pdf: stale: the figure is not there" "$kiln" figure --check docs
+expect 1 "docs/strip.pdf: stale: the figure is missing" "$kiln" figure --check docs
 # One broken sidecar does not keep the others from being checked.
 printf '{"kiln_figure": 2}' >docs/a/broken.png.figure.json
 expect 3 "docs/a/seeds.png: up to date" "$kiln" figure --check docs

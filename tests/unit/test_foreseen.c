@@ -67,31 +67,24 @@ static void what_is_too_fast_to_be_foreseen_is_said_once(void **state)
         const char *says; /* NULL: nothing */
     } cases[] = {
         {2, 9,
-         "systems.balls.interact: collide.fastest: step 2: velocities differ by up to 9.1 m/s, and "
-         "2 "
-         "m/s are foreseen: particles may pass through each other; fastest: auto or 9.1 m/s "
-         "foresees "
-         "that"},
+         "systems.balls.interact: collide.fastest: step 2: velocities differ by up to 9.1 m/s, but "
+         "fastest is 2 m/s, so particles may pass through each other; set fastest: auto or 9.1 "
+         "m/s"},
         {0, 9,
-         "systems.balls.interact: collide.fastest: step 2: velocities differ by up to 9.1 m/s, and "
-         "0 "
-         "m/s are foreseen: particles may pass through each other; fastest: auto or 9.1 m/s "
-         "foresees "
-         "that"},
+         "systems.balls.interact: collide.fastest: step 2: velocities differ by up to 9.1 m/s, but "
+         "fastest is 0 m/s, so particles may pass through each other; set fastest: auto or 9.1 "
+         "m/s"},
         {2, 50,
          "systems.balls.interact: collide.fastest: step 2: velocities differ by up to 50.1 m/s, "
-         "and 2 "
-         "m/s are foreseen: particles may pass through each other; fastest: 50.1 m/s foresees "
-         "that"},
+         "but fastest is 2 m/s, so particles may pass through each other; set fastest: 50.1 m/s"},
         {100.1f, 100, NULL},
         {9.1f, 9, NULL},
         {0, 0.5f, NULL}, /* 8 mm in a step */
         {KILN_VALUE_BY_WORD, 11, NULL},
         {KILN_VALUE_BY_WORD, 100,
          "systems.balls.interact: collide.fastest: step 2: velocities differ by up to 100.1 m/s, "
-         "and "
-         "auto foresees 12.0 m/s: particles may pass through each other; a higher simulation.rate "
-         "helps, or fastest: 100.1 m/s, which takes longer"},
+         "but auto looks ahead for only 12.0 m/s, so particles may pass through each other; use a "
+         "higher simulation.rate, or fastest: 100.1 m/s, which takes longer"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct simulation run;

@@ -193,7 +193,7 @@ static void too_many_grids_are_refused(void **state)
     snprintf(text + length, sizeof text - length, "]}}\n");
     assert_null(kiln_scene_parse(text, strlen(text), "a.yaml", &params, &error));
     assert_string_equal(error.message, "a.yaml:2:350: systems.many.forces.8.wind.file: more than 8 "
-                                       "files of wind");
+                                       "files of wind; no more are allowed");
     const char *without = "systems.many.forces.8.wind.file=0.grid"; /* which there is already */
     params.overrides = &without;
     params.override_count = 1;

@@ -143,7 +143,7 @@ static const struct {
     {"systems.*.forces.*.curl=1",
      "--set systems.*.forces.*.curl: no key of the scene has this name", KILN_INVALID_INPUT},
     {"backdrop.lights.*.point.radius=1",
-     "--set backdrop.lights.*.point.radius: there is nothing of that name", KILN_INVALID_INPUT},
+     "--set backdrop.lights.*.point.radius: no key of the scene has this name", KILN_INVALID_INPUT},
     {"systems.smoke.emit.from.sphere.radius=1",
      "--set systems.smoke.emit.from.sphere.radius: systems.smoke.emit.from: expected one kind, "
      "found 'cone' and 'sphere'",

@@ -126,14 +126,13 @@ static void flags_force_a_technique(void **state)
     assert_int_equal(error.code, KILN_USAGE);
     assert_string_equal(error.message, "technique 'simulate': expected stage=name");
     assert_false(choose(true, true, "simulat=cpu", text, &error));
-    assert_string_equal(
-        error.message,
-        "technique: stage 'simulat' is not known (did you mean "
-        "'simulate'?); there is: simulate, sort, backdrop, raster, bloom, composite");
+    assert_string_equal(error.message,
+                        "technique: stage 'simulat' is not known (did you mean 'simulate'?); "
+                        "allowed are simulate, sort, backdrop, raster, bloom, composite");
     assert_false(choose(true, true, "sort=gpu", text, &error));
     assert_int_equal(error.code, KILN_USAGE);
     assert_string_equal(error.message, "technique: sort 'gpu' is not known (did you mean 'cpu'?); "
-                                       "there is: cpu, radix, bitonic, oddeven, auto");
+                                       "allowed are cpu, radix, bitonic, oddeven, auto");
 }
 
 static void a_sort_can_be_spread_over_frames(void **state)
@@ -153,7 +152,7 @@ static void a_sort_can_be_spread_over_frames(void **state)
         snprintf(flag, sizeof flag, "sort=oddeven:%s", bad[i]);
         assert_false(choose(true, true, flag, text, &error));
         assert_int_equal(error.code, KILN_USAGE);
-        assert_non_null(strstr(error.message, "spread over, 1 to 64"));
+        assert_non_null(strstr(error.message, "1 to 64, that the sort is spread over"));
     }
     assert_false(choose(true, true, "sort=radix:8", text, &error));
     assert_non_null(strstr(error.message, "'radix:8' is not known"));
@@ -183,7 +182,7 @@ static void inexact_devices_do_not_simulate_or_sort(void **state)
     struct kiln_error error = {0};
     assert_false(choose(false, false, "sort=radix", text, &error));
     assert_int_equal(error.code, KILN_NO_DEVICE);
-    assert_string_equal(error.message, "Device computes inexactly: it can not sort; use sort=cpu");
+    assert_string_equal(error.message, "Device computes inexactly and cannot sort; use sort=cpu");
 }
 
 static void combinations_start_with_the_pinned_one(void **state)

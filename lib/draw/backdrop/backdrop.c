@@ -228,8 +228,8 @@ static bool lists_are_short(const struct kiln_backdrop_stage *stage,
     if (!stage->device->info.software || solids->longest <= most)
         return true;
     return kiln_error_set(error, KILN_DEVICE_FAILED,
-                          "backdrop=gl: %u particles may shade one place; software GL draws up to "
-                          "%u: use --technique backdrop=cpu, or fewer",
+                          "backdrop=gl: %u particles may shade one place; software GL draws at "
+                          "most %u: use --technique backdrop=cpu, or fewer particles",
                           solids->longest, most);
 }
 

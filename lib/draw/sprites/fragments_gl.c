@@ -151,8 +151,8 @@ static bool count(struct kiln_fragments_gl *f, const struct kiln_image *size,
     const struct kiln_device_info *info = &f->device->info;
     if (pixels * sizeof(struct place) > (uint64_t)info->max_storage_block_bytes)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "post.compose: oit of %u x %u pixels takes a storage block of %zu "
-                              "bytes; %s has %lld: use raster=cpu, or a smaller picture",
+                              "post.compose: oit of %u x %u pixels needs a storage block of %zu "
+                              "bytes; %s allows %lld: use raster=cpu, or a smaller picture",
                               size->width, size->height, pixels * sizeof(struct place), info->name,
                               (long long)info->max_storage_block_bytes);
     kiln_buffer_reserve(&f->counts, pixels * sizeof(uint32_t));
@@ -275,8 +275,8 @@ static size_t scan(struct kiln_fragments_gl *f, const struct kiln_image *size,
     if (c.most <= allowed && c.most <= UINT32_MAX)
         return c.most;
     kiln_error_set(error, KILN_DEVICE_FAILED,
-                   "post.compose: oit: a pixel has %zu fragments; a storage block of %s takes "
-                   "%llu: use raster=cpu, or fewer particles in one place",
+                   "post.compose: oit: a pixel has %zu fragments; a storage block of %s takes at "
+                   "most %llu: use raster=cpu, or fewer particles in one place",
                    c.most, info->name, (unsigned long long)allowed);
     return 0;
 }

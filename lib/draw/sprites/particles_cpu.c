@@ -305,11 +305,11 @@ static bool count_tiles(const struct sorting *s, size_t tile_count, struct kiln_
     }
     for (size_t tile = 0; tile < tile_count; tile++) {
         if (s->totals[tile] > SPRITES_OF_A_TILE)
-            return kiln_error_set(error, KILN_DEVICE_FAILED,
-                                  "post.compose: oit: %zu particles in one part of %d x %d pixels; "
-                                  "at most %d can be there: use post.compose=merged, or fewer",
-                                  s->totals[tile], KILN_TILE_WIDTH, KILN_TILE_HEIGHT,
-                                  SPRITES_OF_A_TILE);
+            return kiln_error_set(
+                error, KILN_DEVICE_FAILED,
+                "post.compose: oit: %zu particles lie in one part of %d x %d pixels; at most %d "
+                "are allowed: use post.compose=merged, or fewer particles",
+                s->totals[tile], KILN_TILE_WIDTH, KILN_TILE_HEIGHT, SPRITES_OF_A_TILE);
     }
     return kiln_cells_mix(s->tiles->cells, s->tiles->threads, error);
 }

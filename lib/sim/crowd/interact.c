@@ -246,11 +246,11 @@ bool kiln_interact_init(struct kiln_interact *interact, struct kiln_device *devi
     if (!device)
         return choose_loops(interact, error);
     if (!device->info.software && bodies > (uint64_t)device->info.max_storage_block_bytes)
-        return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "systems: those that interact need %zu bytes in one piece; %s has up "
-                              "to %" PRId64 "; use simulate=cpu",
-                              bodies, device->info.name,
-                              (int64_t)device->info.max_storage_block_bytes);
+        return kiln_error_set(
+            error, KILN_DEVICE_FAILED,
+            "systems: particles that interact need %zu bytes in one piece; %s allows %" PRId64
+            "; use simulate=cpu",
+            bodies, device->info.name, (int64_t)device->info.max_storage_block_bytes);
     return largest == 0 || kiln_interact_gl_init(interact, error);
 }
 
@@ -293,14 +293,14 @@ static void foresee(struct kiln_interact *interact, struct kiln_interact_work *w
     snprintf(key, sizeof key, "systems.%s.interact: collide.fastest", work->system);
     if (found)
         snprintf(interact->warning, sizeof interact->warning,
-                 "%s: step %u: velocities differ by up to %.1f m/s, and auto foresees %.1f m/s: "
-                 "particles may pass through each other; a higher simulation.rate helps, or "
-                 "fastest: %.1f m/s, which takes longer",
+                 "%s: step %u: velocities differ by up to %.1f m/s, but auto looks ahead for only "
+                 "%.1f m/s, so particles may pass through each other; use a higher "
+                 "simulation.rate, or fastest: %.1f m/s, which takes longer",
                  key, (unsigned)params->step + 1, wanted, (double)most, wanted);
     else
         snprintf(interact->warning, sizeof interact->warning,
-                 "%s: step %u: velocities differ by up to %.1f m/s, and %g m/s are foreseen: "
-                 "particles may pass through each other; fastest: %s%.1f m/s foresees that",
+                 "%s: step %u: velocities differ by up to %.1f m/s, but fastest is %g m/s, so "
+                 "particles may pass through each other; set fastest: %s%.1f m/s",
                  key, (unsigned)params->step + 1, wanted, (double)fastest,
                  spread < most ? "auto or " : "", wanted);
 }

@@ -68,8 +68,8 @@ bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *er
     interact->spins = kiln_scene_spins(interact->scene);
     if (interact->spins && bindings <= INTERACT_BIND_SPINS)
         return kiln_error_set(error, KILN_NO_DEVICE,
-                              "%s: %d places for storage blocks; balls that spin need %d; use "
-                              "simulate=cpu",
+                              "%s: there are %d places for storage blocks, and balls that spin "
+                              "need %d; use simulate=cpu",
                               device->info.name, bindings, INTERACT_BIND_SPINS + 1);
     interact->group_size = device->work_group_size ? device->work_group_size : SIM_GROUP_SIZE;
     for (int i = 0; i < KILN_INTERACT_KERNELS; i++) {
@@ -217,11 +217,11 @@ static bool saw_all(const struct kiln_interact *interact, const struct kiln_inte
                        (GLsizeiptr)sizeof around, &around);
     if (around <= MOST_AROUND)
         return true;
-    return kiln_error_set(error, KILN_DEVICE_FAILED,
-                          "systems.%s.interact: a particle has %u others near enough to collide "
-                          "with; software GL looks at up to %u: use --technique simulate=cpu, or a "
-                          "smaller radius or lower fastest",
-                          work->system, around, (unsigned)MOST_AROUND);
+    return kiln_error_set(
+        error, KILN_DEVICE_FAILED,
+        "systems.%s.interact: a particle has %u others near enough to collide with; software GL "
+        "tests at most %u: use --technique simulate=cpu, or a smaller radius or lower fastest",
+        work->system, around, (unsigned)MOST_AROUND);
 }
 
 static bool collide(const struct kiln_interact *interact, const struct kiln_interact_work *work,

@@ -30,7 +30,7 @@ bool kiln_sim_blocks_init(struct kiln_sim_blocks *blocks, struct kiln_device *de
         .device = device, .group_size = group_size(device), .step_stride = step_stride()};
     if (blocks->group_size > (uint32_t)device->info.max_work_group_invocations)
         return kiln_error_set(
-            error, KILN_USAGE, "a work group of %u invocations; %s takes up to %d",
+            error, KILN_USAGE, "a work group has %u invocations; %s takes at most %d",
             blocks->group_size, device->info.name, device->info.max_work_group_invocations);
     kiln_buffer_init(&blocks->keys, device, KILN_MAX_VALUE_KEYS * sizeof(float4), "value keys");
     kiln_buffer_init(&blocks->steps, device, KILN_MAX_SYSTEMS * blocks->step_stride,
@@ -124,8 +124,8 @@ bool kiln_sim_check_stage(struct kiln_device *device, const struct kiln_sim_para
     if (blocks < needed)
         return kiln_error_set(
             error, KILN_NO_DEVICE,
-            "%s: %d storage blocks in %s shaders; this scene, with children, "
-            "paint, grids, volumes or interaction, needs %d; use simulate=pingpong",
+            "%s: there are %d storage blocks in %s shaders, and this scene, with children, paint, "
+            "grids, volumes or interaction, needs %d; use simulate=pingpong",
             device->info.name, blocks, name, needed);
     char reason[256];
     struct kiln_error problem = {0};

@@ -41,9 +41,10 @@ static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
                            struct kiln_error *error)
 {
     if (!device)
-        return kiln_error_set(error, KILN_USAGE, "only simulate=cpu needs no device");
+        return kiln_error_set(error, KILN_USAGE, "without a device, only simulate=cpu is allowed");
     if (!device->info.exact)
-        return kiln_error_set(error, KILN_USAGE, "%s does not compute exactly; use simulate=cpu",
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s computes inexactly and cannot simulate; use simulate=cpu",
                               device->info.name);
     if (!kiln_sim_blocks_init(&s->blocks, device, s->scene, error) ||
         !kiln_sim_hash_init(&s->hash, device, error))

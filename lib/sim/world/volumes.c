@@ -235,11 +235,10 @@ static bool fill(struct kiln_volumes *volumes, struct kiln_error *error)
     const size_t bytes = total * sizeof(float4);
     const uint64_t most = device ? (uint64_t)device->info.max_storage_block_bytes : bytes;
     if (bytes > most) {
-        kiln_error_set(
-            error, KILN_DEVICE_FAILED,
-            "backdrop: volumes of meshes take %zu bytes; %s allows %llu; set fewer cells, "
-            "or use simulate=cpu",
-            bytes, device->info.name, (unsigned long long)most);
+        kiln_error_set(error, KILN_DEVICE_FAILED,
+                       "backdrop: volumes of meshes take %zu bytes; %s allows %llu; set fewer "
+                       "cells, or use simulate=cpu",
+                       bytes, device->info.name, (unsigned long long)most);
         return false;
     }
     if (volumes->words.size < total * sizeof(float4))

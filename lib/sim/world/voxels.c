@@ -538,7 +538,7 @@ bool kiln_voxels_build(struct kiln_voxels *voxels, const struct kiln_voxels_inpu
     if (work.visits > KILN_MAX_VOXEL_VISITS)
         return kiln_error_set(error, KILN_INVALID_INPUT,
                               "the %u triangles of a volume lie in %llu cells altogether in a "
-                              "step; allowed are %d: set fewer cells",
+                              "step; at most %d are allowed: set fewer cells",
                               input->triangle_count, (unsigned long long)work.visits,
                               KILN_MAX_VOXEL_VISITS);
     kiln_threads_for(threads, slabs, 1, claim_slabs, &work);

@@ -72,7 +72,7 @@ $ printf '{"scene": "scenes/tiny.yaml", "output": "n/4.png", "frames": "4"}\n\n{
 1|3.png
 2|bad.ndjson:3:21: outptu: unknown key (did you mean 'output'?)
 $ kiln render --batch - </dev/null
-2|standard input: there are no jobs in it
+2|standard input: the file has no jobs
 = 3
 
 What is no job is refused before any begins, and so are frames, limits and files that two jobs would write.
@@ -85,7 +85,7 @@ $ printf 'kiln_jobs: 1\njobs: [{scene: a.yaml, output: b.png, timeout: soon}]\n'
 2|bad.yaml:2:48: jobs.0.timeout: expected a number from 0 s to 10000000 s, found 'soon'
 = 3
 $ printf 'kiln_jobs: 1\njobs: []\n' >bad.yaml; kiln render --batch bad.yaml
-2|bad.yaml: there are no jobs in it
+2|bad.yaml: the file has no jobs
 = 3
 $ printf '{"scene": "a.yaml", "output": "a.png"}\n{"scene": "b.yaml", "output"\n' >bad.ndjson; kiln render --batch bad.ndjson
 2|bad.ndjson:2:28: not valid JSON: the line ends too early
@@ -146,7 +146,7 @@ $ kiln help jobs | head -n 40
 1|      - {scene: fire.yaml, output: out/fire.mp4, set: [seed=3], timeout: 600 s}
 1|      - {scene: rain.yaml, output: out/rain_####.png, frames: 0-9}
 1|
-1|A file whose name ends in .ndjson or .jsonl, and '-', standard input, has a job a line:
+1|A file whose name ends in .ndjson or .jsonl has one job a line, and so has standard input, '-':
 1|
 1|    {"scene": "fire.yaml", "output": "out/fire.mp4", "set": ["seed=3"]}
 1|
@@ -156,12 +156,12 @@ $ kiln help jobs | head -n 40
 1|    must be given
 1|
 1|jobs
-1|    The jobs, which begin in their order.
+1|    The jobs. They begin in this order.
 1|    a list of up to 1024: a mapping of keys
 1|    must be given
 1|
 1|jobs.N.name
-1|    What results call the job; its number where it has no name.
+1|    Name of the job in the results. Without a name, results have its number.
 1|    a text
 1|    default: ""
 1|
@@ -171,12 +171,12 @@ $ kiln help jobs | head -n 40
 1|    must be given
 1|
 1|jobs.N.output
-1|    Where to write, as --output; from the same folder. 'none' writes nothing.
+1|    Where to write, like --output, from the folder of the file of jobs. 'none' writes nothing.
 1|    a text
 1|    must be given
 1|
 1|jobs.N.set
-1|    Keys of the scene to change.
+1|    Changes of keys of the scene.
 1|    a list of up to 64: key=value, as for --set
 1|    default: []
 

@@ -178,7 +178,7 @@ $ kiln bench --repetitions 2 seed
 2|kiln: bench: --repetitions: found '2', expected a whole number from 3 to 101
 = 2
 $ kiln bench --technique sort=quick scenes/tiny.yaml --quick 2>&1 | sed 's/; there is.*//'
-1|kiln: bench: technique: sort 'quick' is not known
+1|kiln: bench: technique: sort 'quick' is not known; allowed are cpu, radix, bitonic, oddeven, auto
 
 $ kiln bench bytes --parts 4
 2|kiln: bench: --parts is for the suite jobs, which is not named

@@ -35,7 +35,7 @@ $ kiln check -q scenes/tiny.yaml --set systems.fire.emit.rate=fast
 2|--set systems.fire.emit.rate: expected a number from 0 1/s to 10000000 1/s, found 'fast'
 = 3
 $ kiln check -q scenes/tiny.yaml --set systems.fire.emit.rate=nan
-2|--set systems.fire.emit.rate: nan is no finite number
+2|--set systems.fire.emit.rate: nan is not a finite number
 = 3
 
 Files of a scene are below its folder, or below the asset root.
@@ -79,11 +79,11 @@ $ kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=leaf.obj 
 2|--set systems.leaves.look.blend: must be alpha for meshes, which cover what is behind
 = 3
 $ kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=leaf.obj --set systems.leaves.emit.rate=2000000
-2|scenes/leaves.yaml:4:11: systems.leaves.emit: up to 2066667 particles at once are meshes; a scene may have 1048576: lower rate, bursts or life
+2|scenes/leaves.yaml:4:11: systems.leaves.emit: up to 2066667 particles at once are meshes; a scene has at most 1048576: lower rate, bursts or life
 = 3
 $ printf 'v %d 0 0\nv 0 1 0\nv 0 0 1\n' {1..400} >scenes/bush.obj; for i in {1..400}; do echo "f 1 $((3*i-1)) $((3*i))"; done >>scenes/bush.obj
 > kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=bush.obj --set systems.leaves.emit.rate=500000
-2|scenes/leaves.yaml:4:11: systems.leaves.emit: up to 206666800 triangles of particles at once; a scene may have 67108864: lower rate, bursts or life, or take a mesh of fewer than 400
+2|scenes/leaves.yaml:4:11: systems.leaves.emit: up to 206666800 triangles are drawn for particles at once; a scene has at most 67108864: lower rate, bursts or life, or take a mesh of fewer than 400 triangles
 = 3
 $ printf '%s\n' 'v 1 1 1' 'v 1 1 1' 'v 1 1 1' 'f 1 2 3' >scenes/dot.obj
 > kiln check -q scenes/leaves.yaml --set systems.leaves.look.mesh.file=dot.obj

@@ -88,7 +88,7 @@ $ kiln help metrics
 1|  psnr             dB      peak signal to noise over all channels: infinite for equal pictures
 1|  abs.max          levels  the largest difference of a channel, in 1/255 of sRGB's range
 1|  abs.mean         levels  the mean difference over all channels
-1|  differing.count  pixels  pixels that differ by more than --threshold levels
+1|  differing.count  pixels  number of pixels that differ by more than --threshold levels
 1|  differing.share          part of the picture that differs by more than --threshold levels, 0 to 1
 1|  window.share             part of the densest --window that differs by more than --threshold levels; it finds small faults
 1|

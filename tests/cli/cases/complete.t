@@ -22,9 +22,9 @@ $ kiln complete -- render --stats=
 $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,simulate=cpu	host threads
 1|word	sort=cpu,simulate=inplace	compute, one buffer updated in place
-1|word	sort=cpu,simulate=pingpong	compute, from one buffer to another; twice the memory
-1|word	sort=cpu,simulate=feedback	geometry shaders and transform feedback; twice the memory
-1|word	sort=cpu,simulate=texels	fragment shaders, from textures to textures; three times the memory
+1|word	sort=cpu,simulate=pingpong	compute, from one buffer to another; it takes twice the memory
+1|word	sort=cpu,simulate=feedback	geometry shaders and transform feedback; they take twice the memory
+1|word	sort=cpu,simulate=texels	fragment shaders, from textures to textures; they take three times the memory
 1|word	sort=cpu,sort=cpu	stable radix sort, host threads
 1|word	sort=cpu,sort=radix	stable radix sort, compute
 1|word	sort=cpu,sort=bitonic	bitonic merge sort, compute, padded to a power of two
@@ -34,7 +34,7 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,raster=cpu	host threads, tiles and vectors
 1|word	sort=cpu,raster=geometry	points turned into billboards by a geometry shader
 1|word	sort=cpu,raster=instanced	a quad for each particle, without a geometry shader
-1|word	sort=cpu,raster=tiled	compute: bins, and tiles drawn from front to back
+1|word	sort=cpu,raster=tiled	compute; sprites are sorted into bins, and tiles are drawn from front to back
 1|word	sort=cpu,bloom=cpu	host threads, rows
 1|word	sort=cpu,bloom=gl	fragment shaders
 1|word	sort=cpu,composite=cpu	host threads, rows
@@ -74,18 +74,18 @@ $ kiln complete -- check none.yaml --set systems.
 $ kiln complete -- check broken.yaml --set systems.blaze.emit.ra
 1|part	systems.blaze.emit.rate=	Particles born a second.
 $ kiln complete -- check --set 'systems.*.collide.'
-1|part	systems.*.collide.mode=	swept finds the point of impact; clamp moves a particle inside to the nearest face.
-1|part	systems.*.collide.randomness=	0 reflects like a mirror, 1 into any direction away from the surface.
-1|part	systems.*.collide.slowdown=	Factor on the speed at each impact, after all else.
-1|part	systems.*.collide.restitution=	Part of the speed towards a surface that goes back; randomness turns what comes of it.
-1|part	systems.*.collide.friction=	Coulomb's: part of what a surface gives along its normal that is lost along it.
+1|part	systems.*.collide.mode=	swept finds the point of impact on the way of a particle. clamp moves a particle that is inside an object to the nearest face.
+1|part	systems.*.collide.randomness=	0 reflects a particle like a mirror. 1 sends it into any direction away from the surface.
+1|part	systems.*.collide.slowdown=	Factor on the speed at each impact, after restitution, friction and randomness.
+1|part	systems.*.collide.restitution=	Part of the speed towards a surface that a particle keeps when it bounces. randomness turns the reflected velocity.
+1|part	systems.*.collide.friction=	Coulomb's coefficient of friction: the part of the impulse along the normal that is lost along the surface.
 1|part	systems.*.collide.dies=	A particle ends at its first impact, like rain.
 $ kiln complete -- check --set 'systems.*.forces.'
 1|part	systems.*.forces.*.	every entry
 1|part	systems.*.forces.0.	the first entry
 $ kiln complete -- check --set 'systems.*.forces.0.wind.f'
-1|part	systems.*.forces.0.wind.field=	Which of these it is.
-1|part	systems.*.forces.0.wind.file=	Velocities of the air at points of a lattice; between them it moves as they say, beyond them as at the edge.
+1|part	systems.*.forces.0.wind.field=	Kind of the field.
+1|part	systems.*.forces.0.wind.file=	A grid of air velocities. They are interpolated between the points of the grid. Outside of the grid, the air moves as at the nearest edge.
 $ kiln complete -- check --set simulation.bounds=
 1|word	simulation.bounds=none	
 $ kiln complete -- check --set 'systems.*.forces.0.wind.field='

@@ -11,7 +11,7 @@ $ KILN_LIBEXEC_DIR=/nowhere ./atlas puff.png
 2|kiln: scene.yaml:3:57: systems.a.look.atlas: 'puff.png': /nowhere/kiln-decode: the program that decodes pictures, videos and meshes is missing (KILN_LIBEXEC_DIR is set)
 = 5
 $ mkdir other && printf '#!/bin/sh\n' >other/kiln-decode && chmod +x other/kiln-decode && KILN_LIBEXEC_DIR=$PWD/other ./atlas puff.png
-2|kiln: scene.yaml:3:57: systems.a.look.atlas: 'puff.png': <folder>/work/other/kiln-decode: it ends before it has begun
+2|kiln: scene.yaml:3:57: systems.a.look.atlas: 'puff.png': <folder>/work/other/kiln-decode: the program ended before it began
 = 5
 
 A text of a PNG that unpacks to a thousand times its size is passed over, a mesh that nests for ever refused.

@@ -27,7 +27,7 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep systems.*.emit.raet=1,2
 2|--set systems.*.emit.raet: systems.smoke.emit.raet: unknown key (did you mean 'rate'?)
 = 3
 $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep seed=1,2 --with fps=1
-2|kiln: figure sheet: --with fps=1: found 1 values; --sweep seed=1,2 before it has 2
+2|kiln: figure sheet: --with fps=1: found 1 values; expected as many as --sweep seed=1,2 before it has, 2
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --with seed=1
 2|kiln: figure sheet: --with seed=1: there is no --sweep before it
@@ -42,7 +42,7 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep frame=0.5
 2|kiln: figure sheet: --sweep frame=0.5: found '0.5'; expected the number of a frame
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep frame=1,2 --frames 3
-2|kiln: figure sheet: --frames: --sweep frame=1,2 says already what to show
+2|kiln: figure sheet: --frames: not allowed with --sweep frame=1,2, which chooses frames itself
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep time=soon
 2|kiln: figure sheet: --sweep time=soon: found 'soon'; expected seconds, such as 1.5
@@ -51,7 +51,7 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --inset 1,2,3
 2|kiln: figure sheet: --inset: found '1,2,3'; expected X,Y,WxH in pixels or in parts, such as 320,180,160x90 or 0.4,0.25,0.2x0.2
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --inset 0,0,1x36 --inset 0,0,64x1
-2|kiln: figure sheet: --inset: found 2 that are too flat to be shown below a picture of 64 pixels
+2|kiln: figure sheet: --inset: found 2 insets that are too flat to be shown below a picture of 64 pixels
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --title "$(printf '%030000d' 0)" --inset 0,0,1x36 && rm a.png*
 $ kiln figure sheet - -o a.png <scenes/tiny.yaml
@@ -100,7 +100,7 @@ $ kiln figure strip missing.mp4 -o a.png
 2|missing.mp4: No such file or directory
 = 3
 $ kiln figure --check scenes
-2|scenes: no figures in it: none with a .figure.json
+2|scenes: no figures in the folder: none has a sidecar .figure.json
 = 3
 $ kiln figure --check scenes/puff.png
 2|scenes/puff.png: expected a folder, a figure that has a sidecar (NAME.figure.json) beside it, or a sidecar
@@ -132,23 +132,23 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --width 84mm --text-size 3pt
 2|kiln: figure sheet: --text-size: found '3pt'; expected 4pt to 72pt on paper, or 8 to 64 pixels
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --width 20mm --dpi 36 --sweep seed=1,2,3,4 --columns 4
-2|kiln: figure sheet: --width 20 mm: found 28 pixels at 36 an inch; 4 pictures in a row need 78
+2|kiln: figure sheet: --width 20 mm: found 28 pixels at 36 pixels an inch; 4 pictures in a row need 78
 = 2
 A sign that cannot be lettered is named before anything is drawn.
 $ kiln figure sheet scenes/tiny.yaml -o a.png --title 'Größe 中' --device none
-2|kiln: figure sheet: --title: character 7: found '中' (U+4E2D), for which figures have no glyph; they have Latin, Greek, dashes, quotes and mathematics
+2|kiln: figure sheet: --title: character 7: found '中' (U+4E2D), for which figures have no glyph; they have glyphs for Latin, Greek, dashes, quotes and mathematics
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --label $'a\tb'
-2|kiln: figure sheet: --label 'a\tb': character 2: found '\t' (U+0009), for which figures have no glyph; they have Latin, Greek, dashes, quotes and mathematics
+2|kiln: figure sheet: --label 'a\tb': character 2: found '\t' (U+0009), for which figures have no glyph; they have glyphs for Latin, Greek, dashes, quotes and mathematics
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --label $'a\xff'
-2|kiln: figure sheet: --label 'a\xff': character 2: found the byte ff, which is no UTF-8
+2|kiln: figure sheet: --label 'a\xff': character 2: found the byte ff, which is not UTF-8
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --sweep '*.name=x,😀' --device none
-2|kiln: figure sheet: the label of panel 2, 'name = 😀' (--label gives others): character 8: found '😀' (U+1F600), for which figures have no glyph; they have Latin, Greek, dashes, quotes and mathematics
+2|kiln: figure sheet: the label of panel 2, 'name = 😀' (--label sets another one): character 8: found '😀' (U+1F600), for which figures have no glyph; they have glyphs for Latin, Greek, dashes, quotes and mathematics
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --alt $'a\xff'
-2|kiln: figure sheet: --alt: found the byte ff behind 1 others, which is no UTF-8
+2|kiln: figure sheet: --alt: found the byte ff behind 1 others, which is not UTF-8
 = 2
 Nothing was written so far, not even in part.
 $ find . -type f -not -path './scenes/*'
@@ -227,7 +227,7 @@ $ pdftotext -layout paper/p.pdf - | grep -v '^ *$' | sed 's/   */  /g'
 $ python3 -c 'import re; print(bytes.fromhex(re.search(rb"/Alt <(\w+)>", open("paper/p.pdf", "rb").read())[1].decode()).decode("utf-16"))'
 1|Two puffs: α, β, 中.
 $ kiln figure sheet scenes/tiny.yaml --width 3.3in --dpi 600 --text-size 6pt -o paper/small.pdf
-2|kiln: warning: paper/small.pdf: pictures of 64 pixels are enlarged to 1968, which 600 an inch take; scenes have more with --size
+2|kiln: warning: paper/small.pdf: pictures of 64 pixels are enlarged to 1968 pixels for 600 pixels an inch; a larger --size renders scenes sharper
 $ pdfinfo paper/small.pdf | grep 'Page size'
 1|Page size:       237.6 x 134.28 pts
 $ kiln figure sheet scenes/tiny.yaml --dpi 96 -o paper/pixels.svg && head -n 1 paper/pixels.svg
@@ -302,12 +302,12 @@ $ kiln figure --check far
 Copies and new names have the command of another figure.
 $ cp doc/rates.png doc/copy.png; cp doc/rates.png.figure.json doc/copy.png.figure.json
 $ kiln figure --check doc/copy.png.figure.json
-1|doc/copy.png: stale: its command makes another file, 'doc/rates.png'
+1|doc/copy.png: stale: the command makes another file, 'doc/rates.png'
 = 1
 $ rm doc/copy*
 $ cp doc/rates.png doc/copy.png; cp doc/rates.png.figure.json doc/copy.png.figure.json
 $ kiln figure --update doc/copy.png
-1|doc/copy.png: stale: its command makes another file, 'doc/rates.png'
+1|doc/copy.png: stale: the command makes another file, 'doc/rates.png'
 = 1
 $ rm doc/copy*
 Then a scene changes, a picture, a file, a sidecar.
@@ -315,7 +315,7 @@ $ sed -i 's/drag: 0.2/drag: 0.9/' scenes/tiny.yaml
 $ cp clip/f_0010.png clip/f_0011.png
 $ rm doc/clip.png
 $ kiln figure --check doc
-1|doc/clip.png: stale: the figure is not there
+1|doc/clip.png: stale: the figure is missing
 1|doc/pair.pdf: stale: the picture has changed in 'result'
 1|doc/rates.png: stale: the scene has changed in 'rate = 5, 0.2 s'
 1|doc/strip.svg: stale: the scene has changed in '0.00 s'
@@ -331,14 +331,14 @@ A sidecar may be a stranger's: what is redrawn replaces no other file.
 $ mkdir strange && kiln figure sheet scenes/tiny.yaml -o strange/z.png && echo precious >victim && rm strange/z.png
 $ sed -i 's/"-o"/"--depfile", "victim", "-o"/' strange/z.png.figure.json
 $ kiln figure --update strange && cat victim && grep -c depfile strange/z.png.figure.json; rm -r strange
-1|strange/z.png: redrawn: the figure is not there
+1|strange/z.png: redrawn: the figure is missing
 1|precious
 1|1
 What is stale is drawn anew, from wherever one asks, and nothing else is touched.
 $ touch -d 2020-01-01 doc/rates.png
 $ cd doc && kiln figure --update ../doc/strip.svg clip.png
 1|../doc/strip.svg: redrawn: the scene has changed in '0.00 s'
-1|clip.png: redrawn: the figure is not there
+1|clip.png: redrawn: the figure is missing
 $ find doc -newermt 2021-01-01 -name '*.png' | sort
 1|doc/clip.png
 $ kiln figure --update doc

@@ -34,7 +34,7 @@ $ KILN_LIMITS=frmes=10 kiln check scenes/tiny.yaml
 2|kiln: KILN_LIMITS: 'frmes' is not a limit; did you mean 'frames'?
 = 2
 $ kiln check scenes/tiny.yaml --limits memory=1d
-2|kiln: check: --limits: memory: found '1d', expected a number of bytes, kB, MB, GB, TB, KiB, MiB, GiB or TiB, or none
+2|kiln: check: --limits: memory: found '1d'; expected a number of bytes, kB, MB, GB, TB, KiB, MiB, GiB or TiB, or none
 = 2
 $ kiln help limits | head -n 8
 1|--limits KEY=VALUE,... sets limits, and so does the environment's KILN_LIMITS; --limits is read
@@ -67,7 +67,7 @@ $ kiln check -q mesh.yaml --limits triangles=3
 
 A job ends soon after its time, wherever it is, and may be gone on with.
 
-$ kiln render scenes/tiny.yaml -q -o late.mp4 --fps 10 --set output.frames=61 --set systems.smoke.emit.rate=3000000 --timeout 1 --resume 2>&1 | sed 's/taken .* since/taken <s> since/; s/; what was not whole.*//'; ls -d late.mp4*
+$ kiln render scenes/tiny.yaml -q -o late.mp4 --fps 10 --set output.frames=61 --set systems.smoke.emit.rate=3000000 --timeout 1 --resume 2>&1 | sed 's/taken .* since/taken <s> since/; s/; unfinished files are.*//'; ls -d late.mp4*
 1|kiln: the job has taken <s> since it began, and the limit `time` is 1 s
 1|late.mp4.journal
 1|late.mp4.parts

@@ -87,11 +87,11 @@ $ for sort in cpu radix bitonic; do
 $ cmp cpu.png radix.png && cmp cpu.png bitonic.png
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=cup
 1|device: <device>
-2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); there is: cpu, inplace, pingpong, feedback, texels, auto
+2|kiln: technique: simulate 'cup' is not known (did you mean 'cpu'?); allowed are cpu, inplace, pingpong, feedback, texels, auto
 = 2
 $ kiln render scenes/tiny.yaml --frames 20 -o none --technique simulat=cpu
 1|device: <device>
-2|kiln: technique: stage 'simulat' is not known (did you mean 'simulate'?); there is: simulate, sort, backdrop, raster, bloom, composite
+2|kiln: technique: stage 'simulat' is not known (did you mean 'simulate'?); allowed are simulate, sort, backdrop, raster, bloom, composite
 = 2
 
 Statistics and progress for people and for programs.
@@ -117,10 +117,10 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|  techniques   simulate=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu
 1|  chosen       simulate=cpu: as asked for
 1|               sort=cpu: as asked for
-1|               backdrop=cpu: several times as fast as GL on the same cores
+1|               backdrop=cpu: vectors on the host are several times as fast as GL on the same cores
 1|               raster=geometry: as asked for
-1|               bloom=cpu: several times as fast as GL on the same cores
-1|               composite=cpu: faster than GL on the same cores
+1|               bloom=cpu: vectors on the host are several times as fast as GL on the same cores
+1|               composite=cpu: the host is faster than GL on the same cores
 1|  scene        <hash>
 1|  state        83c0efe7248147d7
 $ kiln render scenes/tiny.yaml -o none --frames 0-1 --json --progress none | jq -r 'keys_unsorted | join(" ")'

@@ -341,7 +341,7 @@ $ kiln help check
 1|scene file that renders to the same pictures. A comment at its end tells the
 1|work of the whole clip: steps, particles at once, and the memory that rendering
 1|without OpenGL takes, within a factor of 1.5, encoders left out. A wrong scene
-1|is reported and the others are checked all the same; one that asks for more than
+1|wrong scene is reported, the other scenes are checked all the same. A scene that
 1|--limits allow is exit code 8.
 1|
 1|      --set KEY=VALUE         Change a value of the scene, such as
@@ -357,7 +357,7 @@ $ kiln help check
 1|                              min or h. Default: none.
 1|      --sandbox[=on|require|off]
 1|                              Give up all rights that the job does not need, on
-1|                              the device 'cpu': files elsewhere, sockets, other
+1|                              the device 'cpu': other files, sockets, other
 1|                              programs. With 'require' it is exit code 5 where
 1|                              the kernel cannot do that (see 'kiln devices').
 1|                              Default: the environment's KILN_SANDBOX, or else
@@ -431,9 +431,9 @@ $ kiln help techniques
 1|  STAGE=auto         the default of each stage, by the tables below
 1|  simulate=cpu       host threads
 1|  simulate=inplace   compute, one buffer updated in place
-1|  simulate=pingpong  compute, from one buffer to another; twice the memory
-1|  simulate=feedback  geometry shaders and transform feedback; twice the memory
-1|  simulate=texels    fragment shaders, from textures to textures; three times the memory
+1|  simulate=pingpong  compute, from one buffer to another; it takes twice the memory
+1|  simulate=feedback  geometry shaders and transform feedback; they take twice the memory
+1|  simulate=texels    fragment shaders, from textures to textures; they take three times the memory
 1|  sort=cpu           stable radix sort, host threads
 1|  sort=radix         stable radix sort, compute
 1|  sort=bitonic       bitonic merge sort, compute, padded to a power of two
@@ -443,7 +443,7 @@ $ kiln help techniques
 1|  raster=cpu         host threads, tiles and vectors
 1|  raster=geometry    points turned into billboards by a geometry shader
 1|  raster=instanced   a quad for each particle, without a geometry shader
-1|  raster=tiled       compute: bins, and tiles drawn from front to back
+1|  raster=tiled       compute; sprites are sorted into bins, and tiles are drawn from front to back
 1|  bloom=cpu          host threads, rows
 1|  bloom=gl           fragment shaders
 1|  composite=cpu      host threads, rows
@@ -452,26 +452,26 @@ $ kiln help techniques
 1|'auto' on a software device:
 1|  simulate=cpu       threads run the step faster than GL on the same cores
 1|  sort=cpu           threads sort several times as fast as GL on the same cores
-1|  backdrop=cpu       several times as fast as GL on the same cores
-1|  raster=cpu         vectors on the host draw several times as fast as GL there
-1|  bloom=cpu          several times as fast as GL on the same cores
-1|  composite=cpu      faster than GL on the same cores
+1|  backdrop=cpu       vectors on the host are several times as fast as GL on the same cores
+1|  raster=cpu         vectors on the host draw several times as fast as GL on the same cores
+1|  bloom=cpu          vectors on the host are several times as fast as GL on the same cores
+1|  composite=cpu      the host is faster than GL on the same cores
 1|
 1|'auto' on a GPU:
-1|  simulate=inplace   records stay where they are drawn; the least memory in GL
-1|  sort=cpu           the sorts in compute are not measured on a GPU yet
+1|  simulate=inplace   particles stay in one buffer; it takes the least memory in GL
+1|  sort=cpu           the sorts in compute have not been measured on a GPU yet
 1|  backdrop=gl        the hardware casts the rays
 1|  raster=geometry    the hardware blends
-1|  bloom=gl           the picture is there already
-1|  composite=gl       the picture is there already
+1|  bloom=gl           the picture is in GL already
+1|  composite=gl       the picture is in GL already
 1|
 1|'auto' on a GPU that computes inexactly:
 1|  simulate=cpu       only exact arithmetic may move particles
 1|  sort=cpu           only exact arithmetic may order particles
 1|  backdrop=gl        the hardware casts the rays
 1|  raster=geometry    the hardware blends
-1|  bloom=gl           the picture is there already
-1|  composite=gl       the picture is there already
+1|  bloom=gl           the picture is in GL already
+1|  composite=gl       the picture is in GL already
 $ kiln help outputs
 1|Output formats, by the suffix of the output:
 1|
