@@ -25,7 +25,7 @@ static const struct option options[] = {
     {.name = "every",
      .kind = OPTION_TEXT,
      .placeholder = "10s|N",
-     .help = "Clip time, or frames, between two states.",
+     .help = "Time or number of frames between two states.",
      .fallback = "a state at the start of each part of a clip, of two seconds"},
     FPS_OPTION,
     SEED_OPTION,
@@ -131,11 +131,10 @@ static int read_every(struct bake *bake, const struct arguments *arguments,
     if (kiln_text_to_double(digits, &number))
         frames = seconds ? floor(number * info->fps_num / info->fps_den + 0.5) : number;
     if (!(frames >= 1) || frames > 1e6 || frames != floor(frames))
-        return report(
-            KILN_USAGE,
-            "bake: --every: found '%s', expected a time of at least a frame, such as 10s, "
-            "or a number of frames from 1 to 1000000",
-            use->text);
+        return report(KILN_USAGE,
+                      "bake: --every: found '%s'; expected a time of at least one frame, such as "
+                      "10s, or a number of frames from 1 to 1000000",
+                      use->text);
     bake->params.every = (uint32_t)frames;
     return 0;
 }
@@ -159,7 +158,8 @@ static int read_options(struct bake *bake, const struct arguments *arguments)
     if (!params->states)
         return report(KILN_USAGE, "bake: needs --output STATES, a folder");
     if (params->overwrite && params->resume)
-        return report(KILN_USAGE, "bake: --resume keeps the states that --force would replace");
+        return report(KILN_USAGE, "bake: --resume and --force exclude each other: --resume keeps "
+                                  "the states that --force replaces");
     if (!value_list_create(&bake->techniques, arguments, "technique"))
         return report_no_memory();
     params->techniques = bake->techniques.items;
@@ -222,12 +222,12 @@ static int run(const struct arguments *arguments)
 
 const struct command bake_command = {
     .name = "bake",
-    .summary = "save states of a run, from which others start",
+    .summary = "save states of a run, from which other runs start",
     .operands = "SCENE",
     .description =
-        "Steps through the clip once and saves the state of all particles now and then. 'kiln "
-        "render --states STATES' starts at the nearest one before its frames and draws the same "
-        "pictures as a run from the start. States are known by the scene's motion: the camera, "
+        "Steps through the clip once and saves the state of all particles at regular times. 'kiln "
+        "render --states STATES' starts at the nearest state before its frames and draws the same "
+        "pictures as a run from the start. A state belongs to the motion of a scene: the camera, "
         "looks, lights and post-processing may change without a new bake. Each file appears under "
         "its name only when it is whole.",
     .options = options,

@@ -56,12 +56,14 @@ static int refuse_options(const struct arguments *arguments)
 {
     static const char *const refused[] = {"output", "manifest", "shard", "pipe", "json"};
     if (arguments->operand_count > 0)
-        return report(KILN_USAGE, "render: --batch: not with a scene; its file names them");
+        return report(KILN_USAGE, "render: --batch: a scene on the command line is not allowed "
+                                  "with it; the file of jobs names the scenes");
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
         if (arguments_last(arguments, refused[i]))
-            return report(KILN_USAGE,
-                          "render: --%s: not with --batch, whose file says it of each job",
-                          refused[i]);
+            return report(
+                KILN_USAGE,
+                "render: --%s: not allowed with --batch; the file of jobs has a key for it",
+                refused[i]);
     }
     return 0;
 }

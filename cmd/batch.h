@@ -8,14 +8,14 @@
     {                                                                                              \
         .name = "batch", .kind = OPTION_TEXT, .placeholder = "JOBS", .reach = REACH_READ,          \
         .help = "Render the jobs of a file, each in a process of its own, instead of scenes; '-' " \
-                "is standard input (see 'kiln help jobs'). Other options hold for every job, "     \
-                "unless it says something else.",                                                  \
+                "is standard input (see 'kiln help jobs'). Other options hold for every job that " \
+                "does not set them itself.",                                                       \
     }
 #define JOBS_OPTION                                                                                \
     {                                                                                              \
         .name = "jobs", .kind = OPTION_INTEGER, .placeholder = "N",                                \
-        .help = "Jobs of --batch at a time.",                                                      \
-        .fallback = "as many as there are cores for the threads of each", .min = 1, .max = 1024    \
+        .help = "Number of jobs of --batch that run at a time.",                                   \
+        .fallback = "the number of cores divided by the threads of a job", .min = 1, .max = 1024   \
     }
 
 /* Runs the jobs of the file that --batch names. Returns the greatest of their exit codes or, after

@@ -23,33 +23,33 @@ static const struct option options[] = {
     {.name = "list", .kind = OPTION_FLAG, .help = "List the suites and how long each takes."},
     {.name = "quick",
      .kind = OPTION_FLAG,
-     .help = "Few and small comparisons, three turns each, to see that all of it runs. The numbers "
-             "say nothing."},
+     .help = "Make few and small comparisons, of three turns each, to see that everything runs. "
+             "The numbers say nothing about speed."},
     {.name = "output",
      .letter = 'o',
      .kind = OPTION_TEXT,
      .placeholder = "FOLDER",
      .help = "Also write bench.txt, .json, .csv and .md into a folder, and each curve as .dat, .gp "
-             "and, where gnuplot is installed, .svg. Older ones are replaced."},
+             "and, where gnuplot is installed, .svg. Older files are replaced."},
     {.name = "format",
      .kind = OPTION_CHOICE,
      .placeholder = "text|json|csv|markdown",
-     .help =
-         "What to print: a row a measurement, as text, JSON or CSV; or medians side by side, as "
-         "Markdown.",
+     .help = "What to print: text, JSON or CSV with a row for each measurement, or Markdown with "
+             "medians side by side.",
      .fallback = "text"},
     {.name = "repetitions",
      .letter = 'n',
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Turns of a comparison: in each, every technique draws a frame.",
+     .help = "Number of turns of a comparison. In a turn, every technique draws one frame.",
      .fallback = "9",
      .min = KILN_BENCH_MIN_REPETITIONS,
      .max = KILN_BENCH_MAX_REPETITIONS},
     {.name = "seconds",
      .kind = OPTION_NUMBER,
      .placeholder = "S",
-     .help = "A comparison that has taken so long ends before its last turn, but has three.",
+     .help = "Time limit of a comparison. A comparison that reaches it ends before its last turn, "
+             "but after three turns at the earliest.",
      .fallback = "4",
      .max = 3600},
     {.name = "stage",
@@ -57,24 +57,24 @@ static const struct option options[] = {
      .commas = true,
      .kind = OPTION_TEXT,
      .placeholder = "STAGE",
-     .help = "Of scenes: compare the techniques of this stage; more of them after commas.",
+     .help = "Compare the techniques of this stage of scenes; separate several stages by commas.",
      .fallback = "all"},
     {.name = "frame",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Of scenes: the frame that warms up; those behind it are measured.",
+     .help = "Frame of a scene that warms up. The frames after it are measured.",
      .fallback = "the middle one",
      .max = UINT32_MAX / 2},
     {.name = "size",
      .kind = OPTION_SIZE,
      .placeholder = "WxH",
-     .help = "Of scenes and of jobs: size of the picture in pixels, --set output.size=[W, H].",
+     .help = "Size of the picture in pixels for scenes and jobs: --set output.size=[W, H].",
      .sets = "output.size"},
     {.name = "parts",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Of the suite jobs: parts that the clip is rendered in, of two seconds each, at most "
-             "600 frames; the clip gets as many frames as they have together.",
+     .help = "Number of parts that the suite jobs renders the clip in. A part has two seconds, but "
+             "at most 600 frames. The clip gets as many frames as the parts have together.",
      .fallback = "64, or 2 with --quick",
      .min = 2,
      .max = KILN_BENCH_MAX_PARTS},
@@ -90,17 +90,16 @@ static const struct option options[] = {
      .commas = true,
      .kind = OPTION_PAIRS,
      .placeholder = "STAGE=NAME",
-     .help =
-         "How to run a stage where it is not compared; more of them after commas (see 'kiln help "
-         "techniques').",
-     .fallback = "what suits the device"},
+     .help = "How to run a stage that is not compared; separate several by commas (see 'kiln help "
+             "techniques').",
+     .fallback = "the technique that suits the device"},
     {.name = "threads",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Threads that work beside the device; 0 takes one a core.",
+     .help = "Number of threads that work beside the device; 0 takes one for each core.",
      .fallback = "0",
      .max = 256},
-    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Say nothing on the way."},
+    {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print no progress."},
     EVENTS_OPTION,
     HELP_OPTION,
 };
@@ -193,11 +192,12 @@ static int check_options(const struct arguments *arguments, const struct kiln_be
     for (size_t i = 0; i < sizeof options_of_scenes / sizeof *options_of_scenes; i++) {
         const char *name = options_of_scenes[i].name;
         if (arguments_flag(arguments, name) && !scenes && !(jobs && options_of_scenes[i].of_jobs))
-            return report(KILN_USAGE, "bench: --%s is for scenes, and none is %s", name,
+            return report(KILN_USAGE, "bench: --%s is for scenes, and no scene is %s", name,
                           params->scene_count > 0 ? "measured by itself" : "given");
     }
     if (arguments_flag(arguments, "parts") && !jobs)
-        return report(KILN_USAGE, "bench: --parts is for the suite jobs, which is not named");
+        return report(KILN_USAGE,
+                      "bench: --parts is for the suite jobs, and the suite is not named");
     return 0;
 }
 
@@ -239,7 +239,7 @@ static int list_suites(void)
 {
     double minutes = 0;
     kiln_visit_benches(print_suite, &minutes);
-    printf("All together %.1f min, on two cores without a GPU.\n", minutes);
+    printf("All suites together take %.1f min on two cores without a GPU.\n", minutes);
     return 0;
 }
 
@@ -273,21 +273,22 @@ const struct command bench_command = {
     .summary = "measure techniques, scenes and suites",
     .operands = "[SCENE | SUITE]...",
     .description =
-        "Measures how long frames and their stages take: of a scene (a file that ends in .yaml), "
-        "each technique of each stage; of a suite, what 'kiln bench --list' says. Without an "
-        "operand "
-        "all suites run. Techniques that are compared draw a frame each in turn, so that whatever "
-        "slows the machine down for a while slows all of them down; printed are medians, "
-        "quartiles, "
-        "and the ratios of neighbours.\n\n"
-        "The suite jobs takes a scene: it renders a clip of it by one run and in parts that start "
-        "from saved states, each a process, and prints the processor time of both. 'jobs_ratio' "
-        "has parts and join as a multiple of single run and bake, which is to be at most 1.05; "
-        "with the bake on both sides; and as a multiple of the single run alone. 'jobs_elapsed' "
-        "is the time on 1 to 1,000 workers, simulated from the parts.\n\n"
-        "Values that a paper published stand beside those that are measured. Tables go to standard "
-        "output, what is being measured to standard error. Nothing chosen by a time here changes a "
-        "picture.",
+        "Measures how long frames and their stages take. For a scene (a file that ends in .yaml), "
+        "it measures each technique of each stage. For a suite, it measures what 'kiln bench "
+        "--list' says. Without an operand, all suites run. The techniques of a comparison draw one "
+        "frame each in turn, so that anything that slows the machine down for a while slows all of "
+        "them down. The command prints medians, quartiles, and the ratios of neighbours.\n"
+        "\n"
+        "The suite jobs takes a scene. It renders a clip of the scene in one run, and again in "
+        "parts that start from saved states, each in a process of its own. It prints the processor "
+        "time of both. 'jobs_ratio' has the parts and the join as a multiple of the single run and "
+        "the bake, which must be at most 1.05. It also has this ratio with the bake on both sides, "
+        "and as a multiple of the single run alone. 'jobs_elapsed' is the elapsed time on 1 to "
+        "1,000 workers, simulated from the times of the parts.\n"
+        "\n"
+        "Values that a paper published stand beside the measured values. Tables go to standard "
+        "output, progress to standard error. No picture changes by a choice that is made here by "
+        "time.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = SIZE_MAX,

@@ -89,13 +89,13 @@ const struct command check_command = {
     .summary = "validate scenes and print them with every default",
     .operands = "SCENE...",
     .description =
-        "Reads each scene ('-' is standard input, whose files lie below the working directory) and "
-        "prints it with every default spelled out. What it prints is a scene "
-        "file that renders to the same pictures. A comment at its end tells the work of the whole "
-        "clip: steps, particles at once, and the memory that rendering without OpenGL takes, "
-        "within a factor of 1.5, encoders left out. A wrong scene is reported and the others are "
-        "checked "
-        "all the same; one that asks for more than --limits allow is exit code 8.",
+        "Reads each scene and prints it with every default spelled out. '-' reads a scene from "
+        "standard input, whose files lie below the working directory. The output is a scene file "
+        "that renders to the same pictures. A comment at its end tells the work of the whole clip: "
+        "steps, particles at once, and memory. The memory is that of rendering without OpenGL, "
+        "within a factor of 1.5, encoders left out. After a wrong scene is reported, the other "
+        "scenes are checked all the same. A scene that asks for more than --limits allow ends with "
+        "exit code 8.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -43,8 +43,8 @@ bool command_is_under(const struct command *command, const char *group);
 #define QUALITY_OPTION                                                                             \
     {                                                                                              \
         .name = "quality", .kind = OPTION_INTEGER, .placeholder = "N",                             \
-        .help = "Quality of JPEG, MP4, WebM, MOV and WebP files, from 0 (smallest) to 100 (no "    \
-                "loss that an eye can see).",                                                      \
+        .help = "Quality of JPEG, MP4, WebM, MOV and WebP files, from 0 (smallest) to 100 "        \
+                "(visually lossless).",                                                            \
         .fallback = "80", .max = 100                                                               \
     }
 

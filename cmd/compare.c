@@ -23,7 +23,8 @@ static const struct option options[] = {
      .commas = true,
      .kind = OPTION_PAIRS,
      .placeholder = "METRIC=VALUE",
-     .help = "The worst value that passes; more of them after commas (see 'kiln help metrics').",
+     .help = "The worst value of a metric that passes; separate several limits by commas (see "
+             "'kiln help metrics').",
      .fallback = KILN_COMPARE_DEFAULT_LIMITS},
     {.name = "diff",
      .letter = 'd',
@@ -31,11 +32,12 @@ static const struct option options[] = {
      .placeholder = "FILE",
      .help =
          "Write a PNG of reference, test and FLIP's error map side by side. For several frames, "
-         "'%04d' or '####' stands for the number, and a folder gets a file named after each."},
+         "'%04d' or '####' stands for the frame's number. A folder gets one file for each frame."},
     {.name = "error-map",
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
-     .help = "Write a PNG of FLIP's error map alone, of the pictures' size; names as --diff."},
+     .help =
+         "Write a PNG of FLIP's error map alone, in the pictures' size. Names work as for --diff."},
     {.name = "force",
      .kind = OPTION_FLAG,
      .help = "Let --diff, --error-map and --json replace files that exist."},
@@ -44,48 +46,49 @@ static const struct option options[] = {
      .repeats = true,
      .kind = OPTION_RECT,
      .placeholder = "X,Y,WxH",
-     .help = "Do not judge this rectangle: there, the test is taken from the reference."},
+     .help = "Do not judge this rectangle. Its pixels of the test are taken from the reference."},
     {.name = "mask",
      .repeats = true,
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
-     .help = "Do not judge where this picture, of the same size, is black."},
+     .help = "Do not judge the places where this picture is black. It must have the same size."},
     {.name = "layer",
      .kind = OPTION_TEXT,
      .placeholder = "LAYER",
-     .help = "Layer of EXR files, such as depth or fire.",
+     .help = "Layer of EXR files to compare, such as depth or fire.",
      .fallback = "beauty"},
     {.name = "range",
      .kind = OPTION_CHOICE,
      .placeholder = "auto|ldr|hdr",
-     .help = "How FLIP judges light: clamped at white (ldr), or at several exposures of the "
-             "reference (hdr).",
+     .help = "How FLIP judges light: ldr clamps it at white, hdr judges several exposures of the "
+             "reference.",
      .fallback = "auto: hdr for EXR"},
     {.name = "ppd",
      .kind = OPTION_NUMBER,
      .placeholder = "N",
-     .help = "Pixels that the viewer sees in a degree.",
+     .help = "Number of pixels in a degree of the viewer's field of view.",
      .fallback = "67.0206, a 0.7 m wide screen of 3840 pixels from 0.7 m",
      .min = 4,
      .max = 400},
     {.name = "threshold",
      .kind = OPTION_NUMBER,
      .placeholder = "LEVELS",
-     .help = "Pixels that differ by more count as differing, in 1/255 of sRGB's range.",
+     .help = "Threshold in 1/255 of sRGB's range. Pixels that differ by more count as differing.",
      .fallback = "2",
      .min = 0,
      .max = 255},
     {.name = "window",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Edge in pixels of the window in which differing pixels are densest.",
+     .help =
+         "Edge in pixels of the window that is searched for where differing pixels are densest.",
      .fallback = "32",
      .min = 1,
      .max = 16384},
     {.name = "threads",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Threads that work; 0 takes one a core.",
+     .help = "Number of threads; 0 takes one for each core.",
      .fallback = "0",
      .max = 256},
     JSON_OPTION("an object a line, whose \"event\" is \"frame\" or \"result\"."),
@@ -212,14 +215,15 @@ const struct command compare_command = {
     .operands = "REFERENCE TEST",
     .description =
         "Compares the test with the reference by FLIP (how different they look when one flips "
-        "between them), SSIM, PSNR and differences of levels, and judges by limits. Each is a "
-        "picture, a video, a folder of pictures, which are paired by name, or a pattern such as "
-        "frame_%04d.png or frame_####.png, paired by number; those of a video count from 0. Frames "
-        "that are missing or too many are differences, and so are other sizes or channels. Alpha "
-        "is judged on black and on white.\n\n"
+        "between them), SSIM, PSNR and differences of levels, and judges them by limits. Each "
+        "operand is a picture, a video, a folder of pictures, or a pattern such as frame_%04d.png "
+        "or frame_####.png. Pictures of folders are paired by name, pictures of patterns by "
+        "number. Frames of a video are numbered from 0. A missing or extra frame is a difference, "
+        "and so is another size or other channels. Alpha is judged on black and on white.\n"
+        "\n"
         "Exit code 0: the same within the limits; 1: different; 2: usage; 3: something cannot be "
-        "read or has values that are not finite, except where it is masked; 6: --diff or "
-        "--error-map cannot be written. --limit replaces all default limits.",
+        "read or has values that are not finite outside of masks; 6: --diff or --error-map cannot "
+        "be written. --limit replaces all default limits.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 2,

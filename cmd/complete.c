@@ -520,11 +520,11 @@ const struct command complete_command = {
     .name = "complete",
     .summary = "say what may follow on a command line",
     .operands = "-- WORD...",
-    .description =
-        "For the scripts that let bash and zsh complete command lines of kiln. The WORDs are a "
-        "command line without 'kiln', the last of them as far as it is typed. Prints a line for "
-        "each continuation: its kind (word; part, behind which no space comes; folder or "
-        "file:PATTERN, which the shell is to find), a text and what it means, with tabs between.",
+    .description = "For the scripts that let bash and zsh complete command lines of kiln. The "
+                   "WORDs are a command line without 'kiln'; the last WORD is complete up to the "
+                   "cursor. The command prints a line for each continuation, with tabs between its "
+                   "kind, its text and its meaning. The kind is word, part (no space follows it), "
+                   "folder, or file:PATTERN; for the last two, the shell finds the files.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -8,22 +8,22 @@
 #define DEVICE_OPTION                                                                              \
     {                                                                                              \
         .name = "device", .kind = OPTION_TEXT, .placeholder = "DEVICE",                            \
-        .help = "A number from 'kiln devices', a part of a device's name, 'cpu' for none of "      \
-                "OpenGL, or 'software' for OpenGL on the CPU.",                                    \
+        .help = "A number from 'kiln devices', a part of a device's name, 'cpu' to render "        \
+                "without OpenGL, or 'software' for OpenGL on the CPU.",                            \
         .fallback = "the first GPU, or else 'cpu' if the techniques need no OpenGL"                \
     }
 #define TECHNIQUE_OPTION                                                                           \
     {                                                                                              \
         .name = "technique", .repeats = true, .commas = true, .kind = OPTION_PAIRS,                \
         .placeholder = "STAGE=NAME",                                                               \
-        .help = "How to run a stage; more of them after commas (see 'kiln help techniques').",     \
-        .fallback = "what suits the device"                                                        \
+        .help = "How to run a stage; separate several by commas (see 'kiln help techniques').",    \
+        .fallback = "the technique that suits the device"                                          \
     }
 #define THREADS_OPTION                                                                             \
     {                                                                                              \
         .name = "threads", .kind = OPTION_INTEGER, .placeholder = "N",                             \
-        .help = "Threads that work beside the device; 0 takes one a core.", .fallback = "0",       \
-        .max = 256                                                                                 \
+        .help = "Number of threads that work beside the device; 0 takes one for each core.",       \
+        .fallback = "0", .max = 256                                                                \
     }
 
 /* Opens the device that --device names, or one that suits the techniques; the caller closes it.

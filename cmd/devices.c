@@ -144,13 +144,13 @@ const struct command devices_command = {
     .operands = "",
     .description =
         "Lists this machine without OpenGL, called '" KILN_DEVICE_CPU
-        "', on which every stage runs "
-        "in threads and vectors, with the same pixels on every machine; then every device that "
-        "OpenGL offers without a display, with its limits. Such a device is "
-        "usable with OpenGL 4.3 or later; it is exact when it passed the probe of the arithmetic "
-        "that the simulation needs, and otherwise particles move on the CPU. A software device is "
-        "a rasteriser on the CPU. Last comes what the kernel has for --sandbox. Advice names what "
-        "is missing and the package that brings it.",
+        "', and every device that OpenGL offers without a display. Without OpenGL, every stage "
+        "runs in threads and vectors, with the same pixels on every machine. Each OpenGL device is "
+        "listed with its limits. It is usable with OpenGL 4.3 or later. It is exact when it passed "
+        "the probe of the arithmetic that the simulation needs; with a device that is not exact, "
+        "particles move on the CPU. A software device is a rasteriser on the CPU. The last entry "
+        "is what the kernel has for --sandbox. Advice names what is missing and the package that "
+        "brings it.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = 0,

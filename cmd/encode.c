@@ -24,17 +24,17 @@ static const struct option options[] = {
      .kind = OPTION_RATIO,
      .placeholder = "RATE",
      .help = "Frames a second, such as 30 or 30000/1001.",
-     .fallback = "what the images say"},
+     .fallback = "the rate that the images state"},
     QUALITY_OPTION,
     {.name = "tonemap",
      .kind = OPTION_CHOICE,
      .placeholder = "none|agx|aces",
-     .help = "How the light of EXR images becomes colours, as post.tonemap of a scene. EXR images "
-             "need it, others do not take it."},
+     .help = "Tone mapping of EXR images, like post.tonemap of a scene. EXR images need it; other "
+             "images do not take it."},
     {.name = "exposure",
      .kind = OPTION_NUMBER,
      .placeholder = "STOPS",
-     .help = "Makes EXR images brighter before that, or darker.",
+     .help = "Exposure in stops of EXR images before tone mapping.",
      .fallback = "0",
      .min = -20,
      .max = 20},
@@ -42,7 +42,7 @@ static const struct option options[] = {
     {.name = "progress",
      .kind = OPTION_CHOICE,
      .placeholder = "tty|lines|none",
-     .help = "A moving line on standard error, or a line now and then.",
+     .help = "How to show progress on standard error: a moving line, or a line now and then.",
      .fallback = "tty on a terminal, else lines"},
     LIMITS_OPTION,
     TIMEOUT_OPTION,
@@ -130,10 +130,10 @@ const struct command encode_command = {
     .summary = "make a clip of images",
     .operands = "FRAMES",
     .description =
-        "FRAMES is a numbered pattern, as --output of 'kiln render', or a folder, whose images are "
-        "taken in the order of their names. PNG images by kiln, of the depth that the format "
-        "takes, give the bytes of a clip that 'kiln render' would have written at once with the "
-        "same --quality. EXR images are tone-mapped with --tonemap.",
+        "FRAMES is a numbered pattern like --output of 'kiln render', or a folder, whose images "
+        "are taken in the order of their names. PNG images by kiln, of the depth that the format "
+        "takes, give the bytes of a clip that 'kiln render' writes at once with the same "
+        "--quality. EXR images are tone-mapped with --tonemap.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

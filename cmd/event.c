@@ -358,7 +358,7 @@ static int refuse(const struct command *command, const char *value)
     char shown[256];
     kiln_shown(shown, sizeof shown, value);
     return report(KILN_USAGE,
-                  "%s: --events: found '%s', expected ndjson or openjd, or one of them with :FILE "
+                  "%s: --events: found '%s'; expected ndjson or openjd, or one of them with :FILE "
                   "or :fd=N, where N is a descriptor that is open for writing",
                   command->name, shown);
 }
@@ -395,7 +395,7 @@ static int open_file(const struct command *command, const char *path)
         close(file);
         return report(KILN_USAGE,
                       "%s: --events: %s: the file exists and holds no events, so nothing is added "
-                      "to it",
+                      "to it; name another file",
                       command->name, path);
     }
     stream.out = fdopen(file, "a");

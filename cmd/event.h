@@ -9,9 +9,9 @@
 #define EVENTS_OPTION                                                                              \
     {                                                                                              \
         .name = "events", .kind = OPTION_TEXT, .placeholder = "STREAM",                            \
-        .help = "Tell other programs how the command goes, by lines of JSON: 'ndjson' on "         \
+        .help = "Tell other programs how the command goes, in lines of JSON: 'ndjson' on "         \
                 "standard output, 'ndjson:FILE' at the end of a file, 'ndjson:fd=N' to an open "   \
-                "descriptor. 'openjd' instead of 'ndjson': by lines of Open Job Description "      \
+                "descriptor. 'openjd' instead of 'ndjson' writes lines of Open Job Description "   \
                 "(see 'kiln help events')."                                                        \
     }
 

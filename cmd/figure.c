@@ -16,17 +16,18 @@ static const struct option options[] = {
      .repeats = true,
      .kind = OPTION_TEXT,
      .placeholder = "FIGURE",
-     .help = "Say whether a figure is up to date; of a folder, all that have a sidecar "
-             "(FILE.figure.json)."},
+     .help = "Say whether a figure is up to date. For a folder, say it of all figures that have a "
+             "sidecar (FILE.figure.json)."},
     {.name = "update",
      .repeats = true,
      .kind = OPTION_TEXT,
      .placeholder = "FIGURE",
-     .help = "The same, and draw anew those that are stale, each by the command in its sidecar."},
+     .help =
+         "Check like --check, and draw stale figures anew, each by the command in its sidecar."},
     {.name = "quiet",
      .letter = 'q',
      .kind = OPTION_FLAG,
-     .help = "Name only what is stale, or was."},
+     .help = "Name only figures that are stale, or that were."},
     EVENTS_OPTION,
     HELP_OPTION,
 };
@@ -61,7 +62,8 @@ static int run_command(const struct kiln_figure_entry *entry, const struct figur
         arguments_free(&arguments);
         return code;
     }
-    return report(KILN_INVALID_INPUT, "%s: its command is none of 'kiln figure'", entry->sidecar);
+    return report(KILN_INVALID_INPUT, "%s: the command in it is not a 'kiln figure' command",
+                  entry->sidecar);
 }
 
 static int check_entry(const struct kiln_figure_entry *entry, int home,
@@ -135,9 +137,8 @@ static int report_no_paths(const struct arguments *arguments)
     static const char *const names[] = {"sheet", "triptych", "strip", "--check", "--update"};
     char suggestion[SUGGESTION_SIZE];
     if (arguments->operand_count == 0)
-        return report(
-            KILN_USAGE,
-            "figure: needs sheet, triptych or strip, or --check FIGURE or --update FIGURE");
+        return report(KILN_USAGE, "figure: an operand is missing: sheet, triptych or strip; or "
+                                  "give --check FIGURE or --update FIGURE");
     return report(
         KILN_USAGE, "figure: unknown figure '%s'%s; allowed are sheet, triptych and strip",
         arguments->operands[0], suggest(suggestion, "", arguments->operands[0], names, 5));
@@ -149,7 +150,7 @@ static int run(const struct arguments *arguments)
                                 .quiet = arguments_flag(arguments, "quiet")};
     bool check = arguments_flag(arguments, "check");
     if (check && checking.update)
-        return report(KILN_USAGE, "figure: --check and --update at once");
+        return report(KILN_USAGE, "figure: --check and --update exclude each other");
     if (!check && !checking.update)
         return report_no_paths(arguments);
     struct value_list paths;
@@ -162,18 +163,21 @@ static int run(const struct arguments *arguments)
 
 const struct command figure_command = {
     .name = "figure",
-    .summary = "figures for documents, and whether they are up to date",
+    .summary = "draw figures for documents, and check that they are up to date",
     .operands = "",
     .description =
-        "Figures are made by 'kiln figure sheet', 'triptych' and 'strip'. --check draws those that "
-        "have a sidecar again, each by its command and in the folder in which that was given, and "
-        "names those that are stale: whose pixels have changed, or whose file is not the one that "
-        "was written. What another device, driver or processor drew may differ within the limits "
-        "of 'kiln compare', which is said. Nothing is written. --update writes those that are "
-        "stale anew, and says so. More paths may follow the one behind either.\n\n"
-        "Exit code 0: all are up to date, or were redrawn; 1: some are stale. A figure that cannot "
-        "be checked is reported, the others are checked all the same, and the code is that of the "
-        "gravest failure: 3 for a broken sidecar or scene, 2 for a command that makes no sense.",
+        "'kiln figure sheet', 'triptych' and 'strip' make figures. --check draws each figure that "
+        "has a sidecar again, by its command and in the folder in which the command was given, and "
+        "names the stale ones. A figure is stale when its pixels have changed, or when its file is "
+        "not the one that was written. A figure that another device, driver or processor drew may "
+        "differ within the limits of 'kiln compare'; the command says so. --check writes nothing. "
+        "--update draws stale figures anew, and says so. More paths may follow the first one of "
+        "either option.\n"
+        "\n"
+        "Exit code 0: all figures are up to date, or were redrawn; 1: some figures are stale. A "
+        "figure that cannot be checked is reported, and the other figures are checked all the "
+        "same. The code is then that of the gravest failure: 3 for a broken sidecar or scene, 2 "
+        "for a wrong command.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = SIZE_MAX,

@@ -213,7 +213,7 @@ static int find_last_frame(const struct command *command, const struct arguments
         if (!kiln_is_scene_name(path))
             return report(
                 KILN_USAGE,
-                "%s: --frames: '%s' is a clip, whose last frame must be said by its number",
+                "%s: --frames: '%s' is a clip, whose last frame must be given by its number",
                 command->name, path);
         struct kiln_error error = {0};
         struct kiln_scene *scene = kiln_scene_load(path, &params, &error);
@@ -224,7 +224,8 @@ static int find_last_frame(const struct command *command, const struct arguments
         kiln_scene_destroy(&scene);
         if (i > 0 && info.frames - 1 != *last)
             return report(KILN_USAGE,
-                          "%s: --frames: '%s' and '%s' have other last frames; say its number",
+                          "%s: --frames: '%s' and '%s' have different last frames; give the number "
+                          "of the frame",
                           command->name, arguments->operands[0], path);
         *last = info.frames - 1;
     }
@@ -254,9 +255,10 @@ int figure_make(const struct command *command, enum kiln_figure_kind kind,
         return report(KILN_USAGE, "%s: needs --output FILE", command->name);
     for (size_t i = 0; i < arguments->operand_count; i++) {
         if (strcmp(arguments->operands[i], "-") == 0)
-            return report(KILN_USAGE,
-                          "%s: a figure is drawn again from its files; standard input is none",
-                          command->name);
+            return report(
+                KILN_USAGE,
+                "%s: standard input is not allowed: a figure is drawn again from its files",
+                command->name);
     }
     struct lists lists;
     if (!lists_create(&lists, arguments)) {

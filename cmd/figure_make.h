@@ -12,11 +12,12 @@
      .placeholder = "FILE",                                                                        \
      .help =                                                                                       \
          "Where to write: .png, .jpg (smaller, of a fixed high quality), or .svg or .pdf with "    \
-         "vector lettering. Beside it comes FILE.figure.json, for 'kiln figure --check'."},        \
+         "vector lettering. FILE.figure.json is written beside it, for 'kiln figure --check'."},   \
         {.name = "depfile",                                                                        \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "FILE",                                                                    \
-         .help = "Write there which files the figure is made of, as a rule for make."},            \
+         .help = "Write a rule for make into this file. The rule names the files that the figure " \
+                 "is made of."},                                                                   \
     {                                                                                              \
         .name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."                  \
     }
@@ -26,31 +27,29 @@
      .repeats = true,                                                                              \
      .kind = OPTION_TEXT,                                                                          \
      .placeholder = "X,Y,WxH",                                                                     \
-     .help =                                                                                       \
-         "Show a part of each picture enlarged below it, in a coloured frame: in pixels, or "      \
-         "in parts of the picture where a number has a point (0.4,0.25,0.2x0.2). Up to four."},    \
+     .help = "Show a part of each picture enlarged below it, in a coloured frame. The part is in " \
+             "pixels, or in parts of the picture where a number has a point (0.4,0.25,0.2x0.2). "  \
+             "Up to four parts are allowed."},                                                     \
         {.name = "width",                                                                          \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "LENGTH",                                                                  \
-         .help =                                                                                   \
-             "How wide the whole figure is on paper: 84mm, 8.4cm, 3.3in or 240pt; its pictures "   \
-             "fill it, without a margin. A number of pixels (480) instead reduces each larger "    \
-             "picture to it.",                                                                     \
-         .fallback = "what its pictures take, in their own size"},                                 \
+         .help = "Width of the whole figure on paper: 84mm, 8.4cm, 3.3in or 240pt. The pictures "  \
+                 "fill it without a margin. A number of pixels (480) instead reduces each larger " \
+                 "picture to that width.",                                                         \
+         .fallback = "the width of the pictures in their own size"},                               \
         {.name = "dpi",                                                                            \
          .kind = OPTION_INTEGER,                                                                   \
          .placeholder = "N",                                                                       \
-         .help =                                                                                   \
-             "Pixels an inch of paper: of PNG and JPEG the resolution, which their files say; "    \
-             "of PDF and SVG the most that pictures in them have.",                                \
-         .fallback = "300 with a width on paper; else files say none, and PDF has 96",             \
+         .help = "Resolution in pixels an inch of paper. PNG and JPEG files have this resolution " \
+                 "and state it. In PDF and SVG, pictures have at most this resolution.",           \
+         .fallback = "300 with a width on paper; otherwise files state none, and PDF has 96",      \
          .min = 36,                                                                                \
          .max = 2400},                                                                             \
         {.name = "alt",                                                                            \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "TEXT",                                                                    \
-         .help = "What the figure shows, for those who do not see it; written into the file and "  \
-                 "its sidecar."},                                                                  \
+         .help = "Description of the figure for people who cannot see it. It is written into the " \
+                 "file and its sidecar."},                                                         \
         {.name = "title",                                                                          \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "TEXT",                                                                    \
@@ -59,20 +58,21 @@
          .repeats = true,                                                                          \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "TEXT",                                                                    \
-         .help = "The label of a picture; give one for each, in their order.",                     \
-         .fallback = "what tells it from the others"},                                             \
-        {.name = "no-labels", .kind = OPTION_FLAG, .help = "Leave the labels out."},               \
+         .help = "The label of a picture. Give one label for each picture, in their order.",       \
+         .fallback = "what distinguishes the picture from the others"},                            \
+        {.name = "no-labels", .kind = OPTION_FLAG, .help = "Leave out the labels."},               \
         {.name = "plain",                                                                          \
          .kind = OPTION_FLAG,                                                                      \
-         .help = "Nothing but the pictures, edge to edge: of one, the picture itself."},           \
+         .help = "Draw only the pictures, edge to edge. A figure of one picture is then the "      \
+                 "picture itself."},                                                               \
         {.name = "text-size",                                                                      \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "LENGTH",                                                                  \
-         .help = "The size of the lettering, in points on paper (8pt, from 4 to 72) or in pixels " \
-                 "(14, from 8 to 64); margins and gaps go with it.",                               \
-         .fallback = "8pt with a width on paper, else 14"},                                        \
+         .help = "Size of the lettering, in points on paper (8pt, from 4 to 72) or in pixels "     \
+                 "(14, from 8 to 64). Margins and gaps scale with it.",                            \
+         .fallback = "8pt with a width on paper, otherwise 14"},                                   \
     {                                                                                              \
-        .name = "dark", .kind = OPTION_FLAG, .help = "Light lettering on dark paper."              \
+        .name = "dark", .kind = OPTION_FLAG, .help = "Draw light lettering on dark paper."         \
     }
 
 #define FIGURE_SCENE_OPTIONS                                                                       \
@@ -84,7 +84,7 @@
         {.name = "seed",                                                                           \
          .kind = OPTION_INTEGER,                                                                   \
          .placeholder = "N",                                                                       \
-         .help = "Seed of everything random: --set seed=N.",                                       \
+         .help = "Seed of all random numbers: --set seed=N.",                                      \
          .sets = "seed",                                                                           \
          .max = UINT32_MAX},                                                                       \
         SET_OPTION, ASSET_ROOT_OPTION,                                                             \
@@ -96,8 +96,8 @@
     {                                                                                              \
         .name = "technique", .repeats = true, .commas = true, .kind = OPTION_PAIRS,                \
         .placeholder = "STAGE=NAME",                                                               \
-        .help = "How to run a stage; more of them after commas (see 'kiln help techniques').",     \
-        .fallback = "what makes the same picture everywhere"                                       \
+        .help = "How to run a stage; separate several by commas (see 'kiln help techniques').",    \
+        .fallback = "the techniques that make the same picture everywhere"                         \
     }
 
 #define FIGURE_THREADS_OPTION                                                                      \

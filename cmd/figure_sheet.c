@@ -9,9 +9,10 @@ static const struct option options[] = {
      .repeats = true,
      .kind = OPTION_PAIRS,
      .placeholder = "KEY=VALUE,...",
-     .help = "A picture for each value of a key, such as systems.*.emit.rate=5,25,200 or "
-             "seed=1,2,3; 'frame' and 'time' (in seconds) are keys, too. Several make their "
-             "product, of which the last changes fastest."},
+     .help =
+         "Draw a picture for each value of a key, such as systems.*.emit.rate=5,25,200 or "
+         "seed=1,2,3. 'frame' and 'time' (in seconds) are keys, too. Several sweeps are combined: "
+         "each value of one with each value of the others, and the last changes fastest."},
     {.name = "with",
      .repeats = true,
      .kind = OPTION_PAIRS,
@@ -21,18 +22,19 @@ static const struct option options[] = {
      .repeats = true,
      .kind = OPTION_PAIRS,
      .placeholder = "KEY=VALUE;...",
-     .help = "A picture with these changes; those that follow each other are one sweep."},
+     .help = "Draw a picture with these changes. Variants that follow each other are one sweep."},
     {.name = "frames",
      .letter = 'f',
      .kind = OPTION_FRAMES,
      .placeholder = "RANGES",
-     .help = "The frame to show; of several, such as 0-100/10 or last, a picture each.",
-     .fallback = "the middle one"},
+     .help = "The frame to show. Several frames, such as 0-100/10, give one picture each; 'last' "
+             "is the last frame.",
+     .fallback = "the middle frame"},
     {.name = "columns",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Pictures in a row.",
-     .fallback = "as many as the last of several sweeps has values, or those of a square",
+     .help = "Number of pictures in a row.",
+     .fallback = "the number of values of the last of several sweeps, or a square layout",
      .min = 1,
      .max = 1024},
     FIGURE_SCENE_OPTIONS,
@@ -49,12 +51,12 @@ static int run(const struct arguments *arguments)
 
 const struct command figure_sheet_command = {
     .name = "figure sheet",
-    .summary = "a sheet of pictures over sweeps of parameters",
+    .summary = "draw a sheet of pictures over sweeps of parameters",
     .operands = "SCENE...",
     .description =
-        "Renders a scene, or several, with one picture for each value of a sweep, and lays them "
-        "out in a grid with labels of what was changed. Renders are those of 'kiln render' with "
-        "the techniques that make the same picture on every machine.",
+        "Renders a scene or several scenes, with one picture for each value of a sweep. It lays "
+        "the pictures out in a grid, with labels that name what was changed. It renders like 'kiln "
+        "render', with the techniques that make the same picture on every machine.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -9,7 +9,7 @@ static const struct option options[] = {
      .letter = 'n',
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "How many frames, evenly from the first to the last.",
+     .help = "Number of frames, spread evenly from the first to the last.",
      .fallback = "6",
      .min = 1,
      .max = 1024},
@@ -17,11 +17,11 @@ static const struct option options[] = {
      .letter = 'f',
      .kind = OPTION_FRAMES,
      .placeholder = "RANGES",
-     .help = "These frames instead, such as 0-100/10 or 3,last."},
+     .help = "The frames to show instead, such as 0-100/10 or 3,last."},
     {.name = "columns",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Frames in a row.",
+     .help = "Number of frames in a row.",
      .fallback = "all",
      .min = 1,
      .max = 1024},
@@ -39,11 +39,11 @@ static int run(const struct arguments *arguments)
 
 const struct command figure_strip_command = {
     .name = "figure strip",
-    .summary = "frames of a scene or a clip in a row",
+    .summary = "draw frames of a scene or a clip in a row",
     .operands = "SCENE | CLIP",
     .description =
-        "Shows frames of a scene, which is rendered (a file that ends in .yaml), or of a clip: a "
-        "video, a folder of pictures, or a pattern such as frame_%04d.png.",
+        "Shows frames of a scene or of a clip. A scene (a file that ends in .yaml) is rendered. A "
+        "clip is a video, a folder of pictures, or a pattern such as frame_%04d.png.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -16,11 +16,11 @@ static int run(const struct arguments *arguments)
 
 const struct command figure_triptych_command = {
     .name = "figure triptych",
-    .summary = "a reference, a result and their error map",
+    .summary = "draw a reference, a result and their error map",
     .operands = "REFERENCE TEST",
     .description =
-        "Shows two pictures and the map of FLIP's errors beside them, from black (none) to pale "
-        "yellow (1), with their mean, as 'kiln compare' measures it.",
+        "Shows two pictures and the map of FLIP's errors beside them, with their mean error, as "
+        "'kiln compare' measures it. The map goes from black (0) to pale yellow (1).",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 2,

@@ -17,14 +17,14 @@ struct foreign {
     const char *hint;   /* a sentence to print; NULL prints "did you mean '--OPTION'?" */
 };
 
-#define FRAMES_HINT "frames are chosen by '--frames', such as --frames 10-50"
-#define FIRST_HINT  "frames are chosen by '--frames', such as --frames 10- from frame 10 on"
-#define FINAL_HINT  "frames are chosen by '--frames', such as --frames -50 up to frame 50"
-#define STEP_HINT   "each tenth frame is drawn by '--frames', such as --frames 0-100/10"
+#define FRAMES_HINT "'--frames' chooses frames, such as --frames 10-50"
+#define FIRST_HINT  "'--frames' chooses frames, such as --frames 10- from frame 10 on"
+#define FINAL_HINT  "'--frames' chooses frames, such as --frames -50 up to frame 50"
+#define STEP_HINT   "'--frames 0-100/10' draws every tenth frame"
 #define SUFFIX_HINT "the suffix of '--output' chooses the format (see 'kiln help outputs')"
 #define CAMERA_HINT                                                                                \
     "a scene has one camera, such as '--set camera.position=[0,1,5] --set camera.target=[0,1,0]'"
-#define SCENE_HINT "what is read is an operand and needs no option"
+#define SCENE_HINT "an input file is an operand and needs no option"
 
 static const struct foreign rows[] = {
     /* ffmpeg; -f, -s and -t mean something else to Blender */
@@ -34,13 +34,14 @@ static const struct foreign rows[] = {
     {"-i", NULL, SCENE_HINT},
     {"-s:v", "size", NULL},
     {"-video_size", "size", NULL},
-    {"-f", "frames", "frames are chosen by '--frames', the format by the suffix of '--output'"},
-    {"-s", "size", "the size is '--size WxH'; frames are chosen by '--frames'"},
-    {"-t", "threads", "'--threads N' is how many threads; how long a clip is, '--frames' says"},
+    {"-f", "frames", "'--frames' chooses frames, and the suffix of '--output' the format"},
+    {"-s", "size", "'--size WxH' sets the size; '--frames' chooses frames"},
+    {"-t", "threads",
+     "'--threads N' sets the number of threads; '--frames' sets the length of a clip"},
     {"-ss", "frames", FIRST_HINT},
     {"-frames:v", "frames", FRAMES_HINT},
     {"-vframes", "frames", FRAMES_HINT},
-    {"-vf", "size", "kiln has no filters; the size is '--size WxH'"},
+    {"-vf", "size", "kiln has no filters; '--size WxH' sets the size"},
     {"-crf", "quality", NULL},
     {"-q:v", "quality", NULL},
     {"-qscale:v", "quality", NULL},
@@ -61,8 +62,8 @@ static const struct foreign rows[] = {
     {"--render-frame", "frames", FRAMES_HINT},
     {"-j", "frames", STEP_HINT},
     {"--frame-jump", "frames", STEP_HINT},
-    {"-a", "frames", "without '--frames', every frame is drawn"},
-    {"--render-anim", "frames", "without '--frames', every frame is drawn"},
+    {"-a", "frames", "kiln draws every frame unless '--frames' chooses some"},
+    {"--render-anim", "frames", "kiln draws every frame unless '--frames' chooses some"},
     {"--render-output", "output", NULL},
     {"-F", "output", SUFFIX_HINT},
     {"--render-format", "output", SUFFIX_HINT},
@@ -93,11 +94,11 @@ static const struct foreign rows[] = {
     {"-c", "set", CAMERA_HINT},
     {"--camera", "set", CAMERA_HINT},
     {"--samples", "set",
-     "how often a frame is drawn within its shutter: '--set camera.shutter.samples=16'"},
+     "'--set camera.shutter.samples=16' sets the number of samples in the shutter's time"},
     {"--pixel-samples", "set",
-     "how often a frame is drawn within its shutter: '--set camera.shutter.samples=16'"},
-    {"--snapshot", "resume", "what is whole is kept by '--resume', which goes on from there"},
-    {"--make-output-path", "output", "missing folders of '--output' are made"},
+     "'--set camera.shutter.samples=16' sets the number of samples in the shutter's time"},
+    {"--snapshot", "resume", "'--resume' keeps whole files and goes on from there"},
+    {"--make-output-path", "output", "kiln makes missing folders of '--output'"},
 
     /* spellings of many programs */
     {"--overwrite", "force", NULL},
@@ -106,7 +107,7 @@ static const struct foreign rows[] = {
     {"--clobber", "force", NULL},
     {"--out", "output", NULL},
     {"--outfile", "output", NULL},
-    {"--out", NULL, "where it writes is an operand, or said by its other options ('--help')"},
+    {"--out", NULL, "the output is an operand, or another option sets it ('--help')"},
     {"--output-file", "output", NULL},
     {"--output-dir", "output", NULL},
     {"--outdir", "output", NULL},
@@ -128,9 +129,9 @@ static const struct foreign rows[] = {
     {"--asset-path", "asset-root", NULL},
     {"--silent", "quiet", NULL},
     {"--verbose", "stats", NULL},
-    {"-v", "stats", "'--stats' says more, and 'kiln --version' which kiln this is"},
-    {"-V", NULL, "'kiln --version' says which kiln this is"},
-    {"--version", NULL, "'kiln --version' says which kiln this is"},
+    {"-v", "stats", "'--stats' prints more; 'kiln --version' prints the version"},
+    {"-V", NULL, "'kiln --version' prints the version"},
+    {"--version", NULL, "'kiln --version' prints the version"},
     {"-?", "help", NULL},
     {"--usage", "help", NULL},
 };

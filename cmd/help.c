@@ -14,15 +14,17 @@ const struct exit_code exit_codes[] = {
     {0, NEVER, "all went well"},
     {1, NEVER, "a frame failed, or a picture differs"},
     {2, NEVER,
-     "the command line makes no sense, or names an output that exists or a journal of another job"},
+     "the command line is wrong, or it names an output that exists or a journal of another job"},
     {3, NEVER, "a scene or another input file is wrong"},
-    {4, AGAIN, "no usable device, or for want of one every test was skipped, or nothing measured"},
+    {4, AGAIN,
+     "no device is usable; or, for want of a device, every test was skipped or nothing was "
+     "measured"},
     {5, MORE,
      "the device was lost, memory ran out, a frame or test took longer than its limit, or a "
      "test crashed"},
     {6, AGAIN, "reading or writing failed"},
-    {7, NEVER, "a golden picture is missing, or what was accepted with it"},
-    {8, MORE, "more than the limits of the job allow, or than --timeout"},
+    {7, NEVER, "a golden picture is missing, or its accepted hashes and limits are"},
+    {8, MORE, "the job took more than its limits or --timeout allow"},
     {9, AGAIN, "the reader of standard output went away before the job was done"},
     {129, AGAIN, "stopped by SIGHUP; only whole files are left"},
     {130, AGAIN, "stopped by SIGINT; only whole files are left"},
@@ -80,9 +82,10 @@ static bool write_exit_codes(FILE *out)
         fprintf(out, "%5d  %-9s  ", row->code, row->again);
         help_print_wrapped(out, row->meaning, MEANING_COLUMN, MEANING_COLUMN);
     }
-    fputs("\nAGAIN? is for schedulers. never: the same call ends the same way. again: it may\n"
-          "succeed, on another machine where a device or a disk is the reason; with --resume\n"
-          "it goes on. with more: it may with more memory, more time, or larger limits.\n",
+    fputs("\n"
+          "AGAIN? is for schedulers. never: the same call ends the same way. again: the same call\n"
+          "may succeed, on another machine where a device or a disk is the reason; with --resume\n"
+          "it goes on. with more: it may succeed with more memory, more time, or larger limits.\n",
           out);
     return !ferror(out);
 }
@@ -95,15 +98,17 @@ static bool write_tests(FILE *out)
 bool help_write_completion(FILE *out)
 {
     fputs("bash and zsh complete commands, options, their values, keys of scenes and the names of\n"
-          "systems at a press of Tab. 'cmake --install' puts the scripts where the shells look: "
+          "systems when Tab is pressed. 'cmake --install' puts the scripts where the shells look. "
           "bash\n"
-          "with the package bash-completion, zsh after compinit. By hand, in .bashrc or .zshrc:\n"
+          "needs the package bash-completion, zsh needs compinit. To load the scripts by hand, add "
+          "to\n"
+          ".bashrc or .zshrc:\n"
           "\n"
           "    . PREFIX/share/bash-completion/completions/kiln\n"
           "    fpath=(PREFIX/share/zsh/site-functions $fpath); autoload -U compinit; compinit\n"
           "\n"
-          "Before it is installed, the scripts are cmd/completion/kiln.bash and the folder of\n"
-          "cmd/completion/_kiln; they ask the kiln of the command line.\n",
+          "Before kiln is installed, the scripts are cmd/completion/kiln.bash and the folder of\n"
+          "cmd/completion/_kiln. They ask the kiln that the command line names.\n",
           out);
     return !ferror(out);
 }
@@ -128,18 +133,18 @@ static const struct topic topics[] = {
     {"scene", "every key of a scene file", kiln_scene_write_reference},
     {"schema", "the JSON schema of scene files, for editors", kiln_scene_write_schema},
     {"techniques", "the techniques of each stage", kiln_write_techniques},
-    {"metrics", "what pictures are compared by", kiln_write_metrics},
-    {"limits", "what a job may take, and the preset for services", kiln_write_limits},
+    {"metrics", "the metrics that compare pictures", kiln_write_metrics},
+    {"limits", "the limits of a job, and the preset for services", kiln_write_limits},
     {"templates", "scenes to begin with, for 'kiln new'", kiln_write_templates},
-    {"outputs", "what can be written, by suffix", kiln_write_outputs},
+    {"outputs", "the output formats by suffix", kiln_write_outputs},
     {"tests", "every key of a test file, and the reports", write_tests},
     {"jobs", "every key of a file of jobs, for 'kiln render --batch'", kiln_batch_write_reference},
-    {"jobs-schema", "the JSON schema of such files, for editors", kiln_batch_write_schema},
-    {"events", "what --events tells other programs", help_write_events},
+    {"jobs-schema", "the JSON schema of files of jobs, for editors", kiln_batch_write_schema},
+    {"events", "the events that --events writes for other programs", help_write_events},
     {"events-schema", "the JSON schema of events", help_write_events_schema},
     {"exit-codes", "what each exit code means", write_exit_codes},
     {"environment", "the variables of the environment that kiln reads", help_write_environment},
-    {"completion", "command lines completed by bash and zsh", help_write_completion},
+    {"completion", "completion of command lines in bash and zsh", help_write_completion},
     {"man", "the manual page, for `man -l`", write_man},
     {"man-scene", "the manual page of scene files", write_man_scene},
 };
@@ -171,8 +176,9 @@ static void print_option(const struct option *option)
 
 static void print_repeating(const struct command *command)
 {
-    printf("\nOptions and operands may come in any order; '--' ends the options. Of an\n"
-           "option that is given twice the last one counts, but these add up:");
+    printf("\n"
+           "Options and operands may come in any order; '--' ends the options. If an option is\n"
+           "given twice, the last one counts, but these options add up:");
     for (size_t i = 0; i < command->option_count; i++) {
         if (command->options[i].repeats)
             printf(" --%s", command->options[i].name);
@@ -270,7 +276,7 @@ const struct command help_command = {
     .name = "help",
     .summary = "explain a command or a topic",
     .operands = "[TOPIC]",
-    .description = "Explains a command or a topic; without one, lists both.",
+    .description = "Explains a command or a topic. Without an operand, it lists both.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = 2, /* a command of two words */

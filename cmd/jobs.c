@@ -150,19 +150,19 @@ static int check_output(const struct job_list *list, const struct arguments *arg
         return report(KILN_USAGE, "render: needs --output FILE; '--output none' writes nothing");
     const bool writes = strcmp(output->text, "none") != 0;
     if (list->shards > 0 && arguments_last(arguments, "manifest"))
-        return report(KILN_USAGE,
-                      "render: --manifest: of shards, 'kiln join --manifest' writes it");
+        return report(KILN_USAGE, "render: --manifest: not allowed with --shard; 'kiln join "
+                                  "--manifest' writes the manifest of all shards");
     if (list->stream.format && (list->resume || list->shards > 0 || list->flipbook.columns > 0))
-        return report(KILN_USAGE, "render: --%s: not with '--output -'",
+        return report(KILN_USAGE, "render: --%s: not allowed with '--output -'",
                       list->resume       ? "resume"
                       : list->shards > 0 ? "shard"
                                          : "flipbook");
     if (list->stream.format && arguments_last(arguments, "quality"))
-        return report(KILN_USAGE, "render: --quality: not with '--output -'");
+        return report(KILN_USAGE, "render: --quality: not allowed with '--output -'");
     if (list->resume && !writes)
-        return report(KILN_USAGE, "render: --resume: there is no output to go on with");
+        return report(KILN_USAGE, "render: --resume: '--output none' writes nothing to go on with");
     if (list->shards > 0 && !writes)
-        return report(KILN_USAGE, "render: --shard: there is no output to share");
+        return report(KILN_USAGE, "render: --shard: '--output none' writes nothing to share");
     return 0;
 }
 
@@ -171,7 +171,7 @@ int quality_check(const struct arguments *arguments, const char *place, const ch
     if (!arguments_last(arguments, "quality") || kiln_output_has_quality(output))
         return 0;
     return report(KILN_USAGE,
-                  "%s: --quality: '%s' is of a format without one; .jpg, .mp4, .webm, .mov and "
+                  "%s: --quality: the format of '%s' has no quality; .jpg, .mp4, .webm, .mov and "
                   ".webp have one",
                   place, output);
 }
@@ -232,9 +232,7 @@ static int read_flipbook(struct job_list *list, const struct arguments *argument
     const struct option_use *padding = arguments_last(arguments, "flipbook-padding");
     const struct option_use *part = alpha ? alpha : motion ? motion : padding;
     if (!grid)
-        return part ? report(KILN_USAGE, "render: --%s: there is no --flipbook to apply it to",
-                             part->option->name)
-                    : 0;
+        return part ? report(KILN_USAGE, "render: --%s: needs --flipbook", part->option->name) : 0;
     list->flipbook = (struct kiln_flipbook){
         .size = sizeof list->flipbook,
         .columns = (uint32_t)grid->integer[0],

@@ -15,11 +15,11 @@ static const struct option options[] = {
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
      .reach = REACH_WRITE,
-     .help = "Also write a JSON file that describes the job: its `result` is that of one run, and "
+     .help = "Also write a JSON file that describes the job. Its `result` is that of one run; its "
              "`runs_before` are those of the shards."},
     {.name = "force",
      .kind = OPTION_FLAG,
-     .help = "Replace files that exist and are none of the job's."},
+     .help = "Replace files that exist and do not belong to the job."},
     LIMITS_OPTION,
     TIMEOUT_OPTION,
     SANDBOX_OPTION,
@@ -88,10 +88,10 @@ const struct command join_command = {
     .summary = "make a clip of the parts that several tasks drew",
     .operands = "OUTPUT",
     .description =
-        "OUTPUT is what 'kiln render --shard' was given as --output. Looks whether all parts are "
-        "there, of one scene and made by one version, and makes the clip of them: the bytes are "
-        "those of one run. Of images, looks whether all are there. What is missing or damaged is "
-        "named, and nothing is written then.",
+        "OUTPUT is the name that was given to 'kiln render --shard' as --output. The command "
+        "checks that all parts are there, of one scene and by one version of kiln, and makes the "
+        "clip of them. Its bytes are those of a clip that one run renders. For images, it checks "
+        "that all are there. It names missing or damaged parts, and then writes nothing.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -24,7 +24,7 @@ static void look(void *user)
         return;
     char scene[KILN_MESSAGE_SIZE] = "", line[2 * KILN_MESSAGE_SIZE + 64];
     const bool loads = scene_in_describe(scene);
-    snprintf(line, sizeof line, "kiln: %s%s%s; what was not whole is given up\n", scene,
+    snprintf(line, sizeof line, "kiln: %s%s%s; unfinished files are discarded\n", scene,
              loads ? ": " : "", error.message);
     end_with_words(line, KILN_OVER_LIMIT);
 }

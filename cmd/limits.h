@@ -7,15 +7,15 @@
 #define LIMITS_OPTION                                                                              \
     {                                                                                              \
         .name = "limits", .kind = OPTION_TEXT, .placeholder = "KEY=VALUE,...",                     \
-        .help = "End with exit code 8 before more is taken; 'service' stands for a set of them "   \
-                "(see 'kiln help limits').",                                                       \
+        .help = "End with exit code 8 before the job takes more than these limits. 'service' "     \
+                "stands for a preset (see 'kiln help limits').",                                   \
         .fallback = "the environment's KILN_LIMITS"                                                \
     }
 #define TIMEOUT_OPTION                                                                             \
     {                                                                                              \
         .name = "timeout", .kind = OPTION_TIME, .placeholder = "TIME",                             \
-        .help = "End with exit code 8 after that time, loading and encoding included: seconds, "   \
-                "or with a unit, ms, s, min or h.",                                                \
+        .help = "End with exit code 8 after that time, loading and encoding included. The time "   \
+                "is in seconds, or has a unit: ms, s, min or h.",                                  \
         .fallback = "none", .min = 0.001, .max = 1e7                                               \
     }
 

@@ -139,20 +139,20 @@ static void put_examples(FILE *out)
     static const struct {
         const char *what, *command;
     } rows[] = {
-        {"A scene to begin with, which is then edited:", "kiln new effect.yaml"},
-        {"A video of a whole scene:", "kiln render fire_beam.yaml -o fire.mp4"},
-        {"Two stills at another size:",
+        {"Start from a scene, which is then edited:", "kiln new effect.yaml"},
+        {"Render a video of a whole scene:", "kiln render fire_beam.yaml -o fire.mp4"},
+        {"Render two stills at another size:",
          "kiln render fire_beam.yaml -o still_%04d.png --frames 60,120 --size 640x360"},
-        {"Several scenes, each whatever becomes of the others, with events for a program:",
+        {"Render several scenes, go on after a failure, and write events for a program:",
          "kiln render a.yaml b.yaml -o '{scene}.mp4' --keep-going --events ndjson"},
-        {"A folder of pictures against another one, with pictures of the differences:",
+        {"Compare a folder of pictures with another one, and write pictures of the differences:",
          "kiln compare golden/ out/ --diff differences/"},
-        {"Golden-image tests of all scenes in a folder, with the first goldens written:",
+        {"Run golden-image tests of all scenes in a folder, and write the first goldens:",
          "kiln test scenes/ --update missing"},
-        {"The same in continuous integration, with a report for its pages:",
+        {"Run the tests in continuous integration, with a report for its pages:",
          "kiln test scenes/ --junit out/junit.xml"},
-        {"A picture that has changed is right:", "kiln test approve fire_beam"},
-        {"Four jets side by side, with labels, for a document:",
+        {"Accept a picture that has rightly changed:", "kiln test approve fire_beam"},
+        {"Draw four jets side by side, with labels, for a document:",
          "kiln figure sheet fire_beam.yaml -o sizes.png --sweep "
          "'systems.*.emit.rate=5,25,200,2000'"},
     };
@@ -172,11 +172,11 @@ static void put_files(FILE *out)
 {
     put_heading(out, "files");
     put_tagged(out, "golden/",
-               "Pictures that 'kiln test' compares with, and expect.yaml, the "
-               "hashes and limits of a test; elsewhere by --golden.");
+               "Pictures that 'kiln test' compares with, and expect.yaml, the hashes and limits of "
+               "a test. --golden chooses another folder.");
     put_tagged(out, "out/test/",
-               "Results of 'kiln test': report.html, run.json, and for each test "
-               "result.json, pictures and log.txt; elsewhere by --results.");
+               "Results of 'kiln test': report.html, run.json, and for each test result.json, "
+               "pictures and log.txt. --results chooses another folder.");
     put_tagged(out, "NAME.test.yaml", "A test: see 'kiln help tests'.");
     put_tagged(out, "share/kiln/scenes/",
                "Scenes to begin with, below the prefix of the "
@@ -193,11 +193,12 @@ bool man_print(FILE *out)
     put_heading(out, "description");
     put(out, "Reads a scene file, steps a particle simulation at a fixed timestep and renders each "
              "frame into images or a video, on a machine with no display and perhaps no GPU. The "
-             "same scene gives the same simulation on every device.\n\n"
+             "same scene gives the same simulation on every device.\n"
+             "\n"
              "Options and operands may come in any order; '--' ends the options. A value follows "
-             "its option or is joined to it by '='; letters may share one dash, as in '-qo r.png'. "
-             "Of an option that is given twice the last one "
-             "counts, where it does not say that it may be given several times.\n");
+             "its option, or '=' joins it to the option. Letters may share one dash, as in '-qo "
+             "r.png'. If an option is given twice, the last one counts, unless its help says that "
+             "it may be given several times.\n");
     put_heading(out, "commands");
     for (size_t i = 0; commands[i]; i++)
         put_command(out, commands[i]);

@@ -67,8 +67,8 @@ const struct command new_command = {
     .operands = "SCENE",
     .description =
         "Writes a small commented scene that renders as it is, and needs no other file. Its first "
-        "line tells editors with a YAML language server, such as VS Code, where the schema of "
-        "scenes is: they complete keys, explain them and mark mistakes. '-' is standard output.",
+        "line names the schema of scenes for editors with a YAML language server, such as VS Code. "
+        "They complete keys, explain them and mark mistakes. '-' is standard output.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

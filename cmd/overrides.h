@@ -26,7 +26,7 @@
 #define SEED_OPTION                                                                                \
     {                                                                                              \
         .name = "seed", .kind = OPTION_INTEGER, .placeholder = "N",                                \
-        .help = "Seed of everything random: --set seed=N.", .sets = "seed", .max = UINT32_MAX      \
+        .help = "Seed of all random numbers: --set seed=N.", .sets = "seed", .max = UINT32_MAX     \
     }
 #define ASSET_ROOT_OPTION                                                                          \
     {                                                                                              \

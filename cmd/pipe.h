@@ -7,9 +7,8 @@
 #define PIPE_OPTION                                                                                \
     {                                                                                              \
         .name = "pipe", .kind = OPTION_CHOICE, .placeholder = "y4m|rgb24|rgba|rgbaf32",            \
-        .help =                                                                                    \
-            "What '--output -' writes to standard output: Y4M as in an MP4; bytes in sRGB, with "  \
-            "straight alpha or none; or floats, little-endian, linear, premultiplied.",            \
+        .help = "What '--output -' writes to standard output: Y4M as in an MP4; bytes in sRGB, "   \
+                "with straight alpha or none; or floats, little-endian, linear, premultiplied.",   \
         .fallback = "y4m"                                                                          \
     }
 

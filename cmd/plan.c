@@ -18,7 +18,7 @@ static const struct option options[] = {
     {.name = "tasks",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Tasks that draw the clip together, as with 'kiln render --shard I/N'.",
+     .help = "Number of tasks that draw the clip together, as with 'kiln render --shard I/N'.",
      .fallback = "1",
      .min = 1,
      .max = 1000000},
@@ -26,12 +26,12 @@ static const struct option options[] = {
      .kind = OPTION_TEXT,
      .placeholder = "STATES",
      .reach = REACH_READ,
-     .help = "A folder that 'kiln bake' made, at whose states the tasks start."},
+     .help = "A folder of 'kiln bake'. The tasks start at its states."},
     {.name = "frame",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
      .help = "The frame to measure.",
-     .fallback = "the middle one",
+     .fallback = "the middle frame",
      .max = UINT32_MAX},
     SIZE_OPTION,
     FPS_OPTION,
@@ -225,11 +225,11 @@ static int run(const struct arguments *arguments)
 
 const struct command plan_command = {
     .name = "plan",
-    .summary = "say what a clip costs, and how it divides into tasks",
+    .summary = "estimate what a clip costs, and divide it into tasks",
     .operands = "SCENE",
-    .description =
-        "Draws one frame and says from its times what each of N tasks would do: its parts of the "
-        "clip, its frames, the steps to them, seconds of CPU and memory. Encoding is not measured.",
+    .description = "Draws one frame and estimates from its times what each of N tasks would do: "
+                   "its parts of the clip, its frames, the steps to them, seconds of CPU and "
+                   "memory. Encoding is not measured.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -36,17 +36,17 @@ static const struct option options[] = {
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
      .reach = REACH_WRITE,
-     .help = "Where to write; the suffix chooses the format (see 'kiln help outputs'). '%04d' or "
+     .help = "Where to write. The suffix chooses the format (see 'kiln help outputs'). '%04d' or "
              "'####' stands for the frame's number, '{scene}' for the scene file's name without "
-             "its suffix. A folder gets a video named after the scene. '-' is standard output "
-             "(see --pipe), 'none' renders without writing."},
+             "its suffix. A folder gets a video named after the scene. '-' is standard output (see "
+             "--pipe). 'none' renders without writing."},
     PIPE_OPTION,
     {.name = "frames",
      .kind = OPTION_FRAMES,
      .placeholder = "RANGES",
-     .help = "Frames to draw, such as 0-149,200; 170- goes to the end, -30 is 0-30, 'last' is the "
-             "last one, 0-100/10 each tenth. They come out as they do in the full run. Videos "
-             "hold neighbouring frames only.",
+     .help = "Frames to draw, such as 0-149,200. 170- goes to the end, -30 is 0-30, 'last' is the "
+             "last frame, 0-100/10 is every tenth frame. The frames are the same as in the full "
+             "run. Videos need a range without gaps.",
      .fallback = "all"},
     SIZE_OPTION,
     FPS_OPTION,
@@ -70,48 +70,48 @@ static const struct option options[] = {
     {.name = "flipbook",
      .kind = OPTION_GRID,
      .placeholder = "COLUMNSxROWS",
-     .help =
-         "Write one PNG of so many cells, for game engines, each a frame of --size; beside it a "
-         ".json of its layout. The cells are spread evenly over --frames, and only they are "
-         "drawn.",
+     .help = "Write one PNG of this many cells, for game engines, and a .json of its layout. Each "
+             "cell is a frame of --size. The cells are spread evenly over --frames, and no other "
+             "frames are drawn.",
      .max = 64},
     {.name = "flipbook-alpha",
      .kind = OPTION_CHOICE,
      .placeholder = "straight|premultiplied",
-     .help = "Whether the colours of a flipbook are those of the cover alone, or times alpha.",
+     .help = "Whether the colours of a flipbook are straight, or premultiplied by alpha.",
      .fallback = "straight"},
     {.name = "flipbook-motion",
      .kind = OPTION_FLAG,
-     .help = "Also write how pixels move from cell to cell, as FILE_motion.png."},
+     .help = "Also write the motion of pixels from cell to cell, as FILE_motion.png."},
     {.name = "flipbook-padding",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Pixels to add on each side of a cell, so that filters see nothing of its neighbours.",
+     .help = "Number of pixels to add on each side of a cell, so that texture filters do not read "
+             "the neighbouring cells.",
      .fallback = "0",
      .max = 256},
     {.name = "manifest",
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
      .reach = REACH_WRITE,
-     .help = "Also write a JSON file that describes the run, also one that fails: scene, device, "
-             "techniques, state of each frame, times. A folder or '{scene}' as for --output."},
+     .help =
+         "Also write a JSON file that describes the run, even one that fails: scene, device, "
+         "techniques, state of each frame, times. A folder or '{scene}' works as for --output."},
     {.name = "states",
      .kind = OPTION_TEXT,
      .placeholder = "STATES",
      .reach = REACH_READ,
-     .help = "Start at the nearest state before the frames, out of a folder that 'kiln bake' made, "
-             "and step on from there. The pictures are the same as without."},
+     .help = "Start at the nearest state before the frames, out of a folder that 'kiln bake' made. "
+             "The pictures are the same as without it."},
     {.name = "resume",
      .kind = OPTION_FLAG,
-     .help =
-         "Go on with a job that was stopped or killed, or start it: what is whole stays, the rest "
-         "is drawn (see docs/jobs.md). With --force it starts anew."},
+     .help = "Go on with a job that was stopped or killed, or start it. Whole files stay, and the "
+             "rest is drawn (see docs/jobs.md). With --force the job starts anew."},
     SHARD_OPTION,
     {.name = "force", .kind = OPTION_FLAG, .help = "Replace files that exist."},
     {.name = "keep-going",
      .kind = OPTION_FLAG,
-     .help = "Render the other scenes, too, after one that failed. The exit code is then the "
-             "greatest of all."},
+     .help = "After a scene that failed, render the other scenes all the same. The exit code is "
+             "then the greatest of all."},
     BATCH_OPTION,
     JOBS_OPTION,
     LIMITS_OPTION,
@@ -120,25 +120,25 @@ static const struct option options[] = {
     {.name = "frame-timeout",
      .kind = OPTION_TIME,
      .placeholder = "TIME",
-     .help = "Give up with exit code 5 when a frame takes longer than that. Frames that are "
-             "stepped over lengthen the limit of the next drawn one; set-up and warm-up belong to "
-             "the first. Loading the scenes has as long. Waiting for the output does not count.",
+     .help = "Give up with exit code 5 when drawing a frame takes longer than this. Each frame "
+             "that is simulated but not drawn adds this time to the limit of the next drawn frame. "
+             "The first drawn frame includes set-up and warm-up. Loading the scenes has the same "
+             "limit. Time that is spent waiting for the output does not count.",
      .fallback = "none",
      .min = 0.001,
      .max = 86400},
     {.name = "progress",
      .kind = OPTION_CHOICE,
      .placeholder = "tty|lines|ndjson|none",
-     .help =
-         "A moving line on standard error, or a line now and then. 'ndjson' is an older --json, "
-         "with the frames alone.",
+     .help = "How to show progress on standard error: a moving line, or a line now and then. "
+             "'ndjson' is an older spelling of --json for frames alone.",
      .fallback = "tty on a terminal, else lines"},
     {.name = "stats",
      .value_may_go = true,
      .kind = OPTION_CHOICE,
      .placeholder = "text|json",
      .help = "Print times of each pass, particles, memory, techniques and the hash of the final "
-             "state. 'json' is an older --json, without frames."},
+             "state. 'json' is an older spelling of --json without frames."},
     JSON_OPTION("an object a line, whose \"event\" is \"device\", \"frame\" for each, and "
                 "\"result\", with what --stats has."),
     {.name = "quiet",
@@ -474,7 +474,7 @@ static int run(const struct arguments *arguments)
     if (arguments->operand_count == 0)
         return report(KILN_USAGE, "render: needs SCENE...");
     if (arguments_last(arguments, "jobs"))
-        return report(KILN_USAGE, "render: --jobs: there is no --batch to apply it to");
+        return report(KILN_USAGE, "render: --jobs: needs --batch");
     signals_install_for_job();
     int code = open_json(&render, arguments);
     if (code == 0 && !read_options(&render, arguments))
@@ -508,13 +508,13 @@ const struct command render_command = {
     .name = "render",
     .summary = "render scenes into images or videos",
     .operands = "SCENE...",
-    .description =
-        "Renders each scene ('-' is standard input, whose files lie below the working directory) "
-        "into images or a video. Files appear under their names only when they "
-        "are whole. The first line of output names the device: a GPU, a software device of OpenGL, "
-        "or 'cpu'. Several scenes share the device; the first that fails ends the call, unless "
-        "--keep-going is given.\n\n"
-        "Programs follow a job by --events ('kiln help events').",
+    .description = "Renders each scene into images or a video. '-' reads a scene from standard "
+                   "input, whose files lie below the working directory. Files appear under their "
+                   "names only when they are whole. The first line of output names the device: a "
+                   "GPU, a software device of OpenGL, or 'cpu'. Several scenes share the device. "
+                   "The first scene that fails ends the call, unless --keep-going is given.\n"
+                   "\n"
+                   "Programs follow a job by --events ('kiln help events').",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 0, /* with --batch */

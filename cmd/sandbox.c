@@ -112,7 +112,7 @@ static bool read_environment(enum mode *mode)
             return true;
         }
     }
-    report(KILN_USAGE, "KILN_SANDBOX: '%s'; allowed are on, require or off", text);
+    report(KILN_USAGE, "KILN_SANDBOX: found '%s'; allowed are on, require or off", text);
     return false;
 }
 
@@ -147,8 +147,9 @@ int sandbox_enter(const struct command *command, const struct arguments *argumen
         return 0;
     if (strcmp(device, KILN_DEVICE_CPU) != 0)
         return report(KILN_USAGE,
-                      "%s: --device %s: a sandbox is for the device '" KILN_DEVICE_CPU
-                      "': drivers of OpenGL need more than a job does",
+                      "%s: --device %s: not allowed with a sandbox; a sandbox is for the device "
+                      "'" KILN_DEVICE_CPU
+                      "', because drivers of OpenGL need more rights than a job does",
                       command->name, device);
     *sandboxed = true;
     return confine(command, arguments, mode);

@@ -9,9 +9,9 @@
     {                                                                                              \
         .name = "sandbox", .value_may_go = true, .kind = OPTION_CHOICE,                            \
         .placeholder = "on|require|off",                                                           \
-        .help = "Give up all rights that the job does not need, on the device 'cpu': files "       \
-                "elsewhere, sockets, other programs. With 'require' it is exit code 5 where the "  \
-                "kernel cannot do that (see 'kiln devices').",                                     \
+        .help = "Give up all rights that the job does not need, on the device 'cpu': other "       \
+                "files, sockets, other programs. With 'require', the command ends with exit code " \
+                "5 where the kernel cannot do that (see 'kiln devices').",                         \
         .fallback = "the environment's KILN_SANDBOX, or else off"                                  \
     }
 

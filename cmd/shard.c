@@ -60,8 +60,8 @@ static int ask(const struct scheduler *scheduler, uint64_t *index, uint64_t *cou
         return code;
     if (step == 0 || id < first || (id - first) % step != 0)
         return report(KILN_USAGE,
-                      "render: --shard: %s is %" PRIu64 ", which is none of %" PRIu64
-                      ", and each %" PRIu64 " on",
+                      "render: --shard: %s is %" PRIu64 "; expected %" PRIu64
+                      ", or a number that is a multiple of %" PRIu64 " above it",
                       scheduler->id, id, first, step);
     *index = (id - first) / step;
     if (has_last && last >= first)
@@ -85,20 +85,21 @@ static int read_environment(struct shard *shard, uint64_t total)
     if (code)
         return code;
     if (total > 0 && count > 0 && count != total)
-        return report(KILN_USAGE,
-                      "render: --shard: auto/%" PRIu64 ": %s is one of %" PRIu64
-                      " tasks; a task that is repeated says its shard itself, such as 3/%" PRIu64,
-                      total, schedulers[i].id, count, total);
+        return report(
+            KILN_USAGE,
+            "render: --shard: auto/%" PRIu64 ": %s is one of %" PRIu64
+            " tasks; a repeated task must give its shard by number, such as 3/%" PRIu64 PRIu64,
+            total, schedulers[i].id, count, total);
     count = total ? total : count;
     if (count == 0)
         return report(KILN_USAGE,
-                      "render: --shard: auto: %s says which task this is, but not of how many; say "
-                      "auto/N",
+                      "render: --shard: auto: %s gives the number of this task, but not the number "
+                      "of tasks; give it by auto/N",
                       schedulers[i].id);
     if (index >= count || count > MAX_SHARDS)
         return report(KILN_USAGE,
                       "render: --shard: %s says that this is task %" PRIu64
-                      ", but there are %" PRIu64 " (%d at most)",
+                      ", but there are %" PRIu64 " tasks (at most %d are allowed)",
                       schedulers[i].id, index + 1, count, MAX_SHARDS);
     *shard = (struct shard){(uint32_t)index, (uint32_t)count, schedulers[i].id};
     return 0;

@@ -7,9 +7,10 @@
 #define SHARD_OPTION                                                                               \
     {                                                                                              \
         .name = "shard", .kind = OPTION_TEXT, .placeholder = "I/N|auto|auto/N",                    \
-        .help = "Draw only the I-th of N shares of the parts of a clip, two seconds each, and go " \
-                "on with what is there of it; 'kiln join' makes the clip of all. auto: what "      \
-                "SLURM_ARRAY_TASK_ID or SGE_TASK_ID and their like say; auto/N: of N, also by "    \
+        .help = "Draw only the I-th of N shares of a clip's parts, and go on with files of it "    \
+                "that are there. A part has two seconds. 'kiln join' makes the clip of all "       \
+                "parts. auto takes I and N from the variables of a scheduler, such as "            \
+                "SLURM_ARRAY_TASK_ID or SGE_TASK_ID. auto/N takes I alone from them, also from "   \
                 "JOB_COMPLETION_INDEX or AWS_BATCH_JOB_ARRAY_INDEX."                               \
     }
 

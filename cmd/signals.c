@@ -32,7 +32,7 @@ static void describe_end(char line[128], int number)
 {
     strcpy(line, "kiln: stopped by ");
     strcat(line, name_of(number));
-    strcat(line, "; what was not whole is given up\n");
+    strcat(line, "; unfinished files are discarded\n");
 }
 
 /* Handles a signal that ends the program at once. It prints nothing on standard error, since the

@@ -34,7 +34,7 @@ static void print_shard_result(const struct job_result *result)
     const uint32_t parts = stats->end_part - stats->first_part;
     if (parts == 0) {
         print_name(result->output);
-        printf(": none of its parts is for this shard\n");
+        printf(": this shard has none of its parts\n");
         return;
     }
     print_name(result->output);

@@ -33,67 +33,66 @@ static const struct option options[] = {
      .letter = 'u',
      .kind = OPTION_CHOICE,
      .placeholder = "missing|failed|all",
-     .help = "Write goldens: those that are missing; also those of frames that fail; or those of "
-             "all frames. Other devices' goldens stay as they are."},
+     .help =
+         "Write goldens: missing writes those of frames that have none, failed also those of "
+         "frames that fail, all those of every frame. Goldens of other devices stay as they are."},
     {.name = "dry-run",
      .letter = 'n',
      .kind = OPTION_FLAG,
-     .help = "With --update: say what would be written, and write none of it."},
+     .help = "With --update: print what would be written, and write nothing."},
     {.name = "device",
      .kind = OPTION_TEXT,
      .placeholder = "DEVICE",
-     .help =
-         "A number from 'kiln devices', a part of a device's name, 'cpu' for none of OpenGL, or "
-         "'software' for OpenGL on the CPU; for tests that name none.",
+     .help = "A number from 'kiln devices', a part of a device's name, 'cpu' to render without "
+             "OpenGL, or 'software' for OpenGL on the CPU. It holds for tests that name no device.",
      .fallback = "'cpu', or else the first GPU or the software device if a technique needs it"},
     {.name = "technique",
      .repeats = true,
      .commas = true,
      .kind = OPTION_PAIRS,
      .placeholder = "STAGE=NAME",
-     .help = "How to run a stage, over what the tests pin; more of them after commas (see 'kiln "
-             "help techniques')."},
+     .help = "How to run a stage, instead of the techniques that tests name; separate several by "
+             "commas (see 'kiln help techniques')."},
     {.name = "jobs",
      .letter = 'j',
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Tests that run at a time.",
+     .help = "Number of tests that run at a time.",
      .fallback = "one a core",
      .min = 1,
      .max = 256},
     {.name = "threads",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Threads of each test; 0 shares the cores between the jobs.",
+     .help = "Number of threads of each test; 0 shares the cores between the jobs.",
      .fallback = "0",
      .max = 256},
     {.name = "repeat",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Render each test N times; every render must give the same hashes.",
+     .help = "Render each test N times. Every render must give the same hashes.",
      .fallback = "1",
      .min = 1,
      .max = 1000},
     {.name = "time-limit",
      .kind = OPTION_TIME,
      .placeholder = "TIME",
-     .help = "End a test that takes longer than that; it is an error.",
-     .fallback = "what the tests say, or 120",
+     .help = "Time limit of a test. A test that takes longer is ended, and is an error.",
+     .fallback = "the limits of the tests, or 120",
      .min = 0.001,
      .max = 86400},
     {.name = "ignore-hashes",
      .kind = OPTION_FLAG,
-     .help = "Judge by the metrics alone, as if neither state nor pixels had ever been hashed."},
+     .help = "Judge by the metrics alone, without the hashes of state and pixels."},
     {.name = "strict",
      .kind = OPTION_FLAG,
-     .help =
-         "On a device whose pixels are known, let only those pass; on 'cpu', they must be known."},
+     .help = "On a device with accepted hashes of pixels, let only equal pixels pass. On 'cpu', "
+             "accepted hashes must be there."},
     {.name = "against",
      .kind = OPTION_TEXT,
      .placeholder = "PROGRAM",
-     .help =
-         "Of frames whose pixels have changed, draw the accepted side with another kiln, and say "
-         "whether it draws what was accepted."},
+     .help = "For frames whose pixels have changed, draw the accepted side with another kiln, and "
+             "say whether that kiln still draws the accepted pixels."},
     OUTPUT_OPTIONS("report.html in the results"),
     EVENTS_OPTION,
     HELP_OPTION,
@@ -316,8 +315,8 @@ static int read_options(struct test_run *run, struct test_outputs *outputs,
     run->time_limit_s = arguments_number(arguments, "time-limit", 0);
     run->lines.quiet = arguments_flag(arguments, "quiet");
     if (params->dry_run && params->update == KILN_UPDATE_NONE)
-        return report(KILN_USAGE, "test: --dry-run: says what --update would write; use it with "
-                                  "--update missing, failed or all");
+        return report(KILN_USAGE, "test: --dry-run: needs --update missing, failed or all; it "
+                                  "prints what --update would write");
     if (params->ignore_hashes && params->strict)
         return report(KILN_USAGE, "test: --ignore-hashes and --strict exclude each other");
     return test_outputs_read(outputs, arguments, "test", page);
@@ -391,23 +390,26 @@ const struct command test_command = {
     .summary = "render tests and compare them with golden pictures",
     .operands = "[PATH | NAME]...",
     .description =
-        "Renders frames of scenes and judges them by what was once accepted. " SELECT_DESCRIPTION
-        "\n\n"
+        "Renders frames of scenes and judges them by accepted states and "
+        "pictures. " SELECT_DESCRIPTION "\n"
+        "\n"
         "A frame is judged by the hash of the simulation's state, which is the same everywhere; "
         "then by the hash of the picture's pixels on this device; then by how different it looks "
         "from the golden picture (see 'kiln compare'). Other pixels within the limits are a "
-        "change, "
-        "which is told and, with --strict, fails. A golden that is missing is a failure, and "
-        "is never written without --update. 'kiln help tests' explains test files.\n\n"
-        "Unless a test, --device or a technique that needs OpenGL asks for another device, it is "
-        "'cpu', whose pixels are the same on every machine.\n\n"
+        "change. A change is reported; with --strict, it fails. A golden that is missing is a "
+        "failure, and is never written without --update. 'kiln help tests' explains test files.\n"
+        "\n"
+        "The device is 'cpu', whose pixels are the same on every machine, unless a test, --device "
+        "or a technique that needs OpenGL asks for another device.\n"
+        "\n"
         "Each test has a process of its own: a crash or a hang is the error of that test alone. "
-        "What the process prints goes to log.txt in its results.\n\n"
+        "The output of the process goes to log.txt in its results.\n"
+        "\n"
         "Exit code 0: every test passed; 1: a picture or the state differs; 7: a golden or its "
         "expect.yaml is missing; 2: usage, or there are no tests; 3: a test, scene or golden "
         "cannot be read; 4: no usable device, or every test was skipped; 5: a test crashed or took "
-        "too long; 6: results or a report cannot be written. Of several, the worst: 5, 6, 4, 3, 2, "
-        "1, 7.",
+        "too long; 6: results or a report cannot be written. Of several, the worst counts: 5, 6, "
+        "4, 3, 2, 1, 7.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = SIZE_MAX,

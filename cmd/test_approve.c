@@ -23,21 +23,22 @@ static const struct option options[] = {
      .fallback = DEFAULT_RESULTS},
     {.name = "all",
      .kind = OPTION_FLAG,
-     .help = "Every test of the run: what was new, failed, changed or was warned of."},
+     .help = "Accept every test of the run that was new, failed, changed or warned of."},
     {.name = "device",
      .kind = OPTION_TEXT,
      .placeholder = "DEVICE",
-     .help = "Only what a device drew whose name has this in it."},
+     .help = "Accept only pictures that a device drew whose name contains this text."},
     {.name = "as",
      .kind = OPTION_CHOICE,
      .placeholder = "replace|device|alternative",
-     .help = "Put the pictures in place of the goldens that they were judged by; beside these, for "
-             "this device only; or beside them, as others that are right, too.",
+     .help = "How to accept: replace puts the pictures in place of the goldens that they were "
+             "judged by. device puts them beside these goldens, for this device only. alternative "
+             "puts them beside these goldens as further right pictures.",
      .fallback = "replace"},
     {.name = "dry-run",
      .letter = 'n',
      .kind = OPTION_FLAG,
-     .help = "Say what would be written, and write none of it."},
+     .help = "Print what would be written, and write nothing."},
     {.name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print nothing but errors."},
     EVENTS_OPTION,
     HELP_OPTION,
@@ -119,8 +120,9 @@ static int run(const struct arguments *arguments)
         .change = print_change,
         .user = &approval};
     if (all == (arguments->operand_count > 0))
-        return report(KILN_USAGE, all ? "test approve: --all takes no names"
-                                      : "test approve: which tests? name them, or --all");
+        return report(KILN_USAGE,
+                      all ? "test approve: --all takes no names"
+                          : "test approve: names of tests are missing; give them, or --all");
     signals_end_at_once(); /* no loop checks for signals, and no file is left half-written */
     int code = all ? approve_matching(&approval, NULL) : 0;
     for (size_t i = 0; i < arguments->operand_count; i++) {
@@ -140,12 +142,12 @@ const struct command test_approve_command = {
     .operands = "[NAME]...",
     .description =
         "Accepts what the last run of each test rendered, where it was new, failed, changed or "
-        "was warned of: the pictures become goldens, and their hashes are expected from then on. "
-        "Nothing is "
-        "rendered: what is accepted is what was looked at. Results are refused when the scene, the "
-        "pictures or the goldens have changed since.\n\n"
-        "A pattern as 'effects/*' means the tests of the last run that it matches, and --all every "
-        "one. One test that cannot be accepted does not keep the others from it.",
+        "warned of. The pictures become goldens, and their hashes are expected from then on. "
+        "Nothing is rendered: the pictures that were looked at are accepted. Results are refused "
+        "when the scene, the pictures or the goldens have changed since the run.\n"
+        "\n"
+        "A pattern such as 'effects/*' stands for the tests of the last run that it matches, --all "
+        "for every test. If one test cannot be accepted, the others still are.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = SIZE_MAX,

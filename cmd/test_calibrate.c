@@ -28,14 +28,14 @@ static const struct option options[] = {
     {.name = "renders",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Renders of each test, with different threads and techniques.",
+     .help = "Number of renders of each test, with different threads and techniques.",
      .fallback = "8",
      .min = 2,
      .max = 1000},
     {.name = "margin",
      .kind = OPTION_NUMBER,
      .placeholder = "FACTOR",
-     .help = "A limit that is proposed is the worst value times this.",
+     .help = "A proposed limit is the worst value times this.",
      .fallback = "3",
      .min = 1,
      .max = 1000},
@@ -124,10 +124,9 @@ const struct command test_calibrate_command = {
     .name = "test calibrate",
     .summary = "measure how much tests vary, and propose limits",
     .operands = "[PATH | NAME]...",
-    .description =
-        "Renders each test several times over, with different numbers of threads, techniques and "
-        "devices, compares all pictures with the goldens, and proposes limits: the worst value "
-        "with a margin. " SELECT_DESCRIPTION,
+    .description = "Renders each test several times, with different numbers of threads, techniques "
+                   "and devices. It compares all pictures with the goldens, and proposes limits: "
+                   "the worst value with a margin. " SELECT_DESCRIPTION,
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .most_operands = SIZE_MAX,

@@ -151,7 +151,8 @@ static void print_unused(const struct test_lines *lines)
     for (size_t i = 0; i < count && i < SHOWN; i++) {
         char path[KILN_MESSAGE_SIZE];
         kiln_shown(path, sizeof path, paths[i]);
-        fprintf(lines->out, "%s: no test uses these goldens; was one renamed or lost?\n", path);
+        fprintf(lines->out, "%s: no test uses these goldens; perhaps a test was renamed or lost\n",
+                path);
     }
     if (count > SHOWN)
         fprintf(lines->out, "and %zu more folders of goldens that no test uses\n", count - SHOWN);

@@ -10,27 +10,27 @@
     {.name = "report",                                                                             \
      .kind = OPTION_TEXT,                                                                          \
      .placeholder = "FILE",                                                                        \
-     .help = "Where the page goes that shows the run: one HTML file.",                             \
+     .help = "Where to write the page that shows the run. It is one HTML file.",                   \
      .fallback = report_fallback},                                                                 \
         {.name = "no-report", .kind = OPTION_FLAG, .help = "Write no page."},                      \
         {.name = "force",                                                                          \
          .kind = OPTION_FLAG,                                                                      \
-         .help = "Let reports replace files that are no such reports of kiln's."},                 \
+         .help = "Let reports replace files that are not reports by kiln."},                       \
         {.name = "link",                                                                           \
          .kind = OPTION_FLAG,                                                                      \
          .help = "Let the page refer to the pictures in the results, instead of holding them."},   \
         {.name = "junit",                                                                          \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "FILE",                                                                    \
-         .help = "Also write JUnit XML; '-' is standard output, here and below."},                 \
+         .help = "Also write JUnit XML. For this and the next options, '-' is standard output."},  \
         {.name = "json",                                                                           \
          .value_may_go = true,                                                                     \
          .value_may_follow = true,                                                                 \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "FILE",                                                                    \
          .files = "*.json",                                                                        \
-         .help =                                                                                   \
-             "Also write all results as one JSON document; without FILE, on standard output."},    \
+         .help = "Also write all results as one JSON document. Without FILE, it goes to standard " \
+                 "output."},                                                                       \
         {.name = "tap",                                                                            \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "FILE",                                                                    \
@@ -39,7 +39,8 @@
          .kind = OPTION_FLAG,                                                                      \
          .help = "Also print annotations for GitHub Actions on standard output."},                 \
     {                                                                                              \
-        .name = "quiet", .letter = 'q', .kind = OPTION_FLAG, .help = "Print only what went wrong." \
+        .name = "quiet", .letter = 'q', .kind = OPTION_FLAG,                                       \
+        .help = "Print only failures and errors."                                                  \
     }
 
 enum { MAX_OUTPUTS = 5 };

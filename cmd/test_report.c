@@ -62,8 +62,8 @@ const struct command test_report_command = {
     .operands = "FOLDER...",
     .description =
         "Reads the results of one or several runs and writes reports of all of them together. The "
-        "exit code is that of the worst test, as 'kiln test' would have given it. A shard that is "
-        "missing is told in the reports as a test that is an error, of exit code 3.",
+        "exit code is that of the worst test, as 'kiln test' would have given it. The reports show "
+        "a missing shard as a test that ended with an error, of exit code 3.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,

@@ -127,13 +127,13 @@ $ kiln render --batch none.yaml
 2|none.yaml: No such file or directory
 = 3
 $ kiln render --batch jobs.yaml scenes/tiny.yaml
-2|kiln: render: --batch: not with a scene; its file names them
+2|kiln: render: --batch: a scene on the command line is not allowed with it; the file of jobs names the scenes
 = 2
 $ kiln render --batch jobs.yaml -o a.png
-2|kiln: render: --output: not with --batch, whose file says it of each job
+2|kiln: render: --output: not allowed with --batch; the file of jobs has a key for it
 = 2
 $ kiln render scenes/tiny.yaml -o none --jobs 2
-2|kiln: render: --jobs: there is no --batch to apply it to
+2|kiln: render: --jobs: needs --batch
 = 2
 $ kiln render -o none
 2|kiln: render: needs SCENE...

@@ -20,7 +20,7 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  states      <time>  size of saved states, and time to save and to load one
 1|  jobs        <time>  64 parts of a clip with states compared with one run, and many workers
 1|  output      <time>  whole jobs to PNG, EXR and mp4, compared with the time of their stages
-1|All together <time>, on two cores without a GPU.
+1|All suites together take <time> on two cores without a GPU.
 
 Of a scene: whole frames, then the techniques of each stage, that of `auto` first.
 
@@ -172,7 +172,7 @@ $ kiln bench --stage sortt scenes/tiny.yaml
 2|kiln: bench: there is no stage 'sortt' (did you mean 'sort'?)
 = 2
 $ kiln bench --size 32x32 seed
-2|kiln: bench: --size is for scenes, and none is given
+2|kiln: bench: --size is for scenes, and no scene is given
 = 2
 $ kiln bench --repetitions 2 seed
 2|kiln: bench: --repetitions: found '2', expected a whole number from 3 to 101
@@ -181,13 +181,13 @@ $ kiln bench --technique sort=quick scenes/tiny.yaml --quick 2>&1 | sed 's/; the
 1|kiln: bench: technique: sort 'quick' is not known; allowed are cpu, radix, bitonic, oddeven, auto
 
 $ kiln bench bytes --parts 4
-2|kiln: bench: --parts is for the suite jobs, which is not named
+2|kiln: bench: --parts is for the suite jobs, and the suite is not named
 = 2
 $ kiln bench jobs scenes/tiny.yaml scenes/empty.yaml
 2|kiln: bench: the suite jobs takes one scene; found 2
 = 2
 $ kiln bench jobs scenes/tiny.yaml --stage sort
-2|kiln: bench: --stage is for scenes, and none is measured by itself
+2|kiln: bench: --stage is for scenes, and no scene is measured by itself
 = 2
 $ mkdir kept; TMPDIR=kept kiln bench jobs --set systems.fire.emit.raet=1 --device cpu --quiet; code=$?; ls -A kept; exit $code
 2|--set systems.fire.emit.raet: unknown key (did you mean 'rate'?)

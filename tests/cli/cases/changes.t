@@ -122,7 +122,7 @@ $ kiln test approve --all; kiln test approve 'z*'; kiln test approve; kiln test 
 1|wrote golden/b/expect.yaml
 1|wrote golden/hash/expect.yaml
 2|kiln: test approve: no result of a test like 'z*' in out/test
-2|kiln: test approve: which tests? name them, or --all
+2|kiln: test approve: names of tests are missing; give them, or --all
 2|kiln: test approve: --all takes no names
 = 2
 $ kiln test --filter a --filter b --filter hash -q --strict --no-report

@@ -4,13 +4,13 @@ $ kiln complete -- re
 1|word	render	render scenes into images or videos
 $ kiln complete -- compl
 $ kiln complete -- figure ''
-1|word	sheet	a sheet of pictures over sweeps of parameters
-1|word	triptych	a reference, a result and their error map
-1|word	strip	frames of a scene or a clip in a row
+1|word	sheet	draw a sheet of pictures over sweeps of parameters
+1|word	triptych	draw a reference, a result and their error map
+1|word	strip	draw frames of a scene or a clip in a row
 $ kiln complete -- help exi
 1|word	exit-codes	what each exit code means
 $ kiln complete -- render --flipbook-a
-1|word	--flipbook-alpha	Whether the colours of a flipbook are those of the cover alone, or times alpha.
+1|word	--flipbook-alpha	Whether the colours of a flipbook are straight, or premultiplied by alpha.
 $ kiln complete -- render --progress ''
 1|word	tty	
 1|word	lines	

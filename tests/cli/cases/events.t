@@ -101,7 +101,7 @@ $ kiln render scenes/tiny.yaml -q -o slow.png --frames 0 --size 4096x4096 --set 
 1|["error",8,"with more"]
 1|["ended",8,"with more"]
 $ kiln render - -q -o slow.png --timeout 0.1 --events ndjson < <(sleep 2) 2>/dev/null | jq -c 'select(.event == "error" or .event == "ended") | [.event, .code, .file, .message]' | sed 's/taken .* since/taken <s> since/'
-1|["error",8,null,"loading standard input: the job has taken <s> since it began, and the limit `time` is 0.1 s; what was not whole is given up"]
+1|["error",8,null,"loading standard input: the job has taken <s> since it began, and the limit `time` is 0.1 s; unfinished files are discarded"]
 1|["ended",8,null,null]
 $ kiln compare e_0.png e_1.png --events ndjson | jq -c '[.event, .verdict, .same, .code]'
 1|["started",null,null,null]
@@ -194,28 +194,28 @@ $ kiln render scenes/tiny.yaml -q -o slow.png --frames 0 --size 4096x4096 --set 
 1|openjd_fail: scenes/tiny.yaml: frame 0 took longer than its limit of 0.2 s (--frame-timeout)
 1|openjd_status: exit code 5, again: with more
 $ kiln check scenes/tiny.yaml -q --events openjd:e.log
-2|kiln: check: --events: e.log: the file exists and holds no events, so nothing is added to it
+2|kiln: check: --events: e.log: the file exists and holds no events, so nothing is added to it; name another file
 = 2
 $ kiln check scenes/tiny.yaml -q --events openjson
-2|kiln: check: --events: found 'openjson', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
+2|kiln: check: --events: found 'openjson'; expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
 
 What is no stream is refused, and nothing is added to other files.
 
 $ kiln check scenes/tiny.yaml -q --events xml
-2|kiln: check: --events: found 'xml', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
+2|kiln: check: --events: found 'xml'; expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:
-2|kiln: check: --events: found 'ndjson:', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
+2|kiln: check: --events: found 'ndjson:'; expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:fd=9
-2|kiln: check: --events: found 'ndjson:fd=9', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
+2|kiln: check: --events: found 'ndjson:fd=9'; expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:fd=0
-2|kiln: check: --events: found 'ndjson:fd=0', expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
+2|kiln: check: --events: found 'ndjson:fd=0'; expected ndjson or openjd, or one of them with :FILE or :fd=N, where N is a descriptor that is open for writing
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:scenes/tiny.yaml
-2|kiln: check: --events: scenes/tiny.yaml: the file exists and holds no events, so nothing is added to it
+2|kiln: check: --events: scenes/tiny.yaml: the file exists and holds no events, so nothing is added to it; name another file
 = 2
 $ kiln check scenes/tiny.yaml -q --events ndjson:none/e.log
 2|kiln: check: --events: none/e.log: No such file or directory
@@ -240,31 +240,31 @@ $ kiln render scenes/tiny.yaml -o none --set output.frames=100000 --device cpu -
 1|9
 2|kiln: standard output: the reader went away: stopped
 $ kiln help events | head -n 25
-1|--events ndjson          on standard output, and what is printed for people on standard error;
-1|                         with '--output -' on standard error
-1|--events ndjson:FILE     at the end of a file
-1|--events ndjson:fd=N     to a descriptor that is open
+1|--events ndjson          writes events to standard output, and the text for people to standard
+1|                         error; with '--output -', events go to standard error
+1|--events ndjson:FILE     writes events at the end of a file
+1|--events ndjson:fd=N     writes events to a descriptor that is open
 1|
 1|Where events of `ndjson` go to standard error, nothing else is printed there: errors and warnings
 1|are events, too.
 1|
-1|`openjd` instead of `ndjson` writes lines for engines of Open Job Description; what a person
-1|reads is printed as well, and the engine passes it on:
+1|`openjd` instead of `ndjson` writes lines for engines of Open Job Description. The text for people
+1|is printed as well, and the engine passes it on:
 1|
-1|openjd_progress: PERCENT   0, whole percents, and 100 when all is done
-1|openjd_status: MESSAGE     what the command does; warnings; last, where it failed, the exit
-1|                           code and whether to try again
+1|openjd_progress: PERCENT   whole percents from 0 to 100; 100 means that all is done
+1|openjd_status: MESSAGE     what the command does, and warnings; after a failure, the last one
+1|                           has the exit code and says whether to try again
 1|openjd_fail: MESSAGE       why something failed
 1|
-1|A line of `ndjson` is a JSON object. `event` is its name, `time` is UTC. Events and members may be
-1|added by later versions. 'kiln help events-schema' is the JSON schema.
+1|A line of `ndjson` is a JSON object. `event` is its name, `time` is UTC. Later versions may add
+1|events and members. 'kiln help events-schema' prints the JSON schema.
 1|
 1|started (every command): The command line was read.
-1|    kiln               Version and commit.
-1|    command            Its name.
-1|    arguments          Its options and operands.
-1|    host               The machine's name.
-1|    process            The number of the process.
+1|    kiln               Version and commit of kiln.
+1|    command            Name of the command.
+1|    arguments          Options and operands of the command line.
+1|    host               Name of the machine.
+1|    process            Process ID.
 
 Several scenes: --keep-going renders the others, too.
 

@@ -1,6 +1,6 @@
 A figure needs a kind, something to show and a place.
 $ kiln figure
-2|kiln: figure: needs sheet, triptych or strip, or --check FIGURE or --update FIGURE
+2|kiln: figure: an operand is missing: sheet, triptych or strip; or give --check FIGURE or --update FIGURE
 = 2
 $ kiln figure shet
 2|kiln: figure: unknown figure 'shet' (did you mean 'sheet'?); allowed are sheet, triptych and strip
@@ -55,7 +55,7 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --inset 0,0,1x36 --inset 0,0,64x1
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --title "$(printf '%030000d' 0)" --inset 0,0,1x36 && rm a.png*
 $ kiln figure sheet - -o a.png <scenes/tiny.yaml
-2|kiln: figure sheet: a figure is drawn again from its files; standard input is none
+2|kiln: figure sheet: standard input is not allowed: a figure is drawn again from its files
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --alt "$(printf '%065534d' 0)"
 2|kiln: figure sheet: --alt: found 65534 bytes; allowed are 65533
@@ -109,7 +109,7 @@ $ kiln figure --check scenes/none.png
 2|scenes/none.png: No such file or directory
 = 3
 $ kiln figure --check doc --update doc
-2|kiln: figure: --check and --update at once
+2|kiln: figure: --check and --update exclude each other
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --width 84
 $ rm a.png*

@@ -10,7 +10,7 @@ $ for option in -y --overwrite --out=x.png --output-dir --resolution --res -r '-
 2|kiln: render: unknown option '-r' (did you mean '--fps'?)
 2|kiln: render: unknown option '-framerate' (did you mean '--fps'?)
 2|kiln: render: unknown option '-crf' (did you mean '--quality'?)
-2|kiln: render: unknown option '-ss'; frames are chosen by '--frames', such as --frames 10- from frame 10 on
+2|kiln: render: unknown option '-ss'; '--frames' chooses frames, such as --frames 10- from frame 10 on
 2|kiln: render: unknown option '--verbose' (did you mean '--stats'?)
 2|kiln: render: unknown option '--workers' (did you mean '--threads'?)
 = 2
@@ -19,25 +19,25 @@ Blender's and husk's, which choose frames otherwise.
 
 $ for option in -b -s -e -f -a -j -F -x -t -E --background --frame-start --frame-end --render-frame --render-anim --render-output --render-format --frame --frame-count --frame-inc; do kiln render scenes/tiny.yaml $option; done
 2|kiln: render: unknown option '-b'; kiln always works without a window
-2|kiln: render: unknown option '-s'; the size is '--size WxH'; frames are chosen by '--frames'
-2|kiln: render: unknown option '-e'; frames are chosen by '--frames', such as --frames -50 up to frame 50
-2|kiln: render: unknown option '-f'; frames are chosen by '--frames', the format by the suffix of '--output'
-2|kiln: render: unknown option '-a'; without '--frames', every frame is drawn
-2|kiln: render: unknown option '-j'; each tenth frame is drawn by '--frames', such as --frames 0-100/10
+2|kiln: render: unknown option '-s'; '--size WxH' sets the size; '--frames' chooses frames
+2|kiln: render: unknown option '-e'; '--frames' chooses frames, such as --frames -50 up to frame 50
+2|kiln: render: unknown option '-f'; '--frames' chooses frames, and the suffix of '--output' the format
+2|kiln: render: unknown option '-a'; kiln draws every frame unless '--frames' chooses some
+2|kiln: render: unknown option '-j'; '--frames 0-100/10' draws every tenth frame
 2|kiln: render: unknown option '-F'; the suffix of '--output' chooses the format (see 'kiln help outputs')
 2|kiln: render: unknown option '-x'; the suffix of '--output' chooses the format (see 'kiln help outputs')
-2|kiln: render: unknown option '-t'; '--threads N' is how many threads; how long a clip is, '--frames' says
+2|kiln: render: unknown option '-t'; '--threads N' sets the number of threads; '--frames' sets the length of a clip
 2|kiln: render: unknown option '-E' (did you mean '--technique'?)
 2|kiln: render: unknown option '--background'; kiln always works without a window
-2|kiln: render: unknown option '--frame-start'; frames are chosen by '--frames', such as --frames 10- from frame 10 on
-2|kiln: render: unknown option '--frame-end'; frames are chosen by '--frames', such as --frames -50 up to frame 50
-2|kiln: render: unknown option '--render-frame'; frames are chosen by '--frames', such as --frames 10-50
-2|kiln: render: unknown option '--render-anim'; without '--frames', every frame is drawn
+2|kiln: render: unknown option '--frame-start'; '--frames' chooses frames, such as --frames 10- from frame 10 on
+2|kiln: render: unknown option '--frame-end'; '--frames' chooses frames, such as --frames -50 up to frame 50
+2|kiln: render: unknown option '--render-frame'; '--frames' chooses frames, such as --frames 10-50
+2|kiln: render: unknown option '--render-anim'; kiln draws every frame unless '--frames' chooses some
 2|kiln: render: unknown option '--render-output' (did you mean '--output'?)
 2|kiln: render: unknown option '--render-format'; the suffix of '--output' chooses the format (see 'kiln help outputs')
 2|kiln: render: unknown option '--frame' (did you mean '--frames'?)
-2|kiln: render: unknown option '--frame-count'; frames are chosen by '--frames', such as --frames 10-50
-2|kiln: render: unknown option '--frame-inc'; each tenth frame is drawn by '--frames', such as --frames 0-100/10
+2|kiln: render: unknown option '--frame-count'; '--frames' chooses frames, such as --frames 10-50
+2|kiln: render: unknown option '--frame-inc'; '--frames 0-100/10' draws every tenth frame
 = 2
 
 A row counts only where the command has what it names, and its own options come first.
@@ -47,7 +47,7 @@ $ kiln devices --overwrite; kiln plan scenes/tiny.yaml --frame x; kiln check sce
 2|kiln: plan: --frame: found 'x', expected a whole number from 0 to 4294967295
 2|kiln: check: unknown option '-t'
 2|kiln: compare: unknown option '-y' (did you mean '--force'?)
-2|kiln: check: unknown option '--version'; 'kiln --version' says which kiln this is
+2|kiln: check: unknown option '--version'; 'kiln --version' prints the version
 = 2
 
 Letters share one dash; the last may have a value, in the same word or the next.
@@ -94,7 +94,7 @@ $ for color in red '#ff0000' 0xff0000 "'#ff0000'"; do kiln check -q scenes/tiny.
 $ for option in -c --camera --samples --snapshot; do kiln render scenes/tiny.yaml $option; done; kiln compare a b --out
 2|kiln: render: unknown option '-c'; a scene has one camera, such as '--set camera.position=[0,1,5] --set camera.target=[0,1,0]'
 2|kiln: render: unknown option '--camera'; a scene has one camera, such as '--set camera.position=[0,1,5] --set camera.target=[0,1,0]'
-2|kiln: render: unknown option '--samples'; how often a frame is drawn within its shutter: '--set camera.shutter.samples=16'
-2|kiln: render: unknown option '--snapshot'; what is whole is kept by '--resume', which goes on from there
-2|kiln: compare: unknown option '--out'; where it writes is an operand, or said by its other options ('--help')
+2|kiln: render: unknown option '--samples'; '--set camera.shutter.samples=16' sets the number of samples in the shutter's time
+2|kiln: render: unknown option '--snapshot'; '--resume' keeps whole files and goes on from there
+2|kiln: compare: unknown option '--out'; the output is an operand, or another option sets it ('--help')
 = 2

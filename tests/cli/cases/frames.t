@@ -71,8 +71,8 @@ $ kiln figure sheet scenes/tiny.yaml -o sheet.png --frames 0-/10,last && ls shee
 $ kiln figure strip all_%d.png -o strip.png --frames 0-20/10 && ls strip.png
 1|strip.png
 $ kiln figure strip all_%d.png -o strip2.png --frames 3-
-2|kiln: figure strip: --frames: 'all_%d.png' is a clip, whose last frame must be said by its number
+2|kiln: figure strip: --frames: 'all_%d.png' is a clip, whose last frame must be given by its number
 = 2
 $ sed 's/frames: 24/frames: 30/' scenes/tiny.yaml > scenes/longer.yaml; kiln figure sheet scenes/tiny.yaml scenes/longer.yaml -o both.png --frames last
-2|kiln: figure sheet: --frames: 'scenes/tiny.yaml' and 'scenes/longer.yaml' have other last frames; say its number
+2|kiln: figure sheet: --frames: 'scenes/tiny.yaml' and 'scenes/longer.yaml' have different last frames; give the number of the frame
 = 2

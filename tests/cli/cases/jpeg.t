@@ -43,14 +43,14 @@ $ kiln render scenes/tiny.yaml -qo alpha.jpg --frames 9 --set backdrop.transpare
 2|kiln: alpha.jpg: the backdrop is transparent, but a JPEG image has no alpha; write .png or .exr, or make the backdrop opaque
 = 2
 $ for output in x.png x.exr x.gif x.mkv x.apng -; do kiln render scenes/tiny.yaml -qo $output --quality 50; done
-2|kiln: render: --quality: 'x.png' is of a format without one; .jpg, .mp4, .webm, .mov and .webp have one
-2|kiln: render: --quality: 'x.exr' is of a format without one; .jpg, .mp4, .webm, .mov and .webp have one
-2|kiln: render: --quality: 'x.gif' is of a format without one; .jpg, .mp4, .webm, .mov and .webp have one
-2|kiln: render: --quality: 'x.mkv' is of a format without one; .jpg, .mp4, .webm, .mov and .webp have one
-2|kiln: render: --quality: 'x.apng' is of a format without one; .jpg, .mp4, .webm, .mov and .webp have one
-2|kiln: render: --quality: not with '--output -'
+2|kiln: render: --quality: the format of 'x.png' has no quality; .jpg, .mp4, .webm, .mov and .webp have one
+2|kiln: render: --quality: the format of 'x.exr' has no quality; .jpg, .mp4, .webm, .mov and .webp have one
+2|kiln: render: --quality: the format of 'x.gif' has no quality; .jpg, .mp4, .webm, .mov and .webp have one
+2|kiln: render: --quality: the format of 'x.mkv' has no quality; .jpg, .mp4, .webm, .mov and .webp have one
+2|kiln: render: --quality: the format of 'x.apng' has no quality; .jpg, .mp4, .webm, .mov and .webp have one
+2|kiln: render: --quality: not allowed with '--output -'
 = 2
 $ kiln encode f_%02d.jpg -o x.mkv --quality 50
-2|kiln: encode: --quality: 'x.mkv' is of a format without one; .jpg, .mp4, .webm, .mov and .webp have one
+2|kiln: encode: --quality: the format of 'x.mkv' has no quality; .jpg, .mp4, .webm, .mov and .webp have one
 = 2
 $ kiln render scenes/tiny.yaml -qo none --quality 50

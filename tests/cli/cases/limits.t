@@ -71,7 +71,7 @@ $ kiln render scenes/tiny.yaml -q -o late.mp4 --fps 10 --set output.frames=61 --
 1|kiln: the job has taken <s> since it began, and the limit `time` is 1 s
 1|late.mp4.journal
 1|late.mp4.parts
-$ kiln render scenes/tiny.yaml -q -o huge.png --frames 0 --device cpu --threads 1 --size 4096x4096 --set camera.shutter.samples=64 --set simulation.rate=3840 --timeout 0.5 2>&1 | sed 's/taken .* since/taken <s> since/; s/; what was not whole.*//'
+$ kiln render scenes/tiny.yaml -q -o huge.png --frames 0 --device cpu --threads 1 --size 4096x4096 --set camera.shutter.samples=64 --set simulation.rate=3840 --timeout 0.5 2>&1 | sed 's/taken .* since/taken <s> since/; s/; unfinished files are.*//'
 1|kiln: the job has taken <s> since it began, and the limit `time` is 0.5 s
 $ kiln check scenes/tiny.yaml -q --timeout 0.001 2>&1 | sed 's/taken .* since/taken <s> since/'
 1|loading scenes/tiny.yaml: the job has taken <s> since it began, and the limit `time` is 0.001 s
@@ -79,8 +79,8 @@ $ kiln render scenes/tiny.yaml scenes/empty.yaml -q -o '{scene}.png' --limits cp
 1|loading scenes/tiny.yaml: the job has taken <s> of processor time, and the limit `cpu` is 0.001 s
 1|loading scenes/empty.yaml: the job has taken <s> of processor time, and the limit `cpu` is 0.001 s
 $ kiln check - -q --timeout 0.1 < <(sleep 2) 2>&1 | sed 's/taken .* since/taken <s> since/'
-1|kiln: loading standard input: the job has taken <s> since it began, and the limit `time` is 0.1 s; what was not whole is given up
-$ kiln render scenes/tiny.yaml -q -o late.webm --limits cpu=20ms 2>&1 | sed 's/taken .* of/taken <s> of/; s/; what was not whole.*//'
+1|kiln: loading standard input: the job has taken <s> since it began, and the limit `time` is 0.1 s; unfinished files are discarded
+$ kiln render scenes/tiny.yaml -q -o late.webm --limits cpu=20ms 2>&1 | sed 's/taken .* of/taken <s> of/; s/; unfinished files are.*//'
 1|kiln: the job has taken <s> of processor time, and the limit `cpu` is 0.02 s
 $ kiln render scenes/tiny.yaml -q -o late.webm --size 1280x720 --limits memory=80MiB
 2|--set output.size: 86.35 MiB of memory, and the limit `memory` is 80 MiB

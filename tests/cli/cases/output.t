@@ -131,10 +131,10 @@ $ kiln render scenes/tiny.yaml -q -o whole/ --flipbook 4x2 --flipbook-alpha prem
 $ kiln render scenes/tiny.yaml -q -o uneven.png --flipbook 4x4 --set backdrop.transparent=true
 2|kiln: warning: uneven.png: the cells are 1 to 2 frames apart, so motion will not be even; choose a multiple of 16 frames
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 5x5
-2|kiln: render: --flipbook: 'scenes/tiny.yaml': a flipbook of 5 x 5 cells from 24 frames; it needs at least 25: take fewer cells, or a higher rate
+2|kiln: render: --flipbook: 'scenes/tiny.yaml': the 5 x 5 cells of a flipbook need more than the 24 frames that there are; at least 25 are needed: take fewer cells, or a higher rate
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --frames 3-5
-2|kiln: render: --flipbook: 'scenes/tiny.yaml': a flipbook of 2 x 2 cells from 3 frames; it needs at least 4: take fewer cells, or a higher rate
+2|kiln: render: --flipbook: 'scenes/tiny.yaml': the 2 x 2 cells of a flipbook need more than the 3 frames that there are; at least 4 are needed: take fewer cells, or a higher rate
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 0x4
 2|kiln: render: --flipbook: found '0x4', expected COLUMNSxROWS, such as 8x8, with at most 64 of each
@@ -146,7 +146,7 @@ $ kiln render scenes/tiny.yaml -q -o more.png --flipbook eight
 2|kiln: render: --flipbook: found 'eight', expected COLUMNSxROWS, such as 8x8, with at most 64 of each
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook-motion
-2|kiln: render: --flipbook-motion: there is no --flipbook to apply it to
+2|kiln: render: --flipbook-motion: needs --flipbook
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --flipbook-alpha none
 2|kiln: render: --flipbook-alpha: found 'none', expected one of straight|premultiplied

@@ -62,13 +62,13 @@ $ kiln render scenes/tiny.yaml -o x.png --pipe rgba
 2|kiln: render: --pipe: needs '--output -'
 = 2
 $ kiln render scenes/tiny.yaml -o - --resume >none
-2|kiln: render: --resume: not with '--output -'
+2|kiln: render: --resume: not allowed with '--output -'
 = 2
 $ kiln render scenes/tiny.yaml -o - --shard 1/2 >none
-2|kiln: render: --shard: not with '--output -'
+2|kiln: render: --shard: not allowed with '--output -'
 = 2
 $ kiln render scenes/tiny.yaml -o - --flipbook 2x2 >none
-2|kiln: render: --flipbook: not with '--output -'
+2|kiln: render: --flipbook: not allowed with '--output -'
 = 2
 $ kiln render scenes/tiny.yaml scenes/tiny.yaml -o - >none
 2|kiln: render: --output: 'scenes/tiny.yaml' and 'scenes/tiny.yaml' would both write '-'; name a folder, or put {scene} into the name

@@ -63,7 +63,7 @@ $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --png-bits 1
 2|kiln: f_%d.png.journal: the journal belongs to other frames, or to other settings of the output (--force starts anew)
 = 2
 $ kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume --technique simulate=inplace 2>&1 | sed "s/(kiln.*//"
-1|kiln: f_%d.png.journal: was begun by another program, device or techniques 
+1|kiln: f_%d.png.journal: the output was begun by another program, device or techniques 
 $ echo mine >f_%d.png.journal; kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume
 2|kiln: f_%d.png.journal: the file is not a journal (--force starts anew)
 = 2
@@ -77,7 +77,7 @@ $ (flock 9; kiln render scenes/tiny.yaml -q --frames 0-5 -o f_%d.png --resume) 9
 2|kiln: f_%d.png.journal: another process is writing this output: it has the journal
 = 6
 $ kiln render scenes/tiny.yaml -q -o none --resume
-2|kiln: render: --resume: there is no output to go on with
+2|kiln: render: --resume: '--output none' writes nothing to go on with
 = 2
 $ mkfifo p_%d.png.journal; kiln render scenes/tiny.yaml -q --frames 0-2 -o p_%d.png --resume
 2|kiln: p_%d.png.journal: the path is not a regular file

@@ -15,16 +15,16 @@ $ kiln render scenes/tiny.yaml -q --sandbox --frames 0-1 -o - --pipe rgb24 | wc 
 It is for the device cpu, and for files that the command names.
 
 $ kiln render scenes/tiny.yaml -q --sandbox --device software -o a.png
-2|kiln: render: --device software: a sandbox is for the device 'cpu': drivers of OpenGL need more than a job does
+2|kiln: render: --device software: not allowed with a sandbox; a sandbox is for the device 'cpu', because drivers of OpenGL need more rights than a job does
 = 2
 $ kiln render scenes/tiny.yaml -q --sandbox=perhaps -o a.png
 2|kiln: render: --sandbox: found 'perhaps', expected one of on|require|off
 = 2
 $ KILN_SANDBOX=1 kiln check -q scenes/tiny.yaml
-2|kiln: KILN_SANDBOX: '1'; allowed are on, require or off
+2|kiln: KILN_SANDBOX: found '1'; allowed are on, require or off
 = 2
 $ KILN_SANDBOX=1 kiln check -q scenes/tiny.yaml --sandbox=off
-2|kiln: KILN_SANDBOX: '1'; allowed are on, require or off
+2|kiln: KILN_SANDBOX: found '1'; allowed are on, require or off
 = 2
 $ mkdir away && cp scenes/puff.png away && printf 'kiln: 1\nsystems: {a: {emit: {rate: 9, life: 1 s}, look: {atlas: puff.png, cells: [1, 1]}}}\n' >away/s.yaml && mkdir by && cp away/s.yaml by
 $ kiln check -q --sandbox --asset-root away by/s.yaml && kiln check -q --sandbox by/s.yaml

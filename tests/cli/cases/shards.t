@@ -44,7 +44,7 @@ $ for shard in 1/3 3/3 2/2 9/9; do kiln render scenes/tiny.yaml --fps 10 --set o
 1|c.mp4: parts 1-2: whole already, 40 frames kept
 1|c.mp4: part 4: whole already, 1 frame kept
 1|c.mp4: parts 3-4: whole already, 21 frames kept
-1|c.mp4: none of its parts is for this shard
+1|c.mp4: this shard has none of its parts
 1|c.mp4
 1|c.mp4.journal
 $ kiln render scenes/tiny.yaml --fps 10 --set output.frames=61 --seed 2 -q -o c.mp4 --resume --shard 1/3
@@ -138,7 +138,7 @@ $ for i in 1 2 3 4 5; do kiln render scenes/tiny.yaml --fps 10 --set output.fram
 1|f_%02d.png: part 2: 20 frames in <s> s
 1|f_%02d.png: part 3: 20 frames in <s> s
 1|f_%02d.png: part 4: 1 frame in <s> s
-1|f_%02d.png: none of its parts is for this shard
+1|f_%02d.png: this shard has none of its parts
 $ rm f_30.png && echo x >f_31.png; kiln join f_%02d.png
 2|kiln: f_%02d.png: parts are missing or damaged: frames 30-31
 = 6
@@ -167,11 +167,11 @@ What schedulers say.
 $ SLURM_ARRAY_TASK_ID=14 SLURM_ARRAY_TASK_MIN=10 SLURM_ARRAY_TASK_STEP=2 SLURM_ARRAY_TASK_COUNT=4 kiln render scenes/tiny.yaml -o h.mp4 --shard auto --progress none
 1|device: <device>
 1|shard 3 of 4, by SLURM_ARRAY_TASK_ID=14
-1|h.mp4: none of its parts is for this shard
+1|h.mp4: this shard has none of its parts
 $ SGE_TASK_ID=5 SGE_TASK_FIRST=1 SGE_TASK_LAST=9 SGE_TASK_STEPSIZE=4 kiln render scenes/tiny.yaml -o h.mp4 --shard auto --progress none
 1|device: <device>
 1|shard 2 of 3, by SGE_TASK_ID=5
-1|h.mp4: none of its parts is for this shard
+1|h.mp4: this shard has none of its parts
 $ JOB_COMPLETION_INDEX=0 kiln render scenes/tiny.yaml -o i.mp4 --shard auto/2 --progress none
 1|device: <device>
 1|shard 1 of 2, by JOB_COMPLETION_INDEX=0
@@ -179,18 +179,18 @@ $ JOB_COMPLETION_INDEX=0 kiln render scenes/tiny.yaml -o i.mp4 --shard auto/2 --
 $ AWS_BATCH_JOB_ARRAY_INDEX=1 SGE_TASK_ID=undefined kiln render scenes/tiny.yaml -o i.mp4 --shard auto/2 --progress none
 1|device: <device>
 1|shard 2 of 2, by AWS_BATCH_JOB_ARRAY_INDEX=1
-1|i.mp4: none of its parts is for this shard
+1|i.mp4: this shard has none of its parts
 $ JOB_COMPLETION_INDEX=0 kiln render scenes/tiny.yaml -o i.mp4 --shard auto
-2|kiln: render: --shard: auto: JOB_COMPLETION_INDEX says which task this is, but not of how many; say auto/N
+2|kiln: render: --shard: auto: JOB_COMPLETION_INDEX gives the number of this task, but not the number of tasks; give it by auto/N
 = 2
 $ SLURM_ARRAY_TASK_ID=13 SLURM_ARRAY_TASK_MIN=10 SLURM_ARRAY_TASK_STEP=2 SLURM_ARRAY_TASK_COUNT=4 kiln render scenes/tiny.yaml -o h.mp4 --shard auto
-2|kiln: render: --shard: SLURM_ARRAY_TASK_ID is 13, which is none of 10, and each 2 on
+2|kiln: render: --shard: SLURM_ARRAY_TASK_ID is 13; expected 10, or a number that is a multiple of 2 above it
 = 2
 $ SLURM_ARRAY_TASK_ID=ten kiln render scenes/tiny.yaml -o h.mp4 --shard auto/4
 2|kiln: render: --shard: SLURM_ARRAY_TASK_ID: found 'ten', expected a whole number
 = 2
 $ JOB_COMPLETION_INDEX=4 kiln render scenes/tiny.yaml -o h.mp4 --shard auto/4
-2|kiln: render: --shard: JOB_COMPLETION_INDEX says that this is task 5, but there are 4 (1000000 at most)
+2|kiln: render: --shard: JOB_COMPLETION_INDEX says that this is task 5, but there are 4 tasks (at most 1000000 are allowed)
 = 2
 $ kiln render scenes/tiny.yaml -o h.mp4 --shard auto
 2|kiln: render: --shard: auto: no scheduler says which task this is; looked for SLURM_ARRAY_TASK_ID, SGE_TASK_ID, JOB_COMPLETION_INDEX and AWS_BATCH_JOB_ARRAY_INDEX
@@ -205,10 +205,10 @@ $ for shard in 0/3 4/3 1/0 3 a/b 1/2000000 auto/0 auto/; do kiln render scenes/t
 1|kiln: render: --shard: found 'auto/0', expected I/N, such as
 1|kiln: render: --shard: found 'auto/', expected I/N, such as 
 $ kiln render scenes/tiny.yaml -o none --shard 1/2
-2|kiln: render: --shard: there is no output to share
+2|kiln: render: --shard: '--output none' writes nothing to share
 = 2
 $ kiln render scenes/tiny.yaml -o x.mp4 --manifest x.json --shard 1/2
-2|kiln: render: --manifest: of shards, 'kiln join --manifest' writes it
+2|kiln: render: --manifest: not allowed with --shard; 'kiln join --manifest' writes the manifest of all shards
 = 2
 $ kiln join nothing.mp4
 2|kiln: nothing.mp4: the output has no journal: no job with --resume or --shard has begun it

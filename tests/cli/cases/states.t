@@ -76,13 +76,13 @@ $ kiln bake scenes/tiny.yaml
 2|kiln: bake: needs --output STATES, a folder
 = 2
 $ kiln bake scenes/tiny.yaml -o states --force --resume
-2|kiln: bake: --resume keeps the states that --force would replace
+2|kiln: bake: --resume and --force exclude each other: --resume keeps the states that --force replaces
 = 2
 $ kiln bake scenes/tiny.yaml -o states --every 0
-2|kiln: bake: --every: found '0', expected a time of at least a frame, such as 10s, or a number of frames from 1 to 1000000
+2|kiln: bake: --every: found '0'; expected a time of at least one frame, such as 10s, or a number of frames from 1 to 1000000
 = 2
 $ kiln bake scenes/tiny.yaml -o states --every 1.5
-2|kiln: bake: --every: found '1.5', expected a time of at least a frame, such as 10s, or a number of frames from 1 to 1000000
+2|kiln: bake: --every: found '1.5'; expected a time of at least one frame, such as 10s, or a number of frames from 1 to 1000000
 = 2
 $ kiln bake scenes/tiny.yaml -o scenes/tiny.yaml
 2|kiln: scenes/tiny.yaml: the path is not a folder, but scenes/tiny.yaml/ needs a folder here

@@ -52,7 +52,7 @@ $ mkdir twice && mkfifo frames
 > done
 > kill -TERM $job
 > wait $job
-2|kiln: stopped by SIGTERM; what was not whole is given up
+2|kiln: stopped by SIGTERM; unfinished files are discarded
 = 143
 $ ls -A twice | grep -v '^[0-9]*\.png$'
 = 1
@@ -80,7 +80,7 @@ $ mkfifo full && exec 4<>full; head -c 65536 /dev/zero >&4
 > kill -TERM $job; sleep 0.2; kill -TERM $job; wait $job
 = 143
 $ tail -n 2 again | jq -c '[.event, .code, .message]'; find . -name '*again.mp4*'
-1|["error",143,"stopped by SIGTERM; what was not whole is given up"]
+1|["error",143,"stopped by SIGTERM; unfinished files are discarded"]
 1|["ended",143,null]
 
 Another's alarm is no signal of ours, and ends it as it ends any program.

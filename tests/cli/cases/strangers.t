@@ -72,6 +72,6 @@ $ (cd away && ln -s /etc/passwd suite.yaml; printf 'kiln_test: 1\nscene: suite.y
 1|        wrote golden/tiny/frame_0023.png
 1|2 tests in <s> s: 1 pass, 1 error
 1|2 pictures were written: look at them before you keep them
-1|golden/near: no test uses these goldens; was one renamed or lost?
+1|golden/near: no test uses these goldens; perhaps a test was renamed or lost
 1|2 frames: 0 by pixels, 0 by metrics, 2 by nothing
 = 3

@@ -95,7 +95,7 @@ $ kiln test approve fir
 2|kiln: no result of a test 'fir' in out/test (did you mean 'fire'?)
 = 2
 $ kiln test approve
-2|kiln: test approve: which tests? name them, or --all
+2|kiln: test approve: names of tests are missing; give them, or --all
 = 2
 
 So does a simulation that has changed, however like the picture is.
@@ -153,7 +153,7 @@ $ kiln test fire --shard 3/2
 2|kiln: test: --shard: found '3/2', expected I/N, the I-th of N parts, such as 1/4
 = 2
 $ kiln test fire --dry-run
-2|kiln: test: --dry-run: says what --update would write; use it with --update missing, failed or all
+2|kiln: test: --dry-run: needs --update missing, failed or all; it prints what --update would write
 = 2
 $ kiln test fire --strict --ignore-hashes
 2|kiln: test: --ignore-hashes and --strict exclude each other
@@ -290,7 +290,7 @@ $ kiln test one --no-report; mv golden/one/fir golden/fire; rm -r one golden/one
 1|new     one/fire          1 frame in <s> s: frame 6 has no golden: the file golden/one/fire/frame_0006.png is missing
 1|new     one/scenes/empty  1 frame in <s> s: frame 1 has no golden: the file golden/one/scenes/empty/frame_0001.png is missing
 1|2 tests in <s> s: 2 new
-1|golden/one/fir: no test uses these goldens; was one renamed or lost?
+1|golden/one/fir: no test uses these goldens; perhaps a test was renamed or lost
 1|where the pictures are right, accept them: kiln test approve --all
 1|2 frames: 0 by pixels, 0 by metrics, 2 by nothing
 

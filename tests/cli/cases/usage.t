@@ -8,8 +8,8 @@ $ kiln
 2|
 2|commands:
 2|  render           render scenes into images or videos
-2|  bake             save states of a run, from which others start
-2|  plan             say what a clip costs, and how it divides into tasks
+2|  bake             save states of a run, from which other runs start
+2|  plan             estimate what a clip costs, and divide it into tasks
 2|  join             make a clip of the parts that several tasks drew
 2|  encode           make a clip of images
 2|  compare          tell whether two pictures, folders or videos look the same
@@ -18,10 +18,10 @@ $ kiln
 2|  test calibrate   measure how much tests vary, and propose limits
 2|  test report      write reports of runs, such as the shards of one
 2|  test list        list the tests that 'kiln test' would run
-2|  figure           figures for documents, and whether they are up to date
-2|  figure sheet     a sheet of pictures over sweeps of parameters
-2|  figure triptych  a reference, a result and their error map
-2|  figure strip     frames of a scene or a clip in a row
+2|  figure           draw figures for documents, and check that they are up to date
+2|  figure sheet     draw a sheet of pictures over sweeps of parameters
+2|  figure triptych  draw a reference, a result and their error map
+2|  figure strip     draw frames of a scene or a clip in a row
 2|  bench            measure techniques, scenes and suites
 2|  new              write a scene to begin with
 2|  check            validate scenes and print them with every default
@@ -32,18 +32,18 @@ $ kiln
 2|  scene            every key of a scene file
 2|  schema           the JSON schema of scene files, for editors
 2|  techniques       the techniques of each stage
-2|  metrics          what pictures are compared by
-2|  limits           what a job may take, and the preset for services
+2|  metrics          the metrics that compare pictures
+2|  limits           the limits of a job, and the preset for services
 2|  templates        scenes to begin with, for 'kiln new'
-2|  outputs          what can be written, by suffix
+2|  outputs          the output formats by suffix
 2|  tests            every key of a test file, and the reports
 2|  jobs             every key of a file of jobs, for 'kiln render --batch'
-2|  jobs-schema      the JSON schema of such files, for editors
-2|  events           what --events tells other programs
+2|  jobs-schema      the JSON schema of files of jobs, for editors
+2|  events           the events that --events writes for other programs
 2|  events-schema    the JSON schema of events
 2|  exit-codes       what each exit code means
 2|  environment      the variables of the environment that kiln reads
-2|  completion       command lines completed by bash and zsh
+2|  completion       completion of command lines in bash and zsh
 2|  man              the manual page, for `man -l`
 2|  man-scene        the manual page of scene files
 2|
@@ -61,8 +61,8 @@ $ kiln --help
 1|
 1|commands:
 1|  render           render scenes into images or videos
-1|  bake             save states of a run, from which others start
-1|  plan             say what a clip costs, and how it divides into tasks
+1|  bake             save states of a run, from which other runs start
+1|  plan             estimate what a clip costs, and divide it into tasks
 1|  join             make a clip of the parts that several tasks drew
 1|  encode           make a clip of images
 1|  compare          tell whether two pictures, folders or videos look the same
@@ -71,10 +71,10 @@ $ kiln --help
 1|  test calibrate   measure how much tests vary, and propose limits
 1|  test report      write reports of runs, such as the shards of one
 1|  test list        list the tests that 'kiln test' would run
-1|  figure           figures for documents, and whether they are up to date
-1|  figure sheet     a sheet of pictures over sweeps of parameters
-1|  figure triptych  a reference, a result and their error map
-1|  figure strip     frames of a scene or a clip in a row
+1|  figure           draw figures for documents, and check that they are up to date
+1|  figure sheet     draw a sheet of pictures over sweeps of parameters
+1|  figure triptych  draw a reference, a result and their error map
+1|  figure strip     draw frames of a scene or a clip in a row
 1|  bench            measure techniques, scenes and suites
 1|  new              write a scene to begin with
 1|  check            validate scenes and print them with every default
@@ -85,18 +85,18 @@ $ kiln --help
 1|  scene            every key of a scene file
 1|  schema           the JSON schema of scene files, for editors
 1|  techniques       the techniques of each stage
-1|  metrics          what pictures are compared by
-1|  limits           what a job may take, and the preset for services
+1|  metrics          the metrics that compare pictures
+1|  limits           the limits of a job, and the preset for services
 1|  templates        scenes to begin with, for 'kiln new'
-1|  outputs          what can be written, by suffix
+1|  outputs          the output formats by suffix
 1|  tests            every key of a test file, and the reports
 1|  jobs             every key of a file of jobs, for 'kiln render --batch'
-1|  jobs-schema      the JSON schema of such files, for editors
-1|  events           what --events tells other programs
+1|  jobs-schema      the JSON schema of files of jobs, for editors
+1|  events           the events that --events writes for other programs
 1|  events-schema    the JSON schema of events
 1|  exit-codes       what each exit code means
 1|  environment      the variables of the environment that kiln reads
-1|  completion       command lines completed by bash and zsh
+1|  completion       completion of command lines in bash and zsh
 1|  man              the manual page, for `man -l`
 1|  man-scene        the manual page of scene files
 1|
@@ -144,286 +144,303 @@ Help of a command is the same by both ways.
 $ kiln help render
 1|usage: kiln render [OPTION...] SCENE...
 1|
-1|Renders each scene ('-' is standard input, whose files lie below the working
-1|directory) into images or a video. Files appear under their names only when they
-1|are whole. The first line of output names the device: a GPU, a software device
-1|of OpenGL, or 'cpu'. Several scenes share the device; the first that fails ends
-1|the call, unless --keep-going is given.
+1|Renders each scene into images or a video. '-' reads a scene from standard
+1|input, whose files lie below the working directory. Files appear under their
+1|names only when they are whole. The first line of output names the device: a
+1|GPU, a software device of OpenGL, or 'cpu'. Several scenes share the device. The
+1|first scene that fails ends the call, unless --keep-going is given.
 1|
 1|Programs follow a job by --events ('kiln help events').
 1|
-1|  -o, --output FILE           Where to write; the suffix chooses the format (see
+1|  -o, --output FILE           Where to write. The suffix chooses the format (see
 1|                              'kiln help outputs'). '%04d' or '####' stands for
 1|                              the frame's number, '{scene}' for the scene file's
 1|                              name without its suffix. A folder gets a video
 1|                              named after the scene. '-' is standard output (see
-1|                              --pipe), 'none' renders without writing.
+1|                              --pipe). 'none' renders without writing.
 1|      --pipe y4m|rgb24|rgba|rgbaf32
 1|                              What '--output -' writes to standard output: Y4M
 1|                              as in an MP4; bytes in sRGB, with straight alpha
 1|                              or none; or floats, little-endian, linear,
 1|                              premultiplied. Default: y4m.
-1|      --frames RANGES         Frames to draw, such as 0-149,200; 170- goes to
-1|                              the end, -30 is 0-30, 'last' is the last one,
-1|                              0-100/10 each tenth. They come out as they do in
-1|                              the full run. Videos hold neighbouring frames
-1|                              only. Default: all.
+1|      --frames RANGES         Frames to draw, such as 0-149,200. 170- goes to
+1|                              the end, -30 is 0-30, 'last' is the last frame,
+1|                              0-100/10 is every tenth frame. The frames are the
+1|                              same as in the full run. Videos need a range
+1|                              without gaps. Default: all.
 1|      --size WxH              Size of the picture in pixels: --set
 1|                              output.size=[W, H].
 1|      --fps RATE              Frames a second, such as 30 or 30000/1001: --set
 1|                              output.fps=RATE.
-1|      --seed N                Seed of everything random: --set seed=N.
+1|      --seed N                Seed of all random numbers: --set seed=N.
 1|      --set KEY=VALUE         Change a value of the scene, such as
 1|                              systems.fire.emit.rate=500. In a key, '*' stands
 1|                              for every entry of a map or list.
 1|      --asset-root FOLDER     The folder that the scene's files must lie in.
 1|                              Default: the folder of the scene.
 1|      --device DEVICE         A number from 'kiln devices', a part of a device's
-1|                              name, 'cpu' for none of OpenGL, or 'software' for
-1|                              OpenGL on the CPU. Default: the first GPU, or else
-1|                              'cpu' if the techniques need no OpenGL.
-1|      --technique STAGE=NAME  How to run a stage; more of them after commas (see
-1|                              'kiln help techniques'). Default: what suits the
-1|                              device.
-1|      --threads N             Threads that work beside the device; 0 takes one a
-1|                              core. Default: 0.
+1|                              name, 'cpu' to render without OpenGL, or
+1|                              'software' for OpenGL on the CPU. Default: the
+1|                              first GPU, or else 'cpu' if the techniques need no
+1|                              OpenGL.
+1|      --technique STAGE=NAME  How to run a stage; separate several by commas
+1|                              (see 'kiln help techniques'). Default: the
+1|                              technique that suits the device.
+1|      --threads N             Number of threads that work beside the device; 0
+1|                              takes one for each core. Default: 0.
 1|      --png-bits 8|16         Bits a channel of PNG, APNG and MKV files.
 1|                              Default: 8.
 1|      --exr-bits 16|32        Bits a channel of EXR files: half or float.
 1|                              Default: 16.
 1|      --quality N             Quality of JPEG, MP4, WebM, MOV and WebP files,
-1|                              from 0 (smallest) to 100 (no loss that an eye can
-1|                              see). Default: 80.
+1|                              from 0 (smallest) to 100 (visually lossless).
+1|                              Default: 80.
 1|      --flipbook COLUMNSxROWS
-1|                              Write one PNG of so many cells, for game engines,
-1|                              each a frame of --size; beside it a .json of its
-1|                              layout. The cells are spread evenly over --frames,
-1|                              and only they are drawn.
+1|                              Write one PNG of this many cells, for game
+1|                              engines, and a .json of its layout. Each cell is a
+1|                              frame of --size. The cells are spread evenly over
+1|                              --frames, and no other frames are drawn.
 1|      --flipbook-alpha straight|premultiplied
-1|                              Whether the colours of a flipbook are those of the
-1|                              cover alone, or times alpha. Default: straight.
-1|      --flipbook-motion       Also write how pixels move from cell to cell, as
-1|                              FILE_motion.png.
-1|      --flipbook-padding N    Pixels to add on each side of a cell, so that
-1|                              filters see nothing of its neighbours. Default: 0.
+1|                              Whether the colours of a flipbook are straight, or
+1|                              premultiplied by alpha. Default: straight.
+1|      --flipbook-motion       Also write the motion of pixels from cell to cell,
+1|                              as FILE_motion.png.
+1|      --flipbook-padding N    Number of pixels to add on each side of a cell, so
+1|                              that texture filters do not read the neighbouring
+1|                              cells. Default: 0.
 1|      --manifest FILE         Also write a JSON file that describes the run,
-1|                              also one that fails: scene, device, techniques,
+1|                              even one that fails: scene, device, techniques,
 1|                              state of each frame, times. A folder or '{scene}'
-1|                              as for --output.
+1|                              works as for --output.
 1|      --states STATES         Start at the nearest state before the frames, out
-1|                              of a folder that 'kiln bake' made, and step on
-1|                              from there. The pictures are the same as without.
+1|                              of a folder that 'kiln bake' made. The pictures
+1|                              are the same as without it.
 1|      --resume                Go on with a job that was stopped or killed, or
-1|                              start it: what is whole stays, the rest is drawn
-1|                              (see docs/jobs.md). With --force it starts anew.
+1|                              start it. Whole files stay, and the rest is drawn
+1|                              (see docs/jobs.md). With --force the job starts
+1|                              anew.
 1|      --shard I/N|auto|auto/N
-1|                              Draw only the I-th of N shares of the parts of a
-1|                              clip, two seconds each, and go on with what is
-1|                              there of it; 'kiln join' makes the clip of all.
-1|                              auto: what SLURM_ARRAY_TASK_ID or SGE_TASK_ID and
-1|                              their like say; auto/N: of N, also by
-1|                              JOB_COMPLETION_INDEX or AWS_BATCH_JOB_ARRAY_INDEX.
+1|                              Draw only the I-th of N shares of a clip's parts,
+1|                              and go on with files of it that are there. A part
+1|                              has two seconds. 'kiln join' makes the clip of all
+1|                              parts. auto takes I and N from the variables of a
+1|                              scheduler, such as SLURM_ARRAY_TASK_ID or
+1|                              SGE_TASK_ID. auto/N takes I alone from them, also
+1|                              from JOB_COMPLETION_INDEX or
+1|                              AWS_BATCH_JOB_ARRAY_INDEX.
 1|      --force                 Replace files that exist.
-1|      --keep-going            Render the other scenes, too, after one that
-1|                              failed. The exit code is then the greatest of all.
+1|      --keep-going            After a scene that failed, render the other scenes
+1|                              all the same. The exit code is then the greatest
+1|                              of all.
 1|      --batch JOBS            Render the jobs of a file, each in a process of
 1|                              its own, instead of scenes; '-' is standard input
 1|                              (see 'kiln help jobs'). Other options hold for
-1|                              every job, unless it says something else.
-1|      --jobs N                Jobs of --batch at a time. Default: as many as
-1|                              there are cores for the threads of each.
-1|      --limits KEY=VALUE,...  End with exit code 8 before more is taken;
-1|                              'service' stands for a set of them (see 'kiln help
-1|                              limits'). Default: the environment's KILN_LIMITS.
+1|                              every job that does not set them itself.
+1|      --jobs N                Number of jobs of --batch that run at a time.
+1|                              Default: the number of cores divided by the
+1|                              threads of a job.
+1|      --limits KEY=VALUE,...  End with exit code 8 before the job takes more
+1|                              than these limits. 'service' stands for a preset
+1|                              (see 'kiln help limits'). Default: the
+1|                              environment's KILN_LIMITS.
 1|      --timeout TIME          End with exit code 8 after that time, loading and
-1|                              encoding included: seconds, or with a unit, ms, s,
-1|                              min or h. Default: none.
+1|                              encoding included. The time is in seconds, or has
+1|                              a unit: ms, s, min or h. Default: none.
 1|      --sandbox[=on|require|off]
 1|                              Give up all rights that the job does not need, on
-1|                              the device 'cpu': files elsewhere, sockets, other
-1|                              programs. With 'require' it is exit code 5 where
-1|                              the kernel cannot do that (see 'kiln devices').
-1|                              Default: the environment's KILN_SANDBOX, or else
-1|                              off.
-1|      --frame-timeout TIME    Give up with exit code 5 when a frame takes longer
-1|                              than that. Frames that are stepped over lengthen
-1|                              the limit of the next drawn one; set-up and
-1|                              warm-up belong to the first. Loading the scenes
-1|                              has as long. Waiting for the output does not
-1|                              count. Default: none.
+1|                              the device 'cpu': other files, sockets, other
+1|                              programs. With 'require', the command ends with
+1|                              exit code 5 where the kernel cannot do that (see
+1|                              'kiln devices'). Default: the environment's
+1|                              KILN_SANDBOX, or else off.
+1|      --frame-timeout TIME    Give up with exit code 5 when drawing a frame
+1|                              takes longer than this. Each frame that is
+1|                              simulated but not drawn adds this time to the
+1|                              limit of the next drawn frame. The first drawn
+1|                              frame includes set-up and warm-up. Loading the
+1|                              scenes has the same limit. Time that is spent
+1|                              waiting for the output does not count. Default:
+1|                              none.
 1|      --progress tty|lines|ndjson|none
-1|                              A moving line on standard error, or a line now and
-1|                              then. 'ndjson' is an older --json, with the frames
-1|                              alone. Default: tty on a terminal, else lines.
+1|                              How to show progress on standard error: a moving
+1|                              line, or a line now and then. 'ndjson' is an older
+1|                              spelling of --json for frames alone. Default: tty
+1|                              on a terminal, else lines.
 1|      --stats[=text|json]     Print times of each pass, particles, memory,
 1|                              techniques and the hash of the final state. 'json'
-1|                              is an older --json, without frames.
+1|                              is an older spelling of --json without frames.
 1|      --json[=FILE]           Print JSON instead of text, or also write it into
 1|                              FILE: an object a line, whose "event" is "device",
 1|                              "frame" for each, and "result", with what --stats
 1|                              has.
 1|  -q, --quiet                 Print nothing but errors and what --stats and
 1|                              --json ask for.
-1|      --events STREAM         Tell other programs how the command goes, by lines
+1|      --events STREAM         Tell other programs how the command goes, in lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
 1|                              to an open descriptor. 'openjd' instead of
-1|                              'ndjson': by lines of Open Job Description (see
+1|                              'ndjson' writes lines of Open Job Description (see
 1|                              'kiln help events').
 1|  -h, --help                  Print this help.
 1|
-1|Options and operands may come in any order; '--' ends the options. Of an
-1|option that is given twice the last one counts, but these add up: --set --technique.
+1|Options and operands may come in any order; '--' ends the options. If an option is
+1|given twice, the last one counts, but these options add up: --set --technique.
 $ kiln render --help | cmp - <(kiln help render)
 $ kiln render scenes/tiny.yaml -h | cmp - <(kiln help render)
 $ kiln help compare
 1|usage: kiln compare [OPTION...] REFERENCE TEST
 1|
 1|Compares the test with the reference by FLIP (how different they look when one
-1|flips between them), SSIM, PSNR and differences of levels, and judges by limits.
-1|Each is a picture, a video, a folder of pictures, which are paired by name, or a
-1|pattern such as frame_%04d.png or frame_####.png, paired by number; those of a
-1|video count from 0. Frames that are missing or too many are differences, and so
-1|are other sizes or channels. Alpha is judged on black and on white.
+1|flips between them), SSIM, PSNR and differences of levels, and judges them by
+1|limits. Each operand is a picture, a video, a folder of pictures, or a pattern
+1|such as frame_%04d.png or frame_####.png. Pictures of folders are paired by
+1|name, pictures of patterns by number. Frames of a video are numbered from 0. A
+1|missing or extra frame is a difference, and so is another size or other
+1|channels. Alpha is judged on black and on white.
 1|
 1|Exit code 0: the same within the limits; 1: different; 2: usage; 3: something
-1|cannot be read or has values that are not finite, except where it is masked; 6:
-1|--diff or --error-map cannot be written. --limit replaces all default limits.
+1|cannot be read or has values that are not finite outside of masks; 6: --diff or
+1|--error-map cannot be written. --limit replaces all default limits.
 1|
-1|  -l, --limit METRIC=VALUE    The worst value that passes; more of them after
-1|                              commas (see 'kiln help metrics'). Default:
+1|  -l, --limit METRIC=VALUE    The worst value of a metric that passes; separate
+1|                              several limits by commas (see 'kiln help
+1|                              metrics'). Default:
 1|                              flip.mean=0.01,flip.p99=0.1,window.share=0.1.
 1|  -d, --diff FILE             Write a PNG of reference, test and FLIP's error
 1|                              map side by side. For several frames, '%04d' or
-1|                              '####' stands for the number, and a folder gets a
-1|                              file named after each.
+1|                              '####' stands for the frame's number. A folder
+1|                              gets one file for each frame.
 1|      --error-map FILE        Write a PNG of FLIP's error map alone, in the
-1|                              pictures' size; names as --diff.
+1|                              pictures' size. Names work as for --diff.
 1|      --force                 Let --diff, --error-map and --json replace files
 1|                              that exist.
-1|  -i, --ignore X,Y,WxH        Do not judge this rectangle: there, the test is
-1|                              taken from the reference.
-1|      --mask FILE             Do not judge where this picture, of the same size,
-1|                              is black.
-1|      --layer LAYER           Layer of EXR files, such as depth or fire.
-1|                              Default: beauty.
-1|      --range auto|ldr|hdr    How FLIP judges light: clamped at white (ldr), or
-1|                              at several exposures of the reference (hdr).
+1|  -i, --ignore X,Y,WxH        Do not judge this rectangle. Its pixels of the
+1|                              test are taken from the reference.
+1|      --mask FILE             Do not judge the places where this picture is
+1|                              black. It must have the same size.
+1|      --layer LAYER           Layer of EXR files to compare, such as depth or
+1|                              fire. Default: beauty.
+1|      --range auto|ldr|hdr    How FLIP judges light: ldr clamps it at white, hdr
+1|                              judges several exposures of the reference.
 1|                              Default: auto: hdr for EXR.
-1|      --ppd N                 Pixels that the viewer sees in a degree. Default:
-1|                              67.0206, a 0.7 m wide screen of 3840 pixels from
-1|                              0.7 m.
-1|      --threshold LEVELS      Pixels that differ by more count as differing, in
-1|                              1/255 of sRGB's range. Default: 2.
-1|      --window N              Edge in pixels of the window in which differing
-1|                              pixels are densest. Default: 32.
-1|      --threads N             Threads that work; 0 takes one a core. Default: 0.
+1|      --ppd N                 Number of pixels in a degree of the viewer's field
+1|                              of view. Default: 67.0206, a 0.7 m wide screen of
+1|                              3840 pixels from 0.7 m.
+1|      --threshold LEVELS      Threshold in 1/255 of sRGB's range. Pixels that
+1|                              differ by more count as differing. Default: 2.
+1|      --window N              Edge in pixels of the window that is searched for
+1|                              where differing pixels are densest. Default: 32.
+1|      --threads N             Number of threads; 0 takes one for each core.
+1|                              Default: 0.
 1|      --json[=FILE]           Print JSON instead of text, or also write it into
 1|                              FILE: an object a line, whose "event" is "frame"
 1|                              or "result".
 1|      --stats                 Also print the time that it took.
 1|  -q, --quiet                 Print nothing but errors and what --json asks for.
-1|      --events STREAM         Tell other programs how the command goes, by lines
+1|      --events STREAM         Tell other programs how the command goes, in lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
 1|                              to an open descriptor. 'openjd' instead of
-1|                              'ndjson': by lines of Open Job Description (see
+1|                              'ndjson' writes lines of Open Job Description (see
 1|                              'kiln help events').
 1|  -h, --help                  Print this help.
 1|
-1|Options and operands may come in any order; '--' ends the options. Of an
-1|option that is given twice the last one counts, but these add up: --limit --ignore --mask.
+1|Options and operands may come in any order; '--' ends the options. If an option is
+1|given twice, the last one counts, but these options add up: --limit --ignore --mask.
 $ kiln help check
 1|usage: kiln check [OPTION...] SCENE...
 1|
-1|Reads each scene ('-' is standard input, whose files lie below the working
-1|directory) and prints it with every default spelled out. What it prints is a
-1|scene file that renders to the same pictures. A comment at its end tells the
-1|work of the whole clip: steps, particles at once, and the memory that rendering
-1|without OpenGL takes, within a factor of 1.5, encoders left out. A wrong scene
+1|Reads each scene and prints it with every default spelled out. '-' reads a scene
+1|from standard input, whose files lie below the working directory. The output is
+1|a scene file that renders to the same pictures. A comment at its end tells the
+1|work of the whole clip: steps, particles at once, and memory. The memory is that
+1|of rendering without OpenGL, within a factor of 1.5, encoders left out. After a
 1|wrong scene is reported, the other scenes are checked all the same. A scene that
-1|--limits allow is exit code 8.
+1|asks for more than --limits allow ends with exit code 8.
 1|
 1|      --set KEY=VALUE         Change a value of the scene, such as
 1|                              systems.fire.emit.rate=500. In a key, '*' stands
 1|                              for every entry of a map or list.
 1|      --asset-root FOLDER     The folder that the scene's files must lie in.
 1|                              Default: the folder of the scene.
-1|      --limits KEY=VALUE,...  End with exit code 8 before more is taken;
-1|                              'service' stands for a set of them (see 'kiln help
-1|                              limits'). Default: the environment's KILN_LIMITS.
+1|      --limits KEY=VALUE,...  End with exit code 8 before the job takes more
+1|                              than these limits. 'service' stands for a preset
+1|                              (see 'kiln help limits'). Default: the
+1|                              environment's KILN_LIMITS.
 1|      --timeout TIME          End with exit code 8 after that time, loading and
-1|                              encoding included: seconds, or with a unit, ms, s,
-1|                              min or h. Default: none.
+1|                              encoding included. The time is in seconds, or has
+1|                              a unit: ms, s, min or h. Default: none.
 1|      --sandbox[=on|require|off]
 1|                              Give up all rights that the job does not need, on
 1|                              the device 'cpu': other files, sockets, other
-1|                              programs. With 'require' it is exit code 5 where
-1|                              the kernel cannot do that (see 'kiln devices').
-1|                              Default: the environment's KILN_SANDBOX, or else
-1|                              off.
+1|                              programs. With 'require', the command ends with
+1|                              exit code 5 where the kernel cannot do that (see
+1|                              'kiln devices'). Default: the environment's
+1|                              KILN_SANDBOX, or else off.
 1|      --hash                  Print only the scene's hash.
 1|  -q, --quiet                 Print nothing but errors.
-1|      --events STREAM         Tell other programs how the command goes, by lines
+1|      --events STREAM         Tell other programs how the command goes, in lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
 1|                              to an open descriptor. 'openjd' instead of
-1|                              'ndjson': by lines of Open Job Description (see
+1|                              'ndjson' writes lines of Open Job Description (see
 1|                              'kiln help events').
 1|  -h, --help                  Print this help.
 1|
-1|Options and operands may come in any order; '--' ends the options. Of an
-1|option that is given twice the last one counts, but these add up: --set.
+1|Options and operands may come in any order; '--' ends the options. If an option is
+1|given twice, the last one counts, but these options add up: --set.
 $ kiln help devices
 1|usage: kiln devices [OPTION...]
 1|
-1|Lists this machine without OpenGL, called 'cpu', on which every stage runs in
-1|threads and vectors, with the same pixels on every machine; then every device
-1|that OpenGL offers without a display, with its limits. Such a device is usable
-1|with OpenGL 4.3 or later; it is exact when it passed the probe of the arithmetic
-1|that the simulation needs, and otherwise particles move on the CPU. A software
-1|device is a rasteriser on the CPU. Last comes what the kernel has for --sandbox.
-1|Advice names what is missing and the package that brings it.
+1|Lists this machine without OpenGL, called 'cpu', and every device that OpenGL
+1|offers without a display. Without OpenGL, every stage runs in threads and
+1|vectors, with the same pixels on every machine. Each OpenGL device is listed
+1|with its limits. It is usable with OpenGL 4.3 or later. It is exact when it
+1|passed the probe of the arithmetic that the simulation needs; with a device that
+1|is not exact, particles move on the CPU. A software device is a rasteriser on
+1|the CPU. The last entry is what the kernel has for --sandbox. Advice names what
+1|is missing and the package that brings it.
 1|
 1|      --json[=FILE]           Print JSON instead of text, or also write it into
 1|                              FILE: one object.
 1|      --force                 Let --json replace a file that exists.
-1|      --events STREAM         Tell other programs how the command goes, by lines
+1|      --events STREAM         Tell other programs how the command goes, in lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
 1|                              to an open descriptor. 'openjd' instead of
-1|                              'ndjson': by lines of Open Job Description (see
+1|                              'ndjson' writes lines of Open Job Description (see
 1|                              'kiln help events').
 1|  -h, --help                  Print this help.
 $ kiln help help
 1|usage: kiln help [OPTION...] [TOPIC]
 1|
-1|Explains a command or a topic; without one, lists both.
+1|Explains a command or a topic. Without an operand, it lists both.
 1|
 1|  -h, --help                  Print this help.
 $ kiln help exit-codes
 1| CODE  AGAIN?     MEANING
 1|    0  never      all went well
 1|    1  never      a frame failed, or a picture differs
-1|    2  never      the command line makes no sense, or names an output that
-1|                  exists or a journal of another job
+1|    2  never      the command line is wrong, or it names an output that exists
+1|                  or a journal of another job
 1|    3  never      a scene or another input file is wrong
-1|    4  again      no usable device, or for want of one every test was skipped,
-1|                  or nothing measured
+1|    4  again      no device is usable; or, for want of a device, every test was
+1|                  skipped or nothing was measured
 1|    5  with more  the device was lost, memory ran out, a frame or test took
 1|                  longer than its limit, or a test crashed
 1|    6  again      reading or writing failed
-1|    7  never      a golden picture is missing, or what was accepted with it
-1|    8  with more  more than the limits of the job allow, or than --timeout
+1|    7  never      a golden picture is missing, or its accepted hashes and limits
+1|                  are
+1|    8  with more  the job took more than its limits or --timeout allow
 1|    9  again      the reader of standard output went away before the job was
 1|                  done
 1|  129  again      stopped by SIGHUP; only whole files are left
 1|  130  again      stopped by SIGINT; only whole files are left
 1|  143  again      stopped by SIGTERM; only whole files are left
 1|
-1|AGAIN? is for schedulers. never: the same call ends the same way. again: it may
-1|succeed, on another machine where a device or a disk is the reason; with --resume
-1|it goes on. with more: it may with more memory, more time, or larger limits.
+1|AGAIN? is for schedulers. never: the same call ends the same way. again: the same call
+1|may succeed, on another machine where a device or a disk is the reason; with --resume
+1|it goes on. with more: it may succeed with more memory, more time, or larger limits.
 
 The other topics.
 
@@ -538,12 +555,12 @@ Variables of the environment, those of one scheduler among them.
 
 $ kiln help environment | grep -A 2 -E '^  (KILN_LIMITS|SGE_TASK_ID)$'
 1|  KILN_LIMITS
-1|      Limits of jobs where --limits says nothing else (see 'kiln help limits').
+1|      Limits of jobs where --limits does not set them (see 'kiln help limits').
 1|  KILN_SANDBOX
 1|--
 1|  SGE_TASK_ID
-1|      Which task this is under Grid Engine; 'undefined' outside of arrays.
-1|  SGE_TASK_FIRST
+1|      Number of this task under Grid Engine, for 'kiln render --shard auto';
+1|      'undefined' outside of arrays.
 $ kiln help enviroment
 2|kiln: help: unknown topic 'enviroment' (did you mean 'environment'?); 'kiln help' lists the topics
 = 2
