@@ -14,28 +14,28 @@ class SavedState:
     """A state that was saved, or was there already."""
 
     frame: int
-    """The frame that it was saved before."""
+    """The frame before which the state was saved."""
     step: int
     alive: int
-    """Particles in it."""
+    """The number of living particles in the state."""
     file: str
     bytes: int
     kept: bool
-    """It was there already."""
+    """Whether the state was there already."""
 
 
 @dataclass(frozen=True)
 class BakeStats:
-    """What became of the states of a clip."""
+    """The result of :func:`kiln.bake`."""
 
     states: int
-    """That are there now."""
+    """How many states are in the folder now."""
     kept: int
-    """Of these were there before."""
+    """How many of these states were there before."""
     steps: int
-    """That were done."""
+    """How many steps were done."""
     bytes: int
-    """Of the files that were written."""
+    """The size of the files that were written."""
     total_s: float
     motion: str
     """The motion hash, by which states are known: looks, camera and lights have no part in it."""

@@ -1,4 +1,4 @@
-"""How different two pictures look."""
+"""Measures how different two pictures look."""
 from __future__ import annotations
 
 import os
@@ -29,11 +29,11 @@ class Metric:
     """The worst value that passes; None: it is only measured."""
     higher_is_better: bool
     worst_name: str
-    """Where it is worst."""
+    """The name of the frame in which the value is worst."""
 
     @property
     def passes(self) -> bool:
-        """Whether it is within its limit."""
+        """Whether the worst value is within its limit."""
         if self.limit is None:
             return True
         return self.worst >= self.limit if self.higher_is_better else self.worst <= self.limit
@@ -54,23 +54,23 @@ class ComparedFrame:
     message: str
     """Why there are no values; "" when there are."""
     equal: bool
-    """Not one value differs."""
+    """Whether every value is the same."""
     values: Mapping[str, float]
-    """By the names of metrics; empty where nothing was measured."""
+    """The values by the names of metrics; empty where nothing was measured."""
     score: float
-    """The worst value by its limit: 1 is just within."""
+    """The worst value divided by its limit: 1 is just within the limit."""
     worst_pixel: tuple[int, int]
     """x and y of a pixel of the largest difference."""
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """What came out of :func:`kiln.compare`; true when the pictures look the same."""
+    """The result of :func:`kiln.compare`. It is true when the pictures look the same."""
 
     same: bool
-    """Every frame is within all limits."""
+    """Whether every frame is within all limits."""
     hdr: bool
-    """Light was judged at several exposures."""
+    """Whether light was judged at several exposures."""
     metrics: Mapping[str, Metric]
     frames: tuple[ComparedFrame, ...]
 

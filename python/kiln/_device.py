@@ -1,4 +1,4 @@
-"""Devices: what there is to draw on, and one that is open."""
+"""Devices: the list of devices, and an open device."""
 from __future__ import annotations
 
 import threading
@@ -12,7 +12,7 @@ from ._library import Failure, Struct, ffi, lib, owned, text
 
 @dataclass(frozen=True)
 class DeviceInfo:
-    """What is known of a device."""
+    """The properties of a device."""
 
     index: int
     name: str
@@ -20,12 +20,12 @@ class DeviceInfo:
     """False for the device "cpu", which every machine has and which makes the same pixels everywhere."""
     usable: bool
     software: bool
-    """It draws on the processor."""
+    """Whether the device draws on the processor."""
     exact: bool
-    """It may simulate: it passed the probe of exactness."""
+    """Whether the device may simulate: it passed the probe of exactness."""
     platform: str
     problem: str
-    """Why it is not usable, and what mends it; "" when it is."""
+    """Why the device is not usable, and how to mend it; "" when it is usable."""
 
 
 def _info(found: Any) -> DeviceInfo:
@@ -74,7 +74,7 @@ class Device:
 
     @property
     def info(self) -> DeviceInfo:
-        """What is known of it."""
+        """The properties of the device."""
         return self._info
 
     @property

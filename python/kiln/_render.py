@@ -18,16 +18,16 @@ AnyDevice = Union[Device, str, int, None]
 
 @dataclass(frozen=True)
 class Progress:
-    """Where a job is after a frame."""
+    """The progress of a job after a frame."""
 
     frame: int
-    """Its number."""
+    """The frame's number."""
     done: int
     """Frames of this job that are drawn."""
     total: int
     elapsed_s: float
     eta_s: Optional[float]
-    """None: not known yet."""
+    """The expected time to the end; None while it is not known."""
     alive: int
     """Living particles at the frame."""
     state: Optional[str]
@@ -39,9 +39,9 @@ class Stats:
     """What a job did."""
 
     frames: int
-    """That were drawn."""
+    """How many frames were drawn."""
     kept: int
-    """That were there already, of a job with `resume`."""
+    """How many frames were there already, in a job with `resume`."""
     steps: int
     setup_s: float
     total_s: float
@@ -69,7 +69,7 @@ class Frame:
         self.number = progress.frame
         """The number of the frame in the clip."""
         self.progress = progress
-        """Where the job is after it."""
+        """The progress of the job after this frame."""
         self.layers: Mapping[str, Array] = layers
         """The layers that were asked for, by their names."""
 
@@ -246,7 +246,7 @@ class Rendering(Iterator[Frame]):
         raise failure.exception()
 
     def _end(self, failure: Failure) -> bool:
-        """Ends the job, whatever becomes of it."""
+        """Ends the job in any case."""
         if threading.get_ident() != self._device._thread:
             raise ValueError("the job belongs to another thread")
         stats = Struct("kiln_render_stats")
@@ -297,13 +297,13 @@ class Rendering(Iterator[Frame]):
 
     @property
     def stats(self) -> Stats:
-        """What the job did; after the last frame."""
+        """What the job did. It is known after the last frame."""
         if self._stats is None:
             raise ValueError("the job has not drawn its last frame")
         return self._stats
 
     def close(self) -> None:
-        """Ends the job: without its last frame it is given up. Twice does nothing."""
+        """Ends the job. A job without its last frame is cancelled. Calling this twice does nothing."""
         if self._job[0]:
             self._end(Failure())
 

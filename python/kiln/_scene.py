@@ -15,20 +15,20 @@ class SceneInfo:
     """Facts of a scene that a caller plans with."""
 
     width: int
-    """Pixels."""
+    """The width of a frame in pixels."""
     height: int
     frames: int
     fps: Fraction
-    """Frames a second."""
+    """The number of frames a second."""
     steps_per_frame: int
     warmup_steps: int
     steps: int
-    """Of the whole clip."""
+    """The number of simulation steps of the whole clip."""
     systems: int
     particle_capacity: int
-    """Slots for particles over all systems."""
+    """The number of slots for particles in all systems."""
     memory_bytes: int
-    """That rendering on the device "cpu" is expected to take."""
+    """The memory that rendering on the device "cpu" is expected to take."""
     hash: str
     """SHA-256 of the scene with every default and of its textures."""
 
