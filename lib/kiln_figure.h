@@ -4,66 +4,73 @@
 
 #include "kiln_program.h"
 
-/* A figure is pictures with labels on paper, for documents: a sheet of renders over sweeps of
- * parameters, a reference with a result and their error map, a strip of the frames of a clip.
- * Beside FILE.png comes FILE.png.figure.json, which says what it was made by and from. */
+/* Kinds of figures. A figure shows pictures with labels, for documents: a sheet of renders over
+ * sweeps of parameters, a triptych of a reference, a result and their error map, or a strip of
+ * frames of a clip. Beside FILE.png a sidecar FILE.png.figure.json is written, which records the
+ * command and the inputs that made the figure. */
 enum kiln_figure_kind { KILN_FIGURE_SHEET, KILN_FIGURE_TRIPTYCH, KILN_FIGURE_STRIP };
 
 enum kiln_sweep_kind {
-    KILN_SWEEP_KEY,
-    KILN_SWEEP_TOGETHER, /* no axis: changes along with the sweep before, value by value */
-    KILN_SWEEP_VARIANT,  /* "key=value;key=value": a panel; neighbours make an axis */
+    KILN_SWEEP_KEY,      /* an axis of panels, one for each value */
+    KILN_SWEEP_TOGETHER, /* no axis of its own: its values go along with those of the sweep before
+                          */
+    KILN_SWEEP_VARIANT,  /* one panel, "key=value;key=value"; adjacent variants make an axis */
 };
 
-/* An axis of panels, "key=value,value,...", of a key of the scene, "frame" or "time" (in s). */
+/* A sweep "key=value,value,...". The key is one of the scene, "frame", or "time" (in s). */
 struct kiln_figure_sweep {
     enum kiln_sweep_kind kind;
     const char *text;
 };
 
-/* A part of every picture that is shown enlarged below it, in a coloured frame. */
+/* A rectangle of every picture that is shown enlarged below the picture, in a coloured frame. */
 struct kiln_figure_inset {
     double x, y, width, height;
-    bool parts; /* of the picture's size, 0 to 1; else pixels */
+    bool parts; /* the rectangle is in parts of the picture's size, 0 to 1; else in pixels */
 };
 
 struct kiln_figure_params {
     enum kiln_figure_kind kind;
-    const char *const *inputs; /* scenes; reference and test; a scene, or what compare takes */
+    /* A sheet has one or more scenes, a triptych a reference and a test, a strip a scene or a clip
+     * in any form that kiln_compare takes. */
+    const char *const *inputs;
     size_t input_count;
     const char *output; /* .png, .jpg (of one quality, as 87 of 100), .svg or .pdf */
     bool overwrite;
-    struct kiln_scene_params scene; /* applied before what is swept */
+    struct kiln_scene_params scene; /* applied before the sweeps */
     const struct kiln_figure_sweep *sweeps;
     size_t sweep_count;
-    const struct kiln_frame_range *ranges; /* frames to show; 0: the middle one, of a strip some */
+    /* Frames to show. With range_count 0, a strip takes `strip` frames, others the middle one. */
+    const struct kiln_frame_range *ranges;
     size_t range_count;
-    uint32_t strip; /* a strip without ranges: how many frames, evenly over the clip */
+    uint32_t strip; /* number of frames, evenly over the clip, of a strip without ranges */
     const struct kiln_figure_inset *insets;
-    size_t inset_count;    /* up to 4 */
-    uint32_t columns;      /* 0: as many as look right */
-    uint32_t width;        /* of a panel, to which larger pictures are reduced; 0: their own */
-    double paper_width_mm; /* of the figure on paper, 5 to 2000; 0: what its panels take */
-    uint32_t dpi;          /* pixels an inch of paper, 36 to 2400, needed with paper_width_mm; 0:
-                              not said, and vectors have 96 */
-    uint32_t text_size;    /* pixels, 8 to 64 */
-    double text_points;    /* in place of text_size, 4 to 72; 0: text_size counts */
-    const char *title;     /* NULL: none */
-    const char *alt;       /* what the figure shows, for those who do not see it; NULL: not said */
+    size_t inset_count;        /* up to 4 */
+    uint32_t columns;          /* columns of panels; 0: chosen by the layout */
+    uint32_t width;            /* pixels of a panel; larger pictures are reduced; 0: no limit */
+    double paper_width_mm;     /* width of the figure on paper, 5 to 2000; 0: as its panels need */
+    uint32_t dpi;              /* pixels an inch of paper, 36 to 2400, needed with paper_width_mm;
+                                  0: not recorded, and vector formats assume 96 */
+    uint32_t text_size;        /* pixels, 8 to 64 */
+    double text_points;        /* points, 4 to 72, in place of text_size; 0: text_size counts */
+    const char *title;         /* NULL: none */
+    const char *alt;           /* alternative text that describes the figure; NULL: none */
     const char *const *labels; /* of the panels, in place of the parameters */
     size_t label_count;
-    bool unlabelled, dark;
-    bool plain;         /* nothing but the pictures, edge to edge */
-    const char *device; /* as in kiln_device_params */
-    const char *const *techniques;
+    bool unlabelled, dark;         /* no labels of panels; light text on a dark ground */
+    bool plain;                    /* only the pictures, edge to edge */
+    const char *device;            /* as kiln_device_params.wanted */
+    const char *const *techniques; /* "stage=name" */
     size_t technique_count;
-    uint32_t threads;
-    const char *const *command; /* what was asked for, for the sidecar and `kiln figure --check` */
+    uint32_t threads;           /* 0 takes one a core */
+    const char *const *command; /* words of the command line, for the sidecar, by which
+                                   `kiln figure --check` draws the figure again */
     size_t command_count;
-    const char *check;   /* a sidecar: draw, write nothing, and say whether its figure is stale */
-    bool update;         /* of a check: write what was drawn in place of a figure that is stale */
-    const char *depfile; /* where to write what the figure is made of, for make; NULL: nowhere */
-    bool (*stop)(void *user);
+    const char *check;   /* path of a sidecar: draw its figure, write nothing, and find out whether
+                            the figure is stale; NULL: make a figure */
+    bool update;         /* with `check`: replace a stale figure by the one that was drawn */
+    const char *depfile; /* path of a makefile that lists the figure's inputs; NULL: none */
+    bool (*stop)(void *user); /* true ends with KILN_INTERRUPTED */
     void *user;
     struct kiln_log log;
 };
@@ -73,36 +80,40 @@ static inline struct kiln_figure_params kiln_figure_defaults(void)
 }
 
 struct kiln_figure_result {
-    uint32_t width, height, panels;
-    bool stale;                     /* of a check */
-    bool redrawn;                   /* of a check that updates: it was stale, and is not any more */
-    char reason[KILN_MESSAGE_SIZE]; /* why; or how it was judged, if not by its pixels' hash */
+    uint32_t width, height, panels; /* pixels; number of panels */
+    bool stale;                     /* result of `check` */
+    bool redrawn;                   /* with `update`: the figure was stale and has been replaced */
+    char reason[KILN_MESSAGE_SIZE]; /* why it is stale; or how it was judged, if not by the hash of
+                                       its pixels */
 };
 
-/* Whether a file is a scene by its name; else it is a picture or a clip. */
+/* Returns whether a path has the name of a scene file; any other file is a picture or a clip. */
 bool kiln_is_scene_name(const char *path);
 
-/* Draws a figure and writes it and its sidecar. KILN_USAGE for a request that makes no sense,
- * otherwise what loading, rendering and comparing say. */
+/* Draws a figure and writes it and its sidecar, or does what `check` asks for. KILN_USAGE for a
+ * request that makes no sense, and the errors of loading, rendering and comparing. */
 bool kiln_figure_make(const struct kiln_figure_params *params, struct kiln_figure_result *result,
                       struct kiln_error *error);
 
-/* Figures by their sidecars. */
+/* Figures that were found by their sidecars. */
 struct kiln_figure_list;
 struct kiln_figure_entry {
     const char *sidecar, *figure; /* paths */
-    const char *folder;           /* in which the command was given */
-    const char *const *command;
+    const char *folder;           /* working directory of the command */
+    const char *const *command;   /* words of the command line that made the figure */
     size_t command_count;
-    const struct kiln_error *problem; /* why it cannot be read, and has no command; else NULL */
+    const struct kiln_error *problem; /* why the sidecar cannot be read; NULL: it was read. With a
+                                         problem, there is no command */
 };
 
-/* Figures, by themselves or by their sidecars, and all below folders, ordered by path. One that is
- * broken, or a path without any, is a problem of its entry. KILN_DEVICE_FAILED when memory is
- * short. */
+/* Lists the figures of paths. A path is a figure, a sidecar, or a folder, which stands for all
+ * figures below it. A broken sidecar and a path without a figure give an entry with a problem.
+ * Returns a list that the caller destroys, or NULL with KILN_DEVICE_FAILED when memory is short. */
 struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t count,
                                                struct kiln_error *error);
 void kiln_figure_list_destroy(struct kiln_figure_list **list);
+/* Return the number of entries, and the entry of an index below that. Its texts belong to the list.
+ */
 size_t kiln_figure_list_count(const struct kiln_figure_list *list);
 struct kiln_figure_entry kiln_figure_list_entry(const struct kiln_figure_list *list, size_t index);
 

@@ -9,37 +9,37 @@
 extern "C" {
 #endif
 
-/* A clip is a sequence of parts of equal length, which do not depend on each other: so many frames,
- * about two seconds of them and at most 600. The last part may be shorter. */
+/* Returns the number of frames of a part: about two seconds, at most 600 frames. A clip is a
+ * sequence of parts of this length that do not depend on each other; the last may be shorter. */
 KILN_API uint32_t kiln_part_frames(uint32_t fps_num, uint32_t fps_den);
 
 /* ---- Saved states --------------------------------------------------------------------------- */
 
-/* A state that was saved: what a run carries from one step to the next. It serves every scene of
- * the same motion, whatever that looks like, on every device and with every technique. */
+/* A saved state: all that a run carries from one step to the next. It serves every scene of the
+ * same motion, however the scene looks, on every device and with every technique. */
 struct kiln_baked {
     size_t size;
-    uint32_t frame, frames; /* the one that it was saved before, of so many states to be saved */
-    uint32_t done;          /* of these, it included */
-    uint32_t step;
-    uint64_t alive; /* particles */
-    uint64_t bytes; /* of the file */
-    bool kept;      /* it was there already */
-    const char *file;
+    uint32_t frame, frames; /* the frame that the state precedes; number of states to be saved */
+    uint32_t done;          /* number of states saved so far, this one included */
+    uint32_t step;          /* number of steps that led to the state */
+    uint64_t alive;         /* living particles */
+    uint64_t bytes;         /* size of the file */
+    bool kept;              /* the file was there already */
+    const char *file;       /* path, valid until the callback returns */
 };
 
 struct kiln_bake_params {
     size_t size;
-    const char *states; /* the folder; it is made if it is missing */
-    uint32_t every;     /* frames between two states; 0: one before each part */
-    const char *const
-        *techniques; /* "stage=name"; with those of a spread sort, its order is saved */
+    const char *states;            /* the folder; it is made if it is missing */
+    uint32_t every;                /* frames between two states; 0: one before each part */
+    const char *const *techniques; /* "stage=name"; with a spread sort, its order is saved, too */
     size_t technique_count;
     uint32_t threads; /* 0 takes one a core */
-    bool overwrite;   /* states of the same names; else they are refused, */
-    bool resume;      /* or else kept where they are whole, and the run goes on from them */
-    void (*saved)(void *user, const struct kiln_baked *state); /* told of each; NULL: nobody */
-    bool (*stop)(void *user); /* asked between steps; true ends with KILN_INTERRUPTED */
+    bool overwrite;   /* replace states that are there; without overwrite and resume, a state that
+                         is there is KILN_USAGE */
+    bool resume;      /* keep states that are whole, and go on from them */
+    void (*saved)(void *user, const struct kiln_baked *state); /* called for each state, or NULL */
+    bool (*stop)(void *user); /* called between steps; true ends with KILN_INTERRUPTED */
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_log log;
@@ -48,18 +48,17 @@ KILN_EMPTY(kiln_bake_params, kiln_bake_defaults)
 
 struct kiln_bake_stats {
     size_t size;
-    uint32_t states, kept; /* that are there now; of these were there before */
-    uint64_t steps;        /* that were done */
-    uint64_t bytes;        /* of the files that were written */
+    uint32_t states, kept; /* number of states that are there now, and that were there before */
+    uint64_t steps;        /* steps that this run simulated */
+    uint64_t bytes;        /* size of the files that were written */
     double total_s;
-    char motion[65]; /* the motion hash, by which they are known */
+    char motion[65]; /* hash of the scene's motion, which the names of the files begin with */
 };
 KILN_EMPTY(kiln_bake_stats, kiln_bake_stats_empty)
 
-/* Steps through the clip once and saves states, whole files alone under their names. A state of
- * step 0 is none. KILN_USAGE, KILN_IO, KILN_INTERRUPTED, or the errors of kiln_render. stats may be
- * NULL.
- */
+/* Steps through the clip once and saves states. A file appears under its name only when it is
+ * whole. No state is saved before the first step. `stats` may be NULL. KILN_USAGE, KILN_IO,
+ * KILN_INTERRUPTED, or the errors of kiln_render. */
 KILN_API bool kiln_bake(struct kiln_device *device, const struct kiln_scene *scene,
                         const struct kiln_bake_params *params, struct kiln_bake_stats *stats,
                         struct kiln_error *error);
@@ -68,14 +67,14 @@ KILN_API bool kiln_bake(struct kiln_device *device, const struct kiln_scene *sce
 
 struct kiln_join_params {
     size_t size;
-    const char *output;         /* as the job was given it: a clip, or a pattern of images */
+    const char *output;         /* the output of the shards: a clip, or a pattern of images */
     const char *manifest;       /* a JSON file that describes the job, or NULL */
     const char *const *command; /* words of a command line, for the manifest */
     size_t command_count;
-    const char
-        *build;     /* of the program, "0.2.0 (254e4dc)", for the manifest; NULL: kiln_version() */
-    bool overwrite; /* files that no journal knows of; a manifest is replaced anyway */
-    bool (*stop)(void *user); /* asked now and then; true ends with KILN_INTERRUPTED */
+    const char *build; /* the program's version and commit, for the manifest, "0.2.0 (254e4dc)";
+                          NULL: kiln_version() */
+    bool overwrite;    /* replace files that no journal knows; a manifest is always replaced */
+    bool (*stop)(void *user); /* called now and then; true ends with KILN_INTERRUPTED */
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_budget *budget;       /* NULL: no limits */
@@ -85,14 +84,15 @@ KILN_EMPTY(kiln_join_params, kiln_join_defaults)
 
 struct kiln_join_stats {
     size_t size;
-    uint32_t frames, parts;
-    bool was_whole; /* there was nothing to do */
+    uint32_t frames, parts; /* of the clip */
+    bool was_whole;         /* the clip or all images were there already */
     double total_s;
 };
 KILN_EMPTY(kiln_join_stats, kiln_join_stats_empty)
 
-/* Makes the clip of parts that shards drew, or looks whether all images are there. KILN_IO, with
- * the parts and frames that are missing or damaged, when not all are; then nothing is written. */
+/* Makes the clip of the parts that shards drew or, for images, checks whether all are there.
+ * `stats` may be NULL. When parts or frames are missing or damaged, writes nothing and returns
+ * false with KILN_IO and their numbers. */
 KILN_API bool kiln_join(const struct kiln_join_params *params, struct kiln_join_stats *stats,
                         struct kiln_error *error);
 
@@ -103,13 +103,14 @@ struct kiln_encode_params {
     const char *frames;  /* images: a folder, taken in the order of names, or a numbered pattern */
     const char *output;  /* a clip */
     const char *fps;     /* "30", "29.97" or "30000/1001"; NULL: what the images say */
-    const char *tonemap; /* of EXR images, and only of them: "none", "agx" or "aces" */
-    float exposure;      /* of these, in stops */
+    const char *tonemap; /* for EXR images, and only for them: "none", "agx" or "aces" */
+    float exposure;      /* for EXR images, in stops */
     uint32_t quality;    /* as in kiln_render_params */
     uint32_t threads;    /* 0 takes one a core */
     bool overwrite;
-    void (*progress)(void *user, const struct kiln_progress *progress); /* pixels alone: no state */
-    bool (*stop)(void *user); /* asked now and then; true ends with KILN_INTERRUPTED */
+    /* Called after each frame; `alive` and `state` are zero. */
+    void (*progress)(void *user, const struct kiln_progress *progress);
+    bool (*stop)(void *user); /* called now and then; true ends with KILN_INTERRUPTED */
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_budget *budget;       /* NULL: no limits */
@@ -124,52 +125,54 @@ static inline struct kiln_encode_params kiln_encode_defaults(void)
     return params;
 }
 
-/* Makes a clip of images. Of PNG images by kiln, of the depth that the format takes, it has the
- * bytes of a clip that kiln_render would have written of the same frames. frames gets their range.
- * KILN_INVALID_INPUT when images cannot be read, leave out a frame, or are not of one clip;
+/* Makes a clip of images. PNG images by kiln, of the depth that the format takes, give the same
+ * bytes as a clip that kiln_render writes of these frames. *frames gets the range of the frames.
+ * KILN_INVALID_INPUT when images cannot be read, leave out a frame, or do not belong to one clip;
  * KILN_USAGE, KILN_IO, KILN_INTERRUPTED. */
 KILN_API bool kiln_encode(const struct kiln_encode_params *params, struct kiln_frame_range *frames,
                           struct kiln_error *error);
 
 /* ---- Plans ---------------------------------------------------------------------------------- */
 
-/* What a scene costs, measured by drawing one of its frames. CPU times are of all threads. */
+/* The cost of a scene, measured by drawing one of its frames. CPU times are sums over all threads.
+ */
 struct kiln_plan {
     size_t size;
-    uint32_t parts, part_frames; /* of the clip; frames of a part but the last */
-    uint32_t frame;              /* the one that was drawn */
-    uint64_t steps;              /* that were done for it */
-    double setup_cpu_s;          /* programs, textures, buffers */
-    double step_cpu_s;           /* a step, in the mean of those */
-    double frame_cpu_s;          /* a frame, its steps and its encoding apart */
-    uint64_t memory_bytes;       /* the most that the process had at once */
+    uint32_t parts, part_frames; /* number of parts of the clip; frames of each but the last */
+    uint32_t frame;              /* the frame that was drawn */
+    uint64_t steps;              /* steps that were made to reach that frame */
+    double setup_cpu_s;          /* time of making programs, textures and buffers */
+    double step_cpu_s;           /* mean time of a step */
+    double frame_cpu_s;          /* time of a frame without its steps and its encoding */
+    uint64_t memory_bytes;       /* peak memory of the process */
+    /* the hash of the scene's motion; "simulate=cpu sort=cpu ..." */
     char motion[65], techniques[256];
 };
 KILN_EMPTY(kiln_plan, kiln_plan_empty)
 
-/* One of several tasks that draw a clip together: whole parts, as many as the others or one more.
- */
+/* One of several tasks that draw a clip together. A task has whole parts; the numbers of parts of
+ * two tasks differ by at most one. */
 struct kiln_plan_task {
     size_t size;
-    uint32_t index, count;          /* from 0; of so many */
+    uint32_t index, count;          /* number of the task from 0, and number of tasks */
     uint32_t first_part, end;       /* parts first_part to end - 1; none where they are equal */
-    struct kiln_frame_range frames; /* of these */
-    bool has_state;
-    uint32_t state_step; /* of the state that it starts at; else it steps from 0 */
-    uint64_t steps;      /* from there */
-    double cpu_s;        /* set-up, steps and frames */
+    struct kiln_frame_range frames; /* frames of these parts */
+    bool has_state;                 /* the task starts from a saved state; else from step 0 */
+    uint32_t state_step;            /* the step of that state */
+    uint64_t steps;                 /* steps from there to the last frame */
+    double cpu_s;                   /* time of set-up, steps and frames */
 };
 
 struct kiln_plan_params {
     size_t size;
-    uint32_t tasks;     /* at least 1 */
-    const char *states; /* a folder of kiln_bake, or NULL */
-    int64_t frame;      /* to measure; -1: the middle one */
-    const char *const *techniques;
+    uint32_t tasks;                /* at least 1 */
+    const char *states;            /* a folder of kiln_bake, or NULL */
+    int64_t frame;                 /* the frame to measure; -1: the middle one */
+    const char *const *techniques; /* "stage=name" */
     size_t technique_count;
-    uint32_t threads;
-    bool (*stop)(void *user); /* asked between steps; true ends with KILN_INTERRUPTED */
-    /* Told of each task in turn, with plan filled. */
+    uint32_t threads;         /* 0 takes one a core */
+    bool (*stop)(void *user); /* called between steps; true ends with KILN_INTERRUPTED */
+    /* Called for each task in turn; the plan is filled. */
     void (*task)(void *user, const struct kiln_plan *plan, const struct kiln_plan_task *task);
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
@@ -185,8 +188,8 @@ static inline struct kiln_plan_params kiln_plan_defaults(void)
     return params;
 }
 
-/* Measures and tells what each task would do. KILN_USAGE for a frame that there is not, or the
- * errors of kiln_render. */
+/* Measures the cost of a scene, fills *plan, and calls params->task for each task. KILN_USAGE for a
+ * frame that does not exist, or the errors of kiln_render. */
 KILN_API bool kiln_plan_tasks(struct kiln_device *device, const struct kiln_scene *scene,
                               const struct kiln_plan_params *params, struct kiln_plan *plan,
                               struct kiln_error *error);

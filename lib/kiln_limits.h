@@ -9,7 +9,8 @@
 extern "C" {
 #endif
 
-/* What can be limited, in what (a count, bytes, milliseconds), and what is said of an amount. */
+/* The limits of a job: the name, the unit (a count, bytes, milliseconds), and the words that follow
+ * an amount in messages. */
 #define KILN_LIMITS(X)                                                                             \
     X(pixels, COUNT, "pixels of a frame")                                                          \
     X(frames, COUNT, "frames of the clip")                                                         \
@@ -32,25 +33,27 @@ enum kiln_limit {
 
 struct kiln_limits {
     size_t size;
-    uint64_t most[KILN_LIMIT_COUNT]; /* 0: no limit */
+    uint64_t most[KILN_LIMIT_COUNT]; /* the largest amounts that are allowed; 0: no limit */
 };
 KILN_EMPTY(kiln_limits, kiln_limits_empty)
 
-/* Reads "frames=1000,memory=4 GiB,time=1 h" or "service", or both with commas between, into limits
- * that stay what they are where the text says nothing; "none" lifts one. KILN_USAGE with what was
- * found and what is allowed. */
+/* Reads limits from a text such as "frames=1000,memory=4 GiB,time=1 h", "service" (a preset), or
+ * both with a comma between. Limits that the text does not name stay as they are; the value "none"
+ * lifts a limit. Returns false with KILN_USAGE for a wrong text. */
 KILN_API bool kiln_limits_parse(struct kiln_limits *limits, const char *text,
                                 struct kiln_error *error);
 
-/* What a job has taken of its limits. It counts from here on, so make it before the scene is
- * loaded; who uses it may be on any threads. NULL: no limits. Returns NULL when memory is short. */
+/* The amounts that a job has taken of its limits. Any threads may use it at the same time. */
 struct kiln_budget;
+
+/* Returns a budget, which the caller destroys, or NULL when memory is short. Time counts from this
+ * call on, so make it before the scene is loaded. `limits` NULL: no limits. */
 KILN_API struct kiln_budget *kiln_budget_create(const struct kiln_limits *limits);
 KILN_API void kiln_budget_destroy(struct kiln_budget **budget);
 
-/* Whether time, processor time and memory of this process are within the limits: else false with
- * KILN_OVER_LIMIT. Jobs ask it themselves between passes; another thread may, for what cannot be
- * left. A NULL budget has no limits. */
+/* Returns whether time, processor time and memory of this process are within the limits; otherwise
+ * fills the error with KILN_OVER_LIMIT. Jobs call it between passes; another thread may call it, to
+ * end a process whose job is in a long call. A NULL budget has no limits. */
 KILN_API bool kiln_budget_is_kept(struct kiln_budget *budget, struct kiln_error *error);
 
 #ifdef __cplusplus

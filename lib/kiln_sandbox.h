@@ -9,12 +9,12 @@
 extern "C" {
 #endif
 
-/* What the kernel of this machine has to confine a process. */
+/* The means by which this machine's kernel can confine a process. */
 struct kiln_sandbox_support {
     size_t size;
-    int landlock; /* version of its interface; 0: none */
+    int landlock; /* version of Landlock's interface; 0: the kernel has none */
     bool seccomp;
-    bool off; /* this program was built with sanitizers, which need more than a job does */
+    bool off; /* the program was built with sanitizers, which need more rights than a job */
 };
 KILN_EMPTY(kiln_sandbox_support, kiln_sandbox_support_empty)
 
@@ -22,24 +22,26 @@ KILN_API void kiln_sandbox_get_support(struct kiln_sandbox_support *support);
 
 struct kiln_sandbox_params {
     size_t size;
-    bool required; /* KILN_DEVICE_FAILED where the kernel lacks Landlock or seccomp */
-    /* Files and folders: asset roots, states. What does not exist is passed over. */
+    bool required; /* fail with KILN_DEVICE_FAILED where the kernel lacks Landlock or seccomp */
+    /* Files and folders to read: asset roots, states. Paths that do not exist are ignored. */
     const char *const *readable;
     size_t readable_count;
-    /* Files that will be written, or patterns of such: the folder that each is in is made, and can
-     * be read and written with all below it; of a pattern ("{scene}/f_####.png") what stands before
-     * the first '{', '#' or '%'. A path that ends with '/' or is a folder is that folder. */
+    /* Files to write, patterns of files, or folders. The folder of each is made, and all below it
+     * can be read and written. The folder of a pattern ("{scene}/f_####.png") is that of the text
+     * before the first '{', '#' or '%'. A path that ends with '/' or is a folder stands for itself.
+     */
     const char *const *writable;
     size_t writable_count;
 };
 KILN_EMPTY(kiln_sandbox_params, kiln_sandbox_defaults)
 
-/* Gives rights up, for the rest of the process and all that it starts: files can be opened below
- * those folders, below kiln's cache of distance fields, and where the dynamic linker finds
- * libraries (to read), nothing else; no program can be started but kiln-decode, no socket opened,
- * no other process traced or sent a signal. Call it before the first thread is started, and render
- * on the device "cpu": drivers of OpenGL need more. False with an error when something cannot be
- * confined that should be; the process may then have lost some rights already. */
+/* Confines this process and all that it starts, until they end. Files can be opened only below the
+ * folders of `params`, in kiln's cache of distance fields and, to read, where the system's
+ * libraries and files of the C library lie. The only program that can be started is kiln-decode. No
+ * socket can be opened, and no other process can be traced or sent a signal. Call it before the
+ * first thread is started, and render on the device "cpu": drivers of OpenGL need more rights.
+ * Returns false with an error when the process cannot be confined; it may then have lost some
+ * rights already. */
 KILN_API bool kiln_sandbox_enter(const struct kiln_sandbox_params *params,
                                  struct kiln_error *error);
 
