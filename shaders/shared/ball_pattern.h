@@ -8,11 +8,11 @@
 #define BALL_STRIPE      0.42f /* half of a stripe's height, in radii */
 #define BALL_STRIPE_TURN 1.1f  /* angle for each height there: 1 / cos(latitude) */
 #define BALL_CAP         0.94f /* height at which caps begin, in radii */
-#define BALL_CAP_TURN    2.9f  /* as BALL_STRIPE_TURN */
+#define BALL_CAP_TURN    2.9f  /* angle for each height there: 1 / cos(latitude) */
 #define BALL_SEGMENTS    8     /* of each colour, at most */
 
-/* Returns the part of a pixel beyond an edge. distance, width: of the edge and of the pixel, rad.
- */
+/* Returns the part of a pixel beyond an edge. distance: from the edge to the pixel's middle, rad;
+ * width: of the pixel, rad. */
 REAL_FN real ball_beyond(real distance, real width)
 {
     return real_clamp01(0.5f + distance / width);
@@ -31,8 +31,9 @@ REAL_FN real ball_segment_sine(real sine, real cosine, real segments)
     return s;
 }
 
-/* Returns the part of the second colour. n: the normal in the ball's own axes; segments: of each
- * colour; 0: no pattern; below 0: a stripe; width: of a pixel there, rad. */
+/* Returns the part of a pixel that has the second colour. n: the normal in the ball's own axes;
+ * segments: number of segments of each colour (0: no pattern; below 0: a stripe); width: of the
+ * pixel, rad. */
 REAL_FN real ball_other_part(real3 n, real segments, real width)
 {
     real high = real_abs(n.y);

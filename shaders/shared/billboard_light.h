@@ -34,8 +34,8 @@ REAL_FN S(light_channel) light_channel_add(S(light_channel) channel, float radia
     return channel;
 }
 
-/* Adds a light. factor: half of the part of it that arrives; towards: the direction to the light,
- * times that. */
+/* Adds a light. factor: half of the part of the light that arrives; towards: the direction to the
+ * light, times the factor. */
 REAL_FN S(light_sum) light_sum_add(S(light_sum) sum, float4 radiance, real factor, real3 towards)
 {
     sum.red = light_channel_add(sum.red, radiance.x, factor, towards);
@@ -44,7 +44,7 @@ REAL_FN S(light_sum) light_sum_add(S(light_sum) sum, float4 radiance, real facto
     return sum;
 }
 
-/* Adds a light that is far away in a direction. part: of the light that arrives. */
+/* Adds a light that is far away in a direction. part: the part of the light that arrives. */
 REAL_FN S(light_sum) light_sum_add_far(S(light_sum) sum, float4 radiance, real part,
                                        float4 direction)
 {
@@ -53,8 +53,8 @@ REAL_FN S(light_sum) light_sum_add_far(S(light_sum) sum, float4 radiance, real p
                          REAL3(factor * direction.x, factor * direction.y, factor * direction.z));
 }
 
-/* Returns the light of the sky: that of its horizon comes from all sides, and crosses less smoke
- * than the light of its top, from above. lit: the part of the light that the particle reflects;
+/* Returns the light of the sky. The horizon's light comes from all sides; the top's light comes
+ * from above and crosses more smoke. lit: the part of the light that the particle reflects;
  * through: the part of the light from above that smoke lets through. */
 REAL_FN S(light_sum) light_sum_of_sky(float4 horizon, float4 top, real lit, real through)
 {

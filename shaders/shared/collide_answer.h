@@ -39,7 +39,7 @@ struct collide_answer {
     float slowdown;   /* factor on the speed */
     uint stream;      /* random stream of the particle */
     uint purpose;     /* purpose of the two random numbers of this impact */
-    bool rubs;        /* 1: restitution and friction, the members below, count */
+    bool rubs;        /* the members below count: restitution and friction */
     float restitution;
     float friction;
     float radius; /* m: distance of its centre from a surface that it touches */
@@ -82,7 +82,8 @@ FN_APART float3 collide_rubbed(float restitution, float friction, float3 mirrore
 /* Returns the velocity, relative to the surface, after an impact that mirrored it: a linear
  * combination of the mirrored and a random direction, with the slowed speed. The random direction
  * lies in the hemisphere about the surface's normal, so that it never points inwards; with
- * `literal`, about the mirrored direction. outwards: of the velocity before, below 0. */
+ * `literal`, it lies in the hemisphere about the mirrored direction. outwards: the component along
+ * the normal before the impact, m/s, below 0. */
 FN float3 collide_scatter(S(collide_answer) answer, float3 velocity, float3 reflected,
                           float3 normal, float outwards, bool literal)
 {

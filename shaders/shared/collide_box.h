@@ -5,8 +5,8 @@
 #include "shared/exact.h"
 #include "shared/layout.h"
 
-/* Stand in place of FN. In C, FN_CLOSE functions are inlined into their callers, since most impacts
- * use them; FN_APART functions are not, since few impacts do. */
+/* These macros stand in place of FN. In C, FN_CLOSE functions are inlined into their callers, since
+ * most impacts use them; FN_APART functions are not, since few impacts do. */
 #ifdef GL_core_profile
 #define FN_CLOSE
 #define FN_APART

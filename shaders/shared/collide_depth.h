@@ -1,6 +1,6 @@
 /* Intersects segments with the depth maps of a mesh (Kolb et al. 2004, as described in Heinz 2019,
- * 2.5.1), for shared/collide.h. A point between front and back in every map is inside; so hollows
- * are filled that no direction looks into.
+ * 2.5.1), for shared/collide.h. A point between front and back in every map is inside, so hollows
+ * that no direction looks into are filled.
  *
  * As over terrain (shared/collide_terrain.h), four samples make a cell of two triangles of the
  * front and two of the back. The points at which a path enters and leaves a map are therefore
@@ -81,8 +81,8 @@ FN S(terrain_path) depth_path_of(S(depth_map) map, float3 a, float3 b)
 struct depth_place {
     float part;   /* part of the path */
     float aside;  /* distance from the line between the triangles */
-    float behind; /* distance behind the front, and */
-    float before; /* distance before the back, in units; inside if both are above 0 */
+    float behind; /* distance behind the front, units of the map; above 0: behind it */
+    float before; /* distance before the back, units of the map; above 0: before it */
 };
 
 FN S(depth_place) depth_place_at(S(terrain_path) path, S(depth_cell) cell, float x, float z,
@@ -109,7 +109,8 @@ struct depth_inside {
     float enter, leave;
 };
 
-/* Narrows a part by one surface over one triangle; d0 and d1 are above 0 on the inner side. */
+/* Narrows a part of a path by one surface over one triangle. d0 and d1 are the distances from the
+ * surface at a and b, above 0 on the inner side. */
 FN S(depth_inside) depth_within(S(depth_inside) before, S(depth_place) a, S(depth_place) b,
                                 float d0, float d1)
 {
@@ -121,7 +122,7 @@ FN S(depth_inside) depth_within(S(depth_inside) before, S(depth_place) a, S(dept
     EXACT float at = a.part + way * part;
     bool in0 = d0 > 0.0f;
     bool in1 = d1 > 0.0f;
-    EXACT float later = in1 ? at : 2.0f; /* never */
+    EXACT float later = in1 ? at : 2.0f; /* 2: the path does not enter */
     EXACT float enter = in0 ? y.enter : later;
     EXACT float leave = in1 ? y.leave : at;
     y.enter = exact_max(y.enter, enter);

@@ -3,7 +3,7 @@
  * Centre, radius and height change evenly during the step. With q(t) the vector from the centre
  * (for a cylinder, from the axis) to the particle, |q(t)|^2 - r(t)^2 is a quadratic in the part t
  * of the path. Its roots are where the path enters and leaves. A cylinder is the intersection of a
- * round side and two faces, as a box is that of six. */
+ * round side and two faces, just as a box is the intersection of six faces. */
 #ifndef KILN_SHARED_COLLIDE_ROUND_H
 #define KILN_SHARED_COLLIDE_ROUND_H
 
@@ -166,7 +166,7 @@ FN uint collide_round_nearest(uint kind, S(collide_round) shape, float3 p)
     return face;
 }
 
-/* Returns the outward normal at a point near the surface. A point on the axis gets up, or a
+/* Returns the outward normal at a point near the surface. At a point on the axis it is up, or some
  * direction across the axis. */
 FN_CLOSE float3 collide_round_normal(uint kind, S(collide_round) shape, uint face, float3 p)
 {

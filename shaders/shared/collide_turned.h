@@ -255,8 +255,7 @@ FN float3 collide_frame_put(uint kind, S(collide_frame) frame, uint face, float3
     return y;
 }
 
-/* ---- tests in the world, for colliders by their number, enlarged by a radius (m)
- * -------------- */
+/* ---- tests in the world: colliders are given by number, and enlarged by a radius, m ---------- */
 
 /* Returns whether the way between two parts of the step may touch the collider. It does not if both
  * ends are outside of one face of its bounds. This spares most particles the exact test. */
@@ -305,7 +304,7 @@ FN_APART S(collide_span) collide_turned_through(SIM_PARAM uint number, float lar
         span = collide_frame_segment(c.kind, before, after, a, b);
         if (collide_span_meets(span)) {
             bool within = collide_span_is_inside(span);
-            if (within && i > 0u) /* only by rounding */
+            if (within && i > 0u) /* a later piece starts inside only by rounding */
                 span.face = collide_frame_nearest(c.kind, before, a);
             EXACT float sum = FLOAT(i) + span.enter;
             EXACT float enter = sum * share;
@@ -388,7 +387,7 @@ FN_APART S(collide_contact) collide_turned_contact(SIM_PARAM uint number, float 
 
     EXACT float growth = collide_turned_growth(c, face);
     EXACT float3 grown = float3_scale(normal, growth);
-    if (c.kind == COLLIDER_CAPSULE) { /* its ends move apart */
+    if (c.kind == COLLIDER_CAPSULE) { /* the ends of a growing capsule move apart */
         EXACT float longer = c.extent_end.y - c.extent.y;
         EXACT float beyond = exact_abs(beside.y) - frame.extent.y;
         EXACT float apart = beside.y < 0.0f ? -longer : longer;

@@ -15,8 +15,8 @@
 /* A face is the number of a plane, and whether it was hit from behind. */
 #define VOLUME_FIRST_FACE 64u
 
-/* Cells: a particle that is farther behind a plane of its cell is not inside the part of the mesh
- * that the plane stands for. */
+/* Distance in cells. A particle that is farther behind the plane of its cell is not inside the part
+ * of the mesh that the plane stands for. */
 #define VOLUME_DEPTH 1.75f
 
 /* A plane at both ends of the step: a place on it, and its unit normal. */

@@ -13,7 +13,7 @@ FN uint particle_stream(S(kiln_derived_params) d, S(kiln_particle) p)
     return random_stream(d.random_key, p.position_serial.w);
 }
 
-/* Returns the clip time of its birth. */
+/* Returns the clip time of a particle's birth, s. */
 FN float particle_birth_time(S(kiln_derived_params) d, S(kiln_particle) p)
 {
     EXACT float before = FLOAT(particle_birth_step(p) - 1u) - FLOAT(d.warmup_steps);
@@ -22,7 +22,7 @@ FN float particle_birth_time(S(kiln_derived_params) d, S(kiln_particle) p)
     return time_s;
 }
 
-/* Returns its life in seconds. */
+/* Returns the length of a particle's life, s. */
 FN float particle_life_s(VALUE_KEYS_PARAM S(kiln_derived_params) d, S(kiln_particle) p)
 {
     EXACT float born_s = particle_birth_time(d, p);
@@ -32,7 +32,7 @@ FN float particle_life_s(VALUE_KEYS_PARAM S(kiln_derived_params) d, S(kiln_parti
     return life_s;
 }
 
-/* Returns the part of its life that has passed at an age: 0 at birth, 1 at death. */
+/* Returns the part of a particle's life that has passed at an age: 0 at birth, 1 at death. */
 FN float particle_progress(float age_s, float life_s)
 {
     EXACT float part = exact_div(age_s, life_s);

@@ -1,8 +1,8 @@
 /* Computes the floor's look: squares, and the gloss of a floor that is wet, or of water. A glossy
- * floor mirrors sky, shapes and lamps by Fresnel's law for water. Waves tilt it; those too small
- * for a pixel widen the lamps' streaks instead, which a rough surface seen at a flat angle draws
- * out towards the eye (a microfacet lobe, GGX). Particles are mirrored by the light alone that they
- * shed, and meshes not at all: their rays are rasterised from the eye. */
+ * floor mirrors sky, shapes and lamps by Fresnel's law for water. A rough floor draws the mirror
+ * image of a lamp out into a streak towards the eye (a microfacet lobe, GGX). Waves tilt the floor;
+ * waves too small for a pixel widen the streaks instead. Of particles, only the light that they
+ * shed is mirrored. Meshes are not mirrored, since they are rasterised from the eye. */
 #ifndef KILN_SHARED_FLOOR_H
 #define KILN_SHARED_FLOOR_H
 
@@ -15,8 +15,8 @@ struct floor_extent {
     real x, z;
 };
 
-/* Returns the extent: longer along the view where the floor is seen at a flat angle. pixel: how
- * large a pixel is at the distance of t = 1, m. */
+/* Returns the extent of floor that a pixel covers. It is longer along the view where the floor is
+ * seen at a flat angle. pixel: size of a pixel at the distance of t = 1, m. */
 REAL_FN S(floor_extent) floor_extent_of(real3 direction, real t, float pixel)
 {
     real flat2 = direction.x * direction.x + direction.z * direction.z;
@@ -55,12 +55,12 @@ REAL_FN real floor_checkers(real x, real z, float edge, S(floor_extent) extent)
 /* Holds the sum of waves so far. */
 struct floor_water {
     real x, z;             /* where the next wave is read */
-    real slope_x, slope_z; /* of the water */
-    real averaged;         /* the square of the slopes that are averaged within a pixel */
+    real slope_x, slope_z; /* slope of the water */
+    real averaged;         /* mean square of the slopes that are averaged within a pixel */
 };
 
-/* Adds a wave (kiln_draw_shapes). Each wave is shifted by the longer ones before it, so that crests
- * are short. steepness: the slope of each. */
+/* Adds a wave of kiln_draw_shapes. Each wave is shifted by the longer waves before it, so that
+ * crests are short. steepness: the largest slope of each wave. */
 REAL_FN S(floor_water) floor_add_wave(S(floor_water) sum, float4 wave, float4 shift,
                                       float steepness, S(floor_extent) extent)
 {
@@ -104,8 +104,8 @@ REAL_FN real floor_lobe(real3 normal, real3 to_eye, real3 to_light, real spread)
            real_max(shadowing, real_all(1e-6f));
 }
 
-/* Returns what reaches the eye for each unit of a lamp's colour. towards, radius2: as for
- * lamp_irradiance; a large lamp has a wide streak. */
+/* Returns the light of a lamp that the floor mirrors to the eye, for each unit of the lamp's
+ * colour. towards, radius2: as for lamp_irradiance; a large lamp has a wide streak. */
 REAL_FN real floor_mirrors_lamp(real3 towards, float radius2, real3 normal, real3 to_eye,
                                 real spread)
 {
@@ -118,12 +118,12 @@ REAL_FN real floor_mirrors_lamp(real3 towards, float radius2, real3 normal, real
 /* Describes the floor where a ray from the eye meets it. */
 struct floor_mirror {
     real3 normal, to_eye; /* unit */
-    real spread;          /* of reflections: the roughness, with the waves that are averaged */
-    real3 onwards;        /* where the ray goes */
-    real reflected;       /* part of what it finds there that is seen */
+    real spread;          /* roughness, to which the averaged waves are added */
+    real3 onwards;        /* direction of the reflected ray */
+    real reflected;       /* part of the light along that ray that the floor reflects to the eye */
 };
 
-/* roughness: of the floor without waves. */
+/* Returns the mirror of a floor. direction: of the ray; roughness: of the floor without waves. */
 REAL_FN S(floor_mirror) floor_mirror_of(real3 direction, S(floor_water) water, float roughness)
 {
     S(floor_mirror) m;

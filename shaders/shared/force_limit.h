@@ -1,5 +1,5 @@
 /* Limits the speed of particles. The limit may vary over a particle's life. After all forces have
- * acted, a faster particle is slowed in its direction of flight. Forces add up; of several limits,
+ * acted, a faster particle is slowed in its direction of flight. If a system has several limits,
  * the lowest counts. */
 #ifndef KILN_SHARED_FORCE_LIMIT_H
 #define KILN_SHARED_FORCE_LIMIT_H

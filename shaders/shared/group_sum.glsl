@@ -1,12 +1,11 @@
-/* Sums up the values of all earlier invocations of a work group of GROUP_SIZE invocations in a
- * row. */
+/* Computes an exclusive prefix sum over a work group of GROUP_SIZE invocations in one dimension. */
 #ifndef KILN_SHARED_GROUP_SUM_GLSL
 #define KILN_SHARED_GROUP_SUM_GLSL
 
 shared uint group_sums[GROUP_SIZE];
 
-/* Adds values over doubling distances. Every invocation must call it. Afterwards group_total is the
- * sum of all. */
+/* Returns the sum of the values of all invocations before this one, by additions over doubling
+ * distances. Every invocation must call it. Afterwards group_total returns the sum of all. */
 uint group_sum_before(uint value)
 {
     uint me = gl_LocalInvocationID.x;

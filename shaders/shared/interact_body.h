@@ -26,8 +26,8 @@ FN float3 body_velocity(S(kiln_body) b)
     return v;
 }
 
-/* Returns a body's radius: 0 if it touches nothing, below 0 if it has no further part in the
- * step. */
+/* Returns a body's radius, m: 0 if the body touches nothing, below 0 if it takes no further part in
+ * the step. */
 FN float body_radius(S(kiln_body) b)
 {
     EXACT float y = BITS_FLOAT(b.position_radius.w);
@@ -90,7 +90,7 @@ FN S(kiln_body) body_of(CROWD_PARAM S(kiln_particle) p, uint slot)
     return b;
 }
 
-/* The two words of push.h. */
+/* The two words of a slot's push (shared/push.h). */
 struct body_push {
     float4 velocity, position;
 };

@@ -46,7 +46,7 @@ FN S(contact) contact_of(S(kiln_body) a, S(kiln_body) b)
     return c;
 }
 
-/* Returns whether two bodies touch, which few do; it computes nothing else. */
+/* Returns whether two bodies touch. It computes nothing else, since few bodies touch. */
 FN bool contact_is_near(S(kiln_body) a, S(kiln_body) b)
 {
     EXACT float3 from = body_position(a);
@@ -101,7 +101,7 @@ FN bool contact_closes(CROWD_PARAM S(kiln_body) a, S(kiln_body) b)
     return cells_square < 1.0f && opening < 0.0f;
 }
 
-/* Returns whether two bodies will meet within the step; few do. */
+/* Returns whether two bodies will meet within the step. */
 FN bool contact_is_ahead(CROWD_PARAM S(kiln_body) a, S(kiln_body) b)
 {
     if (!(INTERACT(ahead_s) > 0.0f) || !contact_closes(CROWD a, b) || !(body_radius(a) > 0.0f) ||
@@ -229,8 +229,8 @@ FN float contact_since(S(contact) c, float dt_s)
     return y;
 }
 
-/* Returns the direction in which two bodies at one place part. Each gets the opposite of the
- * other's. */
+/* Returns the direction in which two bodies at one place part. The two bodies of a pair get
+ * opposite directions. */
 FN float3 contact_any_normal(S(kiln_body) a, S(kiln_body) b)
 {
     EXACT float side = a.velocity_slot.w < b.velocity_slot.w ? 1.0f : -1.0f;
@@ -297,7 +297,7 @@ struct contact_turning {
 };
 
 /* Returns the change of the second body's velocity by friction between two balls with these spins,
- * as if the first had all the mass. Each gets the opposite of the other's. */
+ * as if the first had all the mass. The two balls of a pair get opposite changes. */
 FN float3 contact_rub(S(contact) c, S(contact_blow) blow, float3 skins, float friction)
 {
     EXACT float away = -float3_dot(c.parting, blow.normal);

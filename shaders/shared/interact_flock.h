@@ -10,8 +10,8 @@
 
 #include "shared/interact_body.h"
 
-/* The most bodies around one that are looked at. Rows of cells beyond it are left out, so that sums
- * stay within 31 bits, and loops within what every driver runs. */
+/* The most bodies that a body looks at. Rows of cells beyond this number are left out, so that sums
+ * stay within 31 bits and loops within the length that every driver runs. */
 #define FLOCK_MOST 8000u
 
 /* ---- sums of integers ----------------------------------------------------------------------- */
@@ -271,10 +271,10 @@ FN float flock_meet_s(float3 apart, float3 parting, float horizon_s)
 
 /* A particle in view, as another sees it. */
 struct flock_seen {
-    float3 apart;     /* vector to it from the other, m */
-    float3 parting;   /* its velocity minus the other's */
+    float3 apart;     /* vector from the particle that sees to the one in view, m */
+    float3 parting;   /* velocity of the one in view minus that of the particle that sees */
     float square;     /* square of the distance */
-    uint mine, other; /* slots of the other and of it */
+    uint mine, other; /* slots of the particle that sees, and of the particle in view */
 };
 
 /* Returns the terms that a particle in view adds to the sums. */

@@ -11,8 +11,8 @@
 #include "shared/layout.h"
 #include "shared/particle.h"
 
-/* Values of a partner that mean none: the body touches none at the start of the step, and has no
- * part in it; or it has none in this round. */
+/* Values that stand for no partner: the body touches no other at the start of the step and takes no
+ * part in the rounds; or it has no partner in this round. */
 #define INTERACT_NOBODY     0xffffffffu
 #define INTERACT_NOBODY_NOW 0xfffffffeu
 

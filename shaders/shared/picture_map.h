@@ -6,11 +6,11 @@
 
 #include "shared/real.h"
 
-/* Fetches along the longer edge of what a pixel covers of the floor. */
+/* Fetches along the longer edge of the part of the floor that a pixel covers. */
 #define FLOOR_TAPS 8
 
-/* What a pixel covers of the floor is a parallelogram. Several fetches lie along its longer edge,
- * m; the shorter one chooses their level. */
+/* The part of the floor that a pixel covers, a parallelogram. Several fetches lie along its longer
+ * edge, m; its width chooses their mipmap level. */
 struct floor_patch {
     real longer_x, longer_z, level;
 };
@@ -20,8 +20,8 @@ struct floor_shift {
     real x, z;
 };
 
-/* Returns how far the place that a ray meets at t moves with the ray's direction. row: of the
- * camera's rows, world to view; factor: the part of it that is added to the direction. */
+/* Returns how far the place on the floor that a ray meets at t moves when the ray's direction
+ * changes by factor times row. row: a row of the camera's rotation from world to view. */
 REAL_FN S(floor_shift) floor_shift_of(real3 direction, float4 row, float factor, real t)
 {
     real climb = (row.y * factor) / direction.y;
@@ -31,8 +31,9 @@ REAL_FN S(floor_shift) floor_shift_of(real3 direction, float4 row, float factor,
     return shift;
 }
 
-/* Finds what the pixel of a ray covers of the floor, which the ray meets at t. right, up: the
- * camera's first two rows; frustum: that of struct kiln_view; texels_a_m: of the picture. */
+/* Returns the part of the floor that the pixel of a ray covers; the ray meets the floor at t.
+ * right, up: the camera's first two rows; frustum: that of struct kiln_view; texels_a_m: texels of
+ * the picture a metre. */
 REAL_FN S(floor_patch) floor_patch_of(real3 direction, real t, float4 right, float4 up,
                                       float4 frustum, float texels_a_m)
 {

@@ -1,12 +1,13 @@
-/* The common ground of C and GLSL: everything in shaders/shared compiles as both, so that each rule
- * of the simulation is written once and means the same bits on a CPU and on a GPU.
+/* Defines the subset of C and GLSL in which shaders/shared is written. Its files compile as both,
+ * so that each rule of the simulation is written once and gives the same bits on a CPU and on a
+ * GPU.
  *
  * The subset: structs by value, scalar arithmetic, function-style vector operations; no swizzles,
  * no operators on vectors, no built-in mathematics (drivers disagree in the last bits).
  *   FN         before every function
- *   EXACT      before every local that holds floats. Not before parameters and return types, where
- *              GLSL has no place for it: there, pass and return names, never an expression, and
- *              compare names, so that every operation ends in an EXACT local
+ *   EXACT      before every local that holds floats. GLSL does not allow it for parameters and
+ *              return types: so pass, return and compare names, never expressions, so that every
+ *              operation ends in an EXACT local
  *   S(name)    a struct type
  *   UINT(x)    a conversion; the value must be in range
  *   1.0f       every literal carries its f: in C, 1.0 would compute in double

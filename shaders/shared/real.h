@@ -1,10 +1,10 @@
-/* This header names the types and operations of arithmetic that is written once for the two devices
- * that draw: light, surfaces and shapes. A file that is written in these names compiles as GLSL for
+/* Names the types and operations of arithmetic that is written once for the two devices that draw:
+ * light, surfaces and shapes. A file that is written in these names compiles as GLSL for
  * one point, as C for one point, and as C for a vector of points where draw/vector/real.h was
  * included first. Unlike the arithmetic of exact.h it need not give the same bits in GLSL and in C:
  * pictures of the two agree within a tolerance. C gives the same bits at every width of vectors.
  *
- * The subset: what platform.h says of structs and literals, with these types.
+ * The subset is that of platform.h for structs and literals, with these types:
  *   REAL_FN    before every function
  *   real       a number of each point; + - * / and comparisons are operators
  *   real3      three of them; operations are functions
@@ -106,7 +106,7 @@ REAL_FN real real_clamp01(real x)
     return real_clamp(x, 0.0f, 1.0f);
 }
 
-/* Returns a at part 0, b at part 1. */
+/* Interpolates linearly from a at part 0 to b at part 1. */
 REAL_FN real real_mix(real a, real b, real part)
 {
     return a + (b - a) * part;

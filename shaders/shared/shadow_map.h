@@ -1,5 +1,5 @@
-/* Computes which texels of the sun's shadow maps a receiver reads, and what they hide of the sun:
- * the maps of the backdrop's meshes, and the tiles of silhouettes of mesh particles. GL samples the
+/* Computes which texels of the sun's shadow maps a receiver reads, and how much of the sun they
+ * hide: maps of the backdrop's meshes, and tiles of silhouettes of mesh particles. GL samples the
  * maps as textures (draw/backdrop/mesh_trace.glsl, draw/light/solid_shadow.glsl); the device `cpu`
  * gathers their texels (draw/backdrop/ray_sun.h). sun: unit, towards the sun; right, up: unit,
  * across it; spread: tangent of the angle that the sun's radius has in the sky. */
@@ -13,16 +13,17 @@
 
 #define SHADOW_TEXEL (1.0f / FLOAT(KILN_SHADOW_EDGE))
 
-/* A receiver in a mesh's map: texture coordinates and depth, 0 nearest to the sun and 1 farthest,
- * how the depth of its plane changes with the coordinates, and by how much a blocker lies before it
- * at least. */
+/* A receiver in a mesh's map: its texture coordinates and depth (0 nearest to the sun, 1 farthest);
+ * how the depth of its plane changes with the coordinates; and the least depth by which a blocker
+ * must lie before it. */
 struct shadow_receiver {
     real u, v, depth;
     real slope_u, slope_v;
     real slack;
 };
 
-/* center: the mesh's bounding sphere; point, normal: of the receiver. */
+/* Returns a receiver in the map of a mesh. center: the mesh's bounding sphere; point, normal: of
+ * the receiver. */
 REAL_FN S(shadow_receiver) shadow_receiver_of(float4 center, real3 point, real3 normal, float4 sun,
                                               float4 right, float4 up)
 {
@@ -46,29 +47,30 @@ REAL_FN real shadow_widest(S(shadow_receiver) at, float spread)
     return real_max(spread * at.depth, real_all(SHADOW_TEXEL));
 }
 
-/* Returns the level of the map whose texels have a width. */
+/* Returns the mipmap level whose texels have this width, in texture coordinates. */
 REAL_FN real shadow_level(real width)
 {
     return real_log2(width * (1.0f / SHADOW_TEXEL));
 }
 
-/* Returns the mean depth of what is in the map, from the two numbers of a fetch: cover, and depth
+/* Returns the mean depth of the mesh in the map, from the two numbers of a fetch: cover, and depth
  * times cover. */
 REAL_FN real shadow_depth(real cover, real distance)
 {
     return distance / real_max(cover, real_all(1e-4f));
 }
 
-/* Returns the width of the penumbra from the gap between the blocker, of the first fetch, and the
- * receiver. Four bilinear fetches half of it aside make a tent filter, as nine would. */
+/* Returns the width of the penumbra, from the gap between the blocker that the first fetch found
+ * and the receiver. Four bilinear fetches, half of this width aside, make the tent filter of nine.
+ */
 REAL_FN real shadow_width(S(shadow_receiver) at, float spread, real cover, real distance)
 {
     real gap = at.depth - real_min(shadow_depth(cover, distance), at.depth);
     return real_max(0.75f * spread * gap, real_all(SHADOW_TEXEL));
 }
 
-/* Returns what a fetch aside of the receiver adds to the covered part of the sun. ramp: 1 over the
- * slack and the way aside. */
+/* Returns the part of the sun that one of the four fetches around a receiver adds to the covered
+ * part. ramp: 1 / (slack + width of the fetch). */
 REAL_FN real shadow_tap(S(shadow_receiver) at, real aside_u, real aside_v, real cover,
                         real distance, real ramp)
 {
@@ -79,16 +81,16 @@ REAL_FN real shadow_tap(S(shadow_receiver) at, real aside_u, real aside_v, real 
 
 /* ---- silhouettes of mesh particles ----------------------------------------------------------- */
 
-/* Where a receiver reads a tile: texture coordinates in it, the level whose texels are as large as
- * the sun's radius there, the last level, and how far the mesh is as round as its bounding sphere,
- * 0 to 1, since it is blurred more than it is large. */
+/* Where a receiver reads a tile: texture coordinates in it; the level whose texels are as large as
+ * the sun's radius there; the last level; and the weight of the mesh's bounding sphere in place of
+ * its silhouette, 0 to 1, which grows as the sun's blur exceeds the mesh's size. */
 struct silhouette_place {
     real u, v, level, last, round;
     truth before; /* the mesh is on the sun's side of the receiver */
 };
 
-/* towards: from the receiver to the mesh's centre, m; edge: of its tile, texels; reach: half of
- * what the tile shows, m. */
+/* Returns where a receiver reads a tile. towards: from the receiver to the mesh's centre, m; edge:
+ * of the tile, texels; reach: half of the tile's edge in the world, m. */
 REAL_FN S(silhouette_place) silhouette_place_of(real3 towards, real edge, real reach, float4 sun,
                                                 float4 right, float4 up, float spread)
 {
@@ -106,8 +108,8 @@ REAL_FN S(silhouette_place) silhouette_place_of(real3 towards, real edge, real r
     return at;
 }
 
-/* Returns the part of the sun that a mesh covers. cover: of the tile; ball: of the bounding sphere.
- */
+/* Returns the part of the sun that a mesh covers. cover: the part that the tile covers; ball: the
+ * part that the bounding sphere covers. */
 REAL_FN real silhouette_covers(S(silhouette_place) at, real cover, real ball)
 {
     real seen = real_where(at.before, cover);

@@ -27,11 +27,11 @@
 #define KILN_EDGE_OFFSETS(pair)                                                                    \
     pair(0.375f, 0.125f), pair(0.875f, 0.375f), pair(0.125f, 0.625f), pair(0.625f, 0.875f)
 
-#define KILN_WAVES 8 /* of water on the floor */
+#define KILN_WAVES 8 /* number of waves of water on the floor */
 
-/* Numbers of what a ray hits. The sky's is -1, the floor's 0. A box has 27 numbers, one a face
- * (ray_face_number is added to the middle one), a cylinder one for its side and one for each end, a
- * mesh 4. */
+/* Numbers of surfaces that a ray hits. The sky has -1, the floor 0. A box has 27 numbers, one for
+ * each face (ray_face_number is added to the middle one), a cylinder one for its side and one for
+ * each end, a mesh 4. */
 #define KILN_SURFACE_BOX(first, i) ((first) + 14 + 27 * (i))
 #define KILN_SURFACE_BOXES         0
 #define KILN_SURFACE_SPHERES       1000
@@ -55,8 +55,8 @@
 
 /* Sizes of the shadow tiles of particles that are meshes: the edge of an atlas in texels, which has
  * levels of half the size down to the one in which the largest tile is one texel
- * (lib/draw/light/instance_tiles.h). If the penumbra is wider than a part of the mesh's reach, the
- * mesh throws the shadow of a sphere. */
+ * (lib/draw/light/instance_tiles.h). Up to SHARP times the mesh's reach, the radius of the sun's
+ * blur leaves the silhouette; from ROUND times on, the mesh throws the shadow of a sphere. */
 #define KILN_INSTANCE_ATLAS  2048
 #define KILN_INSTANCE_LEVELS 7
 #define KILN_INSTANCE_SHARP  0.3f
@@ -64,12 +64,12 @@
 
 struct kiln_draw_mesh {
     float4 to_world[3]; /* rows */
-    /* w: 1 + its layer of the textures of paint, plus 16 times the first level of its paint; 0: it
-     * takes none */
+    /* w: 1 + the mesh's layer of the textures of paint, plus 16 times the first level of its paint;
+     * 0: the mesh takes no paint */
     float4 color;
     float4 center; /* centre of its bounds in the world, m; w: radius of the sphere around them */
-    /* half of the bounds, m; w: seconds into its animation, which tell its pictures and maps of two
-     * times apart */
+    /* half of the bounds, m; w: time of its animation, s, by which pictures and maps of the mesh at
+     * different times are told apart */
     float4 half_size;
 };
 

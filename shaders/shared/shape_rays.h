@@ -25,19 +25,19 @@ REAL_FN S(ray_interval) ray_interval_or_miss(truth hits, real near, real far)
                            real_select(hits, far, real_all(-1.0f)));
 }
 
-/* Returns where an object is nearer to a ray's start than what is at `t`, and ahead of it. */
+/* Returns where an object is ahead of a ray's start and nearer to it than `t`. */
 REAL_FN truth ray_meets(S(ray_interval) at, real t)
 {
     return truth_and(truth_and(at.near <= at.far, at.near > 0.0f), at.near < t);
 }
 
-/* Returns where a shape is on the way of light from a ray's start to a sun without size. */
+/* Returns where a shape blocks the light of a sun without size from a ray's start. */
 REAL_FN truth ray_is_blocked(S(ray_interval) at)
 {
     return real_max(at.near, real_all(0.0f)) < at.far;
 }
 
-/* Returns 1 / x; of zero, a large number. */
+/* Returns 1 / x, or a large number where x is 0. */
 REAL_FN real ray_inverse(real x)
 {
     return real_sign_one(x) / real_max(real_abs(x), real_all(1e-8f));

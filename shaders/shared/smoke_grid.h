@@ -1,7 +1,7 @@
 /* Reads the grids of the smoke's optical depth, whose third axis points to a light
  * (lib/draw/light/smoke_shadow.h), for light on surfaces and on sprites. GL samples a grid as a
  * texture (draw/light/smoke_shadow.glsl), the device `cpu` gathers its cells
- * (draw/light/ray_smoke.h); what is here is the same for both. */
+ * (draw/light/ray_smoke.h); both use the functions of this file. */
 #ifndef KILN_SHARED_SMOKE_GRID_H
 #define KILN_SHARED_SMOKE_GRID_H
 
@@ -15,8 +15,9 @@ REAL_FN real3 smoke_grid_place(float4 x, float4 y, float4 z, real3 position)
                  z.x * p.x + z.y * p.y + z.z * p.z + z.w);
 }
 
-/* Returns whether the light crosses smoke on its way to a place in the grid: not beside the smoke,
- * nor between it and the light. Light to a place behind the smoke crosses all of it. */
+/* Returns whether the light crosses smoke on its way to a place in the grid. It does not for places
+ * beside the smoke, or between the smoke and the light. Light to a place behind the smoke crosses
+ * all of it. */
 REAL_FN truth smoke_grid_shades(real3 at)
 {
     truth beside = truth_or(truth_or(at.x<0.0f, at.x> 1.0f), truth_or(at.y<0.0f, at.y> 1.0f));

@@ -1,9 +1,8 @@
-/* How balls turn (UberFlow 2004, 4.5). Friction acts where a ball touches another or a surface, and
- * takes at most the slip there: a solid ball of mass m then gets, per mass, 2/7 of it as velocity,
- * because a push at its skin turns it as well (its moment of inertia is 2/5 m r^2). Gathering the
- * pushes writes the rates that other balls leave; the step writes the rates that surfaces leave,
- * and the poses (struct kiln_spin).
- */
+/* Computes how balls turn (UberFlow 2004, 4.5). Friction acts where a ball touches another or a
+ * surface, and takes at most the slip there. A solid ball of mass m that loses its slip gains 2/7
+ * of it as velocity, because a push at its skin also turns it (its moment of inertia is 2/5 m r^2).
+ * The kernel that computes pushes writes the rates after contacts with other balls; the step writes
+ * the rates after contacts with surfaces, and the poses (struct kiln_spin). */
 #ifndef KILN_SHARED_SPIN_H
 #define KILN_SHARED_SPIN_H
 
@@ -58,8 +57,8 @@ FN float3 spin_grip(float3 slip, float most)
     return y;
 }
 
-/* Returns the spin, rad/s, that a ball gets from such a change. `normal` is that of the touching
- * surface, away from it, or points away from the touching ball. */
+/* Returns the spin, rad/s, that a ball gets from a change of velocity by friction. `normal` points
+ * away from the surface or from the other ball that touches it. */
 FN float3 spin_from(float3 change, float3 normal, float radius)
 {
     EXACT float3 across = float3_cross(change, normal);

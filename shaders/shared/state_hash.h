@@ -18,7 +18,7 @@ FN S(state_hash_lanes) state_hash_word(S(state_hash_lanes) lanes, uint word)
     return mixed;
 }
 
-/* Returns what a particle adds to the two sums: nothing if it is dead. */
+/* Returns the words that a particle adds to the two sums; zero for a dead particle. */
 FN S(state_hash_lanes) state_hash_particle(uint system, S(kiln_particle) p)
 {
     S(state_hash_lanes) lanes;
@@ -39,7 +39,7 @@ FN S(state_hash_lanes) state_hash_particle(uint system, S(kiln_particle) p)
     return lanes;
 }
 
-/* Returns what its spin adds, if it has one. */
+/* Returns the words that a particle's spin adds to the two sums; zero if it has none. */
 FN S(state_hash_lanes) state_hash_spin(uint system, S(kiln_particle) p, S(kiln_spin) s)
 {
     S(state_hash_lanes) lanes;

@@ -1,7 +1,7 @@
-/* Computes how much of the sun convex shapes hide from a point: penumbras without samples. A point
- * sees the sun's disc through a disc of some radius at the distance of an edge; the cover is the
- * part of it beyond that edge, 0 to 1. A ball that is lit has its radius added to that of the disc.
- */
+/* Computes how much of the sun convex shapes hide from a point: penumbras without samples. At the
+ * distance of an edge, the light from the sun to the point passes through a disc. The cover is the
+ * part of this disc beyond the edge, 0 to 1. For a ball that is lit, the disc's radius grows by the
+ * ball's. */
 #ifndef KILN_SHARED_SUN_COVER_H
 #define KILN_SHARED_SUN_COVER_H
 
@@ -25,8 +25,8 @@ REAL_FN real strip_cover(real one, real other, real radius)
     return real_max(disc_cover(one * scale) + disc_cover(other * scale) - 1.0f, real_all(0.0f));
 }
 
-/* Returns the radius of the disc at a distance along the ray, m. spread: the tangent of the sun's
- * radius; radius: of the ball that is lit. */
+/* Returns the radius of the disc at a distance along the ray, m. spread: the tangent of the angle
+ * of the sun's radius; radius: of the ball that is lit, m. */
 REAL_FN real sun_penumbra(real along, float spread, float radius)
 {
     return real_max(along * spread + radius, real_all(exact_max(radius, 1e-5f)));
@@ -63,12 +63,12 @@ REAL_FN real both_strips(real a, real b, float alike)
 
 struct sun_hidden {
     real cover;
-    real way; /* how far light goes until it leaves the box, m */
+    real way; /* distance from the point to where the light leaves the box, m */
 };
 
-/* Computes the cover of a box from where the light's ray crosses its slabs. A ray that passes the
- * outline is taken as one through its edge, `margin` metres further inside: the way of that is at
- * most so much longer as the ray is far aside. */
+/* Computes the cover of a box from where the light's ray crosses its slabs. For a ray that passes
+ * beside the outline, the way is that of a ray through the outline's edge and `margin` metres
+ * further inside, which leaves the slabs later by at most sun_edges.later for each metre. */
 REAL_FN S(sun_hidden) sun_cross_box(S(ray_slabs) s, S(sun_edges) e, float margin, float spread,
                                     float radius)
 {
@@ -94,7 +94,8 @@ REAL_FN real ball_cover(real3 towards, float radius, float4 sun, float spread)
     return real_where(t >= 0.0f, strip_cover(radius - across, radius + across, t * spread));
 }
 
-/* Returns the way to the ball, of those that form a capsule, that light passes most closely. */
+/* Returns the way to a ball: of the balls that form a capsule, the one that light passes most
+ * closely. */
 REAL_FN real3 capsule_nearest(real3 towards, float4 axis, float4 sun)
 {
     float climb = axis.x * sun.x + axis.y * sun.y + axis.z * sun.z;
@@ -127,8 +128,8 @@ REAL_FN real cylinder_cover(real3 towards, float radius, float4 axis, float4 sun
 }
 
 /* Returns the cover of a small ball, which may be smaller than the sun's disc: the common part of
- * two discs, within 3 % of the exact one. It fades out as the penumbra grows, and is gone where
- * that is `fade` times as wide as the ball. */
+ * two discs, within 3 % of the exact one. The cover fades out as the penumbra grows, and is 0 where
+ * the penumbra is `fade` times as wide as the ball. */
 REAL_FN real speck_cover(real3 towards, real size, float4 sun, float spread, float fade)
 {
     real t = real3_dot_all(towards, sun);

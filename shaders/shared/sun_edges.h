@@ -1,5 +1,5 @@
-/* Holds how boxes and cylinders look from the sun: what follows from directions alone, for
- * shared/sun_cover.h. They are members of uniform blocks, so each has the size of a vec4. */
+/* Computes the values of shared/sun_cover.h that depend on the directions of the sun and of a shape
+ * alone. They are members of uniform blocks, so each has the size of a vec4. */
 #ifndef KILN_SHARED_SUN_EDGES_H
 #define KILN_SHARED_SUN_EDGES_H
 
@@ -7,17 +7,17 @@
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
-/* Holds what follows from the sun's direction along a box's axes. A box's outline along that
- * direction is a hexagon, the common part of three strips. A strip's edges lie along one axis: each
- * where a face that light enters of one of the other two axes meets a face that it leaves of the
- * other. A strip is x, y: the squares of the inverse direction along these two axes; z: 1 / (x +
- * y); w: the root of that. */
+/* The outline of a box as seen from the sun. It is a hexagon, the intersection of three strips. The
+ * two edges of a strip are edges of the box that lie along one axis. At each, a face that light
+ * enters, of one of the other two axes, meets a face that light leaves, of the other. A strip is
+ * (x, y, z, w): x and y are the squares of the inverse direction along these two axes, z is
+ * 1 / (x + y), and w is the root of z. */
 struct sun_edges {
-    float4 inverse; /* of the direction along x, y and z; large where that is 0 */
-    float4 later;   /* how much later light leaves a slab, by how far aside it passes */
+    float4 inverse; /* 1 / direction along x, y and z; large where the direction is 0 */
+    float4 later;   /* how much later light leaves a slab for each metre that it passes aside */
     float4 xy, yz, xz;
-    /* How much edges along x and y (x), and those along z and another axis (y), look like one: 1
-     * where they are parallel. */
+    /* How much two edges coincide in the outline, 1 if they are parallel there. x: edges along x
+     * and y; y: edges along z and another axis. */
     float4 alike;
 };
 
@@ -45,7 +45,7 @@ FN float sun_later(float inverse)
     return SQRT(exact_max(inverse * inverse - 1.0f, 0.0f));
 }
 
-/* towards: unit, to the sun in the box's frame. */
+/* Returns the outline of a box. towards: unit, to the sun in the box's frame. */
 FN S(sun_edges) sun_edges_of(float3 towards)
 {
     S(sun_edges) e;
@@ -66,13 +66,13 @@ FN S(sun_edges) sun_edges_of(float3 towards)
 /* Holds how a capped cylinder looks from the sun: a band along `up`, with round ends. */
 struct sun_band {
     float4 right, up;
-    /* Of its axis: sine and cosine of the angle to the picture's plane; 1 or -1, whether it points
-     * along `up` or against it. */
+    /* Sine and cosine of the angle between the axis and the plane across the sun's direction; 1 if
+     * the axis points along `up`, -1 if against it. */
     float4 lean;
 };
 
-/* axis: unit; aside: unit, across the sun's direction, for a cylinder that is seen along its axis.
- */
+/* Returns the band of a cylinder. axis: unit; aside: unit, across the sun's direction, used for a
+ * cylinder that is seen along its axis. */
 FN S(sun_band) sun_band_of(float3 axis, float3 sun, float3 aside)
 {
     S(sun_band) band;

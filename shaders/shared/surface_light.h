@@ -1,6 +1,6 @@
-/* Computes the light that arrives at a surface from the sky and from lamps, and the sky's own. Each
- * object takes a part of the sky away from surfaces near it: not by a solid angle, but so that
- * objects stand on the floor. */
+/* Computes the light that arrives at a surface from the sky and from lamps, and the sky's colour.
+ * Each object darkens the sky for surfaces near it. The darkening does not follow the exact solid
+ * angle; it makes objects look as if they stood on the floor. */
 #ifndef KILN_SHARED_SURFACE_LIGHT_H
 #define KILN_SHARED_SURFACE_LIGHT_H
 
@@ -17,15 +17,15 @@ REAL_FN real sky_turned_to(real along_normal, real distance2)
     return real_clamp01(along_normal * real_rsqrt(real_max(distance2, real_all(1e-9f))) + 0.4f);
 }
 
-/* Returns the part of the sky that an object leaves. fall: how much of the view it fills, 0 to 1.
- */
+/* Returns the part of the sky that an object does not hide. fall: the part of the view that it
+ * fills, 0 to 1. */
 REAL_FN real sky_left(real facing, real fall)
 {
     return 1.0f - 0.7f * facing * fall;
 }
 
-/* Returns whether a box hides any sky: not where it is wholly behind the surface. The vectors are
- * in the box's frame; towards: its middle. */
+/* Returns whether a box hides any sky; a box that is wholly behind the surface hides none. The
+ * vectors are in the box's frame; towards: the way to its middle. */
 REAL_FN truth sky_meets_box(float4 halves, real3 towards, real3 normal)
 {
     real reach =
@@ -52,8 +52,8 @@ REAL_FN real sky_beside_ball(real3 towards, float radius, real3 normal)
     return sky_left(sky_turned_to(real3_dot(towards, normal), distance2), fall);
 }
 
-/* Returns the sky beside a capsule, which hides as the nearest of the balls that form it. axis:
- * unit, w: half of its height without the ends. */
+/* Returns the part of the sky that a capsule does not hide: that of the nearest of the balls that
+ * form it. axis: unit, w: half of its height without the ends. */
 REAL_FN real sky_beside_capsule(real3 towards, float radius, float4 axis, real3 normal)
 {
     real along = real_clamp(-real3_dot_all(towards, axis), -axis.w, axis.w);
@@ -81,8 +81,8 @@ REAL_FN real sky_beside_cylinder(real3 towards, float radius, float4 axis, real3
     return sky_left(facing, fall * fall);
 }
 
-/* Returns the sky beside a mesh, which hides as the ellipsoid in its bounds. In a hollow of a mesh
- * its middle is in front, so hollows get darker. */
+/* Returns the part of the sky that a mesh does not hide: that of the ellipsoid in its bounds. In a
+ * hollow of a mesh, its middle is in front of the surface, so hollows get darker. */
 REAL_FN real sky_beside_mesh(real3 towards, float4 halves, real3 normal)
 {
     real3 parts = REAL3(towards.x * (1.0f / exact_max(halves.x, 1e-4f)),

@@ -20,7 +20,7 @@ struct kiln_trace {
     float4 turn;           /* place of the first impact, just outside of the surface */
     float4 end;            /* end of the step or of the life */
     float4 start_velocity; /* m/s; progress through life */
-    float4 turn_velocity;  /* velocity after the impact; w: m from the surface */
+    float4 turn_velocity;  /* velocity after the impact, m/s; w: distance from the surface, m */
     float4 end_velocity;   /* m/s; progress through life */
     uint4 serial_event;    /* serial; TRACE_*; face of the impact; life in seconds as float bits */
 };
@@ -82,7 +82,7 @@ FN S(emit_state) trace_at(S(kiln_trace) t, float since)
     return s;
 }
 
-/* Returns the normal of the surface that it hit. */
+/* Returns the normal of the surface that the particle hit. */
 FN float3 trace_normal(S(kiln_trace) t)
 {
     EXACT float3 y = collide_normal_of(t.serial_event.z);
