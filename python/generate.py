@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""generate.py CC SONAME HEADER FOLDER: writes what the module kiln knows of the C header.
+"""generate.py CC SONAME HEADER FOLDER: writes the two files of the module kiln that depend on the C header.
 
 FOLDER/_abi.py has the declarations of kiln.h and of the headers beside it, compiled by cffi. FOLDER/_header.py
-has what cffi does not keep: texts that are macros, and the values that the inline functions *_defaults() give
-to members. Both are written from the header alone, so the module cannot drift from it; a line that is not
-understood ends the build.
+has the parts that cffi does not keep: texts that are macros, and the values that the inline functions
+*_defaults() give to members. Both are written from the header alone, so the module cannot drift from it. A line
+that this script does not understand ends the build.
 """
 import os
 import re
@@ -15,7 +15,7 @@ import cffi
 
 
 def preprocess(compiler, header):
-    """The lines that come from the header and from those beside it, without the system's."""
+    """Returns the preprocessed lines of the header and of the headers beside it, without those of the system."""
     folder = os.path.dirname(os.path.abspath(header))
     done = subprocess.run([compiler, "-E", os.path.abspath(header)], stdout=subprocess.PIPE, text=True, check=True)
     kept, ours = [], False
@@ -29,21 +29,22 @@ def preprocess(compiler, header):
 
 
 def macro_texts(compiler, header):
-    """The macros that are texts, such as KILN_VERSION."""
+    """Returns {name: text} of the macros that are texts, such as KILN_VERSION."""
     done = subprocess.run([compiler, "-E", "-dM", os.path.abspath(header)], stdout=subprocess.PIPE, text=True,
                           check=True)
     return dict(re.findall(r'^#define KILN_(\w+) "([^"\\]*)"$', done.stdout, re.M))
 
 
 def literal(text):
-    """What a member is set to: a text or a number."""
+    """Returns the value of a C literal: a text or a number."""
     if text.startswith('"'):
         return text[1:-1]
     return float(text) if "." in text else int(text)
 
 
 def split_inline(text):
-    """Takes the inline functions out: the declarations, and {struct: {member: value}}."""
+    """Removes the inline functions; returns the declarations that are left, and the values that the functions give
+    to members, {struct: {member: value}}."""
     defaults = {}
     pattern = re.compile(r"static inline struct (\w+) (\w+)\(void\)\s*\{(.*?)\}", re.S)
     for struct, name, body in pattern.findall(text):

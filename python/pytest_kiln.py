@@ -1,11 +1,11 @@
-"""The plugin of kiln for pytest: the fixture `assert_looks_like`.
+"""Provides the fixture `assert_looks_like` to pytest, which compares a picture with a golden one.
 
     def test_fire(assert_looks_like):
         frame = next(kiln.render(kiln.load("fire.yaml"), frames=60, device="cpu"))
         assert_looks_like(frame.pixels, "golden/fire.png")
 
-A golden that is missing is a failure; `pytest --kiln-update` writes those that are missing or look different.
-kiln itself is imported when a test asks for the fixture, so other test runs do not wait for it.
+A test whose golden is missing fails; `pytest --kiln-update` writes goldens that are missing or look different. The
+module kiln is imported when the fixture is called, so other test runs do not wait for it.
 """
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ _written: "pytest.StashKey[list[str]]" = pytest.StashKey()
 
 
 class AssertLooksLike(Protocol):
-    """What the fixture is."""
+    """The type of the fixture."""
 
     def __call__(self, picture: "Picture", golden: "str | os.PathLike[str]", **options: Any) -> "Comparison":
-        """Fails unless the picture looks like the golden one.
+        """Fails the test unless the picture looks like the golden one.
 
-        `picture` is an array (as for kiln.write_picture) or a file; `golden` a file, whose relative path starts at
-        the folder of the test. `options` are those of kiln.compare: limits, masks, layer, mode and so on.
+        `picture` is an array (as for kiln.write_picture) or a path. `golden` is a path; a relative one starts at the
+        folder of the test. `options` are those of kiln.compare: limits, masks, layer, mode and so on.
         """
 
 
@@ -54,20 +54,21 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
 
 
 def _shown(path: "str | os.PathLike[str]") -> str:
-    """A path as it is told: from the working directory, if it is below that."""
+    """Returns a path for messages: relative to the working directory, if it is below that."""
     relative = os.path.relpath(path)
     return os.fspath(path) if relative.startswith("..") else relative
 
 
 def _folder_of(test: str) -> str:
-    """A folder of its own for a test by its id: where letters of that are lost, a digest tells it from others."""
+    """Returns the name of a test's own folder, from the test's id. If the name drops characters of the id, a digest
+    keeps it apart from the names of other tests."""
     plain = test.replace("/", ".").replace(".py::", ".").replace("::", ".")
     name = re.sub(r"[^\w.\[\]-]+", "_", plain)
     return name if name == plain else f"{name}.{hashlib.sha256(test.encode()).hexdigest()[:8]}"
 
 
 class _Judge:
-    """The goldens of one test."""
+    """Compares the pictures of one test with their goldens: the fixture's value."""
 
     def __init__(self, request: pytest.FixtureRequest) -> None:
         self.config = request.config
@@ -88,7 +89,7 @@ class _Judge:
         self.config.stash[_written].append(_shown(golden))
 
     def keep(self, picture: "Picture", golden: Path) -> Path:
-        """Where the picture of a failure is: an array gets a file among the results."""
+        """Returns the path of a picture that failed; writes an array into a file among the results first."""
         import kiln
 
         if isinstance(picture, (str, os.PathLike)):
@@ -98,7 +99,7 @@ class _Judge:
         return path
 
     def place(self, golden: Path) -> Path:
-        """Among the results, where the golden lies below the folder of the test."""
+        """Returns the path among the results that a golden has below the folder of the test."""
         inside = golden.is_relative_to(self.folder) and ".." not in golden.parts
         return self.results / (golden.relative_to(self.folder) if inside else golden.name)
 

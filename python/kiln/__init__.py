@@ -7,9 +7,9 @@
         print(frame.number, frame.alive, frame.pixels.mean())
     kiln.render_to(scene, "fire.mp4")
 
-The module calls the library libkiln.so.0 (the variable KILN_LIBRARY names another file), and the lock of the
-interpreter is not held meanwhile: other threads run while a frame is drawn. Messages go to the logger "kiln".
-Everything that fails raises :class:`kiln.Error` or one of its subclasses.
+The module calls the library libkiln.so.0, or the file that the environment variable KILN_LIBRARY names. Calls
+release the interpreter's lock, so other threads run while a frame is drawn. Messages go to the logger "kiln".
+Calls that fail raise :class:`kiln.Error` or one of its subclasses.
 """
 from . import _header
 from ._bake import BakeStats, SavedState, bake
@@ -23,7 +23,7 @@ from ._scene import Scene, SceneInfo, load, parse
 
 __version__: str = _header.TEXTS["VERSION"]
 DEFAULT_LIMITS: str = _header.TEXTS["COMPARE_DEFAULT_LIMITS"]
-"""The limits of :func:`kiln.compare` where none are given."""
+"""The limits that :func:`kiln.compare` uses when the caller gives none."""
 
 __all__ = [
     "DEFAULT_LIMITS", "BakeStats", "Cancel", "Code", "ComparedFrame", "Comparison", "Device", "DeviceError",

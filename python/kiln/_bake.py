@@ -1,4 +1,4 @@
-"""Saved states: steps through a clip once, so that later jobs start in its middle."""
+"""Saves states of the simulation while it steps through a clip once, so that later jobs can start in its middle."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -11,34 +11,38 @@ from ._scene import Scene
 
 @dataclass(frozen=True)
 class SavedState:
-    """A state that was saved, or was there already."""
+    """A state of the simulation in a file."""
 
     frame: int
-    """The frame before which the state was saved."""
+    """The frame that the state precedes."""
     step: int
+    """The number of steps that led to the state."""
     alive: int
-    """The number of living particles in the state."""
+    """The number of living particles."""
     file: str
+    """The path of the file."""
     bytes: int
+    """The size of the file."""
     kept: bool
-    """Whether the state was there already."""
+    """True if the file was there already."""
 
 
 @dataclass(frozen=True)
 class BakeStats:
-    """The result of :func:`kiln.bake`."""
+    """Numbers of a finished :func:`bake`."""
 
     states: int
-    """How many states are in the folder now."""
+    """The number of states that are there now."""
     kept: int
-    """How many of these states were there before."""
+    """The number of states that were there before."""
     steps: int
-    """How many steps were done."""
+    """The number of steps that were simulated."""
     bytes: int
     """The size of the files that were written."""
     total_s: float
+    """The time that the call took, in seconds."""
     motion: str
-    """The motion hash, by which states are known: looks, camera and lights have no part in it."""
+    """The hash of the scene's motion, which identifies its states. It does not depend on looks, camera and lights."""
 
 
 def bake(scene: Scene, states: PathLike, *, every: int = 0, device: AnyDevice = None,
@@ -47,9 +51,9 @@ def bake(scene: Scene, states: PathLike, *, every: int = 0, device: AnyDevice = 
          resume: bool = False, cancel: Optional[Cancel] = None) -> BakeStats:
     """Steps through the clip once and saves states in a folder, for `render(..., states=folder)`.
 
-    There is a state before every `every` frames; 0 takes those before each part of a clip. `saved` is told of
-    each; an exception there ends the job. States that are there are refused, or replaced with `overwrite`, or
-    with `resume` kept and gone on from.
+    A state is saved before every `every`-th frame; 0 saves one before each part of the clip. `saved` is called with
+    each state; an exception there ends the job. A state whose file exists already is an error, unless `overwrite`
+    replaces it or `resume` keeps it and goes on from it.
     """
     watch = Watch()
     params = Struct("kiln_bake_params")

@@ -1,4 +1,4 @@
-"""Measures how different two pictures look."""
+"""Compares pictures and judges them by limits."""
 from __future__ import annotations
 
 import os
@@ -19,21 +19,21 @@ _MODES = {"auto": "KILN_COMPARE_AUTO", "ldr": "KILN_COMPARE_LDR", "hdr": "KILN_C
 
 @dataclass(frozen=True)
 class Metric:
-    """One figure of a comparison, over all frames."""
+    """One metric of a comparison, over all measured frames."""
 
     name: str
     unit: str
     worst: float
     mean: float
     limit: Optional[float]
-    """The worst value that passes; None: it is only measured."""
+    """The worst value that passes; None: the metric has no limit."""
     higher_is_better: bool
     worst_name: str
-    """The name of the frame in which the value is worst."""
+    """The name of the frame with the worst value."""
 
     @property
     def passes(self) -> bool:
-        """Whether the worst value is within its limit."""
+        """True if the worst value is within the limit."""
         if self.limit is None:
             return True
         return self.worst >= self.limit if self.higher_is_better else self.worst <= self.limit
@@ -52,25 +52,25 @@ class ComparedFrame:
     verdict: str
     """"same", "different", "missing", "extra" or "unreadable"."""
     message: str
-    """Why there are no values; "" when there are."""
+    """Why the pair was not measured; "" when it was."""
     equal: bool
-    """Whether every value is the same."""
+    """True if no sample differs."""
     values: Mapping[str, float]
-    """The values by the names of metrics; empty where nothing was measured."""
+    """The values by the names of metrics; empty when the pair was not measured."""
     score: float
-    """The worst value divided by its limit: 1 is just within the limit."""
+    """The largest share of a limit that a value takes up; up to 1 is within all limits."""
     worst_pixel: tuple[int, int]
-    """x and y of a pixel of the largest difference."""
+    """The x and y of a pixel of the largest difference."""
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """The result of :func:`kiln.compare`. It is true when the pictures look the same."""
+    """The result of :func:`kiln.compare`. Its truth value is `same`."""
 
     same: bool
-    """Whether every frame is within all limits."""
+    """True if every frame is within all limits."""
     hdr: bool
-    """Whether light was judged at several exposures."""
+    """True if FLIP judged light at several exposures."""
     metrics: Mapping[str, Metric]
     frames: tuple[ComparedFrame, ...]
 
@@ -126,7 +126,7 @@ def _set_masks(params: Struct, masks: Iterable[Mask]) -> None:
 
 
 def _as_file(picture: Picture, folder: str, name: str) -> PathLike:
-    """The path of a picture; an array becomes a file in the folder."""
+    """Returns the path of a picture; writes an array into a file in the folder first."""
     if is_path(picture):
         return picture  # type: ignore[return-value]
     array = np.asarray(picture)
@@ -144,11 +144,12 @@ def compare(reference: Picture, test: Picture, *, limits: Union[str, Iterable[st
 
     Each of `reference` and `test` is an array (as for :func:`write_picture`), a picture, a video, a folder of
     pictures, or a numbered pattern such as "frame_####.png". `limits` are {"flip.mean": 0.01} or texts
-    "flip.mean=0.01"; without any it is `kiln.DEFAULT_LIMITS`. `layer` is one of EXR files. `mode` is "ldr", "hdr"
-    or "auto", which is "hdr" for floats. `masks` are what is not judged: (x, y, width, height), or a picture that
-    is black there. `diff` gets a PNG of reference, test and error map side by side, `error_map` that map alone.
+    "flip.mean=0.01"; if there are none, `kiln.DEFAULT_LIMITS` are used. `layer` is the layer of EXR files to
+    compare. `mode` is "ldr", "hdr" or "auto", which is "hdr" for floats. `masks` are areas that are not judged:
+    (x, y, width, height), or the path of a picture that is black there. `diff` is the path of a PNG of reference,
+    test and error map side by side, `error_map` the path of a PNG of the error map alone.
 
-    Raises :class:`kiln.Error` only where the comparison could not take place.
+    Raises :class:`kiln.Error` only when the comparison could not take place.
     """
     if mode not in _MODES:
         raise ValueError(f"mode: found {mode!r}, expected one of {', '.join(_MODES)}")

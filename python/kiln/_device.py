@@ -1,4 +1,4 @@
-"""Devices: the list of devices, and an open device."""
+"""Lists the devices that kiln can draw on, and opens them."""
 from __future__ import annotations
 
 import threading
@@ -12,7 +12,7 @@ from ._library import Failure, Struct, ffi, lib, owned, text
 
 @dataclass(frozen=True)
 class DeviceInfo:
-    """The properties of a device."""
+    """Facts of a device."""
 
     index: int
     name: str
@@ -20,12 +20,12 @@ class DeviceInfo:
     """False for the device "cpu", which every machine has and which makes the same pixels everywhere."""
     usable: bool
     software: bool
-    """Whether the device draws on the processor."""
+    """True if the device draws on the processor."""
     exact: bool
-    """Whether the device may simulate: it passed the probe of exactness."""
+    """True if the device passed the exactness probe, so that it may simulate."""
     platform: str
     problem: str
-    """Why the device is not usable, and how to mend it; "" when it is usable."""
+    """Why the device is not usable and what mends that; "" when it is usable."""
 
 
 def _info(found: Any) -> DeviceInfo:
@@ -35,7 +35,7 @@ def _info(found: Any) -> DeviceInfo:
 
 
 def devices() -> list[DeviceInfo]:
-    """The devices of this machine; "cpu" is the first one."""
+    """Returns the devices of this machine; "cpu" is the first one."""
     room = 16
     while True:
         infos = ffi.new("struct kiln_device_info[]", room)
@@ -49,11 +49,12 @@ def devices() -> list[DeviceInfo]:
 
 
 class Device:
-    """A device to draw on; use it as a context manager, or close it.
+    """A device to draw on. Use it as a context manager, or close it.
 
-    `wanted` is "cpu", a number of :func:`kiln.devices`, "software", or a part of a device's name; None takes the
-    first GPU or else "cpu", and with `gl` a device of OpenGL in any case, if need be one that draws on the
-    processor. A device belongs to the thread that opened it.
+    `wanted` is "cpu", an index into :func:`kiln.devices`, "software" (the first device with OpenGL that draws on
+    the processor), or a part of a device's name. None takes the first GPU, or "cpu" if there is none; with `gl`,
+    None takes only a device with OpenGL, if need be the software one. A device belongs to the thread that opened
+    it.
     """
 
     def __init__(self, wanted: Union[str, int, None] = None, *, gl: bool = False, debug: bool = False) -> None:
@@ -74,7 +75,7 @@ class Device:
 
     @property
     def info(self) -> DeviceInfo:
-        """The properties of the device."""
+        """Facts of the device."""
         return self._info
 
     @property
@@ -86,7 +87,7 @@ class Device:
         return self._open
 
     def close(self) -> None:
-        """Closes it. Closing twice does nothing; a device on which a job still runs cannot be closed."""
+        """Closes the device. Closing it twice does nothing. A device on which a job runs cannot be closed."""
         if self._open is None:
             return
         if any(rendering._job[0] for rendering in self._renderings):

@@ -1,4 +1,4 @@
-"""What goes wrong, as exceptions with the codes of kiln.h."""
+"""Defines the exceptions of the module, which have the codes of kiln.h."""
 from __future__ import annotations
 
 import enum
@@ -15,7 +15,7 @@ def _codes() -> dict[str, int]:
 
 
 class Code(enum.IntEnum):
-    """What went wrong: the values of `enum kiln_code`, which are the program's exit codes, too."""
+    """Kinds of errors: the values of `enum kiln_code`, which are also the exit codes of the program kiln."""
 
     OK = 0
     FRAME_FAILED = 1
@@ -35,9 +35,9 @@ if _codes() != {code.name: code.value for code in Code}:
 
 
 class Error(Exception):
-    """Something failed. `str` says the place, what was found and what is allowed.
+    """A call failed. `str` gives the place, what was found there and what is allowed.
 
-    `code` is a :class:`Code`, or a plain number where a newer library has one that this module does not know.
+    `code` is a :class:`Code`, or a plain number if a newer library has a code that this module does not know.
     """
 
     code: Union[Code, int]
@@ -67,7 +67,7 @@ class FileError(Error):
 
 
 class OverLimit(Error):
-    """More than the limits of the job allow (`Code.OVER_LIMIT`)."""
+    """The job takes more than its limits allow (`Code.OVER_LIMIT`)."""
 
 
 class Interrupted(Error):
@@ -86,5 +86,5 @@ _CLASSES: dict[int, type[Error]] = {
 
 
 def error_class(code: int) -> type[Error]:
-    """The class of exceptions of a code."""
+    """Returns the class of exceptions for a code."""
     return _CLASSES.get(code, Error)

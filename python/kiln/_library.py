@@ -1,6 +1,6 @@
-"""The shared library and what every call of it needs: parameters, errors, logs, a way to stop.
+"""Opens the shared library, and provides parameters, errors, logs and a way to stop for calls to it.
 
-All of it is private to the module. cffi calls the library without the global lock of the interpreter.
+Only the module itself uses this file. cffi releases the interpreter's lock while it calls the library.
 """
 from __future__ import annotations
 
@@ -45,14 +45,14 @@ lib: Any = _open()
 
 
 def text(value: Any) -> str:
-    """A C text, or "" for NULL."""
+    """Returns a C text as a str; "" for NULL."""
     if not value:
         return ""
     return str(ffi.string(value).decode("utf-8", "replace"))
 
 
 def path_bytes(path: PathLike) -> bytes:
-    """A path as the library takes it; a text with a zero in it would name another file."""
+    """Returns a path as the library takes it. A zero byte is refused: the library would see a shorter path."""
     encoded = os.fsencode(path)
     if b"\0" in encoded:
         raise ValueError(f"a path with a zero byte: {path!r}")
@@ -60,7 +60,7 @@ def path_bytes(path: PathLike) -> bytes:
 
 
 class Struct:
-    """A struct of the header, its size and defaults filled in, and all that its members point to."""
+    """A struct of the header with its size and defaults. It keeps everything alive that its members point to."""
 
     def __init__(self, name: str) -> None:
         self.pointer: Any = ffi.new(f"struct {name} *")
@@ -70,7 +70,7 @@ class Struct:
             self.set(member, value)
 
     def set(self, member: str, value: Any) -> None:
-        """Sets a member: texts, structs and pointers are kept alive; None is NULL."""
+        """Sets a member. Texts, structs and pointers are kept alive; None becomes NULL."""
         if value is None:
             value = ffi.NULL
         elif isinstance(value, (str, os.PathLike)):
@@ -82,13 +82,13 @@ class Struct:
         setattr(self.pointer, member, value)
 
     def set_texts(self, member: str, count: str, values: Iterable[str]) -> None:
-        """Sets a list of texts and how many there are."""
+        """Sets a member that is a list of texts, and the member `count` to their number."""
         items = [self.keep(ffi.new("char[]", path_bytes(value))) for value in values]
         setattr(self.pointer, member, self.keep(ffi.new("char *[]", items)))
         setattr(self.pointer, count, len(items))
 
     def set_log(self) -> None:
-        """Lets the library's messages go to the logger "kiln"."""
+        """Sends the library's messages to the logger "kiln"."""
         self.pointer.log.write = self.keep(_write_log)
 
     def keep(self, thing: Any) -> Any:
@@ -102,7 +102,7 @@ def _write_log(user: Any, level: int, line: Any) -> None:
 
 
 class Failure:
-    """The error that a call fills."""
+    """The struct kiln_error that a call fills."""
 
     def __init__(self) -> None:
         self.struct = Struct("kiln_error")
@@ -116,11 +116,11 @@ class Failure:
 
 
 class Watch:
-    """Lets a long call end when Python has a reason: a signal, or an exception in a callback.
+    """Ends a long call at a signal, or at an exception in a callback.
 
-    The library asks `stop` now and then on the thread that called it. There the interpreter runs the handlers
-    of signals, and Ctrl-C becomes an exception, which `stop` cannot let pass through C: it is kept, the call
-    ends, and `raise_kept` raises it.
+    The library calls `stop` now and then on the thread that called it. During `stop`, the interpreter runs the
+    handlers of signals, and Ctrl-C becomes an exception. An exception cannot pass through C: so it is kept, the
+    call ends, and `raise_kept` raises it.
     """
 
     def __init__(self) -> None:
@@ -137,7 +137,7 @@ class Watch:
         self._failed = failed
 
     def callback(self, signature: str, function: Callable[..., None]) -> Any:
-        """A callback whose exception ends the call."""
+        """Returns a C callback. An exception in it ends the call."""
         return ffi.callback(signature, function, onerror=self._failed)
 
     def raise_kept(self) -> None:
@@ -147,9 +147,9 @@ class Watch:
 
 
 class Cancel:
-    """A request to stop, which any thread may make and a signal handler, too.
+    """A request to stop. Any thread and any signal handler may make it.
 
-    Calls that were given it end with :class:`kiln.Interrupted`, and nothing half-written stays.
+    Calls that were given this object then end with :class:`kiln.Interrupted` and leave nothing half-written.
     """
 
     def __init__(self) -> None:
@@ -164,7 +164,7 @@ class Cancel:
 
     @property
     def requested(self) -> bool:
-        """Whether somebody has asked."""
+        """True after :meth:`request` was called."""
         return bool(lib.kiln_cancel_is_requested(self._pointer))
 
     def __repr__(self) -> str:
@@ -177,8 +177,8 @@ _DESTROYERS = {"kiln_cancel": "kiln_cancel_destroy", "kiln_scene": "kiln_scene_d
 
 
 def owned(pointer: Any, kind: str, *needed: Any) -> Any:
-    """The pointer of a thing that the library destroys when nobody in Python has it any more. What the thing
-    needs lives as long."""
+    """Returns a pointer to a struct whose destroyer is called when Python drops its last reference. The objects
+    `needed` live as long as the pointer."""
     destroy = getattr(lib, _DESTROYERS[kind])
 
     def release(dying: Any, needed: Any = needed) -> None:
@@ -188,7 +188,7 @@ def owned(pointer: Any, kind: str, *needed: Any) -> Any:
 
 
 def set_watch(params: Struct, watch: Watch, cancel: Optional[Cancel]) -> None:
-    """Signals of the main thread end the call, and so does `cancel`."""
+    """Sets parameters so that signals, on the main thread, and `cancel` end the call."""
     if threading.current_thread() is threading.main_thread():
         params.pointer.stop = params.keep(watch).stop
     if cancel is not None:
@@ -196,7 +196,7 @@ def set_watch(params: Struct, watch: Watch, cancel: Optional[Cancel]) -> None:
 
 
 def _as_yaml(value: Any, place: str) -> str:
-    """A value of a key, which may be a number or an array of NumPy."""
+    """Returns a value as YAML. It may be a number or an array of NumPy."""
     import json
 
     def listed(other: Any) -> Any:
@@ -208,7 +208,7 @@ def _as_yaml(value: Any, place: str) -> str:
 
 
 def pairs(values: Union[str, Iterable[str], Mapping[str, Any], None], what: str) -> list[str]:
-    """"key=value" texts of a text, of several, or of a mapping. Values that are no texts become YAML."""
+    """Returns the texts "key=value" of one text, several texts or a mapping. Values of a mapping become YAML."""
     if values is None:
         return []
     if isinstance(values, str):
@@ -223,7 +223,7 @@ def pairs(values: Union[str, Iterable[str], Mapping[str, Any], None], what: str)
 
 
 def version() -> str:
-    """The version of the library that is loaded."""
+    """Returns the version of the library that is loaded."""
     return text(lib.kiln_version())
 
 

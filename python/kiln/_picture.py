@@ -1,4 +1,4 @@
-"""Pixels of the library as NumPy arrays, and arrays as pixels of the library."""
+"""Converts pixels of the library to NumPy arrays, and writes arrays as pictures."""
 from __future__ import annotations
 
 import os
@@ -18,7 +18,8 @@ _NUMBERS: dict[str, int] = ffi.typeof("enum kiln_sample_type").relements
 
 
 class _Memory:
-    """Memory of the library in NumPy's terms. Arrays hold it, and it holds what the memory belongs to."""
+    """Describes memory of the library to NumPy. An array keeps this object alive, and the object keeps the owner of
+    the memory alive."""
 
     def __init__(self, layer: Any, owner: Any) -> None:
         kind = _TYPES[ffi.typeof("enum kiln_sample_type").elements[int(layer.samples)]]
@@ -35,12 +36,12 @@ class _Memory:
 
 
 def view(layer: Any, owner: Any) -> Array:
-    """A read-only array of a layer's samples: height x width x channels, or height x width where there is one."""
+    """Returns a read-only array of a layer's samples: height x width x channels, or height x width for one channel."""
     return np.asarray(_Memory(layer, owner))
 
 
 def _as_pixels(array: Array) -> Array:
-    """The array with the channels and the order of rows that the library writes."""
+    """Returns the array with the channels and the memory layout that the library writes."""
     if array.dtype not in _TYPES.values():
         raise TypeError(f"pixels of type {array.dtype}: expected uint8, uint16 or float32")
     if array.ndim == 3 and array.shape[2] == 1:
@@ -58,12 +59,12 @@ def _as_pixels(array: Array) -> Array:
 
 
 def write_picture(path: PathLike, pixels: npt.ArrayLike, *, overwrite: bool = False) -> None:
-    """Writes an array as a picture: uint8 and uint16 as a PNG (sRGB, alpha not premultiplied), float32 as an EXR
-    of floats (linear, premultiplied).
+    """Writes an array as a picture: uint8 and uint16 as a PNG (sRGB, straight alpha), float32 as an EXR of 32-bit
+    floats (linear, premultiplied).
 
-    The array has height x width x 4, 3 or 1 values, or height x width. A PNG whose pixels are all opaque gets no
-    alpha. The file appears whole or not at all; raises :class:`kiln.UsageError` where there is one and `overwrite`
-    is false.
+    The shape of the array is height x width x 4, 3 or 1, or height x width. A PNG whose pixels are all opaque gets
+    no alpha. The file appears whole or not at all. Raises :class:`kiln.UsageError` when the file exists and
+    `overwrite` is false.
     """
     array = _as_pixels(np.asarray(pixels))
     layer = Struct("kiln_frame_layer")
@@ -78,7 +79,7 @@ def write_picture(path: PathLike, pixels: npt.ArrayLike, *, overwrite: bool = Fa
 
 
 def suffix_for(pixels: Array) -> str:
-    """Of the file that write_picture makes of an array."""
+    """Returns the suffix of the file that write_picture makes of an array."""
     return ".exr" if pixels.dtype == np.float32 else ".png"
 
 

@@ -1,4 +1,4 @@
-"""Jobs: frames one after another as arrays, or into files."""
+"""Renders jobs: draws frames one after another into arrays or files."""
 from __future__ import annotations
 
 import operator
@@ -21,48 +21,55 @@ class Progress:
     """The progress of a job after a frame."""
 
     frame: int
-    """The frame's number."""
+    """The number of the frame in the clip."""
     done: int
-    """Frames of this job that are drawn."""
+    """The number of frames that this job has drawn."""
     total: int
+    """The number of frames that this job draws in all."""
     elapsed_s: float
+    """The time since the job began, in seconds."""
     eta_s: Optional[float]
-    """The expected time to the end; None while it is not known."""
+    """The expected time until the job ends, in seconds; None: not known yet."""
     alive: int
-    """Living particles at the frame."""
+    """The number of living particles at the frame."""
     state: Optional[str]
-    """The state hash in hex, where `state_hash` asks for it: the same on every device, with every technique."""
+    """The state hash in hex, equal on every device and with every technique; None without `state_hash`."""
 
 
 @dataclass(frozen=True)
 class Stats:
-    """What a job did."""
+    """Numbers of a finished job."""
 
     frames: int
-    """How many frames were drawn."""
+    """The number of frames that were drawn."""
     kept: int
-    """How many frames were there already, in a job with `resume`."""
+    """The number of frames that were there already, for a job with `resume`."""
     steps: int
+    """The number of steps that were simulated."""
     setup_s: float
+    """The time of making programs, textures and buffers, in seconds."""
     total_s: float
+    """The time of the whole job, in seconds."""
     alive: int
-    """Living particles at the last step."""
+    """The number of living particles after the last step."""
     state: str
     """The state hash after the last step, in hex."""
     techniques: Mapping[str, str]
     """The technique of each stage."""
     pass_ms: Mapping[str, float]
-    """The time of each pass, summed up over the job."""
+    """The time of each pass in milliseconds, summed up over the job."""
     files: int
+    """The number of files of the output; 0 without an output."""
     first_file: Optional[str]
+    """The path of the first of these files."""
 
 
 class Frame:
     """A drawn frame.
 
-    Its arrays are the memory that the library drew into: nothing is copied, and they are read-only, because an
-    output may be encoding them. They stay valid as long as anybody has the frame or one of its arrays; keeping
-    many frames keeps their memory. `numpy.array(frame.pixels)` is a copy that can be written.
+    Its arrays are the memory that the library drew into, not copies. They are read-only, because an output may be
+    encoding them. They stay valid as long as the frame or one of its arrays is referenced, so keeping many frames
+    takes much memory. `numpy.array(frame.pixels)` is a copy that can be written.
     """
 
     def __init__(self, progress: Progress, layers: dict[str, Array]) -> None:
@@ -71,7 +78,7 @@ class Frame:
         self.progress = progress
         """The progress of the job after this frame."""
         self.layers: Mapping[str, Array] = layers
-        """The layers that were asked for, by their names."""
+        """The requested layers, by their names."""
 
     def _layer(self, name: str) -> Array:
         try:
@@ -81,23 +88,23 @@ class Frame:
 
     @property
     def pixels(self) -> Array:
-        """The layer "display", what a PNG has: height x width x 4, uint8, or uint16 where the output has 16 bits;
-        sRGB, alpha not premultiplied, rows from the top."""
+        """The layer "display", with the samples of a PNG: height x width x 4, uint8, or uint16 if `png_bits` is 16;
+        sRGB, straight alpha, rows from the top."""
         return self._layer("display")
 
     @property
     def linear(self) -> Array:
-        """The layer "beauty", what an EXR has: height x width x 4, float32, linear, premultiplied."""
+        """The layer "beauty", with the samples of an EXR: height x width x 4, float32, linear, premultiplied."""
         return self._layer("beauty")
 
     @property
     def alive(self) -> int:
-        """Living particles at the frame."""
+        """The number of living particles at the frame."""
         return self.progress.alive
 
     @property
     def state(self) -> Optional[str]:
-        """The state hash in hex, of a job with `state_hash`."""
+        """The state hash in hex; None for a job without `state_hash`."""
         return self.progress.state
 
     def __repr__(self) -> str:
@@ -124,7 +131,7 @@ def _stats(found: Any) -> Stats:
 
 
 def _ranges(frames: Frames) -> list[tuple[int, int]]:
-    """Frames as ascending ranges; [] stands for the whole clip."""
+    """Returns frames as ascending ranges (first, last); [] stands for the whole clip."""
     if frames is None:
         return []
     if isinstance(frames, (str, slice)):
@@ -144,7 +151,7 @@ def _ranges(frames: Frames) -> list[tuple[int, int]]:
 
 
 def open_for(device: AnyDevice, techniques: list[str]) -> tuple[Device, bool]:
-    """The device of a job, and whether it is the job's own and has to be closed with it."""
+    """Returns the device of a job, and whether the job owns it and has to close it."""
     if isinstance(device, Device):
         return device, False
     if device is None and techniques:
@@ -157,7 +164,7 @@ def open_for(device: AnyDevice, techniques: list[str]) -> tuple[Device, bool]:
 
 @dataclass
 class _Request:
-    """What render and render_to have in common."""
+    """The parameters that render and render_to have in common."""
 
     output: Optional[PathLike]
     frames: Frames
@@ -204,10 +211,10 @@ def _sized(scene: Scene, size: Optional[tuple[int, int]]) -> Scene:
 
 
 class Rendering(Iterator[Frame]):
-    """A job that is drawn frame by frame: :func:`kiln.render` makes it, and iterating over it draws.
+    """A job that is drawn frame by frame. :func:`kiln.render` makes it, and each iteration draws a frame.
 
-    As a context manager it ends when the block is left: a clip that has frames left is given up then, and
-    nothing half-written stays. It belongs to the thread that made it.
+    As a context manager, it ends when the block is left: a clip that has frames left is then given up, and nothing
+    half-written stays. A job belongs to the thread that made it.
     """
 
     def __init__(self, scene: Scene, request: _Request, layers: Iterable[str], device: AnyDevice) -> None:
@@ -234,8 +241,8 @@ class Rendering(Iterator[Frame]):
             self._raise(failure)
 
     def _begin(self, failure: Failure) -> None:
-        """The exception of a signal comes between two steps of the interpreter. map has the job begun and put into
-        its place in one, so that it is always known which job has to be ended."""
+        """Begins the job and stores its pointer. A signal's exception may come between any two instructions of the
+        interpreter. map begins the job and stores the pointer within one instruction, so no job is left behind."""
         begun = map(lib.kiln_rendering_begin, [self._device._pointer], [self._scene._pointer],
                     [self._params.pointer], [failure.pointer])
         list(map(operator.setitem, [self._job], [0], begun))
@@ -246,11 +253,11 @@ class Rendering(Iterator[Frame]):
         raise failure.exception()
 
     def _end(self, failure: Failure) -> bool:
-        """Ends the job in any case."""
+        """Ends the job. Returns False when the library reports an error; the job is ended in any case."""
         if threading.get_ident() != self._device._thread:
             raise ValueError("the job belongs to another thread")
         stats = Struct("kiln_render_stats")
-        ok = bool(lib.kiln_rendering_end(self._job, stats.pointer, failure.pointer))  # which makes it NULL
+        ok = bool(lib.kiln_rendering_end(self._job, stats.pointer, failure.pointer))  # sets self._job[0] to NULL
         if self._owns_device:
             self._device.close()
         if ok:
@@ -268,7 +275,7 @@ class Rendering(Iterator[Frame]):
     def __next__(self) -> Frame:
         if not self._job[0]:
             raise StopIteration
-        self._device._pointer  # refuses other threads
+        self._device._pointer  # raises an exception on any other thread
         drawn, progress, failure = ffi.new("bool *"), Struct("kiln_progress"), Failure()
         ok = lib.kiln_rendering_next(self._job[0], drawn, progress.pointer, failure.pointer)
         if not ok or self._watch.exception is not None:
@@ -297,13 +304,13 @@ class Rendering(Iterator[Frame]):
 
     @property
     def stats(self) -> Stats:
-        """What the job did. It is known after the last frame."""
+        """Numbers of the finished job; an exception before the last frame was drawn."""
         if self._stats is None:
             raise ValueError("the job has not drawn its last frame")
         return self._stats
 
     def close(self) -> None:
-        """Ends the job. A job without its last frame is cancelled. Calling this twice does nothing."""
+        """Ends the job; a job that has frames left is given up. Closing it twice does nothing."""
         if self._job[0]:
             self._end(Failure())
 
@@ -326,17 +333,18 @@ def render(scene: Scene, *, frames: Frames = None, size: Optional[tuple[int, int
            resume: bool = False, shard: Optional[tuple[int, int]] = None, state_hash: bool = False,
            png_bits: Optional[int] = None, exr_bits: Optional[int] = None, quality: Optional[int] = None,
            cancel: Optional[Cancel] = None) -> Rendering:
-    """Draws frames, one for each turn of a loop: `for frame in kiln.render(scene): ...`.
+    """Returns a job that draws one frame for each turn of a loop: `for frame in kiln.render(scene): ...`.
 
     `frames` are a number, a range or ascending numbers, or None for all; `size` is (width, height) in pixels in
     place of the scene's. `layers` are "display", "beauty", "depth", "fire", "smoke", "bloom"; () gives frames
     without pixels. `output` also writes a file, or files by a pattern such as "frame_####.png". `device` is an
-    open :class:`Device` or what that takes. `states` is a folder of :func:`bake`, where the job starts if it can.
-    `techniques` are {"stage": "name"}; `threads` 0 takes one a core; `shard` (i, n) draws the i-th of n shares,
-    from 0. `png_bits` are 8 (the default) or 16, `exr_bits` 16 or 32, `quality` of videos and JPEG 0 to 100 (80).
-    `overwrite` replaces files that exist. `cancel` ends the job from any thread, Ctrl-C by KeyboardInterrupt.
+    open :class:`Device`, or the value `wanted` of one to open. `states` is a folder of :func:`bake`; the job starts
+    from the latest state there that serves it. `techniques` are {"stage": "name"}; `threads` 0 takes one a core;
+    `shard` (i, n) draws the i-th of n shares, from 0. `png_bits` are 8 (the default) or 16, `exr_bits` 16 (the
+    default) or 32, `quality` of videos and JPEG is 0 to 100 (80 by default). `overwrite` replaces files that exist.
+    `cancel` ends the job from any thread; Ctrl-C ends it with KeyboardInterrupt.
 
-    Raises :class:`kiln.Error`, here or when a frame is drawn.
+    Raises :class:`kiln.Error`, in this call or when a frame is drawn.
     """
     request = _Request(output, frames, states, manifest, techniques, threads, overwrite, resume, shard, state_hash,
                        png_bits, exr_bits, quality, cancel)
@@ -350,7 +358,7 @@ def render_to(scene: Scene, output: PathLike, *, frames: Frames = None, size: Op
               resume: bool = False, shard: Optional[tuple[int, int]] = None, state_hash: bool = False,
               png_bits: Optional[int] = None, exr_bits: Optional[int] = None, quality: Optional[int] = None,
               cancel: Optional[Cancel] = None) -> Stats:
-    """Draws frames into a file, or into files by a pattern, and returns what was done.
+    """Draws frames into a file, or into files by a pattern, and returns numbers of the job.
 
     The suffix of `output` is the format: a clip (.mp4, .webm, .mkv, .mov, .gif, .apng, .webp) or images (.png,
     .jpg, .exr, with a pattern such as "frame_####.png"). `progress` is called after each frame; an exception there ends

@@ -1,4 +1,4 @@
-"""Scenes: loaded, overridden, described."""
+"""Loads and parses scenes, and gives facts of them."""
 from __future__ import annotations
 
 import os
@@ -12,29 +12,31 @@ from ._library import (Cancel, Failure, Overrides, PathLike, Struct, Watch, ffi,
 
 @dataclass(frozen=True)
 class SceneInfo:
-    """Facts of a scene that a caller plans with."""
+    """Facts of a scene, for a caller that plans a job."""
 
     width: int
     """The width of a frame in pixels."""
     height: int
+    """The height of a frame in pixels."""
     frames: int
     fps: Fraction
     """The number of frames a second."""
     steps_per_frame: int
     warmup_steps: int
     steps: int
-    """The number of simulation steps of the whole clip."""
+    """The number of steps up to the last frame of the clip, warm-up included."""
     systems: int
+    """The number of particle systems."""
     particle_capacity: int
-    """The number of slots for particles in all systems."""
+    """The number of slots for particles, over all systems."""
     memory_bytes: int
     """The memory that rendering on the device "cpu" is expected to take."""
     hash: str
-    """SHA-256 of the scene with every default and of its textures."""
+    """The SHA-256 of the scene with every default and of its textures, in hex."""
 
 
 class Scene:
-    """A scene, which does not change once it is loaded: :func:`kiln.load` and :func:`kiln.parse` make it.
+    """A scene. :func:`kiln.load` and :func:`kiln.parse` make it, and it does not change afterwards.
 
     Any threads may use it at the same time.
     """
@@ -57,13 +59,13 @@ class Scene:
         self._watch.raise_kept()
 
     def override(self, overrides: Overrides, *, cancel: Optional[Cancel] = None) -> "Scene":
-        """The same scene with other values: the file, or the text, is read once more, and these come after the
-        overrides that this scene has."""
+        """Returns a scene with other values: reads the file or the text once more, and applies these overrides after
+        those that this scene has."""
         return Scene(self._source, self._overrides + pairs(overrides, "overrides"), cancel)
 
     @property
     def name(self) -> str:
-        """The file, or what stands for it in messages."""
+        """The path of the scene file, or the name that :func:`kiln.parse` was given."""
         return self._source.name
 
     @property
@@ -73,7 +75,7 @@ class Scene:
 
     @property
     def info(self) -> SceneInfo:
-        """Size, frames, rate and what else a caller plans with."""
+        """Size, frames, rate and other facts of the scene."""
         info = Struct("kiln_scene_info")
         lib.kiln_scene_get_info(self._pointer, info.pointer)
         found = info.pointer
@@ -84,7 +86,7 @@ class Scene:
                          hash=text(found.hash))
 
     def text(self) -> str:
-        """The scene with every default spelled out, as a scene file that loads to the same scene."""
+        """Returns the scene as a scene file with every default spelled out; the file loads to the same scene."""
         length = lib.kiln_scene_text(self._pointer, ffi.NULL, 0)
         room = ffi.new("char[]", length + 1)
         if length == 0 or lib.kiln_scene_text(self._pointer, room, length + 1) != length:
@@ -96,7 +98,7 @@ class Scene:
 
 
 class _Source:
-    """Where a scene comes from, so that it can be read again with other overrides."""
+    """The origin of a scene, from which it can be read again with other overrides."""
 
     def __init__(self, name: str, content: Optional[bytes], asset_root: Optional[PathLike],
                  limits: Optional[str]) -> None:
@@ -129,11 +131,11 @@ def load(path: PathLike, overrides: Overrides = (), *, asset_root: Optional[Path
 
     `overrides` are texts such as "systems.fire.emit.rate=50", applied in order after the file, or a mapping of
     keys to values; a '*' in a key names every entry of a map or list. Textures and meshes lie below `asset_root`,
-    which is the folder of the file unless it is given. `limits` bound what the scene and its jobs may take, as
-    in "frames=1000,memory=4 GiB" or "service"; time counts from here on.
+    by default the folder of the file. `limits` bound the frames, memory, time and other amounts that the scene and
+    its jobs may take, as in "frames=1000,memory=4 GiB" or "service"; time counts from this call on.
 
-    Raises :class:`kiln.InvalidInput` for a scene that is wrong or not there, :class:`kiln.UsageError` for an
-    override that is no "key=value", :class:`kiln.OverLimit` and :class:`kiln.FileError`.
+    Raises :class:`kiln.InvalidInput` for a scene that is wrong or does not exist, :class:`kiln.UsageError` for an
+    override that is not "key=value", :class:`kiln.OverLimit` and :class:`kiln.FileError`.
     """
     return Scene(_Source(os.fspath(path), None, asset_root, limits), pairs(overrides, "overrides"), cancel)
 
@@ -141,8 +143,8 @@ def load(path: PathLike, overrides: Overrides = (), *, asset_root: Optional[Path
 def parse(content: Union[str, bytes], overrides: Overrides = (), *, name: str = "scene",
           asset_root: Optional[PathLike] = None, limits: Optional[str] = None,
           cancel: Optional[Cancel] = None) -> Scene:
-    """The same for the text of a scene. `name` stands for the file in messages, and relative paths of assets
-    start at `asset_root` or, without one, at the working directory."""
+    """Does what :func:`load` does, for the text of a scene. `name` stands for the file in messages. Relative paths of
+    assets start at `asset_root`, by default the working directory."""
     encoded = content.encode() if isinstance(content, str) else bytes(content)
     return Scene(_Source(name, encoded, asset_root, limits), pairs(overrides, "overrides"), cancel)
 
