@@ -1,5 +1,5 @@
-# Cross-compiles for arm64: cmake -DCMAKE_TOOLCHAIN_FILE=cmake/arm64.cmake -DKILN_ROOT=ROOT, a folder with
-# arm64's packages (tools/arm64 makes one). What is built runs by qemu-aarch64-static -L ROOT.
+# Cross-compiles for arm64: cmake -DCMAKE_TOOLCHAIN_FILE=cmake/arm64.cmake -DKILN_ROOT=ROOT. ROOT is a folder
+# with arm64's packages (tools/arm64 makes one). The programs run by qemu-aarch64-static -L ROOT.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

@@ -1,6 +1,6 @@
-# Writes OUTPUT, a header that names the commit of the working tree in SOURCE, "254e4dc", with a '+'
-# where tracked files have changed since; of an archive by `git archive`, the commit that it is of; ""
-# where neither is known. The file is left alone while it would be the same, so that nothing is compiled anew.
+# Writes OUTPUT, a header that names the commit of the working tree in SOURCE, "254e4dc", with a '+' if
+# tracked files have changed since. In an archive by `git archive`, the name is that of the archived commit;
+# without git, it is "". A file that would stay the same is not written, so that nothing is compiled anew.
 find_program(git git)
 file(READ ${SOURCE}/cmake/commit.txt archived)
 set(commit "")
@@ -9,7 +9,7 @@ if(archived MATCHES "^([0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f])
 elseif(git)
     execute_process(COMMAND ${git} -C ${SOURCE} rev-parse --show-prefix --short=7 HEAD
         OUTPUT_VARIABLE found ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed)
-    if(NOT failed AND found MATCHES "^\n([0-9a-f]+)$") # the tree is the repository's, at its top
+    if(NOT failed AND found MATCHES "^\n([0-9a-f]+)$") # SOURCE is the top of a repository
         set(commit ${CMAKE_MATCH_1})
         execute_process(COMMAND ${git} -C ${SOURCE} diff --quiet HEAD --
             ERROR_QUIET RESULT_VARIABLE changed)

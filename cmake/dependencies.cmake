@@ -1,20 +1,21 @@
-# Every library that kiln links, from pkg-config; a missing one names the script that installs it.
+# Finds the libraries that kiln links, by pkg-config. If one is missing, the error names the script that
+# installs it.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 set(kiln_linked_packages epoxy libpng zlib libfyaml libzstd nettle)
 pkg_check_modules(KILN_DEPS IMPORTED_TARGET ${kiln_linked_packages})
-# Headers only: libepoxy loads EGL when it is first called, so that a machine without it gets an
-# error from kiln, not from the loader.
+# Headers only: libepoxy loads EGL at the first call, so a machine without EGL gets an error from kiln
+# and not from the dynamic linker.
 pkg_check_modules(KILN_EGL egl)
 # Headers only: assimp is loaded when a scene has a mesh (decode/mesh.c).
 pkg_check_modules(KILN_ASSIMP assimp>=5)
-# Headers only: loaded by those who confine themselves (lib/base/confine.c).
+# Headers only: libseccomp is loaded when a process confines itself (lib/base/confine.c).
 pkg_check_modules(KILN_SECCOMP libseccomp)
-# Headers only: FFmpeg is loaded when it codes something (lib/base/ffmpeg.c). Tests link it.
+# Headers only: FFmpeg is loaded when a clip is encoded or decoded (lib/base/ffmpeg.c). Tests link it.
 pkg_check_modules(KILN_FFMPEG IMPORTED_TARGET libavcodec libavformat libavutil libswscale)
-# Headers only: lib/base/matrix.h takes the functions that cglm's headers define.
+# Headers only: lib/base/matrix.h uses inline functions of cglm.
 pkg_check_modules(KILN_CGLM cglm)
-# Of OpenEXR only the C core: the rest is C++ and would be loaded at every start.
+# Only the C core of OpenEXR is linked: the rest is C++ and would be loaded at every start.
 pkg_check_modules(KILN_EXR OpenEXR)
 find_library(KILN_EXR_CORE OpenEXRCore)
 if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR NOT KILN_ASSIMP_FOUND OR

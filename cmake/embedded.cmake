@@ -1,5 +1,5 @@
-# Files that are put into the library or the program, each folder as one C table (lib/base/embedded.h);
-# the variable of a table's name is its source.
+# Embeds files into the library, each folder as one C table (lib/base/embedded.h). kiln_embed sets the variable
+# that has the name of the table to the path of the table's source.
 function(kiln_embed table root)
     list(TRANSFORM ARGN PREPEND ${root}/ OUTPUT_VARIABLE globs)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${root} ${globs})

@@ -1,8 +1,8 @@
-# cmake --install: the program, the library, its headers, a pkg-config file, the scenes, the documents and
-# what bash and zsh complete command lines with. docs/ adds manual pages and the schema of scenes.
+# Says what cmake --install installs: the program, the library, its headers, a pkg-config file, the scenes, the
+# documents, and the completions of bash and zsh. docs/ adds manual pages and the schema of scenes.
 
-# The pkg-config file finds its prefix from where it lies, whatever --prefix it was installed to. Whoever
-# links the static library needs its dependencies, too: pkg-config --static, or kiln::kiln_static.
+# The pkg-config file finds its prefix from its own folder, whatever --prefix it was installed to. A program that
+# links the static library needs its dependencies, too: it gets them by pkg-config --static or kiln::kiln_static.
 include(CMakePackageConfigHelpers)
 file(RELATIVE_PATH kiln_pc_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(JOIN " " kiln_pc_requires ${kiln_linked_packages})

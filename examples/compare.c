@@ -1,5 +1,5 @@
-/* Are two pictures the same to the eye: compare REFERENCE TEST [LIMIT...]. Limits are those of
- * `kiln compare`, such as flip.mean=0.02; exit code 1 says that they look different. */
+/* compare REFERENCE TEST [LIMIT...]: tests whether two pictures look the same. Limits are those of
+ * `kiln compare`, such as flip.mean=0.02. The exit code is 1 when the pictures look different. */
 #include <kiln.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
-// kiln from C++: film SCENE CLIP.mp4 [KEY=VALUE...]. Owners that destroy what they have, and errors
-// as exceptions; the rest is kiln.h as it is.
+// film SCENE CLIP.mp4 [KEY=VALUE...]: renders a clip, from C++. Smart pointers own the scene and
+// the device, and errors become exceptions; all else is plain kiln.h.
 #include <cstdio>
 #include <kiln.h>
 #include <memory>

@@ -1,5 +1,5 @@
-/* A main loop of one's own: loop SCENE CLIP.mp4. It draws a clip frame by frame, does something
- * else in between, and ends the job at Ctrl-C with nothing half-written. */
+/* loop SCENE CLIP.mp4: draws a clip frame by frame in the program's own main loop, does other work
+ * between frames, and ends the job at Ctrl-C with nothing half-written. */
 #include <kiln.h>
 #include <signal.h>
 #include <stdio.h>
@@ -35,7 +35,7 @@ int main(int argc, char **argv)
     for (bool drawn = ok; ok && drawn;) {
         struct kiln_progress progress = kiln_progress_empty();
         ok = kiln_rendering_next(job, &drawn, &progress, &error);
-        if (ok && drawn) /* whatever else the program has to do */
+        if (ok && drawn) /* other work of the program goes here */
             printf("\rframe %u of %u, %llu particles", progress.done, progress.total,
                    (unsigned long long)progress.alive);
         fflush(stdout);

@@ -1,10 +1,11 @@
-/* A picture in memory: picture SCENE FRAME FILE.ppm. It draws one frame of a scene without writing
- * it, looks at its pixels, and saves them itself. */
+/* picture SCENE FRAME FILE.ppm: draws one frame of a scene into memory, reads its pixels, and
+ * writes them into a file itself. */
 #include <kiln.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What is done with the pixels: here they become a PPM file, and their brightest value is found. */
+/* The state of the callback `take`, which writes the pixels into a PPM file and finds their
+ * brightest value. */
 struct canvas {
     FILE *file;
     unsigned brightest;
@@ -17,7 +18,7 @@ static void take(void *user, const struct kiln_frame_layer *layer)
     for (uint32_t y = 0; y < layer->height; y++) {
         const uint8_t *row = (const uint8_t *)layer->pixels + y * layer->row_bytes;
         for (uint32_t x = 0; x < layer->width; x++, row += layer->channels) {
-            fwrite(row, 1, 3, canvas->file); /* red, green, blue; alpha stays behind */
+            fwrite(row, 1, 3, canvas->file); /* red, green, blue; alpha is dropped */
             for (int c = 0; c < 3; c++)
                 canvas->brightest = row[c] > canvas->brightest ? row[c] : canvas->brightest;
         }

@@ -1,12 +1,12 @@
-"""The poster of a clip: python3 poster.py SCENE FILE.png [KEY=VALUE...]. It looks through a clip in small
-pictures, in memory alone, and draws the brightest frame again in full size."""
+"""Draws the poster of a clip: python3 poster.py SCENE FILE.png [KEY=VALUE...]. Draws every third frame small and
+in memory alone, and then draws the brightest one in full size."""
 import sys
 
 import kiln
 
 
 def brightest(scene, device):
-    """The number of the frame with the most light, among every third one."""
+    """Returns the number of the frame with the most light, among every third frame."""
     numbers = range(0, scene.info.frames, 3)
     with kiln.render(scene, frames=numbers, size=(96, 64), layers="beauty", device=device) as job:
         light = {frame.number: float(frame.linear[..., :3].mean()) for frame in job}

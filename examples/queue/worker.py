@@ -1,9 +1,10 @@
-"""Renders the jobs of a spool folder, one after the other, for people whom nobody knows (docs/service.md).
+"""Renders the jobs of a spool folder in turn, for scenes from untrusted people (docs/service.md).
 
-Whoever brings a job makes SPOOL/incoming/.NAME of a scene.yaml and its files, which the user of the jobs can
-read, and renames it to NAME. A job's turn comes by its name. What became of it lies in SPOOL/done/NAME
-(clip.mp4) or SPOOL/failed/NAME (job, as it came), and is a line of SPOOL/report.ndjson. The worker may be
-killed at any moment: what is in SPOOL/running when it starts is gone on with.
+To submit a job, make a folder SPOOL/incoming/.NAME with scene.yaml and its files, which the user of the jobs can
+read, and rename it to NAME. Jobs run in the order of their names. The worker moves a finished job to
+SPOOL/done/NAME, with clip.mp4, or to SPOOL/failed/NAME, with the job as it came, and adds a line to
+SPOOL/report.ndjson. The worker may be killed at any moment: when it starts, it goes on with the jobs in
+SPOOL/running.
 """
 import argparse
 import fcntl
@@ -22,9 +23,9 @@ import sys
 import time
 import types
 
-TRIES = 3  # of a job that may succeed when it is run again, or during which the worker was killed or crashed
-GRACE_S = 10  # from --timeout until SIGTERM, and from there until SIGKILL
-now = types.SimpleNamespace(stopping=False, job=None)  # job: the pidfd of kiln
+TRIES = 3  # the most tries of a job that may succeed when it is run again, or during which the worker went down
+GRACE_S = 10  # seconds from --timeout until SIGTERM, and from there until SIGKILL
+now = types.SimpleNamespace(stopping=False, job=None)  # job: the pidfd of the kiln that runs
 
 
 def stop(*_):
@@ -41,7 +42,7 @@ def write_durably(path, text, mode):
 
 
 def hard_link(place):
-    """A file of the job that has another name, too, or None: its owner may be somebody else."""
+    """Returns a file of the job that has another hard link, or None. Such a file may belong to somebody else."""
     for folder, _, names in os.walk(place / "job"):
         for name in names:
             path = pathlib.Path(folder, name)
@@ -51,7 +52,8 @@ def hard_link(place):
 
 
 def begin_try(events):
-    """Counts the try before anything is run, also if it takes the machine down."""
+    """Creates the file of events, which counts the try, durably before kiln runs: the try may take the machine
+    down."""
     write_durably(events, "", "w")
     folder = os.open(events.parent, os.O_RDONLY | os.O_DIRECTORY)
     os.fsync(folder)
@@ -59,7 +61,7 @@ def begin_try(events):
 
 
 def run_kiln(place, events, given):
-    """Runs kiln for the job in a folder; returns its exit code, as a shell counts it."""
+    """Runs kiln for the job in a folder and returns its exit code as a shell does (128 + the signal's number)."""
     rights = ["setpriv", "--no-new-privs", "--pdeathsig=KILL"]
     if given.user:
         rights += [f"--reuid={given.user[0]}", f"--regid={given.user[1]}", "--clear-groups"]
@@ -68,7 +70,7 @@ def run_kiln(place, events, given):
         if given.user:
             os.chown(place / folder, *given.user)
     with open(events, "wb") as told, open(place / "messages", "wb") as messages:
-        # The job holds the lock, too: a worker that starts after this one was killed waits for its end.
+        # kiln inherits the lock: if this worker is killed, the next one waits until kiln has ended.
         process = subprocess.Popen(
             [*rights, "--", given.kiln, "render", "job/scene.yaml", "--asset-root", "job", "--device", "cpu",
              "--sandbox=require", "--limits", given.limits, "--timeout", str(given.timeout), "--resume",
@@ -84,7 +86,7 @@ def run_kiln(place, events, given):
         if select.select([end], [], [], patience_s)[0]:
             break
         os.killpg(process.pid, then)
-    os.killpg(process.pid, signal.SIGKILL)  # what kiln may have left; its number is taken until wait()
+    os.killpg(process.pid, signal.SIGKILL)  # ends processes that kiln left; the number stays taken until wait()
     now.job = None
     os.close(end)
     code = process.wait()
@@ -92,7 +94,7 @@ def run_kiln(place, events, given):
 
 
 def what_kiln_told(place, events):
-    """The first error, whether to run the job again, and whether kiln came so far as to tell anything."""
+    """Reads the events of a try. Returns the first error, whether to run the job again, and whether kiln started."""
     message, again, started = "", True, False
     with open(events, encoding="utf-8", errors="replace") as lines:
         for line in lines:
@@ -102,17 +104,17 @@ def what_kiln_told(place, events):
                 if event["event"] == "error":
                     message = message or str(event["message"])
                 if event["event"] == "ended":
-                    # Memory that is short now may be there later. The limits (exit code 8) stay.
+                    # Memory that is short now (exit code 5) may be free later. Limits (exit code 8) do not change.
                     again = event["again"] == "again" or event["code"] == 5
-            except (ValueError, LookupError, TypeError, RecursionError):  # half a line, of a full disk, or nonsense
+            except (ValueError, LookupError, TypeError, RecursionError):  # half a line (a full disk), or no event
                 continue
     with open(place / "messages", encoding="utf-8", errors="replace") as said:
         return message or said.read(1000).strip() or "kiln does not say why", again, started
 
 
 def look_at_clip(place, given):
-    """Its size and SHA-256. It lies in the job's own folder, and so may be anything; from now on it is
-    the worker's."""
+    """Returns the size and SHA-256 of the clip, and makes the worker its owner. The job could write to the folder,
+    so the clip may be a link or a device, which is refused."""
     clip = os.open(place / "output/clip.mp4", os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     with open(clip, "rb") as file:
         status = os.fstat(clip)
@@ -124,7 +126,7 @@ def look_at_clip(place, given):
 
 
 def render(place, given):
-    """Runs a job once; returns what became of it, or None where the worker was told to stop."""
+    """Runs a job once. Returns its result, or None if the worker was told to stop."""
     tries = len(list(place.glob("events.*"))) + 1
     if not stat.S_ISDIR(os.lstat(place / "job").st_mode):
         return {"outcome": "failed", "code": 3, "message": "job: is not a folder"}
@@ -143,13 +145,13 @@ def render(place, given):
         except OSError as error:
             return {"outcome": "failed", "code": 0, "message": f"kiln ended well, and yet: {error}"}
     if now.stopping or (code < 128 and not started):
-        events.unlink()  # it was no try
+        events.unlink()  # does not count as a try
         return None if now.stopping else sys.exit(f"worker: kiln does not start: {message}")
     return {"outcome": "again" if again and tries < TRIES else "failed", "code": code, "message": message}
 
 
 def settle(place, spool):
-    """Moves a job with a result out of the way. Each step can be done again, if the machine goes down."""
+    """Moves a job with a result to `done` or `failed`. Each step can be repeated if the machine goes down."""
     outcome = json.loads((place / "result.json").read_text())["outcome"]
     if outcome == "done" and not (place / "clip.mp4").exists():
         (place / "output/clip.mp4").rename(place / "clip.mp4")
@@ -160,7 +162,7 @@ def settle(place, spool):
 
 
 def work_on(name, given):
-    """Takes a job, or goes on with it."""
+    """Takes a job from `incoming`, or goes on with it, and records its result."""
     place = given.spool / "running" / name
     place.mkdir(exist_ok=True)
     if not os.path.lexists(place / "job"):
@@ -179,7 +181,7 @@ def work_on(name, given):
 
 
 def recover(spool):
-    """Completes the report and the jobs whose results are known, after a worker that was killed."""
+    """Completes the report, and the jobs whose results are known, after a worker was killed."""
     report = spool / "report.ndjson"
     lines = report.read_text().splitlines() if report.exists() else []
     if lines and not report.read_text().endswith("\n"):
@@ -194,7 +196,7 @@ def recover(spool):
 
 
 def user_of_jobs(name):
-    """The numbers of the user and the group, or None where jobs have those of the worker."""
+    """Returns the numbers of the user and group that jobs run as, or None if they run as the worker's own."""
     if os.geteuid() != 0:
         return None
     try:
