@@ -1,9 +1,10 @@
+/* Makes backdrops by the technique that a test has chosen. */
 #include "support/backdrops.h"
 
 const enum kiln_backdrop_technique BACKDROPS[2] = {KILN_BACKDROP_GL, KILN_BACKDROP_CPU};
 enum kiln_backdrop_technique backdrop_technique = KILN_BACKDROP_GL;
 
-/* Of the whole program. */
+/* Returns the threads of all backdrops, which live until the program ends. */
 static struct kiln_threads *backdrop_threads(void)
 {
     static struct kiln_threads *threads;

@@ -1,15 +1,16 @@
-/* Backdrops of either technique, so that tests of what they show run on both. */
+/* Makes backdrops by either technique, so that tests of pictures can run on both. */
 #ifndef KILN_TESTS_BACKDROPS_H
 #define KILN_TESTS_BACKDROPS_H
 
 #include "draw/backdrop/backdrop.h"
 
-/* All of them. */
+/* All techniques of the backdrop. */
 extern const enum kiln_backdrop_technique BACKDROPS[2];
 
-/* What backdrop_create takes, for tests to set; KILN_BACKDROP_GL at first. */
+/* The technique of backdrop_create, which tests may set; KILN_BACKDROP_GL at first. */
 extern enum kiln_backdrop_technique backdrop_technique;
 
+/* Returns a backdrop that draws into these images, or NULL with an error. */
 struct kiln_backdrop_stage *backdrop_create(struct kiln_device *device,
                                             const struct kiln_moment *moment,
                                             struct kiln_image *color, struct kiln_image *depth,

@@ -1,3 +1,4 @@
+/* Loads tables of bad scenes and compares their error messages. */
 #include "support/bad_scenes.h"
 
 #include <stdio.h>

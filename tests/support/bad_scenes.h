@@ -1,4 +1,4 @@
-/* Tables of bad scenes, and what is said of them. */
+/* Tests tables of bad scenes and their error messages. */
 #ifndef KILN_TESTS_BAD_SCENES_H
 #define KILN_TESTS_BAD_SCENES_H
 
@@ -6,12 +6,13 @@
 
 struct bad {
     const char *text;
-    const char *message; /* after the name of the file */
+    const char *message; /* the error's message, without the name of the file before it */
 };
 
+/* Fails unless each scene is refused with KILN_INVALID_INPUT and its message. */
 void expect_all(const struct bad *cases, size_t count);
 
-/* The test of a table. */
+/* Defines a test bad_TABLE that expects all of a table. */
 #define BAD_TEST(table)                                                                            \
     static void bad_##table(void **state)                                                          \
     {                                                                                              \

@@ -1,3 +1,4 @@
+/* Makes, places and sums up balls for tests of collisions among particles. */
 #include "support/balls.h"
 
 #include "support/cmocka.h"

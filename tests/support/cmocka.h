@@ -1,4 +1,4 @@
-/* cmocka, with the four headers of the C library that have to be included before it. */
+/* Includes cmocka after the four headers of the C library that must come before it. */
 #ifndef KILN_TESTS_CMOCKA_H
 #define KILN_TESTS_CMOCKA_H
 

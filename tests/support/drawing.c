@@ -1,3 +1,4 @@
+/* Makes a scene, its stages and its targets, and draws hand-made particles. */
 #include "support/drawing.h"
 
 #include <math.h>
@@ -14,8 +15,8 @@ uint32_t drawing_most = 32;
 uint32_t drawing_threads = 2;
 const char *drawing_asset_root;
 
-/* A texture whose colour is where it is: red from left to right, green from top to bottom, blue 1.
- */
+/* Fills a texture whose colour tells the place: red grows to the right, green grows downwards, and
+ * blue is 1. */
 static void drawing_fill_level(unsigned char *texels, int edge)
 {
     for (int i = 0; i < edge * edge; i++) {

@@ -1,6 +1,8 @@
+/* Adds systems whose particles are born of other particles to a scene. */
 #include "support/family_fixture.h"
 
-/* Of rockets, four generations; children stand before their parents. */
+/* Adds the four generations of rockets. Children come before their parents in the list of systems.
+ */
 static void fixture_family_fireworks(struct scene_fixture *f)
 {
     struct kiln_system *ember = fixture_add_child(f, "ember", FAMILY_GLOW, KILN_EVENT_DEATH, 2);

@@ -1,3 +1,4 @@
+/* Makes temporary working directories and files for tests. */
 #include "support/folders.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+/* Draws a frame of a scene by all stages. */
 #include "support/frame.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Makes the stage of solids and its targets, and draws opaque particles. */
 #include "support/opaque.h"
 
 #include "support/cmocka.h"

@@ -1,4 +1,4 @@
-/* Hand-made particles that are opaque, drawn into float images before a backdrop. */
+/* Draws hand-made opaque particles into float images before a backdrop. */
 #ifndef KILN_TESTS_OPAQUE_H
 #define KILN_TESTS_OPAQUE_H
 
@@ -7,7 +7,7 @@
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT };
 
-/* Images of WIDTH x HEIGHT, which is what the scene must have. */
+/* Images of WIDTH x HEIGHT pixels, which must be the size of the scene. */
 struct fixture {
     struct drawing drawing;
     struct kiln_image depth, color, bloom;

@@ -1,7 +1,7 @@
-# For tests to source. Packages of npm are fetched by tools/setup alone: a test needs no network, and
-# two that run at a time cannot fetch into one folder.
+# Tests source this file to use packages of npm. Only tools/setup fetches them: so a test needs no network, and
+# two tests do not fetch into one folder at the same time.
 
-# needs_packages SOURCE NAME...: ends the test as skipped where one of them is absent.
+# needs_packages SOURCE NAME...: ends the test as skipped if one of these packages is absent.
 needs_packages() {
     local package
     if ! command -v node >/dev/null; then

@@ -1,3 +1,4 @@
+/* Makes lists of tests, and runs the part of a list that the command line names. */
 #include "support/parts.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* Makes pictures with known pixels, and temporary folders. */
 #include "support/pictures.h"
 
 #include <dirent.h>
@@ -13,7 +14,7 @@ const char test_scene_hash[] = "0123456789abcdef0123456789abcdef0123456789abcdef
 static const char *const test_layer_names[] = {"beauty", "depth", "fire"};
 static const uint32_t test_layer_channels[] = {4, 1, 4};
 
-/* Up and down again between 0 and 200. */
+/* Returns a triangle wave between 0 and 200, with a period of 400. */
 static uint32_t test_wave(uint32_t phase)
 {
     return phase % 400 < 200 ? phase % 400 : 400 - phase % 400;

@@ -1,5 +1,4 @@
-/* Makes what tests of `raster=cpu` draw with: atlas, targets, records and light, all on the host.
- */
+/* Makes the input of tests of `raster=cpu` on the host: atlas, targets, records and light. */
 #include "support/raster.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Traces rays through simple shapes in double precision, and compares pictures with the result. */
 #include "support/ray_caster.h"
 
 #include <stdlib.h>
@@ -27,7 +28,7 @@ static void keep(struct found *found, double t, struct vec normal, struct vec al
         *found = (struct found){t, normal, albedo, true};
 }
 
-/* About x, then y, then z; or back. */
+/* Returns v rotated about x, then y, then z; with `back`, by the inverse rotation. */
 static struct vec rotated(struct vec v, struct vec angles, bool back)
 {
     for (int k = 0; k < 3; k++) {
@@ -96,7 +97,8 @@ static void hit_plane(const struct shape *s, struct vec o, struct vec d, struct 
         keep(found, dot(along(s->center, o, -1), s->axis) / climb, s->axis, s->albedo);
 }
 
-/* The nearest of its side and the balls at its ends: all others are inside. */
+/* Finds the nearest hit of the capsule's side and of the balls at its ends; farther hits lie inside
+ * of the capsule. */
 static void hit_capsule(const struct shape *s, struct vec o, struct vec d, struct found *found)
 {
     struct found outside = {.any = false};
@@ -184,7 +186,8 @@ struct vec pixel_ray(double px, double py)
     return along(d, up, (1 - 2 * py / HEIGHT) * tan_y);
 }
 
-/* What of a sun of some angular radius a point sees: rings of its disc, counted. */
+/* Returns the part of the sun's disc that a point sees, by rays to places on rings of the disc.
+ * radius: the angle of the sun's radius, rad. */
 static double sun_seen(const struct shape *shapes, int count, struct vec point, struct vec sun,
                        double radius)
 {
@@ -215,13 +218,13 @@ struct picture draw_below(void *device, const char *text, const char *asset_root
         fail_msg("%s", error.message);
     kiln_image_init(&p.color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&p.depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    p.moment = calloc(1, sizeof *p.moment); /* it stays where it is when the picture moves */
+    p.moment = calloc(1, sizeof *p.moment); /* allocated, since the stage points to it */
     assert_non_null(p.moment);
     if (!kiln_moment_init(p.moment, device, p.scene, NULL, &error) ||
         !kiln_moment_fill(p.moment, NULL, 0, false, &error))
         fail_msg("%s", error.message);
     p.stage = backdrop_create(device, p.moment, &p.color, &p.depth, &error);
-    static const struct kiln_lighting lighting; /* none */
+    static const struct kiln_lighting lighting; /* no shadows or smoke */
     if (!p.stage || !kiln_backdrop_draw(p.stage, p.moment, &lighting, &error))
         fail_msg("%s", error.message);
     p.colors = kiln_image_host(&p.color, KILN_READ, &error);

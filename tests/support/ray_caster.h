@@ -1,4 +1,4 @@
-/* The backdrop of small scenes against a plain C ray caster in doubles. */
+/* Compares the backdrop of small scenes with a simple ray caster in double precision. */
 #ifndef KILN_TESTS_RAY_CASTER_H
 #define KILN_TESTS_RAY_CASTER_H
 
@@ -8,7 +8,7 @@
 
 enum { WIDTH = 128, HEIGHT = 72 };
 
-/* Without a sky, colours are those of the sun alone. */
+/* The beginning of the scenes. The sky is black, so all light is the sun's. */
 #define HEAD                                                                                       \
     "kiln: 1\n"                                                                                    \
     "output: {size: [128, 72], frames: 1}\n"                                                       \
@@ -46,12 +46,12 @@ struct shape {
     enum kind kind;
     struct vec center, half_size, axis, albedo;
     double radius, half_height;
-    struct vec angles;            /* of a box, about x, then y, then z */
-    const struct kiln_mesh *mesh; /* turned about y by `angle`, scaled */
+    struct vec angles;            /* rotation of a box about x, then y, then z, rad */
+    const struct kiln_mesh *mesh; /* scaled by `scale` and rotated about y by `angle`, rad */
     double angle, scale;
 };
 
-/* The camera of HEAD, and its ray through a place of the picture, px. */
+/* The place of the camera of HEAD, and its ray through a place of the picture, px. */
 extern const struct vec eye;
 struct vec pixel_ray(double px, double py);
 
@@ -65,6 +65,7 @@ struct picture {
     const float *colors, *depths;
 };
 
+/* Draw the backdrop of a scene. Assets lie below asset_root; `draw` takes those of scenes/. */
 struct picture draw_below(void *device, const char *text, const char *asset_root);
 struct picture draw(void *device, const char *text);
 void finish(struct picture *p);
@@ -72,15 +73,17 @@ void finish(struct picture *p);
 struct expected {
     const struct shape *shapes;
     int count;
-    struct vec sun;
-    double sun_radius;
-    double tolerance; /* of the colour, in parts of full sun */
+    struct vec sun;    /* unit, towards the sun */
+    double sun_radius; /* rad */
+    double tolerance;  /* of the colour, in parts of full sun */
 };
 
-/* Red light of a ray, for an irradiance of pi. */
+/* Returns the red light along the ray of a pixel, for an irradiance of pi by the sun, and sets
+ * *depth to the distance t along the ray, or 1e9 for the sky. */
 double light(const struct expected *e, double px, double py, double *depth);
 
-/* Compares where half a pixel aside is much the same; that must be most of the picture. */
+/* Compares every step-th pixel with the ray caster. Pixels over which the expected light or depth
+ * changes much are left out; at least three quarters must be compared. */
 void compare(const struct picture *p, const struct expected *e, int step);
 
 #endif

@@ -1,5 +1,5 @@
-/* Results of a run that never took place: every status, and names and messages that are hard to
- * write. */
+/* Writes results of a run that never took place. They have every status, and names and messages
+ * that reports must escape. */
 #include "support/results.h"
 
 #include <math.h>
@@ -7,12 +7,13 @@
 
 #include "suite/suite.h"
 
-/* What ends a string, a line, an element, a comment or a command in some format. */
+/* A name with characters that end a string, a line, an element, a comment or a command in one of
+ * the formats of reports. */
 #define TEST_NASTY_NAME "a&b<c>\"d'#e\\f%g:h,i]]>j{k}\x01\x1b[31m\nl\tm\r\xc3\xa9\xef\xbf\xbe"
 
 enum { TEST_RESULT_COUNT = 9, TEST_COLUMN_COUNT = 3 };
 
-/* Room for what the results point to. */
+/* The results, and the arrays that they point to. */
 struct test_results {
     struct kiln_result results[TEST_RESULT_COUNT];
     struct kiln_result_frame frames[TEST_RESULT_COUNT][2];

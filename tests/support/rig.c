@@ -1,3 +1,4 @@
+/* Writes a chain of bones as a glTF file in memory, and loads it. */
 #include "support/rig.h"
 
 #include <math.h>
@@ -41,7 +42,7 @@ const struct variant SOUND = {"chest", SKIN, ", \"WEIGHTS_0\": 1, \"JOINTS_0\": 
 static void to_base64(const void *data, size_t size, char *out)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned char *b = data; /* of a multiple of three bytes, padded with zeros */
+    const unsigned char *b = data; /* padded with zeros to a multiple of three bytes */
     for (size_t i = 0; i < size; i += 3) {
         uint32_t bits = (uint32_t)b[i] << 16 | (uint32_t)b[i + 1] << 8 | b[i + 2];
         for (int k = 0; k < 4; k++)

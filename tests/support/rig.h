@@ -1,4 +1,4 @@
-/* A chain of bones a metre long each that stands along y, as a glTF file of our own. */
+/* Makes glTF files of a chain of bones along y, each a metre long. */
 #ifndef KILN_TESTS_RIG_H
 #define KILN_TESTS_RIG_H
 
@@ -12,12 +12,12 @@ struct rig {
     float inverse[JOINTS][16]; /* bind matrices, by columns */
     float times[KEYS];
     float turns[JOINTS][KEYS][4];
-    float moves[KEYS][3]; /* of the first joint */
+    float moves[KEYS][3]; /* places of the first joint, m */
     uint16_t triangles[TRIANGLES][3];
     uint8_t joints[VERTICES][4];
 };
 
-/* How the file differs from a sound one. */
+/* Texts of the file. A test changes one of SOUND to get a faulty file. */
 struct variant {
     const char *second; /* name of the second joint */
     const char *skin, *attributes;
@@ -38,17 +38,20 @@ struct variant {
 
 extern const struct variant SOUND;
 
+/* Returns the text of the glTF file, valid until the next call. */
 const char *to_gltf(const struct rig *rig, const struct variant *variant);
+/* Returns the skin of the file, which the caller destroys; an error fails the test. */
 struct kiln_skin *parse(const struct rig *rig, const struct variant *variant);
+/* Fails unless the file is refused with a message that contains the reason. */
 void refuse(const struct rig *rig, const struct variant *variant, const char *reason);
 
-/* Turned by an angle about an axis of length 1. */
+/* Sets a quaternion to the rotation by an angle, rad, about a unit axis. */
 void set_turn(float out[4], const double axis[3], double angle);
 
-/* Nothing turns or moves; all vertices follow the first bone. */
+/* Returns a rig that does not move, and whose vertices all follow the first bone. */
 struct rig still_rig(void);
 
-/* All of it moves; the last key is the first. */
+/* Returns a rig in which all bones move; the last key equals the first. */
 struct rig waving_rig(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* Scenes put together in C: values, keys, emitters, forces, boxes, and a scene with everything. */
+/* Builds scenes in C: values, keys, emitters, forces, colliders, and a scene with everything. */
 #include "support/scene_fixture.h"
 
 #include <string.h>
@@ -36,7 +36,7 @@ struct kiln_value fixture_keys(struct scene_fixture *f, uint32_t clock, uint32_t
         float slope = 0.0f;
         if (i + 1 < count)
             slope = (points[i + 1][1] - points[i][1]) / (points[i + 1][0] - points[i][0]);
-        float area = points[0][0] * points[0][1]; /* from 0 */
+        float area = points[0][0] * points[0][1]; /* the integral from 0 to the first key */
         for (uint32_t k = 1; k <= i; k++)
             area += (points[k][0] - points[k - 1][0]) * 0.5f * (points[k][1] + points[k - 1][1]);
         f->keys[f->scene.key_count++] = FLOAT4(points[i][0], points[i][1], slope, area);

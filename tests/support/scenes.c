@@ -1,3 +1,4 @@
+/* Loads scenes from texts and files. */
 #include "support/scenes.h"
 
 #include <stdio.h>

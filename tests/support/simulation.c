@@ -1,3 +1,4 @@
+/* Runs the simulation of a scene. */
 #include "support/simulation.h"
 
 #include <stdio.h>

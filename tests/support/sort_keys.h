@@ -1,4 +1,4 @@
-/* Keys that are hard to sort, and the order that they must come in. */
+/* Makes keys that are hard to sort, and compares pairs by the order that a sort must give. */
 #ifndef KILN_TESTS_SORT_KEYS_H
 #define KILN_TESTS_SORT_KEYS_H
 
@@ -12,14 +12,15 @@ enum pattern {
     LOW_BITS,
     HIGH_BITS,
     FEW,
-    LARGEST, /* as those that pad */
+    LARGEST, /* the keys that pad a list, and their neighbours */
     ONE_ODD_ONE,
     PATTERNS
 };
 
 uint32_t key_of(enum pattern pattern, uint32_t i, uint32_t count);
 
-/* By key, then place: the stable order. */
+/* Compares two pairs (kiln_sort_pair) for qsort: by key, then by place, which is the stable order.
+ */
 int by_pair(const void *a, const void *b);
 
 #endif

@@ -1,5 +1,4 @@
-/* A test of a few sparks, which runs in a folder of its own: written, run, updated, painted over.
- */
+/* Writes, runs and updates a golden test of a few sparks, and changes its files. */
 #include "support/suite.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* One collider of each kind, whose top is at the origin. */
+/* Adds one collider of each kind, with its top at the origin, to the scene of thrown.h. */
 #include "support/surfaces.h"
 
 #include <stdio.h>
@@ -48,7 +48,7 @@ static struct kiln_object *add_cylinder_side(void)
     return cylinder;
 }
 
-/* One that might turn, and does not. */
+/* Adds a cylinder with an animated axis, whose direction stays the same. */
 static struct kiln_object *add_turning_cylinder(void)
 {
     struct kiln_object *cylinder = add_cylinder_side();
@@ -63,7 +63,7 @@ static struct kiln_object *add_lying_capsule(void)
     return capsule;
 }
 
-/* Out of a black picture. */
+/* Adds terrain with the heights of a black picture. */
 static struct kiln_object *add_flat_terrain(void)
 {
     static const uint8_t pixel[58] = {

@@ -1,4 +1,4 @@
-/* One collider of each kind, whose top is at the origin. */
+/* Lists one collider of each kind, with its top at the origin. */
 #ifndef KILN_TESTS_SURFACES_H
 #define KILN_TESTS_SURFACES_H
 
@@ -10,9 +10,9 @@ enum { SURFACES = 12 };
 
 extern const struct surface {
     const char *name;
-    struct kiln_object *(*add)(void); /* to thrown.h's scene; NULL for the floor */
+    struct kiln_object *(*add)(void); /* adds it to the scene of thrown.h; NULL for the floor */
     enum surface_form form;
-    bool moves; /* by its centre */
+    bool moves; /* a test may move its centre */
 } surfaces[SURFACES];
 
 #endif

@@ -1,3 +1,4 @@
+/* Makes scenes of thrown particles, runs them, and tests where the particles are. */
 #include "support/thrown.h"
 
 #include <math.h>

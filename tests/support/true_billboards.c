@@ -1,4 +1,5 @@
-/* Draws billboards one after the other in double precision, or sorts their fragments by pixels. */
+/* Draws billboards in double precision: in the order of their entries, or by fragments that are
+ * sorted in each pixel. */
 #include "support/true_billboards.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 
 #include "support/cmocka.h"
 
-/* A fragment of which the place in its pixel's list is still to be found. */
+/* A fragment in the list of all pixels, which is sorted before it is blended. */
 struct true_fragment {
     double depth, rgba[4], glow[3];
     uint64_t order;
@@ -37,7 +38,7 @@ void true_picture_finish(struct true_picture *picture)
     free(picture->glow);
 }
 
-/* rgba over a pixel, and weighted over its glow; or the sum. */
+/* Blends rgba over a pixel, and rgba times the weights over its glow; with `sum`, adds both. */
 static void true_blend(struct true_picture *picture, size_t pixel, const double rgba[4],
                        const double weights[3], bool sum)
 {
@@ -59,7 +60,8 @@ static void true_keep(struct true_fragments *list, const struct true_fragment *f
     list->all[list->count++] = *fragment;
 }
 
-/* A round billboard's two sheets of half its density (shared/fragment_layout.h). */
+/* Adds a fragment to the list. A fragment of a round billboard is split into two sheets of half its
+ * density (shared/fragment_layout.h). */
 static void true_split(struct true_fragments *list, const struct true_sprite *s,
                        const struct true_place *at, const double rgba[4], size_t pixel,
                        size_t number)
@@ -83,7 +85,7 @@ static void true_split(struct true_fragments *list, const struct true_sprite *s,
     true_keep(list, &f);
 }
 
-/* By pixels; the farthest first. */
+/* Compares fragments for qsort: by pixel, then the farthest first. */
 static int true_compare(const void *a, const void *b)
 {
     const struct true_fragment *one = a, *other = b;
@@ -94,7 +96,7 @@ static int true_compare(const void *a, const void *b)
     return one->order < other->order ? -1 : 1;
 }
 
-/* A pass on its way. */
+/* The state of a pass that draws all entries. */
 struct true_pass {
     const struct true_scene *scene;
     const struct kiln_particles_draw *draw;

@@ -7,12 +7,9 @@
 #include "draw/light/smoke_shadow.h"
 #include "shared/derived.h"
 
-/* The parts of a pixel on which GL rasterisers put corners (GL_SUBPIXEL_BITS), which says what
- * pixels a thin sprite covers, and nothing else. */
-
 /* ---- light ----------------------------------------------------------------------------------- */
 
-/* Between cells of a grid of smoke. */
+/* Interpolates trilinearly between the cells of a grid of smoke. */
 static double true_grid(const float *depth, const double at[3])
 {
     int cell[3], next[3];
@@ -92,7 +89,8 @@ static void true_light(const struct true_scene *t, struct true_sprite *s, double
 
 /* ---- form ------------------------------------------------------------------------------------ */
 
-/* Heinz 2019, 2.1.1: right, up and towards the viewer. */
+/* Computes the axes of a billboard's plane: right, up and towards the viewer (Heinz 2019, 2.1.1).
+ */
 static void true_plane(const struct true_scene *t, uint32_t facing, dvec axis, dvec center,
                        dvec axes[3])
 {
@@ -108,7 +106,8 @@ static void true_plane(const struct true_scene *t, uint32_t facing, dvec axis, d
     axes[2] = facing == LOOK_AXIAL ? dvec_cross(axes[0], upward) : normal;
 }
 
-/* Which way is up in the plane, and what that adds to the half length. */
+/* Computes the direction of a billboard's upward edge in its plane. Returns the length by which
+ * stretching extends half of the edge, m. */
 static double true_up(double angle, double stretch, const double moving[2], uint32_t facing,
                       double up[2])
 {
@@ -157,7 +156,7 @@ static void true_pixel(const struct true_scene *t, dvec v, double pixel[2])
     pixel[1] = 0.5 * (double)f.w * (1 - v.y / (double)f.y / -v.z);
 }
 
-/* Points and lines, as quads of the picture. */
+/* Makes a point or a line, a rectangle of the picture. */
 static void true_make_plain(const struct true_scene *t, struct true_sprite *s,
                             const struct kiln_draw_look *look, double width, dvec way_m)
 {
@@ -189,7 +188,7 @@ static dvec true_corner(const struct true_sprite *s, int i)
     return dvec_add(dvec_add(s->center, s->right, across), s->up, along);
 }
 
-/* Pixels that it may touch; all, where a corner is behind the eye. */
+/* Computes the pixels that a sprite may touch: all pixels if a corner is behind the eye. */
 static void true_bound(const struct true_scene *t, struct true_sprite *s)
 {
     const double size[2] = {(double)t->view->frustum.z, (double)t->view->frustum.w};
@@ -219,17 +218,17 @@ static void true_bound(const struct true_scene *t, struct true_sprite *s)
 
 /* ---- all of it ------------------------------------------------------------------------------- */
 
-/* A particle's numbers on the way to a sprite. */
+/* Values of a particle from which its sprite is made. */
 struct true_subject {
     const struct kiln_draw_look *look;
     uint32_t stream;
-    float life; /* the part that has passed */
+    float life; /* part of the life that has passed */
     double age, row[KILN_LOOK_ROWS][4];
     double scale, half_size, diameter_px;
     dvec position, moving, axes[3];
 };
 
-/* A random number between two. */
+/* Returns the particle's random number for a purpose, from `least` to `most`. */
 static double true_between(const struct true_subject *p, uint32_t purpose, double least,
                            double most)
 {
@@ -349,7 +348,7 @@ bool true_place_of(const struct true_scene *t, const struct true_sprite *s, doub
     return at->depth > 0 && fabs(a) <= 1 && fabs(b) <= 1;
 }
 
-/* Channels of a grid of bytes between its texels, clamped at its edge. */
+/* Interpolates channel c bilinearly between texels of bytes, clamped at the edge of the texture. */
 static double true_bilinear(const uint8_t *texels, int edge, int channels, int c, double u,
                             double v, bool has_sign)
 {

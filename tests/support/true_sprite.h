@@ -1,7 +1,6 @@
-/* One particle for true_billboards.h: shaders/draw/sprites/particle.glsl, outline.glsl
- * and shade.glsl in double precision. Only what the definition rounds is in floats: age, random
- * numbers, the choice of a cell.
- */
+/* Makes and shades the sprite of one particle for true_billboards.h: does what particle.glsl,
+ * outline.glsl and shade.glsl in shaders/draw/sprites do, in double precision. Only values that the
+ * definition rounds are floats: age, random numbers, the choice of a cell. */
 #ifndef KILN_TESTS_TRUE_SPRITE_H
 #define KILN_TESTS_TRUE_SPRITE_H
 
@@ -9,7 +8,7 @@
 #include "shared/look_layout.h"
 #include "support/true_vector.h"
 
-/* What all of a pass have in common. */
+/* The input that all particles of a pass have in common. */
 struct true_scene {
     const struct kiln_scene *scene;
     const struct kiln_atlas *atlas;
@@ -27,25 +26,28 @@ struct true_sprite {
     double hot[3], cool[3], color[3], light[4][3], bloom[3], bulge;
     uint32_t layers[2], level;
     double part, motion;
-    /* Plain ones lie in the picture, px: middle, unit way, half edges, 1/m at both ends. */
+    /* A plain sprite is a rectangle of the picture: its middle, px; unit direction; half edges, px;
+     * 1 / depth at both ends, 1/m. */
     double middle[2], way[2], extent[2], near[2];
-    int box[4]; /* pixels: x and y from, x and y to */
+    int box[4]; /* pixels that it may touch: least x and y, and the ends of x and y */
 };
 
-/* A place of a sprite. Of plain ones, u and v are pixels from the middle. */
+/* A place of a sprite: texture coordinates and depth, m. For a plain sprite, u and v are pixels
+ * from its middle. */
 struct true_place {
     double u, v, depth;
 };
 
-/* false: nothing of it can be seen. */
+/* Makes the sprite of a particle. Returns false if no part of it can be seen. */
 bool true_sprite_make(const struct true_scene *t, uint32_t entry,
                       const struct kiln_particle *record, struct true_sprite *s);
 
-/* Where the ray through a place of the picture meets it; false: nowhere. */
+/* Finds the place of a sprite that the ray through (x, y), px, meets; false if there is none. */
 bool true_place_of(const struct true_scene *t, const struct true_sprite *s, double x, double y,
                    struct true_place *at);
 
-/* Premultiplied; alpha as of one that covers. */
+/* Computes the premultiplied colour of a sprite at a place, before a scene at depth `scene`, m. The
+ * alpha is that of a sprite that covers, also if the sprite is additive. */
 void true_shade(const struct true_scene *t, const struct true_sprite *s,
                 const struct true_place *at, double scene, double rgba[4]);
 

@@ -1,3 +1,4 @@
+/* Transforms points in double precision, and reads tables of looks. */
 #include "support/true_vector.h"
 
 #include "shared/look_layout.h"

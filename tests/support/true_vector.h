@@ -1,4 +1,4 @@
-/* Vectors in double precision, of what true_sprite.h reads. */
+/* Declares vectors in double precision, and conversions to them, for true_sprite.h. */
 #ifndef KILN_TESTS_TRUE_VECTOR_H
 #define KILN_TESTS_TRUE_VECTOR_H
 
@@ -25,7 +25,7 @@ static inline double dvec_dot(dvec a, dvec b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/* a + b * t */
+/* Returns a + b * t. */
 static inline dvec dvec_add(dvec a, dvec b, double t)
 {
     return (dvec){a.x + b.x * t, a.y + b.y * t, a.z + b.z * t};
@@ -46,14 +46,14 @@ static inline dvec dvec_unit(dvec a)
     return dvec_scale(a, 1 / sqrt(dvec_dot(a, a)));
 }
 
-/* A row of an affine map, of a point. */
+/* Applies a row of an affine map to a point. */
 double dvec_row(float4 row, dvec p);
 
-/* A point of the world in view space, and a direction. */
+/* Transform a point, and a direction, from the world to view space. */
 dvec dvec_view(const struct kiln_view *view, dvec p);
 dvec dvec_turn(const struct kiln_view *view, dvec v);
 
-/* A row of a system's look (shared/look_layout.h) at a part of the life. */
+/* Reads a row of a system's look (shared/look_layout.h) at a part of the life, 0 to 1. */
 void dvec_look(const float4 *table, uint32_t system, uint32_t row, float life, double out[4]);
 
 #endif
