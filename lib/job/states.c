@@ -258,7 +258,7 @@ static bool take_up(const struct kiln_states *states, struct kiln_loop *loop, ui
 /* Logs that a run starts at the scene's start although a folder of states was given. */
 static void tell_of_none(const struct kiln_states *states, uint32_t frame)
 {
-    char others[64] = "";
+    char others[80] = "";
     if (states->count == 0 && states->others > 0)
         snprintf(others, sizeof others, " (%zu states belong to other motions: bake again)",
                  states->others);

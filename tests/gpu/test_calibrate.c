@@ -118,7 +118,7 @@ static void the_worst_value_is_measured_against_the_golden(void **state)
     char *expect = test_read_file(EXPECT);
     assert_non_null(strstr(expect, "calibrated 20"));
     assert_non_null(strstr(expect, "2 renders on "));
-    assert_non_null(strstr(expect, "looser than the default: flip.mean"));
+    assert_non_null(strstr(expect, "looser than the default limits: flip.mean"));
     assert_non_null(strstr(expect, "measured"));
     assert_non_null(strstr(expect, "state"));
     free(expect);

@@ -126,7 +126,7 @@ static void a_crowd_in_a_cell_is_searched_or_refused(void **state)
     assert_false(kiln_simulate_step(run.simulate, &run.pool, ++run.step, &error));
     assert_int_equal(error.code, KILN_DEVICE_FAILED);
     assert_non_null(strstr(error.message, "systems.balls.interact: a particle has 66000 others"));
-    assert_non_null(strstr(error.message, "software GL looks at up to 65000"));
+    assert_non_null(strstr(error.message, "software GL tests at most 65000"));
     assert_non_null(strstr(error.message, "simulate=cpu"));
     simulation_end(&run);
 }

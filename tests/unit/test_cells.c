@@ -274,7 +274,8 @@ static void frames_of_a_video_are_cells(void **state)
     source.rows = 4;
     assert_false(kiln_cells_load(&source, cells, f->threads, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_non_null(strstr(error.message, "the video has 12 frames; 4 columns and 4 rows need 16 frames"));
+    assert_non_null(
+        strstr(error.message, "the video has 12 frames; 4 columns and 4 rows need 16 frames"));
     free(cells);
 }
 

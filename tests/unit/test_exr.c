@@ -165,7 +165,7 @@ static void other_depths_are_refused(void **state)
     struct kiln_error error = {0};
     assert_null(kiln_output_open(&params, &error));
     assert_int_equal(error.code, KILN_USAGE);
-    assert_non_null(strstr(error.message, "24 bits a channel; allowed are 16"));
+    assert_non_null(strstr(error.message, "24 bits a channel for an EXR; allowed are 16"));
 }
 
 int main(void)

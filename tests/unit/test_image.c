@@ -294,7 +294,7 @@ static void an_animated_webp_says_so(void **state)
     struct kiln_error error = {0};
     assert_null(kiln_asset_image_parse(bytes, sizeof bytes, "moving.webp", &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_non_null(strstr(error.message, "moving.webp: an animated WebP"));
+    assert_non_null(strstr(error.message, "moving.webp: the file is an animated WebP"));
 }
 
 int main(void)

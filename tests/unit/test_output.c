@@ -217,7 +217,7 @@ static void folders_are_made(void **state)
     snprintf(path, sizeof path, "%s/a/b/c.d/x.png/y.png", folder);
     assert_false(test_write_all(&params, &error));
     assert_int_equal(error.code, KILN_USAGE);
-    assert_non_null(strstr(error.message, "x.png: not a folder"));
+    assert_non_null(strstr(error.message, "x.png: the path is not a folder"));
     test_remove_folder(folder);
 
     params.path = "/proc/kiln/x.png";
@@ -367,7 +367,7 @@ static void pictures_must_be_as_announced(void **state)
         struct kiln_error error = {0};
         open_in_folder(&opened, suffixes[i], &range);
         assert_false(write_frame(&opened, 5, &error));
-        assert_non_null(strstr(error.message, "frame 5 came where frame 4 was due"));
+        assert_non_null(strstr(error.message, "frame 5 came where frame 4 was expected"));
         struct kiln_output_params other = opened.params;
         other.width = 32;
         assert_false(
