@@ -20,7 +20,7 @@ static const struct option options[] = {
      .letter = 'o',
      .kind = OPTION_TEXT,
      .placeholder = "STATES",
-     .reach = REACH_WRITE,
+     .access = ACCESS_WRITE,
      .help = "The folder of the states; it is made if it is missing. Scenes may share one."},
     {.name = "every",
      .kind = OPTION_TEXT,
@@ -55,14 +55,14 @@ struct bake {
     struct kiln_bake_params params;
     struct value_list techniques;
     bool quiet;
-    uint32_t saved; /* states done so far, including those that were kept */
-    uint64_t steps; /* simulation steps of the whole clip */
+    uint32_t states_done; /* including those that were kept */
+    uint64_t steps;       /* simulation steps of the whole clip */
 };
 
 static void show_state(void *user, const struct kiln_baked *state)
 {
     struct bake *bake = user;
-    bake->saved = state->done;
+    bake->states_done = state->done;
     if (events_are_open()) {
         struct kiln_json json = event_begin("state");
         kiln_json_string(&json, "file", state->file);
@@ -152,7 +152,7 @@ static int read_options(struct bake *bake, const struct arguments *arguments)
     params->user = bake;
     params->log = report_log();
     const int code = events_open_json("bake", arguments);
-    bake->quiet = arguments_flag(arguments, "quiet") || events_take_stdout();
+    bake->quiet = arguments_flag(arguments, "quiet") || events_use_stdout();
     if (code)
         return code;
     if (!params->states)
@@ -170,7 +170,7 @@ static int read_options(struct bake *bake, const struct arguments *arguments)
 static int report_failure(const struct bake *bake, const struct kiln_error *error)
 {
     return error->code == KILN_INTERRUPTED
-               ? signals_report(bake->scene_path, " after %u states", bake->saved)
+               ? signals_report(bake->scene_path, " after %u states", bake->states_done)
                : report_error(error);
 }
 
@@ -234,6 +234,6 @@ const struct command bake_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = 1,
-    .reach = REACH_READ,
+    .access = ACCESS_READ,
     .run = run,
 };

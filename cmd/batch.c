@@ -17,7 +17,7 @@
 #include "pool.h"
 #include "report.h"
 #include "signals.h"
-#include "watch.h"
+#include "timer_thread.h"
 
 /* The state of a job. */
 struct running {
@@ -29,8 +29,8 @@ struct batch {
     struct kiln_batch *jobs;
     char program[KILN_PATH_SIZE]; /* path of this program */
     const char *limits;           /* --limits of the call, for every job; or NULL */
-    char **shared;                /* arguments that every job gets */
-    size_t shared_count;
+    char **common_arguments;      /* arguments that every job gets */
+    size_t common_count;
     struct running *running; /* one for each job */
     bool keep_going, quiet;
     int code; /* the greatest exit code so far */
@@ -41,12 +41,12 @@ struct batch {
 
 /* Returns whether an option of the call is not copied to the jobs. --limits is among these, since
  * add_limits joins it with the limits of a job. */
-static bool is_own(const char *name)
+static bool is_batch_option(const char *name)
 {
-    static const char *const own[] = {"batch",  "jobs",     "keep-going", "limits",
-                                      "events", "progress", "quiet"};
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
-        if (strcmp(own[i], name) == 0)
+    static const char *const batch_options[] = {"batch",  "jobs",     "keep-going", "limits",
+                                                "events", "progress", "quiet"};
+    for (size_t i = 0; i < sizeof batch_options / sizeof *batch_options; i++) {
+        if (strcmp(batch_options[i], name) == 0)
             return true;
     }
     return false;
@@ -68,76 +68,78 @@ static int refuse_options(const struct arguments *arguments)
     return 0;
 }
 
-static char *word_of(const struct option_use *use)
+static char *argument_text(const struct option_use *use)
 {
-    char *word = NULL;
-    const int length = use->text ? asprintf(&word, "--%s=%s", use->option->name, use->text)
-                                 : asprintf(&word, "--%s", use->option->name);
-    return length < 0 ? NULL : word;
+    char *text = NULL;
+    const int length = use->text ? asprintf(&text, "--%s=%s", use->option->name, use->text)
+                                 : asprintf(&text, "--%s", use->option->name);
+    return length < 0 ? NULL : text;
 }
 
-static bool share_options(struct batch *batch, const struct arguments *arguments)
+static bool collect_common_arguments(struct batch *batch, const struct arguments *arguments)
 {
-    batch->shared = calloc(arguments->use_count + 1, sizeof *batch->shared);
-    if (!batch->shared)
+    batch->common_arguments = calloc(arguments->use_count + 1, sizeof *batch->common_arguments);
+    if (!batch->common_arguments)
         return false;
     for (size_t i = 0; i < arguments->use_count; i++) {
         const struct option_use *use = &arguments->uses[i];
-        if (is_own(use->option->name))
+        if (is_batch_option(use->option->name))
             continue;
-        char *word = word_of(use);
-        if (!word)
+        char *text = argument_text(use);
+        if (!text)
             return false;
-        batch->shared[batch->shared_count++] = word;
+        batch->common_arguments[batch->common_count++] = text;
     }
     return true;
 }
 
-/* The arguments of a job. free_line frees all of them but the first `borrowed` ones. */
+/* The arguments of a job. free_command_line frees all but the first `borrowed_count`. */
 struct command_line {
-    char **words; /* NULL ends the array */
-    size_t count, borrowed;
+    char **argv; /* NULL ends the array */
+    size_t count, borrowed_count;
     bool failed;
 };
 
 static void add(struct command_line *line, const char *name, const char *value)
 {
-    char *word = NULL;
+    char *argument = NULL;
     if (!value)
         return;
-    if (asprintf(&word, "%s%s", name, value) < 0) {
+    if (asprintf(&argument, "%s%s", name, value) < 0) {
         line->failed = true;
         return;
     }
-    line->words[line->count++] = word;
+    line->argv[line->count++] = argument;
 }
 
 /* Adds the limits of the call, followed by those of the job: a later value of a limit replaces an
  * earlier one. */
-static void add_limits(struct command_line *line, const char *of_all, const char *own)
+static void add_limits(struct command_line *line, const char *call_limits, const char *job_limits)
 {
     char *both = NULL;
-    if (of_all && own && asprintf(&both, "%s,%s", of_all, own) < 0)
+    if (call_limits && job_limits && asprintf(&both, "%s,%s", call_limits, job_limits) < 0)
         line->failed = true;
     else
-        add(line, "--limits=", both ? both : own ? own : of_all);
+        add(line, "--limits=", both ? both : job_limits ? job_limits : call_limits);
     free(both);
 }
 
-static struct command_line line_of(const struct batch *batch, const struct kiln_batch_job *job)
+static struct command_line make_command_line(const struct batch *batch,
+                                             const struct kiln_batch_job *job)
 {
-    enum { OWN_WORDS = 16 };
+    enum { OWN_ARGUMENTS = 16 };
     struct command_line line = {
-        .words = calloc(batch->shared_count + job->override_count + OWN_WORDS, sizeof *line.words)};
-    if (!line.words) {
+        .argv =
+            calloc(batch->common_count + job->override_count + OWN_ARGUMENTS, sizeof *line.argv)};
+    if (!line.argv) {
         line.failed = true;
         return line;
     }
-    line.words[line.count++] = (char *)"kiln";
-    line.words[line.count++] = (char *)"render";
-    for (size_t i = 0; i < batch->shared_count; i++)
-        line.words[line.count++] = batch->shared[i];
-    line.borrowed = line.count;
+    line.argv[line.count++] = (char *)"kiln";
+    line.argv[line.count++] = (char *)"render";
+    for (size_t i = 0; i < batch->common_count; i++)
+        line.argv[line.count++] = batch->common_arguments[i];
+    line.borrowed_count = line.count;
     add(&line, "--quiet", "");
     add(&line, "--output=", job->output.text);
     add(&line, "--asset-root=", job->asset_root);
@@ -155,18 +157,18 @@ static struct command_line line_of(const struct batch *batch, const struct kiln_
     return line;
 }
 
-static void free_line(struct command_line *line)
+static void free_command_line(struct command_line *line)
 {
-    for (size_t i = line->borrowed; i < line->count; i++)
-        free(line->words[i]);
-    free(line->words);
+    for (size_t i = line->borrowed_count; i < line->count; i++)
+        free(line->argv[i]);
+    free(line->argv);
 }
 
 /* ---- processes ------------------------------------------------------------------------------- */
 
 /* Starts a job in a process group of its own. Its standard input is empty; standard output and
  * standard error go into the log. Returns 0 or an errno value. */
-static int spawn(const struct batch *batch, char **words, int log, const sigset_t *mask, pid_t *id)
+static int spawn(const struct batch *batch, char **argv, int log, const sigset_t *mask, pid_t *id)
 {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -178,7 +180,7 @@ static int spawn(const struct batch *batch, char **words, int log, const sigset_
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
     posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setsigmask(&attributes, mask);
-    const int failure = posix_spawn(id, batch->program, &files, &attributes, words, environ);
+    const int failure = posix_spawn(id, batch->program, &files, &attributes, argv, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     return failure;
@@ -194,7 +196,7 @@ static struct kiln_json begin_event(const char *name, const struct kiln_batch_jo
     return json;
 }
 
-static void tell_start(const struct kiln_batch_job *job, pid_t id)
+static void write_start_event(const struct kiln_batch_job *job, pid_t id)
 {
     if (!events_are_wanted())
         return;
@@ -207,18 +209,18 @@ static pid_t start_job(void *user, size_t index, struct pool_start *start)
 {
     struct batch *batch = user;
     const struct kiln_batch_job *job = kiln_batch_job(batch->jobs, index);
-    struct command_line line = line_of(batch, job);
+    struct command_line line = make_command_line(batch, job);
     pid_t id = -1;
     const int log = memfd_create("log", MFD_CLOEXEC);
     int failure = line.failed ? ENOMEM : errno;
     if (log >= 0 && !line.failed)
-        failure = spawn(batch, line.words, log, start->mask, &id);
-    free_line(&line);
+        failure = spawn(batch, line.argv, log, start->mask, &id);
+    free_command_line(&line);
     if (id < 0 && log >= 0)
         close(log);
     batch->running[index] = (struct running){.log = id < 0 ? -1 : log, .began_s = now_s()};
     if (id >= 0)
-        tell_start(job, id);
+        write_start_event(job, id);
     if (id < 0 && failure != EAGAIN) /* after EAGAIN, the pool tries again later */
         start->problem = "the job cannot be started";
     errno = failure;
@@ -252,8 +254,8 @@ static void show_log(int log, const char *name, char **message)
         close(log);
 }
 
-static void tell(const struct batch *batch, const struct kiln_batch_job *job,
-                 const struct pool_end *end, int code, const char *message)
+static void write_job_event(const struct batch *batch, const struct kiln_batch_job *job,
+                            const struct pool_end *end, int code, const char *message)
 {
     if (!events_are_wanted())
         return;
@@ -287,7 +289,7 @@ static void end_job(void *user, size_t index, const struct pool_end *end)
     batch->ended++;
     batch->failed += code != 0;
     batch->code = code > batch->code ? code : batch->code;
-    tell(batch, job, end, code, why);
+    write_job_event(batch, job, end, code, why);
     if (*end->problem || end->signal)
         fprintf(stderr, "%s: %s\n", name, why);
     if (!batch->quiet && code)
@@ -299,7 +301,7 @@ static void end_job(void *user, size_t index, const struct pool_end *end)
 }
 
 /* Reports the jobs that were stopped with the batch. Returns their number. */
-static size_t end_stopped(struct batch *batch)
+static size_t report_stopped_jobs(struct batch *batch)
 {
     const int received = signals_received();
     struct pool_end end = {.exit_code = received ? 128 + received : KILN_READER_GONE};
@@ -383,7 +385,7 @@ static int run_pool(struct batch *batch, const struct arguments *arguments)
                               .start = start_job,
                               .ended = end_job,
                               .stop = signals_wants_stop,
-                              .enough = has_enough,
+                              .no_more = has_enough,
                               .user = batch};
     struct kiln_error error = {0};
     const double began_s = now_s();
@@ -400,7 +402,7 @@ static int run_pool(struct batch *batch, const struct arguments *arguments)
     }
     if (error.code != KILN_INTERRUPTED)
         return report_error(&error);
-    const size_t done = batch->ended, stopped = end_stopped(batch);
+    const size_t done = batch->ended, stopped = report_stopped_jobs(batch);
     return signals_report("batch", " after %zu of %zu jobs, while %zu ran", done, count, stopped);
 }
 
@@ -421,10 +423,10 @@ static bool set_environment(void)
 int batch_run(const struct arguments *arguments)
 {
     struct batch batch = {.keep_going = arguments_flag(arguments, "keep-going"),
-                          .quiet = arguments_flag(arguments, "quiet") || events_take_stdout(),
+                          .quiet = arguments_flag(arguments, "quiet") || events_use_stdout(),
                           .limits = arguments_text(arguments, "limits", NULL)};
     struct kiln_error error = {0};
-    signals_end_at_once(); /* no loop checks for signals while the jobs are read */
+    signals_install_immediate(); /* no loop checks for signals while the jobs are read */
     int code = refuse_options(arguments);
     const ssize_t length = readlink("/proc/self/exe", batch.program, sizeof batch.program - 1);
     if (code == 0 && length < 0)
@@ -432,16 +434,16 @@ int batch_run(const struct arguments *arguments)
                       strerror(errno)); /* NOLINT(concurrency-mt-unsafe): one thread calls it */
     if (code == 0 && !(batch.jobs = read_jobs(arguments, &error)))
         code = report_error(&error);
-    if (code == 0 && !share_options(&batch, arguments))
+    if (code == 0 && !collect_common_arguments(&batch, arguments))
         code = report_no_memory();
     if (code == 0 && !set_environment())
         code = report_no_memory();
     signals_install();
     if (code == 0)
         code = run_pool(&batch, arguments);
-    for (size_t i = 0; i < batch.shared_count; i++)
-        free(batch.shared[i]);
-    free(batch.shared);
+    for (size_t i = 0; i < batch.common_count; i++)
+        free(batch.common_arguments[i]);
+    free(batch.common_arguments);
     free(batch.running);
     kiln_batch_destroy(&batch.jobs);
     return code;

@@ -6,7 +6,7 @@
 
 #define BATCH_OPTION                                                                               \
     {                                                                                              \
-        .name = "batch", .kind = OPTION_TEXT, .placeholder = "JOBS", .reach = REACH_READ,          \
+        .name = "batch", .kind = OPTION_TEXT, .placeholder = "JOBS", .access = ACCESS_READ,        \
         .help = "Render the jobs of a file, each in a process of its own, instead of scenes; '-' " \
                 "is standard input (see 'kiln help jobs'). Other options hold for every job that " \
                 "does not set them itself.",                                                       \

@@ -45,7 +45,7 @@ static bool check_limits(const struct kiln_batch *batch, size_t index, struct ki
 }
 
 /* Returns whether the names of an output's files contain the numbers of frames. */
-static bool has_numbers(const char *name, const char *frames)
+static bool has_frame_numbers(const char *name, const char *frames)
 {
     const char *slash = strrchr(name, '/');
     return kiln_output_is_images(name) &&
@@ -60,19 +60,21 @@ static bool claim(const struct kiln_batch *batch, size_t index, const struct kil
 {
     const struct kiln_batch_job *job = kiln_batch_job(batch, index);
     const char *frames = job->frames.text;
-    char *name = job_file_name(file->text, job->scene, suffix, file == &job->output), *all = NULL;
-    const bool numbers = name && file == &job->output && has_numbers(name, frames);
-    if (!name || (numbers && asprintf(&all, "%s of %s%s", name, frames ? "frames " : "all frames",
-                                      frames ? frames : "") < 0)) {
+    char *name = job_file_name(file->text, job->scene, suffix, file == &job->output),
+         *claim_name = NULL;
+    const bool numbers = name && file == &job->output && has_frame_numbers(name, frames);
+    if (!name ||
+        (numbers && asprintf(&claim_name, "%s of %s%s", name, frames ? "frames " : "all frames",
+                             frames ? frames : "") < 0)) {
         free(name);
         return out_of_memory(error);
     }
-    bool ok = kiln_claims_write(claims, all ? all : name, job->name, error);
+    bool ok = kiln_claims_write(claims, claim_name ? claim_name : name, job->name, error);
     const struct kiln_error reason = *error;
     if (!ok && reason.code == KILN_USAGE)
         ok = kiln_batch_refuse(batch, index, file, key, error, "%s", reason.message);
     free(name);
-    free(all);
+    free(claim_name);
     return ok;
 }
 

@@ -100,6 +100,6 @@ const struct command check_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = SIZE_MAX,
-    .reach = REACH_READ,
+    .access = ACCESS_READ,
     .run = run,
 };

@@ -13,7 +13,7 @@ struct command {
     const struct option *options;
     size_t option_count;
     size_t least_operands, most_operands;
-    enum reach reach;                              /* what it does with files that are operands */
+    enum file_access access;                       /* what it does with files that are operands */
     int (*run)(const struct arguments *arguments); /* returns the exit code */
 };
 

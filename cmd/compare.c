@@ -20,7 +20,7 @@ static const struct option options[] = {
     {.name = "limit",
      .letter = 'l',
      .repeats = true,
-     .commas = true,
+     .splits_at_commas = true,
      .kind = OPTION_PAIRS,
      .placeholder = "METRIC=VALUE",
      .help = "The worst value of a metric that passes; separate several limits by commas (see "
@@ -186,7 +186,7 @@ static int run(const struct arguments *arguments)
     struct compare_report printed = {.reference = params.reference,
                                      .test = params.test,
                                      .json = events_are_open(),
-                                     .quiet = is_quiet || events_take_stdout(),
+                                     .quiet = is_quiet || events_use_stdout(),
                                      .stats = arguments_last(arguments, "stats") != NULL};
     const char **limits = calloc(arguments->use_count + 1, sizeof *limits);
     struct kiln_compare_mask *masks = calloc(arguments->use_count + 1, sizeof *masks);
@@ -200,7 +200,8 @@ static int run(const struct arguments *arguments)
     signals_install();
     struct kiln_compare_result result = kiln_compare_result_empty();
     struct kiln_error error = {0};
-    bool ok = kiln_compare_beside(&params, json_output_path(arguments), "--json", &result, &error);
+    bool ok =
+        kiln_compare_with_output(&params, json_output_path(arguments), "--json", &result, &error);
     free(limits);
     free(masks);
     compare_report_result(&printed, &result);

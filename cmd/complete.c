@@ -31,33 +31,35 @@ struct value {
     size_t prefix_length;
     const char *rest;
     const char *part;   /* of a scene key: the text after its last dot */
-    char offered[4096]; /* what was printed: parts of keys, each between newlines; or the last stage
+    char printed[4096]; /* what was printed: parts of keys, each between newlines; or the last stage
                          */
 };
 
 /* Prints a line for the script. Its kind is "word"; "part", after which the shell adds no space; or
  * "folder" or "file:PATTERN", for which the shell lists the files that follow the text. Only a
  * folder or file may have an empty text, since shells read consecutive tabs as one. */
-static void put(const char *kind, const struct value *value, const char *text, const char *note)
+static void print_line(const char *kind, const struct value *value, const char *text,
+                       const char *note)
 {
     printf("%s\t%.*s%s\t%s\n", kind, (int)value->prefix_length, value->line->typed, text, note);
 }
 
 /* Prints a word if it starts with what is typed. */
-static void offer(const struct value *value, const char *kind, const char *word, const char *note)
+static void print_if_prefix(const struct value *value, const char *kind, const char *word,
+                            const char *note)
 {
     if (strncmp(word, value->rest, strlen(value->rest)) == 0)
-        put(kind, value, word, note);
+        print_line(kind, value, word, note);
 }
 
 /* Prints those of the words "a|b|c" that start with what is typed. */
-static void offer_words(const struct value *value, const char *words)
+static void print_choices(const struct value *value, const char *words)
 {
     while (*words) {
         char word[64];
         size_t length = strcspn(words, "|");
         snprintf(word, sizeof word, "%.*s", (int)length, words);
-        offer(value, "word", word, "");
+        print_if_prefix(value, "word", word, "");
         words += length + (words[length] == '|');
     }
 }
@@ -83,7 +85,7 @@ static bool is_entry(const char *part)
 /* Compares the path of a key with a typed key, part by part; an entry of the path (NAME or N) fits
  * any part. Returns the part of the path that stands at the last typed part, and sets *part to that
  * typed part. Returns NULL if the parts before it differ. */
-static const char *follow(const char *path, const char *typed, const char **part)
+static const char *match_path(const char *path, const char *typed, const char **part)
 {
     for (;;) {
         size_t length = strcspn(path, "."), typed_length = strcspn(typed, ".");
@@ -101,75 +103,75 @@ static const char *follow(const char *path, const char *typed, const char **part
 }
 
 /* Prints a part of a key that fits the typed parts, unless it was printed before. */
-static void put_part(struct value *value, const char *part, char end, const char *note)
+static void print_part(struct value *value, const char *part, char end, const char *note)
 {
     char line[128];
-    size_t used = strlen(value->offered);
+    size_t used = strlen(value->printed);
     int length = snprintf(line, sizeof line, "\n%s%c\n", part, end);
-    if (length < 0 || (size_t)length >= sizeof line || strstr(value->offered, line) ||
+    if (length < 0 || (size_t)length >= sizeof line || strstr(value->printed, line) ||
         strncmp(line + 1, value->part, strlen(value->part)) != 0)
         return;
-    snprintf(value->offered + used, sizeof value->offered - used, "%s", line);
+    snprintf(value->printed + used, sizeof value->printed - used, "%s", line);
     line[length - 1] = '\0';
     const struct value place = {.line = value->line,
                                 .prefix_length = (size_t)(value->part - value->line->typed)};
-    put("part", &place, line + 1, note);
+    print_line("part", &place, line + 1, note);
 }
 
-static void put_system(void *user, const char *name)
+static void print_system(void *user, const char *name)
 {
-    put_part(user, name, '.', "a system");
+    print_part(user, name, '.', "a system");
 }
 
-static void put_entries(struct value *value, bool named)
+static void print_entries(struct value *value, bool named)
 {
-    if (strstr(value->offered, "\n*.\n"))
+    if (strstr(value->printed, "\n*.\n"))
         return;
     struct kiln_error error = {0};
-    put_part(value, "*", '.', "every entry");
+    print_part(value, "*", '.', "every entry");
     if (!named)
-        put_part(value, "0", '.', "the first entry");
+        print_part(value, "0", '.', "the first entry");
     else if (value->line->operand)
-        kiln_scene_visit_systems(value->line->operand, put_system, value, &error);
+        kiln_scene_visit_systems(value->line->operand, print_system, value, &error);
 }
 
-static void put_key(void *user, const struct kiln_option_key *key)
+static void print_key(void *user, const struct kiln_option_key *key)
 {
     struct value *value = user;
-    const char *part = follow(key->path, value->rest, &value->part);
+    const char *part = match_path(key->path, value->rest, &value->part);
     if (!part)
         return;
     if (is_entry(part)) {
-        put_entries(value, part[1] == 'A');
+        print_entries(value, part[1] == 'A');
         return;
     }
     char name[96];
     size_t length = strcspn(part, ".");
     snprintf(name, sizeof name, "%.*s", (int)length, part);
     if (part[length] == '.')
-        put_part(value, name, '.', "");
-    else if (!key->holds_keys || key->words || key->shortcut)
-        put_part(value, name, '=', key->help);
+        print_part(value, name, '.', "");
+    else if (!key->holds_keys || key->choices || key->shortcut)
+        print_part(value, name, '=', key->help);
 }
 
 /* Prints the words that the typed key takes as its value, for KEY=WORD. */
-static void put_key_words(void *user, const struct kiln_option_key *key)
+static void print_key_words(void *user, const struct kiln_option_key *key)
 {
     const struct value *value = user;
-    const char *part = NULL, *end = key->words ? follow(key->path, value->part, &part) : NULL;
+    const char *part = NULL, *end = key->choices ? match_path(key->path, value->part, &part) : NULL;
     if (end && strcmp(end, part) == 0)
-        offer_words(value, key->words);
+        print_choices(value, key->choices);
 }
 
 /* Completes KEY=VALUE. `separator` is ',' where several values may follow the key, ';' where
  * several pairs may follow one another, or 0. */
-static void put_pair(struct value *value, char separator)
+static void print_pair(struct value *value, char separator)
 {
     if (separator == ';')
         skip_past(value, ';');
     const char *equals = strchr(value->rest, '=');
     if (!equals) {
-        kiln_scene_visit_keys(put_key, value);
+        kiln_scene_visit_keys(print_key, value);
         return;
     }
     char key[256];
@@ -179,195 +181,196 @@ static void put_pair(struct value *value, char separator)
     value->prefix_length = (size_t)(value->rest - value->line->typed);
     if (separator == ',')
         skip_past(value, ',');
-    kiln_scene_visit_keys(put_key_words, value);
+    kiln_scene_visit_keys(print_key_words, value);
 }
 
-static void put_set(struct value *value)
+static void print_set(struct value *value)
 {
-    put_pair(value, '\0');
+    print_pair(value, '\0');
 }
 
-static void put_sweep(struct value *value)
+static void print_sweep(struct value *value)
 {
     if (!strchr(value->rest, '=')) {
-        offer(value, "part", "frame=", "frames of the clip");
-        offer(value, "part", "time=", "times in seconds");
+        print_if_prefix(value, "part", "frame=", "frames of the clip");
+        print_if_prefix(value, "part", "time=", "times in seconds");
     }
-    put_pair(value, ',');
+    print_pair(value, ',');
 }
 
-static void put_variant(struct value *value)
+static void print_variant(struct value *value)
 {
-    put_pair(value, ';');
+    print_pair(value, ';');
 }
 
 /* ---- What placeholders stand for ------------------------------------------------------------ */
 
-static void put_matching(const struct value *value, const char *fallback)
+static void print_matching(const struct value *value, const char *fallback)
 {
     char kind[64];
     const char *files = value->option ? value->option->files : NULL;
     snprintf(kind, sizeof kind, "file:%s", files ? files : fallback);
-    put(kind, value, "", "");
+    print_line(kind, value, "", "");
 }
 
-static void put_files(struct value *value)
+static void print_files(struct value *value)
 {
-    put_matching(value, "*");
+    print_matching(value, "*");
 }
 
-static void put_scenes(struct value *value)
+static void print_scenes(struct value *value)
 {
-    put_matching(value, SCENE_FILES);
+    print_matching(value, SCENE_FILES);
 }
 
-static void put_folders(struct value *value)
+static void print_folders(struct value *value)
 {
-    put("folder", value, "", "");
+    print_line("folder", value, "", "");
 }
 
 /* Prints the tests of the last run whose names start with what is typed. */
-static void put_tests(struct value *value)
+static void print_tests(struct value *value)
 {
     struct kiln_error error = {0};
     struct kiln_results *results = kiln_results_load(&value->line->results, 1, &error);
     size_t count = results ? kiln_results_summary(results).tests : 0;
     for (size_t i = 0; i < count; i++)
-        offer(value, "word", kiln_results_name(results, i), "");
+        print_if_prefix(value, "word", kiln_results_name(results, i), "");
     kiln_results_destroy(&results);
 }
 
 /* Prints the names of devices that are known without starting OpenGL, which is slow. */
-static void put_devices(struct value *value)
+static void print_devices(struct value *value)
 {
-    offer(value, "word", KILN_DEVICE_CPU, "this machine without OpenGL");
-    offer(value, "word", "software", "the first software device of OpenGL");
+    print_if_prefix(value, "word", KILN_DEVICE_CPU, "this machine without OpenGL");
+    print_if_prefix(value, "word", "software", "the first software device of OpenGL");
 }
 
-static void put_technique(void *user, const char *name, const char *help)
+static void print_technique(void *user, const char *name, const char *help)
 {
-    offer(user, "word", name, help);
+    print_if_prefix(user, "word", name, help);
 }
 
-static void put_techniques(struct value *value)
+static void print_techniques(struct value *value)
 {
-    kiln_visit_techniques(put_technique, value);
+    kiln_visit_techniques(print_technique, value);
 }
 
 /* Prints the name of a stage once. The techniques of a stage are visited in succession, so only the
  * name of the last stage is kept. */
-static void put_stage(void *user, const char *name, const char *help)
+static void print_stage(void *user, const char *name, const char *help)
 {
     (void)help;
     struct value *value = user;
     char stage[32];
     snprintf(stage, sizeof stage, "%.*s", (int)strcspn(name, "="), name);
-    if (strcmp(stage, value->offered) == 0)
+    if (strcmp(stage, value->printed) == 0)
         return;
-    memcpy(value->offered, stage, sizeof stage);
-    offer(value, "word", stage, "");
+    memcpy(value->printed, stage, sizeof stage);
+    print_if_prefix(value, "word", stage, "");
 }
 
-static void put_stages(struct value *value)
+static void print_stages(struct value *value)
 {
-    kiln_visit_techniques(put_stage, value);
+    kiln_visit_techniques(print_stage, value);
 }
 
-static void put_suite(void *user, const struct kiln_bench_suite *suite)
+static void print_suite(void *user, const struct kiln_bench_suite *suite)
 {
-    offer(user, "word", suite->name, suite->help);
+    print_if_prefix(user, "word", suite->name, suite->help);
 }
 
-static void put_suites(struct value *value)
+static void print_suites(struct value *value)
 {
-    kiln_visit_benches(put_suite, value);
+    kiln_visit_benches(print_suite, value);
 }
 
-static void put_template(void *user, const char *name, const char *summary)
+static void print_template(void *user, const char *name, const char *summary)
 {
-    offer(user, "word", name, summary);
+    print_if_prefix(user, "word", name, summary);
 }
 
-static void put_templates(struct value *value)
+static void print_templates(struct value *value)
 {
-    kiln_visit_templates(put_template, value);
+    kiln_visit_templates(print_template, value);
 }
 
-static void put_metric(void *user, const char *name, const char *help)
+static void print_metric(void *user, const char *name, const char *help)
 {
     char text[KILN_METRIC_NAME_SIZE + 1];
     snprintf(text, sizeof text, "%s=", name);
-    offer(user, "part", text, help);
+    print_if_prefix(user, "part", text, help);
 }
 
-static void put_metrics(struct value *value)
+static void print_metrics(struct value *value)
 {
-    kiln_visit_metrics(put_metric, value);
+    kiln_visit_metrics(print_metric, value);
 }
 
-static void put_topic(void *user, const char *name, const char *summary)
+static void print_topic(void *user, const char *name, const char *summary)
 {
-    offer(user, "word", name, summary);
+    print_if_prefix(user, "word", name, summary);
 }
 
 /* Prints the second words of the two-word commands that begin with `first`. */
-static void put_second_words(const struct value *value, const char *first)
+static void print_second_words(const struct value *value, const char *first)
 {
     for (size_t i = 0; commands[i]; i++) {
         if (command_is_under(commands[i], first))
-            offer(value, "word", commands[i]->name + strlen(first) + 1, commands[i]->summary);
+            print_if_prefix(value, "word", commands[i]->name + strlen(first) + 1,
+                            commands[i]->summary);
     }
 }
 
-static void put_commands(const struct value *value)
+static void print_commands(const struct value *value)
 {
     for (size_t i = 0; commands[i]; i++) {
         if (!strchr(commands[i]->name, ' '))
-            offer(value, "word", commands[i]->name, commands[i]->summary);
+            print_if_prefix(value, "word", commands[i]->name, commands[i]->summary);
     }
 }
 
-static void put_topics(struct value *value)
+static void print_topics(struct value *value)
 {
     if (value->line->operand) {
-        put_second_words(value, value->line->operand);
+        print_second_words(value, value->line->operand);
     } else {
-        put_commands(value);
-        help_visit_topics(put_topic, value);
+        print_commands(value);
+        help_visit_topics(print_topic, value);
     }
 }
 
-static void put_events(struct value *value)
+static void print_events(struct value *value)
 {
-    offer(value, "word", "ndjson", "lines of JSON on standard output");
-    offer(value, "word", "openjd", "lines of Open Job Description on standard output");
+    print_if_prefix(value, "word", "ndjson", "lines of JSON on standard output");
+    print_if_prefix(value, "word", "openjd", "lines of Open Job Description on standard output");
 }
 
 static const struct {
     const char *placeholder;
-    void (*put)(struct value *value);
-} meanings[] = {
-    {"SCENE", put_scenes},         {"PATH", put_scenes},
-    {"CLIP", put_files},           {"FILE", put_files},
-    {"FRAMES", put_files},         {"OUTPUT", put_files},
-    {"PROGRAM", put_files},        {"REFERENCE", put_files},
-    {"TEST", put_files},           {"FOLDER", put_folders},
-    {"STATES", put_folders},       {"NAME", put_tests},
-    {"PATTERN", put_tests},        {"TOPIC", put_topics},
-    {"DEVICE", put_devices},       {"STAGE=NAME", put_techniques},
-    {"METRIC=VALUE", put_metrics}, {"KEY=VALUE", put_set},
-    {"KEY=VALUE,...", put_sweep},  {"KEY=VALUE;...", put_variant},
-    {"TEMPLATE", put_templates},   {"STAGE", put_stages},
-    {"FIGURE", put_files},         {"SUITE", put_suites},
-    {"STREAM", put_events},        {"JOBS", put_files},
+    void (*print)(struct value *value);
+} placeholders[] = {
+    {"SCENE", print_scenes},         {"PATH", print_scenes},
+    {"CLIP", print_files},           {"FILE", print_files},
+    {"FRAMES", print_files},         {"OUTPUT", print_files},
+    {"PROGRAM", print_files},        {"REFERENCE", print_files},
+    {"TEST", print_files},           {"FOLDER", print_folders},
+    {"STATES", print_folders},       {"NAME", print_tests},
+    {"PATTERN", print_tests},        {"TOPIC", print_topics},
+    {"DEVICE", print_devices},       {"STAGE=NAME", print_techniques},
+    {"METRIC=VALUE", print_metrics}, {"KEY=VALUE", print_set},
+    {"KEY=VALUE,...", print_sweep},  {"KEY=VALUE;...", print_variant},
+    {"TEMPLATE", print_templates},   {"STAGE", print_stages},
+    {"FIGURE", print_files},         {"SUITE", print_suites},
+    {"STREAM", print_events},        {"JOBS", print_files},
 };
 
-static void put_meaning(struct value *value, const char *placeholder, size_t length)
+static void complete_placeholder(struct value *value, const char *placeholder, size_t length)
 {
-    for (size_t i = 0; i < sizeof meanings / sizeof *meanings; i++) {
-        if (strlen(meanings[i].placeholder) == length &&
-            strncmp(meanings[i].placeholder, placeholder, length) == 0)
-            meanings[i].put(value);
+    for (size_t i = 0; i < sizeof placeholders / sizeof *placeholders; i++) {
+        if (strlen(placeholders[i].placeholder) == length &&
+            strncmp(placeholders[i].placeholder, placeholder, length) == 0)
+            placeholders[i].print(value);
     }
 }
 
@@ -428,7 +431,7 @@ static void read_words(struct line *line, size_t first)
             line->options_ended ? NULL : find_option(line->command, word, &attached);
         if (!option || option->kind == OPTION_FLAG)
             continue;
-        if (!attached && !option->value_may_go) {
+        if (!attached && !option->value_is_optional) {
             if (i + 2 == line->count)
                 line->pending = option;
             else
@@ -440,8 +443,8 @@ static void read_words(struct line *line, size_t first)
 }
 
 /* Completes the value of an option; `typed` is where the value starts in the word. */
-static void put_option_values(const struct line *line, const struct option *option,
-                              const char *typed)
+static void print_option_values(const struct line *line, const struct option *option,
+                                const char *typed)
 {
     struct value value = {.line = line,
                           .option = option,
@@ -449,35 +452,35 @@ static void put_option_values(const struct line *line, const struct option *opti
                           .rest = typed};
     if (option->kind == OPTION_FLAG)
         return;
-    if (option->commas)
+    if (option->splits_at_commas)
         skip_past(&value, ',');
     if (option->kind == OPTION_CHOICE)
-        offer_words(&value, option->placeholder);
+        print_choices(&value, option->placeholder);
     else
-        put_meaning(&value, option->placeholder, strlen(option->placeholder));
+        complete_placeholder(&value, option->placeholder, strlen(option->placeholder));
 }
 
-static void put_options(const struct line *line)
+static void print_options(const struct line *line)
 {
     const struct value value = {.line = line, .rest = line->typed};
     for (size_t i = 0; i < line->command->option_count; i++) {
         char name[64];
         snprintf(name, sizeof name, "--%s", line->command->options[i].name);
-        offer(&value, "word", name, line->command->options[i].help);
+        print_if_prefix(&value, "word", name, line->command->options[i].help);
     }
 }
 
 /* Completes an operand by the words of the synopsis, such as "[PATH | NAME]...". */
-static void put_operands(const struct line *line)
+static void print_operands(const struct line *line)
 {
     struct value value = {.line = line, .rest = line->typed};
     if (line->count == 2)
-        put_second_words(&value, line->command->name);
+        print_second_words(&value, line->command->name);
     if (line->operand_count >= line->command->most_operands)
         return;
     for (const char *word = line->command->operands; *word;) {
         size_t length = strspn(word, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
-        put_meaning(&value, word, length);
+        complete_placeholder(&value, word, length);
         word += length > 0 ? length : 1;
     }
 }
@@ -490,9 +493,9 @@ static int run(const struct arguments *arguments)
                         .results = DEFAULT_RESULTS};
     if (line.count == 1) {
         const struct value value = {.line = &line, .rest = line.typed};
-        put_commands(&value);
-        offer(&value, "word", "--help", "list commands and topics");
-        offer(&value, "word", "--version", "say which kiln this is");
+        print_commands(&value);
+        print_if_prefix(&value, "word", "--help", "list commands and topics");
+        print_if_prefix(&value, "word", "--version", "say which kiln this is");
         return 0;
     }
     line.command = command_find(line.words[0], line.count > 2 ? line.words[1] : NULL);
@@ -504,13 +507,13 @@ static int run(const struct arguments *arguments)
     const struct option *option =
         is_option && line.typed[1] ? find_option(line.command, line.typed, &value) : NULL;
     if (line.pending)
-        put_option_values(&line, line.pending, line.typed);
+        print_option_values(&line, line.pending, line.typed);
     else if (option && value)
-        put_option_values(&line, option, value);
+        print_option_values(&line, option, value);
     else if (is_option)
-        put_options(&line);
+        print_options(&line);
     else
-        put_operands(&line);
+        print_operands(&line);
     return 0;
 }
 

@@ -14,7 +14,7 @@
     }
 #define TECHNIQUE_OPTION                                                                           \
     {                                                                                              \
-        .name = "technique", .repeats = true, .commas = true, .kind = OPTION_PAIRS,                \
+        .name = "technique", .repeats = true, .splits_at_commas = true, .kind = OPTION_PAIRS,      \
         .placeholder = "STAGE=NAME",                                                               \
         .help = "How to run a stage; separate several by commas (see 'kiln help techniques').",    \
         .fallback = "the technique that suits the device"                                          \

@@ -18,7 +18,7 @@ static const struct option options[] = {
      .letter = 'o',
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
-     .reach = REACH_WRITE,
+     .access = ACCESS_WRITE,
      .help = "The clip; the suffix chooses the format (see 'kiln help outputs')."},
     {.name = "fps",
      .kind = OPTION_RATIO,
@@ -70,7 +70,7 @@ static void show(void *user, const struct kiln_progress *frame)
 {
     struct encoding *encoding = user;
     progress_show(&encoding->progress, encoding->output, frame);
-    progress_tell_engine(encoding->output, frame, 0, 1);
+    progress_write_openjd(encoding->output, frame, 0, 1);
 }
 
 static void print_result(const char *output, const struct kiln_frame_range *frames, bool quiet)
@@ -138,6 +138,6 @@ const struct command encode_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = 1,
-    .reach = REACH_READ,
+    .access = ACCESS_READ,
     .run = run,
 };

@@ -31,10 +31,10 @@ static struct {
     enum form form;
     bool on_stdout, on_stderr; /* which standard stream was taken for events */
     bool stdout_failed;
-    bool has_result;   /* the event `result` was written */
-    const char *name;  /* name of the stream, for messages */
-    uint64_t progress; /* percent that was written last */
-    pid_t process;     /* id of the process that opened the stream; a forked child has another id */
+    bool has_result;       /* the event `result` was written */
+    const char *name;      /* name of the stream, for messages */
+    uint64_t last_percent; /* the progress that was written last */
+    pid_t owner_pid;       /* the process that opened the stream; a forked child has another id */
 } stream;
 
 enum { LINE_SIZE = 1 << 16, TIME_SIZE = 32 };
@@ -93,7 +93,7 @@ bool events_are_open(void)
     return stream.out && stream.form != FORM_OPENJD;
 }
 
-bool events_take_stdout(void)
+bool events_use_stdout(void)
 {
     return events_are_open() && stream.on_stdout;
 }
@@ -152,7 +152,7 @@ static bool is_openjd(void)
     return stream.out && stream.form == FORM_OPENJD;
 }
 
-void event_openjd(const char *what, const char *format, ...)
+void event_openjd(const char *keyword, const char *format, ...)
 {
     char text[KILN_MESSAGE_SIZE], shown[KILN_MESSAGE_SIZE];
     if (!is_openjd())
@@ -162,23 +162,23 @@ void event_openjd(const char *what, const char *format, ...)
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
     kiln_shown(shown, sizeof shown, text);
-    fprintf(stream.out, "openjd_%s: %s\n", what, shown);
+    fprintf(stream.out, "openjd_%s: %s\n", keyword, shown);
     fflush(stream.out);
 }
 
 void event_progress(uint64_t done, uint64_t total, const char *status)
 {
     const uint64_t percent = total > 0 ? done * 100 / total : 0;
-    if (!is_openjd() || percent <= stream.progress || percent >= 100)
+    if (!is_openjd() || percent <= stream.last_percent || percent >= 100)
         return;
-    stream.progress = percent;
+    stream.last_percent = percent;
     event_openjd("progress", "%" PRIu64, percent);
     event_openjd("status", "%s", status);
 }
 
 /* ---- Events of every command ---------------------------------------------------------------- */
 
-static void tell_start(const struct command *command, const struct arguments *arguments)
+static void write_started(const struct command *command, const struct arguments *arguments)
 {
     char host[256] = "";
     event_openjd("progress", "0");
@@ -187,7 +187,7 @@ static void tell_start(const struct command *command, const struct arguments *ar
     struct kiln_json json = event_begin("started");
     kiln_json_string(&json, "kiln", build_name());
     kiln_json_string(&json, "command", command->name);
-    kiln_json_strings(&json, "arguments", arguments->words, arguments->word_count);
+    kiln_json_strings(&json, "arguments", arguments->argv, arguments->argc);
     kiln_json_string(&json, "host", host);
     kiln_json_int(&json, "process", getpid());
     event_end(&json);
@@ -335,9 +335,9 @@ static void add_last_lines(struct line *line, const char *message, int code)
     add(line, "\n");
 }
 
-void events_last_words(const char *message, int code)
+void events_write_final(const char *message, int code)
 {
-    if (!events_are_wanted() || getpid() != stream.process)
+    if (!events_are_wanted() || getpid() != stream.owner_pid)
         return;
     struct line line = {.length = 0};
     if (is_openjd())
@@ -353,7 +353,7 @@ void events_last_words(const char *message, int code)
 
 /* ---- The stream ----------------------------------------------------------------------------- */
 
-static int refuse(const struct command *command, const char *value)
+static int report_bad_value(const struct command *command, const char *value)
 {
     char shown[256];
     kiln_shown(shown, sizeof shown, value);
@@ -363,7 +363,7 @@ static int refuse(const struct command *command, const char *value)
                   command->name, shown);
 }
 
-static int fail(const struct command *command, const char *name, const char *why)
+static int report_io(const struct command *command, const char *name, const char *why)
 {
     char shown[KILN_PATH_SIZE];
     kiln_shown(shown, sizeof shown, name);
@@ -390,7 +390,7 @@ static int open_file(const struct command *command, const char *path)
     const int way = is_there && !S_ISREG(status.st_mode) ? O_WRONLY : O_RDWR;
     const int file = open(path, way | O_APPEND | O_CREAT | O_CLOEXEC | O_NOCTTY, 0666);
     if (file < 0)
-        return fail(command, path, strerror(errno)); /* NOLINT(concurrency-mt-unsafe) */
+        return report_io(command, path, strerror(errno)); /* NOLINT(concurrency-mt-unsafe) */
     if (!holds_events(file)) {
         close(file);
         return report(KILN_USAGE,
@@ -409,7 +409,7 @@ static int open_descriptor(const struct command *command, const char *value, con
     if (kiln_text_to_uint64(number, &file) && file <= INT32_MAX)
         mode = fcntl((int)file, F_GETFL);
     if (mode < 0 || (mode & O_ACCMODE) == O_RDONLY)
-        return refuse(command, value);
+        return report_bad_value(command, value);
     if (file > STDERR_FILENO)
         fcntl((int)file, F_SETFD, FD_CLOEXEC); /* child processes do not inherit it */
     stream.out = file == STDOUT_FILENO   ? stdout
@@ -433,12 +433,12 @@ static const char *read_form(const char *value)
 }
 
 /* Takes a standard stream for lines of JSON. Text for people that is printed to its descriptor goes
- * to the descriptor `instead`. */
-static int take(int descriptor, int instead)
+ * to the descriptor `target`. */
+static int redirect(int descriptor, int target)
 {
     const int events = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     fflush(stdout);
-    FILE *out = events >= 0 && dup2(instead, descriptor) >= 0 ? fdopen(events, "w") : NULL;
+    FILE *out = events >= 0 && dup2(target, descriptor) >= 0 ? fdopen(events, "w") : NULL;
     stream.out = NULL; /* report must not write to a stream that failed */
     if (!out)
         return report(KILN_IO, "--events: %s: %s", stream.name,
@@ -449,20 +449,20 @@ static int take(int descriptor, int instead)
     return 0;
 }
 
-static int take_standard_stream(void)
+static int redirect_standard_stream(void)
 {
     if (stream.form != FORM_NDJSON || (stream.out != stdout && stream.out != stderr))
         return 0;
     if (stream.out == stdout)
-        return take(STDOUT_FILENO, STDERR_FILENO);
+        return redirect(STDOUT_FILENO, STDERR_FILENO);
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    const int code = take(STDERR_FILENO, nowhere);
+    const int code = redirect(STDERR_FILENO, nowhere);
     close(nowhere);
     return code;
 }
 
 /* Restores the standard stream that was taken for events. */
-static void give_back(FILE *out)
+static void restore_standard_stream(FILE *out)
 {
     fflush(stdout);
     if (stream.on_stdout)
@@ -486,7 +486,7 @@ int events_open(const struct command *command, const struct arguments *arguments
     const char *value = use->text, *rest = read_form(value);
     int code = 0;
     if (!rest) {
-        code = refuse(command, value);
+        code = report_bad_value(command, value);
     } else if (!*rest) {
         stream.out = is_clip_on_stdout(arguments) ? stderr : stdout;
         stream.name = stream.out == stderr ? "standard error" : "standard output";
@@ -505,15 +505,15 @@ int events_open(const struct command *command, const struct arguments *arguments
                       command->name, value);
     }
     if (code == 0)
-        code = take_standard_stream();
+        code = redirect_standard_stream();
     if (code)
         return code;
     /* A buffer makes each event a single write. Standard error has none, so messages appear at
      * once. */
     if (stream.out != stderr)
         setvbuf(stream.out, NULL, _IOFBF, LINE_SIZE);
-    stream.process = getpid();
-    tell_start(command, arguments);
+    stream.owner_pid = getpid();
+    write_started(command, arguments);
     return 0;
 }
 
@@ -541,7 +541,7 @@ int events_open_json(const char *command, const struct arguments *arguments)
 }
 
 /* Writes the exit code. A command that finished without an event `result` gets one. */
-static void tell_end(int code)
+static void write_ended(int code)
 {
     if (code == 0)
         event_openjd("progress", "100");
@@ -564,13 +564,13 @@ int events_close(int code)
         stream.out = NULL;
         return code;
     }
-    tell_end(code);
+    write_ended(code);
     const bool failed = ferror(stream.out) != 0;
     FILE *out = stream.out;
     stream.out = NULL;
     if (out == stdout || out == stderr) /* report_finish checks standard output */
         return code;
-    give_back(out); /* report_finish finds out why standard output failed */
+    restore_standard_stream(out); /* report_finish finds out why standard output failed */
     const bool is_whole = fclose(out) == 0 && !failed;
     stream.stdout_failed = stream.on_stdout && !is_whole;
     if (stream.on_stdout || is_whole)

@@ -33,7 +33,7 @@ void events_open_plain(void);
  * it is written to standard output, so that nothing else may be printed there. */
 bool events_are_wanted(void);
 bool events_are_open(void);
-bool events_take_stdout(void);
+bool events_use_stdout(void);
 
 /* Returns whether writing to the stream has failed: nobody reads it any more, or a disk is full. */
 bool events_failed(void);
@@ -48,8 +48,9 @@ void event_end(struct kiln_json *json);
  */
 void event_add_place(struct kiln_json *json, const char *message);
 
-/* Writes the line "openjd_WHAT: ..." if the stream has the form `openjd`; else does nothing. */
-void event_openjd(const char *what, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Writes the line "openjd_KEYWORD: ..." if the stream has the form `openjd`; else does nothing. */
+void event_openjd(const char *keyword, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /* Writes how much of a command is done, in whole percent and each number once, if the stream has
  * the form `openjd`. 100 is written with the exit code, when all files are whole. */
@@ -63,7 +64,7 @@ void event_loaded(const char *scene, const struct kiln_scene_info *info);
 
 /* Writes the error and the end from a signal handler, or while another thread hangs. It writes
  * nothing if the stream would block, or in a forked process. */
-void events_last_words(const char *message, int code);
+void events_write_final(const char *message, int code);
 
 /* Writes the exit code, and before it an event `result` if the command finished without one, and
  * closes the stream. Returns the exit code, or that of a failed stream. */

@@ -31,8 +31,8 @@ struct member {
 };
 
 struct event {
-    const char *name, *of, *help; /* of: the commands that print it */
-    struct member members[20];    /* besides `event` and `time`; a row without a name ends them */
+    const char *name, *commands, *help; /* commands: those that print it */
+    struct member members[20]; /* besides `event` and `time`; a row without a name ends them */
 };
 
 static const struct event events[] = {
@@ -286,7 +286,7 @@ bool help_write_events(FILE *out)
           out);
     for (size_t i = 0; i < EVENT_COUNT; i++) {
         const struct event *event = &events[i];
-        fprintf(out, "\n%s (%s): %s\n", event->name, event->of, event->help);
+        fprintf(out, "\n%s (%s): %s\n", event->name, event->commands, event->help);
         for (const struct member *member = event->members; member->name; member++) {
             const int length = fprintf(out, "    %-18s ", member->name);
             help_print_wrapped(out, member->help, (size_t)length, 23);
@@ -297,7 +297,8 @@ bool help_write_events(FILE *out)
 
 static void write_schema(FILE *out, const struct event *event)
 {
-    fprintf(out, "{\"description\": \"%s: %s\", \"type\": \"object\",\n", event->of, event->help);
+    fprintf(out, "{\"description\": \"%s: %s\", \"type\": \"object\",\n", event->commands,
+            event->help);
     fprintf(out,
             " \"properties\": {\"event\": {\"const\": \"%s\"}, \"time\": {\"type\": \"string\"}",
             event->name);

@@ -39,7 +39,7 @@ static const struct {
              {&figure_triptych_command, KILN_FIGURE_TRIPTYCH},
              {&figure_strip_command, KILN_FIGURE_STRIP}};
 
-struct checking {
+struct check_mode {
     bool update, quiet;
 };
 
@@ -66,8 +66,8 @@ static int run_command(const struct kiln_figure_entry *entry, const struct figur
                   entry->sidecar);
 }
 
-static int check_entry(const struct kiln_figure_entry *entry, int home,
-                       const struct checking *checking)
+static int check_entry(const struct kiln_figure_entry *entry, int start_folder,
+                       const struct check_mode *check_mode)
 {
     if (entry->problem)
         return report_error(entry->problem);
@@ -80,9 +80,9 @@ static int check_entry(const struct kiln_figure_entry *entry, int home,
         code = report(KILN_IO, "%s: the folder of its command, '%s', cannot be entered",
                       entry->sidecar, entry->folder);
     else
-        code = run_command(entry, &(struct figure_check){sidecar, checking->update, &result});
+        code = run_command(entry, &(struct figure_check){sidecar, check_mode->update, &result});
     free(sidecar);
-    if (fchdir(home) != 0)
+    if (fchdir(start_folder) != 0)
         return report(KILN_IO, "the working directory cannot be entered again");
     char figure[KILN_MESSAGE_SIZE], reason[KILN_MESSAGE_SIZE];
     kiln_shown(figure, sizeof figure, entry->figure);
@@ -93,30 +93,30 @@ static int check_entry(const struct kiln_figure_entry *entry, int home,
         printf("%s: redrawn: %s\n", figure, reason);
     else if (result.stale)
         printf("%s: stale: %s\n", figure, reason);
-    else if (!checking->quiet)
+    else if (!check_mode->quiet)
         printf("%s: up to date%s%s\n", figure, *reason ? ": " : "", reason);
     fflush(stdout);
     return result.stale && !result.redrawn ? KILN_FRAME_FAILED : 0;
 }
 
-static int check_all(const struct kiln_figure_list *list, const struct checking *checking)
+static int check_all(const struct kiln_figure_list *list, const struct check_mode *check_mode)
 {
-    int home = open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC), code = 0;
-    if (home < 0)
+    int start_folder = open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC), code = 0;
+    if (start_folder < 0)
         return report(KILN_IO, "the working directory cannot be opened");
     for (size_t i = 0; i < kiln_figure_list_count(list) && !signals_received(); i++) {
         struct kiln_figure_entry entry = kiln_figure_list_entry(list, i);
         code = (int)kiln_code_worse((enum kiln_code)code,
-                                    (enum kiln_code)check_entry(&entry, home, checking));
+                                    (enum kiln_code)check_entry(&entry, start_folder, check_mode));
     }
-    close(home);
+    close(start_folder);
     return signals_received() ? 128 + signals_received() : code;
 }
 
 /* Checks the paths of --check or --update and the operands after them, since the shell expands
  * `--check *.png` to a value and operands. */
 static int check_paths(const struct value_list *paths, const struct arguments *arguments,
-                       const struct checking *checking)
+                       const struct check_mode *check_mode)
 {
     size_t count = paths->count + arguments->operand_count;
     const char **all = calloc(count, sizeof *all);
@@ -126,7 +126,7 @@ static int check_paths(const struct value_list *paths, const struct arguments *a
         all[i] = i < paths->count ? paths->items[i] : arguments->operands[i - paths->count];
     struct kiln_error error = {0};
     struct kiln_figure_list *list = kiln_figure_list_load(all, count, &error);
-    int code = list ? check_all(list, checking) : report_error(&error);
+    int code = list ? check_all(list, check_mode) : report_error(&error);
     kiln_figure_list_destroy(&list);
     free(all);
     return code;
@@ -146,16 +146,16 @@ static int report_no_paths(const struct arguments *arguments)
 
 static int run(const struct arguments *arguments)
 {
-    struct checking checking = {.update = arguments_flag(arguments, "update"),
-                                .quiet = arguments_flag(arguments, "quiet")};
+    struct check_mode check_mode = {.update = arguments_flag(arguments, "update"),
+                                    .quiet = arguments_flag(arguments, "quiet")};
     bool check = arguments_flag(arguments, "check");
-    if (check && checking.update)
+    if (check && check_mode.update)
         return report(KILN_USAGE, "figure: --check and --update exclude each other");
-    if (!check && !checking.update)
+    if (!check && !check_mode.update)
         return report_no_paths(arguments);
     struct value_list paths;
     int code = value_list_create(&paths, arguments, check ? "check" : "update")
-                   ? check_paths(&paths, arguments, &checking)
+                   ? check_paths(&paths, arguments, &check_mode)
                    : report_no_memory();
     value_list_free(&paths);
     return code;

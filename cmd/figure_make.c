@@ -1,10 +1,11 @@
 /* Reads the options of `kiln figure sheet`, `triptych` and `strip`, and has the library draw the
  * figure. The functions of these commands call figure_make. `kiln figure --check` and `--update`
- * (cmd/figure.c) call it with the words of the command in a figure's sidecar, and with `check` set.
+ * (cmd/figure.c) call it with the arguments of the command in a figure's sidecar, and with `check`
+ * set.
  *
- * So a figure may depend on the words that list_command keeps and on the files that they name, and
- * on nothing else: standard input is refused. Renaming or removing an option breaks the sidecars
- * that name it. */
+ * So a figure may depend on the arguments that list_command keeps and on the files that they name,
+ * and on nothing else: standard input is refused. Renaming or removing an option breaks the
+ * sidecars that name it. */
 #include "figure_make.h"
 
 #include <stdlib.h>
@@ -41,7 +42,7 @@ static bool lists_create(struct lists *lists, const struct arguments *arguments)
     *lists = (struct lists){0};
     lists->sweeps = calloc(arguments->use_count + 1, sizeof *lists->sweeps);
     lists->insets = calloc(arguments->use_count + 1, sizeof *lists->insets);
-    lists->command = calloc(arguments->word_count + 2, sizeof *lists->command);
+    lists->command = calloc(arguments->argc + 2, sizeof *lists->command);
     return lists->sweeps && lists->insets && lists->command &&
            overrides_create(&lists->overrides, arguments) &&
            value_list_create(&lists->techniques, arguments, "technique") &&
@@ -180,10 +181,10 @@ static struct kiln_figure_params make_params(const struct arguments *arguments,
     return params;
 }
 
-/* Lists the words of the command, which the sidecar keeps for `kiln figure --check`. The name of a
- * command, such as "figure sheet", becomes two words. --force is left out, since it says nothing
- * about the figure. A value that reads "--force" is not left out: arguments_parse accepts it only
- * joined to its option, as in --title=--force. */
+/* Lists the arguments of the command, which the sidecar keeps for `kiln figure --check`. The name
+ * of a command, such as "figure sheet", becomes two arguments. --force is left out, since it says
+ * nothing about the figure. A value that reads "--force" is not left out: arguments_parse accepts
+ * it only joined to its option, as in --title=--force. */
 static void list_command(const struct command *command, const struct arguments *arguments,
                          struct lists *lists, struct kiln_figure_params *params)
 {
@@ -191,11 +192,11 @@ static void list_command(const struct command *command, const struct arguments *
     lists->command[count++] = "figure";
     lists->command[count++] = strchr(command->name, ' ') + 1;
     bool options_ended = false;
-    for (size_t i = 0; i < arguments->word_count; i++) {
-        const char *word = arguments->words[i];
-        options_ended = options_ended || strcmp(word, "--") == 0;
-        if (options_ended || strcmp(word, "--force") != 0)
-            lists->command[count++] = word;
+    for (size_t i = 0; i < arguments->argc; i++) {
+        const char *argument = arguments->argv[i];
+        options_ended = options_ended || strcmp(argument, "--") == 0;
+        if (options_ended || strcmp(argument, "--force") != 0)
+            lists->command[count++] = argument;
     }
     params->command = lists->command;
     params->command_count = count;

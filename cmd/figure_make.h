@@ -1,5 +1,5 @@
 /* Declares the common options of `kiln figure sheet`, `triptych` and `strip`, and the function that
- * makes their figures. `kiln figure --check` calls it with the words in a figure's sidecar. */
+ * makes their figures. `kiln figure --check` calls it with the arguments in a figure's sidecar. */
 #ifndef KILN_CMD_FIGURE_MAKE_H
 #define KILN_CMD_FIGURE_MAKE_H
 
@@ -80,12 +80,12 @@
      .kind = OPTION_SIZE,                                                                          \
      .placeholder = "WxH",                                                                         \
      .help = "Size of each picture in pixels: --set output.size=[W, H].",                          \
-     .sets = "output.size"},                                                                       \
+     .scene_key = "output.size"},                                                                  \
         {.name = "seed",                                                                           \
          .kind = OPTION_INTEGER,                                                                   \
          .placeholder = "N",                                                                       \
          .help = "Seed of all random numbers: --set seed=N.",                                      \
-         .sets = "seed",                                                                           \
+         .scene_key = "seed",                                                                      \
          .max = UINT32_MAX},                                                                       \
         SET_OPTION, ASSET_ROOT_OPTION,                                                             \
         {.name = "device",                                                                         \
@@ -94,7 +94,7 @@
          .help = "A number from 'kiln devices', a part of a device's name, 'cpu' or 'software'.",  \
          .fallback = "'cpu', or the first GPU or 'software' if a technique needs it"},             \
     {                                                                                              \
-        .name = "technique", .repeats = true, .commas = true, .kind = OPTION_PAIRS,                \
+        .name = "technique", .repeats = true, .splits_at_commas = true, .kind = OPTION_PAIRS,      \
         .placeholder = "STAGE=NAME",                                                               \
         .help = "How to run a stage; separate several by commas (see 'kiln help techniques').",    \
         .fallback = "the techniques that make the same picture everywhere"                         \

@@ -164,7 +164,7 @@ static void print_option(const struct option *option)
                      : snprintf(left, sizeof left, "      --%s", option->name);
     if (option->placeholder)
         snprintf(left + length, sizeof left - (size_t)length,
-                 option->value_may_go ? "[=%s]" : " %s", option->placeholder);
+                 option->value_is_optional ? "[=%s]" : " %s", option->placeholder);
     snprintf(text, sizeof text, "%s%s%s%s", option->help, option->fallback ? " Default: " : "",
              option->fallback ? option->fallback : "", option->fallback ? "." : "");
     if (strlen(left) + 2 > OPTION_INDENT)

@@ -14,7 +14,7 @@ static const struct option options[] = {
     {.name = "manifest",
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
-     .reach = REACH_WRITE,
+     .access = ACCESS_WRITE,
      .help = "Also write a JSON file that describes the job. Its `result` is that of one run; its "
              "`runs_before` are those of the shards."},
     {.name = "force",
@@ -71,13 +71,13 @@ static int run_join(const struct arguments *arguments, const char **command, siz
 static int run(const struct arguments *arguments)
 {
     size_t count = 0;
-    const char **command = calloc(arguments->word_count + 2, sizeof *command);
+    const char **command = calloc(arguments->argc + 2, sizeof *command);
     if (!command)
         return report_no_memory();
     command[count++] = "kiln";
     command[count++] = "join";
-    for (size_t i = 0; i < arguments->word_count; i++)
-        command[count++] = arguments->words[i];
+    for (size_t i = 0; i < arguments->argc; i++)
+        command[count++] = arguments->argv[i];
     const int code = run_join(arguments, command, count);
     free(command);
     return code;
@@ -96,6 +96,6 @@ const struct command join_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = 1,
-    .reach = REACH_WRITE,
+    .access = ACCESS_WRITE,
     .run = run,
 };

@@ -8,8 +8,8 @@
 /* `what` completes the help text: "an object", "an object a line: ...". */
 #define JSON_OPTION(what)                                                                          \
     {                                                                                              \
-        .name = "json", .value_may_go = true, .kind = OPTION_TEXT, .placeholder = "FILE",          \
-        .files = "*.json", .reach = REACH_WRITE,                                                   \
+        .name = "json", .value_is_optional = true, .kind = OPTION_TEXT, .placeholder = "FILE",     \
+        .files = "*.json", .access = ACCESS_WRITE,                                                 \
         .help = "Print JSON instead of text, or also write it into FILE: " what                    \
     }
 

@@ -5,28 +5,28 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "last_words.h"
+#include "exit_message.h"
 #include "report.h"
 #include "scene_in.h"
-#include "watch.h"
+#include "timer_thread.h"
 
-enum { LOOK_MS = 50, PATIENCE_MS = 500 };
+enum { CHECK_INTERVAL_MS = 50, GRACE_MS = 500 };
 
 /* Ends the program when a limit is exceeded, after it has given the job time to end by itself. */
-static void look(void *user)
+static void check_budget(void *user)
 {
     struct limits *limits = user;
     struct kiln_error error = {0};
     if (kiln_budget_is_kept(limits->budget, &error))
         return;
-    limits->over_ms += LOOK_MS;
-    if (limits->over_ms < PATIENCE_MS)
+    limits->exceeded_ms += CHECK_INTERVAL_MS;
+    if (limits->exceeded_ms < GRACE_MS)
         return;
     char scene[KILN_MESSAGE_SIZE] = "", line[2 * KILN_MESSAGE_SIZE + 64];
     const bool loads = scene_in_describe(scene);
     snprintf(line, sizeof line, "kiln: %s%s%s; unfinished files are discarded\n", scene,
              loads ? ": " : "", error.message);
-    end_with_words(line, KILN_OVER_LIMIT);
+    exit_with_message(line, KILN_OVER_LIMIT);
 }
 
 /* ---- reading --------------------------------------------------------------------------------- */
@@ -62,12 +62,12 @@ int limits_begin(struct limits *limits, const char *command, const struct argume
         return report_no_memory();
     if (read.most[KILN_LIMIT_time] + read.most[KILN_LIMIT_cpu] + read.most[KILN_LIMIT_memory] == 0)
         return 0;
-    limits->watch = watch_create(look, limits, LOOK_MS);
-    return limits->watch ? 0 : report(KILN_DEVICE_FAILED, "cannot start a thread for limits");
+    limits->timer = timer_thread_create(check_budget, limits, CHECK_INTERVAL_MS);
+    return limits->timer ? 0 : report(KILN_DEVICE_FAILED, "cannot start a thread for limits");
 }
 
 void limits_end(struct limits *limits)
 {
-    watch_destroy(&limits->watch);
+    timer_thread_destroy(&limits->timer);
     kiln_budget_destroy(&limits->budget);
 }

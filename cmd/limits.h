@@ -22,8 +22,8 @@
 /* The limits of a job. The struct must not move while a thread watches it. */
 struct limits {
     struct kiln_budget *budget; /* NULL: there are none */
-    struct watch *watch;
-    int over_ms; /* how long the job has been over a limit */
+    struct timer_thread *timer;
+    int exceeded_ms; /* how long the job has been over a limit */
 };
 
 /* Reads the limits and starts to watch them; time counts from here. `command` starts the messages.

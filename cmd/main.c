@@ -83,7 +83,7 @@ static void occupy_standard_streams(void)
 }
 
 /* Makes a job of --batch end with the process that started it, even if that process is killed. */
-static void follow_batch(void)
+static void end_with_parent(void)
 {
     const char *parent = getenv("KILN_BATCH_PROCESS");
     uint64_t process;
@@ -171,7 +171,7 @@ static int unknown_command(const char *name)
 int main(int argc, char **argv)
 {
     occupy_standard_streams();
-    follow_batch();
+    end_with_parent();
     signal(SIGCHLD, SIG_DFL); /* if it were ignored, the exit status of kiln-decode would be lost */
     signal(SIGPIPE, SIG_IGN); /* a failed write is reported instead */
     signal(SIGXFSZ, SIG_IGN); /* a write beyond the limit of a file's size, too */

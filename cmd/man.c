@@ -106,9 +106,9 @@ static void put_option(FILE *out, const struct option *option)
     put(out, option->name);
     fputs("\\fR", out);
     if (option->placeholder) {
-        fputs(option->value_may_go ? "[=\\fI" : " \\fI", out);
+        fputs(option->value_is_optional ? "[=\\fI" : " \\fI", out);
         put(out, option->placeholder);
-        fputs(option->value_may_go ? "\\fR]" : "\\fR", out);
+        fputs(option->value_is_optional ? "\\fR]" : "\\fR", out);
     }
     fputc('\n', out);
     put(out, option->help);

@@ -73,6 +73,6 @@ const struct command new_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = 1,
-    .reach = REACH_WRITE,
+    .access = ACCESS_WRITE,
     .run = run,
 };

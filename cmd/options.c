@@ -40,7 +40,7 @@ const char *suggest(char out[SUGGESTION_SIZE], const char *prefix, const char *f
 
 /* Suggests what to type instead of an unknown option: kiln's spelling of another program's option,
  * else the nearest of its own names. */
-static void advise(const struct parser *parser, const char *typed, char out[FOREIGN_SIZE])
+static void suggest_option(const struct parser *parser, const char *typed, char out[FOREIGN_SIZE])
 {
     if (foreign_suggest(out, typed, parser->options, parser->option_count))
         return;
@@ -57,7 +57,7 @@ static int unknown_option(const struct parser *parser, const char *argument)
 {
     char name[64], advice[FOREIGN_SIZE];
     snprintf(name, sizeof name, "%.*s", (int)strcspn(argument, "="), argument);
-    advise(parser, name, advice);
+    suggest_option(parser, name, advice);
     return report(KILN_USAGE, "%s: unknown option '%.*s'%s", parser->place,
                   (int)strcspn(argument, "="), argument, advice);
 }
@@ -238,7 +238,7 @@ static int read_value(const struct parser *parser, struct option_use *use)
     case OPTION_FRAMES:
         return read_frames(parser, use);
     case OPTION_PAIRS:
-        return are_pairs(use->text, use->option->commas)
+        return are_pairs(use->text, use->option->splits_at_commas)
                    ? 0
                    : wrong_value(parser, use, use->option->placeholder);
     }
@@ -258,7 +258,7 @@ static bool looks_like_option(const struct parser *parser, const char *word)
 static bool value_follows(const struct parser *parser, const struct option *option)
 {
     const char *next = parser->next < parser->argc ? parser->argv[parser->next] : NULL;
-    return next && option->value_may_follow &&
+    return next && option->value_may_be_separate &&
            (strcmp(next, "-") == 0 || fnmatch(option->files, next, 0) == 0);
 }
 
@@ -276,9 +276,9 @@ static int use_option(struct parser *parser, const struct option *option, const 
         char old[64], now[64];
         snprintf(old, sizeof old, "'--%s %s'", option->name, option->placeholder);
         snprintf(now, sizeof now, "'--%s=%s'", option->name, option->placeholder);
-        report_older(parser->place, old, now);
+        report_deprecated(parser->place, old, now);
     }
-    if (option->kind == OPTION_FLAG || (option->value_may_go && !joined && !follows))
+    if (option->kind == OPTION_FLAG || (option->value_is_optional && !joined && !follows))
         return 0;
     if (!joined) {
         const char *next = parser->next < parser->argc ? parser->argv[parser->next] : NULL;
@@ -328,7 +328,7 @@ static int unknown_letter(const struct parser *parser, const char *argument, cha
     const char typed[] = {'-', letter, '\0'};
     if (argument[2] == '\0')
         return unknown_option(parser, argument);
-    advise(parser, argument, advice);
+    suggest_option(parser, argument, advice);
     if (*advice)
         return unknown_option(parser, argument);
     if (!foreign_suggest(advice, typed, parser->options, parser->option_count))
@@ -366,14 +366,14 @@ static int read_short(struct parser *parser, const char *argument)
 int arguments_parse(struct arguments *arguments, const struct option *options, size_t option_count,
                     const char *place, int argc, char **argv)
 {
-    /* The most options that the words can have: every letter of a word may be one. */
+    /* The most options that the arguments can have: every letter of an argument may be one. */
     size_t most = 1;
     for (int i = 0; i < argc; i++)
         most += argv[i][0] == '-' ? strlen(argv[i]) : 1;
     *arguments = (struct arguments){.uses = calloc(most, sizeof *arguments->uses),
                                     .operands = calloc(most, sizeof *arguments->operands),
-                                    .words = (const char *const *)argv,
-                                    .word_count = argc > 0 ? (size_t)argc : 0};
+                                    .argv = (const char *const *)argv,
+                                    .argc = argc > 0 ? (size_t)argc : 0};
     if (!arguments->uses || !arguments->operands)
         return report_no_memory();
     struct parser parser = {.arguments = arguments,
@@ -487,7 +487,7 @@ bool value_list_create(struct value_list *list, const struct arguments *argument
         size_t length = strlen(use->text) + 1;
         char *rest = memcpy(end, use->text, length);
         end += length;
-        if (!use->option->commas)
+        if (!use->option->splits_at_commas)
             list->items[list->count++] = rest;
         else
             for (char *piece = strsep(&rest, ","); piece; piece = strsep(&rest, ","))

@@ -18,28 +18,29 @@ enum option_kind {
     OPTION_RECT,    /* X,Y,WxH */
     OPTION_PART,    /* I/N: the I-th of N parts */
     OPTION_FRAMES,  /* 0-149,200 or 170- or last or 0-100/10 */
-    OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where `commas` is set */
+    OPTION_PAIRS,   /* KEY=VALUE; more of them after commas where splits_at_commas is set */
 };
 
 /* Says whether a command reads or writes the file, folder or pattern of files that an argument
  * names. */
-enum reach { REACH_NONE, REACH_READ, REACH_WRITE };
+enum file_access { ACCESS_NONE, ACCESS_READ, ACCESS_WRITE };
 
 struct option {
-    const char *name;      /* without its dashes */
-    char letter;           /* short form, or 0 */
-    bool repeats;          /* every use counts; otherwise, only the last use */
-    bool value_may_go;     /* the value may be left out, and must be joined by '=' if it is there */
-    bool value_may_follow; /* with value_may_go: the value may be the next word, an older spelling,
-                              if it is "-" or matches `files` */
-    bool commas;
+    const char *name; /* without its dashes */
+    char letter;      /* short form, or 0 */
+    bool repeats;     /* every use counts; otherwise, only the last use */
+    bool
+        value_is_optional; /* the value may be left out, and must be joined by '=' if it is there */
+    bool value_may_be_separate; /* with value_is_optional: the value may be the next argument, an
+                                   older spelling, if it is "-" or matches `files` */
+    bool splits_at_commas;
     enum option_kind kind;
     const char *placeholder; /* stands for the value in the help; NULL for a flag */
     const char *help;        /* what it does, as one or two sentences */
     const char *fallback;    /* the default, for the help; or NULL */
-    const char *sets;        /* the scene key that it stands for, or NULL */
+    const char *scene_key;   /* the key of the scene that it sets, or NULL */
     const char *files;       /* shell pattern of its files, "*.png"; NULL: any */
-    enum reach reach;        /* what it does with its value, if that is a path */
+    enum file_access access; /* what it does with its value, if that is a path */
     double min, max;
 };
 
@@ -61,8 +62,8 @@ struct arguments {
     size_t use_count;
     const char **operands;
     size_t operand_count;
-    const char *const *words; /* all arguments, as they were given */
-    size_t word_count;
+    const char *const *argv; /* all arguments, as they were given */
+    size_t argc;
     struct kiln_budget *budget; /* set before the command runs; NULL: no limits */
     bool sandboxed; /* set before the command runs: the process is confined to the device cpu */
 };
@@ -96,7 +97,7 @@ int frames_choose(struct frame_list *list, const struct option_use *frames, cons
                   const char *clip, uint32_t last);
 
 /* The values of all uses of an option, in order. A value with commas is split if the option has
- * `commas`. */
+ * splits_at_commas. */
 struct value_list {
     const char **items; /* point into `cut` */
     size_t count;

@@ -8,12 +8,12 @@
 #include "signals.h"
 
 /* Returns the override "key=value" that a use of an option stands for, in new memory; NULL when
- * memory is short. *is_one is false for an option that is no override. */
-static char *override_text(const struct option_use *use, bool *is_one)
+ * memory is short. *is_override is false for an option that is no override. */
+static char *override_text(const struct option_use *use, bool *is_override)
 {
-    const char *key = use->option->sets;
+    const char *key = use->option->scene_key;
     char *text = NULL;
-    *is_one = true;
+    *is_override = true;
     int length;
     if (key && use->option->kind == OPTION_SIZE)
         length =
@@ -23,7 +23,7 @@ static char *override_text(const struct option_use *use, bool *is_one)
     else if (strcmp(use->option->name, "set") == 0)
         length = asprintf(&text, "%s", use->text);
     else
-        *is_one = false, length = 0;
+        *is_override = false, length = 0;
     return length < 0 ? NULL : text;
 }
 
@@ -33,9 +33,9 @@ bool overrides_create(struct overrides *overrides, const struct arguments *argum
     if (!overrides->texts)
         return false;
     for (size_t i = 0; i < arguments->use_count; i++) {
-        bool is_one;
-        char *text = override_text(&arguments->uses[i], &is_one);
-        if (!is_one)
+        bool is_override;
+        char *text = override_text(&arguments->uses[i], &is_override);
+        if (!is_override)
             continue;
         if (!text) {
             overrides_free(overrides);

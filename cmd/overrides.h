@@ -15,22 +15,24 @@
 #define SIZE_OPTION                                                                                \
     {                                                                                              \
         .name = "size", .kind = OPTION_SIZE, .placeholder = "WxH",                                 \
-        .help = "Size of the picture in pixels: --set output.size=[W, H].", .sets = "output.size"  \
+        .help = "Size of the picture in pixels: --set output.size=[W, H].",                        \
+        .scene_key = "output.size"                                                                 \
     }
 #define FPS_OPTION                                                                                 \
     {                                                                                              \
         .name = "fps", .kind = OPTION_RATIO, .placeholder = "RATE",                                \
         .help = "Frames a second, such as 30 or 30000/1001: --set output.fps=RATE.",               \
-        .sets = "output.fps"                                                                       \
+        .scene_key = "output.fps"                                                                  \
     }
 #define SEED_OPTION                                                                                \
     {                                                                                              \
         .name = "seed", .kind = OPTION_INTEGER, .placeholder = "N",                                \
-        .help = "Seed of all random numbers: --set seed=N.", .sets = "seed", .max = UINT32_MAX     \
+        .help = "Seed of all random numbers: --set seed=N.", .scene_key = "seed",                  \
+        .max = UINT32_MAX                                                                          \
     }
 #define ASSET_ROOT_OPTION                                                                          \
     {                                                                                              \
-        .name = "asset-root", .kind = OPTION_TEXT, .placeholder = "FOLDER", .reach = REACH_READ,   \
+        .name = "asset-root", .kind = OPTION_TEXT, .placeholder = "FOLDER", .access = ACCESS_READ, \
         .help = "The folder that the scene's files must lie in.",                                  \
         .fallback = "the folder of the scene"                                                      \
     }

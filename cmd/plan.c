@@ -25,7 +25,7 @@ static const struct option options[] = {
     {.name = "states",
      .kind = OPTION_TEXT,
      .placeholder = "STATES",
-     .reach = REACH_READ,
+     .access = ACCESS_READ,
      .help = "A folder of 'kiln bake'. The tasks start at its states."},
     {.name = "frame",
      .kind = OPTION_INTEGER,
@@ -234,6 +234,6 @@ const struct command plan_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 1,
     .most_operands = 1,
-    .reach = REACH_READ,
+    .access = ACCESS_READ,
     .run = run,
 };

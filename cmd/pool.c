@@ -14,7 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "watch.h"
+#include "timer_thread.h"
 
 /* GRACE_S is how long a child may go on after SIGTERM before it is killed. REFUSAL_S is how long
  * the system may refuse a process while none runs before the task fails. */
@@ -25,15 +25,15 @@ struct child {
     pid_t id; /* 0: none */
     size_t index;
     double started_s, limit_s;
-    double asked_s; /* when it got SIGTERM; below 0: not yet */
+    double sigterm_s; /* when it got SIGTERM; below 0: not yet */
 };
 
 struct run {
     const struct pool *pool;
     struct child *children; /* pool->jobs places */
     size_t running;
-    size_t next;      /* the task to start next */
-    double refused_s; /* when the system began to refuse processes; below 0: it does not */
+    size_t next;            /* the task to start next */
+    double refusal_start_s; /* when the system began to refuse processes; below 0: it does not */
     bool stopping;
     sigset_t old_mask; /* the signals that were blocked before */
 };
@@ -61,27 +61,27 @@ static bool start_next(struct run *run, struct child *place)
     }
     double now = now_s();
     if (id < 0) {
-        if (run->refused_s < 0)
-            run->refused_s = now;
-        if (run->running > 0 || now - run->refused_s < REFUSAL_S)
+        if (run->refusal_start_s < 0)
+            run->refusal_start_s = now;
+        if (run->running > 0 || now - run->refusal_start_s < REFUSAL_S)
             return false;
         refuse(run, KILN_DEVICE_FAILED, "cannot start a process", failure);
         return true;
     }
     run->next++;
-    run->refused_s = -1;
+    run->refusal_start_s = -1;
     run->running++;
     *place = (struct child){
-        .id = id, .index = index, .started_s = now, .limit_s = start.time_limit_s, .asked_s = -1};
+        .id = id, .index = index, .started_s = now, .limit_s = start.time_limit_s, .sigterm_s = -1};
     return true;
 }
 
-static void ask_to_end(struct child *child)
+static void terminate(struct child *child)
 {
-    if (child->asked_s >= 0)
+    if (child->sigterm_s >= 0)
         return;
     kill(-child->id, SIGTERM);
-    child->asked_s = now_s();
+    child->sigterm_s = now_s();
 }
 
 /* Asks a child beyond its time limit to end, and kills it if it has not ended within GRACE_S. */
@@ -89,8 +89,8 @@ static void watch_child(struct child *child)
 {
     double now = now_s();
     if (now - child->started_s > child->limit_s)
-        ask_to_end(child);
-    if (child->asked_s >= 0 && now - child->asked_s > GRACE_S)
+        terminate(child);
+    if (child->sigterm_s >= 0 && now - child->sigterm_s > GRACE_S)
         kill(-child->id, SIGKILL);
 }
 
@@ -107,7 +107,7 @@ static void reap_child(struct run *run, struct child *child)
     /* An id below 0 means that other code has reaped the child, so its status is unknown. */
     struct pool_end end = {.total_s = now_s() - child->started_s,
                            .exit_code = KILN_DEVICE_FAILED,
-                           .timed_out = child->asked_s >= 0};
+                           .timed_out = child->sigterm_s >= 0};
     if (id > 0 && WIFSIGNALED(status) && !end.timed_out)
         end.signal = WTERMSIG(status);
     if (id > 0 && WIFEXITED(status))
@@ -121,13 +121,13 @@ static void reap_child(struct run *run, struct child *child)
 /* ---- The pool ------------------------------------------------------------------------------- */
 
 /* Sleeps until a child ends or reaches its time limit, at most LONGEST_SLEEP_S. */
-static void sleep_until_news(const struct run *run)
+static void sleep_until_event(const struct run *run)
 {
     double sleep_s = LONGEST_SLEEP_S, now = now_s();
     for (uint32_t i = 0; i < run->pool->jobs; i++) {
         const struct child *child = &run->children[i];
         double left_s = child->started_s + child->limit_s - now;
-        if (child->id && child->asked_s < 0 && left_s < sleep_s)
+        if (child->id && child->sigterm_s < 0 && left_s < sleep_s)
             sleep_s = left_s > 0.001 ? left_s : 0.001;
     }
     sigset_t child_signal;
@@ -139,7 +139,8 @@ static void sleep_until_news(const struct run *run)
 static bool may_start(const struct run *run)
 {
     const struct pool *pool = run->pool;
-    return !run->stopping && run->next < pool->count && !(pool->enough && pool->enough(pool->user));
+    return !run->stopping && run->next < pool->count &&
+           !(pool->no_more && pool->no_more(pool->user));
 }
 
 /* Starts tasks while there are free places. */
@@ -161,7 +162,7 @@ static void watch_children(struct run *run)
         if (child->id)
             reap_child(run, child);
         if (child->id && run->stopping)
-            ask_to_end(child);
+            terminate(child);
         if (child->id)
             watch_child(child);
     }
@@ -174,8 +175,8 @@ static void work(struct run *run)
         if (!run->stopping)
             start_children(run);
         watch_children(run);
-        if (run->running > 0 || run->refused_s >= 0)
-            sleep_until_news(run);
+        if (run->running > 0 || run->refusal_start_s >= 0)
+            sleep_until_event(run);
     }
 }
 
@@ -187,7 +188,7 @@ uint32_t pool_cores(void)
 
 bool pool_run(const struct pool *pool, struct kiln_error *error)
 {
-    struct run run = {.pool = pool, .refused_s = -1};
+    struct run run = {.pool = pool, .refusal_start_s = -1};
     run.children = calloc(pool->jobs, sizeof *run.children);
     if (!run.children) {
         *error = (struct kiln_error){.code = KILN_DEVICE_FAILED, .message = "out of memory"};

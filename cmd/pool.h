@@ -29,8 +29,8 @@ struct pool {
     /* Starts a task in a process group of its own. Returns its id, or below 0 with errno. */
     pid_t (*start)(void *user, size_t index, struct pool_start *start);
     void (*ended)(void *user, size_t index, const struct pool_end *end); /* called in any order */
-    bool (*stop)(void *user);   /* asked a few times a second; true ends all processes */
-    bool (*enough)(void *user); /* true: no more tasks are started; NULL: all are */
+    bool (*stop)(void *user);    /* asked a few times a second; true ends all processes */
+    bool (*no_more)(void *user); /* true: no more tasks are started; NULL: all are */
     void *user;
 };
 

@@ -53,16 +53,16 @@ static void describe(char out[KILN_MESSAGE_SIZE], const char *scene,
              rate, left);
 }
 
-void progress_tell_engine(const char *scene, const struct kiln_progress *frame, size_t job,
-                          size_t jobs)
+void progress_write_openjd(const char *scene, const struct kiln_progress *frame, size_t job,
+                           size_t jobs)
 {
     char text[KILN_MESSAGE_SIZE];
     describe(text, scene, frame);
     event_progress((uint64_t)job * frame->total + frame->done, (uint64_t)jobs * frame->total, text);
 }
 
-void progress_tell(const char *scene, const struct kiln_progress *frame,
-                   const struct kiln_written *file)
+void progress_write_event(const char *scene, const struct kiln_progress *frame,
+                          const struct kiln_written *file)
 {
     char state[STATE_TEXT_SIZE];
     struct kiln_json json = event_begin("frame");
@@ -92,14 +92,14 @@ void progress_show(struct progress *progress, const char *scene, const struct ki
         return;
     bool tty = progress->mode == PROGRESS_TTY;
     bool last = frame->done == frame->total;
-    bool first = tty && !progress->line_open;
+    bool first = tty && !progress->line_shown;
     double interval_s = tty ? tty_interval_s : lines_interval_s;
     if (last && !tty) /* the result line follows */
         return;
     if (!first && !last && frame->elapsed_s - progress->last_s < interval_s)
         return;
     progress->last_s = frame->elapsed_s;
-    progress->line_open = tty;
+    progress->line_shown = tty;
     if (tty)
         fputc('\r', stderr);
     char text[KILN_MESSAGE_SIZE];
@@ -110,7 +110,7 @@ void progress_show(struct progress *progress, const char *scene, const struct ki
 
 void progress_clear(struct progress *progress)
 {
-    if (progress->line_open)
+    if (progress->line_shown)
         fputs("\r\033[K", stderr);
-    progress->line_open = false;
+    progress->line_shown = false;
 }

@@ -14,8 +14,8 @@ enum progress_mode {
 
 struct progress {
     enum progress_mode mode;
-    double last_s;  /* time of the last printed line, since the job began */
-    bool line_open; /* the overwritten line is not empty */
+    double last_s;   /* time of the last printed line, since the job began */
+    bool line_shown; /* the overwritten line is not empty */
 };
 
 /* Resets the state for a new job. */
@@ -25,13 +25,13 @@ void progress_start(struct progress *progress, enum progress_mode mode);
 void progress_show(struct progress *progress, const char *scene, const struct kiln_progress *frame);
 
 /* Writes the event `frame`. `file` is the file of the frame, or NULL if it has none. */
-void progress_tell(const char *scene, const struct kiln_progress *frame,
-                   const struct kiln_written *file);
+void progress_write_event(const char *scene, const struct kiln_progress *frame,
+                          const struct kiln_written *file);
 
 /* Writes the progress of a call for an engine of Open Job Description: job number `job`, from 0, of
  * `jobs` is at this frame. */
-void progress_tell_engine(const char *scene, const struct kiln_progress *frame, size_t job,
-                          size_t jobs);
+void progress_write_openjd(const char *scene, const struct kiln_progress *frame, size_t job,
+                           size_t jobs);
 
 /* Clears the overwritten line, before anything else is printed. */
 void progress_clear(struct progress *progress);

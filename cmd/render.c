@@ -4,7 +4,7 @@
  *
  * The main function finds render_command in the table of commands and calls its `run`; the parser,
  * the help, the man page, the completion and the sandbox read its options. kiln_render does the
- * drawing, and calls back the functions under "While a job runs". It calls tell_written on any
+ * drawing, and calls back the functions under "While a job runs". It calls write_file_event on any
  * thread, so that function must only read. */
 #include <signal.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@
 #include "shard.h"
 #include "signals.h"
 #include "stats.h"
-#include "watch.h"
+#include "timer_thread.h"
 #include "watchdog.h"
 
 static const struct option options[] = {
@@ -35,7 +35,7 @@ static const struct option options[] = {
      .letter = 'o',
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
-     .reach = REACH_WRITE,
+     .access = ACCESS_WRITE,
      .help = "Where to write. The suffix chooses the format (see 'kiln help outputs'). '%04d' or "
              "'####' stands for the frame's number, '{scene}' for the scene file's name without "
              "its suffix. A folder gets a video named after the scene. '-' is standard output (see "
@@ -92,14 +92,14 @@ static const struct option options[] = {
     {.name = "manifest",
      .kind = OPTION_TEXT,
      .placeholder = "FILE",
-     .reach = REACH_WRITE,
+     .access = ACCESS_WRITE,
      .help =
          "Also write a JSON file that describes the run, even one that fails: scene, device, "
          "techniques, state of each frame, times. A folder or '{scene}' works as for --output."},
     {.name = "states",
      .kind = OPTION_TEXT,
      .placeholder = "STATES",
-     .reach = REACH_READ,
+     .access = ACCESS_READ,
      .help = "Start at the nearest state before the frames, out of a folder that 'kiln bake' made. "
              "The pictures are the same as without it."},
     {.name = "resume",
@@ -134,7 +134,7 @@ static const struct option options[] = {
              "'ndjson' is an older spelling of --json for frames alone.",
      .fallback = "tty on a terminal, else lines"},
     {.name = "stats",
-     .value_may_go = true,
+     .value_is_optional = true,
      .kind = OPTION_CHOICE,
      .placeholder = "text|json",
      .help = "Print times of each pass, particles, memory, techniques and the hash of the final "
@@ -153,10 +153,10 @@ struct render {
     struct job_list list;
     struct kiln_render_params params;
     struct value_list techniques;
-    const char **command; /* the command's words, for manifests */
+    const char **command; /* the command's arguments, for manifests */
     struct shard shard;
     bool quiet, stats;
-    bool tells_frames, tells_stats; /* whether JSON is written for frames, and for statistics */
+    bool json_frames, json_stats; /* whether JSON is written for frames, and for statistics */
     enum progress_mode progress_mode;
     double frame_timeout_s;
 
@@ -172,7 +172,7 @@ struct render {
 
 /* Starts the time limit of a frame (--frame-timeout). Each frame that was simulated but not drawn
  * since the last limit adds the same time again. */
-static void allow_frame(struct render *render, uint32_t frame)
+static void arm_frame_timeout(struct render *render, uint32_t frame)
 {
     if (!render->watchdog)
         return;
@@ -185,7 +185,7 @@ static void begin_frame(void *user, uint32_t frame)
 {
     struct render *render = user;
     if (frame != render->last_frame) /* run_job has started the first frame's time before set-up */
-        allow_frame(render, frame);
+        arm_frame_timeout(render, frame);
 }
 
 /* Stops the time limit when a frame is drawn: waiting for the output, such as a slow reader, does
@@ -198,7 +198,7 @@ static void end_frame(void *user, uint32_t frame)
         watchdog_disarm(render->watchdog);
 }
 
-/* Returns whether each frame has a file of its own. If so, tell_written writes the event of the
+/* Returns whether each frame has a file of its own. If so, write_file_event writes the event of the
  * frame, and show_frame writes none. */
 static bool has_files(const struct render *render)
 {
@@ -206,12 +206,12 @@ static bool has_files(const struct render *render)
            render->list.flipbook.columns == 0 && kiln_output_is_images(render->job->output);
 }
 
-static void tell_frame(const struct render *render, const struct kiln_progress *frame,
-                       const struct kiln_written *file)
+static void write_frame_event(const struct render *render, const struct kiln_progress *frame,
+                              const struct kiln_written *file)
 {
-    progress_tell(render->job->path, frame, file);
-    progress_tell_engine(render->job->path, frame, (size_t)(render->job - render->list.jobs),
-                         render->list.count);
+    progress_write_event(render->job->path, frame, file);
+    progress_write_openjd(render->job->path, frame, (size_t)(render->job - render->list.jobs),
+                          render->list.count);
 }
 
 static void show_frame(void *user, const struct kiln_progress *frame)
@@ -220,12 +220,12 @@ static void show_frame(void *user, const struct kiln_progress *frame)
     render->frames_done = frame->done;
     render->frames_total = frame->total;
     progress_show(&render->progress, render->job->path, frame);
-    if (render->tells_frames || (events_are_wanted() && !has_files(render)))
-        tell_frame(render, frame, NULL);
+    if (render->json_frames || (events_are_wanted() && !has_files(render)))
+        write_frame_event(render, frame, NULL);
 }
 
 /* Prints the event of a file that is whole. It may be called on any thread, one call at a time. */
-static void tell_written(void *user, const struct kiln_written *file)
+static void write_file_event(void *user, const struct kiln_written *file)
 {
     const struct render *render = user;
     if (file->kind == KILN_WRITTEN_FRAME) {
@@ -238,7 +238,7 @@ static void tell_written(void *user, const struct kiln_written *file)
                                       .state = file->state};
         frame.eta_s = elapsed_s / file->done * (file->total - file->done);
         memcpy(frame.pass_ms, file->pass_ms, sizeof frame.pass_ms);
-        tell_frame(render, &frame, file);
+        write_frame_event(render, &frame, file);
         return;
     }
     struct kiln_json json = event_begin(file->kind == KILN_WRITTEN_PART ? "part" : "file");
@@ -259,17 +259,17 @@ static int open_json(struct render *render, const struct arguments *arguments)
     const bool frames = arguments_choice(arguments, "progress", PROGRESS_NONE) == PROGRESS_NDJSON;
     const bool result = arguments_choice(arguments, "stats", 0) == 1;
     if (frames)
-        report_older("render", "--progress ndjson", "--json");
+        report_deprecated("render", "--progress ndjson", "--json");
     if (result)
-        report_older("render", "--stats=json", "--json");
+        report_deprecated("render", "--stats=json", "--json");
     const int code = events_open_json("render", arguments);
     if (code == 0 && (frames || result))
         events_open_plain();
     const bool plain = events_are_open() && !events_are_wanted();
     const bool json = arguments_flag(arguments, "json");
-    render->tells_frames = plain && (json || (frames && !arguments_flag(arguments, "quiet")));
+    render->json_frames = plain && (json || (frames && !arguments_flag(arguments, "quiet")));
     render->stats = arguments_flag(arguments, "stats");
-    render->tells_stats = json || render->stats;
+    render->json_stats = json || render->stats;
     return code;
 }
 
@@ -295,22 +295,22 @@ static bool read_options(struct render *render, const struct arguments *argument
     render->quiet = arguments_flag(arguments, "quiet");
     render->progress_mode = render->quiet ? PROGRESS_NONE : mode;
     if (events_are_wanted())
-        params->written = tell_written;
-    render->quiet = render->quiet || events_take_stdout();
-    params->state_hash = render->tells_stats || render->tells_frames || events_are_wanted();
+        params->written = write_file_event;
+    render->quiet = render->quiet || events_use_stdout();
+    params->state_hash = render->json_stats || render->json_frames || events_are_wanted();
     params->next = begin_frame;
     params->drawn = end_frame;
     params->progress = show_frame;
     params->stop = signals_wants_stop;
     params->user = render;
     params->log = report_log();
-    render->command = calloc(arguments->word_count + 2, sizeof *render->command);
+    render->command = calloc(arguments->argc + 2, sizeof *render->command);
     if (!render->command || !value_list_create(&render->techniques, arguments, "technique"))
         return false;
     render->command[params->command_count++] = "kiln";
     render->command[params->command_count++] = "render";
-    for (size_t i = 0; i < arguments->word_count; i++)
-        render->command[params->command_count++] = arguments->words[i];
+    for (size_t i = 0; i < arguments->argc; i++)
+        render->command[params->command_count++] = arguments->argv[i];
     params->command = render->command;
     params->build = build_name();
     params->techniques = render->techniques.items;
@@ -376,8 +376,8 @@ static void print_job(const struct render *render, const struct kiln_render_stat
                                       .info = &render->job->info,
                                       .stats = stats};
     if (events_are_open())
-        print_result_json(&result, render->tells_stats);
-    if (!events_take_stdout()) {
+        print_result_json(&result, render->json_stats);
+    if (!events_use_stdout()) {
         if (!render->quiet || render->stats)
             print_result(&result);
         if (render->stats)
@@ -410,7 +410,7 @@ static int run_job(struct render *render, struct kiln_device *device, const stru
     render->began_s = now_s();
     render->last_frame = -1;
     if (!render->params.resume && render->shard.count == 0)
-        allow_frame(render, job->frames.ranges[0].first);
+        arm_frame_timeout(render, job->frames.ranges[0].first);
 
     struct kiln_error error = {0};
     struct kiln_render_stats stats = kiln_render_stats_empty();
@@ -519,6 +519,6 @@ const struct command render_command = {
     .option_count = sizeof options / sizeof *options,
     .least_operands = 0, /* with --batch */
     .most_operands = SIZE_MAX,
-    .reach = REACH_READ,
+    .access = ACCESS_READ,
     .run = run,
 };

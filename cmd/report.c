@@ -68,12 +68,12 @@ static void write_log(void *user, enum kiln_log_level level, const char *line)
     event_warning(line);
 }
 
-void report_older(const char *command, const char *old, const char *now)
+void report_deprecated(const char *command, const char *old, const char *replacement)
 {
     char line[KILN_MESSAGE_SIZE];
     snprintf(line, sizeof line,
              "%s: %s is an older spelling of %s, and version 0.3 will not know it", command, old,
-             now);
+             replacement);
     write_log(NULL, KILN_LOG_WARNING, line);
 }
 

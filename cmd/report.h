@@ -18,8 +18,9 @@ int report_scene_error(const struct kiln_error *error);
 
 int report_no_memory(void);
 
-/* Warns that `old` is an older spelling of `now`, which the next version will not accept. */
-void report_older(const char *command, const char *old, const char *now);
+/* Warns that `old` is an older spelling of `replacement`, which the next version will not accept.
+ */
+void report_deprecated(const char *command, const char *old, const char *replacement);
 
 /* Prints the name of a file on standard output, with control characters escaped. */
 void print_name(const char *name);

@@ -1,6 +1,6 @@
-/* Confines the process of a command to the files that its arguments name. The `reach` of an
+/* Confines the process of a command to the files that its arguments name. The `access` of an
  * option's row and of a command says whether the command reads or writes the file that stands
- * there; so an option that names a file needs its `reach`, or the sandbox refuses the file.
+ * there; so an option that names a file needs its `access`, or the sandbox refuses the file.
  *
  * The main function calls sandbox_enter before it runs a command that has --sandbox. That must come
  * before the first thread starts and before any file of the arguments is read, and after the file
@@ -16,7 +16,7 @@
 
 enum mode { MODE_ON, MODE_REQUIRE, MODE_OFF };
 
-struct reached {
+struct allowed_paths {
     const char **readable, **writable;
     size_t readable_count, writable_count;
     char **folders; /* the names in `readable` that must be freed: folders of files */
@@ -29,12 +29,12 @@ struct reached {
  * folder, so normally the whole folder becomes readable. With `alone` only the file does, because
  * --asset-root names the folder of the pictures. Then a file that is a symbolic link is left out:
  * whoever made the link could lead it to any file. */
-static bool add_file(struct reached *reached, const char *path, bool alone)
+static bool add_file(struct allowed_paths *allowed, const char *path, bool alone)
 {
     struct stat status;
     if (alone) {
         if (lstat(path, &status) != 0 || !S_ISLNK(status.st_mode))
-            reached->readable[reached->readable_count++] = path;
+            allowed->readable[allowed->readable_count++] = path;
         return true;
     }
     char *folder = malloc(strlen(path) + 2);
@@ -44,8 +44,8 @@ static bool add_file(struct reached *reached, const char *path, bool alone)
     folder[strcspn(folder, "{#%")] = '\0'; /* the folder of numbered frames */
     char *slash = strrchr(folder, '/');
     strcpy(slash ? slash : folder, slash ? "/" : ".");
-    reached->folders[reached->folder_count++] = folder;
-    reached->readable[reached->readable_count++] = folder;
+    allowed->folders[allowed->folder_count++] = folder;
+    allowed->readable[allowed->readable_count++] = folder;
     return true;
 }
 
@@ -57,43 +57,43 @@ static bool is_no_file(const char *path)
 }
 
 /* Collects the files of all arguments. Returns false when memory is short. */
-static bool collect(struct reached *reached, const struct command *command,
+static bool collect(struct allowed_paths *allowed, const struct command *command,
                     const struct arguments *arguments)
 {
     const size_t count = arguments->use_count + arguments->operand_count + 1;
     const bool rooted = arguments_last(arguments, "asset-root") != NULL;
-    reached->readable = calloc(2 * count, sizeof *reached->readable);
-    reached->writable = calloc(count, sizeof *reached->writable);
-    reached->folders = calloc(count, sizeof *reached->folders);
-    if (!reached->readable || !reached->writable || !reached->folders)
+    allowed->readable = calloc(2 * count, sizeof *allowed->readable);
+    allowed->writable = calloc(count, sizeof *allowed->writable);
+    allowed->folders = calloc(count, sizeof *allowed->folders);
+    if (!allowed->readable || !allowed->writable || !allowed->folders)
         return false;
     for (size_t i = 0; i < arguments->use_count; i++) {
         const struct option_use *use = &arguments->uses[i];
         if (!use->text)
             continue;
-        if (use->option->reach == REACH_READ)
-            reached->readable[reached->readable_count++] = use->text;
-        else if (use->option->reach == REACH_WRITE && !is_no_file(use->text))
-            reached->writable[reached->writable_count++] = use->text;
+        if (use->option->access == ACCESS_READ)
+            allowed->readable[allowed->readable_count++] = use->text;
+        else if (use->option->access == ACCESS_WRITE && !is_no_file(use->text))
+            allowed->writable[allowed->writable_count++] = use->text;
     }
     for (size_t i = 0; i < arguments->operand_count; i++) {
         const char *path = arguments->operands[i];
         const bool stream = scene_in_is_stream(path);
-        if (command->reach == REACH_WRITE)
-            reached->writable[reached->writable_count++] = path;
-        else if (!(stream && rooted) && !add_file(reached, stream ? "-" : path, rooted))
+        if (command->access == ACCESS_WRITE)
+            allowed->writable[allowed->writable_count++] = path;
+        else if (!(stream && rooted) && !add_file(allowed, stream ? "-" : path, rooted))
             return false;
     }
     return true;
 }
 
-static void free_reached(struct reached *reached)
+static void free_allowed_paths(struct allowed_paths *allowed)
 {
-    for (size_t i = 0; i < reached->folder_count; i++)
-        free(reached->folders[i]);
-    free(reached->folders);
-    free(reached->readable);
-    free(reached->writable);
+    for (size_t i = 0; i < allowed->folder_count; i++)
+        free(allowed->folders[i]);
+    free(allowed->folders);
+    free(allowed->readable);
+    free(allowed->writable);
 }
 
 /* ---- entering -------------------------------------------------------------------------------- */
@@ -101,13 +101,13 @@ static void free_reached(struct reached *reached)
 /* Reads the mode that KILN_SANDBOX sets; --sandbox may replace it. */
 static bool read_environment(enum mode *mode)
 {
-    static const char *const words[] = {"on", "require", "off"};
+    static const char *const modes[] = {"on", "require", "off"};
     const char *text = getenv("KILN_SANDBOX");
     *mode = MODE_OFF;
     if (!text || !*text)
         return true;
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        if (strcmp(text, words[i]) == 0) {
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        if (strcmp(text, modes[i]) == 0) {
             *mode = (enum mode)i;
             return true;
         }
@@ -118,21 +118,21 @@ static bool read_environment(enum mode *mode)
 
 static int confine(const struct command *command, const struct arguments *arguments, enum mode mode)
 {
-    struct reached reached = {NULL, NULL, 0, 0, NULL, 0};
+    struct allowed_paths allowed = {NULL, NULL, 0, 0, NULL, 0};
     struct kiln_error error = {0};
     int code = 0;
-    if (!collect(&reached, command, arguments)) {
+    if (!collect(&allowed, command, arguments)) {
         code = report_no_memory();
     } else {
         const struct kiln_sandbox_params params = {.size = sizeof params,
-                                                   .readable = reached.readable,
-                                                   .readable_count = reached.readable_count,
-                                                   .writable = reached.writable,
-                                                   .writable_count = reached.writable_count,
+                                                   .readable = allowed.readable,
+                                                   .readable_count = allowed.readable_count,
+                                                   .writable = allowed.writable,
+                                                   .writable_count = allowed.writable_count,
                                                    .required = mode == MODE_REQUIRE};
         code = kiln_sandbox_enter(&params, &error) ? 0 : report_error(&error);
     }
-    free_reached(&reached);
+    free_allowed_paths(&allowed);
     return code;
 }
 

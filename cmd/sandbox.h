@@ -7,7 +7,7 @@
 
 #define SANDBOX_OPTION                                                                             \
     {                                                                                              \
-        .name = "sandbox", .value_may_go = true, .kind = OPTION_CHOICE,                            \
+        .name = "sandbox", .value_is_optional = true, .kind = OPTION_CHOICE,                       \
         .placeholder = "on|require|off",                                                           \
         .help = "Give up all rights that the job does not need, on the device 'cpu': other "       \
                 "files, sockets, other programs. With 'require', the command ends with exit code " \

@@ -52,7 +52,7 @@ static const char *name_of(const char *path)
 
 /* Returns whether to repeat a read that failed. Yes after a signal that does not stop the program,
  * and yes for a descriptor in non-blocking mode, once it has something to read. */
-static bool may_try_again(int file, const struct kiln_scene_params *params)
+static bool should_retry_read(int file, const struct kiln_scene_params *params)
 {
     if (errno == EAGAIN && poll(&(struct pollfd){.fd = file, .events = POLLIN}, 1, -1) > 0)
         return true;
@@ -67,7 +67,7 @@ static bool read_all(int file, char *text, size_t *size, const struct kiln_scene
         const ssize_t got = read(file, text + *size, KILN_MAX_SCENE_SIZE + 1 - *size);
         if (got == 0)
             return true;
-        if (got < 0 && !may_try_again(file, params))
+        if (got < 0 && !should_retry_read(file, params))
             return false;
         *size += got > 0 ? (size_t)got : 0;
     }

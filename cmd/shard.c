@@ -38,7 +38,7 @@ static int read_variable(const char *name, uint64_t *value, bool *is_there)
 
 /* Returns whether this is a task of the scheduler. Grid Engine sets "undefined" outside of an
  * array. */
-static bool is_used(const struct scheduler *scheduler)
+static bool is_scheduler_active(const struct scheduler *scheduler)
 {
     const char *id = getenv(scheduler->id);
     return id && *id && strcmp(id, "undefined") != 0;
@@ -46,7 +46,7 @@ static bool is_used(const struct scheduler *scheduler)
 
 /* Reads the number of the task, from 0, and the number of tasks, which is 0 if the scheduler does
  * not give it. Returns 0, or the exit code after reporting. */
-static int ask(const struct scheduler *scheduler, uint64_t *index, uint64_t *count)
+static int read_task_number(const struct scheduler *scheduler, uint64_t *index, uint64_t *count)
 {
     uint64_t id = 0, first = 0, step = 1, last = 0;
     bool has_id, has_first, has_step, has_last, has_count;
@@ -74,14 +74,14 @@ static int ask(const struct scheduler *scheduler, uint64_t *index, uint64_t *cou
 static int read_environment(struct shard *shard, uint64_t total)
 {
     size_t i = 0;
-    while (i < SCHEDULER_COUNT && !is_used(&schedulers[i]))
+    while (i < SCHEDULER_COUNT && !is_scheduler_active(&schedulers[i]))
         i++;
     if (i == SCHEDULER_COUNT)
         return report(KILN_USAGE, "render: --shard: auto: no scheduler says which task this is; "
                                   "looked for SLURM_ARRAY_TASK_ID, SGE_TASK_ID, "
                                   "JOB_COMPLETION_INDEX and AWS_BATCH_JOB_ARRAY_INDEX");
     uint64_t index = 0, count = 0;
-    const int code = ask(&schedulers[i], &index, &count);
+    const int code = read_task_number(&schedulers[i], &index, &count);
     if (code)
         return code;
     if (total > 0 && count > 0 && count != total)

@@ -12,15 +12,15 @@
 #include <unistd.h>
 
 #include "event.h"
-#include "last_words.h"
+#include "exit_message.h"
 #include "report.h"
 
 static volatile sig_atomic_t received;
-static volatile sig_atomic_t is_patient; /* the program ends PATIENCE_US after the first signal */
+static volatile sig_atomic_t has_grace; /* the program ends GRACE_US after the first signal */
 
 /* Microseconds that a job has to stop after the first signal, since an encoder of a library cannot
  * be stopped in the middle of a large frame. So the program ends within a second. */
-static const long PATIENCE_US = 500000;
+static const long GRACE_US = 500000;
 
 static const char *name_of(int number)
 {
@@ -42,7 +42,7 @@ static void end_program(int number)
     char line[128];
     describe_end(line, number);
     kiln_abandon_outputs();
-    events_last_words(line + strlen("kiln: "), 128 + number);
+    events_write_final(line + strlen("kiln: "), 128 + number);
     _exit(128 + number);
 }
 
@@ -51,14 +51,14 @@ static void on_signal(int number)
     if (received)
         end_program(number);
     received = number;
-    if (is_patient) { /* setitimer is a plain system call, so a handler may call it */
+    if (has_grace) { /* setitimer is a plain system call, so a handler may call it */
         const int before = errno;
-        setitimer(ITIMER_REAL, &(struct itimerval){.it_value.tv_usec = PATIENCE_US}, NULL);
+        setitimer(ITIMER_REAL, &(struct itimerval){.it_value.tv_usec = GRACE_US}, NULL);
         errno = before;
     }
 }
 
-static void on_patience_over(int number)
+static void on_grace_over(int number)
 {
     if (!received) { /* SIGALRM from elsewhere ends the program as usual */
         kiln_abandon_outputs();
@@ -68,7 +68,7 @@ static void on_patience_over(int number)
     }
     char line[128];
     describe_end(line, received);
-    end_with_words(line, 128 + received);
+    exit_with_message(line, 128 + received);
 }
 
 /* Unblocks the signal, which may have been blocked when the program was started. */
@@ -104,12 +104,12 @@ void signals_install(void)
 
 void signals_install_for_job(void)
 {
-    install_one(SIGALRM, on_patience_over);
-    is_patient = true;
+    install_one(SIGALRM, on_grace_over);
+    has_grace = true;
     install(on_signal);
 }
 
-void signals_end_at_once(void)
+void signals_install_immediate(void)
 {
     install(end_program);
 }

@@ -14,7 +14,7 @@ void signals_install_for_job(void);
 
 /* Makes the first signal end the program at once: half-written files are removed, and no file is
  * finished. */
-void signals_end_at_once(void);
+void signals_install_immediate(void);
 
 /* Returns the number of the signal that asked to stop, or 0. */
 int signals_received(void);

@@ -21,7 +21,7 @@
 #include "test_outputs.h"
 #include "test_pool.h"
 #include "test_select.h"
-#include "watch.h"
+#include "timer_thread.h"
 
 static const struct option options[] = {
     FILTER_OPTION,
@@ -48,7 +48,7 @@ static const struct option options[] = {
      .fallback = "'cpu', or else the first GPU or the software device if a technique needs it"},
     {.name = "technique",
      .repeats = true,
-     .commas = true,
+     .splits_at_commas = true,
      .kind = OPTION_PAIRS,
      .placeholder = "STAGE=NAME",
      .help = "How to run a stage, instead of the techniques that tests name; separate several by "
@@ -248,7 +248,7 @@ static enum kiln_code write_results(const struct test_run *run, struct test_outp
 static int finish(struct test_run *run, struct test_outputs *outputs, double total_s)
 {
     struct kiln_results_summary summary = {0};
-    signals_end_at_once(); /* no loop checks for signals any more */
+    signals_install_immediate(); /* no loop checks for signals any more */
     int code = (int)write_results(run, outputs, run->lines.results, total_s, &summary);
     bool nothing = summary.tests > 0 && summary.counts[KILN_TEST_SKIP] == summary.tests;
     if (!run->lines.quiet || code) {

@@ -123,7 +123,7 @@ static int run(const struct arguments *arguments)
         return report(KILN_USAGE,
                       all ? "test approve: --all takes no names"
                           : "test approve: names of tests are missing; give them, or --all");
-    signals_end_at_once(); /* no loop checks for signals, and no file is left half-written */
+    signals_install_immediate(); /* no loop checks for signals, and no file is left half-written */
     int code = all ? approve_matching(&approval, NULL) : 0;
     for (size_t i = 0; i < arguments->operand_count; i++) {
         const char *operand = arguments->operands[i];

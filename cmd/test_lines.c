@@ -34,7 +34,7 @@ static bool wants_colour(FILE *out)
 }
 
 /* Counts the bytes of UTF-8 that continue a character, since they take no column. */
-static int bytes_beside(const char *name)
+static int count_continuation_bytes(const char *name)
 {
     int count = 0;
     for (; *name; name++)
@@ -49,13 +49,13 @@ void test_lines_start(struct test_lines *lines, const struct kiln_suite *suite, 
     lines->colour = wants_colour(out);
     for (size_t i = 0; i < kiln_suite_count(suite); i++) {
         const char *name = kiln_suite_test(suite, i).name;
-        int width = (int)strlen(name) - bytes_beside(name);
+        int width = (int)strlen(name) - count_continuation_bytes(name);
         if (width > lines->name_width)
             lines->name_width = width < MAX_NAME_WIDTH ? width : MAX_NAME_WIDTH;
     }
 }
 
-static bool is_red(enum kiln_test_status status)
+static bool is_failure(enum kiln_test_status status)
 {
     return status == KILN_TEST_NEW || status == KILN_TEST_FAIL || status == KILN_TEST_ERROR;
 }
@@ -87,12 +87,13 @@ static void print_log_place(const struct test_lines *lines, const char *results)
 void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, size_t index,
                      const struct kiln_test_summary *summary)
 {
-    bool red = is_red(summary->status), silent = lines->quiet && !red;
+    bool failed = is_failure(summary->status), silent = lines->quiet && !failed;
     if (!silent) {
         const char *name = kiln_suite_test(suite, index).name;
         fprintf(lines->out, "%s%-*s%s  %-*s ", lines->colour ? colour_of(summary->status) : "",
                 STATUS_WIDTH, kiln_test_status_name(summary->status),
-                lines->colour ? "\033[0m" : "", lines->name_width + bytes_beside(name), name);
+                lines->colour ? "\033[0m" : "", lines->name_width + count_continuation_bytes(name),
+                name);
         if (summary->frames > 0)
             fprintf(lines->out, " %u frame%s in %.3f s", summary->frames,
                     summary->frames == 1 ? "" : "s", summary->total_s);
@@ -104,8 +105,8 @@ void test_lines_test(struct test_lines *lines, const struct kiln_suite *suite, s
     if (summary->status == KILN_TEST_ERROR)
         print_log_place(lines, kiln_suite_test(suite, index).results);
     if (summary->status >= KILN_TEST_CHANGE && summary->status <= KILN_TEST_FAIL) {
-        lines->accept = kiln_suite_test(suite, index).name;
-        lines->accept_count++;
+        lines->approvable = kiln_suite_test(suite, index).name;
+        lines->approvable_count++;
     }
     fflush(lines->out);
 }
@@ -129,13 +130,13 @@ void test_lines_counts(FILE *out, const struct kiln_results_summary *summary)
 static void print_approval(const struct test_lines *lines)
 {
     FILE *out = lines->out;
-    if (lines->accept_count == 0)
+    if (lines->approvable_count == 0)
         return;
     fprintf(out, "where the pictures are right, accept them: kiln test approve ");
-    if (lines->accept_count > 1)
+    if (lines->approvable_count > 1)
         fprintf(out, "--all");
     else
-        kiln_write_shell_word(out, lines->accept);
+        kiln_write_shell_word(out, lines->approvable);
     if (strcmp(lines->results, DEFAULT_RESULTS) != 0) {
         fprintf(out, " --results ");
         kiln_write_shell_word(out, lines->results);

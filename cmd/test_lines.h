@@ -12,8 +12,8 @@ struct test_lines {
     int name_width;             /* width of the column of names, in characters */
     const char *results;        /* the folder of results, as given */
     uint32_t written, to_write; /* pictures that updates wrote, or would write */
-    const char *accept;         /* the last test whose pictures might be accepted */
-    uint32_t accept_count;      /* number of such tests */
+    const char *approvable;     /* the last test whose pictures might be accepted */
+    uint32_t approvable_count;  /* number of such tests */
 };
 
 /* Prepares to print the lines of a suite's run; the suite must outlive them. */

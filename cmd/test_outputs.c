@@ -7,8 +7,8 @@
  * reported before any time is spent. test_outputs_write checks again, because only then the files
  * of the results are known; the check must stay before the first report is written.
  *
- * A new format needs an option in test_outputs.h, a row in `all` below, one more in MAX_OUTPUTS,
- * and a row in lib/report/report.c under the same name. */
+ * A new format needs an option in test_outputs.h, a row in `outputs_by_option` below, one more in
+ * MAX_OUTPUTS, and a row in lib/report/report.c under the same name. */
 #include "test_outputs.h"
 
 #include <string.h>
@@ -26,22 +26,23 @@ int test_outputs_read(struct test_outputs *outputs, const struct arguments *argu
         outputs->page = arguments_text(arguments, "report", page);
     const bool force = arguments_flag(arguments, "force");
     const struct option_use *json = arguments_last(arguments, "json");
-    const struct kiln_results_output all[MAX_OUTPUTS] = {
+    const struct kiln_results_output outputs_by_option[MAX_OUTPUTS] = {
         {"json", json && !json->text ? "-" : arguments_text(arguments, "json", NULL), false, force},
         {"junit", arguments_text(arguments, "junit", NULL), false, force},
         {"tap", arguments_text(arguments, "tap", NULL), false, force},
         {"html", outputs->page, arguments_flag(arguments, "link"), force},
         {"github", arguments_flag(arguments, "github") ? "-" : NULL, false, force},
     };
-    size_t on_standard_output = events_take_stdout();
+    size_t on_standard_output = events_use_stdout();
     for (size_t i = 0; i < MAX_OUTPUTS; i++) {
-        if (!all[i].path)
+        if (!outputs_by_option[i].path)
             continue;
-        outputs->files[outputs->count++] = all[i];
-        bool takes_it = strcmp(all[i].path, "-") == 0;
-        on_standard_output += takes_it;
+        outputs->files[outputs->count++] = outputs_by_option[i];
+        bool to_standard_output = strcmp(outputs_by_option[i].path, "-") == 0;
+        on_standard_output += to_standard_output;
         /* GitHub finds its annotations among other lines, so they leave standard output free. */
-        outputs->standard_output |= takes_it && strcmp(all[i].format, "github") != 0;
+        outputs->standard_output |=
+            to_standard_output && strcmp(outputs_by_option[i].format, "github") != 0;
     }
     if (on_standard_output > 1)
         return report(KILN_USAGE,
@@ -79,7 +80,7 @@ static int claim_results(const struct test_outputs *outputs, const struct kiln_r
 
 /* Writes the events of --events: one event for each test and one for the result. They hold what
  * the document of --json holds. */
-static void tell_results(const struct kiln_results *results)
+static void write_result_events(const struct kiln_results *results)
 {
     if (!events_are_wanted())
         return;
@@ -101,7 +102,7 @@ enum kiln_code test_outputs_write(struct test_outputs *outputs, const struct kil
                                   const char *const *folders, size_t folder_count,
                                   enum kiln_code code)
 {
-    tell_results(results);
+    write_result_events(results);
     int refused = claim_results(outputs, results, folders, folder_count);
     if (refused) {
         outputs->page = NULL;

@@ -24,8 +24,8 @@
          .placeholder = "FILE",                                                                    \
          .help = "Also write JUnit XML. For this and the next options, '-' is standard output."},  \
         {.name = "json",                                                                           \
-         .value_may_go = true,                                                                     \
-         .value_may_follow = true,                                                                 \
+         .value_is_optional = true,                                                                \
+         .value_may_be_separate = true,                                                            \
          .kind = OPTION_TEXT,                                                                      \
          .placeholder = "FILE",                                                                    \
          .files = "*.json",                                                                        \

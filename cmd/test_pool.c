@@ -20,10 +20,10 @@ struct child {
     size_t index;
 };
 
-_Noreturn static void be_child(const struct child *child)
+_Noreturn static void run_child(const struct child *child)
 {
     setpgid(0, 0);
-    signals_end_at_once();
+    signals_install_immediate();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != child->parent) /* the parent has died already */
         _exit(128 + SIGTERM);
@@ -50,7 +50,7 @@ static pid_t start_child(const struct child *child)
     sigprocmask(SIG_BLOCK, &stops, &before);
     pid_t id = fork();
     if (id == 0)
-        be_child(child);
+        run_child(child);
     int failure = errno;
     if (id > 0)
         setpgid(id, id); /* also here: a signal to the group may come before the child calls it */

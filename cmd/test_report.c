@@ -49,7 +49,7 @@ static int run(const struct arguments *arguments)
         return report_no_memory();
     struct test_outputs outputs;
     int code = test_outputs_read(&outputs, arguments, "test report", page);
-    signals_end_at_once();
+    signals_install_immediate();
     if (code == 0)
         code = write_reports(arguments, &outputs);
     free(page);

@@ -1,35 +1,36 @@
-/* Ends the program when a deadline has passed, from a thread that looks at the clock (watch.c).
+/* Ends the program when a deadline has passed, from a thread that looks at the clock
+ * (timer_thread.c).
  *
  * Only cmd/render.c uses it, for --frame-timeout. It sets a deadline when it starts to load the
  * scenes, when it starts to open the device and when a frame begins, and removes the deadline when
  * that work is done: waiting for a slow reader of the output is no fault of a frame.
  *
  * The program is ended, not the frame, because a thread that hangs in a driver cannot be
- * interrupted. It may hold locks of stdio or of a library, so `look` may call nothing that takes
- * one. */
+ * interrupted. It may hold locks of stdio or of a library, so `check_deadline` may call nothing
+ * that takes one. */
 #include "watchdog.h"
 
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdlib.h>
 
-#include "last_words.h"
+#include "exit_message.h"
 #include "scene_in.h"
-#include "watch.h"
+#include "timer_thread.h"
 
 struct watchdog {
-    struct watch *watch;
+    struct timer_thread *timer;
     pthread_mutex_t mutex; /* guards the members below */
     bool armed;
     double deadline_s, limit_s;
     char what[512];
 };
 
-enum { LOOK_MS = 20 };
+enum { CHECK_INTERVAL_MS = 20 };
 
-/* Runs in the watching thread, every LOOK_MS. While a scene is loaded, the message names that scene
- * instead of `what`, which then stands for all scenes. */
-static void look(void *user)
+/* Runs in the timer thread, every CHECK_INTERVAL_MS. While a scene is loaded, the message names
+ * that scene instead of `what`, which then stands for all scenes. */
+static void check_deadline(void *user)
 {
     struct watchdog *watchdog = user;
     pthread_mutex_lock(&watchdog->mutex);
@@ -38,7 +39,7 @@ static void look(void *user)
         snprintf(line, sizeof line,
                  "kiln: %s took longer than its limit of %g s (--frame-timeout)\n",
                  scene_in_describe(scene) ? scene : watchdog->what, watchdog->limit_s);
-        end_with_words(line, KILN_DEVICE_FAILED);
+        exit_with_message(line, KILN_DEVICE_FAILED);
     }
     pthread_mutex_unlock(&watchdog->mutex);
 }
@@ -49,8 +50,8 @@ struct watchdog *watchdog_create(void)
     if (!watchdog)
         return NULL;
     pthread_mutex_init(&watchdog->mutex, NULL);
-    watchdog->watch = watch_create(look, watchdog, LOOK_MS);
-    if (!watchdog->watch)
+    watchdog->timer = timer_thread_create(check_deadline, watchdog, CHECK_INTERVAL_MS);
+    if (!watchdog->timer)
         watchdog_destroy(&watchdog);
     return watchdog;
 }
@@ -60,7 +61,7 @@ void watchdog_destroy(struct watchdog **watchdog)
     struct watchdog *w = *watchdog;
     if (!w)
         return;
-    watch_destroy(&w->watch);
+    timer_thread_destroy(&w->timer);
     pthread_mutex_destroy(&w->mutex);
     free(w);
     *watchdog = NULL;

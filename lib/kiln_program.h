@@ -31,11 +31,11 @@ void kiln_claims_visit_read(const struct kiln_claims *claims,
 bool kiln_render_claim(const struct kiln_scene *scene, const struct kiln_render_params *params,
                        struct kiln_claims *claims, struct kiln_error *error);
 
-/* Does what kiln_compare does, for a program that also writes `file` (NULL: no file) for `option`.
- * KILN_USAGE when the comparison reads or writes that file. */
-bool kiln_compare_beside(const struct kiln_compare_params *params, const char *file,
-                         const char *option, struct kiln_compare_result *result,
-                         struct kiln_error *error);
+/* Does what kiln_compare does, in a call that also writes `file` (NULL: it does not) for an option:
+ * KILN_USAGE where that file is compared or written as well. */
+bool kiln_compare_with_output(const struct kiln_compare_params *params, const char *file,
+                              const char *option, struct kiln_compare_result *result,
+                              struct kiln_error *error);
 
 /* The suffix of files of saved states. Commands write no other files with this suffix. */
 #define KILN_STATE_SUFFIX ".kilnstate"
@@ -52,14 +52,13 @@ bool kiln_scene_write_schema(FILE *out);
 /* A key of a file, in words for people. */
 struct kiln_option_key {
     const char *path;     /* "systems.NAME.emit.rate"; N stands for an entry of a list */
-    const char *help;     /* its purpose */
-    const char *variant;  /* the value of the key `field` that chooses it, or NULL */
-    const char *shortcut; /* the inner key that a bare value stands for, or NULL */
-    const char *allowed;  /* allowed values; NULL when it only holds other keys */
-    const char *varies;   /* "over time" when its value may vary so, or NULL */
-    const char *fallback; /* the default; NULL where `allowed` is set: the key is required */
-    const char *words;    /* words that its value may be, "true|false"; others may be allowed, too;
-                             or NULL */
+    const char *help;     /* what it is for */
+    const char *variant;  /* the word of `field` that it belongs to, or NULL */
+    const char *shortcut; /* the key inside that a bare value means, or NULL */
+    const char *allowed;  /* of its value; NULL when it only holds other keys */
+    const char *varies;   /* "over time", or NULL */
+    const char *fallback; /* the default; NULL with `allowed`: must be given */
+    const char *choices;  /* that its value may be, "true|false", perhaps beside others; or NULL */
     bool holds_keys;
 };
 

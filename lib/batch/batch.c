@@ -34,7 +34,7 @@ struct kiln_batch {
     const char *name; /* name of the file, for messages */
     enum kiln_batch_format format;
     struct kiln_batch_job *jobs;
-    size_t count, room;
+    size_t count, capacity;
 };
 
 /* ---- the table ------------------------------------------------------------------------------- */
@@ -43,27 +43,27 @@ struct kiln_batch {
 
 /* Reads a text with its line and column: the program checks the text later, and reports errors
  * there by kiln_batch_refuse. */
-static bool read_placed(struct kiln_reader *reader, const struct kiln_option *option,
-                        const struct kiln_node *node, void *field)
+static bool read_located(struct kiln_reader *reader, const struct kiln_option *option,
+                         const struct kiln_node *node, void *field)
 {
-    struct kiln_batch_text *placed = field;
-    placed->line = node->line + reader->origin->lines_before;
-    placed->column = node->column;
-    return kiln_type_text.read(reader, option, node, &placed->text);
+    struct kiln_batch_text *located = field;
+    located->line = node->line + reader->origin->lines_before;
+    located->column = node->column;
+    return kiln_type_text.read(reader, option, node, &located->text);
 }
 
-static void describe_placed(const struct kiln_option *option, struct kiln_text *out)
+static void describe_located(const struct kiln_option *option, struct kiln_text *out)
 {
     kiln_type_text.describe(option, out);
 }
 
-static void schema_placed(const struct kiln_option *option, struct kiln_text *out)
+static void schema_located(const struct kiln_option *option, struct kiln_text *out)
 {
     kiln_type_text.schema(option, out);
 }
 
-static const struct kiln_option_type kiln_type_placed = {
-    .read = read_placed, .describe = describe_placed, .schema = schema_placed};
+static const struct kiln_option_type kiln_type_located = {
+    .read = read_located, .describe = describe_located, .schema = schema_located};
 
 /* Makes the row of a text: type, name, field, smallest length, default, help. */
 #define TEXT(type, n, f, least, def, h)                                                            \
@@ -78,15 +78,15 @@ static const struct kiln_option job_rows[] = {
     TEXT(text, "name", name, 0, "\"\"",
          "Name of the job in the results. Without a name, results have its number."),
     TEXT(text, "scene", scene, 1, NULL, "The scene's path, from the folder of the file of jobs."),
-    TEXT(placed, "output", output, 1, NULL,
+    TEXT(located, "output", output, 1, NULL,
          "Where to write, like --output, from the folder of the file of jobs. 'none' writes "
          "nothing."),
     {ROW(NO_PART, "set", list, AT(set), "[]", "Changes of keys of the scene."),
      .item = &override_item, .kind_offset = KILN_KIND_NONE, .item_size = sizeof(const char *),
      .count_offset = AT(set_count), .max_count = MAX_OVERRIDES},
-    TEXT(placed, "frames", frames, 0, "\"\"",
+    TEXT(located, "frames", frames, 0, "\"\"",
          "Frames to draw, like --frames. Without it, all frames are drawn."),
-    TEXT(placed, "limits", limits, 0, "\"\"", "Limits of the job, like --limits."),
+    TEXT(located, "limits", limits, 0, "\"\"", "Limits of the job, like --limits."),
     {ROW(NO_PART, "timeout", number, AT(timeout_s), "0 s",
          "Time limit of the job, like --timeout: seconds, or a time with a unit, ms, s, min or h. "
          "0 is no limit."),
@@ -94,7 +94,7 @@ static const struct kiln_option job_rows[] = {
     TEXT(text, "asset_root", asset_root, 0, "\"\"",
          "Folder that the scene's files must lie in. Without it, this is the scene's folder."),
     TEXT(text, "states", states, 0, "\"\"", "A folder of 'kiln bake', like --states."),
-    TEXT(placed, "manifest", manifest, 0, "\"\"",
+    TEXT(located, "manifest", manifest, 0, "\"\"",
          "A JSON file that describes the run, like --manifest."),
     END,
 };
@@ -154,27 +154,27 @@ static const char *resolve(struct kiln_batch *batch, const char *base, const cha
 
 static bool make_room(struct kiln_batch *batch)
 {
-    if (batch->count < batch->room)
+    if (batch->count < batch->capacity)
         return true;
-    const size_t room = batch->room ? 2 * batch->room : 64;
-    struct kiln_batch_job *jobs = realloc(batch->jobs, room * sizeof *jobs);
+    const size_t capacity = batch->capacity ? 2 * batch->capacity : 64;
+    struct kiln_batch_job *jobs = realloc(batch->jobs, capacity * sizeof *jobs);
     if (!jobs)
         return false;
     batch->jobs = jobs;
-    batch->room = room;
+    batch->capacity = capacity;
     return true;
 }
 
-static struct kiln_batch_text resolve_placed(struct kiln_batch *batch, const char *base,
-                                             struct kiln_batch_text placed)
+static struct kiln_batch_text resolve_located(struct kiln_batch *batch, const char *base,
+                                              struct kiln_batch_text located)
 {
-    placed.text = resolve(batch, base, placed.text);
-    return placed;
+    located.text = resolve(batch, base, located.text);
+    return located;
 }
 
-static struct kiln_batch_text given(struct kiln_batch_text placed)
+static struct kiln_batch_text text_or_null(struct kiln_batch_text located)
 {
-    return *placed.text ? placed : (struct kiln_batch_text){.text = NULL};
+    return *located.text ? located : (struct kiln_batch_text){.text = NULL};
 }
 
 /* Adds the job of an entry, which lies in the batch's arena. */
@@ -188,12 +188,12 @@ static bool add_job(struct kiln_batch *batch, const struct entry *entry, const c
         .name = *entry->name ? entry->name
                              : kiln_arena_format(batch->arena, "job %zu", batch->count + 1),
         .scene = resolve(batch, base, entry->scene),
-        .output = writes ? resolve_placed(batch, base, entry->output) : entry->output,
+        .output = writes ? resolve_located(batch, base, entry->output) : entry->output,
         .asset_root = resolve(batch, base, entry->asset_root),
         .states = resolve(batch, base, entry->states),
-        .manifest = resolve_placed(batch, base, entry->manifest),
-        .frames = given(entry->frames),
-        .limits = given(entry->limits),
+        .manifest = resolve_located(batch, base, entry->manifest),
+        .frames = text_or_null(entry->frames),
+        .limits = text_or_null(entry->limits),
         .timeout_s = entry->timeout_s,
         .overrides = entry->set,
         .override_count = entry->set_count,

@@ -37,7 +37,7 @@ bool kiln_suite_balls(const struct kiln_bench_run *run, struct kiln_error *error
         kiln_set(run, &settings, "systems.*.collide={restitution: 0.6, friction: 0.3}");
         kiln_set(run, &settings, "backdrop.floor.collide=true");
         kiln_set(run, &settings, interact);
-        kiln_set_unseen(run, &settings);
+        kiln_set_small_picture(run, &settings);
         const struct kiln_comparison comparison = {.scene = "bench/cloud.yaml",
                                                    .settings = &settings,
                                                    .lanes = &lane,

@@ -12,7 +12,7 @@ static const struct {
     const char *published; /* name of the combination in the thesis, or NULL */
     double memory;         /* published bytes a particle, from the MiB of 160,000 */
     double upload;         /* published bytes a particle to the device, from its floats */
-} WAYS[] = {
+} COMBINATIONS[] = {
     {"simulate=cpu sort=cpu backdrop=gl raster=geometry composite=gl", "CPU (2019)", 43.9, 32},
     {"simulate=feedback sort=bitonic backdrop=gl raster=geometry composite=gl",
      "transform feedback (2019)", 94.4, 0},
@@ -24,7 +24,7 @@ static const struct {
     {"simulate=inplace sort=cpu backdrop=gl raster=geometry composite=gl", NULL, 0, 0},
     {"simulate=cpu sort=cpu raster=cpu", NULL, 0, 0},
 };
-enum { WAY_COUNT = sizeof WAYS / sizeof *WAYS };
+enum { COMBINATION_COUNT = sizeof COMBINATIONS / sizeof *COMBINATIONS };
 
 static bool add_value(const struct kiln_bench_run *run, double particles, const char *measure,
                       const char *technique, double value, struct kiln_error *error)
@@ -38,7 +38,7 @@ static bool add_value(const struct kiln_bench_run *run, double particles, const 
 
 /* Adds rows for the memory of the lane's techniques: the records of particles, and the buffers of
  * sorting. */
-static bool add_memory(const struct kiln_bench_run *run, size_t way, double particles,
+static bool add_memory(const struct kiln_bench_run *run, size_t combination, double particles,
                        const struct kiln_lane *lane, struct kiln_error *error)
 {
     struct kiln_lane_flags flags;
@@ -51,24 +51,27 @@ static bool add_memory(const struct kiln_bench_run *run, size_t way, double part
     enum { SLOTS = 1 << 20 }; /* so many that padding is negligible */
     const uint64_t sorted = kiln_sort_bytes(techniques.sort, techniques.sort_spread > 0, SLOTS);
     double sorting = (double)sorted / SLOTS;
-    return add_value(run, particles, "memory, records", WAYS[way].techniques, records, error) &&
-           add_value(run, particles, "memory, sorting", WAYS[way].techniques, sorting, error);
+    return add_value(run, particles, "memory, records", COMBINATIONS[combination].techniques,
+                     records, error) &&
+           add_value(run, particles, "memory, sorting", COMBINATIONS[combination].techniques,
+                     sorting, error);
 }
 
-static bool add_published(const struct kiln_bench_run *run, size_t way, struct kiln_error *error)
+static bool add_published(const struct kiln_bench_run *run, size_t combination,
+                          struct kiln_error *error)
 {
     static const char source[] = "Heinz 2019, 4.2";
-    return !WAYS[way].published ||
-           (kiln_bench_publish(run, 160000, "memory, all", WAYS[way].published, WAYS[way].memory,
-                               source, error) &&
-            kiln_bench_publish(run, 160000, "to the device", WAYS[way].published, WAYS[way].upload,
-                               source, error));
+    return !COMBINATIONS[combination].published ||
+           (kiln_bench_publish(run, 160000, "memory, all", COMBINATIONS[combination].published,
+                               COMBINATIONS[combination].memory, source, error) &&
+            kiln_bench_publish(run, 160000, "to the device", COMBINATIONS[combination].published,
+                               COMBINATIONS[combination].upload, source, error));
 }
 
 static bool add_ways(const struct kiln_bench_run *run, const struct kiln_lane *lanes,
                      const struct kiln_samples *samples, double particles, struct kiln_error *error)
 {
-    for (size_t i = 0; i < WAY_COUNT; i++) {
+    for (size_t i = 0; i < COMBINATION_COUNT; i++) {
         const struct kiln_samples *s = &samples[i];
         if (s->problem) {
             if (!kiln_bench_add_note(run->bench, error, "Not measured: %s: %s.", lanes[i].name,
@@ -97,20 +100,21 @@ bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error
     };
     if (!kiln_bench_begin(run, &part, error))
         return false;
-    struct kiln_lane lanes[WAY_COUNT];
-    for (size_t i = 0; i < WAY_COUNT; i++)
-        lanes[i] = (struct kiln_lane){.name = WAYS[i].techniques, .techniques = WAYS[i].techniques};
+    struct kiln_lane lanes[COMBINATION_COUNT];
+    for (size_t i = 0; i < COMBINATION_COUNT; i++)
+        lanes[i] = (struct kiln_lane){.name = COMBINATIONS[i].techniques,
+                                      .techniques = COMBINATIONS[i].techniques};
     double particles = run->params->quick ? 1600 : 160000;
     struct kiln_settings settings = {.count = 0};
     kiln_set_number(run, &settings, "systems.*.emit.rate", particles / 2);
-    kiln_set_unseen(run, &settings);
+    kiln_set_small_picture(run, &settings);
     kiln_bench_say(run, "%.0f particles", particles);
     struct kiln_scene *scene = kiln_bench_load_scene(run, "bench/cloud.yaml", &settings, error);
-    struct kiln_samples *samples = calloc(WAY_COUNT, sizeof *samples);
+    struct kiln_samples *samples = calloc(COMBINATION_COUNT, sizeof *samples);
     if (scene && !samples)
         kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
     bool ok = scene && samples &&
-              kiln_contest_run(run, scene, 0, lanes, WAY_COUNT, samples, error) &&
+              kiln_contest_run(run, scene, 0, lanes, COMBINATION_COUNT, samples, error) &&
               add_ways(run, lanes, samples, particles, error);
     free(samples);
     kiln_scene_destroy(&scene);

@@ -71,7 +71,8 @@ bool kiln_lane_is_refused(const struct kiln_bench_run *run, const struct kiln_er
 
 /* ---- Before the turns ------------------------------------------------------------------------ */
 
-static bool enter(struct contest *contest, struct entrant *entrant, struct kiln_error *error)
+static bool create_entrant_job(struct contest *contest, struct entrant *entrant,
+                               struct kiln_error *error)
 {
     entrant->params =
         kiln_lane_params(contest->run, entrant->lane, &entrant->flags, &contest->range);
@@ -80,14 +81,14 @@ static bool enter(struct contest *contest, struct entrant *entrant, struct kiln_
 }
 
 /* Steps one job to the first frame, and copies its particles to the others. */
-static bool line_up(struct contest *contest, struct kiln_error *error)
+static bool reach_first_frame(struct contest *contest, struct kiln_error *error)
 {
     struct kiln_job *first = NULL;
     for (size_t i = 0; i < contest->count; i++) {
         struct kiln_job *job = contest->entrants[i].job;
         if (!job)
             continue;
-        bool ok = first ? kiln_loop_adopt(kiln_job_loop(job), kiln_job_loop(first), error)
+        bool ok = first ? kiln_loop_copy_state(kiln_job_loop(job), kiln_job_loop(first), error)
                         : kiln_loop_advance(kiln_job_loop(job), contest->range.first, error);
         if (!ok)
             return false;
@@ -160,9 +161,9 @@ bool kiln_contest_run(const struct kiln_bench_run *run, const struct kiln_scene 
         memset(&samples[i], 0, sizeof samples[i]);
         contest.entrants[i].lane = &lanes[i];
         contest.entrants[i].samples = &samples[i];
-        ok = enter(&contest, &contest.entrants[i], error);
+        ok = create_entrant_job(&contest, &contest.entrants[i], error);
     }
-    ok = ok && line_up(&contest, error) && take_turns(&contest, error);
+    ok = ok && reach_first_frame(&contest, error) && take_turns(&contest, error);
     for (size_t i = 0; i < lane_count; i++)
         kiln_job_destroy(&contest.entrants[i].job);
     free(contest.entrants);

@@ -123,7 +123,7 @@ static bool sweep_kernel(const struct kiln_bench_run *run, const struct kernel *
         kiln_set_number(run, &settings, "systems.*.look.size", kernel->pixels / PIXELS_PER_METRE);
         kiln_set_picture(run, &settings, 1280, 720);
     } else {
-        kiln_set_unseen(run, &settings);
+        kiln_set_small_picture(run, &settings);
     }
     const struct kiln_comparison comparison = {.scene = SCENE,
                                                .settings = &settings,

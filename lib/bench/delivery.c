@@ -21,9 +21,9 @@ struct delivery {
     const struct kiln_scene *scene;
     const char *name;
     char folder[KILN_PATH_SIZE];
-    struct kiln_job *donor; /* a job at the first frame, which others copy */
+    struct kiln_job *start_job; /* a job at the first frame, which others copy */
     struct kiln_lane_flags flags;
-    struct kiln_render_params donor_params;
+    struct kiln_render_params start_params;
     struct kiln_frame_range range;
     uint32_t frames[KILN_MAX_LANES]; /* frames of each lane's jobs, for about a second */
 };
@@ -78,7 +78,7 @@ static void remove_files(const struct delivery *d)
 static bool warm_up(struct delivery *d, struct kiln_job *job, double *last_s,
                     struct kiln_error *error)
 {
-    bool ok = kiln_loop_adopt(kiln_job_loop(job), kiln_job_loop(d->donor), error);
+    bool ok = kiln_loop_copy_state(kiln_job_loop(job), kiln_job_loop(d->start_job), error);
     for (uint32_t frame = 0; frame < KILN_BENCH_WARM_UP && ok; frame++) {
         double start_s = kiln_clock_seconds();
         ok = kiln_job_draw(job, frame, error);
@@ -97,8 +97,8 @@ static uint32_t choose_frames(const struct delivery *d, double frame_s)
 }
 
 /* Finds how many frames a lane's jobs are to have, from the speed of a job that writes nothing. */
-static bool look_ahead(struct delivery *d, size_t index, const struct kiln_lane *lane,
-                       struct kiln_delivery *delivery, struct kiln_error *error)
+static bool choose_frame_count(struct delivery *d, size_t index, const struct kiln_lane *lane,
+                               struct kiln_delivery *delivery, struct kiln_error *error)
 {
     struct kiln_lane_flags flags;
     const struct kiln_render_params params = kiln_lane_params(d->run, lane, &flags, &d->range);
@@ -135,16 +135,16 @@ static bool open_donor(struct delivery *d, struct kiln_error *error)
 {
     static const struct kiln_lane automatic = {.name = "auto", .techniques = ""};
     d->range = (struct kiln_frame_range){0, KILN_BENCH_WARM_UP};
-    d->donor_params = kiln_lane_params(d->run, &automatic, &d->flags, &d->range);
-    d->donor = kiln_job_create(d->run->device, d->scene, &d->donor_params, error);
-    return d->donor && kiln_loop_advance(kiln_job_loop(d->donor), 0, error);
+    d->start_params = kiln_lane_params(d->run, &automatic, &d->flags, &d->range);
+    d->start_job = kiln_job_create(d->run->device, d->scene, &d->start_params, error);
+    return d->start_job && kiln_loop_advance(kiln_job_loop(d->start_job), 0, error);
 }
 
 static bool take_turns(struct delivery *d, const struct kiln_lane *lanes, size_t lane_count,
                        struct kiln_delivery *deliveries, struct kiln_error *error)
 {
     for (size_t i = 0; i < lane_count; i++) {
-        if (!look_ahead(d, i, &lanes[i], &deliveries[i], error))
+        if (!choose_frame_count(d, i, &lanes[i], &deliveries[i], error))
             return false;
     }
     double start_s = kiln_clock_seconds();
@@ -172,7 +172,7 @@ bool kiln_delivery_run(const struct kiln_bench_run *run, const struct kiln_scene
         return kiln_error_set(error, KILN_IO, "%s: no folder for pictures can be made there",
                               run->params->scratch);
     bool ok = open_donor(&d, error) && take_turns(&d, lanes, lane_count, deliveries, error);
-    kiln_job_destroy(&d.donor);
+    kiln_job_destroy(&d.start_job);
     rmdir(d.folder);
     return ok;
 }

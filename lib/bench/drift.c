@@ -9,14 +9,17 @@
 #include "shared/random.h"
 #include "sim/step/simulate.h"
 
-enum { STOPS = 3, BETWEEN = 30 /* computations of the energy from one stop to the next */ };
+enum {
+    STOPS = 3,
+    SAMPLES_PER_STOP = 30 /* computations of the energy from one stop to the next */
+};
 
-struct flight {
+struct energy_run {
     const char *name;
     uint32_t bodies;
     double strength, softening; /* strength in m/s^2 at 1 m; softening in m */
     uint32_t stops[STOPS];      /* steps, ascending; each stop gives a row */
-    /* set while the flight runs: */
+    /* set while the measurement lasts: */
     const struct kiln_bench_run *run;
     struct kiln_scene *scene;
     struct kiln_threads *threads;
@@ -24,27 +27,28 @@ struct flight {
     struct kiln_pool pool;
 };
 
-static const struct kiln_particle *records_of(struct flight *flight, struct kiln_error *error)
+static const struct kiln_particle *records_of(struct energy_run *energy_run,
+                                              struct kiln_error *error)
 {
-    return kiln_buffer_host(&flight->pool.records, KILN_READ, error);
+    return kiln_buffer_host(&energy_run->pool.records, KILN_READ, error);
 }
 
 /* Adds the accelerations of a body by all others to `pull`, and returns half of the potential
  * energy of its pairs. */
-static double add_pairs(const struct flight *flight, const struct kiln_particle *records,
+static double add_pairs(const struct energy_run *energy_run, const struct kiln_particle *records,
                         uint32_t self, double pull[3])
 {
     const float3 at = particle_position(records[self]);
     double potential = 0.0;
-    for (uint32_t k = 0; k < flight->bodies; k++) {
+    for (uint32_t k = 0; k < energy_run->bodies; k++) {
         const float3 other = particle_position(records[k]);
         const double x = (double)(other.x - at.x), y = (double)(other.y - at.y),
                      z = (double)(other.z - at.z);
         if (k == self)
             continue;
         const double inverse =
-            1.0 / sqrt(x * x + y * y + z * z + flight->softening * flight->softening);
-        const double strength = flight->strength * inverse;
+            1.0 / sqrt(x * x + y * y + z * z + energy_run->softening * energy_run->softening);
+        const double strength = energy_run->strength * inverse;
         potential -= 0.5 * strength;
         pull[0] += x * strength * inverse * inverse;
         pull[1] += y * strength * inverse * inverse;
@@ -54,13 +58,13 @@ static double add_pairs(const struct flight *flight, const struct kiln_particle 
 }
 
 /* Returns the energy of all bodies, each of unit mass. */
-static double energy_of(const struct flight *flight, const struct kiln_particle *records)
+static double energy_of(const struct energy_run *energy_run, const struct kiln_particle *records)
 {
     const double half_step_s = 0.5 / 60.0;
     double sum = 0.0;
-    for (uint32_t i = 0; i < flight->bodies; i++) {
+    for (uint32_t i = 0; i < energy_run->bodies; i++) {
         double pull[3] = {0};
-        sum += add_pairs(flight, records, i, pull);
+        sum += add_pairs(energy_run, records, i, pull);
         const float3 v = particle_velocity(records[i]);
         const double x = (double)v.x + half_step_s * pull[0];
         const double y = (double)v.y + half_step_s * pull[1];
@@ -72,12 +76,12 @@ static double energy_of(const struct flight *flight, const struct kiln_particle 
 
 /* Places two bodies a metre apart, a tenth too slow for circular orbits, or more bodies in a ball
  * whose motion and gravity are in balance. */
-static void place(const struct flight *flight, struct kiln_particle *records)
+static void place(const struct energy_run *energy_run, struct kiln_particle *records)
 {
-    for (uint32_t i = 0; i < flight->bodies; i++) {
+    for (uint32_t i = 0; i < energy_run->bodies; i++) {
         float3 p = random_in_ball(random_stream(7, i), 0, false);
         float3 v = random_in_ball(random_stream(8, i), 0, false);
-        if (flight->bodies == 2) {
+        if (energy_run->bodies == 2) {
             const float side = i == 0 ? -1.0f : 1.0f;
             p = FLOAT3(0.5f * side, 0.0f, 0.0f);
             v = FLOAT3(0.0f, 0.0f, 0.636f * side);
@@ -89,75 +93,78 @@ static void place(const struct flight *flight, struct kiln_particle *records)
     }
 }
 
-static bool take_off(struct flight *flight, struct kiln_error *error)
+static bool set_up(struct energy_run *energy_run, struct kiln_error *error)
 {
     struct kiln_settings settings = {.count = 0};
     char text[128];
-    snprintf(text, sizeof text, "systems.stars.emit.bursts={0 s: %u}", flight->bodies);
-    kiln_set(flight->run, &settings, text);
+    snprintf(text, sizeof text, "systems.stars.emit.bursts={0 s: %u}", energy_run->bodies);
+    kiln_set(energy_run->run, &settings, text);
     snprintf(text, sizeof text, "systems.stars.interact=[gravity: {strength: %g, softening: %g}]",
-             flight->strength, flight->softening);
-    kiln_set(flight->run, &settings, text);
-    kiln_set(flight->run, &settings, "simulation.rate=60");
-    flight->scene = kiln_bench_load_scene(flight->run, "bench/stars.yaml", &settings, error);
-    flight->threads = kiln_threads_create(flight->bodies == 2 ? 1 : flight->run->params->threads);
-    if (!flight->scene)
+             energy_run->strength, energy_run->softening);
+    kiln_set(energy_run->run, &settings, text);
+    kiln_set(energy_run->run, &settings, "simulation.rate=60");
+    energy_run->scene =
+        kiln_bench_load_scene(energy_run->run, "bench/stars.yaml", &settings, error);
+    energy_run->threads =
+        kiln_threads_create(energy_run->bodies == 2 ? 1 : energy_run->run->params->threads);
+    if (!energy_run->scene)
         return false;
-    if (!flight->threads)
+    if (!energy_run->threads)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
-    flight->simulate =
-        kiln_simulate_create(NULL, flight->scene, KILN_SIMULATE_CPU, flight->threads, error);
-    if (!flight->simulate)
+    energy_run->simulate = kiln_simulate_create(NULL, energy_run->scene, KILN_SIMULATE_CPU,
+                                                energy_run->threads, error);
+    if (!energy_run->simulate)
         return false;
-    kiln_pool_init(&flight->pool, NULL, &flight->scene->systems[0].capacity, 1);
-    if (!kiln_simulate_step(flight->simulate, &flight->pool, 1, error))
+    kiln_pool_init(&energy_run->pool, NULL, &energy_run->scene->systems[0].capacity, 1);
+    if (!kiln_simulate_step(energy_run->simulate, &energy_run->pool, 1, error))
         return false;
-    struct kiln_particle *records = kiln_buffer_host(&flight->pool.records, KILN_READ_WRITE, error);
+    struct kiln_particle *records =
+        kiln_buffer_host(&energy_run->pool.records, KILN_READ_WRITE, error);
     if (records)
-        place(flight, records);
+        place(energy_run, records);
     return records != NULL;
 }
 
-static void land(struct flight *flight)
+static void tear_down(struct energy_run *energy_run)
 {
-    if (flight->simulate)
-        kiln_pool_finish(&flight->pool);
-    kiln_simulate_destroy(&flight->simulate);
-    kiln_threads_destroy(&flight->threads);
-    kiln_scene_destroy(&flight->scene);
+    if (energy_run->simulate)
+        kiln_pool_finish(&energy_run->pool);
+    kiln_simulate_destroy(&energy_run->simulate);
+    kiln_threads_destroy(&energy_run->threads);
+    kiln_scene_destroy(&energy_run->scene);
 }
 
 /* Adds a row for each stop: the largest error of the energy since the stop before, in millionths of
  * the energy at the start. */
-static bool fly(struct flight *flight, struct kiln_error *error)
+static bool measure_stops(struct energy_run *energy_run, struct kiln_error *error)
 {
-    const struct kiln_bench_params *params = flight->run->params;
-    const struct kiln_particle *records = records_of(flight, error);
+    const struct kiln_bench_params *params = energy_run->run->params;
+    const struct kiln_particle *records = records_of(energy_run, error);
     if (!records)
         return false;
-    const double before = energy_of(flight, records);
+    const double before = energy_of(energy_run, records);
     uint32_t step = 0;
     for (int stop = 0; stop < (params->quick ? 1 : STOPS); stop++) {
         double worst = 0.0;
-        const uint32_t stride = flight->stops[stop] / BETWEEN;
-        while (step < flight->stops[stop]) {
+        const uint32_t stride = energy_run->stops[stop] / SAMPLES_PER_STOP;
+        while (step < energy_run->stops[stop]) {
             step++;
-            if (!kiln_simulate_step(flight->simulate, &flight->pool, 1 + step, error))
+            if (!kiln_simulate_step(energy_run->simulate, &energy_run->pool, 1 + step, error))
                 return false;
-            if (step % stride != 0 && step != flight->stops[stop])
+            if (step % stride != 0 && step != energy_run->stops[stop])
                 continue;
             if (params->stop && params->stop(params->user))
                 return kiln_error_set(error, KILN_INTERRUPTED, "stopped");
-            records = records_of(flight, error);
+            records = records_of(energy_run, error);
             if (!records)
                 return false;
-            worst = fmax(worst, 1e6 * fabs(energy_of(flight, records) / before - 1.0));
+            worst = fmax(worst, 1e6 * fabs(energy_of(energy_run, records) / before - 1.0));
         }
-        const struct kiln_bench_row row = {.x = flight->stops[stop],
+        const struct kiln_bench_row row = {.x = energy_run->stops[stop],
                                            .measure = "energy",
-                                           .technique = flight->name,
+                                           .technique = energy_run->name,
                                            .spread = kiln_spread_of(&worst, 1)};
-        if (!kiln_bench_add_row(flight->run->bench, &row, error))
+        if (!kiln_bench_add_row(energy_run->run->bench, &row, error))
             return false;
     }
     return true;
@@ -165,7 +172,7 @@ static bool fly(struct flight *flight, struct kiln_error *error)
 
 bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error)
 {
-    static const struct flight flights[] = {
+    static const struct energy_run energy_runs[] = {
         {.name = "2 bodies",
          .bodies = 2,
          .strength = 1.0,
@@ -185,12 +192,12 @@ bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error
     };
     if (!kiln_bench_begin(run, &part, error))
         return false;
-    for (size_t i = 0; i < sizeof flights / sizeof *flights; i++) {
-        struct flight flight = flights[i];
-        flight.run = run;
-        kiln_bench_say(run, "energy of %s", flight.name);
-        const bool ok = take_off(&flight, error) && fly(&flight, error);
-        land(&flight);
+    for (size_t i = 0; i < sizeof energy_runs / sizeof *energy_runs; i++) {
+        struct energy_run energy_run = energy_runs[i];
+        energy_run.run = run;
+        kiln_bench_say(run, "energy of %s", energy_run.name);
+        const bool ok = set_up(&energy_run, error) && measure_stops(&energy_run, error);
+        tear_down(&energy_run);
         if (!ok)
             return false;
     }

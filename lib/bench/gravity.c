@@ -29,17 +29,17 @@ enum {
     SPLATS = 2, /* formats of the texture into which forces are splatted */
     /* The ways to compute gravity that are compared: the first KILN_SIMD_COUNT are the widths of
      * vectors, numbered as enum kiln_simd, and the splats follow. */
-    WAYS = KILN_SIMD_COUNT + SPLATS,
+    VARIANTS = KILN_SIMD_COUNT + SPLATS,
     TARGETS_AT_A_TIME = 4 * KILN_GRAVITY_BLOCK, /* bodies that a thread takes at a time */
     /* With more bodies than these, llvmpipe would blend for seconds in each turn. */
     MOST_SPLATTED_IN_SOFTWARE = 4096,
 };
 
 /* Holds the bodies of one size, and the times that were measured with them. */
-struct pull {
+struct pair_bench {
     const struct kiln_bench_run *run;
     struct kiln_threads *threads;
-    uint32_t count, room; /* bodies; the same rounded up to a multiple of KILN_GRAVITY_BLOCK */
+    uint32_t count, capacity; /* bodies; the same rounded up to a multiple of KILN_GRAVITY_BLOCK */
     float4 *sources;
     float3 *accelerations;
     struct kiln_force_splat *splats[SPLATS]; /* NULL: not measured */
@@ -47,89 +47,94 @@ struct pull {
     struct kiln_samples *samples;            /* [WAYS] */
 };
 
-static bool is_splat(size_t way)
+static bool is_splat(size_t variant)
 {
-    return way >= KILN_SIMD_COUNT;
+    return variant >= KILN_SIMD_COUNT;
 }
 
-static void way_name(size_t way, char name[32])
+static void variant_name(size_t variant, char name[32])
 {
     static const char *const formats[SPLATS] = {"splats, RGBA32F", "splats, RGBA16F"};
-    if (is_splat(way))
-        snprintf(name, 32, "%s", formats[way - KILN_SIMD_COUNT]);
+    if (is_splat(variant))
+        snprintf(name, 32, "%s", formats[variant - KILN_SIMD_COUNT]);
     else
-        snprintf(name, 32, "cpu, %s", kiln_simd_name((enum kiln_simd)way));
+        snprintf(name, 32, "cpu, %s", kiln_simd_name((enum kiln_simd)variant));
 }
 
-static bool set_up(struct pull *pull, struct kiln_error *error)
+static bool set_up(struct pair_bench *pair_bench, struct kiln_error *error)
 {
     static const GLenum formats[SPLATS] = {GL_RGBA32F, GL_RGBA16F};
-    struct kiln_device *device = kiln_device_gl(pull->run->device);
-    pull->threads = kiln_threads_create(pull->run->params->threads);
-    pull->room = (pull->count + KILN_GRAVITY_BLOCK - 1) / KILN_GRAVITY_BLOCK * KILN_GRAVITY_BLOCK;
-    pull->sources = calloc(pull->room, sizeof *pull->sources);
-    pull->accelerations = calloc(pull->room, sizeof *pull->accelerations);
-    pull->samples = calloc(WAYS, sizeof *pull->samples);
-    if (!pull->threads || !pull->sources || !pull->accelerations || !pull->samples)
+    struct kiln_device *device = kiln_device_gl(pair_bench->run->device);
+    pair_bench->threads = kiln_threads_create(pair_bench->run->params->threads);
+    pair_bench->capacity =
+        (pair_bench->count + KILN_GRAVITY_BLOCK - 1) / KILN_GRAVITY_BLOCK * KILN_GRAVITY_BLOCK;
+    pair_bench->sources = calloc(pair_bench->capacity, sizeof *pair_bench->sources);
+    pair_bench->accelerations = calloc(pair_bench->capacity, sizeof *pair_bench->accelerations);
+    pair_bench->samples = calloc(VARIANTS, sizeof *pair_bench->samples);
+    if (!pair_bench->threads || !pair_bench->sources || !pair_bench->accelerations ||
+        !pair_bench->samples)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
-    for (uint32_t i = 0; i < pull->count; i++) {
+    for (uint32_t i = 0; i < pair_bench->count; i++) {
         const float3 at = random_in_ball(random_stream(1, i), 0, false);
-        pull->sources[i] = FLOAT4(at.x, at.y, at.z, 1e-3f);
+        pair_bench->sources[i] = FLOAT4(at.x, at.y, at.z, 1e-3f);
     }
     for (int i = 0; i < SPLATS; i++) {
         if (!device)
-            pull->problems[i] = "there is no OpenGL";
-        else if (device->info.software && pull->count > MOST_SPLATTED_IN_SOFTWARE)
-            pull->problems[i] = "the measurement takes seconds on a software device";
-        else if (!(pull->splats[i] =
-                       kiln_force_splat_create(device, formats[i], pull->count, error)))
+            pair_bench->problems[i] = "there is no OpenGL";
+        else if (device->info.software && pair_bench->count > MOST_SPLATTED_IN_SOFTWARE)
+            pair_bench->problems[i] = "the measurement takes seconds on a software device";
+        else if (!(pair_bench->splats[i] =
+                       kiln_force_splat_create(device, formats[i], pair_bench->count, error)))
             return false;
     }
     return true;
 }
 
-static bool run_way(struct pull *pull, size_t way, double *ms, struct kiln_error *error)
+static bool run_variant(struct pair_bench *pair_bench, size_t variant, double *ms,
+                        struct kiln_error *error)
 {
     const float softening_square = 1e-4f;
-    if (is_splat(way))
-        return kiln_force_splat_run(pull->splats[way - KILN_SIMD_COUNT], pull->sources, pull->count,
-                                    softening_square, ms, error);
-    struct kiln_gravity gravity = {.sources = pull->sources,
-                                   .count = pull->count,
-                                   .places = pull->sources,
+    if (is_splat(variant))
+        return kiln_force_splat_run(pair_bench->splats[variant - KILN_SIMD_COUNT],
+                                    pair_bench->sources, pair_bench->count, softening_square, ms,
+                                    error);
+    struct kiln_gravity gravity = {.sources = pair_bench->sources,
+                                   .count = pair_bench->count,
+                                   .places = pair_bench->sources,
                                    .softening_square = softening_square,
-                                   .accelerations = pull->accelerations};
+                                   .accelerations = pair_bench->accelerations};
     const struct kiln_gravity_loops *loops =
-        KILN_SIMD_PICK(kiln_gravity_loops, (enum kiln_simd)way);
+        KILN_SIMD_PICK(kiln_gravity_loops, (enum kiln_simd)variant);
     const double before_s = kiln_clock_seconds();
-    kiln_threads_for(pull->threads, pull->count, TARGETS_AT_A_TIME, loops->pull, &gravity);
+    kiln_threads_for(pair_bench->threads, pair_bench->count, TARGETS_AT_A_TIME, loops->pull,
+                     &gravity);
     *ms = 1e3 * (kiln_clock_seconds() - before_s);
     return true;
 }
 
-static bool can_run(const struct pull *pull, size_t way)
+static bool can_run(const struct pair_bench *pair_bench, size_t variant)
 {
-    return is_splat(way) ? pull->splats[way - KILN_SIMD_COUNT] != NULL
-                         : kiln_simd_has((enum kiln_simd)way);
+    return is_splat(variant) ? pair_bench->splats[variant - KILN_SIMD_COUNT] != NULL
+                             : kiln_simd_has((enum kiln_simd)variant);
 }
 
 /* Runs all ways by turns, so that a change of the machine's speed affects them alike. The first
  * turn only warms up. */
-static bool take_turns(struct pull *pull, struct kiln_error *error)
+static bool take_turns(struct pair_bench *pair_bench, struct kiln_error *error)
 {
-    const struct kiln_bench_params *params = pull->run->params;
+    const struct kiln_bench_params *params = pair_bench->run->params;
     double spent_ms = 0.0;
-    for (uint32_t turn = 0; turn <= pull->run->bench->repetitions; turn++) {
+    for (uint32_t turn = 0; turn <= pair_bench->run->bench->repetitions; turn++) {
         if (turn > KILN_BENCH_MIN_REPETITIONS && spent_ms > 1e3 * params->seconds)
             return true;
-        for (size_t way = 0; way < WAYS; way++) {
-            struct kiln_samples *samples = &pull->samples[way];
+        for (size_t variant = 0; variant < VARIANTS; variant++) {
+            struct kiln_samples *samples = &pair_bench->samples[variant];
             double ms = 0.0;
-            if (!can_run(pull, way))
+            if (!can_run(pair_bench, variant))
                 continue;
             if (params->stop && params->stop(params->user))
                 return kiln_error_set(error, KILN_INTERRUPTED, "stopped");
-            if (!run_way(pull, way, &ms, error))
+            if (!run_variant(pair_bench, variant, &ms, error))
                 return false;
             if (turn > 0)
                 samples->ms[KILN_PASS_simulate][samples->count++] = ms;
@@ -141,39 +146,41 @@ static bool take_turns(struct pull *pull, struct kiln_error *error)
 
 /* Adds a row of one way: its times as thousands of millions of pairs a second. A body and itself
  * count as a pair, because the loops compute that pair, too. */
-static bool add_row(const struct pull *pull, size_t way, const char *name, struct kiln_error *error)
+static bool add_row(const struct pair_bench *pair_bench, size_t variant, const char *name,
+                    struct kiln_error *error)
 {
-    const double pairs = (double)pull->count * (double)pull->count;
+    const double pairs = (double)pair_bench->count * (double)pair_bench->count;
     const size_t reference = KILN_SIMD_NARROWEST;
-    const struct kiln_samples *samples = &pull->samples[way];
+    const struct kiln_samples *samples = &pair_bench->samples[variant];
     const double *ms = samples->ms[KILN_PASS_simulate];
     double values[KILN_BENCH_MAX_REPETITIONS];
     for (uint32_t i = 0; i < samples->count; i++)
         values[i] = ms[i] > 0.0 ? pairs / (1e6 * ms[i]) : 0.0;
-    struct kiln_bench_row row = {.x = (double)pull->count,
-                                 .measure = "pairs",
-                                 .technique =
-                                     kiln_arena_text(pull->run->bench->arena, name, strlen(name)),
-                                 .spread = kiln_spread_of(values, samples->count)};
+    struct kiln_bench_row row = {
+        .x = (double)pair_bench->count,
+        .measure = "pairs",
+        .technique = kiln_arena_text(pair_bench->run->bench->arena, name, strlen(name)),
+        .spread = kiln_spread_of(values, samples->count)};
     if (!row.technique)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
-    if (way != reference)
-        row.faster = kiln_spread_of_ratios(pull->samples[reference].ms[KILN_PASS_simulate], ms,
-                                           samples->count);
-    return kiln_bench_add_row(pull->run->bench, &row, error);
+    if (variant != reference)
+        row.faster = kiln_spread_of_ratios(pair_bench->samples[reference].ms[KILN_PASS_simulate],
+                                           ms, samples->count);
+    return kiln_bench_add_row(pair_bench->run->bench, &row, error);
 }
 
-static bool add_rows(const struct pull *pull, struct kiln_error *error)
+static bool add_rows(const struct pair_bench *pair_bench, struct kiln_error *error)
 {
-    for (size_t way = 0; way < WAYS; way++) {
-        const char *problem = is_splat(way) ? pull->problems[way - KILN_SIMD_COUNT] : NULL;
+    for (size_t variant = 0; variant < VARIANTS; variant++) {
+        const char *problem =
+            is_splat(variant) ? pair_bench->problems[variant - KILN_SIMD_COUNT] : NULL;
         char name[32];
-        way_name(way, name);
-        if (pull->samples[way].count > 0 && !add_row(pull, way, name, error))
+        variant_name(variant, name);
+        if (pair_bench->samples[variant].count > 0 && !add_row(pair_bench, variant, name, error))
             return false;
         if (problem &&
-            !kiln_bench_add_note(pull->run->bench, error, "Not measured: %u bodies, %s: %s.",
-                                 pull->count, name, problem))
+            !kiln_bench_add_note(pair_bench->run->bench, error, "Not measured: %u bodies, %s: %s.",
+                                 pair_bench->count, name, problem))
             return false;
     }
     return true;
@@ -181,15 +188,16 @@ static bool add_rows(const struct pull *pull, struct kiln_error *error)
 
 static bool run_pairs(const struct kiln_bench_run *run, uint32_t count, struct kiln_error *error)
 {
-    struct pull pull = {.run = run, .count = count};
+    struct pair_bench pair_bench = {.run = run, .count = count};
     kiln_bench_say(run, "pairs of %u bodies", count);
-    const bool ok = set_up(&pull, error) && take_turns(&pull, error) && add_rows(&pull, error);
+    const bool ok = set_up(&pair_bench, error) && take_turns(&pair_bench, error) &&
+                    add_rows(&pair_bench, error);
     for (int i = 0; i < SPLATS; i++)
-        kiln_force_splat_destroy(&pull.splats[i]);
-    free(pull.samples);
-    free(pull.accelerations);
-    free(pull.sources);
-    kiln_threads_destroy(&pull.threads);
+        kiln_force_splat_destroy(&pair_bench.splats[i]);
+    free(pair_bench.samples);
+    free(pair_bench.accelerations);
+    free(pair_bench.sources);
+    kiln_threads_destroy(&pair_bench.threads);
     return ok;
 }
 
@@ -233,7 +241,7 @@ static bool run_sizes(const struct kiln_bench_run *run, const struct kiln_bench_
 bool kiln_suite_gravity(const struct kiln_bench_run *run, struct kiln_error *error)
 {
     char narrowest[32];
-    way_name(KILN_SIMD_NARROWEST, narrowest);
+    variant_name(KILN_SIMD_NARROWEST, narrowest);
     const struct kiln_bench_part pairs = {
         .name = "gravity",
         .title =

@@ -23,7 +23,7 @@
 #include "job/states.h"
 #include "scene/work.h"
 
-enum { PARTS = 64, QUICK_PARTS = 2, OWN_WORDS = 16 };
+enum { PARTS = 64, QUICK_PARTS = 2, OWN_ARGUMENTS = 16 };
 
 static const char SCENE[] = "fire_beam.yaml"; /* a scene of the library */
 
@@ -41,7 +41,7 @@ enum value {
     VALUES
 };
 
-struct farm {
+struct clip_bench {
     const struct kiln_bench_run *run;
     struct kiln_scene *scene; /* the clip of all parts */
     const char *name, *path;  /* the scene's name in messages, and its file */
@@ -64,93 +64,93 @@ static bool no_memory(struct kiln_error *error)
 
 /* Runs kiln COMMAND --quiet OWN... [OPTIONS...] -- OPERAND. Only jobs that read the scene get the
  * options. */
-static bool run_kiln(const struct farm *f, const char *command, const char *const *own,
+static bool run_kiln(const struct clip_bench *b, const char *command, const char *const *own,
                      const char *operand, struct kiln_process *process, struct kiln_error *error)
 {
-    const char **words = calloc(f->option_count + OWN_WORDS, sizeof *words);
+    const char **arguments = calloc(b->option_count + OWN_ARGUMENTS, sizeof *arguments);
     size_t count = 0;
-    if (!words)
+    if (!arguments)
         return no_memory(error);
-    words[count++] = command;
-    words[count++] = "--quiet";
+    arguments[count++] = command;
+    arguments[count++] = "--quiet";
     while (*own)
-        words[count++] = *own++;
-    for (size_t i = 0; i < f->option_count && operand == f->path; i++)
-        words[count++] = f->options[i];
-    words[count++] = "--";
-    words[count] = operand;
-    const bool ok = kiln_process_run(f->run, words, process, error);
-    free(words);
+        arguments[count++] = *own++;
+    for (size_t i = 0; i < b->option_count && operand == b->path; i++)
+        arguments[count++] = b->options[i];
+    arguments[count++] = "--";
+    arguments[count] = operand;
+    const bool ok = kiln_process_run(b->run, arguments, process, error);
+    free(arguments);
     return ok;
 }
 
-static bool run_whole(struct farm *f, enum value value, uint32_t turn, const char *command,
+static bool run_whole(struct clip_bench *b, enum value value, uint32_t turn, const char *command,
                       const char *const *own, const char *operand, struct kiln_error *error)
 {
-    struct kiln_process process = {.told = false};
-    if (!run_kiln(f, command, own, operand, &process, error))
+    struct kiln_process process = {.reports_events = false};
+    if (!run_kiln(b, command, own, operand, &process, error))
         return false;
-    f->cpu_s[value][turn] = process.cpu_s[KILN_PROCESS_END];
-    f->elapsed_s[value][turn] = process.elapsed_s;
+    b->cpu_s[value][turn] = process.cpu_s[KILN_PROCESS_END];
+    b->elapsed_s[value][turn] = process.elapsed_s;
     return true;
 }
 
-static bool run_part(struct farm *f, uint32_t part, uint32_t turn, struct kiln_error *error)
+static bool run_part(struct clip_bench *b, uint32_t part, uint32_t turn, struct kiln_error *error)
 {
     char shard[64];
-    snprintf(shard, sizeof shard, "--shard=%u/%u", part + 1, f->parts);
-    struct kiln_process process = {.told = true};
-    if (!run_kiln(f, "render",
-                  (const char *const[]){"-o", f->clip, "--states", f->states, shard, NULL}, f->path,
+    snprintf(shard, sizeof shard, "--shard=%u/%u", part + 1, b->parts);
+    struct kiln_process process = {.reports_events = true};
+    if (!run_kiln(b, "render",
+                  (const char *const[]){"-o", b->clip, "--states", b->states, shard, NULL}, b->path,
                   &process, error))
         return false;
     const double *cpu_s = process.cpu_s;
-    f->cpu_s[ALL_PARTS][turn] += cpu_s[KILN_PROCESS_END];
-    f->cpu_s[START][turn] += cpu_s[KILN_PROCESS_DEVICE];
-    f->cpu_s[SET_UP][turn] += cpu_s[KILN_PROCESS_FIRST] - cpu_s[KILN_PROCESS_DEVICE];
-    f->cpu_s[FRAMES][turn] += cpu_s[KILN_PROCESS_LAST] - cpu_s[KILN_PROCESS_FIRST];
-    f->cpu_s[END][turn] += cpu_s[KILN_PROCESS_END] - cpu_s[KILN_PROCESS_LAST];
-    f->part_s[turn * f->parts + part] = process.elapsed_s;
-    if (f->elapsed_s[ALL_PARTS][turn] < process.elapsed_s)
-        f->elapsed_s[ALL_PARTS][turn] = process.elapsed_s;
+    b->cpu_s[ALL_PARTS][turn] += cpu_s[KILN_PROCESS_END];
+    b->cpu_s[START][turn] += cpu_s[KILN_PROCESS_DEVICE];
+    b->cpu_s[SET_UP][turn] += cpu_s[KILN_PROCESS_FIRST] - cpu_s[KILN_PROCESS_DEVICE];
+    b->cpu_s[FRAMES][turn] += cpu_s[KILN_PROCESS_LAST] - cpu_s[KILN_PROCESS_FIRST];
+    b->cpu_s[END][turn] += cpu_s[KILN_PROCESS_END] - cpu_s[KILN_PROCESS_LAST];
+    b->part_s[turn * b->parts + part] = process.elapsed_s;
+    if (b->elapsed_s[ALL_PARTS][turn] < process.elapsed_s)
+        b->elapsed_s[ALL_PARTS][turn] = process.elapsed_s;
     return true;
 }
 
 /* Loads all states in this process, as each part loads its own, and measures the CPU time of
  * that. */
-static bool load_states(struct farm *f, uint32_t turn, struct kiln_error *error)
+static bool load_states(struct clip_bench *b, uint32_t turn, struct kiln_error *error)
 {
-    const struct kiln_bench_params *params = f->run->params;
+    const struct kiln_bench_params *params = b->run->params;
     const struct kiln_loop_params settings = {.techniques = params->techniques,
                                               .technique_count = params->technique_count,
                                               .threads = params->threads,
                                               .log = params->log};
     const struct kiln_output_needs needs = {.bits = 8};
-    struct kiln_loop *loop = kiln_loop_create(f->run->device, f->scene, &settings, error);
+    struct kiln_loop *loop = kiln_loop_create(b->run->device, b->scene, &settings, error);
     struct kiln_states *states =
         loop
-            ? kiln_states_open(f->states, f->scene, kiln_loop_techniques(loop), &params->log, error)
+            ? kiln_states_open(b->states, b->scene, kiln_loop_techniques(loop), &params->log, error)
             : NULL;
     bool ok = states && kiln_loop_set_up(loop, needs, error);
     const double start_s = kiln_clock_cpu_seconds();
-    for (uint32_t part = 0; part < f->parts && ok; part++)
-        ok = kiln_states_take_up(states, loop, part * f->part_frames, error);
-    f->cpu_s[LOAD][turn] = kiln_clock_cpu_seconds() - start_s;
+    for (uint32_t part = 0; part < b->parts && ok; part++)
+        ok = kiln_states_take_up(states, loop, part * b->part_frames, error);
+    b->cpu_s[LOAD][turn] = kiln_clock_cpu_seconds() - start_s;
     kiln_states_close(&states);
     kiln_loop_destroy(&loop);
     return ok;
 }
 
 /* Fails unless the joined clip has the bytes of the single run's. */
-static bool compare_clips(const struct farm *f, struct kiln_error *error)
+static bool compare_clips(const struct clip_bench *b, struct kiln_error *error)
 {
     char single[65], clip[65];
-    if (!kiln_hash_sha256_file(f->single, single) || !kiln_hash_sha256_file(f->clip, clip))
-        return kiln_error_set_errno(error, KILN_IO, errno, "%s: a clip cannot be read", f->work);
+    if (!kiln_hash_sha256_file(b->single, single) || !kiln_hash_sha256_file(b->clip, clip))
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: a clip cannot be read", b->work);
     return strcmp(single, clip) == 0 ||
            kiln_error_set(error, KILN_FRAME_FAILED,
                           "%s: the clip of %u parts has other bytes than the clip of one run",
-                          f->name, f->parts);
+                          b->name, b->parts);
 }
 
 /* ---- Turns ----------------------------------------------------------------------------------- */
@@ -169,63 +169,63 @@ static void remove_folder(const char *path)
     nftw(path, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
 }
 
-static bool take_turn(struct farm *f, uint32_t turn, struct kiln_error *error)
+static bool take_turn(struct clip_bench *b, uint32_t turn, struct kiln_error *error)
 {
-    kiln_bench_say(f->run, "turn %u: single run", turn + 1);
-    if (!run_whole(f, SINGLE, turn, "render", (const char *const[]){"-o", f->single, NULL}, f->path,
+    kiln_bench_say(b->run, "turn %u: single run", turn + 1);
+    if (!run_whole(b, SINGLE, turn, "render", (const char *const[]){"-o", b->single, NULL}, b->path,
                    error))
         return false;
-    kiln_bench_say(f->run, "turn %u: bake, and %u parts", turn + 1, f->parts);
-    if (!run_whole(f, BAKE, turn, "bake", (const char *const[]){"-o", f->states, NULL}, f->path,
+    kiln_bench_say(b->run, "turn %u: bake, and %u parts", turn + 1, b->parts);
+    if (!run_whole(b, BAKE, turn, "bake", (const char *const[]){"-o", b->states, NULL}, b->path,
                    error))
         return false;
-    for (uint32_t part = 0; part < f->parts; part++) {
-        if (!run_part(f, part, turn, error))
+    for (uint32_t part = 0; part < b->parts; part++) {
+        if (!run_part(b, part, turn, error))
             return false;
     }
-    return run_whole(f, JOIN, turn, "join", (const char *const[]){NULL}, f->clip, error) &&
-           compare_clips(f, error) && load_states(f, turn, error);
+    return run_whole(b, JOIN, turn, "join", (const char *const[]){NULL}, b->clip, error) &&
+           compare_clips(b, error) && load_states(b, turn, error);
 }
 
 /* Draws a frame, so that atlases of particles are in the cache, and programs in memory. */
-static bool warm_up(struct farm *f, struct kiln_error *error)
+static bool warm_up(struct clip_bench *b, struct kiln_error *error)
 {
-    struct kiln_process process = {.told = false};
-    kiln_bench_say(f->run, "warming up");
-    return run_kiln(f, "render",
-                    (const char *const[]){"-o", f->single, "--force", "--frames=0", NULL}, f->path,
+    struct kiln_process process = {.reports_events = false};
+    kiln_bench_say(b->run, "warming up");
+    return run_kiln(b, "render",
+                    (const char *const[]){"-o", b->single, "--force", "--frames=0", NULL}, b->path,
                     &process, error);
 }
 
-static bool take_turns(struct farm *f, struct kiln_error *error)
+static bool take_turns(struct clip_bench *b, struct kiln_error *error)
 {
     const double start_s = kiln_clock_seconds();
-    bool ok = warm_up(f, error);
-    remove_folder(f->work);
-    for (uint32_t turn = 0; turn < f->run->bench->repetitions && ok; turn++) {
+    bool ok = warm_up(b, error);
+    remove_folder(b->work);
+    for (uint32_t turn = 0; turn < b->run->bench->repetitions && ok; turn++) {
         if (turn >= KILN_BENCH_MIN_REPETITIONS &&
-            kiln_clock_seconds() - start_s > f->run->params->seconds)
+            kiln_clock_seconds() - start_s > b->run->params->seconds)
             break;
-        ok = take_turn(f, turn, error);
-        remove_folder(f->work);
-        f->turns = turn + 1;
+        ok = take_turn(b, turn, error);
+        remove_folder(b->work);
+        b->turns = turn + 1;
     }
     return ok;
 }
 
 /* ---- Results --------------------------------------------------------------------------------- */
 
-static bool add_row(const struct farm *f, double x, const char *measure, const char *technique,
-                    const double *values, struct kiln_error *error)
+static bool add_row(const struct clip_bench *b, double x, const char *measure,
+                    const char *technique, const double *values, struct kiln_error *error)
 {
     const struct kiln_bench_row row = {.x = x,
                                        .measure = measure,
                                        .technique = technique,
-                                       .spread = kiln_spread_of(values, f->turns)};
-    return kiln_bench_add_row(f->run->bench, &row, error);
+                                       .spread = kiln_spread_of(values, b->turns)};
+    return kiln_bench_add_row(b->run->bench, &row, error);
 }
 
-static bool add_costs(const struct farm *f, struct kiln_error *error)
+static bool add_costs(const struct clip_bench *b, struct kiln_error *error)
 {
     static const struct {
         const char *measure, *technique;
@@ -236,71 +236,71 @@ static bool add_costs(const struct farm *f, struct kiln_error *error)
         [LOAD] = {"state", "parts"},      [FRAMES] = {"other frames", "parts"},
         [END] = {"end", "parts"},
     };
-    const struct kiln_scene_info info = kiln_scene_facts(f->scene);
+    const struct kiln_scene_info info = kiln_scene_facts(b->scene);
     const struct kiln_bench_part part = {
         .name = "jobs",
         .title = "A clip by one run, and by parts that start from saved states: processor time",
         .sweep = "parts",
         .unit = "s",
     };
-    if (!kiln_bench_begin(f->run, &part, error))
+    if (!kiln_bench_begin(b->run, &part, error))
         return false;
     for (int i = 0; i < VALUES; i++) {
-        if (!add_row(f, f->parts, names[i].measure, names[i].technique, f->cpu_s[i], error))
+        if (!add_row(b, b->parts, names[i].measure, names[i].technique, b->cpu_s[i], error))
             return false;
     }
-    return kiln_bench_add_note(f->run->bench, error,
+    return kiln_bench_add_note(b->run->bench, error,
                                "%s, %u x %u pixels, %u frames, %u a part. The joined clip had the "
                                "same bytes as the clip of the single run in all %u turns.",
-                               f->name, info.width, info.height, info.frames, f->part_frames,
-                               f->turns) &&
+                               b->name, info.width, info.height, info.frames, b->part_frames,
+                               b->turns) &&
            kiln_bench_add_note(
-               f->run->bench, error,
+               b->run->bench, error,
                "The stages of all parts: start lasts until a device is open; first frame lasts "
                "from there until the frame is drawn; state is the part of first frame in which the "
                "saved state is checked and loaded; end is everything after the last frame.");
 }
 
-static bool add_ratios(const struct farm *f, struct kiln_error *error)
+static bool add_ratios(const struct clip_bench *b, struct kiln_error *error)
 {
-    double asked[KILN_BENCH_MAX_REPETITIONS], with_bake[KILN_BENCH_MAX_REPETITIONS],
-        alone[KILN_BENCH_MAX_REPETITIONS];
+    double parts_over_both[KILN_BENCH_MAX_REPETITIONS], with_bake[KILN_BENCH_MAX_REPETITIONS],
+        parts_over_single[KILN_BENCH_MAX_REPETITIONS];
     const struct kiln_bench_part part = {
         .name = "jobs_ratio",
         .title = "Processor time by parts, as a multiple of that without",
         .sweep = "parts",
         .unit = "times",
     };
-    for (uint32_t i = 0; i < f->turns; i++) {
-        const double parts_s = f->cpu_s[ALL_PARTS][i] + f->cpu_s[JOIN][i];
-        const double single_s = f->cpu_s[SINGLE][i], bake_s = f->cpu_s[BAKE][i];
-        asked[i] = parts_s / (single_s + bake_s);
+    for (uint32_t i = 0; i < b->turns; i++) {
+        const double parts_s = b->cpu_s[ALL_PARTS][i] + b->cpu_s[JOIN][i];
+        const double single_s = b->cpu_s[SINGLE][i], bake_s = b->cpu_s[BAKE][i];
+        parts_over_both[i] = parts_s / (single_s + bake_s);
         with_bake[i] = (bake_s + parts_s) / (single_s + bake_s);
-        alone[i] = parts_s / single_s;
+        parts_over_single[i] = parts_s / single_s;
     }
-    return kiln_bench_begin(f->run, &part, error) &&
-           add_row(f, f->parts, "parts + join", "single run + bake", asked, error) &&
-           add_row(f, f->parts, "bake + parts + join", "single run + bake", with_bake, error) &&
-           add_row(f, f->parts, "parts + join", "single run", alone, error);
+    return kiln_bench_begin(b->run, &part, error) &&
+           add_row(b, b->parts, "parts + join", "single run + bake", parts_over_both, error) &&
+           add_row(b, b->parts, "bake + parts + join", "single run + bake", with_bake, error) &&
+           add_row(b, b->parts, "parts + join", "single run", parts_over_single, error);
 }
 
 /* ---- Many workers ---------------------------------------------------------------------------- */
 
 /* How long a clip takes with a number of workers, for each turn. */
-struct outlook {
+struct prediction {
     double elapsed_s[KILN_BENCH_MAX_REPETITIONS], bound_s[KILN_BENCH_MAX_REPETITIONS];
     double speed_up[KILN_BENCH_MAX_REPETITIONS], efficiency[KILN_BENCH_MAX_REPETITIONS];
 };
 
-static struct outlook look_ahead(const struct farm *f, uint32_t workers)
+static struct prediction predict(const struct clip_bench *b, uint32_t workers)
 {
-    struct outlook o;
-    for (uint32_t i = 0; i < f->turns; i++) {
-        const double around_s = f->elapsed_s[BAKE][i] + f->elapsed_s[JOIN][i];
+    struct prediction o;
+    for (uint32_t i = 0; i < b->turns; i++) {
+        const double bake_and_join_s = b->elapsed_s[BAKE][i] + b->elapsed_s[JOIN][i];
         o.elapsed_s[i] =
-            around_s + kiln_schedule_s(f->part_s + (size_t)i * f->parts, f->parts, workers);
-        o.bound_s[i] = around_s + f->elapsed_s[ALL_PARTS][i];
-        o.speed_up[i] = f->elapsed_s[SINGLE][i] / o.elapsed_s[i];
+            bake_and_join_s + kiln_schedule_s(b->part_s + (size_t)i * b->parts, b->parts, workers);
+        o.bound_s[i] = bake_and_join_s + b->elapsed_s[ALL_PARTS][i];
+        o.speed_up[i] = b->elapsed_s[SINGLE][i] / o.elapsed_s[i];
         o.efficiency[i] = 100.0 * o.speed_up[i] / workers;
     }
     return o;
@@ -315,32 +315,32 @@ static uint32_t next_workers(uint32_t workers)
 }
 
 /* Notes which part is the longest, by the medians of the turns. */
-static bool name_longest(const struct farm *f, struct kiln_error *error)
+static bool name_longest(const struct clip_bench *b, struct kiln_error *error)
 {
     uint32_t longest = 0;
     double most_s = 0.0;
-    for (uint32_t part = 0; part < f->parts; part++) {
+    for (uint32_t part = 0; part < b->parts; part++) {
         double values[KILN_BENCH_MAX_REPETITIONS];
-        for (uint32_t i = 0; i < f->turns; i++)
-            values[i] = f->part_s[i * f->parts + part];
-        const double median_s = kiln_spread_of(values, f->turns).median;
+        for (uint32_t i = 0; i < b->turns; i++)
+            values[i] = b->part_s[i * b->parts + part];
+        const double median_s = kiln_spread_of(values, b->turns).median;
         longest = median_s > most_s ? part : longest;
         most_s = median_s > most_s ? median_s : most_s;
     }
     const struct kiln_frame_range frames =
-        kiln_parts_frames(longest, longest + 1, f->part_frames, f->parts * f->part_frames);
+        kiln_parts_frames(longest, longest + 1, b->part_frames, b->parts * b->part_frames);
     return kiln_bench_add_note(
-        f->run->bench, error,
+        b->run->bench, error,
         "Simulated from measured times: the bake comes first, then the parts in their order, each "
         "on the first free worker, then the join. A worker is a machine like this one. The bound "
         "is the bake (%.3f s), the longest part and the join (%.3f s). The longest part is part "
         "%u, frames %u-%u: %.3f s.",
-        kiln_spread_of(f->elapsed_s[BAKE], f->turns).median,
-        kiln_spread_of(f->elapsed_s[JOIN], f->turns).median, longest + 1, frames.first, frames.last,
+        kiln_spread_of(b->elapsed_s[BAKE], b->turns).median,
+        kiln_spread_of(b->elapsed_s[JOIN], b->turns).median, longest + 1, frames.first, frames.last,
         most_s);
 }
 
-static bool add_outlook(const struct farm *f, struct kiln_error *error)
+static bool add_outlook(const struct clip_bench *b, struct kiln_error *error)
 {
     const struct kiln_bench_part elapsed = {
         .name = "jobs_elapsed",
@@ -355,21 +355,21 @@ static bool add_outlook(const struct farm *f, struct kiln_error *error)
         .sweep = "workers",
         .unit = "times; %",
     };
-    if (!kiln_bench_begin(f->run, &elapsed, error) ||
-        !add_row(f, 1, "elapsed", "single run", f->elapsed_s[SINGLE], error))
+    if (!kiln_bench_begin(b->run, &elapsed, error) ||
+        !add_row(b, 1, "elapsed", "single run", b->elapsed_s[SINGLE], error))
         return false;
     for (uint32_t n = 1; n <= KILN_MAX_WORKERS; n = next_workers(n)) {
-        const struct outlook o = look_ahead(f, n);
-        if (!add_row(f, n, "elapsed", "parts", o.elapsed_s, error) ||
-            !add_row(f, n, "elapsed", "bound", o.bound_s, error))
+        const struct prediction o = predict(b, n);
+        if (!add_row(b, n, "elapsed", "parts", o.elapsed_s, error) ||
+            !add_row(b, n, "elapsed", "bound", o.bound_s, error))
             return false;
     }
-    if (!name_longest(f, error) || !kiln_bench_begin(f->run, &gain, error))
+    if (!name_longest(b, error) || !kiln_bench_begin(b->run, &gain, error))
         return false;
     for (uint32_t n = 1; n <= KILN_MAX_WORKERS; n = next_workers(n)) {
-        const struct outlook o = look_ahead(f, n);
-        if (!add_row(f, n, "speed-up", "times", o.speed_up, error) ||
-            !add_row(f, n, "efficiency", "%", o.efficiency, error))
+        const struct prediction o = predict(b, n);
+        if (!add_row(b, n, "speed-up", "times", o.speed_up, error) ||
+            !add_row(b, n, "efficiency", "%", o.efficiency, error))
             return false;
     }
     return true;
@@ -388,70 +388,70 @@ static struct kiln_settings default_settings(const struct kiln_bench_run *run)
     return settings;
 }
 
-static struct kiln_scene *load(const struct farm *f, const char *const *overrides, size_t count,
-                               struct kiln_error *error)
+static struct kiln_scene *load(const struct clip_bench *b, const char *const *overrides,
+                               size_t count, struct kiln_error *error)
 {
-    struct kiln_scene_params params = f->run->params->scene;
+    struct kiln_scene_params params = b->run->params->scene;
     params.overrides = overrides;
     params.override_count = count;
-    return kiln_scene_load(f->path, &params, error);
+    return kiln_scene_load(b->path, &params, error);
 }
 
 /* Finds how many frames a part has, and loads the clip of all parts. `overrides` has room for one
  * more. */
-static bool load_clip(struct farm *f, const char **overrides, size_t *count,
+static bool load_clip(struct clip_bench *b, const char **overrides, size_t *count,
                       struct kiln_error *error)
 {
-    f->scene = load(f, overrides, *count, error);
-    if (!f->scene)
+    b->scene = load(b, overrides, *count, error);
+    if (!b->scene)
         return false;
-    const struct kiln_scene_info info = kiln_scene_facts(f->scene);
-    f->part_frames = kiln_part_frames(info.fps_num, info.fps_den);
-    overrides[*count] = kiln_arena_format(f->run->bench->arena, "output.frames=%llu",
-                                          (unsigned long long)f->parts * f->part_frames);
+    const struct kiln_scene_info info = kiln_scene_facts(b->scene);
+    b->part_frames = kiln_part_frames(info.fps_num, info.fps_den);
+    overrides[*count] = kiln_arena_format(b->run->bench->arena, "output.frames=%llu",
+                                          (unsigned long long)b->parts * b->part_frames);
     if (!overrides[(*count)++])
         return no_memory(error);
-    kiln_scene_destroy(&f->scene);
-    f->scene = load(f, overrides, *count, error);
-    return f->scene != NULL;
+    kiln_scene_destroy(&b->scene);
+    b->scene = load(b, overrides, *count, error);
+    return b->scene != NULL;
 }
 
 /* Adds an option of all jobs that read the scene, such as "--set=KEY=VALUE". */
-static bool add_option(struct farm *f, const char *name, const char *value,
+static bool add_option(struct clip_bench *b, const char *name, const char *value,
                        struct kiln_error *error)
 {
-    const char *option = kiln_arena_format(f->run->bench->arena, "--%s=%s", name, value);
-    f->options[f->option_count++] = option;
+    const char *option = kiln_arena_format(b->run->bench->arena, "--%s=%s", name, value);
+    b->options[b->option_count++] = option;
     return option || no_memory(error);
 }
 
-static bool make_options(struct farm *f, const char **overrides, size_t count,
+static bool make_options(struct clip_bench *b, const char **overrides, size_t count,
                          struct kiln_error *error)
 {
-    const struct kiln_bench_params *params = f->run->params;
+    const struct kiln_bench_params *params = b->run->params;
     char threads[16];
     snprintf(threads, sizeof threads, "%u", params->threads);
-    f->options = calloc(count + params->technique_count + 3, sizeof *f->options);
-    if (!f->options)
+    b->options = calloc(count + params->technique_count + 3, sizeof *b->options);
+    if (!b->options)
         return no_memory(error);
-    bool ok = add_option(f, "threads", threads, error);
+    bool ok = add_option(b, "threads", threads, error);
     if (params->device)
-        ok = ok && add_option(f, "device", params->device, error);
+        ok = ok && add_option(b, "device", params->device, error);
     if (params->scene.asset_root)
-        ok = ok && add_option(f, "asset-root", params->scene.asset_root, error);
+        ok = ok && add_option(b, "asset-root", params->scene.asset_root, error);
     for (size_t i = 0; i < params->technique_count; i++)
-        ok = ok && add_option(f, "technique", params->techniques[i], error);
+        ok = ok && add_option(b, "technique", params->techniques[i], error);
     for (size_t i = 0; i < count; i++)
-        ok = ok && add_option(f, "set", overrides[i], error);
+        ok = ok && add_option(b, "set", overrides[i], error);
     return ok;
 }
 
 /* Opens the scene of the caller as it is, or a small one of the library. The caller's overrides
  * come last. */
-static bool open_clip(struct farm *f, struct kiln_error *error)
+static bool open_clip(struct clip_bench *b, struct kiln_error *error)
 {
-    const struct kiln_bench_params *params = f->run->params;
-    const struct kiln_settings settings = default_settings(f->run);
+    const struct kiln_bench_params *params = b->run->params;
+    const struct kiln_settings settings = default_settings(b->run);
     const bool given = params->scene_count > 0;
     const size_t own = given ? 0 : settings.count;
     const char **overrides = calloc(own + params->scene.override_count + 1, sizeof *overrides);
@@ -462,46 +462,46 @@ static bool open_clip(struct farm *f, struct kiln_error *error)
         overrides[count++] = settings.items[i];
     for (size_t i = 0; i < params->scene.override_count; i++)
         overrides[count++] = params->scene.overrides[i];
-    f->path = given ? params->scenes[0]
-                    : kiln_arena_format(f->run->bench->arena, "%s/%s", f->folder, SCENE);
-    f->name = given ? params->scenes[0] : SCENE;
+    b->path = given ? params->scenes[0]
+                    : kiln_arena_format(b->run->bench->arena, "%s/%s", b->folder, SCENE);
+    b->name = given ? params->scenes[0] : SCENE;
     const char *text = kiln_embedded_find(kiln_embedded_scenes, SCENE);
-    bool ok = f->path || no_memory(error);
+    bool ok = b->path || no_memory(error);
     if (ok && !given)
-        ok = kiln_temporary_write_file(f->path, text, strlen(text), error);
-    ok = ok && load_clip(f, overrides, &count, error) && make_options(f, overrides, count, error);
+        ok = kiln_temporary_write_file(b->path, text, strlen(text), error);
+    ok = ok && load_clip(b, overrides, &count, error) && make_options(b, overrides, count, error);
     free(overrides);
     return ok;
 }
 
-static bool name_files(struct farm *f, struct kiln_error *error)
+static bool name_files(struct clip_bench *b, struct kiln_error *error)
 {
-    struct kiln_arena *arena = f->run->bench->arena;
-    f->work = kiln_arena_format(arena, "%s/turn", f->folder);
-    f->single = kiln_arena_format(arena, "%s/turn/single.mp4", f->folder);
-    f->clip = kiln_arena_format(arena, "%s/turn/parts.mp4", f->folder);
-    f->states = kiln_arena_format(arena, "%s/turn/states", f->folder);
-    f->part_s = calloc((size_t)KILN_BENCH_MAX_REPETITIONS * f->parts, sizeof *f->part_s);
-    return (f->work && f->single && f->clip && f->states && f->part_s) || no_memory(error);
+    struct kiln_arena *arena = b->run->bench->arena;
+    b->work = kiln_arena_format(arena, "%s/turn", b->folder);
+    b->single = kiln_arena_format(arena, "%s/turn/single.mp4", b->folder);
+    b->clip = kiln_arena_format(arena, "%s/turn/parts.mp4", b->folder);
+    b->states = kiln_arena_format(arena, "%s/turn/states", b->folder);
+    b->part_s = calloc((size_t)KILN_BENCH_MAX_REPETITIONS * b->parts, sizeof *b->part_s);
+    return (b->work && b->single && b->clip && b->states && b->part_s) || no_memory(error);
 }
 
 bool kiln_suite_jobs(const struct kiln_bench_run *run, struct kiln_error *error)
 {
     const struct kiln_bench_params *params = run->params;
-    struct farm f = {.run = run,
-                     .parts = params->parts   ? params->parts
-                              : params->quick ? QUICK_PARTS
-                                              : PARTS};
-    if (!kiln_path_join(f.folder, params->scratch, "kiln-bench-XXXXXX", error))
+    struct clip_bench b = {.run = run,
+                           .parts = params->parts   ? params->parts
+                                    : params->quick ? QUICK_PARTS
+                                                    : PARTS};
+    if (!kiln_path_join(b.folder, params->scratch, "kiln-bench-XXXXXX", error))
         return false;
-    if (!mkdtemp(f.folder))
+    if (!mkdtemp(b.folder))
         return kiln_error_set_errno(error, KILN_IO, errno, "%s: no folder can be made there",
                                     params->scratch);
-    const bool ok = name_files(&f, error) && open_clip(&f, error) && take_turns(&f, error) &&
-                    add_costs(&f, error) && add_ratios(&f, error) && add_outlook(&f, error);
-    remove_folder(f.folder);
-    kiln_scene_destroy(&f.scene);
-    free(f.options);
-    free(f.part_s);
+    const bool ok = name_files(&b, error) && open_clip(&b, error) && take_turns(&b, error) &&
+                    add_costs(&b, error) && add_ratios(&b, error) && add_outlook(&b, error);
+    remove_folder(b.folder);
+    kiln_scene_destroy(&b.scene);
+    free(b.options);
+    free(b.part_s);
     return ok;
 }

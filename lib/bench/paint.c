@@ -17,7 +17,7 @@ static const struct kiln_lane LANES[] = {
     {.name = "gather=near"}, {.name = "gather=all"}, {.name = "gather=all, a hundredth a frame"}};
 enum { LANE_COUNT = sizeof LANES / sizeof *LANES };
 
-struct bout {
+struct paint_bench {
     const struct kiln_bench_run *run;
     struct kiln_threads *threads;
     struct kiln_mesh *mesh;
@@ -47,8 +47,9 @@ static struct kiln_mesh *make_ball(void)
     for (uint32_t i = 0; i <= RINGS; i++) {
         const struct exact_angle down = exact_sincos(0.5f * EXACT_TWO_PI * (float)i / RINGS);
         for (uint32_t k = 0; k <= AROUND; k++) {
-            const struct exact_angle way = exact_sincos(EXACT_TWO_PI * (float)k / AROUND);
-            const float at[3] = {down.sine * way.cosine, down.cosine, down.sine * way.sine};
+            const struct exact_angle longitude = exact_sincos(EXACT_TWO_PI * (float)k / AROUND);
+            const float at[3] = {down.sine * longitude.cosine, down.cosine,
+                                 down.sine * longitude.sine};
             for (int c = 0; c < 6; c++)
                 mesh->vertices[mesh->vertex_count][c] = at[c % 3];
             mesh->uvs[mesh->vertex_count][0] = (float)k / AROUND;
@@ -70,73 +71,76 @@ static struct kiln_mesh *make_ball(void)
 }
 
 /* Spreads splats of a hundredth of the ball's radius evenly over the ball. */
-static void make_splats(struct bout *bout)
+static void make_splats(struct paint_bench *paint_bench)
 {
-    for (uint32_t i = 0; i < bout->count; i++) {
+    for (uint32_t i = 0; i < paint_bench->count; i++) {
         const uint32_t stream = random_stream(1, i);
         const float y = 2.0f * random_unit(stream, 0) - 1.0f, r = exact_sqrt(1.0f - y * y);
-        const struct exact_angle way = exact_sincos(EXACT_TWO_PI * random_unit(stream, 1));
-        const float at[3] = {r * way.cosine, y, r * way.sine};
-        bout->splats[i] = (struct kiln_splat){.at = {at[0], at[1], at[2]},
-                                              .opacity = 0.8f,
-                                              .normal = {at[0], at[1], at[2]},
-                                              .square = 1e-4f,
-                                              .color = {0.8f, 0.3f, 0.1f},
-                                              .slope = 2e4f};
+        const struct exact_angle longitude = exact_sincos(EXACT_TWO_PI * random_unit(stream, 1));
+        const float at[3] = {r * longitude.cosine, y, r * longitude.sine};
+        paint_bench->splats[i] = (struct kiln_splat){.position = {at[0], at[1], at[2]},
+                                                     .opacity = 0.8f,
+                                                     .normal = {at[0], at[1], at[2]},
+                                                     .radius_squared = 1e-4f,
+                                                     .color = {0.8f, 0.3f, 0.1f},
+                                                     .slope = 2e4f};
     }
 }
 
-static bool set_up(struct bout *bout, uint32_t edge, struct kiln_error *error)
+static bool set_up(struct paint_bench *paint_bench, uint32_t edge, struct kiln_error *error)
 {
     enum kiln_simd simd;
     if (!kiln_simd_choose(&simd, error))
         return false;
-    bout->block = KILN_SIMD_PICK(kiln_paint_block_of, simd);
-    bout->threads = kiln_threads_create(bout->run->params->threads);
-    bout->mesh = make_ball();
-    bout->splats = calloc(bout->count, sizeof *bout->splats);
-    bout->texels = calloc((size_t)edge * edge, sizeof *bout->texels);
-    bout->samples = calloc(LANE_COUNT, sizeof *bout->samples);
-    if (!bout->threads || !bout->mesh || !bout->splats || !bout->texels || !bout->samples) {
+    paint_bench->block = KILN_SIMD_PICK(kiln_paint_block_of, simd);
+    paint_bench->threads = kiln_threads_create(paint_bench->run->params->threads);
+    paint_bench->mesh = make_ball();
+    paint_bench->splats = calloc(paint_bench->count, sizeof *paint_bench->splats);
+    paint_bench->texels = calloc((size_t)edge * edge, sizeof *paint_bench->texels);
+    paint_bench->samples = calloc(LANE_COUNT, sizeof *paint_bench->samples);
+    if (!paint_bench->threads || !paint_bench->mesh || !paint_bench->splats ||
+        !paint_bench->texels || !paint_bench->samples) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
         return false;
     }
-    make_splats(bout);
-    bout->chart = kiln_chart_create(bout->mesh, edge, "ball", error);
-    return bout->chart && kiln_paint_grid_init(&bout->grid, bout->chart, error);
+    make_splats(paint_bench);
+    paint_bench->chart = kiln_chart_create(paint_bench->mesh, edge, "ball", error);
+    return paint_bench->chart &&
+           kiln_paint_grid_init(&paint_bench->grid, paint_bench->chart, error);
 }
 
-static bool paint(struct bout *bout, size_t lane, double *ms, struct kiln_error *error)
+static bool paint(struct paint_bench *paint_bench, size_t lane, double *ms,
+                  struct kiln_error *error)
 {
-    const struct kiln_paint_gather gather = {.threads = bout->threads,
-                                             .block = bout->block,
-                                             .chart = bout->chart,
-                                             .grid = lane == 0 ? &bout->grid : NULL};
+    const struct kiln_paint_gather gather = {.threads = paint_bench->threads,
+                                             .block = paint_bench->block,
+                                             .chart = paint_bench->chart,
+                                             .grid = lane == 0 ? &paint_bench->grid : NULL};
     const double start_s = kiln_clock_seconds();
     bool changed;
-    const bool ok =
-        kiln_paint_gather(&gather, bout->splats, lane == 2 ? bout->count / 100 : bout->count,
-                          bout->texels, &changed, error);
+    const bool ok = kiln_paint_gather(&gather, paint_bench->splats,
+                                      lane == 2 ? paint_bench->count / 100 : paint_bench->count,
+                                      paint_bench->texels, &changed, error);
     *ms = 1e3 * (kiln_clock_seconds() - start_s);
     return ok;
 }
 
 /* Paints by all lanes in turn. The first turn only warms up. */
-static bool take_turns(struct bout *bout, struct kiln_error *error)
+static bool take_turns(struct paint_bench *paint_bench, struct kiln_error *error)
 {
-    const struct kiln_bench_params *params = bout->run->params;
+    const struct kiln_bench_params *params = paint_bench->run->params;
     double spent_ms = 0.0;
-    for (uint32_t turn = 0; turn <= bout->run->bench->repetitions; turn++) {
+    for (uint32_t turn = 0; turn <= paint_bench->run->bench->repetitions; turn++) {
         if (turn > KILN_BENCH_MIN_REPETITIONS && spent_ms > 1e3 * params->seconds)
             return true;
         for (size_t lane = 0; lane < LANE_COUNT; lane++) {
-            struct kiln_samples *samples = &bout->samples[lane];
+            struct kiln_samples *samples = &paint_bench->samples[lane];
             double ms = 0.0;
             if (params->stop && params->stop(params->user)) {
                 kiln_error_set(error, KILN_INTERRUPTED, "stopped");
                 return false;
             }
-            if (!paint(bout, lane, &ms, error))
+            if (!paint(paint_bench, lane, &ms, error))
                 return false;
             if (turn > 0)
                 samples->ms[MEASURE][samples->count++] = ms;
@@ -149,21 +153,21 @@ static bool take_turns(struct bout *bout, struct kiln_error *error)
 static bool run_count(const struct kiln_bench_run *run, uint32_t count, uint32_t edge,
                       struct kiln_error *error)
 {
-    struct bout bout = {.run = run, .count = count};
+    struct paint_bench paint_bench = {.run = run, .count = count};
     const struct kiln_comparison comparison = {.lanes = LANES,
                                                .lane_count = LANE_COUNT,
                                                .measures = KILN_MEASURE(simulate),
                                                .as = "paint",
                                                .x = (double)count};
-    const bool ok = set_up(&bout, edge, error) && take_turns(&bout, error) &&
-                    kiln_bench_add_samples(run, &comparison, bout.samples, error);
-    kiln_paint_grid_finish(&bout.grid);
-    kiln_chart_destroy(&bout.chart);
-    kiln_mesh_destroy(&bout.mesh);
-    free(bout.samples);
-    free(bout.splats);
-    free(bout.texels);
-    kiln_threads_destroy(&bout.threads);
+    const bool ok = set_up(&paint_bench, edge, error) && take_turns(&paint_bench, error) &&
+                    kiln_bench_add_samples(run, &comparison, paint_bench.samples, error);
+    kiln_paint_grid_finish(&paint_bench.grid);
+    kiln_chart_destroy(&paint_bench.chart);
+    kiln_mesh_destroy(&paint_bench.mesh);
+    free(paint_bench.samples);
+    free(paint_bench.splats);
+    free(paint_bench.texels);
+    kiln_threads_destroy(&paint_bench.threads);
     return ok;
 }
 

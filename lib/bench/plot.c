@@ -182,18 +182,18 @@ static char *read_all(int file, size_t *size)
     char *bytes = malloc(room);
     *size = 0;
     while (bytes) {
-        ssize_t got = read(file, bytes + *size, room - *size);
-        if (got == 0)
+        ssize_t received = read(file, bytes + *size, room - *size);
+        if (received == 0)
             return bytes;
-        if (got < 0 && errno != EINTR)
+        if (received < 0 && errno != EINTR)
             break;
-        *size += got > 0 ? (size_t)got : 0;
+        *size += received > 0 ? (size_t)received : 0;
         if (*size < room)
             continue;
-        char *more = realloc(bytes, room *= 2);
-        if (!more)
+        char *grown = realloc(bytes, room *= 2);
+        if (!grown)
             break;
-        bytes = more;
+        bytes = grown;
     }
     free(bytes);
     return NULL;

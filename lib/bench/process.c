@@ -21,21 +21,25 @@
 #include "base/clock.h"
 #include "base/error.h"
 
-enum { EVENTS = 3, /* the descriptor of the events in the process */ HEAD = 32, WAKE_MS = 200 };
+enum {
+    EVENTS = 3,
+    /* the descriptor of the events in the process */ LINE_START_SIZE = 32,
+    WAKE_MS = 200
+};
 static const double grace_s = 5; /* the time from SIGTERM until SIGKILL */
 
 struct child {
     const struct kiln_bench_run *run;
     struct kiln_process *process;
     pid_t id;
-    char head[HEAD]; /* the start of the current line */
-    size_t length;   /* length of the current line */
+    char line_start[LINE_START_SIZE]; /* the start of the current line */
+    size_t length;                    /* length of the current line */
     bool stopped;
     double stopped_s; /* when the stop was asked for */
 };
 
 /* Starts the process with empty standard input. Returns 0 or an errno value. */
-static int spawn(struct child *child, const char **words, int log, int events)
+static int spawn(struct child *child, const char **arguments, int log, int events)
 {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -48,7 +52,7 @@ static int spawn(struct child *child, const char **words, int log, int events)
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); /* Ctrl-C is for the parent */
     posix_spawnattr_setpgroup(&attributes, 0);
     const int failure =
-        posix_spawn(&child->id, "/proc/self/exe", &files, &attributes, (char **)words, environ);
+        posix_spawn(&child->id, "/proc/self/exe", &files, &attributes, (char **)arguments, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     return failure;
@@ -67,9 +71,9 @@ static void take_point(struct child *child, enum kiln_process_point point)
 static void take_line(struct child *child)
 {
     double *cpu_s = child->process->cpu_s;
-    if (strncmp(child->head, "{\"event\": \"device\"", 18) == 0)
+    if (strncmp(child->line_start, "{\"event\": \"device\"", 18) == 0)
         take_point(child, KILN_PROCESS_DEVICE);
-    if (strncmp(child->head, "{\"event\": \"frame\"", 17) != 0)
+    if (strncmp(child->line_start, "{\"event\": \"frame\"", 17) != 0)
         return;
     take_point(child, KILN_PROCESS_LAST);
     if (cpu_s[KILN_PROCESS_FIRST] <= 0.0)
@@ -79,19 +83,19 @@ static void take_line(struct child *child)
 static void take_bytes(struct child *child, const char *bytes, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        if (child->length < HEAD)
-            child->head[child->length] = bytes[i];
+        if (child->length < LINE_START_SIZE)
+            child->line_start[child->length] = bytes[i];
         child->length++;
         if (bytes[i] != '\n')
             continue;
-        if (child->length >= HEAD)
+        if (child->length >= LINE_START_SIZE)
             take_line(child);
         child->length = 0;
     }
 }
 
 /* Ends the process when a stop is asked for: by SIGTERM, and by SIGKILL when that does not help. */
-static void look_for_stop(struct child *child)
+static void check_stop(struct child *child)
 {
     const struct kiln_bench_params *params = child->run->params;
     if (!child->stopped && params->stop && params->stop(params->user)) {
@@ -104,13 +108,13 @@ static void look_for_stop(struct child *child)
 }
 
 /* Reads events until the other end of the pipe is closed. */
-static void listen_to(struct child *child, int events)
+static void read_events(struct child *child, int events)
 {
     char bytes[4096];
     for (;;) {
-        struct pollfd look = {.fd = events, .events = POLLIN};
-        look_for_stop(child);
-        if (poll(&look, 1, WAKE_MS) <= 0)
+        struct pollfd descriptor = {.fd = events, .events = POLLIN};
+        check_stop(child);
+        if (poll(&descriptor, 1, WAKE_MS) <= 0)
             continue;
         const ssize_t got = read(events, bytes, sizeof bytes);
         if (got == 0 || (got < 0 && errno != EINTR))
@@ -135,7 +139,7 @@ static void read_last_line(int log, char line[KILN_MESSAGE_SIZE])
     snprintf(line, KILN_MESSAGE_SIZE, "%s", last ? last + 1 : text);
 }
 
-static bool finish(struct child *child, const char **words, int log, double start_s,
+static bool finish(struct child *child, const char **arguments, int log, double start_s,
                    struct kiln_error *error)
 {
     struct rusage usage = {0};
@@ -151,38 +155,39 @@ static bool finish(struct child *child, const char **words, int log, double star
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return true;
     if (!WIFEXITED(status))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "kiln %s was ended by signal %d", words[0],
-                              WTERMSIG(status));
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "kiln %s was ended by signal %d",
+                              arguments[0], WTERMSIG(status));
     char line[KILN_MESSAGE_SIZE];
     read_last_line(log, line);
     return kiln_error_set(error, (enum kiln_code)WEXITSTATUS(status),
-                          "kiln %s has exit code %d: %.700s", words[0], WEXITSTATUS(status), line);
+                          "kiln %s has exit code %d: %.700s", arguments[0], WEXITSTATUS(status),
+                          line);
 }
 
-/* Makes the arguments: "kiln", the command, the option for its events, and its other words. Returns
+/* Makes the arguments: "kiln", the command, the option for its events, and the others. Returns
  * NULL when memory is short. */
-static const char **make_words(const char **words, bool told)
+static const char **make_arguments(const char **arguments, bool reports_events)
 {
     size_t count = 0, used = 0;
-    while (words[count])
+    while (arguments[count])
         count++;
     const char **all = calloc(count + 3, sizeof *all);
     if (!all)
         return NULL;
     all[used++] = "kiln";
-    all[used++] = words[0];
-    if (told)
+    all[used++] = arguments[0];
+    if (reports_events)
         all[used++] = "--events=ndjson:fd=3";
-    memcpy(all + used, words + 1, (count - 1) * sizeof *all);
+    memcpy(all + used, arguments + 1, (count - 1) * sizeof *all);
     return all;
 }
 
-bool kiln_process_run(const struct kiln_bench_run *run, const char **words,
+bool kiln_process_run(const struct kiln_bench_run *run, const char **arguments,
                       struct kiln_process *process, struct kiln_error *error)
 {
     struct child child = {.run = run, .process = process};
     const double start_s = kiln_clock_seconds();
-    const char **all = make_words(words, process->told);
+    const char **all = make_arguments(arguments, process->reports_events);
     const int log = memfd_create("log", MFD_CLOEXEC);
     int ends[2] = {-1, -1};
     int failure = log < 0 || pipe2(ends, O_CLOEXEC) != 0 ? errno : all ? 0 : ENOMEM;
@@ -191,10 +196,10 @@ bool kiln_process_run(const struct kiln_bench_run *run, const char **words,
     if (ends[1] >= 0)
         close(ends[1]);
     if (failure == 0)
-        listen_to(&child, ends[0]);
-    const bool ok = failure == 0 ? finish(&child, words, log, start_s, error)
+        read_events(&child, ends[0]);
+    const bool ok = failure == 0 ? finish(&child, arguments, log, start_s, error)
                                  : kiln_error_set_errno(error, KILN_DEVICE_FAILED, failure,
-                                                        "kiln %s cannot be started", words[0]);
+                                                        "kiln %s cannot be started", arguments[0]);
     if (ends[0] >= 0)
         close(ends[0]);
     if (log >= 0)

@@ -15,16 +15,17 @@ enum kiln_process_point {
 };
 
 struct kiln_process {
-    bool told; /* set by the caller: events report all points; else only the end is measured */
+    bool reports_events; /* set by the caller: events report all points; else only the end is
+                            measured */
     double cpu_s[KILN_PROCESS_POINTS]; /* CPU time of all threads since the start */
     double elapsed_s;                  /* from the start to the end */
 };
 
-/* Starts the running program anew with `words` as its arguments, and waits for it. The first word
- * is the command, and NULL ends the words. The output of the process is dropped. A process that
+/* Starts the running program anew with these arguments, and waits for it. The first argument is
+ * the command, and NULL ends the list. The output of the process is dropped. A process that
  * fails is an error with its exit code and its last line. When the caller asks to stop, the process
  * is ended first, and then the function fails with KILN_INTERRUPTED. */
-bool kiln_process_run(const struct kiln_bench_run *run, const char **words,
+bool kiln_process_run(const struct kiln_bench_run *run, const char **arguments,
                       struct kiln_process *process, struct kiln_error *error);
 
 #endif

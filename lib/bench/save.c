@@ -23,42 +23,45 @@ bool kiln_bench_write(const struct kiln_bench *bench, enum kiln_bench_format for
            kiln_error_set(error, KILN_IO, "the measurements cannot be written");
 }
 
-struct saving {
+struct output_folder {
     const struct kiln_bench *bench;
     const char *folder;
     struct kiln_error *error;
 };
 
-static bool put_file(const struct saving *saving, const char *name, const void *bytes, size_t size)
+static bool put_file(const struct output_folder *output_folder, const char *name, const void *bytes,
+                     size_t size)
 {
     char path[KILN_PATH_SIZE];
-    return kiln_path_join(path, saving->folder, name, saving->error) &&
-           kiln_temporary_write_file(path, bytes, size, saving->error);
+    return kiln_path_join(path, output_folder->folder, name, output_folder->error) &&
+           kiln_temporary_write_file(path, bytes, size, output_folder->error);
 }
 
 /* Closes a stream into memory, and writes its bytes into a file. */
-static bool put_stream(const struct saving *saving, const char *name, FILE *stream, char **bytes,
-                       const size_t *size)
+static bool put_stream(const struct output_folder *output_folder, const char *name, FILE *stream,
+                       char **bytes, const size_t *size)
 {
     bool whole = stream && !ferror(stream);
     whole = (!stream || fclose(stream) == 0) && whole;
     if (!whole)
-        kiln_error_set(saving->error, KILN_DEVICE_FAILED, "out of memory for %s", name);
-    bool ok = whole && put_file(saving, name, *bytes, *size);
+        kiln_error_set(output_folder->error, KILN_DEVICE_FAILED, "out of memory for %s", name);
+    bool ok = whole && put_file(output_folder, name, *bytes, *size);
     free(*bytes);
     return ok;
 }
 
-static bool put_format(const struct saving *saving, enum kiln_bench_format format, const char *name)
+static bool put_format(const struct output_folder *output_folder, enum kiln_bench_format format,
+                       const char *name)
 {
     char *bytes = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&bytes, &size);
-    bool written = stream && kiln_bench_write(saving->bench, format, stream, saving->error);
-    return put_stream(saving, name, stream, &bytes, &size) && written;
+    bool written =
+        stream && kiln_bench_write(output_folder->bench, format, stream, output_folder->error);
+    return put_stream(output_folder, name, stream, &bytes, &size) && written;
 }
 
-static bool put_part(const struct saving *saving, const struct kiln_bench_part *part,
+static bool put_part(const struct output_folder *output_folder, const struct kiln_bench_part *part,
                      const char *suffix, void (*write)(const struct kiln_bench_part *, FILE *))
 {
     char *bytes = NULL, name[128];
@@ -67,58 +70,59 @@ static bool put_part(const struct saving *saving, const struct kiln_bench_part *
     if (stream)
         write(part, stream);
     snprintf(name, sizeof name, "%s%s", part->name, suffix);
-    return put_stream(saving, name, stream, &bytes, &size);
+    return put_stream(output_folder, name, stream, &bytes, &size);
 }
 
 /* Draws the curves of a part. Where that fails, it removes an older picture, which would show other
  * data. */
-static bool put_picture(const struct saving *saving, const struct kiln_bench_part *part,
-                        char problem[KILN_MESSAGE_SIZE])
+static bool put_picture(const struct output_folder *output_folder,
+                        const struct kiln_bench_part *part, char problem[KILN_MESSAGE_SIZE])
 {
     char script[128], name[128], path[KILN_PATH_SIZE];
     snprintf(script, sizeof script, "%s.gp", part->name);
     snprintf(name, sizeof name, "%s.svg", part->name);
     size_t size = 0;
-    char *picture = *problem ? NULL : kiln_bench_plot(saving->folder, script, &size, problem);
+    char *picture =
+        *problem ? NULL : kiln_bench_plot(output_folder->folder, script, &size, problem);
     if (!picture) {
-        if (!kiln_path_join(path, saving->folder, name, saving->error))
+        if (!kiln_path_join(path, output_folder->folder, name, output_folder->error))
             return false;
         unlink(path);
         return true;
     }
-    bool ok = put_file(saving, name, picture, size);
+    bool ok = put_file(output_folder, name, picture, size);
     free(picture);
     return ok;
 }
 
 bool kiln_bench_prepare(const char *folder, struct kiln_error *error)
 {
-    struct kiln_temporary trial = {0};
+    struct kiln_temporary probe = {0};
     char path[KILN_PATH_SIZE];
     if (!kiln_path_join(path, folder, "bench.txt", error) ||
         !kiln_make_parent_folders(path, error) || !kiln_target_check(path, true, error) ||
-        !kiln_temporary_open(&trial, path, error))
+        !kiln_temporary_open(&probe, path, error))
         return false;
-    kiln_temporary_discard(&trial);
+    kiln_temporary_discard(&probe);
     return true;
 }
 
 bool kiln_bench_save(const struct kiln_bench *bench, const char *folder,
                      char unplotted[KILN_MESSAGE_SIZE], struct kiln_error *error)
 {
-    const struct saving saving = {bench, folder, error};
+    const struct output_folder output_folder = {bench, folder, error};
     *unplotted = '\0';
-    if (!put_format(&saving, KILN_BENCH_TEXT, "bench.txt") ||
-        !put_format(&saving, KILN_BENCH_JSON, "bench.json") ||
-        !put_format(&saving, KILN_BENCH_CSV, "bench.csv") ||
-        !put_format(&saving, KILN_BENCH_MARKDOWN, "bench.md"))
+    if (!put_format(&output_folder, KILN_BENCH_TEXT, "bench.txt") ||
+        !put_format(&output_folder, KILN_BENCH_JSON, "bench.json") ||
+        !put_format(&output_folder, KILN_BENCH_CSV, "bench.csv") ||
+        !put_format(&output_folder, KILN_BENCH_MARKDOWN, "bench.md"))
         return false;
     for (size_t i = 0; i < bench->part_count; i++) {
         const struct kiln_bench_part *part = &bench->parts[i];
         if (part->plotted && kiln_bench_has_points(part) &&
-            !(put_part(&saving, part, ".dat", kiln_bench_write_curves) &&
-              put_part(&saving, part, ".gp", kiln_bench_write_script) &&
-              put_picture(&saving, part, unplotted)))
+            !(put_part(&output_folder, part, ".dat", kiln_bench_write_curves) &&
+              put_part(&output_folder, part, ".gp", kiln_bench_write_script) &&
+              put_picture(&output_folder, part, unplotted)))
             return false;
     }
     return true;

@@ -6,60 +6,61 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "bench/sort_trial.h"
+#include "bench/sort_timer.h"
 #include "bench/suite.h"
 #include "shared/random.h"
 
 /* Numbers of rows of the last entrants. These sort packed pairs within sets of that many rows
- * (UberFlow, 5); the other entrants are the kinds of trials. */
+ * (UberFlow, 5); the other entrants are the kinds of timers. */
 static const uint32_t ROWS[] = {1, 16};
 
 enum {
     RESTRICTED = sizeof ROWS / sizeof *ROWS,
-    ENTRANTS = KILN_TRIAL_COUNT + RESTRICTED,
+    ENTRANTS = KILN_SORT_TIMER_COUNT + RESTRICTED,
 };
 
-struct race {
+struct sort_bench {
     const struct kiln_bench_run *run;
     struct kiln_threads *threads;
     uint32_t *keys;
     uint32_t count;
     struct kiln_lane lanes[ENTRANTS]; /* only their names are used */
-    struct kiln_sort_trial *trials[ENTRANTS];
+    struct kiln_sort_timer *timers[ENTRANTS];
     struct kiln_samples *samples; /* [ENTRANTS] */
 };
 
 /* Returns whether the device allows this kind of sort at all. */
-static bool may_sort(const struct race *race, enum kiln_sort_trial_kind kind,
+static bool may_sort(const struct sort_bench *sort_bench, enum kiln_sort_timer_kind kind,
                      struct kiln_error *error)
 {
     static const char *const flag = "sort=bitonic";
     struct kiln_techniques unused;
-    return kind == KILN_TRIAL_CPU || kiln_techniques_choose(kiln_device_get_info(race->run->device),
-                                                            &flag, 1, &unused, error);
+    return kind == KILN_SORT_TIMER_CPU ||
+           kiln_techniques_choose(kiln_device_get_info(sort_bench->run->device), &flag, 1, &unused,
+                                  error);
 }
 
-static bool enter(struct race *race, size_t index, struct kiln_error *error)
+static bool enter(struct sort_bench *sort_bench, size_t index, struct kiln_error *error)
 {
-    bool restricted = index >= KILN_TRIAL_COUNT;
-    enum kiln_sort_trial_kind kind =
-        restricted ? KILN_TRIAL_PACKED : (enum kiln_sort_trial_kind)index;
-    const char *name = kiln_sort_trial_name(kind);
-    uint32_t rows = restricted ? ROWS[index - KILN_TRIAL_COUNT] : 0;
-    race->lanes[index] = (struct kiln_lane){
-        .name = restricted ? kiln_arena_format(race->run->bench->arena, "%s, %u row%s", name, rows,
-                                               rows == 1 ? "" : "s")
+    bool restricted = index >= KILN_SORT_TIMER_COUNT;
+    enum kiln_sort_timer_kind kind =
+        restricted ? KILN_SORT_TIMER_PACKED : (enum kiln_sort_timer_kind)index;
+    const char *name = kiln_sort_timer_name(kind);
+    uint32_t rows = restricted ? ROWS[index - KILN_SORT_TIMER_COUNT] : 0;
+    sort_bench->lanes[index] = (struct kiln_lane){
+        .name = restricted ? kiln_arena_format(sort_bench->run->bench->arena, "%s, %u row%s", name,
+                                               rows, rows == 1 ? "" : "s")
                            : name};
-    if (!race->lanes[index].name) {
+    if (!sort_bench->lanes[index].name) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
         return false;
     }
-    if (may_sort(race, kind, error))
-        race->trials[index] =
-            kiln_sort_trial_create(race->run->device, race->threads, kind, race->count, error);
-    if (!race->trials[index])
-        return kiln_lane_is_refused(race->run, error, &race->samples[index].problem);
-    kiln_sort_trial_restrict(race->trials[index], rows);
+    if (may_sort(sort_bench, kind, error))
+        sort_bench->timers[index] = kiln_sort_timer_create(
+            sort_bench->run->device, sort_bench->threads, kind, sort_bench->count, error);
+    if (!sort_bench->timers[index])
+        return kiln_lane_is_refused(sort_bench->run, error, &sort_bench->samples[index].problem);
+    kiln_sort_timer_restrict(sort_bench->timers[index], rows);
     return true;
 }
 
@@ -71,19 +72,20 @@ static bool may_go_on(const struct kiln_bench_run *run, struct kiln_error *error
 }
 
 /* Runs all entrants in turn. The first turn only warms up. */
-static bool take_turns(struct race *race, struct kiln_error *error)
+static bool take_turns(struct sort_bench *sort_bench, struct kiln_error *error)
 {
     double spent_ms = 0.0;
-    for (uint32_t turn = 0; turn <= race->run->bench->repetitions; turn++) {
-        if (turn > KILN_BENCH_MIN_REPETITIONS && spent_ms > 1e3 * race->run->params->seconds)
+    for (uint32_t turn = 0; turn <= sort_bench->run->bench->repetitions; turn++) {
+        if (turn > KILN_BENCH_MIN_REPETITIONS && spent_ms > 1e3 * sort_bench->run->params->seconds)
             return true;
         for (size_t i = 0; i < ENTRANTS; i++) {
-            struct kiln_samples *samples = &race->samples[i];
+            struct kiln_samples *samples = &sort_bench->samples[i];
             double ms = 0.0;
-            if (!race->trials[i])
+            if (!sort_bench->timers[i])
                 continue;
-            if (!may_go_on(race->run, error) ||
-                !kiln_sort_trial_run(race->trials[i], race->keys, race->count, &ms, error))
+            if (!may_go_on(sort_bench->run, error) ||
+                !kiln_sort_timer_run(sort_bench->timers[i], sort_bench->keys, sort_bench->count,
+                                     &ms, error))
                 return false;
             if (turn > 0)
                 samples->ms[KILN_PASS_sort][samples->count++] = ms;
@@ -93,17 +95,17 @@ static bool take_turns(struct race *race, struct kiln_error *error)
     return true;
 }
 
-static bool set_up(struct race *race, struct kiln_error *error)
+static bool set_up(struct sort_bench *sort_bench, struct kiln_error *error)
 {
-    race->threads = kiln_threads_create(race->run->params->threads);
-    race->keys = calloc(race->count, sizeof *race->keys);
-    race->samples = calloc(ENTRANTS, sizeof *race->samples);
-    if (!race->threads || !race->keys || !race->samples)
+    sort_bench->threads = kiln_threads_create(sort_bench->run->params->threads);
+    sort_bench->keys = calloc(sort_bench->count, sizeof *sort_bench->keys);
+    sort_bench->samples = calloc(ENTRANTS, sizeof *sort_bench->samples);
+    if (!sort_bench->threads || !sort_bench->keys || !sort_bench->samples)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
-    for (uint32_t i = 0; i < race->count; i++)
-        race->keys[i] = random_mix(i);
+    for (uint32_t i = 0; i < sort_bench->count; i++)
+        sort_bench->keys[i] = random_mix(i);
     for (size_t i = 0; i < ENTRANTS; i++) {
-        if (!enter(race, i, error))
+        if (!enter(sort_bench, i, error))
             return false;
     }
     return true;
@@ -111,19 +113,19 @@ static bool set_up(struct race *race, struct kiln_error *error)
 
 static bool run_side(const struct kiln_bench_run *run, double side, struct kiln_error *error)
 {
-    struct race race = {.run = run, .count = (uint32_t)(side * side)};
-    bool ok = set_up(&race, error) && take_turns(&race, error);
-    const struct kiln_comparison comparison = {.lanes = race.lanes,
+    struct sort_bench sort_bench = {.run = run, .count = (uint32_t)(side * side)};
+    bool ok = set_up(&sort_bench, error) && take_turns(&sort_bench, error);
+    const struct kiln_comparison comparison = {.lanes = sort_bench.lanes,
                                                .lane_count = ENTRANTS,
                                                .measures = KILN_MEASURE(sort),
                                                .x = side,
                                                .rates = true};
-    ok = ok && kiln_bench_add_samples(run, &comparison, race.samples, error);
+    ok = ok && kiln_bench_add_samples(run, &comparison, sort_bench.samples, error);
     for (size_t i = 0; i < ENTRANTS; i++)
-        kiln_sort_trial_destroy(&race.trials[i]);
-    free(race.samples);
-    free(race.keys);
-    kiln_threads_destroy(&race.threads);
+        kiln_sort_timer_destroy(&sort_bench.timers[i]);
+    free(sort_bench.samples);
+    free(sort_bench.keys);
+    kiln_threads_destroy(&sort_bench.threads);
     return ok;
 }
 
@@ -154,7 +156,7 @@ bool kiln_suite_table_1(const struct kiln_bench_run *run, struct kiln_error *err
         .title = "UberFlow, table 1: sorting n x n pairs of random keys",
         .sweep = "n",
         .unit = "fps",
-        .reference = kiln_sort_trial_name(KILN_TRIAL_CPU),
+        .reference = kiln_sort_timer_name(KILN_SORT_TIMER_CPU),
         .plotted = true,
     };
     if (!kiln_bench_begin(run, &part, error))

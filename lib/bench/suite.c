@@ -28,9 +28,9 @@ void kiln_bench_say(const struct kiln_bench_run *run, const char *format, ...)
 
 void kiln_set(const struct kiln_bench_run *run, struct kiln_settings *settings, const char *text)
 {
-    const char *kept = kiln_arena_text(run->bench->arena, text, strlen(text));
+    const char *copy = kiln_arena_text(run->bench->arena, text, strlen(text));
     if (settings->count < KILN_MAX_SETTINGS)
-        settings->items[settings->count] = kept;
+        settings->items[settings->count] = copy;
     settings->count++;
 }
 
@@ -52,7 +52,7 @@ void kiln_set_picture(const struct kiln_bench_run *run, struct kiln_settings *se
     kiln_set(run, settings, text);
 }
 
-void kiln_set_unseen(const struct kiln_bench_run *run, struct kiln_settings *settings)
+void kiln_set_small_picture(const struct kiln_bench_run *run, struct kiln_settings *settings)
 {
     static const char *const texts[] = {"output.size=[64, 36]", "post.bloom.kind=none",
                                         "systems.*.look.lit=0", "systems.*.look.shadow=0",
@@ -96,7 +96,7 @@ size_t kiln_lanes_of_stage(const struct kiln_bench_run *run, const char *stage,
             continue;
         const char *names[KILN_MAX_TECHNIQUES];
         size_t found = kiln_stage_techniques(s, names), count = 0;
-        for (int others = 0; others < 2; others++) {
+        for (int pass = 0; pass < 2; pass++) {
             for (size_t i = 0; i < found && count < KILN_MAX_LANES; i++) {
                 bool chosen = strcmp(names[i], automatic.choices[s].name) == 0;
                 char text[KILN_TECHNIQUE_SIZE];
@@ -105,7 +105,7 @@ size_t kiln_lanes_of_stage(const struct kiln_bench_run *run, const char *stage,
                 else
                     snprintf(text, sizeof text, "%s=%s", stage, names[i]);
                 char *name = kiln_arena_text(run->bench->arena, text, strlen(text));
-                if (name && chosen != (others == 1))
+                if (name && chosen != (pass == 1))
                     lanes[count++] = (struct kiln_lane){.name = name, .techniques = name};
             }
         }
@@ -203,7 +203,7 @@ bool kiln_compare_cloud(const struct kiln_bench_run *run, struct kiln_settings *
 {
     static const struct kiln_lane cpu = {.name = "simulate=cpu", .techniques = "simulate=cpu"};
     kiln_set_number(run, settings, "systems.*.emit.rate", particles / 2);
-    kiln_set_unseen(run, settings);
+    kiln_set_small_picture(run, settings);
     const struct kiln_comparison comparison = {.scene = "bench/cloud.yaml",
                                                .settings = settings,
                                                .lanes = &cpu,

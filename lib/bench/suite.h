@@ -60,7 +60,7 @@ void kiln_set_picture(const struct kiln_bench_run *run, struct kiln_settings *se
 
 /* Sets a small picture without bloom and lights, so that a frame takes little more time than
  * simulation and sort. */
-void kiln_set_unseen(const struct kiln_bench_run *run, struct kiln_settings *settings);
+void kiln_set_small_picture(const struct kiln_bench_run *run, struct kiln_settings *settings);
 
 /* Loads one of the scenes in the library, such as "fire_beam.yaml". */
 struct kiln_scene *kiln_bench_load_scene(const struct kiln_bench_run *run, const char *name,

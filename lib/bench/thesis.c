@@ -35,13 +35,13 @@ static size_t size_count(const struct kiln_bench_run *run)
 
 /* Compares the lanes with beams of all sizes, in a picture so small that drawing takes little
  * time. */
-static bool compare_unseen(const struct kiln_bench_run *run, const struct kiln_lane *lanes,
-                           size_t lane_count, uint32_t measures, struct kiln_error *error)
+static bool compare_small_picture(const struct kiln_bench_run *run, const struct kiln_lane *lanes,
+                                  size_t lane_count, uint32_t measures, struct kiln_error *error)
 {
     for (size_t i = 0; i < size_count(run); i++) {
         struct kiln_settings settings = {.count = 0};
         set_beam(run, &settings, SIZES[i]);
-        kiln_set_unseen(run, &settings);
+        kiln_set_small_picture(run, &settings);
         const struct kiln_comparison comparison = {.scene = SCENE,
                                                    .settings = &settings,
                                                    .lanes = lanes,
@@ -72,7 +72,7 @@ bool kiln_suite_figure_4_4(const struct kiln_bench_run *run, struct kiln_error *
         .plotted = true,
     };
     if (!kiln_bench_begin(run, &part, error) ||
-        !compare_unseen(run, lanes, count, KILN_MEASURE(simulate), error))
+        !compare_small_picture(run, lanes, count, KILN_MEASURE(simulate), error))
         return false;
     return kiln_bench_add_note(
         run->bench, error,
@@ -88,30 +88,31 @@ static const struct {
     const char *as;
     const char *without; /* settings that leave the other part out, or NULL */
     uint32_t measures;
-} SHOWN[] = {
+} FRAME_PARTS[] = {
     {"render fire", "systems.smoke.enabled=false", KILN_MEASURE(particles)},
     {"render smoke", "systems.fire.enabled=false", KILN_MEASURE(particles)},
     {NULL, NULL, KILN_MEASURE(simulate) | KILN_MEASURE_WHOLE},
 };
 
-static bool draw_near(const struct kiln_bench_run *run, double particles,
-                      const struct kiln_lane *lanes, size_t count, struct kiln_error *error)
+static bool compare_close_camera(const struct kiln_bench_run *run, double particles,
+                                 const struct kiln_lane *lanes, size_t count,
+                                 struct kiln_error *error)
 {
-    for (size_t k = 0; k < sizeof SHOWN / sizeof *SHOWN; k++) {
+    for (size_t k = 0; k < sizeof FRAME_PARTS / sizeof *FRAME_PARTS; k++) {
         struct kiln_settings settings = {.count = 0};
         set_beam(run, &settings, particles);
         kiln_set_picture(run, &settings, 1280, 720);
         kiln_set(run, &settings, "post.compose=separate");
         kiln_set(run, &settings, "camera.position=[3.4, 1.9, 2.2]");
         kiln_set(run, &settings, "camera.target=[2.4, 1.6, 0]");
-        if (SHOWN[k].without)
-            kiln_set(run, &settings, SHOWN[k].without);
+        if (FRAME_PARTS[k].without)
+            kiln_set(run, &settings, FRAME_PARTS[k].without);
         const struct kiln_comparison comparison = {.scene = SCENE,
                                                    .settings = &settings,
                                                    .lanes = lanes,
                                                    .lane_count = count,
-                                                   .measures = SHOWN[k].measures,
-                                                   .as = SHOWN[k].as,
+                                                   .measures = FRAME_PARTS[k].measures,
+                                                   .as = FRAME_PARTS[k].as,
                                                    .x = particles};
         if (!kiln_compare_lanes(run, &comparison, error))
             return false;
@@ -137,7 +138,7 @@ bool kiln_suite_figure_4_5(const struct kiln_bench_run *run, struct kiln_error *
         return false;
     for (size_t i = 0; i < size_count(run); i += 2) {
         kiln_bench_say(run, "%.0f particles", SIZES[i]);
-        if (!draw_near(run, SIZES[i], lanes, count, error))
+        if (!compare_close_camera(run, SIZES[i], lanes, count, error))
             return false;
     }
     return kiln_bench_add_note(run->bench, error,
@@ -168,7 +169,7 @@ bool kiln_suite_figure_4_6(const struct kiln_bench_run *run, struct kiln_error *
         .plotted = true,
     };
     if (!kiln_bench_begin(run, &part, error) ||
-        !compare_unseen(run, lanes, count, KILN_MEASURE(sort), error))
+        !compare_small_picture(run, lanes, count, KILN_MEASURE(sort), error))
         return false;
     return kiln_bench_add_note(run->bench, error,
                                "Published (4.2): sorting on the CPU is much more efficient than "

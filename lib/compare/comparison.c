@@ -16,8 +16,8 @@
 
 struct comparison {
     const struct kiln_compare_params *params;
-    const char *beside, *option;     /* a file that the caller writes, and its option; or NULL */
-    struct kiln_footage *footage[2]; /* reference, test */
+    const char *output_file, *output_option; /* a file that the caller writes; or NULL */
+    struct kiln_footage *footage[2];         /* reference, test */
     struct kiln_metric_set set;
     struct kiln_difference_plan diff, error_map;
     struct kiln_claims *claims; /* of all files that are read and written */
@@ -44,18 +44,19 @@ const char *kiln_compare_verdict_name(enum kiln_compare_verdict verdict)
 
 /* ---- One frame ---------------------------------------------------------------------------- */
 
-static bool choose_mode(struct comparison *comparison, const struct kiln_subject *const subjects[2],
-                        bool *hdr, struct kiln_error *error)
+static bool choose_mode(struct comparison *comparison,
+                        const struct kiln_compare_picture *const pictures[2], bool *hdr,
+                        struct kiln_error *error)
 {
     enum kiln_compare_mode mode = comparison->params->mode;
-    if (mode == KILN_COMPARE_AUTO && subjects[0]->hdr != subjects[1]->hdr)
+    if (mode == KILN_COMPARE_AUTO && pictures[0]->hdr != pictures[1]->hdr)
         return kiln_error_set(
             error, KILN_USAGE,
             "%s is %s and %s is not: choose the range of light by --range ldr or hdr",
             kiln_footage_path(comparison->footage[0]),
-            subjects[0]->hdr ? "of floats" : "of integers",
+            pictures[0]->hdr ? "of floats" : "of integers",
             kiln_footage_path(comparison->footage[1]));
-    *hdr = mode == KILN_COMPARE_AUTO ? subjects[0]->hdr : mode == KILN_COMPARE_HDR;
+    *hdr = mode == KILN_COMPARE_AUTO ? pictures[0]->hdr : mode == KILN_COMPARE_HDR;
     comparison->result.hdr = *hdr;
     return true;
 }
@@ -77,8 +78,8 @@ static void note_places(const struct kiln_measurement *measurement,
 
 /* Measures and judges a pair of pictures, and draws the difference. Pictures whose sizes or
  * channels do not match get a verdict and are no error. */
-static bool compare_subjects(struct comparison *comparison,
-                             const struct kiln_subject *const subjects[2],
+static bool compare_pictures(struct comparison *comparison,
+                             const struct kiln_compare_picture *const pictures[2],
                              struct kiln_compare_frame *frame, uint32_t number,
                              struct kiln_error *error)
 {
@@ -87,11 +88,11 @@ static bool compare_subjects(struct comparison *comparison,
     struct kiln_measure_params measure = {.pixels_per_degree = params->pixels_per_degree,
                                           .threshold = params->threshold,
                                           .window = params->window};
-    frame->width = subjects[0]->width;
-    frame->height = subjects[0]->height;
-    if (!choose_mode(comparison, subjects, &measure.hdr, error))
+    frame->width = pictures[0]->width;
+    frame->height = pictures[0]->height;
+    if (!choose_mode(comparison, pictures, &measure.hdr, error))
         return false;
-    bool ok = kiln_measurement_take(&measurement, subjects[0], subjects[1], &measure,
+    bool ok = kiln_measurement_take(&measurement, pictures[0], pictures[1], &measure,
                                     comparison->threads, error) &&
               kiln_metric_set_judge(&comparison->set, &measurement, frame, error);
     if (ok) {
@@ -104,8 +105,8 @@ static bool compare_subjects(struct comparison *comparison,
     const struct kiln_difference_plan *plans[] = {
         params->diff ? &comparison->diff : NULL, params->error_map ? &comparison->error_map : NULL};
     for (size_t i = 0; i < 2; i++)
-        ok = ok && (!plans[i] || kiln_difference_write(plans[i], frame->name, number, subjects[0],
-                                                       subjects[1], measurement.errors, error));
+        ok = ok && (!plans[i] || kiln_difference_write(plans[i], frame->name, number, pictures[0],
+                                                       pictures[1], measurement.errors, error));
     kiln_measurement_finish(&measurement);
     return ok || error->code == KILN_FRAME_FAILED;
 }
@@ -140,9 +141,9 @@ static bool make_mask(struct comparison *comparison, struct kiln_asset_image *co
                           error);
 }
 
-static bool make_subjects(struct comparison *comparison, const char *frame,
+static bool make_pictures(struct comparison *comparison, const char *frame,
                           struct kiln_asset_image *const images[2],
-                          struct kiln_subject *subjects[2], struct kiln_error *error)
+                          struct kiln_compare_picture *pictures[2], struct kiln_error *error)
 {
     const struct kiln_mask *mask;
     if (!make_mask(comparison, images, &mask, error))
@@ -152,22 +153,22 @@ static bool make_subjects(struct comparison *comparison, const char *frame,
         bool still = kiln_footage_kind(comparison->footage[i]) == KILN_FOOTAGE_STILL;
         snprintf(name, sizeof name, "%s%s%s", kiln_footage_path(comparison->footage[i]),
                  still ? "" : ": frame ", still ? "" : frame);
-        subjects[i] = kiln_subject_create(images[i], mask ? mask->masked : NULL, name,
-                                          comparison->threads, error);
-        if (!subjects[i])
+        pictures[i] = kiln_compare_picture_create(images[i], mask ? mask->masked : NULL, name,
+                                                  comparison->threads, error);
+        if (!pictures[i])
             return false;
     }
     if (mask)
-        kiln_mask_apply(mask, subjects[0], subjects[1]);
+        kiln_mask_apply(mask, pictures[0], pictures[1]);
     return true;
 }
 
-static bool load_subjects(struct comparison *comparison, const char *frame,
-                          struct kiln_subject *subjects[2], struct kiln_error *error)
+static bool load_pictures(struct comparison *comparison, const char *frame,
+                          struct kiln_compare_picture *pictures[2], struct kiln_error *error)
 {
     struct kiln_asset_image *images[2] = {NULL, NULL};
     bool ok = load_images(comparison, images, error) &&
-              make_subjects(comparison, frame, images, subjects, error);
+              make_pictures(comparison, frame, images, pictures, error);
     for (int i = 0; i < 2; i++)
         kiln_asset_image_destroy(&images[i]);
     return ok;
@@ -176,11 +177,11 @@ static bool load_subjects(struct comparison *comparison, const char *frame,
 static bool compare_frame(struct comparison *comparison, struct kiln_compare_frame *frame,
                           uint32_t number, struct kiln_error *error)
 {
-    struct kiln_subject *subjects[2] = {NULL, NULL};
-    bool ok = load_subjects(comparison, frame->name, subjects, error);
+    struct kiln_compare_picture *pictures[2] = {NULL, NULL};
+    bool ok = load_pictures(comparison, frame->name, pictures, error);
     if (ok) {
-        const struct kiln_subject *const both[2] = {subjects[0], subjects[1]};
-        ok = compare_subjects(comparison, both, frame, number, error);
+        const struct kiln_compare_picture *const both[2] = {pictures[0], pictures[1]};
+        ok = compare_pictures(comparison, both, frame, number, error);
     } else if (error->code == KILN_INVALID_INPUT) {
         frame->verdict = KILN_COMPARE_UNREADABLE;
         frame->message = error->message;
@@ -188,8 +189,8 @@ static bool compare_frame(struct comparison *comparison, struct kiln_compare_fra
             comparison->failure = *error;
         ok = true;
     }
-    kiln_subject_destroy(&subjects[0]);
-    kiln_subject_destroy(&subjects[1]);
+    kiln_compare_picture_destroy(&pictures[0]);
+    kiln_compare_picture_destroy(&pictures[1]);
     return ok;
 }
 
@@ -256,12 +257,12 @@ static bool compare_next(struct comparison *comparison, struct kiln_error *error
     if ((!has[0] && !has[1]) || comparison->ended)
         return false;
     int first = order(comparison, next, has);
-    const struct kiln_footage_frame *taken = &next[first > 0];
+    const struct kiln_footage_frame *chosen = &next[first > 0];
     char name[256]; /* the frame's own name is lost with the next peek */
-    note_name(name, taken->name);
+    note_name(name, chosen->name);
     struct kiln_compare_frame frame = {.size = sizeof frame, .name = name, .message = ""};
     if (first == 0) {
-        if (!compare_frame(comparison, &frame, taken->number, error))
+        if (!compare_frame(comparison, &frame, chosen->number, error))
             return false;
     } else {
         frame.verdict = first < 0 ? KILN_COMPARE_MISSING : KILN_COMPARE_EXTRA;
@@ -348,8 +349,9 @@ static bool claim_files(struct comparison *comparison, struct kiln_error *error)
             return false;
     }
     const struct kiln_footage *reference = comparison->footage[0];
-    return (!comparison->beside ||
-            kiln_claims_write(comparison->claims, comparison->beside, comparison->option, error)) &&
+    return (!comparison->output_file ||
+            kiln_claims_write(comparison->claims, comparison->output_file,
+                              comparison->output_option, error)) &&
            (!params->diff || kiln_difference_plan_claim(&comparison->diff, "--diff", reference,
                                                         comparison->claims, error)) &&
            (!params->error_map || kiln_difference_plan_claim(&comparison->error_map, "--error-map",
@@ -390,39 +392,39 @@ static bool prepare(struct comparison *comparison, struct kiln_error *error)
 
 /* Copies the caller's parameters. The masks are copied to the array *masks, which is to be freed.
  */
-static bool take(struct kiln_compare_params *taken, const struct kiln_compare_params *given,
-                 struct kiln_compare_mask **masks, struct kiln_error *error)
+static bool copy_params(struct kiln_compare_params *copy, const struct kiln_compare_params *params,
+                        struct kiln_compare_mask **masks, struct kiln_error *error)
 {
-    if (!kiln_sized_take(taken, given, "kiln_compare_params", error))
+    if (!kiln_sized_take(copy, params, "kiln_compare_params", error))
         return false;
-    const char *mask = (const char *)taken->masks;
-    *masks = calloc(taken->mask_count + 1, sizeof **masks);
+    const char *mask = (const char *)copy->masks;
+    *masks = calloc(copy->mask_count + 1, sizeof **masks);
     if (!*masks)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for masks");
-    for (size_t i = 0; i < taken->mask_count; i++, mask += taken->mask_stride) {
+    for (size_t i = 0; i < copy->mask_count; i++, mask += copy->mask_stride) {
         (*masks)[i] = kiln_compare_mask_empty();
         if (!kiln_sized_take(&(*masks)[i], mask, "kiln_compare_mask", error))
             return false;
     }
-    taken->masks = *masks;
+    copy->masks = *masks;
     return true;
 }
 
-bool kiln_compare_beside(const struct kiln_compare_params *given, const char *file,
-                         const char *option, struct kiln_compare_result *result,
-                         struct kiln_error *error)
+bool kiln_compare_with_output(const struct kiln_compare_params *params, const char *file,
+                              const char *option, struct kiln_compare_result *result,
+                              struct kiln_error *error)
 {
     double start_s = kiln_clock_seconds();
-    struct kiln_compare_params params = kiln_compare_defaults();
+    struct kiln_compare_params copy = kiln_compare_defaults();
     struct kiln_compare_mask *masks = NULL;
-    struct comparison comparison = {.params = &params,
-                                    .beside = file,
-                                    .option = option,
+    struct comparison comparison = {.params = &copy,
+                                    .output_file = file,
+                                    .output_option = option,
                                     .result = kiln_compare_result_empty(),
                                     .worst_score = -1};
     if (!kiln_sized_check(result, "kiln_compare_result", error))
         return false;
-    bool ok = take(&params, given, &masks, error) && prepare(&comparison, error) &&
+    bool ok = copy_params(&copy, params, &masks, error) && prepare(&comparison, error) &&
               compare_all(&comparison, error);
     struct kiln_compare_result *found = &comparison.result;
     found->same = ok && found->measured > 0 && found->counts[KILN_COMPARE_SAME] == found->frames;
@@ -440,5 +442,5 @@ bool kiln_compare_beside(const struct kiln_compare_params *given, const char *fi
 bool kiln_compare(const struct kiln_compare_params *params, struct kiln_compare_result *result,
                   struct kiln_error *error)
 {
-    return kiln_compare_beside(params, NULL, NULL, result, error);
+    return kiln_compare_with_output(params, NULL, NULL, result, error);
 }

@@ -92,8 +92,9 @@ static void put_levels(const float *levels, uint8_t *out)
     }
 }
 
-static void draw_panels(const struct kiln_subject *reference, const struct kiln_subject *test,
-                        const float *errors, uint8_t *display)
+static void draw_panels(const struct kiln_compare_picture *reference,
+                        const struct kiln_compare_picture *test, const float *errors,
+                        uint8_t *display)
 {
     size_t width = reference->width;
     for (size_t y = 0; y < reference->height; y++) {
@@ -114,8 +115,8 @@ static void draw_map(const float *errors, size_t pixels, uint8_t *display)
 }
 
 bool kiln_difference_write(const struct kiln_difference_plan *plan, const char *name,
-                           uint32_t number, const struct kiln_subject *reference,
-                           const struct kiln_subject *test, const float *errors,
+                           uint32_t number, const struct kiln_compare_picture *reference,
+                           const struct kiln_compare_picture *test, const float *errors,
                            struct kiln_error *error)
 {
     char path[KILN_PATH_SIZE];

@@ -35,8 +35,8 @@ bool kiln_difference_plan_claim(struct kiln_difference_plan *plan, const char *o
 /* Writes one picture, which appears whole or not at all. name is the frame's name, and number goes
  * into the pattern. Fails with KILN_IO or KILN_DEVICE_FAILED. */
 bool kiln_difference_write(const struct kiln_difference_plan *plan, const char *name,
-                           uint32_t number, const struct kiln_subject *reference,
-                           const struct kiln_subject *test, const float *errors,
+                           uint32_t number, const struct kiln_compare_picture *reference,
+                           const struct kiln_compare_picture *test, const float *errors,
                            struct kiln_error *error);
 
 #endif

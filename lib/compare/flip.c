@@ -45,7 +45,7 @@ struct flip {
     const struct kiln_flip_pair *pair;
     struct filters filters;
     float from_xyz[3][3];
-    float largest; /* HyAB distance of green and blue to the power 0.7: cmax */
+    float max_distance; /* HyAB distance of green and blue to the power 0.7: cmax */
     struct planes planes[2];
     float *errors;
     uint32_t tiles_across;
@@ -353,10 +353,10 @@ static inline float feature_size(float across, float down)
 /* Computes the errors of a row: the colour error, remapped at the knee, is raised to the power of 1
  * minus the feature error (HPG 2020, 4.1.3, 4.2 and 4.3). */
 KILN_WIDE_VECTORS
-static void judge_row(const struct row *row, const float from_xyz[3][3], float largest,
+static void judge_row(const struct row *row, const float from_xyz[3][3], float max_distance,
                       float *errors, int count)
 {
-    const float knee = 0.4f * largest, at_knee = 0.95f;
+    const float knee = 0.4f * max_distance, at_knee = 0.95f;
     for (int i = 0; i < count; i++) {
         struct lab p =
             filtered_lab(from_xyz, row->color[0][0][i], row->color[0][1][i], row->color[0][2][i]);
@@ -364,7 +364,7 @@ static void judge_row(const struct row *row, const float from_xyz[3][3], float l
             filtered_lab(from_xyz, row->color[1][0][i], row->color[1][1][i], row->color[1][2][i]);
         float distance = color_distance(p, q);
         float below = distance * (at_knee / knee);
-        float above = at_knee + (distance - knee) / (largest - knee) * (1.0f - at_knee);
+        float above = at_knee + (distance - knee) / (max_distance - knee) * (1.0f - at_knee);
         float color = distance < knee ? below : above;
         color = color > 1.0f ? 1.0f : color;
 
@@ -404,7 +404,7 @@ static void judge_tiles(void *context, size_t begin, size_t end, uint32_t worker
         for (uint32_t y = 0; y < rows; y++) {
             float *errors = flip->errors + (size_t)(top + y) * width + left;
             filter_row_down(flip, tile, (int)y, &row);
-            judge_row(&row, flip->from_xyz, flip->largest, errors, (int)columns);
+            judge_row(&row, flip->from_xyz, flip->max_distance, errors, (int)columns);
         }
     }
 }
@@ -453,7 +453,7 @@ bool kiln_flip_ldr(const struct kiln_flip_pair *pair, const struct kiln_flip_par
     make_contrast_filters(&flip.filters, (double)params->pixels_per_degree);
     make_feature_filters(&flip.filters, (double)params->pixels_per_degree);
     invert(TO_XYZ, flip.from_xyz);
-    flip.largest = color_distance(hunt_lab(0.0f, 1.0f, 0.0f), hunt_lab(0.0f, 0.0f, 1.0f));
+    flip.max_distance = color_distance(hunt_lab(0.0f, 1.0f, 0.0f), hunt_lab(0.0f, 0.0f, 1.0f));
     flip.tiles_across = (pair->width + TILE_WIDTH - 1) / TILE_WIDTH;
     size_t pixels = (size_t)pair->width * pair->height;
     size_t tiles_down = (pair->height + TILE_HEIGHT - 1) / TILE_HEIGHT;

@@ -20,8 +20,8 @@ static float luminance(const float rgb[3])
     return y > 0.0f ? y : 0.0f;
 }
 
-/* Returns the larger root of T(x) = 0.85, where T is the ACES curve. */
-static double bright_enough(void)
+/* Returns the larger root of T(x) = 0.85, where T is the ACES curve: x_max of the paper. */
+static double solve_x_max(void)
 {
     const double t = 0.85;
     double a = ACES[0] - t * ACES[3], b = ACES[1] - t * ACES[4], c = ACES[2] - t * ACES[5];
@@ -62,7 +62,7 @@ bool kiln_flip_choose_exposures(const struct kiln_flip_pair *pair,
     double least = LEAST_MEDIAN * brightest;
     if (!(median > least))
         median = least;
-    double x = bright_enough();
+    double x = solve_x_max();
     double start = log2(x / brightest), stop = log2(x / median);
     double count = ceil(stop - start);
     count = count < 2.0 ? 2.0 : count;

@@ -34,7 +34,8 @@ struct kiln_footage {
     struct kiln_video_in *video;
     struct kiln_asset_image *image; /* decoded ahead */
     struct kiln_error video_error;
-    bool ahead, ended; /* ahead: a frame or an error was decoded ahead; ended: no frame is left */
+    bool decoded_ahead; /* the next frame, or the error in its place */
+    bool at_end;
     char number_text[16];
 };
 
@@ -243,15 +244,15 @@ const char *kiln_footage_path(const struct kiln_footage *footage)
 
 static bool peek_video(struct kiln_footage *footage, struct kiln_footage_frame *frame)
 {
-    if (!footage->ahead && !footage->ended) {
-        footage->ahead =
+    if (!footage->decoded_ahead && !footage->at_end) {
+        footage->decoded_ahead =
             !kiln_video_in_read(footage->video, &footage->image, &footage->video_error) ||
             footage->image;
-        footage->ended = !footage->ahead;
+        footage->at_end = !footage->decoded_ahead;
     }
     snprintf(footage->number_text, sizeof footage->number_text, "%zu", footage->next);
     *frame = (struct kiln_footage_frame){footage->number_text, (uint32_t)footage->next};
-    return footage->ahead;
+    return footage->decoded_ahead;
 }
 
 bool kiln_footage_peek(struct kiln_footage *footage, struct kiln_footage_frame *frame)
@@ -269,10 +270,10 @@ static struct kiln_asset_image *take_video(struct kiln_footage *footage, struct 
 {
     struct kiln_asset_image *image = footage->image;
     footage->image = NULL;
-    footage->ahead = false;
+    footage->decoded_ahead = false;
     if (!image) {
         *error = footage->video_error;
-        footage->ended = true;
+        footage->at_end = true;
     }
     return image;
 }
@@ -316,9 +317,9 @@ struct kiln_asset_image *kiln_footage_take(struct kiln_footage *footage, struct 
 void kiln_footage_skip(struct kiln_footage *footage)
 {
     if (footage->video && !footage->image)
-        footage->ended = true;
+        footage->at_end = true;
     kiln_asset_image_destroy(&footage->image);
-    footage->ahead = false;
+    footage->decoded_ahead = false;
     footage->next++;
 }
 

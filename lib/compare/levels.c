@@ -9,7 +9,7 @@
 #include "base/error.h"
 
 struct scan {
-    const struct kiln_subject *reference, *test;
+    const struct kiln_compare_picture *reference, *test;
     struct kiln_level_difference *difference;
     double threshold;
     double sum, square_sum;
@@ -18,7 +18,7 @@ struct scan {
 
 static void scan_row(struct scan *scan, uint32_t y)
 {
-    const struct kiln_subject *a = scan->reference, *b = scan->test;
+    const struct kiln_compare_picture *a = scan->reference, *b = scan->test;
     const uint32_t *above = scan->table + (size_t)y * (a->width + 1);
     uint32_t *below = scan->table + (size_t)(y + 1) * (a->width + 1);
     double sum = 0, square_sum = 0;
@@ -67,8 +67,8 @@ static void find_window(const struct scan *scan, uint32_t edge)
     }
 }
 
-bool kiln_level_difference_measure(const struct kiln_subject *reference,
-                                   const struct kiln_subject *test, double threshold,
+bool kiln_level_difference_measure(const struct kiln_compare_picture *reference,
+                                   const struct kiln_compare_picture *test, double threshold,
                                    uint32_t window, struct kiln_level_difference *difference,
                                    struct kiln_error *error)
 {

@@ -3,7 +3,7 @@
 #ifndef KILN_COMPARE_LEVELS_H
 #define KILN_COMPARE_LEVELS_H
 
-#include "compare/subject.h"
+#include "compare/picture.h"
 
 /* The difference of two pictures. A pixel's difference is that of its worst channel, alpha
  * included. */
@@ -23,8 +23,8 @@ struct kiln_level_difference {
  * (0 or more). The densest window is the one of window x window pixels (1 or more) with most
  * differing pixels. The two pictures must match. False with KILN_DEVICE_FAILED when memory is
  * short. */
-bool kiln_level_difference_measure(const struct kiln_subject *reference,
-                                   const struct kiln_subject *test, double threshold,
+bool kiln_level_difference_measure(const struct kiln_compare_picture *reference,
+                                   const struct kiln_compare_picture *test, double threshold,
                                    uint32_t window, struct kiln_level_difference *difference,
                                    struct kiln_error *error);
 

@@ -93,8 +93,8 @@ void kiln_mask_finish(struct kiln_mask *mask)
     *mask = (struct kiln_mask){0};
 }
 
-void kiln_mask_apply(const struct kiln_mask *mask, const struct kiln_subject *reference,
-                     struct kiln_subject *test)
+void kiln_mask_apply(const struct kiln_mask *mask, const struct kiln_compare_picture *reference,
+                     struct kiln_compare_picture *test)
 {
     for (size_t i = 0; i < (size_t)mask->width * mask->height; i++) {
         if (!mask->masked[i])

@@ -3,7 +3,7 @@
 #ifndef KILN_COMPARE_MASK_H
 #define KILN_COMPARE_MASK_H
 
-#include "compare/subject.h"
+#include "compare/picture.h"
 
 /* A mask that is zero-initialised has no size; kiln_mask_make fills it, kiln_mask_finish frees it.
  */
@@ -21,7 +21,7 @@ bool kiln_mask_make(struct kiln_mask *mask, const struct kiln_compare_mask *mask
 void kiln_mask_finish(struct kiln_mask *mask);
 
 /* Copies the masked pixels of the reference to the test; both have the mask's size. */
-void kiln_mask_apply(const struct kiln_mask *mask, const struct kiln_subject *reference,
-                     struct kiln_subject *test);
+void kiln_mask_apply(const struct kiln_mask *mask, const struct kiln_compare_picture *reference,
+                     struct kiln_compare_picture *test);
 
 #endif

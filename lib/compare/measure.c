@@ -11,7 +11,7 @@
 
 struct taking {
     struct kiln_measurement *measurement;
-    const struct kiln_subject *subjects[2];
+    const struct kiln_compare_picture *pictures[2];
     const struct kiln_measure_params *params;
     struct kiln_threads *threads;
     struct kiln_error *error;
@@ -23,7 +23,7 @@ struct taking {
 
 static bool allocate(struct taking *taking)
 {
-    bool alpha = taking->subjects[0]->alpha != NULL;
+    bool alpha = taking->pictures[0]->alpha != NULL;
     size_t pixels = taking->pixels;
     taking->measurement->errors = malloc(pixels * sizeof(float));
     bool ok = taking->measurement->errors != NULL;
@@ -36,14 +36,14 @@ static bool allocate(struct taking *taking)
     ok = ok && (!alpha || taking->errors);
     return ok ||
            kiln_error_set(taking->error, KILN_DEVICE_FAILED, "no memory to compare %u x %u pixels",
-                          taking->subjects[0]->width, taking->subjects[0]->height);
+                          taking->pictures[0]->width, taking->pictures[0]->height);
 }
 
-static void put_on_white(const struct kiln_subject *subject, size_t pixels, float *out)
+static void put_on_white(const struct kiln_compare_picture *picture, size_t pixels, float *out)
 {
     for (size_t i = 0; i < pixels; i++) {
         for (size_t c = 0; c < 3; c++)
-            out[3 * i + c] = subject->linear[3 * i + c] + (1.0f - subject->alpha[i]);
+            out[3 * i + c] = picture->linear[3 * i + c] + (1.0f - picture->alpha[i]);
     }
 }
 
@@ -51,8 +51,8 @@ static bool take_flip_of(const struct taking *taking, const float *reference, co
                          float *errors)
 {
     const struct kiln_flip_params params = {(float)taking->params->pixels_per_degree};
-    const struct kiln_flip_pair pair = {reference, test, taking->subjects[0]->width,
-                                        taking->subjects[0]->height};
+    const struct kiln_flip_pair pair = {reference, test, taking->pictures[0]->width,
+                                        taking->pictures[0]->height};
     struct kiln_flip_exposures exposures;
     if (!taking->params->hdr)
         return kiln_flip_ldr(&pair, &params, taking->threads, errors, taking->error);
@@ -65,10 +65,10 @@ static bool take_flip(const struct taking *taking)
     struct kiln_measurement *m = taking->measurement;
     double start_s = kiln_clock_seconds();
     bool ok =
-        take_flip_of(taking, taking->subjects[0]->linear, taking->subjects[1]->linear, m->errors);
+        take_flip_of(taking, taking->pictures[0]->linear, taking->pictures[1]->linear, m->errors);
     if (ok && taking->errors) {
         for (int i = 0; i < 2; i++)
-            put_on_white(taking->subjects[i], taking->pixels, taking->white[i]);
+            put_on_white(taking->pictures[i], taking->pixels, taking->white[i]);
         ok = take_flip_of(taking, taking->white[0], taking->white[1], taking->errors);
         for (size_t i = 0; ok && i < taking->pixels; i++)
             m->errors[i] = taking->errors[i] > m->errors[i] ? taking->errors[i] : m->errors[i];
@@ -79,12 +79,13 @@ static bool take_flip(const struct taking *taking)
 
 /* Makes Rec. 709 luma of the levels, with black at 0 and white at 1; `ground` is the luma behind
  * the picture. */
-static void make_luma(const struct kiln_subject *subject, size_t pixels, float ground, float *out)
+static void make_luma(const struct kiln_compare_picture *picture, size_t pixels, float ground,
+                      float *out)
 {
-    const float *level = subject->levels;
+    const float *level = picture->levels;
     for (size_t i = 0; i < pixels; i++, level += 3) {
         float luma = (0.2126f * level[0] + 0.7152f * level[1] + 0.0722f * level[2]) / 255.0f;
-        out[i] = luma + (subject->alpha ? ground * (1.0f - subject->alpha[i]) : 0.0f);
+        out[i] = luma + (picture->alpha ? ground * (1.0f - picture->alpha[i]) : 0.0f);
     }
 }
 
@@ -92,10 +93,10 @@ static bool take_ssim(const struct taking *taking)
 {
     struct kiln_measurement *m = taking->measurement;
     m->ssim = 1.0;
-    for (int ground = 0; ground < (taking->subjects[0]->alpha ? 2 : 1); ground++) {
+    for (int ground = 0; ground < (taking->pictures[0]->alpha ? 2 : 1); ground++) {
         double similarity = 0;
         for (int i = 0; i < 2; i++)
-            make_luma(taking->subjects[i], taking->pixels, (float)ground, taking->luma[i]);
+            make_luma(taking->pictures[i], taking->pixels, (float)ground, taking->luma[i]);
         if (!kiln_ssim(taking->luma[0], taking->luma[1], m->width, m->height, taking->threads,
                        &similarity, taking->error))
             return false;
@@ -105,19 +106,20 @@ static bool take_ssim(const struct taking *taking)
 }
 
 bool kiln_measurement_take(struct kiln_measurement *measurement,
-                           const struct kiln_subject *reference, const struct kiln_subject *test,
+                           const struct kiln_compare_picture *reference,
+                           const struct kiln_compare_picture *test,
                            const struct kiln_measure_params *params, struct kiln_threads *threads,
                            struct kiln_error *error)
 {
     *measurement =
         (struct kiln_measurement){.width = reference->width, .height = reference->height};
     struct taking taking = {.measurement = measurement,
-                            .subjects = {reference, test},
+                            .pictures = {reference, test},
                             .params = params,
                             .threads = threads,
                             .error = error,
                             .pixels = (size_t)reference->width * reference->height};
-    bool ok = kiln_subject_match(reference, test, error) && allocate(&taking) &&
+    bool ok = kiln_compare_picture_match(reference, test, error) && allocate(&taking) &&
               take_flip(&taking) && take_ssim(&taking) &&
               kiln_level_difference_measure(reference, test, params->threshold, params->window,
                                             &measurement->levels, error);

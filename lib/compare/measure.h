@@ -27,7 +27,8 @@ struct kiln_measurement {
  * when a part of the measurement fails. In either case, the caller must call
  * kiln_measurement_finish. */
 bool kiln_measurement_take(struct kiln_measurement *measurement,
-                           const struct kiln_subject *reference, const struct kiln_subject *test,
+                           const struct kiln_compare_picture *reference,
+                           const struct kiln_compare_picture *test,
                            const struct kiln_measure_params *params, struct kiln_threads *threads,
                            struct kiln_error *error);
 void kiln_measurement_finish(struct kiln_measurement *measurement);

@@ -155,17 +155,17 @@ static bool draw(struct job *job)
 
 /* Returns the relative path from a folder up to `to`, a folder that contains it, such as "../..";
  * if `to` does not contain it, returns `to`. */
-static const char *way_up(struct kiln_arena *arena, const char *from, const char *to)
+static const char *relative_path_up(struct kiln_arena *arena, const char *from, const char *to)
 {
     size_t length = strlen(to);
     if (strncmp(from, to, length) != 0 || (from[length] != '/' && from[length]))
         return kiln_arena_format(arena, "%s", to);
-    const char *way = "";
-    for (const char *c = from + length; way && *c; c++) {
+    const char *path = "";
+    for (const char *c = from + length; path && *c; c++) {
         if (*c == '/')
-            way = kiln_arena_format(arena, "%s%s", way, *way ? "/.." : "..");
+            path = kiln_arena_format(arena, "%s%s", path, *path ? "/.." : "..");
     }
-    return way && !*way ? "." : way;
+    return path && !*path ? "." : path;
 }
 
 /* Finds the path from the folder of the figure to the working directory. */
@@ -176,16 +176,17 @@ static bool find_folder(const struct job *job, const char **folder)
     const char *name = slash ? kiln_arena_text(job->arena, output, length) : ".";
     if (!name)
         return no_memory(job);
-    char *here = realpath(".", NULL), *there = here ? realpath(name, NULL) : NULL;
-    if (!there) {
+    char *working_folder = realpath(".", NULL),
+         *output_folder = working_folder ? realpath(name, NULL) : NULL;
+    if (!output_folder) {
         kiln_error_set_errno(job->error, KILN_IO, errno, "%s: the folder cannot be found",
-                             here ? name : "the working directory");
-        free(here);
+                             working_folder ? name : "the working directory");
+        free(working_folder);
         return false;
     }
-    *folder = way_up(job->arena, there, here);
-    free(here);
-    free(there);
+    *folder = relative_path_up(job->arena, output_folder, working_folder);
+    free(working_folder);
+    free(output_folder);
     return *folder || no_memory(job);
 }
 
@@ -194,9 +195,9 @@ static bool make_sidecar(struct job *job, const uint8_t *bytes, size_t size, str
     char file[65];
     struct kiln_record record = {.version = KILN_VERSION,
                                  .command_count = job->params->command_count,
-                                 .device = job->panels.maker.device,
-                                 .driver = job->panels.maker.driver,
-                                 .cpu = job->panels.maker.cpu,
+                                 .device = job->panels.renderer.device,
+                                 .driver = job->panels.renderer.driver,
+                                 .cpu = job->panels.renderer.cpu,
                                  .width = job->drawing.width,
                                  .height = job->drawing.height,
                                  .alt = job->params->alt,
@@ -262,7 +263,7 @@ static bool write_figure(struct job *job)
 
 /* ---- Checking ------------------------------------------------------------------------------- */
 
-static void say_stale(struct kiln_figure_result *result, const char *reason)
+static void mark_stale(struct kiln_figure_result *result, const char *reason)
 {
     result->stale = true;
     snprintf(result->reason, sizeof result->reason, "%s", reason);
@@ -285,14 +286,14 @@ static bool check_file(struct job *job, const struct kiln_record *record,
 {
     char file[65];
     if (access(job->params->output, F_OK) != 0) {
-        say_stale(result, "the figure is missing");
+        mark_stale(result, "the figure is missing");
         return true;
     }
     if (!kiln_hash_sha256_file(job->params->output, file))
         return kiln_error_set(job->error, KILN_IO, "%s: the file cannot be read",
                               job->params->output);
     if (strcmp(file, record->file) != 0)
-        say_stale(result, "the file is not the one that was written together with its sidecar");
+        mark_stale(result, "the file is not the one that was written together with its sidecar");
     return true;
 }
 
@@ -314,13 +315,13 @@ static bool check_figure(struct job *job, struct kiln_figure_result *result)
         return true;
     if ((update && !check_target(job)) || !draw(job))
         return false;
-    const struct kiln_figure_now now = {.panels = &job->panels,
-                                        .pixels = &job->pixels,
-                                        .hash = job->hash,
-                                        .format = job->format,
-                                        .path = job->params->output,
-                                        .threads = job->params->threads};
-    if (!result->stale && !kiln_figure_judge(record, &now, result, job->error))
+    const struct kiln_fresh_figure fresh = {.panels = &job->panels,
+                                            .pixels = &job->pixels,
+                                            .hash = job->hash,
+                                            .format = job->format,
+                                            .path = job->params->output,
+                                            .threads = job->params->threads};
+    if (!result->stale && !kiln_figure_judge(record, &fresh, result, job->error))
         return false;
     result->redrawn = result->stale && update;
     return !result->redrawn || write_figure(job);

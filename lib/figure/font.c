@@ -137,63 +137,63 @@ uint32_t kiln_font_width(const char *text)
 
 /* ---- Strokes -------------------------------------------------------------------------------- */
 
-struct walk {
+struct cursor {
     const struct kiln_font_pen *pen;
     double origin_x, origin_y, scale; /* of the glyph in the text */
     double x, y;                      /* the pen's position in the glyph */
 };
 
-static double at_x(const struct walk *walk, double x)
+static double at_x(const struct cursor *cursor, double x)
 {
-    return walk->origin_x + x * walk->scale;
+    return cursor->origin_x + x * cursor->scale;
 }
 
-static double at_y(const struct walk *walk, double y)
+static double at_y(const struct cursor *cursor, double y)
 {
-    return walk->origin_y + y * walk->scale;
+    return cursor->origin_y + y * cursor->scale;
 }
 
-static void move_to(struct walk *walk, double x, double y)
+static void move_to(struct cursor *cursor, double x, double y)
 {
-    walk->x = x;
-    walk->y = y;
-    walk->pen->move(walk->pen->user, at_x(walk, x), at_y(walk, y));
+    cursor->x = x;
+    cursor->y = y;
+    cursor->pen->move(cursor->pen->user, at_x(cursor, x), at_y(cursor, y));
 }
 
-static void line_to(struct walk *walk, double x, double y)
+static void line_to(struct cursor *cursor, double x, double y)
 {
-    walk->x = x;
-    walk->y = y;
-    walk->pen->line(walk->pen->user, at_x(walk, x), at_y(walk, y));
+    cursor->x = x;
+    cursor->y = y;
+    cursor->pen->line(cursor->pen->user, at_x(cursor, x), at_y(cursor, y));
 }
 
-static void curve_to(struct walk *walk, double ax, double ay, double bx, double by, double x,
+static void curve_to(struct cursor *cursor, double ax, double ay, double bx, double by, double x,
                      double y)
 {
-    walk->x = x;
-    walk->y = y;
-    walk->pen->curve(walk->pen->user,
-                     (const double[6]){at_x(walk, ax), at_y(walk, ay), at_x(walk, bx),
-                                       at_y(walk, by), at_x(walk, x), at_y(walk, y)});
+    cursor->x = x;
+    cursor->y = y;
+    cursor->pen->curve(cursor->pen->user,
+                       (const double[6]){at_x(cursor, ax), at_y(cursor, ay), at_x(cursor, bx),
+                                         at_y(cursor, by), at_x(cursor, x), at_y(cursor, y)});
 }
 
-static void quarter_to(struct walk *walk, bool leaves_horizontally, double x, double y)
+static void quarter_to(struct cursor *cursor, bool leaves_horizontally, double x, double y)
 {
-    double dx = x - walk->x, dy = y - walk->y;
+    double dx = x - cursor->x, dy = y - cursor->y;
     if (leaves_horizontally)
-        curve_to(walk, walk->x + ROUND * dx, walk->y, x, y - ROUND * dy, x, y);
+        curve_to(cursor, cursor->x + ROUND * dx, cursor->y, x, y - ROUND * dy, x, y);
     else
-        curve_to(walk, walk->x, walk->y + ROUND * dy, x - ROUND * dx, y, x, y);
+        curve_to(cursor, cursor->x, cursor->y + ROUND * dy, x - ROUND * dx, y, x, y);
 }
 
 /* Draws a dot as the outline of a square so small that the pen fills it. */
-static void dot(struct walk *walk, double x, double y)
+static void dot(struct cursor *cursor, double x, double y)
 {
-    move_to(walk, x - 2, y);
-    line_to(walk, x, y + 2);
-    line_to(walk, x + 2, y);
-    line_to(walk, x, y - 2);
-    line_to(walk, x - 2, y);
+    move_to(cursor, x - 2, y);
+    line_to(cursor, x, y + 2);
+    line_to(cursor, x + 2, y);
+    line_to(cursor, x, y - 2);
+    line_to(cursor, x - 2, y);
 }
 
 /* Reads a whole number from a path, and moves the path on behind it. */
@@ -206,7 +206,7 @@ static double number(const char **path)
 }
 
 /* Draws a path up to its end or its next command U, and returns that place. */
-static const char *walk_strokes(struct walk *walk, const char *path)
+static const char *draw_strokes(struct cursor *cursor, const char *path)
 {
     while (*path && *path != 'U') {
         char command = *path++;
@@ -216,31 +216,31 @@ static const char *walk_strokes(struct walk *walk, const char *path)
             n[i] = number(&path);
         path += strspn(path, " ");
         if (command == 'M')
-            move_to(walk, n[0], n[1]);
+            move_to(cursor, n[0], n[1]);
         else if (command == 'L')
-            line_to(walk, n[0], n[1]);
+            line_to(cursor, n[0], n[1]);
         else if (command == 'C')
-            curve_to(walk, n[0], n[1], n[2], n[3], n[4], n[5]);
+            curve_to(cursor, n[0], n[1], n[2], n[3], n[4], n[5]);
         else if (command == 'D')
-            dot(walk, n[0], n[1]);
+            dot(cursor, n[0], n[1]);
         else
-            quarter_to(walk, command == 'H', n[0], n[1]);
+            quarter_to(cursor, command == 'H', n[0], n[1]);
     }
     return path;
 }
 
 /* Draws a whole path. A glyph that the command U draws has no command U of its own. */
-static void walk_path(struct walk *walk, const char *path)
+static void draw_path(struct cursor *cursor, const char *path)
 {
-    while (*(path = walk_strokes(walk, path))) {
+    while (*(path = draw_strokes(cursor, path))) {
         path++;
         double x = number(&path), y = number(&path), percent = number(&path);
-        struct walk used = {.pen = walk->pen,
-                            .origin_x = at_x(walk, x),
-                            .origin_y = at_y(walk, y),
-                            .scale = percent / 100};
+        struct cursor used = {.pen = cursor->pen,
+                              .origin_x = at_x(cursor, x),
+                              .origin_y = at_y(cursor, y),
+                              .scale = percent / 100};
         path += strspn(path, " ");
-        walk_strokes(&used, find_glyph((unsigned char)*path++)->path);
+        draw_strokes(&used, find_glyph((unsigned char)*path++)->path);
         path += strspn(path, " ");
     }
 }
@@ -254,19 +254,19 @@ static bool is_tall(const struct kiln_glyph *glyph)
     return (code >= 0xC0 && code <= 0xDE) || (code >= 0x391 && code <= 0x3A9);
 }
 
-static void walk_mark(const struct walk *walk, const struct shape *shape)
+static void draw_mark(const struct cursor *cursor, const struct shape *shape)
 {
     double rise = shape->mark->rises && is_tall(shape->glyph) ? RISE : 0;
-    struct walk over = {.pen = walk->pen,
-                        .origin_x = at_x(walk, shape->before + shape->mark_x),
-                        .origin_y = rise,
-                        .scale = 1};
-    walk_path(&over, shape->mark->path);
+    struct cursor over = {.pen = cursor->pen,
+                          .origin_x = at_x(cursor, shape->before + shape->mark_x),
+                          .origin_y = rise,
+                          .scale = 1};
+    draw_path(&over, shape->mark->path);
 }
 
 void kiln_font_draw(const char *text, const struct kiln_font_pen *pen)
 {
-    struct walk walk = {.pen = pen, .scale = 1};
+    struct cursor cursor = {.pen = pen, .scale = 1};
     struct shape shape = {.glyph = &missing};
     uint32_t code;
     while ((code = kiln_font_next(&text)) != 0) {
@@ -276,19 +276,19 @@ void kiln_font_draw(const char *text, const struct kiln_font_pen *pen)
         if (mark) { /* a combining mark is drawn over the letter before it */
             shape.mark = mark;
             shape.mark_x = shape.glyph->advance / 2.0;
-            struct walk back = walk;
+            struct cursor back = cursor;
             back.origin_x -= shape.advance;
-            walk_mark(&back, &shape);
+            draw_mark(&back, &shape);
             continue;
         }
         if (next && next->rises && (code == 'i' || code == 'j'))
             code = code == 'i' ? DOTLESS_I : DOTLESS_J;
         find_shape(code, &shape);
-        struct walk glyph = walk;
+        struct cursor glyph = cursor;
         glyph.origin_x += shape.before;
-        walk_path(&glyph, shape.glyph->path);
+        draw_path(&glyph, shape.glyph->path);
         if (shape.mark)
-            walk_mark(&walk, &shape);
-        walk.origin_x += shape.advance;
+            draw_mark(&cursor, &shape);
+        cursor.origin_x += shape.advance;
     }
 }

@@ -15,7 +15,7 @@ struct kiln_rect kiln_inset_rect(const struct kiln_figure_inset *inset, uint32_t
 
 /* Returns whether an inset's numbers are in a range that converts to pixels without overflow; false
  * also for NaN. */
-static bool is_sane(const struct kiln_figure_inset *inset)
+static bool is_in_range(const struct kiln_figure_inset *inset)
 {
     double most = inset->parts ? 1 : 65535;
     return inset->x >= 0 && inset->y >= 0 && inset->x <= most && inset->y <= most &&
@@ -31,7 +31,7 @@ bool kiln_insets_check(const struct kiln_figure_params *params, uint32_t width, 
     for (size_t i = 0; i < params->inset_count; i++) {
         const struct kiln_figure_inset *inset = &params->insets[i];
         struct kiln_rect rect = {0};
-        if (is_sane(inset))
+        if (is_in_range(inset))
             rect = kiln_inset_rect(inset, width, height);
         if (rect.width == 0 || rect.height == 0 || rect.x + rect.width > width ||
             rect.y + rect.height > height)

@@ -31,9 +31,9 @@ struct layout {
     uint32_t size;    /* font size of the labels, in pixels */
     uint32_t line;    /* the width of thin lines */
     uint32_t margin, gap, row_gap;
-    uint32_t head;   /* from the upper edge to the title's capitals, or to the pictures */
-    uint32_t foot;   /* from the last baseline to the lower edge */
-    uint32_t widest; /* the width of the widest picture, in its own pixels */
+    uint32_t top_space;      /* from the upper edge to the title's capitals, or to the pictures */
+    uint32_t bottom_space;   /* from the last baseline to the lower edge */
+    uint32_t widest_picture; /* the width of the widest picture, in its own pixels */
     uint32_t inset_own, inset_shown; /* widths of the inset that is enlarged most */
     uint32_t columns, rows;
     uint32_t cell_width, picture_height, inset_height;
@@ -91,7 +91,7 @@ static const char *fit_text(const struct layout *l, const char *text, double cap
 }
 
 /* Scales a length in pixels by to / from; the result is at least 1. */
-static uint32_t scaled(uint32_t length, uint32_t to, uint32_t from)
+static uint32_t scale_length(uint32_t length, uint32_t to, uint32_t from)
 {
     uint64_t result = ((uint64_t)length * to + from / 2) / from;
     return result > 0 ? (uint32_t)result : 1;
@@ -164,7 +164,7 @@ static void add_insets(const struct layout *l, const struct kiln_pixels *pixels,
         mark.height = (uint32_t)((uint64_t)rect.height * height / pixels->height) + 2 * l->line;
         kiln_drawing_add(l->drawing, &mark);
         bool last = i + 1 == l->params->inset_count;
-        uint32_t shown = scaled(rect.width, row, rect.height);
+        uint32_t shown = scale_length(rect.width, row, rect.height);
         if (last && shown + 4 >= x + width - at) /* fills what rounding left over */
             shown = x + width - at;
         mark = (struct kiln_mark){.kind = KILN_MARK_PICTURE, .x = (int32_t)at};
@@ -199,11 +199,11 @@ static void picture_size(const struct layout *l, const struct kiln_pixels *pixel
     *width = pixels->width;
     *height = pixels->height;
     if (l->params->paper_width_mm > 0) {
-        *width = scaled(pixels->width, l->cell_width, l->widest);
-        *height = scaled(pixels->height, l->cell_width, l->widest);
+        *width = scale_length(pixels->width, l->cell_width, l->widest_picture);
+        *height = scale_length(pixels->height, l->cell_width, l->widest_picture);
     } else if (l->params->width > 0 && pixels->width > l->params->width) {
         *width = l->params->width;
-        *height = scaled(pixels->height, *width, pixels->width);
+        *height = scale_length(pixels->height, *width, pixels->width);
     }
 }
 
@@ -319,19 +319,19 @@ static void measure_text(struct layout *l)
     uint32_t above = l->capital * 7 / 5 * (KILN_FONT_ASCENT - KILN_FONT_CAPITAL) / 100 + 1;
     uint32_t below = l->capital * KILN_FONT_DESCENT / 100 + 1;
     bool titled = params->title && *params->title;
-    l->head = titled && above > l->margin ? above : l->margin;
-    l->foot = labels && below > l->margin ? below : l->margin;
+    l->top_space = titled && above > l->margin ? above : l->margin;
+    l->bottom_space = labels && below > l->margin ? below : l->margin;
 }
 
 /* Warns if pictures or insets are enlarged: repeated pixels look coarse in print, and scenes can be
  * rendered larger instead. */
 static void warn_of_enlarging(const struct layout *l)
 {
-    if (l->widest < l->cell_width && !l->params->check)
+    if (l->widest_picture < l->cell_width && !l->params->check)
         kiln_log_write(&l->params->log, KILN_LOG_WARNING,
                        "%s: pictures of %u pixels are enlarged to %u pixels for %u pixels an inch; "
                        "a larger --size renders scenes sharper",
-                       l->params->output, l->widest, l->cell_width, l->params->dpi);
+                       l->params->output, l->widest_picture, l->cell_width, l->params->dpi);
     else if (l->inset_own < l->inset_shown && !l->params->check)
         kiln_log_write(&l->params->log, KILN_LOG_WARNING,
                        "%s: insets of %u pixels are enlarged to %u pixels for %u pixels an inch; a "
@@ -363,7 +363,7 @@ static void measure_insets(struct layout *l, const struct kiln_pixels *pixels, u
     for (size_t i = 0; i < l->params->inset_count; i++) {
         struct kiln_rect rect =
             kiln_inset_rect(&l->params->insets[i], pixels->width, pixels->height);
-        uint32_t shown = scaled(rect.width, row, rect.height);
+        uint32_t shown = scale_length(rect.width, row, rect.height);
         if ((uint64_t)shown * l->inset_own >= (uint64_t)l->inset_shown * rect.width) {
             l->inset_own = rect.width;
             l->inset_shown = shown;
@@ -381,7 +381,7 @@ static bool measure(struct layout *l)
     l->rows = (uint32_t)((panels->count + l->columns - 1) / l->columns);
     for (size_t i = 0; i < panels->count; i++) {
         uint32_t own = panels->items[i].pixels.width;
-        l->widest = own > l->widest ? own : l->widest;
+        l->widest_picture = own > l->widest_picture ? own : l->widest_picture;
     }
     if (l->params->paper_width_mm > 0 && !measure_cells_on_paper(l))
         return false;
@@ -399,7 +399,7 @@ static bool measure(struct layout *l)
         l->inset_height = row > l->inset_height ? row : l->inset_height;
         measure_insets(l, &panels->items[i].pixels, row);
     }
-    l->top = l->head;
+    l->top = l->top_space;
     return true;
 }
 
@@ -407,7 +407,7 @@ static bool measure(struct layout *l)
 static void add_title(struct layout *l)
 {
     uint32_t capital = l->capital * 7 / 5, width = l->drawing->width - 2 * l->margin;
-    uint32_t baseline = l->head + capital;
+    uint32_t baseline = l->top_space + capital;
     double letter = l->params->text_points > 0 ? l->letter * 7 / 5 : capital;
     const char *text = fit_text(l, l->params->title, letter, width);
     if (!text) {
@@ -453,7 +453,7 @@ bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *pa
     uint64_t below = l.inset_height ? l.inset_height + l.gap / 2 : 0;
     uint64_t row = l.picture_height + below + l.label_height + l.row_gap;
     uint64_t width = 2 * (uint64_t)l.margin + (uint64_t)l.columns * (l.cell_width + l.gap) - l.gap;
-    uint64_t height = l.top + l.rows * row - l.row_gap + l.foot;
+    uint64_t height = l.top + l.rows * row - l.row_gap + l.bottom_space;
     if (params->paper_width_mm > 0)
         width = drawing->width;
     if (width > KILN_MAX_FIGURE_EDGE || height > KILN_MAX_FIGURE_EDGE ||

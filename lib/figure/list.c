@@ -75,12 +75,12 @@ static bool add_problem(struct kiln_figure_list *list, const char *path,
 {
     struct kiln_figure_entry *entry = new_entry(list);
     const char *name = kiln_arena_format(list->arena, "%s", path);
-    struct kiln_error *kept = kiln_arena_alloc(list->arena, 1, sizeof *kept);
-    if (!entry || !name || !kept)
+    struct kiln_error *copy = kiln_arena_alloc(list->arena, 1, sizeof *copy);
+    if (!entry || !name || !copy)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
-    *kept = *problem;
+    *copy = *problem;
     *entry =
-        (struct kiln_figure_entry){.sidecar = name, .figure = name, .folder = ".", .problem = kept};
+        (struct kiln_figure_entry){.sidecar = name, .figure = name, .folder = ".", .problem = copy};
     return true;
 }
 

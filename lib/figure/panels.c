@@ -139,7 +139,7 @@ static void take_state(void *user, const struct kiln_progress *progress)
     }
 }
 
-static bool wants_stop(void *user)
+static bool should_stop(void *user)
 {
     const struct rendering *r = user;
     return r->failure.code != KILN_OK || (r->params->stop && r->params->stop(r->params->user));
@@ -194,7 +194,7 @@ static bool render_run(struct rendering *r)
     params.state_hash = true;
     params.picture = take_picture;
     params.progress = take_state;
-    params.stop = wants_stop;
+    params.stop = should_stop;
     params.user = r;
     params.log = figure->log;
     bool ok = kiln_render(r->device, r->scene, &params, NULL, r->error);
@@ -253,10 +253,10 @@ static bool open_device(struct rendering *r)
     if (!r->device)
         return false;
     const struct kiln_device_info *info = kiln_device_get_info(r->device);
-    struct kiln_maker *maker = &r->panels->maker;
-    snprintf(maker->device, sizeof maker->device, "%s", info->name);
-    snprintf(maker->driver, sizeof maker->driver, "%s, %s", info->gl_version, info->vendor);
-    kiln_cpu_name(maker->cpu);
+    struct kiln_renderer *renderer = &r->panels->renderer;
+    snprintf(renderer->device, sizeof renderer->device, "%s", info->name);
+    snprintf(renderer->driver, sizeof renderer->driver, "%s, %s", info->gl_version, info->vendor);
+    kiln_cpu_name(renderer->cpu);
     return true;
 }
 

@@ -21,7 +21,7 @@ struct kiln_panel {
 
 /* Names the device, driver and processor that rendered the panels; each is "" if nothing did. The
  * same three render the same pixels. */
-struct kiln_maker {
+struct kiln_renderer {
     char device[128], driver[272], cpu[128];
 };
 
@@ -30,7 +30,7 @@ struct kiln_panels {
     struct kiln_panel *items;
     size_t count;
     size_t columns; /* number of columns if the request gives none */
-    struct kiln_maker maker;
+    struct kiln_renderer renderer;
     uint32_t paper;             /* 0xRRGGBB, which shows through transparent pixels */
     struct kiln_claims *claims; /* borrowed: the figure's files, and all that panels are made of */
 };

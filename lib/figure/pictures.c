@@ -14,22 +14,22 @@
 #include "figure/panels.h"
 #include "scene/work.h"
 
-static bool take_subject(struct kiln_panels *panels, struct kiln_panel *panel,
-                         const struct kiln_subject *subject, struct kiln_error *error)
+static bool take_picture(struct kiln_panels *panels, struct kiln_panel *panel,
+                         const struct kiln_compare_picture *picture, struct kiln_error *error)
 {
-    size_t count = (size_t)subject->width * subject->height;
+    size_t count = (size_t)picture->width * picture->height;
     uint8_t *rgba = malloc(count * 4);
     if (!rgba)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", panel->source);
     for (size_t i = 0; i < count; i++) {
         for (size_t c = 0; c < 3; c++) {
-            float level = subject->levels[3 * i + c];
+            float level = picture->levels[3 * i + c];
             level = level > 0.0f ? level : 0.0f;
             rgba[4 * i + c] = (uint8_t)(level < 255.0f ? level + 0.5f : 255.0f);
         }
         rgba[4 * i + 3] = 255;
     }
-    bool ok = kiln_panel_take_pixels(panels, panel, subject->width, subject->height, rgba, error);
+    bool ok = kiln_panel_take_pixels(panels, panel, picture->width, picture->height, rgba, error);
     free(rgba);
     return ok;
 }
@@ -56,19 +56,19 @@ static bool take_map(struct kiln_panels *panels, struct kiln_panel *panel,
                   kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for an error map"));
 }
 
-static bool measure(struct kiln_panels *panels, struct kiln_subject *const subjects[2],
+static bool measure(struct kiln_panels *panels, struct kiln_compare_picture *const pictures[2],
                     struct kiln_threads *threads, struct kiln_error *error)
 {
     struct kiln_measurement measurement = {0};
-    const struct kiln_compare_params usual = kiln_compare_defaults();
-    struct kiln_measure_params params = {.hdr = subjects[0]->hdr,
-                                         .pixels_per_degree = usual.pixels_per_degree,
-                                         .threshold = usual.threshold,
-                                         .window = usual.window};
+    const struct kiln_compare_params defaults = kiln_compare_defaults();
+    struct kiln_measure_params params = {.hdr = pictures[0]->hdr,
+                                         .pixels_per_degree = defaults.pixels_per_degree,
+                                         .threshold = defaults.threshold,
+                                         .window = defaults.window};
     bool ok =
-        kiln_measurement_take(&measurement, subjects[0], subjects[1], &params, threads, error) &&
-        take_subject(panels, &panels->items[0], subjects[0], error) &&
-        take_subject(panels, &panels->items[1], subjects[1], error) &&
+        kiln_measurement_take(&measurement, pictures[0], pictures[1], &params, threads, error) &&
+        take_picture(panels, &panels->items[0], pictures[0], error) &&
+        take_picture(panels, &panels->items[1], pictures[1], error) &&
         take_map(panels, &panels->items[2], &measurement, error);
     kiln_measurement_finish(&measurement);
     if (!ok && error->code == KILN_FRAME_FAILED) { /* different sizes are wrong input */
@@ -79,32 +79,32 @@ static bool measure(struct kiln_panels *panels, struct kiln_subject *const subje
     return ok;
 }
 
-static struct kiln_subject *load_subject(const char *path, struct kiln_threads *threads,
-                                         struct kiln_error *error)
+static struct kiln_compare_picture *load_picture(const char *path, struct kiln_threads *threads,
+                                                 struct kiln_error *error)
 {
     struct kiln_asset_image *image = kiln_asset_image_load(NULL, path, error);
-    struct kiln_subject *subject =
-        image ? kiln_subject_create(image, NULL, path, threads, error) : NULL;
+    struct kiln_compare_picture *picture =
+        image ? kiln_compare_picture_create(image, NULL, path, threads, error) : NULL;
     kiln_asset_image_destroy(&image);
-    return subject;
+    return picture;
 }
 
 static bool compare(struct kiln_panels *panels, const struct kiln_figure_params *params,
                     struct kiln_threads *threads, struct kiln_error *error)
 {
     const char *const *paths = params->inputs;
-    struct kiln_subject *subjects[2] = {load_subject(paths[0], threads, error), NULL};
-    if (subjects[0])
-        subjects[1] = load_subject(paths[1], threads, error);
-    bool ok = subjects[0] && subjects[1];
-    if (ok && subjects[0]->hdr != subjects[1]->hdr)
+    struct kiln_compare_picture *pictures[2] = {load_picture(paths[0], threads, error), NULL};
+    if (pictures[0])
+        pictures[1] = load_picture(paths[1], threads, error);
+    bool ok = pictures[0] && pictures[1];
+    if (ok && pictures[0]->hdr != pictures[1]->hdr)
         ok = kiln_error_set(error, KILN_INVALID_INPUT,
                             "%s and %s: one has floats and the other has integers", paths[0],
                             paths[1]);
-    ok = ok && kiln_insets_check(params, subjects[0]->width, subjects[0]->height, error) &&
-         measure(panels, subjects, threads, error);
-    kiln_subject_destroy(&subjects[0]);
-    kiln_subject_destroy(&subjects[1]);
+    ok = ok && kiln_insets_check(params, pictures[0]->width, pictures[0]->height, error) &&
+         measure(panels, pictures, threads, error);
+    kiln_compare_picture_destroy(&pictures[0]);
+    kiln_compare_picture_destroy(&pictures[1]);
     return ok;
 }
 
@@ -153,12 +153,12 @@ static bool take_frame(struct kiln_panels *panels, const struct kiln_figure_para
     panel->time_s = -1;
     panel->label = kiln_arena_format(panels->arena, "frame %u", number);
     struct kiln_asset_image *image = kiln_footage_take(footage, error);
-    struct kiln_subject *subject =
-        image ? kiln_subject_create(image, NULL, panel->source, threads, error) : NULL;
-    bool ok = panel->label && subject &&
-              kiln_insets_check(params, subject->width, subject->height, error) &&
-              take_subject(panels, panel, subject, error);
-    kiln_subject_destroy(&subject);
+    struct kiln_compare_picture *picture =
+        image ? kiln_compare_picture_create(image, NULL, panel->source, threads, error) : NULL;
+    bool ok = panel->label && picture &&
+              kiln_insets_check(params, picture->width, picture->height, error) &&
+              take_picture(panels, panel, picture, error);
+    kiln_compare_picture_destroy(&picture);
     kiln_asset_image_destroy(&image);
     panels->count += ok;
     if (!panel->label)

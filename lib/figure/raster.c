@@ -51,7 +51,7 @@ static struct span span_of(uint32_t i, uint32_t from, uint32_t to)
                          (uint32_t)(end - (uint64_t)last * 256)};
 }
 
-static uint32_t part_of(const struct span *span, uint32_t i)
+static uint32_t coverage_of(const struct span *span, uint32_t i)
 {
     uint32_t part = i == span->first ? span->first_part : 256;
     return i == span->last && span->last_part < part ? span->last_part : part;
@@ -64,7 +64,7 @@ static void average(const struct kiln_pixels *pixels, const uint32_t light[256],
     for (uint32_t y = rows->first; y <= rows->last; y++) {
         const uint8_t *row = pixels->rgba + (size_t)y * pixels->width * 4;
         for (uint32_t x = columns->first; x <= columns->last; x++) {
-            uint64_t weight = (uint64_t)part_of(rows, y) * part_of(columns, x);
+            uint64_t weight = (uint64_t)coverage_of(rows, y) * coverage_of(columns, x);
             weights += weight;
             for (int c = 0; c < 3; c++)
                 sum[c] += weight * light[row[4 * x + (uint32_t)c]];

@@ -179,13 +179,13 @@ struct kiln_record *kiln_record_parse(struct kiln_arena *arena, const char *text
 {
     struct kiln_record *record = kiln_arena_alloc(arena, 1, sizeof *record);
     struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
-    const char *kept_name = kiln_arena_format(arena, "%s", name);
-    if (!record || !origin || !kept_name) {
+    const char *name_copy = kiln_arena_format(arena, "%s", name);
+    if (!record || !origin || !name_copy) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
         return NULL;
     }
     *origin = (struct kiln_origin){
-        .name = kept_name, .has_lines = true, .kind = "a figure", .version = "\"kiln_figure\": 2"};
+        .name = name_copy, .has_lines = true, .kind = "a figure", .version = "\"kiln_figure\": 2"};
     const struct kiln_node *root = kiln_node_parse(arena, text, size, origin, error);
     return root && read_root(arena, root, record, error) ? record : NULL;
 }

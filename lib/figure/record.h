@@ -13,7 +13,7 @@ struct kiln_record {
     const char *folder;   /* working directory of the command, from the folder of the sidecar */
     const char **command; /* the words after `kiln` */
     size_t command_count;
-    const char *device, *driver, *cpu; /* as in struct kiln_maker */
+    const char *device, *driver, *cpu; /* as in struct kiln_renderer */
     uint32_t width, height;
     const char *alt;    /* description for screen readers; may be NULL */
     const char *pixels; /* SHA-256 of the figure's pixels; an SVG or PDF is rasterised for it */

@@ -197,7 +197,7 @@ static bool add_sweep(struct expansion *e, const char *text)
     return true;
 }
 
-static bool add_together(struct expansion *e, const char *text)
+static bool add_coupled(struct expansion *e, const char *text)
 {
     size_t key_length;
     const char *value = values_of(e, "with", text, &key_length);
@@ -304,20 +304,20 @@ static bool add_frames(struct expansion *e)
 
 static bool fill_choice(struct expansion *e, size_t number, struct kiln_choice *choice)
 {
-    size_t at[KILN_MAX_AXES], capacity = 0;
+    size_t indices[KILN_MAX_AXES], capacity = 0;
     for (size_t i = e->axis_count; i-- > 0;) {
-        at[i] = number % e->axes[i].count;
+        indices[i] = number % e->axes[i].count;
         number /= e->axes[i].count;
-        capacity += e->axes[i].settings[at[i]].override_count;
+        capacity += e->axes[i].settings[indices[i]].override_count;
     }
     choice->overrides = kiln_arena_alloc(e->arena, capacity + 1, sizeof *choice->overrides);
     choice->label = "";
     if (!choice->overrides)
         return no_memory(e);
     for (size_t i = 0; i < e->axis_count; i++) {
-        const struct setting *setting = &e->axes[i].settings[at[i]];
+        const struct setting *setting = &e->axes[i].settings[indices[i]];
         if (i == 0 && e->params->input_count > 1)
-            choice->scene = at[i];
+            choice->scene = indices[i];
         for (size_t k = 0; k < setting->override_count; k++)
             choice->overrides[choice->override_count++] = setting->overrides[k];
         if (setting->moment != KILN_MOMENT_NONE) {
@@ -338,7 +338,7 @@ static bool add_sweeps(struct expansion *e)
     for (size_t i = 0; i < e->params->sweep_count; i++) {
         const struct kiln_figure_sweep *sweep = &e->params->sweeps[i];
         bool ok = sweep->kind == KILN_SWEEP_KEY        ? add_sweep(e, sweep->text)
-                  : sweep->kind == KILN_SWEEP_TOGETHER ? add_together(e, sweep->text)
+                  : sweep->kind == KILN_SWEEP_TOGETHER ? add_coupled(e, sweep->text)
                                                        : add_variant(e, sweep->text);
         if (!ok)
             return false;

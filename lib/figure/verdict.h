@@ -7,7 +7,7 @@
 #include "kiln_program.h"
 
 /* A figure as it is drawn now. */
-struct kiln_figure_now {
+struct kiln_fresh_figure {
     const struct kiln_panels *panels;
     const struct kiln_pixels *pixels;
     const char *hash;
@@ -19,7 +19,7 @@ struct kiln_figure_now {
 /* Fills in whether the figure is stale and why. If the same device, driver and processor drew it,
  * the hash of its pixels decides; else, if scene and simulation are the same, the default limits of
  * kiln compare do. */
-bool kiln_figure_judge(const struct kiln_record *record, const struct kiln_figure_now *now,
+bool kiln_figure_judge(const struct kiln_record *record, const struct kiln_fresh_figure *fresh,
                        struct kiln_figure_result *result, struct kiln_error *error);
 
 #endif

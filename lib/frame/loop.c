@@ -29,7 +29,8 @@ struct kiln_loop {
     struct kiln_stages stages;
 
     struct kiln_run run;
-    uint32_t next;  /* all frames before this one have updated the state that later frames need */
+    uint32_t
+        next_frame; /* all frames before this one have updated the state that later frames need */
     uint64_t steps; /* simulation steps that this loop has run */
 };
 
@@ -58,23 +59,23 @@ static bool step_to(struct kiln_loop *loop, uint32_t step, struct kiln_error *er
 
 /* Advances to frame `end` without drawing. If the sort keeps an order from frame to frame, the
  * skipped frames update it. */
-static bool pass_over_frames(struct kiln_loop *loop, uint32_t end, struct kiln_error *error)
+static bool skip_frames(struct kiln_loop *loop, uint32_t end, struct kiln_error *error)
 {
-    const bool matter = kiln_stages_keep_history(&loop->stages);
-    for (; matter && loop->next < end; loop->next++)
+    const bool keeps_history = kiln_stages_keep_history(&loop->stages);
+    for (; keeps_history && loop->next_frame < end; loop->next_frame++)
         for (uint32_t sample = 0; sample < loop->scene->camera.shutter_samples; sample++) {
-            uint32_t step = kiln_scene_moment_step(loop->scene, loop->next, sample);
+            uint32_t step = kiln_scene_moment_step(loop->scene, loop->next_frame, sample);
             if (!step_to(loop, step, error) ||
-                !kiln_stages_pass_over(&loop->stages, &loop->run.pool, loop->run.step, error))
+                !kiln_stages_skip_moment(&loop->stages, &loop->run.pool, loop->run.step, error))
                 return false;
         }
-    loop->next = end;
+    loop->next_frame = end;
     return true;
 }
 
 bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error *error)
 {
-    return kiln_may_go_on(&loop->params.caller, error) && pass_over_frames(loop, frame, error) &&
+    return kiln_may_go_on(&loop->params.caller, error) && skip_frames(loop, frame, error) &&
            step_to(loop, kiln_scene_frame_step(loop->scene, frame), error);
 }
 
@@ -92,7 +93,7 @@ static bool draw_moments(struct kiln_loop *loop, uint32_t frame, struct kiln_dra
         if (sample == 0)
             drawn->alive = count;
     }
-    loop->next = frame + 1;
+    loop->next_frame = frame + 1;
     return true;
 }
 
@@ -139,15 +140,15 @@ struct kiln_run *kiln_loop_run(struct kiln_loop *loop)
     return &loop->run;
 }
 
-void kiln_loop_resume(struct kiln_loop *loop, uint32_t frame)
+void kiln_loop_set_frame(struct kiln_loop *loop, uint32_t frame)
 {
-    loop->next = frame;
+    loop->next_frame = frame;
 }
 
-bool kiln_loop_adopt(struct kiln_loop *loop, struct kiln_loop *from, struct kiln_error *error)
+bool kiln_loop_copy_state(struct kiln_loop *loop, struct kiln_loop *from, struct kiln_error *error)
 {
     loop->run.step = from->run.step;
-    loop->next = from->next;
+    loop->next_frame = from->next_frame;
     return kiln_pool_copy(&loop->run.pool, &from->run.pool, error);
 }
 
@@ -262,7 +263,7 @@ struct kiln_threads *kiln_loop_threads(struct kiln_loop *loop)
     return loop->threads;
 }
 
-struct kiln_sort *kiln_loop_kept_sort(struct kiln_loop *loop)
+struct kiln_sort *kiln_loop_spread_sort(struct kiln_loop *loop)
 {
     return kiln_stages_keep_history(&loop->stages) ? loop->stages.sort : NULL;
 }

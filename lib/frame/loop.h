@@ -46,16 +46,16 @@ const struct kiln_techniques *kiln_loop_techniques(const struct kiln_loop *loop)
 uint64_t kiln_loop_particle_bytes(const struct kiln_loop *loop);
 
 /* Returns the state of the run, which the loop owns. A caller that replaces the state calls
- * kiln_loop_resume afterwards. */
+ * kiln_loop_set_frame afterwards. */
 struct kiln_run *kiln_loop_run(struct kiln_loop *loop);
 
 /* Declares that the state in kiln_loop_run is the state at the start of a frame, together with
  * everything that later frames need from earlier frames. */
-void kiln_loop_resume(struct kiln_loop *loop, uint32_t frame);
+void kiln_loop_set_frame(struct kiln_loop *loop, uint32_t frame);
 
 /* Returns the loop's sort if it keeps an order from frame to frame, otherwise NULL. That order is
  * part of the state. */
-struct kiln_sort *kiln_loop_kept_sort(struct kiln_loop *loop);
+struct kiln_sort *kiln_loop_spread_sort(struct kiln_loop *loop);
 
 /* Returns the worker threads, for work between frames. */
 struct kiln_threads *kiln_loop_threads(struct kiln_loop *loop);
@@ -65,7 +65,7 @@ uint64_t kiln_loop_steps(const struct kiln_loop *loop);
 
 /* Copies the particles and the position in the clip from another loop of the same scene, which may
  * use other techniques. Does not copy the order that a spread sort keeps. */
-bool kiln_loop_adopt(struct kiln_loop *loop, struct kiln_loop *from, struct kiln_error *error);
+bool kiln_loop_copy_state(struct kiln_loop *loop, struct kiln_loop *from, struct kiln_error *error);
 
 /* Simulates up to the start of a frame and draws nothing. Frames in between update the order that a
  * spread sort keeps. */

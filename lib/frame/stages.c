@@ -15,7 +15,7 @@ static GLenum target_format(const struct kiln_device *device)
     return !device || device->info.software ? GL_RGBA32F : GL_RGBA16F;
 }
 
-static uint32_t solids_of(const struct kiln_scene *scene)
+static uint32_t opaque_systems(const struct kiln_scene *scene)
 {
     uint32_t mask = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
@@ -26,14 +26,14 @@ static uint32_t solids_of(const struct kiln_scene *scene)
 }
 
 /* Returns a mask of the systems with a blend mode, without systems of opaque particles. */
-static uint32_t systems_with(const struct kiln_scene *scene, enum kiln_blend blend)
+static uint32_t transparent_systems(const struct kiln_scene *scene, enum kiln_blend blend)
 {
     uint32_t mask = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         if (scene->systems[i].enabled && scene->systems[i].look.blend == blend)
             mask |= 1u << i;
     }
-    return mask & ~solids_of(scene);
+    return mask & ~opaque_systems(scene);
 }
 
 /* Returns whether particles draw their glow into the bloom source. They do if the bloom or a bloom
@@ -110,19 +110,19 @@ static struct kiln_image *bloom_source(struct kiln_stages *s)
 static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique technique,
                          struct kiln_error *error)
 {
-    bool solids = solids_of(s->scene) != 0;
-    const struct kiln_backdrop_params behind = {
+    bool solids = opaque_systems(s->scene) != 0;
+    const struct kiln_backdrop_params backdrop_params = {
         .technique = technique,
         .threads = s->threads,
         .color = solids ? &s->backdrop_color : &s->scene_color,
         .depth = solids ? &s->backdrop_depth : &s->scene_depth,
     };
-    s->backdrop = kiln_backdrop_create(s->device, &s->moment, &behind, error);
+    s->backdrop = kiln_backdrop_create(s->device, &s->moment, &backdrop_params, error);
     if (!s->backdrop)
         return false;
     if (!solids)
         return true;
-    const struct kiln_solids_params before = {
+    const struct kiln_solids_params solids_params = {
         .backdrop = s->backdrop,
         .threads = s->threads,
         .targets = {.backdrop_color = &s->backdrop_color,
@@ -131,7 +131,7 @@ static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique tec
                     .depth = &s->scene_depth,
                     .bloom = &s->bloom_color},
     };
-    s->solids = kiln_solids_create(s->device, &s->moment, &before, error);
+    s->solids = kiln_solids_create(s->device, &s->moment, &solids_params, error);
     return s->solids;
 }
 
@@ -273,7 +273,7 @@ static struct kiln_sort_params sort_params(const struct kiln_view *view)
 }
 
 /* Begins a pass. Returns false if the caller asks to stop. */
-static bool begin(struct kiln_stages *s, enum kiln_pass pass, struct kiln_error *error)
+static bool begin_pass(struct kiln_stages *s, enum kiln_pass pass, struct kiln_error *error)
 {
     if (!kiln_may_go_on(s->caller, error))
         return false;
@@ -282,19 +282,19 @@ static bool begin(struct kiln_stages *s, enum kiln_pass pass, struct kiln_error 
 }
 
 /* Ends the open pass, also if it failed, and returns ok. */
-static bool end(struct kiln_stages *s, bool ok)
+static bool end_pass(struct kiln_stages *s, bool ok)
 {
     kiln_timer_end(s->timer);
     return ok;
 }
 
-bool kiln_stages_pass_over(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                           struct kiln_error *error)
+bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
+                             struct kiln_error *error)
 {
     const struct kiln_view view = kiln_view_compute(stages->scene, step);
     const struct kiln_sort_params params = sort_params(&view);
-    return begin(stages, KILN_PASS_sort, error) &&
-           end(stages, kiln_sort_follow(stages->sort, pool, &params, error));
+    return begin_pass(stages, KILN_PASS_sort, error) &&
+           end_pass(stages, kiln_sort_advance(stages->sort, pool, &params, error));
 }
 
 static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_depth, uint32_t *count,
@@ -303,8 +303,8 @@ static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_dept
     struct kiln_sort_params params = sort_params(&s->moment.view);
     params.systems = systems;
     params.order = order_of(s, by_depth);
-    return begin(s, KILN_PASS_sort, error) &&
-           end(s, kiln_sort_run(s->sort, s->moment.pool, &params, &s->entries, count, error));
+    return begin_pass(s, KILN_PASS_sort, error) &&
+           end_pass(s, kiln_sort_run(s->sort, s->moment.pool, &params, &s->entries, count, error));
 }
 
 static bool draw_particles(struct kiln_stages *s, const struct particle_pass *pass, uint32_t *count,
@@ -327,18 +327,18 @@ static bool draw_particles(struct kiln_stages *s, const struct particle_pass *pa
         .fire_covers = pass->fire_covers,
         .by_fragment = pass->by_fragment,
     };
-    return begin(s, KILN_PASS_particles, error) &&
-           end(s, s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
-                            : kiln_particles_run(s->particles, &draw, error));
+    return begin_pass(s, KILN_PASS_particles, error) &&
+           end_pass(s, s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
+                                 : kiln_particles_run(s->particles, &draw, error));
 }
 
 /* Draws the solids. Their list is not sorted, since a depth test resolves their order. */
 static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_error *error)
 {
-    if (!sort_particles(s, solids_of(s->scene), false, count, error))
+    if (!sort_particles(s, opaque_systems(s->scene), false, count, error))
         return false;
-    return begin(s, KILN_PASS_particles, error) &&
-           end(s, kiln_solids_draw(s->solids, &s->moment, &s->entries, *count, error));
+    return begin_pass(s, KILN_PASS_particles, error) &&
+           end_pass(s, kiln_solids_draw(s->solids, &s->moment, &s->entries, *count, error));
 }
 
 /* Draws fire and smoke from one sorted list, or with KILN_COMPOSE_OIT from one list for each pixel.
@@ -347,8 +347,8 @@ static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_erro
  * own. */
 static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
-    uint32_t fire = systems_with(s->scene, KILN_BLEND_ADD);
-    uint32_t smoke = systems_with(s->scene, KILN_BLEND_ALPHA);
+    uint32_t fire = transparent_systems(s->scene, KILN_BLEND_ADD);
+    uint32_t smoke = transparent_systems(s->scene, KILN_BLEND_ALPHA);
     bool fire_covers = s->scene->post.compose == KILN_COMPOSE_ALPHA;
     bool by_fragment = s->scene->post.compose == KILN_COMPOSE_OIT && smoke != 0;
     struct particle_pass all = {.systems = fire | smoke,
@@ -379,11 +379,11 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
  * smoke. This is the order of the thesis (Heinz 2019, 3.2.1 and figure 4.3). */
 static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
-    struct particle_pass smoke = {.systems = systems_with(s->scene, KILN_BLEND_ALPHA),
+    struct particle_pass smoke = {.systems = transparent_systems(s->scene, KILN_BLEND_ALPHA),
                                   .by_depth = true,
                                   .framebuffer = &s->particle_framebuffer,
                                   .keep_bloom = s->solids != NULL};
-    struct particle_pass fire = {.systems = systems_with(s->scene, KILN_BLEND_ADD),
+    struct particle_pass fire = {.systems = transparent_systems(s->scene, KILN_BLEND_ADD),
                                  .framebuffer = &s->fire_framebuffer,
                                  .keep_bloom = true,
                                  .sum_alpha = true};
@@ -430,9 +430,9 @@ static bool add_moment(struct kiln_stages *s, uint32_t sample, struct kiln_error
 static bool fill_moment(struct kiln_stages *s, struct kiln_pool *pool, uint32_t step,
                         struct kiln_error *error)
 {
-    return begin(s, KILN_PASS_lighting, error) &&
-           end(s, kiln_moment_fill(&s->moment, pool, step, s->on_host, error) &&
-                      kiln_lighting_run(s->lighting, &s->moment, &s->light, error));
+    return begin_pass(s, KILN_PASS_lighting, error) &&
+           end_pass(s, kiln_moment_fill(&s->moment, pool, step, s->on_host, error) &&
+                           kiln_lighting_run(s->lighting, &s->moment, &s->light, error));
 }
 
 /* Draws the backdrop and the solid particles over it. The other passes blend particles over the
@@ -440,12 +440,12 @@ static bool fill_moment(struct kiln_stages *s, struct kiln_pool *pool, uint32_t 
 static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     *drawn = 0;
-    if (!begin(s, KILN_PASS_backdrop, error) ||
-        !end(s, kiln_backdrop_draw(s->backdrop, &s->moment, &s->light, error)) ||
+    if (!begin_pass(s, KILN_PASS_backdrop, error) ||
+        !end_pass(s, kiln_backdrop_draw(s->backdrop, &s->moment, &s->light, error)) ||
         (s->solids && !draw_solids(s, drawn, error)))
         return false;
-    return !s->coarse || (begin(s, KILN_PASS_particles, error) &&
-                          end(s, kiln_coarse_prepare(s->coarse, &s->scene_depth, error)));
+    return !s->coarse || (begin_pass(s, KILN_PASS_particles, error) &&
+                          end_pass(s, kiln_coarse_prepare(s->coarse, &s->scene_depth, error)));
 }
 
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
@@ -454,14 +454,14 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32
     struct kiln_stages *s = stages;
     const bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     uint32_t solids = 0;
-    if (!kiln_stages_pass_over(s, pool, step, error) || !fill_moment(s, pool, step, error) ||
+    if (!kiln_stages_skip_moment(s, pool, step, error) || !fill_moment(s, pool, step, error) ||
         !draw_scenery(s, &solids, error))
         return false;
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))
         return false;
     *drawn += solids;
     return !s->shutter ||
-           (begin(s, KILN_PASS_composite, error) && end(s, add_moment(s, sample, error)));
+           (begin_pass(s, KILN_PASS_composite, error) && end_pass(s, add_moment(s, sample, error)));
 }
 
 bool kiln_stages_keep_history(const struct kiln_stages *stages)
@@ -481,14 +481,14 @@ bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln
     if (s->bloom) {
         const struct kiln_bloom_inputs light = {inputs.scene, inputs.particles, inputs.fire,
                                                 inputs.time_s};
-        if (!begin(s, KILN_PASS_bloom, error))
+        if (!begin_pass(s, KILN_PASS_bloom, error))
             return false;
         inputs.bloom = kiln_bloom_run(s->bloom, &light, &inputs.bloom_scale, error);
-        if (!end(s, inputs.bloom != NULL))
+        if (!end_pass(s, inputs.bloom != NULL))
             return false;
     }
-    return begin(s, KILN_PASS_composite, error) &&
-           end(s, kiln_composite_run(s->composite, &inputs, error));
+    return begin_pass(s, KILN_PASS_composite, error) &&
+           end_pass(s, kiln_composite_run(s->composite, &inputs, error));
 }
 
 static const char *const LAYER_NAMES[] = {"beauty", "depth", "fire", "smoke", "bloom"};
@@ -535,9 +535,10 @@ static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
 bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
                       struct kiln_error *error)
 {
-    if (!begin(stages, KILN_PASS_readback, error))
+    if (!begin_pass(stages, KILN_PASS_readback, error))
         return false;
     bool ok = picture->bits == 0 ||
               kiln_composite_read_display(stages->composite, picture->display, error);
-    return end(stages, ok && (picture->layer_count == 0 || read_layers(stages, picture, error)));
+    return end_pass(stages,
+                    ok && (picture->layer_count == 0 || read_layers(stages, picture, error)));
 }

@@ -79,7 +79,7 @@ static enum device_class classify(const struct kiln_device_info *device)
 
 /* The choices of `auto` with their reasons. docs/measurements.md has the measurements. */
 static const struct choice {
-    const char *name, *why;
+    const char *name, *reason;
 } AUTO_CHOICES[STAGE_COUNT][CLASS_COUNT] = {
     [SIMULATE] = {[SOFTWARE] = {"cpu", "threads run the step faster than GL on the same cores"},
                   [GPU] = {"inplace",
@@ -107,11 +107,11 @@ static const struct choice {
                    [INEXACT_GPU] = {"gl", "the picture is in GL already"}},
 };
 
-/* Holds the chosen row of each stage. why is the reason of `auto`, or NULL if a flag chose the
+/* Holds the chosen row of each stage. reason is the reason of `auto`, or NULL if a flag chose the
  * row. */
 struct choices {
     const struct row *rows[STAGE_COUNT];
-    const char *why[STAGE_COUNT];
+    const char *reason[STAGE_COUNT];
     uint32_t sort_spread;
 };
 
@@ -130,12 +130,12 @@ static struct choices choose_automatically(const struct kiln_device_info *device
     for (int stage = 0; stage < STAGE_COUNT; stage++) {
         const struct choice *choice = &AUTO_CHOICES[stage][classify(device)];
         choices.rows[stage] = find_row((enum stage)stage, choice->name);
-        choices.why[stage] = choice->why;
+        choices.reason[stage] = choice->reason;
     }
     return choices;
 }
 
-static bool unknown_name(const char *what, const char *found, const char *const *names,
+static bool unknown_name(const char *label, const char *found, const char *const *names,
                          size_t count, struct kiln_error *error)
 {
     char list[256] = "";
@@ -144,7 +144,7 @@ static bool unknown_name(const char *what, const char *found, const char *const 
         snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
     }
     const char *nearest = kiln_text_nearest(found, names, count);
-    return kiln_error_set(error, KILN_USAGE, "%s '%s' is not known%s%s%s; allowed are %s", what,
+    return kiln_error_set(error, KILN_USAGE, "%s '%s' is not known%s%s%s; allowed are %s", label,
                           found, nearest ? " (did you mean '" : "", nearest ? nearest : "",
                           nearest ? "'?)" : "", list);
 }
@@ -195,7 +195,7 @@ static bool apply_flag(const char *flag, const struct choices *automatic, struct
         if (stage == SORT)
             choices->sort_spread = spread;
         choices->rows[stage] = is_auto ? automatic->rows[stage] : row;
-        choices->why[stage] = is_auto ? automatic->why[stage] : NULL;
+        choices->reason[stage] = is_auto ? automatic->reason[stage] : NULL;
         return true;
     }
     const char *names[ROW_COUNT + 1];
@@ -271,7 +271,7 @@ bool kiln_techniques_choose(const struct kiln_device_info *device, const char *c
     };
     for (int stage = 0; stage < STAGE_COUNT; stage++)
         techniques->choices[stage] = (struct kiln_technique_choice){
-            STAGE_NAMES[stage], choices.rows[stage]->name, choices.why[stage]};
+            STAGE_NAMES[stage], choices.rows[stage]->name, choices.reason[stage]};
     return true;
 }
 
@@ -375,7 +375,7 @@ static void write_choices(FILE *out, enum device_class class)
         const struct choice *choice = &AUTO_CHOICES[stage][class];
         char name[64];
         snprintf(name, sizeof name, "%s=%s", STAGE_NAMES[stage], choice->name);
-        fprintf(out, "  %-18s %s\n", name, choice->why);
+        fprintf(out, "  %-18s %s\n", name, choice->reason);
     }
 }
 

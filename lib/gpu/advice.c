@@ -25,7 +25,7 @@ static bool has_software(const struct kiln_device_info *infos, size_t count)
 }
 
 /* Appends a sentence to the advice if all of it fits. */
-static void add(char advice[256], const char *sentence)
+static void append_sentence(char advice[256], const char *sentence)
 {
     size_t used = strlen(advice);
     if (used + strlen(sentence) + 3 > 256)
@@ -44,7 +44,7 @@ static void advise_permission(char advice[256])
             continue;
         snprintf(sentence, sizeof sentence,
                  "the user has no access to %s; add the user to the group render", node);
-        add(advice, sentence);
+        append_sentence(advice, sentence);
         return;
     }
 }
@@ -54,15 +54,17 @@ void kiln_device_advise(const struct kiln_device_info *infos, size_t count, cons
 {
     advice[0] = '\0';
     if (count == 0) {
-        add(advice, problem);
+        append_sentence(advice, problem);
         return;
     }
     if (access("/dev/nvidia0", F_OK) == 0 && !has_gpu_of(infos, count, "NVIDIA"))
-        add(advice, "an NVIDIA GPU is here, but its EGL is missing; install the package "
-                    "libegl-nvidia0, or set NVIDIA_DRIVER_CAPABILITIES=all in a container");
+        append_sentence(advice,
+                        "an NVIDIA GPU is here, but its EGL is missing; install the package "
+                        "libegl-nvidia0, or set NVIDIA_DRIVER_CAPABILITIES=all in a container");
     if (!has_gpu_of(infos, count, NULL))
         advise_permission(advice);
     if (!has_gpu_of(infos, count, NULL) && !has_software(infos, count))
-        add(advice, "software rendering is missing; install the packages libegl-mesa0 and "
-                    "libgl1-mesa-dri");
+        append_sentence(advice,
+                        "software rendering is missing; install the packages libegl-mesa0 and "
+                        "libgl1-mesa-dri");
 }

@@ -56,7 +56,7 @@ static bool allocate_host(struct kiln_buffer *buffer, struct kiln_error *error)
     return true;
 }
 
-static bool fetch(struct kiln_buffer *buffer, struct kiln_error *error)
+static bool copy_to_host(struct kiln_buffer *buffer, struct kiln_error *error)
 {
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->gl);
@@ -71,7 +71,7 @@ void *kiln_buffer_host(struct kiln_buffer *buffer, enum kiln_access access,
     if (!buffer->host && !allocate_host(buffer, error))
         return NULL;
     if (!buffer->host_valid && buffer->gl_valid && access != KILN_OVERWRITE &&
-        !fetch(buffer, error))
+        !copy_to_host(buffer, error))
         return NULL;
     buffer->host_valid = true;
     if (access != KILN_READ) {
@@ -100,9 +100,9 @@ static bool allocate_gl(struct kiln_buffer *buffer, struct kiln_error *error)
     glGenBuffers(1, &gl);
     glBindBuffer(GL_COPY_WRITE_BUFFER, gl);
     glBufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)size, NULL, GL_DYNAMIC_COPY);
-    char what[128]; /* the size shows why memory may run out */
-    snprintf(what, sizeof what, "%s, %zu bytes", buffer->label, size);
-    if (!kiln_device_check(buffer->device, what, error)) {
+    char description[128]; /* the size shows why memory may run out */
+    snprintf(description, sizeof description, "%s, %zu bytes", buffer->label, size);
+    if (!kiln_device_check(buffer->device, description, error)) {
         glDeleteBuffers(1, &gl);
         return false;
     }
@@ -115,7 +115,7 @@ static bool allocate_gl(struct kiln_buffer *buffer, struct kiln_error *error)
     return true;
 }
 
-static bool send(struct kiln_buffer *buffer, struct kiln_error *error)
+static bool copy_to_gl(struct kiln_buffer *buffer, struct kiln_error *error)
 {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->gl);
@@ -128,7 +128,8 @@ GLuint kiln_buffer_gl(struct kiln_buffer *buffer, enum kiln_access access, struc
 {
     if (!buffer->gl && !allocate_gl(buffer, error))
         return 0;
-    if (!buffer->gl_valid && buffer->host_valid && access != KILN_OVERWRITE && !send(buffer, error))
+    if (!buffer->gl_valid && buffer->host_valid && access != KILN_OVERWRITE &&
+        !copy_to_gl(buffer, error))
         return 0;
     buffer->gl_valid = true;
     if (access != KILN_READ)

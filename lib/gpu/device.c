@@ -234,7 +234,7 @@ static struct kiln_device describe_host(const struct kiln_device_params *params,
 
 /* Holds the devices found so far in the order of their numbers: first the device without GL, then
  * the opened devices with GL. */
-struct scan {
+struct device_list {
     struct kiln_device devices[1 + KILN_MAX_EGL_SOURCES];
     size_t count;
     char problem[256]; /* why there is no device with GL */
@@ -248,14 +248,14 @@ static bool is_index(const char *wanted, uint64_t *index)
 /* Returns whether the devices found so far decide the choice. Scanning then stops, since opening
  * devices costs time and memory on a machine with many GPUs. A name decides only when all devices
  * are known, except `cpu` and `software`. */
-static bool scan_is_enough(const struct scan *scan, const char *wanted)
+static bool list_is_enough(const struct device_list *device_list, const char *wanted)
 {
     uint64_t index;
-    const struct kiln_device_info *last = &scan->devices[scan->count - 1].info;
+    const struct kiln_device_info *last = &device_list->devices[device_list->count - 1].info;
     if (!wanted)
         return last->usable && !last->software;
     if (is_index(wanted, &index))
-        return scan->count > index;
+        return device_list->count > index;
     if (strcasecmp(wanted, KILN_DEVICE_CPU) == 0)
         return true;
     return strcmp(wanted, "software") == 0 && last->usable && last->gl && last->software;
@@ -263,12 +263,12 @@ static bool scan_is_enough(const struct scan *scan, const char *wanted)
 
 /* Returns whether a device of Mesa's surfaceless platform adds nothing, because it is not usable or
  * is in the list already. */
-static bool is_duplicate(const struct scan *scan, const struct kiln_device_info *info)
+static bool is_duplicate(const struct device_list *device_list, const struct kiln_device_info *info)
 {
     if (strcmp(info->platform, "surfaceless") != 0)
         return false;
-    for (size_t i = 0; i < scan->count; i++) {
-        const struct kiln_device_info *other = &scan->devices[i].info;
+    for (size_t i = 0; i < device_list->count; i++) {
+        const struct kiln_device_info *other = &device_list->devices[i].info;
         if (!info->usable || (strcmp(info->name, other->name) == 0 &&
                               strcmp(info->gl_version, other->gl_version) == 0))
             return true;
@@ -283,72 +283,73 @@ static bool may_be_gpu(const struct kiln_egl_source *source, size_t source_count
     return !source->software && (source->device || source_count == 1);
 }
 
-/* Opens devices until the choice is clear, or all of them if `every` is set. */
-static void scan_devices(struct scan *scan, const struct kiln_device_params *params, bool every)
+/* Opens devices until the choice is clear, or all of them if `open_all` is set. */
+static void open_devices(struct device_list *device_list, const struct kiln_device_params *params,
+                         bool open_all)
 {
     struct kiln_error error = {0};
-    scan->devices[0] = describe_host(params, &error);
-    scan->count = 1;
-    if (!every && scan_is_enough(scan, params->wanted))
+    device_list->devices[0] = describe_host(params, &error);
+    device_list->count = 1;
+    if (!open_all && list_is_enough(device_list, params->wanted))
         return;
     struct kiln_egl_source sources[KILN_MAX_EGL_SOURCES];
-    size_t source_count = kiln_egl_sources(sources, scan->problem);
+    size_t source_count = kiln_egl_sources(sources, device_list->problem);
     for (size_t i = 0; i < source_count; i++) {
-        struct kiln_device *device = &scan->devices[scan->count];
-        if (!every && !params->wanted && !params->gl && !may_be_gpu(&sources[i], source_count))
+        struct kiln_device *device = &device_list->devices[device_list->count];
+        if (!open_all && !params->wanted && !params->gl && !may_be_gpu(&sources[i], source_count))
             continue;
         open_source(device, &sources[i], params);
-        if (is_duplicate(scan, &device->info)) {
+        if (is_duplicate(device_list, &device->info)) {
             kiln_egl_close(device->display, device->context);
             continue;
         }
-        device->info.index = (uint32_t)scan->count++;
-        if (!every && scan_is_enough(scan, params->wanted))
+        device->info.index = (uint32_t)device_list->count++;
+        if (!open_all && list_is_enough(device_list, params->wanted))
             return;
     }
 }
 
-static void scan_close(struct scan *scan)
+static void close_list(struct device_list *device_list)
 {
-    for (size_t i = 0; i < scan->count; i++)
-        kiln_egl_close(scan->devices[i].display, scan->devices[i].context);
-    scan->count = 0;
+    for (size_t i = 0; i < device_list->count; i++)
+        kiln_egl_close(device_list->devices[i].display, device_list->devices[i].context);
+    device_list->count = 0;
 }
 
-static void list_names(const struct scan *scan, struct kiln_text *text)
+static void list_names(const struct device_list *device_list, struct kiln_text *text)
 {
-    for (size_t i = 0; i < scan->count; i++)
-        kiln_text_add(text, "%s%zu '%s'", i ? ", " : "", i, scan->devices[i].info.name);
+    for (size_t i = 0; i < device_list->count; i++)
+        kiln_text_add(text, "%s%zu '%s'", i ? ", " : "", i, device_list->devices[i].info.name);
 }
 
-static const struct kiln_device *choose_software(const struct scan *scan)
+static const struct kiln_device *choose_software(const struct device_list *device_list)
 {
-    for (size_t i = 1; i < scan->count; i++)
-        if (scan->devices[i].info.usable && scan->devices[i].info.software)
-            return &scan->devices[i];
+    for (size_t i = 1; i < device_list->count; i++)
+        if (device_list->devices[i].info.usable && device_list->devices[i].info.software)
+            return &device_list->devices[i];
     return NULL;
 }
 
-static const struct kiln_device *choose_default(const struct scan *scan, bool gl)
+static const struct kiln_device *choose_default(const struct device_list *device_list, bool gl)
 {
-    for (size_t i = 1; i < scan->count; i++)
-        if (scan->devices[i].info.usable && !scan->devices[i].info.software)
-            return &scan->devices[i];
-    return gl ? choose_software(scan) : &scan->devices[0];
+    for (size_t i = 1; i < device_list->count; i++)
+        if (device_list->devices[i].info.usable && !device_list->devices[i].info.software)
+            return &device_list->devices[i];
+    return gl ? choose_software(device_list) : &device_list->devices[0];
 }
 
 /* Returns the device whose whole name is `wanted`, or else the one whose name contains it. Sets
  * ambiguous and returns NULL if there are several. */
-static const struct kiln_device *choose_named(const struct scan *scan, const char *wanted,
-                                              bool *ambiguous)
+static const struct kiln_device *choose_named(const struct device_list *device_list,
+                                              const char *wanted, bool *ambiguous)
 {
     const struct kiln_device *found = NULL;
     size_t matches = 0;
     for (int whole = 1; whole >= 0 && matches == 0; whole--) {
-        for (size_t i = 0; i < scan->count; i++) {
-            const char *name = scan->devices[i].info.name;
+        for (size_t i = 0; i < device_list->count; i++) {
+            const char *name = device_list->devices[i].info.name;
             if (whole ? strcasecmp(name, wanted) == 0 : strcasestr(name, wanted) != NULL) {
-                found = &scan->devices[i];
+                found = &device_list->devices[i];
                 matches++;
             }
         }
@@ -357,16 +358,17 @@ static const struct kiln_device *choose_named(const struct scan *scan, const cha
     return matches == 1 ? found : NULL;
 }
 
-static const struct kiln_device *refuse_choice(const struct scan *scan, const char *wanted,
-                                               bool ambiguous, struct kiln_error *error)
+static const struct kiln_device *refuse_choice(const struct device_list *device_list,
+                                               const char *wanted, bool ambiguous,
+                                               struct kiln_error *error)
 {
     struct kiln_text names = {0};
-    list_names(scan, &names);
-    if (!wanted && scan->count == 1)
-        kiln_error_set(error, KILN_NO_DEVICE, "no device with OpenGL: %s", scan->problem);
+    list_names(device_list, &names);
+    if (!wanted && device_list->count == 1)
+        kiln_error_set(error, KILN_NO_DEVICE, "no device with OpenGL: %s", device_list->problem);
     else if (!wanted)
         kiln_error_set(error, KILN_NO_DEVICE, "no usable device with OpenGL; the first one: %s",
-                       scan->devices[1].info.problem);
+                       device_list->devices[1].info.problem);
     else if (ambiguous)
         kiln_error_set(error, KILN_USAGE,
                        "more than one device is called '%s'; give its number: %s", wanted,
@@ -381,24 +383,25 @@ static const struct kiln_device *refuse_choice(const struct scan *scan, const ch
     return NULL;
 }
 
-static const struct kiln_device *
-choose(const struct scan *scan, const struct kiln_device_params *params, struct kiln_error *error)
+static const struct kiln_device *choose(const struct device_list *device_list,
+                                        const struct kiln_device_params *params,
+                                        struct kiln_error *error)
 {
     const char *wanted = params->wanted;
     const struct kiln_device *device = NULL;
     bool ambiguous = false;
     uint64_t index;
     if (!wanted)
-        device = choose_default(scan, params->gl);
+        device = choose_default(device_list, params->gl);
     else if (is_index(wanted, &index))
-        device = index < scan->count ? &scan->devices[index] : NULL;
+        device = index < device_list->count ? &device_list->devices[index] : NULL;
     else if (strcmp(wanted, "software") == 0)
-        device = choose_software(scan);
+        device = choose_software(device_list);
     else
-        device = choose_named(scan, wanted, &ambiguous);
+        device = choose_named(device_list, wanted, &ambiguous);
 
     if (!device)
-        return refuse_choice(scan, wanted, ambiguous, error);
+        return refuse_choice(device_list, wanted, ambiguous, error);
     if (device->info.usable)
         return device;
     if (!device->info.gl) /* KILN_SIMD in the environment is wrong */
@@ -431,24 +434,24 @@ size_t kiln_device_list(struct kiln_device_info *infos, size_t stride, size_t ca
     if (advice)
         snprintf(advice, 256, "no memory for the list of devices");
     struct kiln_device_info all[1 + KILN_MAX_EGL_SOURCES];
-    struct scan *scan = calloc(1, sizeof *scan);
-    if (!scan)
+    struct device_list *device_list = calloc(1, sizeof *device_list);
+    if (!device_list)
         return 0;
     struct kiln_egl_current before = kiln_egl_current();
     const struct kiln_device_params any = kiln_device_defaults();
-    scan_devices(scan, &any, true);
-    const size_t count = scan->count;
+    open_devices(device_list, &any, true);
+    const size_t count = device_list->count;
     for (size_t i = 0; i < count; i++) {
-        probe(&scan->devices[i]);
-        all[i] = scan->devices[i].info;
+        probe(&device_list->devices[i]);
+        all[i] = device_list->devices[i].info;
         if (i < capacity)
             kiln_sized_give((char *)infos + i * stride, &all[i]);
     }
     if (advice)
-        kiln_device_advise(all + 1, count - 1, scan->problem, advice);
-    scan_close(scan);
+        kiln_device_advise(all + 1, count - 1, device_list->problem, advice);
+    close_list(device_list);
     kiln_egl_restore(&before);
-    free(scan);
+    free(device_list);
     return count;
 }
 
@@ -463,20 +466,20 @@ struct kiln_device *kiln_device_open(const struct kiln_device_params *given,
         kiln_error_set(error, KILN_USAGE, "the name of the device is empty");
         return NULL;
     }
-    struct scan *scan = calloc(1, sizeof *scan);
+    struct device_list *device_list = calloc(1, sizeof *device_list);
     struct kiln_device *device = calloc(1, sizeof *device);
-    if (!scan || !device) {
+    if (!device_list || !device) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the list of devices");
         goto fail;
     }
-    scan_devices(scan, params, false);
-    const struct kiln_device *chosen = choose(scan, params, error);
+    open_devices(device_list, params, false);
+    const struct kiln_device *chosen = choose(device_list, params, error);
     if (!chosen)
         goto fail;
     *device = *chosen;
-    scan->devices[chosen - scan->devices].context = NULL;
-    scan_close(scan);
-    free(scan);
+    device_list->devices[chosen - device_list->devices].context = NULL;
+    close_list(device_list);
+    free(device_list);
     if (!kiln_device_make_current(device, error)) {
         kiln_device_close(&device);
         return NULL;
@@ -487,9 +490,9 @@ struct kiln_device *kiln_device_open(const struct kiln_device_params *given,
     return device;
 
 fail:
-    if (scan)
-        scan_close(scan);
-    free(scan);
+    if (device_list)
+        close_list(device_list);
+    free(device_list);
     free(device);
     return NULL;
 }

@@ -15,9 +15,9 @@
 static bool has_extension(const char *list, const char *name)
 {
     size_t length = strlen(name);
-    for (const char *at = list; at && (at = strstr(at, name)); at += length) {
-        bool starts = at == list || at[-1] == ' ';
-        if (starts && (at[length] == ' ' || at[length] == '\0'))
+    for (const char *match = list; match && (match = strstr(match, name)); match += length) {
+        bool starts = match == list || match[-1] == ' ';
+        if (starts && (match[length] == ' ' || match[length] == '\0'))
             return true;
     }
     return false;

@@ -68,7 +68,7 @@ static uint64_t pixel_bytes(const struct kiln_image *image)
     return (uint64_t)image->width * image->height * image->channels * sizeof(float);
 }
 
-static bool fetch(struct kiln_image *image, struct kiln_error *error)
+static bool copy_to_host(struct kiln_image *image, struct kiln_error *error)
 {
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     const GLuint before = bind(image->gl);
@@ -82,7 +82,8 @@ float *kiln_image_host(struct kiln_image *image, enum kiln_access access, struct
 {
     if (!image->host && !allocate_host(image, error))
         return NULL;
-    if (!image->host_valid && image->gl_valid && access != KILN_OVERWRITE && !fetch(image, error))
+    if (!image->host_valid && image->gl_valid && access != KILN_OVERWRITE &&
+        !copy_to_host(image, error))
         return NULL;
     image->host_valid = true;
     if (access != KILN_READ)
@@ -111,9 +112,10 @@ static bool allocate_gl(struct kiln_image *image, struct kiln_error *error)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     kiln_device_label(image->device, GL_TEXTURE, gl, image->label);
     glBindTexture(GL_TEXTURE_2D, before);
-    char what[128]; /* the size shows why memory may run out */
-    snprintf(what, sizeof what, "%s, %u x %u pixels", image->label, image->width, image->height);
-    if (!kiln_device_check(image->device, what, error)) {
+    char description[128]; /* the size shows why memory may run out */
+    snprintf(description, sizeof description, "%s, %u x %u pixels", image->label, image->width,
+             image->height);
+    if (!kiln_device_check(image->device, description, error)) {
         glDeleteTextures(1, &gl);
         return false;
     }
@@ -121,7 +123,7 @@ static bool allocate_gl(struct kiln_image *image, struct kiln_error *error)
     return true;
 }
 
-static bool send(struct kiln_image *image, struct kiln_error *error)
+static bool copy_to_gl(struct kiln_image *image, struct kiln_error *error)
 {
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     const GLuint before = bind(image->gl);
@@ -136,7 +138,8 @@ GLuint kiln_image_gl(struct kiln_image *image, enum kiln_access access, struct k
 {
     if (!image->gl && !allocate_gl(image, error))
         return 0;
-    if (!image->gl_valid && image->host_valid && access != KILN_OVERWRITE && !send(image, error))
+    if (!image->gl_valid && image->host_valid && access != KILN_OVERWRITE &&
+        !copy_to_gl(image, error))
         return 0;
     image->gl_valid = true;
     if (access != KILN_READ)

@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "gpu/buffer.h"
 #include "gpu/capture.h"
+#include "gpu/integer_textures.h"
 #include "gpu/program.h"
-#include "gpu/words.h"
 #include "shared/probe.h"
 
 /* Bit patterns of special and extreme floats. The first test vectors are all pairs of them. */
@@ -46,8 +46,8 @@ struct probe {
     struct kiln_device *device;
     enum kiln_probe_stage stage;
     GLuint program;
-    struct kiln_capture capture;       /* for the geometry stage */
-    struct kiln_words inputs, outputs; /* for the fragment stage */
+    struct kiln_capture capture;                  /* for the geometry stage */
+    struct kiln_integer_textures inputs, outputs; /* for the fragment stage */
     struct kiln_buffer vectors, results;
 };
 
@@ -61,7 +61,7 @@ static uint32_t whole_rows(uint32_t count)
 
 /* Returns the index of a result word. In the fragment stage, each member of the results (four
  * words) is a texture with one texel a vector. */
-static size_t place_of(const struct probe *probe, uint32_t vector, uint32_t word)
+static size_t word_index(const struct probe *probe, uint32_t vector, uint32_t word)
 {
     size_t vectors = probe->vectors.size / sizeof(uint4);
     if (probe->stage == KILN_PROBE_FRAGMENT)
@@ -96,8 +96,8 @@ static void run_fragment(struct probe *probe, uint32_t count, GLuint vectors, GL
     glBindTexture(GL_TEXTURE_2D, probe->inputs.textures[0]);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, ROW, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT, NULL);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-    kiln_words_bind_textures(&probe->inputs, 0);
-    kiln_words_draw(&probe->outputs, 0, (uint32_t)rows);
+    kiln_integer_textures_bind(&probe->inputs, 0);
+    kiln_integer_textures_draw(&probe->outputs, 0, (uint32_t)rows);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, results);
     for (uint32_t i = 0; i < MEMBERS; i++) {
         glReadBuffer(GL_COLOR_ATTACHMENT0 + i);
@@ -135,14 +135,14 @@ static bool compare(const struct probe *probe, const uint4 *vectors, const uint3
 {
     for (uint32_t i = 0; i < count; i++) {
         struct probe_result expected = probe_run(vectors[i]);
-        uint32_t right[PROBE_WORDS];
-        memcpy(right, &expected, sizeof right);
+        uint32_t expected_words[PROBE_WORDS];
+        memcpy(expected_words, &expected, sizeof expected_words);
         for (uint32_t word = 0; word < PROBE_WORDS; word++) {
-            const uint32_t found = results[place_of(probe, i, word)];
-            if (right[word] != found) {
+            const uint32_t found = results[word_index(probe, i, word)];
+            if (expected_words[word] != found) {
                 snprintf(reason, 256, "%s of (%08x, %08x, %08x, %08x) is %08x instead of %08x",
                          word_names[word], vectors[i].x, vectors[i].y, vectors[i].z, vectors[i].w,
-                         found, right[word]);
+                         found, expected_words[word]);
                 return false;
             }
         }
@@ -152,25 +152,25 @@ static bool compare(const struct probe *probe, const uint4 *vectors, const uint3
 
 static bool run(struct probe *probe, uint32_t count, char reason[256], struct kiln_error *error)
 {
-    enum { AT_ONCE = 1 << 16 };
-    const uint32_t most = count < AT_ONCE ? count : AT_ONCE;
-    const size_t room = whole_rows(most);
-    kiln_buffer_init(&probe->vectors, probe->device, room * sizeof(uint4), "probe vectors");
-    kiln_buffer_init(&probe->results, probe->device, room * sizeof(struct probe_result),
+    enum { MAX_BATCH = 1 << 16 };
+    const uint32_t most = count < MAX_BATCH ? count : MAX_BATCH;
+    const size_t capacity = whole_rows(most);
+    kiln_buffer_init(&probe->vectors, probe->device, capacity * sizeof(uint4), "probe vectors");
+    kiln_buffer_init(&probe->results, probe->device, capacity * sizeof(struct probe_result),
                      "probe results");
     if (probe->stage == KILN_PROBE_FRAGMENT &&
-        (!kiln_words_init(&probe->inputs, probe->device, 1, ROW, whole_rows(most) / ROW,
-                          "probe vectors", error) ||
-         !kiln_words_init(&probe->outputs, probe->device, MEMBERS, ROW, whole_rows(most) / ROW,
-                          "probe results", error)))
+        (!kiln_integer_textures_init(&probe->inputs, probe->device, 1, ROW, whole_rows(most) / ROW,
+                                     "probe vectors", error) ||
+         !kiln_integer_textures_init(&probe->outputs, probe->device, MEMBERS, ROW,
+                                     whole_rows(most) / ROW, "probe results", error)))
         return false;
     for (uint32_t first = 0; first < count; first += most) {
-        uint32_t now = count - first < most ? count - first : most;
-        if (!run_on_device(probe, first, now, error))
+        uint32_t batch = count - first < most ? count - first : most;
+        if (!run_on_device(probe, first, batch, error))
             return false;
         const uint4 *vectors = kiln_buffer_host(&probe->vectors, KILN_READ, error);
         const uint32_t *results = kiln_buffer_host(&probe->results, KILN_READ, error);
-        if (!vectors || !results || !compare(probe, vectors, results, now, reason))
+        if (!vectors || !results || !compare(probe, vectors, results, batch, reason))
             return false;
     }
     return true;
@@ -183,12 +183,12 @@ static bool init_probe(struct probe *probe, struct kiln_error *error)
         files = (struct kiln_program_params){.vertex = "gpu/framebuffer_fill.vert",
                                              .fragment = "gpu/probe.frag"};
     if (probe->stage == KILN_PROBE_GEOMETRY) {
-        static const char *const words[] = {"sums",        "orders",     "roots",      "curves",
-                                            "unit_square", "cross_lerp", "noise_hash", "around"};
+        static const char *const varyings[] = {"sums",        "orders",     "roots",      "curves",
+                                               "unit_square", "cross_lerp", "noise_hash", "around"};
         files = (struct kiln_program_params){.vertex = "gpu/probe.vert",
                                              .geometry = "gpu/probe.geom",
-                                             .captured = words,
-                                             .captured_count = sizeof words / sizeof *words};
+                                             .captured = varyings,
+                                             .captured_count = sizeof varyings / sizeof *varyings};
         if (!kiln_capture_init(&probe->capture, probe->device, 1, error))
             return false;
     }
@@ -205,8 +205,8 @@ bool kiln_probe_vectors(struct kiln_device *device, enum kiln_probe_stage stage,
     kiln_buffer_finish(&probe.vectors);
     kiln_buffer_finish(&probe.results);
     kiln_capture_finish(&probe.capture);
-    kiln_words_finish(&probe.inputs);
-    kiln_words_finish(&probe.outputs);
+    kiln_integer_textures_finish(&probe.inputs);
+    kiln_integer_textures_finish(&probe.outputs);
     if (probe.program)
         glDeleteProgram(probe.program);
     return exact;

@@ -17,8 +17,8 @@
 enum { MAX_DEPTH = 32, MAX_FILE_SIZE = 1 << 20 };
 
 /* Describes a file that is being joined and links to the file that includes it. */
-struct part {
-    const struct part *includer;
+struct open_file {
+    const struct open_file *includer;
     const char *path;
     size_t line;     /* number of the line that is being read; for messages */
     bool in_comment; /* a block comment is open */
@@ -72,38 +72,41 @@ static bool read_override(const char *dir, const char *path, char **text, struct
 
 /* Returns the text of a file, or NULL with an error. The caller frees *owned, which is NULL if the
  * text is embedded. */
-static const char *find_text(const struct part *part, char **owned, struct kiln_error *error)
+static const char *find_text(const struct open_file *open_file, char **owned,
+                             struct kiln_error *error)
 {
     *owned = NULL;
-    if (is_safe_path(part->path)) {
+    if (is_safe_path(open_file->path)) {
         const char *dir = getenv("KILN_SHADER_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
-        if (dir && dir[0] != '\0' && !read_override(dir, part->path, owned, error))
+        if (dir && dir[0] != '\0' && !read_override(dir, open_file->path, owned, error))
             return NULL;
-        const char *text = *owned ? *owned : kiln_embedded_find(kiln_embedded_shaders, part->path);
+        const char *text =
+            *owned ? *owned : kiln_embedded_find(kiln_embedded_shaders, open_file->path);
         if (text)
             return text;
     }
-    if (part->includer)
+    if (open_file->includer)
         kiln_error_set(error, KILN_DEVICE_FAILED,
                        "shaders/%s:%zu: includes \"%s\", which is not a file under shaders/",
-                       part->includer->path, part->includer->line, part->path);
+                       open_file->includer->path, open_file->includer->line, open_file->path);
     else
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shaders/%s: there is no such file", part->path);
+        kiln_error_set(error, KILN_DEVICE_FAILED, "shaders/%s: there is no such file",
+                       open_file->path);
     return NULL;
 }
 
-static bool check_chain(const struct part *part, struct kiln_error *error)
+static bool check_chain(const struct open_file *open_file, struct kiln_error *error)
 {
     size_t depth = 0;
-    for (const struct part *p = part->includer; p; p = p->includer, depth++)
-        if (strcmp(p->path, part->path) == 0)
-            return kiln_error_set(error, KILN_DEVICE_FAILED,
-                                  "shaders/%s:%zu: includes \"%s\", which includes itself",
-                                  part->includer->path, part->includer->line, part->path);
+    for (const struct open_file *p = open_file->includer; p; p = p->includer, depth++)
+        if (strcmp(p->path, open_file->path) == 0)
+            return kiln_error_set(
+                error, KILN_DEVICE_FAILED, "shaders/%s:%zu: includes \"%s\", which includes itself",
+                open_file->includer->path, open_file->includer->line, open_file->path);
     if (depth >= MAX_DEPTH)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
                               "shaders/%s:%zu: includes are nested deeper than %d",
-                              part->includer->path, part->includer->line, MAX_DEPTH);
+                              open_file->includer->path, open_file->includer->line, MAX_DEPTH);
     return true;
 }
 
@@ -143,18 +146,18 @@ static void put_line(struct kiln_source *source, const char *line, size_t length
 }
 
 /* Tracks block comments through one line, so that an #include inside a comment is ignored. */
-static void follow_comments(struct part *part, const char *line, size_t length)
+static void follow_comments(struct open_file *open_file, const char *line, size_t length)
 {
     for (size_t i = 0; i + 1 < length; i++) {
-        if (part->in_comment) {
+        if (open_file->in_comment) {
             if (line[i] == '*' && line[i + 1] == '/') {
-                part->in_comment = false;
+                open_file->in_comment = false;
                 i++;
             }
         } else if (line[i] == '/' && line[i + 1] == '/') {
             return;
         } else if (line[i] == '/' && line[i + 1] == '*') {
-            part->in_comment = true;
+            open_file->in_comment = true;
             i++;
         }
     }
@@ -192,63 +195,65 @@ static enum directive read_include(const char *line, size_t length, char path[KI
     return INCLUDE_OURS;
 }
 
-static bool add_file(struct kiln_source *source, struct part *part, struct kiln_error *error);
+static bool add_file(struct kiln_source *source, struct open_file *open_file,
+                     struct kiln_error *error);
 
-static bool add_line(struct kiln_source *source, struct part *part, size_t file, const char *line,
-                     size_t length, struct kiln_error *error)
+static bool add_line(struct kiln_source *source, struct open_file *open_file, size_t file,
+                     const char *line, size_t length, struct kiln_error *error)
 {
     char path[KILN_MAX_SOURCE_PATH];
-    enum directive kind = part->in_comment ? NOT_INCLUDE : read_include(line, length, path);
+    enum directive kind = open_file->in_comment ? NOT_INCLUDE : read_include(line, length, path);
     switch (kind) {
     case INCLUDE_MALFORMED:
         return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "shaders/%s:%zu: #include must be followed by \"path\"", part->path,
-                              part->line);
+                              "shaders/%s:%zu: #include must be followed by \"path\"",
+                              open_file->path, open_file->line);
     case INCLUDE_SYSTEM:
         put_line(source, "", 0);
         return true;
     case INCLUDE_OURS: {
-        struct part included = {.includer = part, .path = path};
+        struct open_file included = {.includer = open_file, .path = path};
         if (!add_file(source, &included, error))
             return false;
-        begin_piece(source, file, part->line + 1);
+        begin_piece(source, file, open_file->line + 1);
         return true;
     }
     case NOT_INCLUDE:
         break;
     }
-    follow_comments(part, line, length);
+    follow_comments(open_file, line, length);
     put_line(source, line, length);
     return true;
 }
 
-static bool add_file(struct kiln_source *source, struct part *part, struct kiln_error *error)
+static bool add_file(struct kiln_source *source, struct open_file *open_file,
+                     struct kiln_error *error)
 {
-    if (!check_chain(part, error))
+    if (!check_chain(open_file, error))
         return false;
     char *owned;
-    const char *text = find_text(part, &owned, error);
+    const char *text = find_text(open_file, &owned, error);
     if (!text)
         return false;
     bool ok = true;
-    const size_t file = file_number(source, part->path);
+    const size_t file = file_number(source, open_file->path);
     if (file == KILN_MAX_SOURCE_FILES)
         ok = kiln_error_set(error, KILN_DEVICE_FAILED,
-                            "shaders/%s: a program may have at most %d files", part->path,
+                            "shaders/%s: a program may have at most %d files", open_file->path,
                             KILN_MAX_SOURCE_FILES);
     else
         begin_piece(source, file, 1);
     for (const char *line = text; ok && *line;) {
         const char *end = strchr(line, '\n');
         size_t length = end ? (size_t)(end - line) : strlen(line);
-        part->line++;
-        ok = add_line(source, part, file, line, length, error);
+        open_file->line++;
+        ok = add_line(source, open_file, file, line, length, error);
         line += length + (end != NULL);
     }
     free(owned);
-    if (ok && part->in_comment)
+    if (ok && open_file->in_comment)
         ok = kiln_error_set(error, KILN_DEVICE_FAILED, "shaders/%s: a comment is not closed",
-                            part->path);
+                            open_file->path);
     return ok;
 }
 
@@ -267,8 +272,8 @@ bool kiln_source_load(struct kiln_source *source, const char *file, const char *
     begin_piece(source, KILN_MAX_SOURCE_FILES, 1);
     add_lines(source, "#version 430 core");
     add_lines(source, defines ? defines : "");
-    struct part part = {.includer = NULL, .path = file};
-    if (!add_file(source, &part, error))
+    struct open_file open_file = {.includer = NULL, .path = file};
+    if (!add_file(source, &open_file, error))
         return false;
     if (source->text.failed)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for shader %s", file);

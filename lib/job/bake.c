@@ -53,7 +53,7 @@ static bool check_files(const struct bake *bake, struct kiln_error *error)
 }
 
 /* Returns whether the state of this step has been saved before and can stay as it is. */
-static bool is_kept(const struct bake *bake, uint32_t step)
+static bool is_saved(const struct bake *bake, uint32_t step)
 {
     struct kiln_error reason = {0};
     uint32_t found;
@@ -80,7 +80,7 @@ static bool visit_frame(struct bake *bake, uint32_t frame, struct kiln_error *er
     struct stat status = {0};
     baked->frame = frame;
     baked->step = kiln_scene_frame_step(bake->scene, frame);
-    baked->kept = is_kept(bake, baked->step);
+    baked->kept = is_saved(bake, baked->step);
     if (!kiln_stop_ask(&bake->stop, error) ||
         (!baked->kept && !save(bake, frame, baked->step, error)) ||
         !kiln_states_path(bake->states, baked->step, path, error))

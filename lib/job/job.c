@@ -43,7 +43,7 @@ struct kiln_job {
 
     double started_s;
     /* the last drawn frame's picture, until the caller takes it; NULL: none */
-    struct kiln_picture *kept;
+    struct kiln_picture *last_picture;
     uint32_t total_frames;
     uint32_t written;              /* the number of files of frames that are whole */
     struct kiln_progress progress; /* progress at the present frame */
@@ -63,9 +63,9 @@ static bool return_from_caller(const struct kiln_job *job, struct kiln_error *er
 static bool hand_over(struct kiln_job *job, struct kiln_picture *picture, struct kiln_error *error)
 {
     kiln_views_show(job->params, picture);
-    kiln_picture_destroy(&job->kept);
+    kiln_picture_destroy(&job->last_picture);
     if (job->params->keep_frames)
-        job->kept = kiln_picture_share(picture);
+        job->last_picture = kiln_picture_share(picture);
     if (!return_from_caller(job, error)) {
         kiln_picture_destroy(&picture);
         return false;
@@ -90,17 +90,17 @@ static void record_frame(struct kiln_job *job, uint32_t frame, const struct kiln
         record->pass_ms[i] = (float)drawn->pass_ms[i];
 }
 
-static void tell_written(struct kiln_job *job, const struct kiln_whole *whole)
+static void tell_written(struct kiln_job *job, const struct kiln_finished_file *finished)
 {
     struct kiln_written file = {.size = sizeof file,
-                                .file = whole->path,
-                                .kind = whole->is_clip   ? KILN_WRITTEN_CLIP
-                                        : whole->is_part ? KILN_WRITTEN_PART
-                                                         : KILN_WRITTEN_FRAME,
-                                .frames = whole->frames,
-                                .bytes = whole->bytes};
-    memcpy(file.sha256, whole->sha256, sizeof file.sha256);
-    const struct kiln_record *record = kiln_records_of(&job->records, whole->frames.first);
+                                .file = finished->path,
+                                .kind = finished->is_clip   ? KILN_WRITTEN_CLIP
+                                        : finished->is_part ? KILN_WRITTEN_PART
+                                                            : KILN_WRITTEN_FRAME,
+                                .frames = finished->frames,
+                                .bytes = finished->bytes};
+    memcpy(file.sha256, finished->sha256, sizeof file.sha256);
+    const struct kiln_record *record = kiln_records_of(&job->records, finished->frames.first);
     if (file.kind == KILN_WRITTEN_FRAME && record) {
         file.done = ++job->written;
         file.total = job->total_frames;
@@ -113,15 +113,16 @@ static void tell_written(struct kiln_job *job, const struct kiln_whole *whole)
 }
 
 /* Records that a file is whole. It is called on any thread, but never on two at a time. */
-static bool take_whole(void *user, const struct kiln_whole *whole, struct kiln_error *error)
+static bool take_finished(void *user, const struct kiln_finished_file *finished,
+                          struct kiln_error *error)
 {
     struct kiln_job *job = user;
-    if (job->resumes && !kiln_resume_take(&job->resume, whole, error))
+    if (job->resumes && !kiln_resume_take(&job->resume, finished, error))
         return false;
     if (!job->resumes)
-        kiln_records_take(&job->records, whole);
+        kiln_records_take(&job->records, finished);
     if (job->params->written)
-        tell_written(job, whole);
+        tell_written(job, finished);
     return true;
 }
 
@@ -173,8 +174,8 @@ const struct kiln_progress *kiln_job_progress(const struct kiln_job *job)
 
 struct kiln_picture *kiln_job_take_picture(struct kiln_job *job)
 {
-    struct kiln_picture *picture = job->kept;
-    job->kept = NULL;
+    struct kiln_picture *picture = job->last_picture;
+    job->last_picture = NULL;
     return picture;
 }
 
@@ -184,8 +185,8 @@ struct kiln_loop *kiln_job_loop(struct kiln_job *job)
 }
 
 /* Passes over a frame whose file is there already; only its state may still have to be computed. */
-static bool pass_over(struct kiln_job *job, uint32_t frame, struct kiln_record *record,
-                      struct kiln_error *error)
+static bool skip_frame(struct kiln_job *job, uint32_t frame, struct kiln_record *record,
+                       struct kiln_error *error)
 {
     if (record->has_state)
         return true;
@@ -217,7 +218,7 @@ bool kiln_job_next(struct kiln_job *job, bool *drawn, struct kiln_error *error)
 {
     uint32_t frame;
     *drawn = false;
-    kiln_picture_destroy(&job->kept);
+    kiln_picture_destroy(&job->last_picture);
     while (!*drawn && take_frame(job, &frame)) {
         struct kiln_record *record = job->resumes ? kiln_records_of(&job->records, frame) : NULL;
         const bool is_there = record && record->whole && !record->drawn;
@@ -226,7 +227,7 @@ bool kiln_job_next(struct kiln_job *job, bool *drawn, struct kiln_error *error)
             !kiln_states_take_up(job->states, job->loop, frame, error))
             return false;
         if (!is_others &&
-            !(is_there ? pass_over(job, frame, record, error) : kiln_job_draw(job, frame, error)))
+            !(is_there ? skip_frame(job, frame, record, error) : kiln_job_draw(job, frame, error)))
             return false;
         *drawn = job->follows = !is_there && !is_others;
     }
@@ -310,7 +311,7 @@ static bool keep_records(struct kiln_job *job, struct kiln_error *error)
     if (!job->params->manifest && !job->params->written && !job->resumes)
         return true;
     if (!writes_stream(job))
-        job->files.whole = (struct kiln_whole_listener){take_whole, job};
+        job->files.on_finished = (struct kiln_file_listener){take_finished, job};
     job->scene_json = kiln_manifest_scene(job->scene);
     return (job->scene_json && kiln_records_create(&job->records, job->ranges, job->range_count)) ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for records of %u frames",
@@ -543,7 +544,7 @@ void kiln_job_destroy(struct kiln_job **job)
     struct kiln_job *j = *job;
     if (!j)
         return;
-    kiln_picture_destroy(&j->kept);
+    kiln_picture_destroy(&j->last_picture);
     kiln_states_close(&j->states);
     kiln_manifest_close(&j->manifest);
     kiln_output_close(&j->output);

@@ -23,10 +23,11 @@ struct join {
     time_t started;
 };
 
-static bool take_whole(void *user, const struct kiln_whole *whole, struct kiln_error *error)
+static bool take_finished(void *user, const struct kiln_finished_file *finished,
+                          struct kiln_error *error)
 {
     struct join *join = user;
-    return kiln_resume_take(&join->resume, whole, error);
+    return kiln_resume_take(&join->resume, finished, error);
 }
 
 /* Says what is missing: parts of a clip, or frames. */
@@ -112,7 +113,7 @@ static bool begin(struct join *join, struct kiln_error *error)
     struct kiln_output_params *output = &join->head.output;
     output->log = join->params->log;
     output->caller = kiln_stop_caller(&join->stop);
-    output->whole = (struct kiln_whole_listener){take_whole, join};
+    output->on_finished = (struct kiln_file_listener){take_finished, join};
     output->durable = true;
     output->budget = join->params->budget;
     output->overwrite = join->params->overwrite;

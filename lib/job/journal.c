@@ -93,30 +93,30 @@ static const char *name_of(const struct kiln_journal *journal, const char *path)
 }
 
 bool kiln_journal_add(struct kiln_journal *journal, const struct kiln_records *records,
-                      const struct kiln_whole *whole, struct kiln_error *error)
+                      const struct kiln_finished_file *finished, struct kiln_error *error)
 {
     struct kiln_text line = {0};
     struct kiln_json json = kiln_json_to_text(&line);
     kiln_json_begin_object(&json, NULL);
     kiln_json_string(&json,
-                     whole->is_clip   ? "clip"
-                     : whole->is_part ? "part"
-                                      : "frame",
-                     name_of(journal, whole->path));
-    if (!whole->is_clip)
-        kiln_json_pair(&json, "frames", whole->frames.first, whole->frames.last);
-    kiln_json_uint(&json, "bytes", whole->bytes);
-    kiln_json_string(&json, "sha256", whole->sha256);
-    if (!whole->is_clip) {
+                     finished->is_clip   ? "clip"
+                     : finished->is_part ? "part"
+                                         : "frame",
+                     name_of(journal, finished->path));
+    if (!finished->is_clip)
+        kiln_json_pair(&json, "frames", finished->frames.first, finished->frames.last);
+    kiln_json_uint(&json, "bytes", finished->bytes);
+    kiln_json_string(&json, "sha256", finished->sha256);
+    if (!finished->is_clip) {
         kiln_json_begin_array(&json, "states");
-        for (uint64_t frame = whole->frames.first; frame <= whole->frames.last; frame++) {
+        for (uint64_t frame = finished->frames.first; frame <= finished->frames.last; frame++) {
             const struct kiln_record *record = kiln_records_of(records, (uint32_t)frame);
             if (record)
                 add_state(&json, record);
         }
         kiln_json_end(&json);
     }
-    return append(journal, &json, &line, whole->is_part || whole->is_clip, error);
+    return append(journal, &json, &line, finished->is_part || finished->is_clip, error);
 }
 
 bool kiln_journal_add_attempt(struct kiln_journal *journal, const struct kiln_attempt *run,

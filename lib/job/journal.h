@@ -54,7 +54,7 @@ bool kiln_journal_find(const char *output, struct kiln_journal_head *head, struc
 /* Appends a line for a file that is whole, with the states of its frames. The line is synced to the
  * disk within a second. KILN_IO. */
 bool kiln_journal_add(struct kiln_journal *journal, const struct kiln_records *records,
-                      const struct kiln_whole *whole, struct kiln_error *error);
+                      const struct kiln_finished_file *finished, struct kiln_error *error);
 
 /* Appends the description of a run at its end. KILN_IO. */
 bool kiln_journal_add_attempt(struct kiln_journal *journal, const struct kiln_attempt *run,

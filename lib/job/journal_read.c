@@ -69,13 +69,14 @@ static void read_clip(const struct kiln_journal *journal, const struct kiln_node
     const char *slash = strrchr(journal->path, '/');
     const int folder = slash ? (int)(slash - journal->path) + 1 : 0;
     char path[KILN_PATH_SIZE];
-    struct kiln_whole whole = {.path = path, .is_clip = true};
+    struct kiln_finished_file finished = {.path = path, .is_clip = true};
     if (name->kind != KILN_NODE_SCALAR || !sha256 || sha256->kind != KILN_NODE_SCALAR ||
-        strlen(sha256->text) != 64 || !read_number(kiln_node_entry(line, "bytes"), &whole.bytes) ||
+        strlen(sha256->text) != 64 ||
+        !read_number(kiln_node_entry(line, "bytes"), &finished.bytes) ||
         snprintf(path, sizeof path, "%.*s%s", folder, journal->path, name->text) >= KILN_PATH_SIZE)
         return;
-    memcpy(whole.sha256, sha256->text, 65);
-    kiln_records_take(records, &whole);
+    memcpy(finished.sha256, sha256->text, 65);
+    kiln_records_take(records, &finished);
 }
 
 /* Copies the description of a run into the records, unless they have it from a journal that was

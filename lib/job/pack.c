@@ -81,7 +81,7 @@ static bool is_zero(const uint32_t *row, uint32_t columns)
 
 /* Marks the rows that are not zero in the bitmap and lists them; returns their number. */
 static size_t list_rows(const struct kiln_table *table, const uint32_t *first, size_t rows,
-                        uint8_t *bitmap, uint32_t *kept)
+                        uint8_t *bitmap, uint32_t *row_indices)
 {
     size_t count = 0;
     memset(bitmap, 0, BITMAP_BYTES);
@@ -89,19 +89,20 @@ static size_t list_rows(const struct kiln_table *table, const uint32_t *first, s
         if (is_zero(first + i * table->columns, table->columns))
             continue;
         bitmap[i / 8] |= (uint8_t)(1u << (i % 8));
-        kept[count++] = (uint32_t)i;
+        row_indices[count++] = (uint32_t)i;
     }
     return count;
 }
 
 static size_t spread_planes(const struct kiln_table *table, const uint32_t *first,
-                            const uint32_t *kept, size_t count, uint8_t *planes)
+                            const uint32_t *row_indices, size_t count, uint8_t *planes)
 {
     for (uint32_t c = 0; c < table->columns; c++) {
         uint32_t before = 0;
         uint8_t *plane = planes + (size_t)c * 4 * count;
         for (size_t i = 0; i < count; i++) {
-            uint32_t word = first[(size_t)kept[i] * table->columns + c], value = word - before;
+            uint32_t word = first[(size_t)row_indices[i] * table->columns + c],
+                     value = word - before;
             value = table->rising >> c & 1 ? value : word;
             before = word;
             for (size_t k = 0; k < 4; k++)
@@ -118,14 +119,14 @@ static void pack_blocks(void *context, size_t begin, size_t end, uint32_t worker
     for (struct block *block = blocks + begin; block < blocks + end; block++) {
         const struct kiln_table *table = block->table;
         const uint32_t *first = table->words + block->number * BLOCK_ROWS * table->columns;
-        uint32_t *kept = malloc(BLOCK_ROWS * sizeof *kept);
-        block->outcome = kept ? KILN_OK : KILN_DEVICE_FAILED;
-        if (!kept)
+        uint32_t *row_indices = malloc(BLOCK_ROWS * sizeof *row_indices);
+        block->outcome = row_indices ? KILN_OK : KILN_DEVICE_FAILED;
+        if (!row_indices)
             continue;
-        const size_t count = list_rows(table, first, rows_of(block), block->raw, kept);
-        block->raw_size =
-            BITMAP_BYTES + spread_planes(table, first, kept, count, block->raw + BITMAP_BYTES);
-        free(kept);
+        const size_t count = list_rows(table, first, rows_of(block), block->raw, row_indices);
+        block->raw_size = BITMAP_BYTES + spread_planes(table, first, row_indices, count,
+                                                       block->raw + BITMAP_BYTES);
+        free(row_indices);
         block->packed_size = ZSTD_compress(block->packed, ZSTD_compressBound(block->raw_size),
                                            block->raw, block->raw_size, LEVEL);
         if (ZSTD_isError(block->packed_size))
@@ -164,10 +165,10 @@ static bool count_rows(const uint8_t *bitmap, size_t rows, size_t *count)
 {
     *count = 0;
     for (size_t i = 0; i < BLOCK_ROWS; i++) {
-        const bool is_kept = bitmap[i / 8] >> (i % 8) & 1;
-        if (is_kept && i >= rows)
+        const bool is_stored = bitmap[i / 8] >> (i % 8) & 1;
+        if (is_stored && i >= rows)
             return false;
-        *count += is_kept;
+        *count += is_stored;
     }
     return true;
 }

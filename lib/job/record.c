@@ -35,36 +35,36 @@ uint32_t kiln_records_frame(const struct kiln_records *records, uint32_t index)
     return kiln_ranges_at(records->clip, records->clip_count, index);
 }
 
-static void take_clip(struct kiln_records *records, const struct kiln_whole *whole)
+static void take_clip(struct kiln_records *records, const struct kiln_finished_file *finished)
 {
     const uint32_t room = sizeof records->files / sizeof *records->files;
     uint32_t i = 0;
-    while (i < records->file_count && strcmp(records->files[i].path, whole->path) != 0)
+    while (i < records->file_count && strcmp(records->files[i].path, finished->path) != 0)
         i++;
     if (i == room)
         return;
     records->file_count = i < records->file_count ? records->file_count : i + 1;
     struct kiln_clip_file *file = &records->files[i];
-    snprintf(file->path, sizeof file->path, "%s", whole->path);
-    memcpy(file->sha256, whole->sha256, sizeof file->sha256);
-    file->bytes = whole->bytes;
+    snprintf(file->path, sizeof file->path, "%s", finished->path);
+    memcpy(file->sha256, finished->sha256, sizeof file->sha256);
+    file->bytes = finished->bytes;
 }
 
-void kiln_records_take(struct kiln_records *records, const struct kiln_whole *whole)
+void kiln_records_take(struct kiln_records *records, const struct kiln_finished_file *finished)
 {
-    if (whole->is_clip) {
-        take_clip(records, whole);
+    if (finished->is_clip) {
+        take_clip(records, finished);
         return;
     }
     /* A clip may leave out frames, which have no record. */
-    for (uint64_t frame = whole->frames.first; frame <= whole->frames.last; frame++) {
+    for (uint64_t frame = finished->frames.first; frame <= finished->frames.last; frame++) {
         struct kiln_record *record = kiln_records_of(records, (uint32_t)frame);
         if (!record)
             continue;
         record->whole = true;
-        if (whole->is_part)
+        if (finished->is_part)
             continue;
-        record->bytes = whole->bytes;
-        memcpy(record->sha256, whole->sha256, sizeof record->sha256);
+        record->bytes = finished->bytes;
+        memcpy(record->sha256, finished->sha256, sizeof record->sha256);
     }
 }

@@ -49,6 +49,6 @@ uint32_t kiln_records_frame(const struct kiln_records *records, uint32_t index);
 
 /* Copies what a report about a whole file says into the records: for a frame, a part, or the
  * clip. */
-void kiln_records_take(struct kiln_records *records, const struct kiln_whole *whole);
+void kiln_records_take(struct kiln_records *records, const struct kiln_finished_file *finished);
 
 #endif

@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "base/sized.h"
+#include "job/frame.h"
 #include "job/job.h"
-#include "job/kept.h"
 
 struct kiln_rendering {
     struct kiln_render_params params;

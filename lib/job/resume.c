@@ -16,11 +16,11 @@
 /* Returns whether a file has this size and hash. *reason is filled where it cannot be read. */
 static bool is_same(const char *path, uint64_t bytes, const char *sha256, struct kiln_error *reason)
 {
-    struct kiln_whole whole = {.path = path};
+    struct kiln_finished_file finished = {.path = path};
     struct stat status;
     return bytes > 0 && stat(path, &status) == 0 && S_ISREG(status.st_mode) &&
-           (uint64_t)status.st_size == bytes && kiln_whole_measure(&whole, reason) &&
-           strcmp(whole.sha256, sha256) == 0;
+           (uint64_t)status.st_size == bytes && kiln_finished_file_measure(&finished, reason) &&
+           strcmp(finished.sha256, sha256) == 0;
 }
 
 /* Returns false when memory was too short to look at a file: it may be whole, so the job ends with
@@ -49,10 +49,10 @@ static bool is_file(const char *path)
 static bool adopt(struct kiln_resume *resume, const char *path, uint32_t frame,
                   struct kiln_error *error)
 {
-    struct kiln_whole whole = {.path = path, .frames = {frame, frame}};
-    if (!kiln_whole_measure(&whole, error))
+    struct kiln_finished_file finished = {.path = path, .frames = {frame, frame}};
+    if (!kiln_finished_file_measure(&finished, error))
         return false;
-    kiln_records_take(resume->records, &whole);
+    kiln_records_take(resume->records, &finished);
     return true;
 }
 
@@ -382,21 +382,22 @@ bool kiln_resume_merge(struct kiln_resume *resume, struct kiln_error *error)
     return ok;
 }
 
-bool kiln_resume_take(struct kiln_resume *resume, const struct kiln_whole *whole,
+bool kiln_resume_take(struct kiln_resume *resume, const struct kiln_finished_file *finished,
                       struct kiln_error *error)
 {
-    kiln_records_take(resume->records, whole);
-    return kiln_journal_add(resume->journal, resume->records, whole, error);
+    kiln_records_take(resume->records, finished);
+    return kiln_journal_add(resume->journal, resume->records, finished, error);
 }
 
 bool kiln_resume_note(struct kiln_resume *resume, uint32_t frame, struct kiln_error *error)
 {
     const struct kiln_record *record = kiln_records_of(resume->records, frame);
     char path[KILN_PATH_SIZE];
-    struct kiln_whole whole = {.path = path, .frames = {frame, frame}, .bytes = record->bytes};
-    memcpy(whole.sha256, record->sha256, sizeof whole.sha256);
+    struct kiln_finished_file finished = {
+        .path = path, .frames = {frame, frame}, .bytes = record->bytes};
+    memcpy(finished.sha256, record->sha256, sizeof finished.sha256);
     return kiln_output_file(&resume->output, frame, path, error) &&
-           kiln_journal_add(resume->journal, resume->records, &whole, error);
+           kiln_journal_add(resume->journal, resume->records, &finished, error);
 }
 
 bool kiln_resume_end_attempt(struct kiln_resume *resume, const struct kiln_attempt *run,

@@ -66,7 +66,7 @@ bool kiln_resume_merge(struct kiln_resume *resume, struct kiln_error *error);
 bool kiln_resume_note(struct kiln_resume *resume, uint32_t frame, struct kiln_error *error);
 
 /* Adds a file that has become whole to records and journal. */
-bool kiln_resume_take(struct kiln_resume *resume, const struct kiln_whole *whole,
+bool kiln_resume_take(struct kiln_resume *resume, const struct kiln_finished_file *finished,
                       struct kiln_error *error);
 
 /* Removes a journal that kiln_resume_begin began, for a job that has no result. */

@@ -27,7 +27,7 @@ enum { RECORD_RISING = 1 << 3 | 1 << 7 };
 /* The contents of the head. */
 struct head {
     struct kiln_state_info info;
-    uint32_t turn;
+    uint32_t next_part;
     uint32_t system_count, canvas_count;
     struct head_system {
         uint32_t capacity, spins;
@@ -86,7 +86,7 @@ static void pass_head(struct cursor *c, struct head *head)
     pass_word(c, &info->hash.lane[0]);
     pass_word(c, &info->hash.lane[1]);
     pass_long(c, &info->alive, 8);
-    pass_word(c, &head->turn);
+    pass_word(c, &head->next_part);
     pass_word(c, &head->system_count);
     pass_word(c, &head->canvas_count);
     c->failed |= head->system_count > KILN_MAX_SYSTEMS || head->canvas_count > KILN_MAX_MESHES;
@@ -109,7 +109,7 @@ static struct head head_of(const struct kiln_state *state)
 {
     const struct kiln_pool *pool = state->pool;
     struct head head = {.info = state->info,
-                        .turn = state->turn,
+                        .next_part = state->next_part,
                         .system_count = pool->system_count,
                         .canvas_count = pool->canvas_count};
     for (uint32_t i = 0; i < pool->system_count; i++) {
@@ -203,7 +203,7 @@ static bool read_head(int file, const char *path, struct head *head, struct kiln
         !kiln_pack_read_bytes(file, c.bytes + c.size, size - c.size, path, error))
         return false;
     c.size = size;
-    *head = (struct head){.turn = 0};
+    *head = (struct head){.next_part = 0};
     pass_head(&c, head);
     const size_t end = c.at;
     pass_word(&c, &crc);
@@ -291,7 +291,7 @@ static bool find_places(struct kiln_pool *pool, enum kiln_access access, struct 
         return false;
     for (uint32_t i = 0; i < pool->canvas_count; i++) {
         places->texels[i] = (uint32_t *)pool->canvases[i].texels;
-        places->waiting[i] = (uint32_t *)pool->canvases[i].waiting;
+        places->waiting[i] = (uint32_t *)pool->canvases[i].pending;
     }
     return true;
 }
@@ -384,7 +384,7 @@ static bool read_state(struct kiln_state *state, const struct visitor *visitor,
         !find_places(state->pool, KILN_OVERWRITE, &places, error))
         return false;
     state->info = head.info;
-    state->turn = head.turn;
+    state->next_part = head.next_part;
     if (!state->slots) /* the order is the last table; without slots it is not read */
         head.info.order[0] = '\0';
     else if (!head.info.order[0])

@@ -28,7 +28,7 @@ struct kiln_state {
     struct kiln_pool *pool;
     /* the order of a spread sort, all slots of the pool; NULL: none is saved or wanted */
     uint32_t *slots;
-    uint32_t turn; /* the part of the spread sort that runs next */
+    uint32_t next_part; /* the part of the spread sort that runs next */
 };
 
 /* Writes a state to a temporary file and renames it to its path. An existing file is replaced only

@@ -245,13 +245,13 @@ static bool take_up(const struct kiln_states *states, struct kiln_loop *loop, ui
     bool ok = (state.slots || !states->order[0]) && kiln_states_path(states, step, path, error) &&
               kiln_state_read(&state, path, kiln_loop_threads(loop), error);
     if (ok && state.slots)
-        ok = kiln_sort_restore(kiln_loop_kept_sort(loop), &run->pool, state.slots, state.turn,
-                               error);
+        ok = kiln_sort_restore(kiln_loop_spread_sort(loop), &run->pool, state.slots,
+                               state.next_part, error);
     free(state.slots);
     if (!ok)
         return false;
     run->step = step;
-    kiln_loop_resume(loop, state.info.frame);
+    kiln_loop_set_frame(loop, state.info.frame);
     return verify_hash(loop, &state.info, path, error);
 }
 
@@ -295,12 +295,12 @@ bool kiln_states_save(const struct kiln_states *states, struct kiln_loop *loop, 
     memcpy(state.info.order, states->order, sizeof state.info.order);
     state.info.step = run->step;
     state.info.frame = frame;
-    bool ok =
-        (state.slots || !states->order[0]) && kiln_states_path(states, run->step, path, error) &&
-        kiln_loop_hash(loop, &state.info.hash, &state.info.alive, error) &&
-        (!state.slots ||
-         kiln_sort_save(kiln_loop_kept_sort(loop), &run->pool, state.slots, &state.turn, error)) &&
-        kiln_state_write(&state, path, overwrite, kiln_loop_threads(loop), error);
+    bool ok = (state.slots || !states->order[0]) &&
+              kiln_states_path(states, run->step, path, error) &&
+              kiln_loop_hash(loop, &state.info.hash, &state.info.alive, error) &&
+              (!state.slots || kiln_sort_save(kiln_loop_spread_sort(loop), &run->pool, state.slots,
+                                              &state.next_part, error)) &&
+              kiln_state_write(&state, path, overwrite, kiln_loop_threads(loop), error);
     free(state.slots);
     *alive = state.info.alive;
     return ok;

@@ -79,7 +79,7 @@ static bool begin_curve(struct kiln_reader *reader, const struct kiln_node *node
 
 /* Replaces numbers below 2^-100 by 0, since some stages flush denormals and some do not
  * (shared/exact.h). */
-static float without_denormals(float x)
+static float flush_denormals(float x)
 {
     return fabsf(x) < 0x1p-100f ? 0 : x;
 }
@@ -89,7 +89,7 @@ static bool add_point(struct kiln_reader *reader, const struct kiln_node *node, 
 {
     for (unsigned i = 0; i < curve->count; i++) {
         float4 *key = &reader->keys[curve->values[i].first + curve->points];
-        *key = FLOAT4(x, y[i], 0, without_denormals(x * y[i]));
+        *key = FLOAT4(x, y[i], 0, flush_denormals(x * y[i]));
         if (curve->points == 0)
             continue;
         if (x <= key[-1].x)
@@ -99,9 +99,9 @@ static bool add_point(struct kiln_reader *reader, const struct kiln_node *node, 
         if (!isfinite(slope))
             return kiln_reader_error(reader, node,
                                      "the time of a key is too close to that of the key before it");
-        key[-1].z = without_denormals(slope);
+        key[-1].z = flush_denormals(slope);
         float area = (x - key[-1].x) * (0.5f * (key[-1].y + y[i]));
-        key->w = without_denormals(key[-1].w + area);
+        key->w = flush_denormals(key[-1].w + area);
     }
     curve->points++;
     return true;
@@ -169,10 +169,10 @@ static bool read_curve(struct kiln_reader *reader, const struct kiln_option *opt
     if (over_life && keys->kind == KILN_NODE_SCALAR)
         return kiln_reader_expected(reader, keys, "[first, ..., last] or {part of life: value}");
     struct curve curve = {.values = values, .count = count};
-    struct kiln_option point = *option;
-    point.word = NULL; /* a key is a number, never the option's word */
+    struct kiln_option key_option = *option;
+    key_option.special_word = NULL; /* a key is a number, never the option's word */
     if (!begin_curve(reader, keys, &curve, clock) ||
-        !read_points(reader, &point, keys, &curve, over_life ? &life_axis : &kiln_option_time))
+        !read_points(reader, &key_option, keys, &curve, over_life ? &life_axis : &kiln_option_time))
         return false;
     kiln_reader_leave(reader, before);
     return true;
@@ -199,11 +199,11 @@ bool kiln_read_animated(struct kiln_reader *reader, const struct kiln_option *op
     }
     if (node->kind == KILN_NODE_LIST || (count == 3 && !allows_grey(option)))
         return kiln_reader_mismatch(reader, option, node);
-    float plain[3] = {0};
-    if (!read_plain(reader, option, node, plain, count))
+    float constant[3] = {0};
+    if (!read_plain(reader, option, node, constant, count))
         return false;
     for (unsigned i = 0; i < count; i++)
-        values[i] = (struct kiln_value){.constant = plain[i]};
+        values[i] = (struct kiln_value){.constant = constant[i]};
     return true;
 }
 

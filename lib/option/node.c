@@ -64,11 +64,11 @@ bool kiln_node_error(const struct kiln_node *node, struct kiln_error *error, con
 
 void kiln_node_quote(char out[64], const char *text)
 {
-    enum { SHOWN = 48 };
+    enum { MAX_SHOWN_BYTES = 48 };
     size_t length = 0;
     while (*text) {
         size_t bytes = kiln_text_utf8_length(text);
-        if (length + (bytes ? bytes : 1) > SHOWN) {
+        if (length + (bytes ? bytes : 1) > MAX_SHOWN_BYTES) {
             memcpy(out + length, "...", 4);
             return;
         }
@@ -188,7 +188,7 @@ static bool open_collection(struct builder *builder, struct fy_event *event,
 /* Returns whether a text in double quotes continues in the next line by a backslash. libfyaml
  * 0.7.12 reads the line break after "\\\" as a space, cuts off the end of the text, or returns
  * bytes from outside the text. */
-static bool continues(const struct builder *builder, struct fy_event *event)
+static bool has_escaped_line_break(const struct builder *builder, struct fy_event *event)
 {
     const struct fy_mark *start = fy_event_start_mark(event), *end = fy_event_end_mark(event);
     const size_t last = end && end->input_pos < builder->size ? end->input_pos : builder->size;
@@ -207,7 +207,7 @@ static bool add_scalar(struct builder *builder, struct fy_event *event)
         return false;
     const enum fy_scalar_style style =
         event->scalar.value ? fy_scalar_token_get_style(event->scalar.value) : FYSS_PLAIN;
-    if (style == FYSS_DOUBLE_QUOTED && continues(builder, event))
+    if (style == FYSS_DOUBLE_QUOTED && has_escaped_line_break(builder, event))
         return kiln_node_error(node, builder->error,
                                "a backslash must not continue a quoted text in the next line");
     size_t length = 0;
@@ -239,8 +239,8 @@ static bool refuse_second_document(struct builder *builder, struct fy_event *eve
     return refuse(builder, event, reason);
 }
 
-static bool refuse_decoration(struct builder *builder, struct fy_event *event,
-                              struct fy_token *anchor, struct fy_token *tag)
+static bool refuse_anchor_or_tag(struct builder *builder, struct fy_event *event,
+                                 struct fy_token *anchor, struct fy_token *tag)
 {
     if (anchor)
         return refuse(builder, event, "anchors and aliases are not allowed");
@@ -259,15 +259,15 @@ static bool take_event(struct builder *builder, struct fy_event *event)
     case FYET_ALIAS:
         return refuse(builder, event, "anchors and aliases are not allowed");
     case FYET_SCALAR:
-        return refuse_decoration(builder, event, event->scalar.anchor, event->scalar.tag) &&
+        return refuse_anchor_or_tag(builder, event, event->scalar.anchor, event->scalar.tag) &&
                add_scalar(builder, event);
     case FYET_MAPPING_START:
-        return refuse_decoration(builder, event, event->mapping_start.anchor,
-                                 event->mapping_start.tag) &&
+        return refuse_anchor_or_tag(builder, event, event->mapping_start.anchor,
+                                    event->mapping_start.tag) &&
                open_collection(builder, event, KILN_NODE_MAP);
     case FYET_SEQUENCE_START:
-        return refuse_decoration(builder, event, event->sequence_start.anchor,
-                                 event->sequence_start.tag) &&
+        return refuse_anchor_or_tag(builder, event, event->sequence_start.anchor,
+                                    event->sequence_start.tag) &&
                open_collection(builder, event, KILN_NODE_LIST);
     case FYET_MAPPING_END:
     case FYET_SEQUENCE_END:
@@ -281,23 +281,23 @@ static bool take_event(struct builder *builder, struct fy_event *event)
 /* Fills the error with libfyaml's first error and its position. */
 static bool report_syntax(struct builder *builder, struct fy_diag *diag)
 {
-    struct kiln_node place = {.origin = builder->origin};
+    struct kiln_node position = {.origin = builder->origin};
     const char *line = builder->origin->syntax, *syntax = line ? line : "YAML";
     void *iterator = NULL;
     const struct fy_diag_error *first = fy_diag_errors_iterate(diag, &iterator);
     if (!first || !first->msg)
-        return kiln_node_error(&place, builder->error, "not valid %s", syntax);
+        return kiln_node_error(&position, builder->error, "not valid %s", syntax);
     if (first->line > 0 && first->column > 0) {
-        place.line = (uint32_t)first->line;
-        place.column = (uint32_t)first->column;
+        position.line = (uint32_t)first->line;
+        position.column = (uint32_t)first->column;
     }
-    if (line && place.line > 1) {
-        place.line = 1;
-        place.column = (uint32_t)builder->size;
-        return kiln_node_error(&place, builder->error, "not valid %s: the line ends too early",
+    if (line && position.line > 1) {
+        position.line = 1;
+        position.column = (uint32_t)builder->size;
+        return kiln_node_error(&position, builder->error, "not valid %s: the line ends too early",
                                syntax);
     }
-    return kiln_node_error(&place, builder->error, "not valid %s: %s", syntax, first->msg);
+    return kiln_node_error(&position, builder->error, "not valid %s: %s", syntax, first->msg);
 }
 
 static bool take_all_events(struct builder *builder, struct fy_parser *parser, struct fy_diag *diag)
@@ -317,14 +317,15 @@ static bool take_all_events(struct builder *builder, struct fy_parser *parser, s
     return report_syntax(builder, diag);
 }
 
-static bool report_nothing(const struct kiln_origin *origin, struct kiln_error *error)
+static bool report_empty(const struct kiln_origin *origin, struct kiln_error *error)
 {
-    struct kiln_node place = {.origin = origin};
+    struct kiln_node position = {.origin = origin};
     if (!origin->has_lines)
-        return kiln_node_error(&place, error, "the value after '=' is empty; '#' begins a comment");
+        return kiln_node_error(&position, error,
+                               "the value after '=' is empty; '#' begins a comment");
     if (!origin->version)
-        return kiln_node_error(&place, error, "the file is empty; expected %s", origin->kind);
-    return kiln_node_error(&place, error, "the file is empty; %s starts with '%s'", origin->kind,
+        return kiln_node_error(&position, error, "the file is empty; expected %s", origin->kind);
+    return kiln_node_error(&position, error, "the file is empty; %s starts with '%s'", origin->kind,
                            origin->version);
 }
 
@@ -337,27 +338,27 @@ enum { MOST_BLANK_LINES = 5000 };
 static bool check_bytes(const char *text, size_t size, const struct kiln_origin *origin,
                         struct kiln_error *error)
 {
-    struct kiln_node place = {.origin = origin, .line = 1, .column = 1};
+    struct kiln_node position = {.origin = origin, .line = 1, .column = 1};
     size_t blank_lines = 0; /* consecutive blank lines and the newline before them */
     for (size_t i = 0; i < size;) {
         size_t length = kiln_text_utf8_length(text + i);
         if (text[i] == '\0')
-            return kiln_node_error(&place, error, "not a text: a zero byte");
+            return kiln_node_error(&position, error, "not a text: a zero byte");
         if (length == 0)
-            return kiln_node_error(&place, error, "not a text: invalid UTF-8 (byte 0x%02x)",
+            return kiln_node_error(&position, error, "not a text: invalid UTF-8 (byte 0x%02x)",
                                    (unsigned char)text[i]);
         blank_lines = text[i] == '\n'            ? blank_lines + 1
                       : strchr(" \t\r", text[i]) ? blank_lines
                                                  : 0;
         if (blank_lines > MOST_BLANK_LINES)
-            return kiln_node_error(&place, error,
+            return kiln_node_error(&position, error,
                                    "more than the %d blank lines in a row that are allowed",
                                    MOST_BLANK_LINES);
         if (text[i] == '\n') {
-            place.line++;
-            place.column = 0;
+            position.line++;
+            position.column = 0;
         }
-        place.column++;
+        position.column++;
         i += length;
     }
     return true;
@@ -386,7 +387,7 @@ struct kiln_node *kiln_node_parse(struct kiln_arena *arena, const char *text, si
     else
         ok = take_all_events(&builder, parser, diag);
     if (ok && !builder.root)
-        ok = report_nothing(origin, error);
+        ok = report_empty(origin, error);
     if (parser)
         fy_parser_destroy(parser);
     if (diag)

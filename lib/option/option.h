@@ -32,8 +32,9 @@ struct kiln_option_type {
     /* Appends the JSON schema of the value, which is one JSON object. */
     void (*schema)(const struct kiln_option *option, struct kiln_text *out);
     /* Appends the words that are allowed as values, with bars between them: "true|false". Other
-     * values may be allowed as well. If NULL, the words are the row's `choices` and `word`. */
-    void (*words)(const struct kiln_option *option, struct kiln_text *out);
+     * values may be allowed as well. If NULL, they are the row's `choices` and
+     * `special_word`. */
+    void (*list_choices)(const struct kiln_option *option, struct kiln_text *out);
 };
 
 /* Types of options. Each comment gives an example of the value in a file, then the field's type in
@@ -93,7 +94,7 @@ struct kiln_option {
     const char *const *choices; /* words in the order of the enum, NULL at the end */
     /* a word that stands for 0/1 (rational) or for KILN_VALUE_BY_WORD (value, whose min is at least
      * 0) */
-    const char *word;
+    const char *special_word;
     const struct kiln_option *members;
     const struct kiln_option_kind *kinds;
     const struct kiln_option *item; /* for a list: the row that describes an item */

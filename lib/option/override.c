@@ -17,8 +17,8 @@ struct override {
     const struct kiln_node *value;
     const char *parts[MAX_PARTS]; /* the parts of the key between its dots */
     uint32_t part_count;
-    uint32_t places; /* places set so far */
-    bool wild;       /* the key has a '*', so a list that the file lacks is skipped */
+    uint32_t set_count; /* places set so far */
+    bool has_wildcard;  /* the key has a '*', so a list that the file lacks is skipped */
 };
 
 static bool fail(struct override *override, const char *format, ...)
@@ -57,10 +57,10 @@ static struct kiln_node *copy_tree(struct override *override, const struct kiln_
 }
 
 /* Replaces the contents of a node, which keeps its key and its neighbours. */
-static void replace(struct kiln_node *node, const struct kiln_node *by)
+static void replace(struct kiln_node *node, const struct kiln_node *contents)
 {
     struct kiln_node *key = node->key, *next = node->next;
-    *node = *by;
+    *node = *contents;
     node->key = key;
     node->next = next;
 }
@@ -92,29 +92,31 @@ static bool unknown_name(struct override *override, const struct kiln_node *node
 }
 
 /* Describes the keys that are allowed under a node. */
-struct place {
+struct allowed_keys {
     const struct kiln_option *members; /* the table of the keys, or NULL if it is not known */
-    bool closed;                       /* only keys that the node already has are allowed */
+    bool is_fixed;                     /* only keys that the node already has are allowed */
 };
 
-static struct place place_under(const struct kiln_node *node, struct place place,
-                                const struct kiln_node *child)
+static struct allowed_keys allowed_under(const struct kiln_node *node, struct allowed_keys allowed,
+                                         const struct kiln_node *child)
 {
     if (node->kind == KILN_NODE_LIST) /* the item's one key may be the name of its kind */
-        return (struct place){.closed = true};
-    if (place.members && place.closed) /* for a named entry, the table is that of its members */
-        return (struct place){.members = place.members};
+        return (struct allowed_keys){.is_fixed = true};
+    if (allowed.members &&
+        allowed.is_fixed) /* for a named entry, the table is that of its members */
+        return (struct allowed_keys){.members = allowed.members};
     const struct kiln_option *option =
-        place.members ? kiln_option_find(place.members, child->key->text) : NULL;
+        allowed.members ? kiln_option_find(allowed.members, child->key->text) : NULL;
     if (!option)
-        return (struct place){0};
-    return (struct place){.members = option->members, .closed = option->type == &kiln_type_map};
+        return (struct allowed_keys){0};
+    return (struct allowed_keys){.members = option->members,
+                                 .is_fixed = option->type == &kiln_type_map};
 }
 
 /* Returns the entry of a list or mapping that a part of the key names; adds it to a mapping that
  * lacks it. Returns NULL with an error on failure. */
 static struct kiln_node *find_child(struct override *override, struct kiln_node *node,
-                                    struct place place, const char *name)
+                                    struct allowed_keys allowed, const char *name)
 {
     if (node->kind == KILN_NODE_LIST) {
         uint64_t index = 0;
@@ -136,7 +138,7 @@ static struct kiln_node *find_child(struct override *override, struct kiln_node 
     struct kiln_node *child = kiln_node_entry(node, name);
     if (child)
         return child;
-    if (place.closed) {
+    if (allowed.is_fixed) {
         unknown_name(override, node, name);
         return NULL;
     }
@@ -144,43 +146,45 @@ static struct kiln_node *find_child(struct override *override, struct kiln_node 
 }
 
 /* Returns whether `name` is a list by the option table and missing in the file. */
-static bool lacks_list(const struct kiln_node *node, struct place place, const char *name)
+static bool is_missing_list(const struct kiln_node *node, struct allowed_keys allowed,
+                            const char *name)
 {
-    if (!place.members || place.closed || kiln_node_entry(node, name))
+    if (!allowed.members || allowed.is_fixed || kiln_node_entry(node, name))
         return false;
-    const struct kiln_option *option = kiln_option_find(place.members, name);
+    const struct kiln_option *option = kiln_option_find(allowed.members, name);
     return option && option->type == &kiln_type_list;
 }
 
 /* Sets all places below node that the key's parts from index `part` on name. */
-static bool walk(struct override *override, struct kiln_node *node, struct place place,
-                 uint32_t part)
+static bool set_below(struct override *override, struct kiln_node *node,
+                      struct allowed_keys allowed, uint32_t part)
 {
     if (part == override->part_count) {
         const struct kiln_node *copy = copy_tree(override, override->value);
         if (!copy)
             return false;
         replace(node, copy);
-        override->places++;
+        override->set_count++;
         return true;
     }
     const char *name = override->parts[part];
     if (strcmp(name, "*") != 0) {
-        if (lacks_list(node, place, name) && part + 1 < override->part_count)
-            return override->wild || fail(override, "there is no entry %s; the list is empty",
-                                          override->parts[part + 1]);
-        struct kiln_node *child = find_child(override, node, place, name);
-        return child && walk(override, child, place_under(node, place, child), part + 1);
+        if (is_missing_list(node, allowed, name) && part + 1 < override->part_count)
+            return override->has_wildcard ||
+                   fail(override, "there is no entry %s; the list is empty",
+                        override->parts[part + 1]);
+        struct kiln_node *child = find_child(override, node, allowed, name);
+        return child && set_below(override, child, allowed_under(node, allowed, child), part + 1);
     }
     for (struct kiln_node *child = node->first; child; child = child->next) {
-        struct place below = place_under(node, place, child);
+        struct allowed_keys below = allowed_under(node, allowed, child);
         /* In a list of several kinds, '*' stands for the entries that have the next part of the
          * key. */
         bool fits = node->kind != KILN_NODE_LIST || child->kind != KILN_NODE_MAP ||
                     part + 1 == override->part_count ||
                     strcmp(override->parts[part + 1], "*") == 0 ||
                     kiln_node_entry(child, override->parts[part + 1]);
-        if (fits && !walk(override, child, below, part + 1))
+        if (fits && !set_below(override, child, below, part + 1))
             return false;
     }
     return true;
@@ -198,7 +202,7 @@ static bool split_key(struct override *override, char *key)
             *dot = '\0';
         if (*part == '\0')
             return fail(override, "a part of the key is empty");
-        override->wild |= strcmp(part, "*") == 0;
+        override->has_wildcard |= strcmp(part, "*") == 0;
         part = dot ? dot + 1 : NULL;
     }
     return true;
@@ -229,7 +233,7 @@ bool kiln_override(struct kiln_reader *reader, const struct kiln_option *rows,
     override.origin = origin;
     override.value = kiln_node_parse(arena, value, strlen(value), origin, reader->error);
     if (!override.value || !split_key(&override, key) ||
-        !walk(&override, root, (struct place){.members = rows}, 0))
+        !set_below(&override, root, (struct allowed_keys){.members = rows}, 0))
         return false;
-    return override.places > 0 || fail(&override, "no key of the scene has this name");
+    return override.set_count > 0 || fail(&override, "no key of the scene has this name");
 }

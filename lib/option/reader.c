@@ -48,9 +48,9 @@ bool kiln_reader_error(struct kiln_reader *reader, const struct kiln_node *node,
     /* The path is left out if the origin's name ends with it, as in "--set camera.fov: ...". */
     const char *name = node->origin->name;
     size_t name_length = strlen(name);
-    bool same = !node->origin->has_lines && name_length >= reader->path_length &&
-                strcmp(name + name_length - reader->path_length, reader->path) == 0;
-    if (same || reader->path_length == 0)
+    bool path_is_in_name = !node->origin->has_lines && name_length >= reader->path_length &&
+                           strcmp(name + name_length - reader->path_length, reader->path) == 0;
+    if (path_is_in_name || reader->path_length == 0)
         return kiln_node_error(node, reader->error, "%s", message);
     return kiln_node_error(node, reader->error, "%s: %s", reader->path, message);
 }
@@ -97,10 +97,10 @@ bool kiln_reader_out_of_memory(struct kiln_reader *reader)
                           reader->origin->kind);
 }
 
-bool kiln_reader_keep_text(struct kiln_reader *reader, const char *text, const char **kept)
+bool kiln_reader_copy_text(struct kiln_reader *reader, const char *text, const char **copy)
 {
-    *kept = kiln_arena_text(reader->arena, text, strlen(text));
-    return *kept || kiln_reader_out_of_memory(reader);
+    *copy = kiln_arena_text(reader->arena, text, strlen(text));
+    return *copy || kiln_reader_out_of_memory(reader);
 }
 
 bool kiln_reader_expected(struct kiln_reader *reader, const struct kiln_node *node,
@@ -151,9 +151,9 @@ static const struct kiln_node *parse_default(struct kiln_reader *reader,
                                              const struct kiln_option *option)
 {
     static const struct kiln_origin origin = {.name = "(default)", .kind = "a default"};
-    for (struct kiln_default *known = reader->defaults; known; known = known->next) {
-        if (known->option == option)
-            return known->node;
+    for (struct kiln_default *cached = reader->defaults; cached; cached = cached->next) {
+        if (cached->option == option)
+            return cached->node;
     }
     struct kiln_default *added = kiln_arena_alloc(reader->scratch, 1, sizeof *added);
     if (!added) {
@@ -203,13 +203,13 @@ static const struct kiln_node *default_of(struct kiln_reader *reader,
 
 bool kiln_reader_is_text(const struct kiln_node *node)
 {
-    static const char *const others[] = {"true", "false", "null", "~"};
+    static const char *const non_text_words[] = {"true", "false", "null", "~"};
     double number;
     if (node->kind != KILN_NODE_SCALAR || *node->text == '\0')
         return false;
     bool is_other = kiln_text_to_double(node->text, &number);
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        is_other |= strcmp(node->text, others[i]) == 0;
+    for (size_t i = 0; i < sizeof non_text_words / sizeof *non_text_words; i++)
+        is_other |= strcmp(node->text, non_text_words[i]) == 0;
     return node->quoted || !is_other;
 }
 

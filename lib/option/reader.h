@@ -45,7 +45,7 @@ bool kiln_reader_expected(struct kiln_reader *reader, const struct kiln_node *no
 bool kiln_reader_out_of_memory(struct kiln_reader *reader);
 
 /* Copies a text into the reader's arena, which owns the target's texts. */
-bool kiln_reader_keep_text(struct kiln_reader *reader, const char *text, const char **kept);
+bool kiln_reader_copy_text(struct kiln_reader *reader, const char *text, const char **copy);
 
 /* Returns whether a node is a text in YAML. Words without quotes may be numbers, booleans or null
  * instead. */

@@ -32,16 +32,16 @@ struct walk {
 
 static void visit_rows(struct walk *walk, const char *prefix, const struct kiln_option *rows);
 
-static void add_words(struct kiln_text *out, const struct kiln_option *row)
+static void add_choices(struct kiln_text *out, const struct kiln_option *row)
 {
-    if (row->type->words) {
-        row->type->words(row, out);
+    if (row->type->list_choices) {
+        row->type->list_choices(row, out);
         return;
     }
     for (size_t i = 0; row->choices && row->choices[i]; i++)
         kiln_text_add(out, "%s%s", i ? "|" : "", row->choices[i]);
-    if (row->word)
-        kiln_text_add(out, "%s", row->word);
+    if (row->special_word)
+        kiln_text_add(out, "%s", row->special_word);
 }
 
 static void visit_row(struct walk *walk, const char *path, const struct kiln_option *row)
@@ -52,19 +52,19 @@ static void visit_row(struct walk *walk, const char *path, const struct kiln_opt
         walk->visit(walk->user, &key);
         return;
     }
-    struct kiln_text allowed = {0}, words = {0};
+    struct kiln_text allowed = {0}, choices = {0};
     row->type->describe(row, &allowed);
     if (*kiln_unit_choices(row->dimension))
         kiln_text_add(&allowed, "; unit %s", kiln_unit_choices(row->dimension));
     key.allowed = allowed.data ? allowed.data : "";
     key.varies = kiln_option_clocks(row);
     key.fallback = row->fallback;
-    add_words(&words, row);
-    key.words = words.data;
+    add_choices(&choices, row);
+    key.choices = choices.data;
     walk->visit(walk->user, &key);
-    walk->failed |= allowed.failed || words.failed;
+    walk->failed |= allowed.failed || choices.failed;
     kiln_text_free(&allowed);
-    kiln_text_free(&words);
+    kiln_text_free(&choices);
 }
 
 /* Visits the key `field`, which chooses among kinds of one name. Its default is the first of

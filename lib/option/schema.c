@@ -60,24 +60,24 @@ void kiln_schema_members(const struct kiln_option *members, const char *variant,
                          bool variant_required, struct kiln_text *out)
 {
     kiln_text_add(out, "{\"type\": \"object\", \"additionalProperties\": false, \"required\": [");
-    const char *comma = "";
+    const char *separator = "";
     for (const struct kiln_option *row = members; row->name; row++) {
         if (row->fallback)
             continue;
-        kiln_text_add(out, "%s\"%s\"", comma, row->name);
-        comma = ", ";
+        kiln_text_add(out, "%s\"%s\"", separator, row->name);
+        separator = ", ";
     }
     if (variant_required)
-        kiln_text_add(out, "%s\"field\"", comma);
+        kiln_text_add(out, "%s\"field\"", separator);
     kiln_text_add(out, "], \"properties\": {");
-    comma = "\n";
+    separator = "\n";
     for (const struct kiln_option *row = members; row->name; row++) {
-        kiln_text_add(out, "%s", comma);
+        kiln_text_add(out, "%s", separator);
         add_property(row, out);
-        comma = ",\n";
+        separator = ",\n";
     }
     if (variant)
-        kiln_text_add(out, "%s\"field\": {\"const\": \"%s\"}", comma, variant);
+        kiln_text_add(out, "%s\"field\": {\"const\": \"%s\"}", separator, variant);
     kiln_text_add(out, "}}");
 }
 

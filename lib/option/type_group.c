@@ -76,7 +76,7 @@ static void schema_switch(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_add(out, "]}");
 }
 
-static void words_switch(const struct kiln_option *option, struct kiln_text *out)
+static void list_switch(const struct kiln_option *option, struct kiln_text *out)
 {
     (void)option;
     kiln_text_add(out, "none");
@@ -87,7 +87,7 @@ const struct kiln_option_type kiln_type_switch = {
     .print = print_switch,
     .describe = describe_switch,
     .schema = schema_switch,
-    .words = words_switch,
+    .list_choices = list_switch,
 };
 
 /* ---- map: named entries; an entry's struct starts with its name ------------------------------ */
@@ -135,7 +135,7 @@ static bool read_map(struct kiln_reader *reader, const struct kiln_option *optio
                                      "a name starts with a letter and has at most %d letters, "
                                      "digits, '_' and '-'",
                                      MAX_NAME);
-        if (!kiln_reader_keep_text(reader, name, item) ||
+        if (!kiln_reader_copy_text(reader, name, item) ||
             !kiln_read_members(reader, option->members, entry, item))
             return false;
         kiln_reader_leave(reader, before);

@@ -60,7 +60,7 @@ static const struct kiln_option_kind *find_kind(struct kiln_reader *reader,
 }
 
 /* Copies a mapping without the key `field`, which only chooses the kind. */
-static struct kiln_node *without_field(struct kiln_reader *reader, const struct kiln_node *node)
+static struct kiln_node *remove_field(struct kiln_reader *reader, const struct kiln_node *node)
 {
     struct kiln_node *rest = kiln_arena_alloc(reader->scratch, 1, sizeof *rest);
     if (!rest) {
@@ -86,8 +86,8 @@ static struct kiln_node *without_field(struct kiln_reader *reader, const struct 
 }
 
 /* Returns the mapping {shortcut: value} for a bare value. */
-static struct kiln_node *spell_out(struct kiln_reader *reader, const struct kiln_node *node,
-                                   const char *shortcut)
+static struct kiln_node *expand_shortcut(struct kiln_reader *reader, const struct kiln_node *node,
+                                         const char *shortcut)
 {
     struct kiln_node *map = kiln_node_create_map(reader->scratch, node->origin);
     struct kiln_node *key = kiln_arena_alloc(reader->scratch, 1, sizeof *key);
@@ -120,18 +120,18 @@ static bool read_kind(struct kiln_reader *reader, const struct kiln_option *opti
         return kiln_reader_error(reader, node->first->next->key,
                                  "expected one kind, found '%s' and '%s'", first, second);
     }
-    const struct kiln_node *body = node->first;
-    const struct kiln_option_kind *kind = find_kind(reader, option, body);
+    const struct kiln_node *value = node->first;
+    const struct kiln_option_kind *kind = find_kind(reader, option, value);
     if (!kind)
         return false;
     if (option->kind_offset != KILN_KIND_NONE)
         memcpy((char *)field + option->kind_offset, &kind->value, sizeof kind->value);
     size_t before = kiln_reader_enter(reader, kind->name);
-    if (kind->shortcut && (body->kind != KILN_NODE_MAP || kiln_node_is_animated(body)))
-        body = spell_out(reader, body, kind->shortcut);
-    else if (kind->variant && kiln_node_entry(body, "field"))
-        body = without_field(reader, body);
-    if (!body || !kiln_read_members(reader, kind->members, body, field))
+    if (kind->shortcut && (value->kind != KILN_NODE_MAP || kiln_node_is_animated(value)))
+        value = expand_shortcut(reader, value, kind->shortcut);
+    else if (kind->variant && kiln_node_entry(value, "field"))
+        value = remove_field(reader, value);
+    if (!value || !kiln_read_members(reader, kind->members, value, field))
         return false;
     kiln_reader_leave(reader, before);
     return true;

@@ -38,7 +38,7 @@ static void schema_boolean(const struct kiln_option *option, struct kiln_text *o
     kiln_text_add(out, "{\"type\": \"boolean\"}");
 }
 
-static void words_boolean(const struct kiln_option *option, struct kiln_text *out)
+static void list_boolean(const struct kiln_option *option, struct kiln_text *out)
 {
     (void)option;
     kiln_text_add(out, "true|false");
@@ -49,7 +49,7 @@ const struct kiln_option_type kiln_type_boolean = {
     .print = print_boolean,
     .describe = describe_boolean,
     .schema = schema_boolean,
-    .words = words_boolean,
+    .list_choices = list_boolean,
 };
 
 /* ---- integer -------------------------------------------------------------------------------- */
@@ -96,7 +96,7 @@ static bool read_rational(struct kiln_reader *reader, const struct kiln_option *
     struct kiln_rational *rational = field;
     if (node->kind != KILN_NODE_SCALAR)
         return kiln_reader_mismatch(reader, option, node);
-    if (option->word && kiln_node_is(node, option->word)) {
+    if (option->special_word && kiln_node_is(node, option->special_word)) {
         *rational = (struct kiln_rational){0, 1};
         return true;
     }
@@ -115,8 +115,8 @@ static void print_rational(struct kiln_printer *printer, const struct kiln_optio
                            const void *field)
 {
     const struct kiln_rational *rational = field;
-    if (option->word && rational->num == 0)
-        kiln_text_add(&printer->text, " %s\n", option->word);
+    if (option->special_word && rational->num == 0)
+        kiln_text_add(&printer->text, " %s\n", option->special_word);
     else
         kiln_text_add(&printer->text, rational->den == 1 ? " %u\n" : " %u/%u\n", rational->num,
                       rational->den);
@@ -126,8 +126,8 @@ static void describe_rational(const struct kiln_option *option, struct kiln_text
 {
     kiln_text_add(out, "a rate like 30, 29.97 or 30000/1001");
     kiln_option_describe_limits(option, out);
-    if (option->word)
-        kiln_text_add(out, ", or %s", option->word);
+    if (option->special_word)
+        kiln_text_add(out, ", or %s", option->special_word);
 }
 
 static void schema_rational(const struct kiln_option *option, struct kiln_text *out)
@@ -135,8 +135,8 @@ static void schema_rational(const struct kiln_option *option, struct kiln_text *
     kiln_text_add(out,
                   "{\"type\": [\"number\", \"string\"], \"minimum\": %.0f, \"maximum\": %.0f, "
                   "\"pattern\": \"^([0-9]+/[0-9]+%s%s)$\"}",
-                  option->min, option->max, option->word ? "|" : "",
-                  option->word ? option->word : "");
+                  option->min, option->max, option->special_word ? "|" : "",
+                  option->special_word ? option->special_word : "");
 }
 
 const struct kiln_option_type kiln_type_rational = {
@@ -170,8 +170,8 @@ static void describe_number(const struct kiln_option *option, struct kiln_text *
 {
     kiln_text_add(out, "a number");
     kiln_option_describe_limits(option, out);
-    if (option->word)
-        kiln_text_add(out, ", or %s", option->word);
+    if (option->special_word)
+        kiln_text_add(out, ", or %s", option->special_word);
 }
 
 const struct kiln_option_type kiln_type_number = {
@@ -251,7 +251,7 @@ static bool read_text(struct kiln_reader *reader, const struct kiln_option *opti
     if ((double)length > option->max)
         return kiln_reader_error(reader, node, "the text has %zu bytes; at most %.0f are allowed",
                                  length, option->max);
-    return kiln_reader_keep_text(reader, node->text, field);
+    return kiln_reader_copy_text(reader, node->text, field);
 }
 
 static void describe_text(const struct kiln_option *option, struct kiln_text *out)

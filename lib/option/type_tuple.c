@@ -64,7 +64,7 @@ static bool read_bounds(struct kiln_reader *reader, const struct kiln_option *op
 {
     struct kiln_bounds *bounds = field;
     *bounds = (struct kiln_bounds){0};
-    if (option->word && kiln_node_is(node, option->word))
+    if (option->special_word && kiln_node_is(node, option->special_word))
         return true;
     if (node->kind != KILN_NODE_MAP || node->count != 2)
         return kiln_reader_mismatch(reader, option, node);
@@ -84,7 +84,7 @@ static void print_bounds(struct kiln_printer *printer, const struct kiln_option 
 {
     const struct kiln_bounds *bounds = field;
     if (!bounds->enabled) {
-        kiln_text_add(&printer->text, " %s\n", option->word);
+        kiln_text_add(&printer->text, " %s\n", option->special_word);
         return;
     }
     char text[6][48];
@@ -100,8 +100,8 @@ static void describe_bounds(const struct kiln_option *option, struct kiln_text *
 {
     kiln_text_add(out, "{min: [x, y, z], max: [x, y, z]}, each number");
     kiln_option_describe_limits(option, out);
-    if (option->word)
-        kiln_text_add(out, ", or %s", option->word);
+    if (option->special_word)
+        kiln_text_add(out, ", or %s", option->special_word);
 }
 
 static void schema_bounds(const struct kiln_option *option, struct kiln_text *out)
@@ -111,8 +111,8 @@ static void schema_bounds(const struct kiln_option *option, struct kiln_text *ou
     const char *item = number.data ? number.data : "";
     const char *corner = "{\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, \"items\": %s}";
     kiln_text_add(out, "{\"anyOf\": [");
-    if (option->word)
-        kiln_text_add(out, "{\"const\": \"%s\"}, ", option->word);
+    if (option->special_word)
+        kiln_text_add(out, "{\"const\": \"%s\"}, ", option->special_word);
     kiln_text_add(out, "{\"type\": \"object\", \"required\": [\"min\", \"max\"], "
                        "\"additionalProperties\": false, \"properties\": {\"min\": ");
     kiln_text_add(out, corner, item);

@@ -9,7 +9,7 @@
 static bool read_value(struct kiln_reader *reader, const struct kiln_option *option,
                        const struct kiln_node *node, void *field)
 {
-    if (option->word && kiln_node_is(node, option->word)) {
+    if (option->special_word && kiln_node_is(node, option->special_word)) {
         *(struct kiln_value *)field = (struct kiln_value){.constant = KILN_VALUE_BY_WORD};
         return true;
     }
@@ -21,8 +21,8 @@ static void print_value(struct kiln_printer *printer, const struct kiln_option *
 {
     const struct kiln_value *value = field;
     kiln_text_add(&printer->text, " ");
-    if (option->word && value->count == 0 && value->constant < 0.0f)
-        kiln_text_add(&printer->text, "%s", option->word);
+    if (option->special_word && value->count == 0 && value->constant < 0.0f)
+        kiln_text_add(&printer->text, "%s", option->special_word);
     else
         kiln_print_animated(printer, option, value);
     kiln_text_add(&printer->text, "\n");
@@ -32,8 +32,8 @@ static void describe_value(const struct kiln_option *option, struct kiln_text *o
 {
     kiln_text_add(out, "a number");
     kiln_option_describe_limits(option, out);
-    if (option->word)
-        kiln_text_add(out, ", or %s", option->word);
+    if (option->special_word)
+        kiln_text_add(out, ", or %s", option->special_word);
 }
 
 /* Appends the schemas of {"keys": {...}} and {"life": ...}, with `plain` as the schema of each
@@ -72,8 +72,8 @@ static void schema_value(const struct kiln_option *option, struct kiln_text *out
     kiln_schema_number(option, &plain);
     kiln_text_add(out, "{\"anyOf\": [%s", plain.data ? plain.data : "");
     schema_curves(option, plain.data ? plain.data : "", out);
-    if (option->word)
-        kiln_text_add(out, ", {\"const\": \"%s\"}", option->word);
+    if (option->special_word)
+        kiln_text_add(out, ", {\"const\": \"%s\"}", option->special_word);
     kiln_text_add(out, "]}");
     out->failed |= plain.failed;
     kiln_text_free(&plain);
@@ -146,19 +146,20 @@ static void print_vector(struct kiln_printer *printer, const struct kiln_option 
                          const void *field)
 {
     const struct kiln_value3 *v = field;
-    struct kiln_option bare = *option; /* without units, since three in a row are hard to read */
+    struct kiln_option unitless =
+        *option; /* without units, since three in a row are hard to read */
     if (!kiln_unit_is_required(option->dimension))
-        bare.dimension = KILN_PLAIN;
+        unitless.dimension = KILN_PLAIN;
     if (share_keys(printer->keys, v)) {
-        print_shared_keys(printer, &bare, v);
+        print_shared_keys(printer, &unitless, v);
         return;
     }
     kiln_text_add(&printer->text, " [");
-    kiln_print_animated(printer, &bare, &v->x);
+    kiln_print_animated(printer, &unitless, &v->x);
     kiln_text_add(&printer->text, ", ");
-    kiln_print_animated(printer, &bare, &v->y);
+    kiln_print_animated(printer, &unitless, &v->y);
     kiln_text_add(&printer->text, ", ");
-    kiln_print_animated(printer, &bare, &v->z);
+    kiln_print_animated(printer, &unitless, &v->z);
     kiln_text_add(&printer->text, "]\n");
 }
 
@@ -218,10 +219,10 @@ const struct kiln_option_type kiln_type_color = {
  * clock, so it is enough to compare them at every key. */
 static bool is_ordered(const float4 *keys, const struct kiln_range *range)
 {
-    const struct kiln_value *ends[2] = {&range->min, &range->max};
+    const struct kiln_value *bounds[2] = {&range->min, &range->max};
     for (unsigned e = 0; e < 2; e++) {
-        for (uint32_t i = 0; i < ends[e]->count || i == 0; i++) {
-            float x = ends[e]->count ? keys[ends[e]->first + i].x : 0;
+        for (uint32_t i = 0; i < bounds[e]->count || i == 0; i++) {
+            float x = bounds[e]->count ? keys[bounds[e]->first + i].x : 0;
             if (value_at(keys, range->min, x, x) > value_at(keys, range->max, x, x))
                 return false;
         }

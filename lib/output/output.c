@@ -36,7 +36,7 @@ struct kiln_output {
     pthread_t encoders[MAX_ENCODERS];
     uint32_t encoder_count;
     pthread_mutex_t mutex;
-    pthread_mutex_t telling; /* is held while `whole` is called */
+    pthread_mutex_t telling; /* is held while `on_finished` is called */
     pthread_cond_t work, room;
     struct kiln_picture *queue[QUEUE_SIZE]; /* a ring buffer */
     uint32_t first, waiting;
@@ -139,15 +139,16 @@ static bool sweep(const struct kiln_output *output)
 /* ---- Whole files -------------------------------------------------------------------------- */
 
 /* Tells the job of a file that is whole and has its name. */
-static bool tell(struct kiln_output *output, struct kiln_whole whole, struct kiln_error *error)
+static bool tell(struct kiln_output *output, struct kiln_finished_file finished,
+                 struct kiln_error *error)
 {
-    const struct kiln_whole_listener *listener = &output->params.whole;
+    const struct kiln_file_listener *listener = &output->params.on_finished;
     if (!listener->tell)
         return true;
-    if (!kiln_whole_measure(&whole, error))
+    if (!kiln_finished_file_measure(&finished, error))
         return false;
     pthread_mutex_lock(&output->telling);
-    const bool good = listener->tell(listener->user, &whole, error);
+    const bool good = listener->tell(listener->user, &finished, error);
     pthread_mutex_unlock(&output->telling);
     return good;
 }
@@ -157,12 +158,12 @@ static bool tell_of_clip(struct kiln_output *output, struct kiln_error *error)
 {
     const struct kiln_output_params *params = &output->params;
     char path[KILN_PATH_SIZE];
-    const struct kiln_whole clip = {
+    const struct kiln_finished_file clip = {
         .path = path,
         .frames = {params->clip[0].first, params->clip[params->clip_count - 1].last},
         .is_clip = true};
     bool ok = true;
-    for (uint32_t i = 0; ok && params->whole.tell; i++) {
+    for (uint32_t i = 0; ok && params->on_finished.tell; i++) {
         ok = kiln_output_clip_file(params, i, path, error);
         if (!ok || !*path)
             break;
@@ -192,7 +193,8 @@ static bool encode_image(struct kiln_output *output, const struct kiln_picture *
     if (good)
         return kiln_temporary_commit(&file, output->params.overwrite, error) &&
                tell(output,
-                    (struct kiln_whole){.path = path, .frames = {picture->frame, picture->frame}},
+                    (struct kiln_finished_file){.path = path,
+                                                .frames = {picture->frame, picture->frame}},
                     error);
     kiln_temporary_discard(&file);
     return false;
@@ -215,7 +217,8 @@ static bool encode_into_part(struct kiln_output *output, const struct kiln_pictu
         return true;
     const bool good =
         kiln_part_finish(output->part, error) && kiln_part_path(params, part, path, error) &&
-        tell(output, (struct kiln_whole){.path = path, .frames = range, .is_part = true}, error);
+        tell(output, (struct kiln_finished_file){.path = path, .frames = range, .is_part = true},
+             error);
     kiln_part_writer_close(&output->part);
     return good;
 }

@@ -53,7 +53,7 @@ struct kiln_output_needs {
 };
 
 /* A file that is complete and has its final name. */
-struct kiln_whole {
+struct kiln_finished_file {
     const char *path;
     struct kiln_frame_range frames; /* frames that the file holds; some in between may be missing */
     /* is_part: a part of a clip; is_clip: the clip, or a file beside it; neither: the file of a
@@ -64,12 +64,13 @@ struct kiln_whole {
 };
 
 /* Fills size and hash by reading the file; KILN_IO. */
-bool kiln_whole_measure(struct kiln_whole *whole, struct kiln_error *error);
+bool kiln_finished_file_measure(struct kiln_finished_file *finished, struct kiln_error *error);
 
-/* Is told of each file as soon as it is whole, on any thread, one call at a time. False stops the
- * output with the error. tell NULL: nobody is told, and no file is read again for its hash. */
-struct kiln_whole_listener {
-    bool (*tell)(void *user, const struct kiln_whole *whole, struct kiln_error *error);
+/* `tell` is called with each file as soon as it is complete, on any thread, one call at a time.
+ * False stops the output with the error. NULL: there is no listener, and no file is read again for
+ * its hash. */
+struct kiln_file_listener {
+    bool (*tell)(void *user, const struct kiln_finished_file *finished, struct kiln_error *error);
     void *user;
 };
 
@@ -106,7 +107,7 @@ struct kiln_output_params {
     const char *scene_hash;
     uint32_t seed;
     struct kiln_log log;
-    struct kiln_whole_listener whole;
+    struct kiln_file_listener on_finished;
     struct kiln_budget *budget; /* NULL: no limits */
     bool durable;               /* files are synced to the disk before they are renamed */
     struct kiln_caller

@@ -320,12 +320,13 @@ static bool join_pictures(const struct kiln_output_params *params, struct kiln_e
 static bool tell(const struct kiln_output_params *params, const char *path,
                  struct kiln_error *error)
 {
-    struct kiln_whole whole = {
+    struct kiln_finished_file finished = {
         .path = path,
         .frames = {params->clip[0].first, params->clip[params->clip_count - 1].last},
         .is_clip = true};
-    return !params->whole.tell || (kiln_whole_measure(&whole, error) &&
-                                   params->whole.tell(params->whole.user, &whole, error));
+    return !params->on_finished.tell ||
+           (kiln_finished_file_measure(&finished, error) &&
+            params->on_finished.tell(params->on_finished.user, &finished, error));
 }
 
 static bool join_packets(const struct kiln_output_params *params, struct kiln_error *error)

@@ -1,6 +1,6 @@
 /* This file counts the particles that are born in each step, in integers. It sums the rate in units
- * of 2^-32 particle a second times steps_den. One birth is steps_num * 2^32 units, a whole number,
- * so rounding does not accumulate over a run. Only the products need 128 bits. */
+ * of 2^-32 particle a second times steps_den. One birth is steps_num * 2^32 units, a
+ * whole number, so rounding does not accumulate over a run. Only the products need 128 bits. */
 #include "particles/births.h"
 
 #include <math.h>
@@ -9,10 +9,10 @@ __extension__ typedef unsigned __int128 wide;
 
 static uint64_t rate_fixed(float rate)
 {
-    const float most = 2147483648.0f;
+    const float max_rate = 2147483648.0f;
     if (!(rate > 0.0f))
         return 0;
-    return (uint64_t)((double)(rate < most ? rate : most) * 4294967296.0);
+    return (uint64_t)((double)(rate < max_rate ? rate : max_rate) * 4294967296.0);
 }
 
 static void add_group(struct kiln_births *births, uint32_t count, uint32_t first, uint32_t spacing)
@@ -31,19 +31,19 @@ static void add_rate(const struct kiln_births_source *source, uint32_t step, uin
 {
     double steps = (double)step - 0.5 - (double)source->warmup_steps;
     float middle_s = (float)(steps * source->steps_den / source->steps_num);
-    wide birth = (wide)source->steps_num << 32;
-    wide flow = (wide)rate_fixed(source->rate(source->context, middle_s)) * source->steps_den;
-    if (*wait >= flow) {
-        *wait -= (uint64_t)flow;
+    wide units_per_birth = (wide)source->steps_num << 32;
+    wide rate_units = (wide)rate_fixed(source->rate(source->context, middle_s)) * source->steps_den;
+    if (*wait >= rate_units) {
+        *wait -= (uint64_t)rate_units;
         return;
     }
-    wide count = (flow - *wait + birth - 1) / birth;
+    wide count = (rate_units - *wait + units_per_birth - 1) / units_per_birth;
     if (count > UINT32_MAX)
         count = UINT32_MAX;
-    wide first = ((wide)*wait << 32) / flow;
-    wide spacing = count > 1 ? (birth << 32) / flow : 0;
+    wide first = ((wide)*wait << 32) / rate_units;
+    wide spacing = count > 1 ? (units_per_birth << 32) / rate_units : 0;
     add_group(births, (uint32_t)count, (uint32_t)first, (uint32_t)spacing);
-    *wait = (uint64_t)((*wait + count * birth - flow) % birth);
+    *wait = (uint64_t)((*wait + count * units_per_birth - rate_units) % units_per_birth);
 }
 
 static void add_bursts(const struct kiln_births_source *source, uint32_t step,

@@ -19,8 +19,8 @@ bool kiln_canvas_init(struct kiln_canvas *canvas, uint32_t edge, uint32_t slot_c
     *canvas = (struct kiln_canvas){.edge = edge, .slot_count = slot_count};
     canvas->texels = calloc((size_t)edge * edge, sizeof *canvas->texels);
     if (slot_count > 0)
-        canvas->waiting = calloc(slot_count, sizeof *canvas->waiting);
-    if (canvas->texels && (canvas->waiting || slot_count == 0))
+        canvas->pending = calloc(slot_count, sizeof *canvas->pending);
+    if (canvas->texels && (canvas->pending || slot_count == 0))
         return true;
     kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory for %u x %u texels", edge,
                    edge);
@@ -30,7 +30,7 @@ bool kiln_canvas_init(struct kiln_canvas *canvas, uint32_t edge, uint32_t slot_c
 void kiln_canvas_finish(struct kiln_canvas *canvas)
 {
     free(canvas->texels);
-    free(canvas->waiting);
+    free(canvas->pending);
     *canvas = (struct kiln_canvas){.edge = 0};
 }
 
@@ -44,8 +44,8 @@ bool kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from,
         return false;
     }
     memcpy(copy.texels, from->texels, (size_t)copy.edge * copy.edge * sizeof *copy.texels);
-    if (copy.waiting)
-        memcpy(copy.waiting, from->waiting, copy.slot_count * sizeof *copy.waiting);
+    if (copy.pending)
+        memcpy(copy.pending, from->pending, copy.slot_count * sizeof *copy.pending);
     copy.next = from->next;
     /* A copy is a new version, so that it is not taken for a canvas that was drawn before. */
     copy.changes = 1 + (to->changes > from->changes ? to->changes : from->changes);
@@ -77,8 +77,8 @@ void kiln_canvas_hash(const struct kiln_canvas *canvas, uint32_t number,
     }
     for (uint32_t i = 0; i < canvas->slot_count; i++) {
         float words[SPLAT_WORDS];
-        memcpy(words, &canvas->waiting[i], sizeof words);
-        if (canvas->waiting[i].opacity > 0.0f)
+        memcpy(words, &canvas->pending[i], sizeof words);
+        if (canvas->pending[i].opacity > 0.0f)
             add(2 * number + 1, i, words, SPLAT_WORDS, hash);
     }
 }

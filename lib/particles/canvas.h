@@ -11,13 +11,13 @@
 /* A splat of paint that a particle leaves around a position, in the mesh's own space. If its
  * opacity is 0, there is no splat. */
 struct kiln_splat {
-    float at[3];
+    float position[3];
     float opacity; /* opacity in the middle, 0..1 */
     /* points away from the surface and has any length; if 0 0 0, the splat paints both sides */
     float normal[3];
-    float square;   /* square of the radius; more than 0 */
-    float color[3]; /* linear colour */
-    /* opacity falls smoothly to 0 over the outer 1 / slope of that square of the radius */
+    float radius_squared; /* more than 0 */
+    float color[3];       /* linear colour */
+    /* opacity falls smoothly to 0 over the outer 1 / slope of radius_squared */
     float slope;
 };
 
@@ -28,7 +28,7 @@ struct kiln_canvas {
     /* slots of the systems that paint; if 0, all splats are painted in their own step */
     uint32_t slot_count;
     uint32_t next;              /* the slot whose splat is painted next */
-    struct kiln_splat *waiting; /* a splat for each slot; NULL when slot_count is 0 */
+    struct kiln_splat *pending; /* a splat for each slot; NULL when slot_count is 0 */
 };
 
 /* Describes the sizes of a canvas, which follow from the scene, and the slot that is painted

@@ -26,7 +26,7 @@ struct kiln_floats3 {
 struct kiln_lanes {
     alignas(64) uint32_t words[KILN_RECORD_WORDS][KILN_LANES]; /* words of the records */
     kiln_floats age_s, life_s;
-    kiln_floats born_s, least, most; /* the times that life_s is computed from */
+    kiln_floats born_s, life_min_s, life_max_s; /* the times that life_s is computed from */
 };
 
 static inline float3 kiln_get3(const struct kiln_floats3 *from, uint32_t i)
@@ -72,8 +72,8 @@ static inline void kiln_lanes_store(const struct kiln_lanes *lanes, struct kiln_
 }
 
 /* Computes value_at_key for all lanes, one key after another. */
-static inline void kiln_lanes_follow(const float4 *keys, struct kiln_value v, const float *x,
-                                     float *y)
+static inline void kiln_lanes_evaluate(const float4 *keys, struct kiln_value v, const float *x,
+                                       float *y)
 {
     if (v.count > KILN_SHORT_CURVE) {
         for (uint32_t i = 0; i < KILN_LANES; i++)
@@ -84,14 +84,14 @@ static inline void kiln_lanes_follow(const float4 *keys, struct kiln_value v, co
     for (uint32_t i = 0; i < KILN_LANES; i++)
         y[i] = keys[v.first].y;
     for (uint32_t k = v.first; k <= last; k++) {
-        const float from = keys[k].x, at = keys[k].y, slope = keys[k].z;
-        const float flat_until = k == last ? INFINITY : from;
+        const float from = keys[k].x, value = keys[k].y, slope = keys[k].z;
+        const float extrapolate_from = k == last ? INFINITY : from;
         for (uint32_t i = 0; i < KILN_LANES; i++) {
             float dx = x[i] - from;
             float dy = dx * slope;
-            float sum = at + dy;
-            float here = x[i] > flat_until ? sum : at;
-            y[i] = x[i] >= from ? here : y[i];
+            float sum = value + dy;
+            float y_here = x[i] > extrapolate_from ? sum : value;
+            y[i] = x[i] >= from ? y_here : y[i];
         }
     }
 }
@@ -102,7 +102,7 @@ static inline void kiln_lanes_values(const float4 *keys, struct kiln_value v, ui
                                      const float *x, float time_s, float *y)
 {
     if (v.count != 0 && v.clock == clock) {
-        kiln_lanes_follow(keys, v, x, y);
+        kiln_lanes_evaluate(keys, v, x, y);
         return;
     }
     const float all = value_at(keys, v, time_s, 0.0f);
@@ -117,12 +117,12 @@ static inline void kiln_lanes_find_ages(struct kiln_lanes *lanes, const float4 *
     for (uint32_t i = 0; i < KILN_LANES; i++)
         lanes->born_s[i] = particle_birth_time(derived, kiln_lanes_record(lanes, i));
     const struct kiln_range *life = &derived.life;
-    kiln_lanes_values(keys, life->min, KILN_CLOCK_TIME, lanes->born_s, 0.0f, lanes->least);
-    kiln_lanes_values(keys, life->max, KILN_CLOCK_TIME, lanes->born_s, 0.0f, lanes->most);
+    kiln_lanes_values(keys, life->min, KILN_CLOCK_TIME, lanes->born_s, 0.0f, lanes->life_min_s);
+    kiln_lanes_values(keys, life->max, KILN_CLOCK_TIME, lanes->born_s, 0.0f, lanes->life_max_s);
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         struct kiln_particle p = kiln_lanes_record(lanes, i);
-        lanes->life_s[i] = random_between(particle_stream(derived, p), RANDOM_LIFE, lanes->least[i],
-                                          lanes->most[i]);
+        lanes->life_s[i] = random_between(particle_stream(derived, p), RANDOM_LIFE,
+                                          lanes->life_min_s[i], lanes->life_max_s[i]);
         lanes->age_s[i] = particle_age(p, step, derived.dt_s);
     }
 }

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "post/bloom_blur.h"
 #include "post/bloom_kernels.h"
-#include "post/bloom_spread.h"
 
 struct level {
     struct kiln_bloom_target down, across; /* down: shrunk, then blurred vertically; across: blurred

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "gpu/program.h"
-#include "post/bloom_spread.h"
+#include "post/bloom_blur.h"
 #include "shared/exact.h"
 
 struct kiln_bloom_gl {
@@ -83,7 +83,7 @@ static bool init_bright(struct kiln_bloom_gl *stage, struct kiln_error *error)
                                  error);
 }
 
-static bool init_spread(struct kiln_bloom_gl *stage, GLenum format, struct kiln_error *error)
+static bool init_blur(struct kiln_bloom_gl *stage, GLenum format, struct kiln_error *error)
 {
     uint32_t width = stage->source->width, height = stage->source->height;
     if (stage->scene->post.bloom == KILN_BLOOM_PYRAMID)
@@ -105,7 +105,7 @@ struct kiln_bloom_gl *kiln_bloom_gl_create(struct kiln_device *device,
     }
     *stage = (struct kiln_bloom_gl){.device = device, .scene = scene, .source = params->source};
     bool bright = scene->post.bloom_source == KILN_BLOOM_BRIGHT;
-    if (!init_spread(stage, params->format, error) || (bright && !init_bright(stage, error))) {
+    if (!init_blur(stage, params->format, error) || (bright && !init_bright(stage, error))) {
         kiln_bloom_gl_destroy(&stage);
         return NULL;
     }

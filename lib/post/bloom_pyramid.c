@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "post/bloom_blur.h"
 #include "post/bloom_kernels.h"
-#include "post/bloom_spread.h"
 
 struct kiln_bloom_pyramid {
     GLuint halve, join;

@@ -6,7 +6,7 @@
 static const float HALF_MAX = 65504.0f; /* the greatest 16-bit float; greater values are clamped to
                                          * it */
 
-static inline kiln_quad limited(kiln_quad light)
+static inline kiln_quad clamp_to_half(kiln_quad light)
 {
     typedef int32_t mask __attribute__((vector_size(16)));
     const kiln_quad most = {HALF_MAX, HALF_MAX, HALF_MAX, HALF_MAX};
@@ -23,12 +23,12 @@ static inline const float *row_at(const struct kiln_bloom_view *view, int64_t y)
 }
 
 /* Returns pixel 0 of the thread's own row. */
-static inline kiln_quad *own_row(const struct kiln_bloom_pass *p, uint32_t worker)
+static inline kiln_quad *worker_row(const struct kiln_bloom_pass *p, uint32_t worker)
 {
     return p->rows + worker * p->row_length + KILN_BLOOM_EDGE;
 }
 
-static inline void extend(kiln_quad *row, size_t width)
+static inline void repeat_edges(kiln_quad *row, size_t width)
 {
     for (size_t k = 1; k <= KILN_BLOOM_EDGE; k++) {
         *(row - k) = row[0];
@@ -38,21 +38,21 @@ static inline void extend(kiln_quad *row, size_t width)
 
 static inline void shrink_row(const struct kiln_bloom_pass *p, size_t y, uint32_t worker)
 {
-    kiln_quad *row = own_row(p, worker);
+    kiln_quad *row = worker_row(p, worker);
     const size_t factor = p->factor, last = p->from.width - 1;
-    const float share = (float)(factor * factor);
+    const float pixel_count = (float)(factor * factor);
     for (size_t x = 0; x < p->to_width; x++) {
         kiln_quad sum = {0};
         for (size_t dy = 0; dy < factor; dy++) {
             const float *from = row_at(&p->from, (int64_t)(y * factor + dy));
             for (size_t dx = 0; dx < factor; dx++) {
                 size_t at = x * factor + dx;
-                sum += limited(kiln_quad_load(from + 4 * (at < last ? at : last)));
+                sum += clamp_to_half(kiln_quad_load(from + 4 * (at < last ? at : last)));
             }
         }
-        row[x] = sum / share;
+        row[x] = sum / pixel_count;
     }
-    extend(row, p->to_width);
+    repeat_edges(row, p->to_width);
     const float *weights = p->weights;
     float *to = p->to + y * p->to_width * 4;
     for (size_t x = 0; x < p->to_width; x++) {
@@ -86,15 +86,15 @@ static inline void halve_row(const struct kiln_bloom_pass *p, size_t y, uint32_t
     const float *rows[4];
     for (int i = 0; i < 4; i++)
         rows[i] = row_at(&p->from, 2 * (int64_t)y - 1 + i);
-    kiln_quad *row = own_row(p, worker);
+    kiln_quad *row = worker_row(p, worker);
     for (size_t x = 0; x < p->from.width; x++) {
-        kiln_quad outer =
-            limited(kiln_quad_load(rows[0] + 4 * x)) + limited(kiln_quad_load(rows[3] + 4 * x));
-        kiln_quad inner =
-            limited(kiln_quad_load(rows[1] + 4 * x)) + limited(kiln_quad_load(rows[2] + 4 * x));
+        kiln_quad outer = clamp_to_half(kiln_quad_load(rows[0] + 4 * x)) +
+                          clamp_to_half(kiln_quad_load(rows[3] + 4 * x));
+        kiln_quad inner = clamp_to_half(kiln_quad_load(rows[1] + 4 * x)) +
+                          clamp_to_half(kiln_quad_load(rows[2] + 4 * x));
         row[x] = outer * 0.125f + inner * 0.375f;
     }
-    extend(row, p->from.width);
+    repeat_edges(row, p->from.width);
     float *to = p->to + y * p->to_width * 4;
     for (size_t x = 0; x < p->to_width; x++) {
         const kiln_quad *here = row + 2 * x;
@@ -109,11 +109,11 @@ static inline void join_row(const struct kiln_bloom_pass *p, size_t y, uint32_t 
     const float *w = weights[y & 1], *rows[3];
     for (int i = 0; i < 3; i++)
         rows[i] = row_at(&p->from, (int64_t)(y / 2) - 1 + i);
-    kiln_quad *row = own_row(p, worker);
+    kiln_quad *row = worker_row(p, worker);
     for (size_t x = 0; x < p->from.width; x++)
         row[x] = kiln_quad_load(rows[0] + 4 * x) * w[0] + kiln_quad_load(rows[1] + 4 * x) * w[1] +
                  kiln_quad_load(rows[2] + 4 * x) * w[2];
-    extend(row, p->from.width);
+    repeat_edges(row, p->from.width);
     const float *level = row_at(&p->level, (int64_t)y);
     float *to = p->to + y * p->to_width * 4;
     for (size_t x = 0; x < p->to_width; x++) {
@@ -129,7 +129,7 @@ static inline void bright_row(const struct kiln_bloom_pass *p, size_t y)
 {
     for (size_t x = 0; x < p->to_width; x++) {
         size_t at = 4 * (y * p->to_width + x);
-        kiln_quad color = limited(kiln_compose(&p->light, at));
+        kiln_quad color = clamp_to_half(kiln_compose(&p->light, at));
         float strongest = exact_max(exact_max(color[0], color[1]), color[2]) * p->exposure;
         float beyond = exact_max(strongest - p->threshold, 0.0f) / exact_max(strongest, 1e-6f);
         color *= beyond;

@@ -37,18 +37,18 @@ static inline bool kiln_compose_open(struct kiln_compose_light *light, struct ki
     return light->scene && (!particles || light->particles) && (!particles || !fire || light->fire);
 }
 
-/* Composes the pixel whose first float is at index `at` of the images. */
-static inline kiln_quad kiln_compose(const struct kiln_compose_light *light, size_t at)
+/* Composes the pixel whose first float is at index `first_float` of the images. */
+static inline kiln_quad kiln_compose(const struct kiln_compose_light *light, size_t first_float)
 {
-    kiln_quad color = kiln_quad_load(light->scene + at);
+    kiln_quad color = kiln_quad_load(light->scene + first_float);
     if (light->particles) {
-        kiln_quad over = kiln_quad_load(light->particles + at);
-        color = over + color * (1.0f - over[3]);
+        kiln_quad particle_color = kiln_quad_load(light->particles + first_float);
+        color = particle_color + color * (1.0f - particle_color[3]);
     }
     if (light->fire) {
-        kiln_quad flame = kiln_quad_load(light->fire + at);
-        flame[3] = flame[3] < 1.0f ? flame[3] : 1.0f;
-        color = flame + color * (1.0f - flame[3]);
+        kiln_quad fire_color = kiln_quad_load(light->fire + first_float);
+        fire_color[3] = fire_color[3] < 1.0f ? fire_color[3] : 1.0f;
+        color = fire_color + color * (1.0f - fire_color[3]);
     }
     return color;
 }

@@ -22,13 +22,13 @@ struct kiln_composite_gl {
     GLuint program, vertex_array;
     struct kiln_framebuffer framebuffer;
     struct kiln_image display, beauty;
-    struct uniforms at;
+    struct uniforms locations;
 };
 
 static void find_uniforms(struct kiln_composite_gl *stage)
 {
     GLuint p = stage->program;
-    stage->at = (struct uniforms){
+    stage->locations = (struct uniforms){
         .bloom_strength = glGetUniformLocation(p, "bloom_strength"),
         .bloom_scale = glGetUniformLocation(p, "bloom_scale"),
         .scene_alone = glGetUniformLocation(p, "scene_alone"),
@@ -114,16 +114,16 @@ bool kiln_composite_gl_run(struct kiln_composite_gl *stage,
     float strength = 0.0f;
     if (inputs->bloom)
         strength = kiln_scene_value(scene, &post->bloom_strength, inputs->time_s);
-    glUniform1f(stage->at.bloom_strength, strength);
-    glUniform1f(stage->at.bloom_scale, inputs->bloom_scale);
-    glUniform1i(stage->at.scene_alone, inputs->particles == NULL);
-    glUniform1i(stage->at.separate_fire, inputs->fire != NULL);
-    glUniform1f(stage->at.exposure,
+    glUniform1f(stage->locations.bloom_strength, strength);
+    glUniform1f(stage->locations.bloom_scale, inputs->bloom_scale);
+    glUniform1i(stage->locations.scene_alone, inputs->particles == NULL);
+    glUniform1i(stage->locations.separate_fire, inputs->fire != NULL);
+    glUniform1f(stage->locations.exposure,
                 exact_exp2(kiln_scene_value(scene, &post->exposure, inputs->time_s)));
-    glUniform1i(stage->at.tonemap, (GLint)post->tonemap);
-    glUniform1f(stage->at.levels, stage->bits == 16 ? 65535.0f : 255.0f);
-    glUniform1i(stage->at.dither, post->dither);
-    glUniform1ui(stage->at.frame, inputs->frame);
+    glUniform1i(stage->locations.tonemap, (GLint)post->tonemap);
+    glUniform1f(stage->locations.levels, stage->bits == 16 ? 65535.0f : 255.0f);
+    glUniform1i(stage->locations.dither, post->dither);
+    glUniform1ui(stage->locations.frame, inputs->frame);
 
     glDisable(GL_BLEND);
     kiln_framebuffer_fill(stage->vertex_array);

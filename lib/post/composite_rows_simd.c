@@ -87,18 +87,18 @@ static inline void encode_channel(float *channel, bool is_root)
 /* Divides colour by alpha, since files hold straight alpha. Light brighter than its alpha, such as
  * fire over a transparent background, would exceed 1. Its brightness becomes its alpha instead, so
  * that it still shows over black. */
-static inline void straighten(struct block *block)
+static inline void unpremultiply(struct block *block)
 {
     for (int i = 0; i < BLOCK; i++) {
         float r = block->red[i], g = block->green[i], b = block->blue[i], a = block->alpha[i];
         bool opaque = !(a < 1.0f);
-        float cover = exact_clamp(exact_max(a, exact_max(exact_max(r, g), b)), 0.0f, 1.0f);
-        float whole = cover > 0.0f ? cover : 1.0f; /* a transparent black pixel stays black */
-        whole = opaque ? 1.0f : whole;
-        block->red[i] = exact_min(r / whole, 1.0f);
-        block->green[i] = exact_min(g / whole, 1.0f);
-        block->blue[i] = exact_min(b / whole, 1.0f);
-        block->alpha[i] = opaque ? 1.0f : cover;
+        float alpha = exact_clamp(exact_max(a, exact_max(exact_max(r, g), b)), 0.0f, 1.0f);
+        float divisor = alpha > 0.0f ? alpha : 1.0f; /* a transparent black pixel stays black */
+        divisor = opaque ? 1.0f : divisor;
+        block->red[i] = exact_min(r / divisor, 1.0f);
+        block->green[i] = exact_min(g / divisor, 1.0f);
+        block->blue[i] = exact_min(b / divisor, 1.0f);
+        block->alpha[i] = opaque ? 1.0f : alpha;
     }
 }
 
@@ -125,7 +125,7 @@ static inline void encode_block(const struct kiln_composite_rows *p, struct bloc
     encode_channel(block->red, is_root);
     encode_channel(block->green, is_root);
     encode_channel(block->blue, is_root);
-    straighten(block);
+    unpremultiply(block);
     if (p->dither)
         make_noise(block, first, row_hash);
     round_channel(block->red, p->dither ? block->noise[0] : no_noise, levels, block->words[0]);

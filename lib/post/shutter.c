@@ -49,7 +49,7 @@ void kiln_shutter_destroy(struct kiln_shutter_stage **stage)
 }
 
 /* Describes a moment that is being added to a sum. */
-struct adding {
+struct accumulation {
     struct kiln_compose_light light;
     float *sum;
     size_t width;
@@ -60,7 +60,7 @@ struct adding {
 static void add_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct adding *a = context;
+    const struct accumulation *a = context;
     for (size_t at = 4 * begin * a->width; at < 4 * end * a->width; at += 4) {
         kiln_quad moment = kiln_compose(&a->light, at) * a->weight;
         kiln_quad_store(a->sum + at, a->first ? moment : kiln_quad_load(a->sum + at) + moment);
@@ -73,13 +73,15 @@ static bool add_moment(struct kiln_shutter_stage *stage, enum kiln_shutter_sum w
                        struct kiln_error *error)
 {
     struct kiln_image *sum = &stage->sums[which];
-    struct adding adding = {.width = sum->width, .weight = weight, .first = first};
-    if (!kiln_compose_open(&adding.light, inputs->scene, inputs->particles, inputs->fire, error))
+    struct accumulation accumulation = {.width = sum->width, .weight = weight, .first = first};
+    if (!kiln_compose_open(&accumulation.light, inputs->scene, inputs->particles, inputs->fire,
+                           error))
         return false;
-    adding.sum = kiln_image_host(sum, first ? KILN_OVERWRITE : KILN_READ_WRITE, error);
-    if (!adding.sum)
+    accumulation.sum = kiln_image_host(sum, first ? KILN_OVERWRITE : KILN_READ_WRITE, error);
+    if (!accumulation.sum)
         return false;
-    return kiln_threads_try(stage->threads, sum->height, ROWS_AT_A_TIME, add_rows, &adding, error);
+    return kiln_threads_try(stage->threads, sum->height, ROWS_AT_A_TIME, add_rows, &accumulation,
+                            error);
 }
 
 bool kiln_shutter_add_composed(struct kiln_shutter_stage *stage,

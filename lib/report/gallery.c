@@ -1,5 +1,6 @@
-/* Plans which pictures are inside a report page and which are linked, and writes those inside. A
- * picture inside is read only when it is written, so that one is in memory at a time. */
+/* Plans which pictures are embedded in a report page and which are linked, and writes those that
+ * are embedded. Such a picture is read only when it is written, so that one is in memory at a time.
+ */
 #include "report/gallery.h"
 
 #include <stdlib.h>
@@ -19,9 +20,9 @@ struct kiln_gallery {
     const char *page_folder;           /* absolute; "" if it is not known */
     bool link;                         /* link all pictures */
     struct kiln_gallery_place **tests; /* for each test, the places of all frames by role */
-    const char **inside;               /* paths of the pictures inside, by number */
-    uint32_t inside_count, crowded_out;
-    uint64_t bytes; /* of the pictures inside */
+    const char **embedded;             /* paths of the embedded pictures, by number */
+    uint32_t embedded_count, linked_for_size;
+    uint64_t bytes; /* of the embedded pictures */
 };
 
 /* ---- Links -------------------------------------------------------------------------------- */
@@ -136,14 +137,14 @@ static bool place_picture(struct kiln_gallery *gallery, const char *path,
     uint64_t size = stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
     bool fits = gallery->bytes + size <= KILN_GALLERY_BYTES;
     if (gallery->link || !fits) {
-        gallery->crowded_out += !gallery->link;
+        gallery->linked_for_size += !gallery->link;
         return link_to(gallery, path, place);
     }
-    place->kind = KILN_GALLERY_INSIDE;
-    place->number = gallery->inside_count;
+    place->kind = KILN_GALLERY_EMBEDDED;
+    place->number = gallery->embedded_count;
     gallery->bytes += size;
     const char *copy = kiln_arena_text(gallery->arena, path, strlen(path));
-    gallery->inside[gallery->inside_count++] = copy;
+    gallery->embedded[gallery->embedded_count++] = copy;
     return copy != NULL;
 }
 
@@ -191,11 +192,11 @@ static bool allocate(struct kiln_gallery *gallery)
     size_t frames = 0;
     for (size_t i = 0; i < gallery->results->count; i++)
         frames += gallery->results->tests[i]->frame_count;
-    gallery->inside = kiln_arena_alloc(gallery->arena, KILN_GALLERY_ROLE_COUNT * frames + 1,
-                                       sizeof *gallery->inside);
+    gallery->embedded = kiln_arena_alloc(gallery->arena, KILN_GALLERY_ROLE_COUNT * frames + 1,
+                                         sizeof *gallery->embedded);
     gallery->tests =
         kiln_arena_alloc(gallery->arena, gallery->results->count + 1, sizeof *gallery->tests);
-    return gallery->inside && gallery->tests;
+    return gallery->embedded && gallery->tests;
 }
 
 static const char *find_page_folder(struct kiln_arena *arena, const char *path)
@@ -232,14 +233,14 @@ const struct kiln_gallery_place *kiln_gallery_places(const struct kiln_gallery *
     return gallery->tests[test] + frame * KILN_GALLERY_ROLE_COUNT;
 }
 
-uint32_t kiln_gallery_inside(const struct kiln_gallery *gallery)
+uint32_t kiln_gallery_embedded_count(const struct kiln_gallery *gallery)
 {
-    return gallery->inside_count;
+    return gallery->embedded_count;
 }
 
-uint32_t kiln_gallery_crowded_out(const struct kiln_gallery *gallery)
+uint32_t kiln_gallery_linked_for_size(const struct kiln_gallery *gallery)
 {
-    return gallery->crowded_out;
+    return gallery->linked_for_size;
 }
 
 /* ---- The pictures ------------------------------------------------------------------------- */
@@ -262,10 +263,10 @@ static unsigned char *read_shown(const char *path, size_t *size, struct kiln_err
 
 void kiln_gallery_write(const struct kiln_gallery *gallery, FILE *out)
 {
-    for (uint32_t i = 0; i < gallery->inside_count; i++) {
+    for (uint32_t i = 0; i < gallery->embedded_count; i++) {
         struct kiln_error error = {0};
         size_t size = 0;
-        unsigned char *bytes = read_shown(gallery->inside[i], &size, &error);
+        unsigned char *bytes = read_shown(gallery->embedded[i], &size, &error);
         fprintf(out, "<script type=\"text/plain\" id=\"p%u\"", i);
         if (!bytes) {
             fputs(" data-problem=\"", out);

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/shown.h"
-#include "report/words.h"
+#include "report/text.h"
 
 /* Writes a text with the characters in `special` escaped, as GitHub reads them (%0A). Characters
  * outside ASCII that would act on the text around them are written as \uXXXX, and other control
@@ -91,12 +91,11 @@ static void write_test(FILE *out, const struct kiln_result *result, const char *
     fputs("\n", out);
 }
 
-/* Writes the notes of stale limits as warnings. The text " is stale" is the one of
- * lib/suite/notes.c, which makes these notes, so both must change together. */
+/* Writes the notes of stale limits as warnings. */
 static void write_stale_notes(FILE *out, const struct kiln_result *result)
 {
     for (size_t i = 0; i < result->note_count; i++) {
-        if (!strstr(result->notes[i], " is stale"))
+        if (!strstr(result->notes[i], KILN_NOTE_STALE))
             continue;
         open_command(out, "warning", result->test, "Stale limit: ", result->name);
         write_message(out, result->notes[i]);
@@ -121,7 +120,7 @@ static bool write_github(const struct kiln_results *results,
         write_stale_notes(out, results->tests[i]);
     }
     char summary[256];
-    kiln_words_summary(summary, results);
+    kiln_report_text_summary(summary, results);
     open_command(out, "notice", "", "kiln test", "");
     write_message(out, summary);
     fputs("\n", out);

@@ -60,7 +60,7 @@ static void write_hash(FILE *out, const char hex[65])
 static void write_policy(FILE *out, const void *user)
 {
     const struct page *page = user;
-    bool links = page->link || kiln_gallery_crowded_out(page->gallery) > 0;
+    bool links = page->link || kiln_gallery_linked_for_size(page->gallery) > 0;
     fprintf(out, "default-src 'none'; base-uri 'none'; form-action 'none'; img-src data:%s",
             links ? " 'self' file:" : "");
     fputs("; style-src ", out);
@@ -81,7 +81,7 @@ static void write_script(FILE *out, const void *user)
 
 /* ---- The summary -------------------------------------------------------------------------- */
 
-static uint32_t count_red(const struct kiln_results_summary *summary)
+static uint32_t count_not_passed(const struct kiln_results_summary *summary)
 {
     return summary->counts[KILN_TEST_NEW] + summary->counts[KILN_TEST_FAIL] +
            summary->counts[KILN_TEST_ERROR];
@@ -95,12 +95,13 @@ static const char *plural(uint32_t count)
 static void write_verdict(FILE *out, const void *user)
 {
     const struct kiln_results_summary *summary = &((const struct page *)user)->summary;
-    uint32_t red = count_red(summary), skipped = summary->counts[KILN_TEST_SKIP];
-    uint32_t passed = summary->tests - red - skipped;
+    uint32_t not_passed = count_not_passed(summary), skipped = summary->counts[KILN_TEST_SKIP];
+    uint32_t passed = summary->tests - not_passed - skipped;
     if (summary->tests == 0)
         fputs("No tests", out);
-    else if (red > 0)
-        fprintf(out, "%u of %u test%s did not pass", red, summary->tests, plural(summary->tests));
+    else if (not_passed > 0)
+        fprintf(out, "%u of %u test%s did not pass", not_passed, summary->tests,
+                plural(summary->tests));
     else if (skipped == 0)
         fprintf(out, passed == 1 ? "The test passed" : "All %u tests passed", passed);
     else
@@ -110,7 +111,7 @@ static void write_verdict(FILE *out, const void *user)
 static void write_outcome(FILE *out, const void *user)
 {
     const struct kiln_results_summary *summary = &((const struct page *)user)->summary;
-    fputs(count_red(summary) > 0 ? "red" : "green", out);
+    fputs(count_not_passed(summary) > 0 ? "red" : "green", out);
 }
 
 static void write_facts(FILE *out, const void *user)
@@ -131,10 +132,10 @@ static void write_facts(FILE *out, const void *user)
     fputs("<span>", out);
     kiln_write_frames(out, &page->summary);
     fputs("</span>", out);
-    uint32_t crowded_out = kiln_gallery_crowded_out(page->gallery);
-    if (crowded_out > 0)
-        fprintf(out, "<span>%u picture%s linked: the page holds %d MiB of them</span>", crowded_out,
-                crowded_out == 1 ? " is" : "s are", KILN_GALLERY_BYTES >> 20);
+    uint32_t linked_for_size = kiln_gallery_linked_for_size(page->gallery);
+    if (linked_for_size > 0)
+        fprintf(out, "<span>%u picture%s linked: the page holds %d MiB of them</span>",
+                linked_for_size, linked_for_size == 1 ? " is" : "s are", KILN_GALLERY_BYTES >> 20);
 }
 
 /* Returns the folder that all results lie in, or NULL when they lie in several. */

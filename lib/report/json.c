@@ -1,6 +1,6 @@
 /* Writes a report as one JSON document: the head of the run and, for each test, its folder, its
  * score and all members of its result.json. */
-#include "report/words.h"
+#include "report/text.h"
 
 enum { VERSION = 1 };
 

@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 #include "report/markup.h"
-#include "report/words.h"
+#include "report/text.h"
 #include "suite/result_member.h"
 
 /* ---- XML ---------------------------------------------------------------------------------- */
@@ -84,17 +84,17 @@ static void write_property(FILE *out, const char *name, const char *value)
  * elsewhere. */
 static void write_facts(FILE *out, const struct kiln_result *result)
 {
-    static const char *const elsewhere[] = {"name", "message", "started"};
+    static const char *const reported_elsewhere[] = {"name", "message", "started"};
     for (const struct kiln_member *m = kiln_result_members; m->name; m++) {
         const void *value = (const char *)result + m->offset;
-        bool said = false;
-        for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
-            said = said || strcmp(m->name, elsewhere[i]) == 0;
+        bool is_reported = false;
+        for (size_t i = 0; i < sizeof reported_elsewhere / sizeof *reported_elsewhere; i++)
+            is_reported = is_reported || strcmp(m->name, reported_elsewhere[i]) == 0;
         char number[32];
         if (m->kind == KILN_MEMBER_UINT32 && result->frame_count) {
             snprintf(number, sizeof number, "%u", *(const uint32_t *)value);
             write_property(out, m->name, number);
-        } else if (m->kind == KILN_MEMBER_TEXT && !said) {
+        } else if (m->kind == KILN_MEMBER_TEXT && !is_reported) {
             write_property(out, m->name, *(const char *const *)value);
         }
     }
@@ -106,11 +106,11 @@ static void write_metrics(FILE *out, const struct kiln_result *result)
     for (size_t i = 0; i < result->column_count; i++) {
         const struct kiln_compare_column *column = &result->columns[i];
         double worst = 0;
-        if (!kiln_words_worst(result, i, &worst))
+        if (!kiln_report_worst_value(result, i, &worst))
             return;
         char number[32], limit[32], value[128];
-        kiln_words_number(number, worst);
-        kiln_words_number(limit, column->limit);
+        kiln_report_text_number(number, worst);
+        kiln_report_text_number(limit, column->limit);
         int length =
             snprintf(value, sizeof value, "%s%s%s", number, *column->unit ? " " : "", column->unit);
         if (column->limited && length > 0 && (size_t)length < sizeof value)
@@ -122,18 +122,19 @@ static void write_metrics(FILE *out, const struct kiln_result *result)
 
 static void write_hashes(FILE *out, const struct kiln_result *result)
 {
-    size_t told = 0;
-    for (size_t i = 0; i < result->frame_count && told < KILN_REPORT_MAX_FRAMES; i++, told++) {
+    size_t written = 0;
+    for (size_t i = 0; i < result->frame_count && written < KILN_REPORT_MAX_FRAMES;
+         i++, written++) {
         const struct kiln_result_frame *frame = &result->frames[i];
         const struct {
-            const char *what, *hash;
+            const char *key, *hash;
         } hashes[] = {{"state", frame->state},
                       {"state_expected", frame->state_expected},
                       {"pixels", frame->pixels},
                       {"pixels_expected", frame->pixels_expected}};
         for (size_t h = 0; h < sizeof hashes / sizeof *hashes; h++) {
             char name[64];
-            snprintf(name, sizeof name, "frame_%u.%s", frame->number, hashes[h].what);
+            snprintf(name, sizeof name, "frame_%u.%s", frame->number, hashes[h].key);
             write_property(out, name, hashes[h].hash);
         }
     }
@@ -143,7 +144,7 @@ static void write_properties(FILE *out, const struct kiln_result *result)
 {
     char frames[32], score[32];
     snprintf(frames, sizeof frames, "%zu", result->frame_count);
-    kiln_words_number(score, kiln_result_score(result));
+    kiln_report_text_number(score, kiln_result_score(result));
     fputs("    <properties>\n", out);
     write_property(out, "status", kiln_test_status_name(result->status));
     write_facts(out, result);
@@ -193,27 +194,27 @@ static const char *error_type(enum kiln_code code)
     }
 }
 
-/* Calls `tell` for the first KILN_REPORT_MAX_FRAMES frames that did not pass, and returns how many
+/* Calls `visit` for the first KILN_REPORT_MAX_FRAMES frames that did not pass, and returns how many
  * such frames are left out. */
-static uint32_t tell_frames(FILE *out, const struct kiln_result *result, const char *folder,
-                            void (*tell)(FILE *out, const struct kiln_result_frame *frame,
-                                         const char *folder))
+static uint32_t visit_not_passed(FILE *out, const struct kiln_result *result, const char *folder,
+                                 void (*visit)(FILE *out, const struct kiln_result_frame *frame,
+                                               const char *folder))
 {
-    uint32_t told = 0, more = 0;
+    uint32_t visited = 0, left_out = 0;
     for (size_t i = 0; i < result->frame_count; i++) {
         if (result->frames[i].status == KILN_TEST_PASS)
             continue;
-        if (told == KILN_REPORT_MAX_FRAMES) {
-            more++;
+        if (visited == KILN_REPORT_MAX_FRAMES) {
+            left_out++;
             continue;
         }
-        told++;
-        tell(out, &result->frames[i], folder);
+        visited++;
+        visit(out, &result->frames[i], folder);
     }
-    return more;
+    return left_out;
 }
 
-static void tell_cause(FILE *out, const struct kiln_result_frame *frame, const char *folder)
+static void write_cause(FILE *out, const struct kiln_result_frame *frame, const char *folder)
 {
     (void)folder;
     fprintf(out, "frame %u: %s: ", frame->number, kiln_test_status_name(frame->status));
@@ -226,9 +227,9 @@ static void write_causes(FILE *out, const struct kiln_result *result)
 {
     write_text(out, result->message);
     fputs("\n", out);
-    uint32_t more = tell_frames(out, result, "", tell_cause);
-    if (more)
-        fprintf(out, "and %u frames more\n", more);
+    uint32_t left_out = visit_not_passed(out, result, "", write_cause);
+    if (left_out)
+        fprintf(out, "and %u frames more\n", left_out);
     for (size_t i = 0; i < result->change_count && i < KILN_REPORT_MAX_FRAMES; i++) {
         const struct kiln_result_change *change = &result->changes[i];
         fputs("scene: ", out);
@@ -274,7 +275,8 @@ static void write_attachment(FILE *out, const char *folder, const char *file)
     fputs("]]\n", out);
 }
 
-static void tell_pictures(FILE *out, const struct kiln_result_frame *frame, const char *folder)
+static void write_frame_pictures(FILE *out, const struct kiln_result_frame *frame,
+                                 const char *folder)
 {
     write_attachment(out, folder, frame->picture);
     write_attachment(out, folder, frame->reference);
@@ -296,7 +298,7 @@ static void write_output(FILE *out, const struct kiln_result *result, const char
         write_text(out, result->notes[i]);
         fputs("\n", out);
     }
-    tell_frames(out, result, folder, tell_pictures);
+    visit_not_passed(out, result, folder, write_frame_pictures);
     if (result->status >= KILN_TEST_NEW)
         write_attachment(out, folder, result->log);
     fputs("</system-out>\n", out);
@@ -350,7 +352,7 @@ static void write_counts(FILE *out, const uint32_t counts[KILN_TEST_STATUS_COUNT
 static void write_suite(FILE *out, const struct kiln_result *result, const char *folder)
 {
     char seconds[32], started[32];
-    kiln_words_seconds(seconds, result->total_s);
+    kiln_report_text_seconds(seconds, result->total_s);
     /* The dialects that have a pattern for times allow no time zone. */
     snprintf(started, sizeof started, "%.*s", (int)strcspn(result->started, "Z"), result->started);
     uint32_t counts[KILN_TEST_STATUS_COUNT] = {0};
@@ -375,7 +377,7 @@ static bool write_junit(const struct kiln_results *results,
     (void)error;
     struct kiln_results_summary summary = kiln_results_summary(results);
     char seconds[32];
-    kiln_words_seconds(seconds, summary.total_s);
+    kiln_report_text_seconds(seconds, summary.total_s);
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"kiln\"", out);
     write_counts(out, summary.counts, summary.tests, seconds);
     fputs(">\n", out);

@@ -91,7 +91,7 @@ struct loading {
     size_t count, capacity;
     struct shard *shards; /* with room for one per run */
     size_t shard_count;
-    uint32_t missing_shard, missing_of; /* first missing shard, number of shards; 0: none */
+    uint32_t missing_shard, shard_total; /* first missing shard, number of shards; 0: none */
     double total_s;
 };
 
@@ -309,31 +309,31 @@ static bool add_missing(struct loading *loading, uint64_t first, uint64_t last, 
     return true;
 }
 
-/* Finds gaps in the numbers of each run's shards. If `tell` is true, it adds a result for each gap.
- */
-static bool find_missing(struct loading *loading, bool tell)
+/* Finds gaps in the numbers of each run's shards. If `add_results` is true, it adds a result for
+ * each gap. */
+static bool find_missing(struct loading *loading, bool add_results)
 {
     struct shard *shards = loading->shards;
     if (loading->shard_count)
         qsort(shards, loading->shard_count, sizeof *shards, by_run);
-    uint64_t due = 1; /* the next number that is expected */
+    uint64_t expected = 1; /* the next number */
     for (size_t i = 0; i < loading->shard_count; i++) {
         const struct shard *shard = &shards[i], *next = shard + 1;
         bool last = i + 1 == loading->shard_count || next->count != shard->count ||
                     next->tests != shard->tests;
-        const uint64_t gaps[2][2] = {{due, shard->number - 1},
+        const uint64_t gaps[2][2] = {{expected, shard->number - 1},
                                      {shard->number + 1, last ? shard->count : 0}};
         for (int g = 0; g < 2; g++) {
             if (gaps[g][0] > gaps[g][1])
                 continue;
             if (loading->missing_shard == 0) {
                 loading->missing_shard = (uint32_t)gaps[g][0];
-                loading->missing_of = (uint32_t)shard->count;
+                loading->shard_total = (uint32_t)shard->count;
             }
-            if (tell && !add_missing(loading, gaps[g][0], gaps[g][1], shard->count))
+            if (add_results && !add_missing(loading, gaps[g][0], gaps[g][1], shard->count))
                 return false;
         }
-        due = last ? 1 : shard->number + 1;
+        expected = last ? 1 : shard->number + 1;
     }
     return true;
 }
@@ -368,7 +368,7 @@ static struct kiln_results *collect(const struct loading *loading)
     results->count = loading->count;
     results->total_s = loading->total_s;
     results->missing_shard = loading->missing_shard;
-    results->shards = loading->missing_of;
+    results->shards = loading->shard_total;
     results->started = "";
     results->tests = kiln_arena_alloc(loading->arena, loading->count + 1, sizeof *results->tests);
     results->folders =
@@ -393,7 +393,7 @@ static void sort(const struct loading *loading)
 }
 
 static bool load_runs(struct loading *loading, const char *const *folders, size_t folder_count,
-                      bool whole)
+                      bool report_missing)
 {
     loading->shards = kiln_arena_alloc(loading->arena, folder_count + 1, sizeof *loading->shards);
     if (!loading->shards)
@@ -403,14 +403,14 @@ static bool load_runs(struct loading *loading, const char *const *folders, size_
             return false;
     }
     sort(loading);
-    if (!check_names(loading) || !find_missing(loading, whole))
+    if (!check_names(loading) || !find_missing(loading, report_missing))
         return false;
     sort(loading);
     return true;
 }
 
-static struct kiln_results *load(const char *const *folders, size_t folder_count, bool whole,
-                                 struct kiln_error *error)
+static struct kiln_results *load(const char *const *folders, size_t folder_count,
+                                 bool report_missing, struct kiln_error *error)
 {
     struct loading loading = {.arena = kiln_arena_create(), .error = error};
     if (!loading.arena) {
@@ -418,7 +418,7 @@ static struct kiln_results *load(const char *const *folders, size_t folder_count
         return NULL;
     }
     struct kiln_results *results = NULL;
-    if (load_runs(&loading, folders, folder_count, whole)) {
+    if (load_runs(&loading, folders, folder_count, report_missing)) {
         results = collect(&loading);
         if (!results)
             out_of_memory(error);

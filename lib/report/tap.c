@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/text.h"
-#include "report/words.h"
+#include "report/text.h"
 
 /* Writes a description in one line. '#' is escaped, since it would end the description. */
 static void write_description(FILE *out, const char *text)
@@ -38,7 +38,7 @@ static void write_number(FILE *out, double value)
 {
     char number[32] = ".inf";
     if (isfinite(value))
-        kiln_words_number(number, value);
+        kiln_report_text_number(number, value);
     fputs(number, out);
 }
 
@@ -65,16 +65,16 @@ static void write_metrics(FILE *out, const struct kiln_result *result,
 
 static void write_frames(FILE *out, const struct kiln_result *result)
 {
-    uint32_t told = 0, left_out = 0;
+    uint32_t written = 0, left_out = 0;
     for (size_t i = 0; i < result->frame_count; i++) {
         const struct kiln_result_frame *frame = &result->frames[i];
         if (frame->status == KILN_TEST_PASS)
             continue;
-        if (told == KILN_REPORT_MAX_FRAMES) {
+        if (written == KILN_REPORT_MAX_FRAMES) {
             left_out++;
             continue;
         }
-        if (told++ == 0)
+        if (written++ == 0)
             fputs("  frames:\n", out);
         fprintf(out, "    - frame: %u\n      status: %s\n      judged_by: %s\n      message: ",
                 frame->number, kiln_test_status_name(frame->status),
@@ -91,7 +91,7 @@ static void write_frames(FILE *out, const struct kiln_result *result)
 static void write_block(FILE *out, const struct kiln_result *result)
 {
     char seconds[32];
-    kiln_words_seconds(seconds, result->total_s);
+    kiln_report_text_seconds(seconds, result->total_s);
     fprintf(out, "  ---\n  status: %s\n  seconds: %s\n", kiln_test_status_name(result->status),
             seconds);
     write_text(out, "message", result->message);

@@ -61,7 +61,7 @@ static void add_picture(struct kiln_json *json, const struct kiln_gallery_place 
         kiln_json_null(json, NULL);
         return;
     }
-    if (place->kind == KILN_GALLERY_INSIDE) {
+    if (place->kind == KILN_GALLERY_EMBEDDED) {
         kiln_json_uint(json, NULL, place->number);
         return;
     }

@@ -134,7 +134,7 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
     else if (stat(real, &status) != 0 || !S_ISREG(status.st_mode))
         kiln_reader_error(reader, node, "'%s' is not a file", quoted);
     else if (!check || check_contents(reader, node, check, real, quoted)) {
-        ok = kiln_reader_keep_text(reader, real, asset) &&
+        ok = kiln_reader_copy_text(reader, real, asset) &&
              (kiln_scene_add_file(kiln_reader_scene(reader), *asset, "a file of the scene") ||
               kiln_reader_out_of_memory(reader));
     }
@@ -148,7 +148,7 @@ bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, c
     if (!name)
         return kiln_read_file_asset(reader, node, kiln_cells_check, asset);
     if (kiln_builtin_exists(name))
-        return kiln_reader_keep_text(reader, node->text, asset);
+        return kiln_reader_copy_text(reader, node->text, asset);
     const char *names[32];
     size_t count = 0;
     while (count < 32 && (names[count] = kiln_builtin_name(count)))

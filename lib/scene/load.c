@@ -124,20 +124,20 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
 {
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
     struct kiln_scene *scene = arena ? kiln_arena_alloc(arena, 1, sizeof *scene) : NULL;
-    char *kept_name = arena ? kiln_arena_text(arena, name, strlen(name)) : NULL;
+    char *name_copy = arena ? kiln_arena_text(arena, name, strlen(name)) : NULL;
     bool ok = false;
-    if (!scratch || !scene || !kept_name) {
+    if (!scratch || !scene || !name_copy) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
     } else {
-        const struct kiln_origin origin = kiln_scene_origin(kept_name);
+        const struct kiln_origin origin = kiln_scene_origin(name_copy);
         struct kiln_reader reader = {
             .origin = &origin, .arena = arena, .scratch = scratch, .error = error, .target = scene};
         scene->arena = arena;
-        scene->name = kept_name;
+        scene->name = name_copy;
         scene->budget = params->budget;
         scene->asset_root = kiln_asset_root(arena, params->asset_root, file, error);
         ok = scene->asset_root &&
-             (!file || kiln_scene_add_file(scene, kept_name, "the scene") ||
+             (!file || kiln_scene_add_file(scene, name_copy, "the scene") ||
               kiln_reader_out_of_memory(&reader)) &&
              build(&reader, text, size, params);
         kiln_loader_stop_counting(scene->loader, params->budget);

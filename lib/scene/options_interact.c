@@ -29,7 +29,7 @@ static const struct kiln_option collide[] = {
          "pair does not pass through each other, unless one of the two has another collision first "
          "in the same step. auto takes the speed from the particles of each step, up to two widths "
          "of a particle in a step. 0 looks for no pair ahead of time."),
-     LIMITS(KILN_SPEED, 0, 10000), .clocks = TIME, .word = "auto"},
+     LIMITS(KILN_SPEED, 0, 10000), .clocks = TIME, .special_word = "auto"},
     INTEGER(MOTION, "rounds", rounds, 1, 64, "4",
             "Collisions that a particle may have in a step. Further collisions wait for the next "
             "step."),

@@ -55,7 +55,7 @@ static const struct kiln_option simulation[] = {
     {ROW(MOTION, "rate", rational, AT(rate), "auto",
          "Simulation steps a second, a whole multiple of output.fps. auto takes the smallest rate "
          "that is at least 60 and has a step for each moment of the shutter."),
-     LIMITS(KILN_PLAIN, 1, 100000), .word = "auto"},
+     LIMITS(KILN_PLAIN, 1, 100000), .special_word = "auto"},
     {ROW(MOTION, "warmup", number, AT(warmup_s), "0 s",
          "Time that is simulated before the first frame, in whole steps. Clip time is negative "
          "during the warm-up."),

@@ -13,7 +13,8 @@
 /* name, field, default, help */
 #define BOUNDS(part, n, f, def, h)                                                                 \
     {                                                                                              \
-        ROW(part, n, bounds, AT(f), def, h), LIMITS(KILN_METRES, -FAR, FAR), .word = "none"        \
+        ROW(part, n, bounds, AT(f), def, h), LIMITS(KILN_METRES, -FAR, FAR),                       \
+            .special_word = "none"                                                                 \
     }
 
 #endif

@@ -57,7 +57,7 @@ bool kiln_value3_is_constant(const struct kiln_value3 *value)
     return value->x.count == 0 && value->y.count == 0 && value->z.count == 0;
 }
 
-bool kiln_object_is_turned_box(const struct kiln_object *object)
+bool kiln_object_is_oriented_box(const struct kiln_object *object)
 {
     const struct kiln_value3 *r = &object->rotation;
     return object->kind == KILN_OBJECT_BOX &&

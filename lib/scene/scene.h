@@ -539,7 +539,7 @@ float3 kiln_scene_value3(const struct kiln_scene *scene, const struct kiln_value
 bool kiln_value3_is_constant(const struct kiln_value3 *value);
 
 /* Returns whether an object is a box that has a rotation at any time. */
-bool kiln_object_is_turned_box(const struct kiln_object *object);
+bool kiln_object_is_oriented_box(const struct kiln_object *object);
 
 /* Return the largest and the smallest value over all time, which lie at keys. */
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);

@@ -69,7 +69,7 @@ static void schema_assets(const struct kiln_option *option, struct kiln_text *ou
     kiln_text_free(&one);
 }
 
-static void words_assets(const struct kiln_option *option, struct kiln_text *out)
+static void list_assets(const struct kiln_option *option, struct kiln_text *out)
 {
     (void)option;
     for (size_t i = 0; kiln_builtin_name(i); i++)
@@ -81,7 +81,7 @@ const struct kiln_option_type kiln_type_assets = {
     .print = print_assets,
     .describe = describe_assets,
     .schema = schema_assets,
-    .words = words_assets,
+    .list_choices = list_assets,
 };
 
 /* ---- motion --------------------------------------------------------------------------------- */

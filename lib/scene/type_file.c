@@ -50,7 +50,7 @@ static void describe_picture(const struct kiln_option *option, struct kiln_text 
     kiln_text_add(out, "the path of an image file, from the scene's folder and inside it, or none");
 }
 
-static void words_picture(const struct kiln_option *option, struct kiln_text *out)
+static void list_picture(const struct kiln_option *option, struct kiln_text *out)
 {
     (void)option;
     kiln_text_add(out, "none");
@@ -61,7 +61,7 @@ const struct kiln_option_type kiln_type_picture = {
     .print = print_file,
     .describe = describe_picture,
     .schema = schema_file,
-    .words = words_picture,
+    .list_choices = list_picture,
 };
 
 /* ---- mesh ------------------------------------------------------------------------------------ */

@@ -8,7 +8,7 @@
 static bool read_name(struct kiln_reader *reader, const struct kiln_option *option,
                       const struct kiln_node *node, void *field)
 {
-    return kiln_reader_is_text(node) ? kiln_reader_keep_text(reader, node->text, field)
+    return kiln_reader_is_text(node) ? kiln_reader_copy_text(reader, node->text, field)
                                      : kiln_reader_mismatch(reader, option, node);
 }
 
@@ -38,7 +38,7 @@ static bool read_clip(struct kiln_reader *reader, const struct kiln_option *opti
                       const struct kiln_node *node, void *field)
 {
     return node->kind == KILN_NODE_SCALAR && *node->text
-               ? kiln_reader_keep_text(reader, node->text, field)
+               ? kiln_reader_copy_text(reader, node->text, field)
                : kiln_reader_mismatch(reader, option, node);
 }
 

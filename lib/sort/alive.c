@@ -22,7 +22,7 @@ bool kiln_alive_init(struct kiln_alive *alive, struct kiln_device *device,
     alive->list_program = kiln_program_create(device, &params, error);
     if (!alive->list_program)
         return false;
-    params.defines = kind == KILN_ALIVE_PLACES ? "#define NUMBERED 1\n" : "#define PAIRED 1\n";
+    params.defines = kind == KILN_ALIVE_INDICES ? "#define NUMBERED 1\n" : "#define PAIRED 1\n";
     alive->pair_program = kiln_program_create(device, &params, error);
     return alive->pair_program != 0;
 }

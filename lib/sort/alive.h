@@ -9,7 +9,7 @@
 /* Selects the second word of each pair. The first word is the key. */
 enum kiln_alive_pairs {
     KILN_ALIVE_ENTRIES, /* the draw entry; the list itself is not written */
-    KILN_ALIVE_PLACES,  /* the index of the draw entry in the list */
+    KILN_ALIVE_INDICES, /* the index of the draw entry in the list */
 };
 
 struct kiln_alive {

@@ -31,7 +31,7 @@ static uint32_t find_span(const kiln_sort_pair *pairs, size_t count, uint32_t *l
 }
 
 /* Chooses the width of a digit and returns how many passes are needed. */
-static unsigned cut(struct digits *digits, uint32_t span)
+static unsigned choose_digit_width(struct digits *digits, uint32_t span)
 {
     unsigned bits = 0;
     while (bits < 32 && span >> bits != 0)
@@ -64,9 +64,9 @@ static void find_places(struct digits *digits, unsigned passes, const kiln_sort_
     for (unsigned pass = 0; pass < passes; pass++) {
         uint32_t place = 0;
         for (uint32_t digit = 0; digit < 1u << digits->bits; digit++) {
-            const uint32_t of = digits->places[pass][digit];
+            const uint32_t digit_count = digits->places[pass][digit];
             digits->places[pass][digit] = place;
-            place += of;
+            place += digit_count;
         }
     }
 }
@@ -75,7 +75,7 @@ void KILN_SIMD_NAME(kiln_sort_bucket)(kiln_sort_pair *pairs, size_t count, kiln_
                                       uint32_t *list, int step)
 {
     struct digits digits;
-    const unsigned passes = cut(&digits, find_span(pairs, count, &digits.least));
+    const unsigned passes = choose_digit_width(&digits, find_span(pairs, count, &digits.least));
     if (passes == 0) {
         for (size_t i = 0; i < count; i++)
             list[(ptrdiff_t)i * step] = (uint32_t)pairs[i];

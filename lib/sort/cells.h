@@ -13,7 +13,7 @@ enum { KILN_SORT_MOST_CELLS = 1024 };
  * last cell also take all particles that lie beyond them. The choice of cells changes only how long
  * sorting takes, not the order. */
 struct kiln_sort_cells {
-    float start_m, per_m;
+    float far_edge_m, cells_per_m;
     uint32_t count;
 };
 

@@ -23,7 +23,7 @@ static inline float depth_of_key(uint32_t key)
  * multiplying and rounding keep the order. */
 static inline uint32_t cell_of(const struct kiln_sort_cells *cells, uint32_t key)
 {
-    float x = (cells->start_m - depth_of_key(key)) * cells->per_m;
+    float x = (cells->far_edge_m - depth_of_key(key)) * cells->cells_per_m;
     float last = (float)(cells->count - 1);
     x = x > 0.0f ? x : 0.0f;
     return (uint32_t)(int32_t)(x < last ? x : last);
@@ -31,7 +31,7 @@ static inline uint32_t cell_of(const struct kiln_sort_cells *cells, uint32_t key
 
 struct lanes {
     uint32_t x[LANES], y[LANES], z[LANES], births[LANES]; /* words of records */
-    uint32_t keys[LANES], cells[LANES], living[LANES];
+    uint32_t keys[LANES], cells[LANES], alive[LANES];
 };
 
 /* Computes keys and cells. A dead particle gets the cell behind the last one. */
@@ -50,10 +50,10 @@ static inline void find_keys(const struct kiln_particle *records, float3 eye, fl
             .velocity_birth = {0, 0, 0, lanes->births[i]},
         };
         lanes->keys[i] = key_of_particle(p, eye, forward);
-        lanes->living[i] = particle_is_alive(p);
+        lanes->alive[i] = particle_is_alive(p);
     }
     for (uint32_t i = 0; i < LANES; i++) {
-        const uint32_t dead = lanes->living[i] - 1u;
+        const uint32_t dead = lanes->alive[i] - 1u;
         const uint32_t cell = cell_of(cells, lanes->keys[i]);
         lanes->cells[i] = (cell & ~dead) | (cells->count & dead);
     }
@@ -63,7 +63,7 @@ static inline void widen(struct kiln_sort_span *span, const struct lanes *lanes)
 {
     uint32_t least = span->least, greatest = span->greatest;
     for (uint32_t i = 0; i < LANES; i++) {
-        const uint32_t dead = lanes->living[i] - 1u, key = lanes->keys[i];
+        const uint32_t dead = lanes->alive[i] - 1u, key = lanes->keys[i];
         const uint32_t low = key | dead, high = key & ~dead;
         least = low < least ? low : least;
         greatest = high > greatest ? high : greatest;
@@ -76,26 +76,27 @@ __attribute__((flatten)) static size_t list(const struct kiln_sort_slots *slots,
                                             kiln_sort_pair *pairs, uint32_t *counts,
                                             struct kiln_sort_span *span)
 {
-    const struct kiln_sort_cells of = *cells;
+    const struct kiln_sort_cells layout = *cells;
     kiln_sort_pair *to = pairs;
     struct lanes lanes;
     for (uint32_t first = slots->first; first < slots->end; first += LANES) {
-        const uint32_t left = slots->end - first, count = left < LANES ? left : LANES;
+        const uint32_t remaining = slots->end - first,
+                       count = remaining < LANES ? remaining : LANES;
         const struct kiln_particle *records = slots->records + first;
-        struct kiln_particle rest[LANES];
-        for (uint32_t i = AHEAD; i < AHEAD + LANES && i < left; i += RECORD_LINE)
+        struct kiln_particle tail[LANES];
+        for (uint32_t i = AHEAD; i < AHEAD + LANES && i < remaining; i += RECORD_LINE)
             __builtin_prefetch(records + i);
         if (count < LANES) {
-            memset(rest, 0, sizeof rest);
-            memcpy(rest, records, count * sizeof *rest);
-            records = rest;
+            memset(tail, 0, sizeof tail);
+            memcpy(tail, records, count * sizeof *tail);
+            records = tail;
         }
-        find_keys(records, slots->eye, slots->forward, &of, &lanes);
+        find_keys(records, slots->eye, slots->forward, &layout, &lanes);
         widen(span, &lanes);
         const uint32_t entry = KILN_ENTRY(slots->system, first);
         for (uint32_t i = 0; i < count; i++) {
             *to = (kiln_sort_pair)lanes.keys[i] << 32 | (entry + i);
-            to += lanes.living[i];
+            to += lanes.alive[i];
             counts[lanes.cells[i]]++;
         }
     }
@@ -106,16 +107,16 @@ __attribute__((flatten)) static void scatter(const kiln_sort_pair *pairs, size_t
                                              const struct kiln_sort_cells *cells, uint32_t *places,
                                              kiln_sort_pair *to)
 {
-    const struct kiln_sort_cells of = *cells;
+    const struct kiln_sort_cells layout = *cells;
     uint32_t cell[LANES];
     for (; count >= LANES; count -= LANES, pairs += LANES) {
         for (uint32_t i = 0; i < LANES; i++)
-            cell[i] = cell_of(&of, (uint32_t)(pairs[i] >> 32));
+            cell[i] = cell_of(&layout, (uint32_t)(pairs[i] >> 32));
         for (uint32_t i = 0; i < LANES; i++)
             to[places[cell[i]]++] = pairs[i];
     }
     for (size_t i = 0; i < count; i++)
-        to[places[cell_of(&of, (uint32_t)(pairs[i] >> 32))]++] = pairs[i];
+        to[places[cell_of(&layout, (uint32_t)(pairs[i] >> 32))]++] = pairs[i];
 }
 
 const struct kiln_sort_loops KILN_SIMD_NAME(kiln_sort_loops) = {.list = list, .scatter = scatter};

@@ -8,7 +8,7 @@
 #include "sort/depth.h"
 
 enum {
-    FEWEST_SLOTS_AT_A_TIME = 8192,
+    MIN_BLOCK_SIZE = 8192,
     BLOCKS_A_THREAD = 4, /* more than one, so that a thread that begins late takes fewer */
 };
 
@@ -50,16 +50,16 @@ struct listing {
     uint32_t *entries;
 };
 
-static void count_living(void *context, size_t begin, size_t end, uint32_t worker)
+static void count_alive(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     const struct listing *listing = context;
     for (size_t b = begin; b < end; b++) {
         struct kiln_sort_block *block = &listing->blocks[b];
-        uint32_t living = 0;
+        uint32_t alive_count = 0;
         for (uint32_t slot = block->first; slot < block->end; slot++)
-            living += particle_is_alive(listing->records[slot]);
-        block->place = living;
+            alive_count += particle_is_alive(listing->records[slot]);
+        block->place = alive_count;
     }
 }
 
@@ -76,17 +76,17 @@ static void list_entries(void *context, size_t begin, size_t end, uint32_t worke
     }
 }
 
-/* Appends blocks of at most `at_a_time` slots that cover slots first .. end - 1. Returns the new
+/* Appends blocks of at most `block_size` slots that cover slots first .. end - 1. Returns the new
  * count. */
-static size_t cut(struct kiln_sort_block *blocks, size_t count, uint32_t system, uint32_t first,
-                  uint32_t end, uint32_t at_a_time)
+static size_t append_blocks(struct kiln_sort_block *blocks, size_t count, uint32_t system,
+                            uint32_t first, uint32_t end, uint32_t block_size)
 {
     for (; first < end; first = blocks[count++].end) {
         const uint32_t left = end - first;
         blocks[count] = (struct kiln_sort_block){
             .system = system,
             .first = first,
-            .end = left < at_a_time ? end : first + at_a_time,
+            .end = left < block_size ? end : first + block_size,
         };
     }
     return count;
@@ -102,9 +102,9 @@ static struct kiln_sort_block *make_blocks(struct kiln_sort_cpu *sort, const str
     *count = 0;
     const uint32_t shared =
         pool->slot_count / (BLOCKS_A_THREAD * kiln_threads_count(sort->threads)) + 1;
-    const uint32_t at_a_time = shared > FEWEST_SLOTS_AT_A_TIME ? shared : FEWEST_SLOTS_AT_A_TIME;
+    const uint32_t block_size = shared > MIN_BLOCK_SIZE ? shared : MIN_BLOCK_SIZE;
     kiln_buffer_reserve(&sort->blocks,
-                        (pool->slot_count / at_a_time + 2 * (size_t)KILN_MAX_SYSTEMS) *
+                        (pool->slot_count / block_size + 2 * (size_t)KILN_MAX_SYSTEMS) *
                             sizeof(struct kiln_sort_block));
     struct kiln_sort_block *blocks = kiln_buffer_host(&sort->blocks, KILN_OVERWRITE, error);
     if (!blocks)
@@ -116,8 +116,8 @@ static struct kiln_sort_block *make_blocks(struct kiln_sort_cpu *sort, const str
             continue;
         const uint32_t oldest = (uint32_t)((system->next_serial - used) % system->capacity);
         const uint32_t base = system->base;
-        *count = cut(blocks, *count, i, base + oldest, base + used, at_a_time);
-        *count = cut(blocks, *count, i, base, base + oldest, at_a_time);
+        *count = append_blocks(blocks, *count, i, base + oldest, base + used, block_size);
+        *count = append_blocks(blocks, *count, i, base, base + oldest, block_size);
     }
     return blocks;
 }
@@ -127,9 +127,9 @@ static uint32_t sum_blocks(struct kiln_sort_block *blocks, size_t count)
 {
     uint32_t place = 0;
     for (size_t b = 0; b < count; b++) {
-        uint32_t living = blocks[b].place;
+        uint32_t alive_count = blocks[b].place;
         blocks[b].place = place;
-        place += living;
+        place += alive_count;
     }
     return place;
 }
@@ -147,7 +147,7 @@ bool kiln_sort_cpu_run(struct kiln_sort_cpu *sort, struct kiln_pool *pool,
         listing.entries = kiln_buffer_host(entries, KILN_READ_WRITE, error);
         if (!listing.entries)
             return false;
-        kiln_threads_for(sort->threads, block_count, 1, count_living, &listing);
+        kiln_threads_for(sort->threads, block_count, 1, count_alive, &listing);
         *count = sum_blocks(listing.blocks, block_count);
         kiln_threads_for(sort->threads, block_count, 1, list_entries, &listing);
     } else if (!kiln_sort_depth_run(sort->depth, pool, params, listing.blocks, block_count, entries,

@@ -33,7 +33,7 @@ enum {
 };
 
 /* Describes the pairs that were listed for a block. */
-struct listed {
+struct block_pairs {
     size_t place, count;        /* range of the block's pairs in scratch */
     struct kiln_sort_span span; /* of the pairs' keys */
     /* for each cell, how many of the pairs it gets; after sum_cells, the index of the next pair */
@@ -44,11 +44,11 @@ struct kiln_sort_depth {
     struct kiln_threads *threads;
     const struct kiln_sort_loops *loops;
     kiln_sort_bucket *sort_cell;
-    struct kiln_buffer pairs;     /* all pairs, ordered by cell */
-    struct kiln_buffer listed;    /* struct listed of each block */
-    struct kiln_buffer counts;    /* memory of the counts in struct listed */
-    kiln_sort_pair *cell_scratch; /* MOST_IN_CELL pairs for each thread */
-    uint32_t *digit_counts;       /* scratch of kiln_sort_pairs */
+    struct kiln_buffer pairs;       /* all pairs, ordered by cell */
+    struct kiln_buffer block_pairs; /* one for each block */
+    struct kiln_buffer counts;      /* memory of the counts in struct block_pairs */
+    kiln_sort_pair *cell_scratch;   /* MOST_IN_CELL pairs for each thread */
+    uint32_t *digit_counts;         /* scratch of kiln_sort_pairs */
 };
 
 struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
@@ -66,7 +66,7 @@ struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
     depth->loops = KILN_SIMD_PICK(kiln_sort_loops, simd);
     depth->sort_cell = KILN_SIMD_PICK(kiln_sort_bucket, simd);
     kiln_buffer_init(&depth->pairs, NULL, 0, "sort pairs");
-    kiln_buffer_init(&depth->listed, NULL, 0, "blocks of pairs");
+    kiln_buffer_init(&depth->block_pairs, NULL, 0, "blocks of pairs");
     kiln_buffer_init(&depth->counts, NULL, 0, "counts of cells");
     depth->cell_scratch =
         malloc((size_t)kiln_threads_count(threads) * MOST_IN_CELL * sizeof *depth->cell_scratch);
@@ -84,7 +84,7 @@ void kiln_sort_depth_destroy(struct kiln_sort_depth **depth)
     if (!d)
         return;
     kiln_buffer_finish(&d->pairs);
-    kiln_buffer_finish(&d->listed);
+    kiln_buffer_finish(&d->block_pairs);
     kiln_buffer_finish(&d->counts);
     free(d->cell_scratch);
     free(d->digit_counts);
@@ -99,11 +99,11 @@ struct work {
     const struct kiln_sort_block *blocks;
     size_t block_count;
     struct kiln_sort_cells cells;
-    struct listed *listed;
+    struct block_pairs *block_pairs;
     kiln_sort_pair *scratch, *pairs;
     uint32_t *list; /* the result; the same memory as scratch */
     uint32_t count;
-    uint32_t starts[KILN_SORT_MOST_CELLS + 1]; /* where each cell begins in pairs */
+    uint32_t cell_starts[KILN_SORT_MOST_CELLS + 1]; /* where each cell begins in pairs */
 };
 
 /* ---- cells ----------------------------------------------------------------------------------- */
@@ -112,14 +112,14 @@ struct extremes {
     float least[OUTLIERS + 1], greatest[OUTLIERS + 1]; /* outermost first */
 };
 
-static void take_sample(struct extremes *of, float depth_m)
+static void take_sample(struct extremes *range, float depth_m)
 {
     float low = depth_m, high = depth_m;
     for (int i = 0; i <= OUTLIERS; i++) {
-        const float least = of->least[i], greatest = of->greatest[i];
-        of->least[i] = low < least ? low : least;
+        const float least = range->least[i], greatest = range->greatest[i];
+        range->least[i] = low < least ? low : least;
         low = low < least ? least : low;
-        of->greatest[i] = high > greatest ? high : greatest;
+        range->greatest[i] = high > greatest ? high : greatest;
         high = high > greatest ? greatest : high;
     }
 }
@@ -127,10 +127,10 @@ static void take_sample(struct extremes *of, float depth_m)
 /* Returns the extreme depths of living particles in evenly spaced slots. */
 static struct extremes sample(const struct work *work, size_t slots)
 {
-    struct extremes found;
+    struct extremes range;
     for (int i = 0; i <= OUTLIERS; i++) {
-        found.least[i] = INFINITY;
-        found.greatest[i] = -INFINITY;
+        range.least[i] = INFINITY;
+        range.greatest[i] = -INFINITY;
     }
     size_t before = 0, block = 0;
     for (size_t s = 0; s < SAMPLES; s++) {
@@ -141,26 +141,26 @@ static struct extremes sample(const struct work *work, size_t slots)
         }
         const struct kiln_particle p = work->records[work->blocks[block].first + (slot - before)];
         if (particle_is_alive(p))
-            take_sample(&found, float3_dot(float3_sub(particle_position(p), work->params->eye),
+            take_sample(&range, float3_dot(float3_sub(particle_position(p), work->params->eye),
                                            work->params->forward));
     }
-    return found;
+    return range;
 }
 
 static struct kiln_sort_cells choose_cells(const struct work *work, size_t slots)
 {
-    const struct kiln_sort_cells all = {.start_m = 0.0f, .per_m = 0.0f, .count = 1};
+    const struct kiln_sort_cells all = {.far_edge_m = 0.0f, .cells_per_m = 0.0f, .count = 1};
     if (slots < FEWEST_SLOTS)
         return all;
-    const struct extremes found = sample(work, slots);
-    const float near_m = found.least[OUTLIERS], far_m = found.greatest[OUTLIERS];
+    const struct extremes range = sample(work, slots);
+    const float near_m = range.least[OUTLIERS], far_m = range.greatest[OUTLIERS];
     const float across_m = (far_m - near_m) * 1.0625f;
     if (!(across_m > 1e-6f && across_m < 1e6f))
         return all;
-    struct kiln_sort_cells cells = {.start_m = far_m + 0.03f * across_m, .count = 16};
+    struct kiln_sort_cells cells = {.far_edge_m = far_m + 0.03f * across_m, .count = 16};
     while (cells.count < KILN_SORT_MOST_CELLS && (size_t)cells.count * SLOTS_A_CELL < slots)
         cells.count *= 2;
-    cells.per_m = (float)cells.count / across_m;
+    cells.cells_per_m = (float)cells.count / across_m;
     return cells;
 }
 
@@ -170,16 +170,16 @@ static bool sum_cells(struct work *work)
 {
     uint32_t place = 0;
     for (uint32_t cell = 0; cell < work->cells.count; cell++) {
-        work->starts[cell] = place;
+        work->cell_starts[cell] = place;
         for (size_t b = 0; b < work->block_count; b++) {
-            const uint32_t living = work->listed[b].counts[cell];
-            work->listed[b].counts[cell] = place;
-            place += living;
+            const uint32_t alive_count = work->block_pairs[b].counts[cell];
+            work->block_pairs[b].counts[cell] = place;
+            place += alive_count;
         }
-        if (place - work->starts[cell] > MOST_IN_CELL)
+        if (place - work->cell_starts[cell] > MOST_IN_CELL)
             return false;
     }
-    work->starts[work->cells.count] = place;
+    work->cell_starts[work->cells.count] = place;
     return true;
 }
 
@@ -191,8 +191,8 @@ static void list_blocks(void *context, size_t begin, size_t end, uint32_t worker
     const struct work *work = context;
     for (size_t b = begin; b < end; b++) {
         const struct kiln_sort_block *block = &work->blocks[b];
-        struct listed *listed = &work->listed[b];
-        memset(listed->counts, 0, (work->cells.count + 1) * sizeof *listed->counts);
+        struct block_pairs *block_pairs = &work->block_pairs[b];
+        memset(block_pairs->counts, 0, (work->cells.count + 1) * sizeof *block_pairs->counts);
         const struct kiln_sort_slots slots = {
             .records = work->records,
             .system = block->system,
@@ -201,9 +201,10 @@ static void list_blocks(void *context, size_t begin, size_t end, uint32_t worker
             .eye = work->params->eye,
             .forward = work->params->forward,
         };
-        listed->span = (struct kiln_sort_span){UINT32_MAX, 0};
-        listed->count = work->depth->loops->list(
-            &slots, &work->cells, work->scratch + listed->place, listed->counts, &listed->span);
+        block_pairs->span = (struct kiln_sort_span){UINT32_MAX, 0};
+        block_pairs->count =
+            work->depth->loops->list(&slots, &work->cells, work->scratch + block_pairs->place,
+                                     block_pairs->counts, &block_pairs->span);
     }
 }
 
@@ -212,9 +213,9 @@ static void scatter_blocks(void *context, size_t begin, size_t end, uint32_t wor
     (void)worker;
     const struct work *work = context;
     for (size_t b = begin; b < end; b++) {
-        const struct listed *listed = &work->listed[b];
-        work->depth->loops->scatter(work->scratch + listed->place, listed->count, &work->cells,
-                                    listed->counts, work->pairs);
+        const struct block_pairs *block_pairs = &work->block_pairs[b];
+        work->depth->loops->scatter(work->scratch + block_pairs->place, block_pairs->count,
+                                    &work->cells, block_pairs->counts, work->pairs);
     }
 }
 
@@ -224,7 +225,7 @@ static void sort_cells(void *context, size_t begin, size_t end, uint32_t worker)
     const bool reverse = work->params->order == KILN_SORT_FRONT_TO_BACK;
     kiln_sort_pair *scratch = work->depth->cell_scratch + (size_t)worker * MOST_IN_CELL;
     for (size_t cell = begin; cell < end; cell++) {
-        const uint32_t first = work->starts[cell], count = work->starts[cell + 1] - first;
+        const uint32_t first = work->cell_starts[cell], count = work->cell_starts[cell + 1] - first;
         if (count > 0)
             work->depth->sort_cell(work->pairs + first, count, scratch,
                                    work->list + (reverse ? work->count - 1 - first : first),
@@ -233,16 +234,16 @@ static void sort_cells(void *context, size_t begin, size_t end, uint32_t worker)
 }
 
 /* Copies the pairs of each block from scratch to pairs, without the gaps between blocks. */
-static void close_up(void *context, size_t begin, size_t end, uint32_t worker)
+static void compact_blocks(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     const struct work *work = context;
     for (size_t b = begin; b < end; b++) {
         size_t place = 0;
         for (size_t before = 0; before < b; before++)
-            place += work->listed[before].count;
-        memcpy(work->pairs + place, work->scratch + work->listed[b].place,
-               work->listed[b].count * sizeof *work->pairs);
+            place += work->block_pairs[before].count;
+        memcpy(work->pairs + place, work->scratch + work->block_pairs[b].place,
+               work->block_pairs[b].count * sizeof *work->pairs);
     }
 }
 
@@ -250,11 +251,11 @@ static void sort_at_once(struct work *work)
 {
     struct kiln_sort_span span = {UINT32_MAX, 0};
     for (size_t b = 0; b < work->block_count; b++) {
-        const struct kiln_sort_span *of = &work->listed[b].span;
+        const struct kiln_sort_span *of = &work->block_pairs[b].span;
         span.least = of->least < span.least ? of->least : span.least;
         span.greatest = of->greatest > span.greatest ? of->greatest : span.greatest;
     }
-    kiln_threads_for(work->depth->threads, work->block_count, 1, close_up, work);
+    kiln_threads_for(work->depth->threads, work->block_count, 1, compact_blocks, work);
     kiln_sort_pairs(work->depth->threads, work->pairs, work->count, span,
                     work->params->order == KILN_SORT_FRONT_TO_BACK, work->list,
                     work->depth->digit_counts);
@@ -264,11 +265,11 @@ static void sort_at_once(struct work *work)
 
 /* Sets where each block's pairs begin in scratch, with room for all its slots. Returns the number
  * of slots of all blocks. */
-static size_t give_room(const struct work *work)
+static size_t assign_ranges(const struct work *work)
 {
     size_t slots = 0;
     for (size_t b = 0; b < work->block_count; b++) {
-        work->listed[b] = (struct listed){.place = slots};
+        work->block_pairs[b] = (struct block_pairs){.place = slots};
         slots += work->blocks[b].end - work->blocks[b].first;
     }
     return slots;
@@ -280,10 +281,11 @@ static bool reserve(struct kiln_sort_depth *depth, const struct kiln_pool *pool,
     const size_t pairs = pool->slot_count * sizeof(kiln_sort_pair);
     kiln_buffer_reserve(entries, pairs);
     kiln_buffer_reserve(&depth->pairs, pairs);
-    kiln_buffer_reserve(&depth->listed, work->block_count * sizeof(struct listed));
+    kiln_buffer_reserve(&depth->block_pairs, work->block_count * sizeof(struct block_pairs));
     work->pairs = kiln_buffer_host(&depth->pairs, KILN_OVERWRITE, error);
-    work->listed = work->pairs ? kiln_buffer_host(&depth->listed, KILN_OVERWRITE, error) : NULL;
-    work->scratch = work->listed ? kiln_buffer_host(entries, KILN_OVERWRITE, error) : NULL;
+    work->block_pairs =
+        work->pairs ? kiln_buffer_host(&depth->block_pairs, KILN_OVERWRITE, error) : NULL;
+    work->scratch = work->block_pairs ? kiln_buffer_host(entries, KILN_OVERWRITE, error) : NULL;
     work->list = (uint32_t *)(void *)work->scratch;
     return work->scratch;
 }
@@ -298,7 +300,7 @@ static bool reserve_counts(struct kiln_sort_depth *depth, struct work *work,
     if (!counts)
         return false;
     for (size_t b = 0; b < work->block_count; b++)
-        work->listed[b].counts = counts + b * words;
+        work->block_pairs[b].counts = counts + b * words;
     return true;
 }
 
@@ -317,12 +319,12 @@ bool kiln_sort_depth_run(struct kiln_sort_depth *depth, struct kiln_pool *pool,
     work.records = kiln_buffer_host(&pool->records, KILN_READ, error);
     if (!work.records || !reserve(depth, pool, entries, &work, error))
         return false;
-    work.cells = choose_cells(&work, give_room(&work));
+    work.cells = choose_cells(&work, assign_ranges(&work));
     if (!reserve_counts(depth, &work, error))
         return false;
     kiln_threads_for(depth->threads, block_count, 1, list_blocks, &work);
     for (size_t b = 0; b < block_count; b++)
-        work.count += (uint32_t)work.listed[b].count;
+        work.count += (uint32_t)work.block_pairs[b].count;
     if (work.cells.count > 1 && sum_cells(&work)) {
         kiln_threads_for(depth->threads, block_count, 1, scatter_blocks, &work);
         kiln_threads_for(depth->threads, work.cells.count, CELLS_AT_A_TIME, sort_cells, &work);

@@ -42,7 +42,7 @@ bool kiln_network_init(struct kiln_network *network, struct kiln_device *device,
         {"sort/network_pad.comp", NULL, &network->pad_program},
         {"sort/network_take.comp", NULL, &network->take_program},
     };
-    return kiln_alive_init(&network->alive, device, KILN_ALIVE_PLACES, error) &&
+    return kiln_alive_init(&network->alive, device, KILN_ALIVE_INDICES, error) &&
            kiln_network_programs(device, kernels, sizeof kernels / sizeof *kernels, error);
 }
 

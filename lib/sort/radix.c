@@ -2,7 +2,7 @@
  * the digits of every tile of pairs, computes prefix sums of the counts by (digit, tile), and moves
  * each pair to the place that the sums give. No work group waits for another, and no atomic
  * operation decides an order. The number of passes is even, so that the last pass reads the buffer
- * `other` and its list overwrites the pairs. */
+ * `alternate` and its list overwrites the pairs. */
 #include "sort/radix.h"
 
 #include <stdio.h>
@@ -33,18 +33,18 @@ struct kiln_radix {
     struct kiln_alive alive;
     struct kiln_scan scan;
     GLuint count_program, scatter_program, last_program;
-    struct kiln_buffer other;  /* passes alternate between the buffer of pairs and this one */
-    struct kiln_buffer counts; /* ordered by digit, then by tile */
+    struct kiln_buffer alternate; /* passes alternate between the buffer of pairs and this one */
+    struct kiln_buffer counts;    /* ordered by digit, then by tile */
 };
 
-static GLuint create_program(struct kiln_radix *radix, const char *file, const char *more,
+static GLuint create_program(struct kiln_radix *radix, const char *file, const char *extra_defines,
                              struct kiln_error *error)
 {
     char defines[256];
     const struct shape *shape = &radix->shape;
     snprintf(defines, sizeof defines,
              "#define RADIX_BITS %u\n#define RADIX_GROUP_SIZE %u\n#define RADIX_ITEMS %u\n%s",
-             shape->bits, shape->group_size, shape->items, more);
+             shape->bits, shape->group_size, shape->items, extra_defines);
     const struct kiln_program_params params = {.compute = file, .defines = defines};
     return kiln_program_create(radix->device, &params, error);
 }
@@ -94,7 +94,7 @@ struct kiln_radix *kiln_radix_create(struct kiln_device *device, struct kiln_err
     }
     radix->device = device;
     radix->shape = choose_shape(device);
-    kiln_buffer_init(&radix->other, device, 0, "other sort pairs");
+    kiln_buffer_init(&radix->alternate, device, 0, "other sort pairs");
     kiln_buffer_init(&radix->counts, device, 0, "counts of digits");
     if (!kiln_alive_init(&radix->alive, device, KILN_ALIVE_ENTRIES, error) ||
         !kiln_scan_init(&radix->scan, device, error) || !create_programs(radix, error))
@@ -108,7 +108,7 @@ void kiln_radix_destroy(struct kiln_radix **radix)
         return;
     kiln_alive_finish(&(*radix)->alive);
     kiln_scan_finish(&(*radix)->scan);
-    kiln_buffer_finish(&(*radix)->other);
+    kiln_buffer_finish(&(*radix)->alternate);
     kiln_buffer_finish(&(*radix)->counts);
     glDeleteProgram((*radix)->count_program);
     glDeleteProgram((*radix)->scatter_program);
@@ -163,11 +163,11 @@ bool kiln_radix_pairs(struct kiln_radix *radix, struct kiln_buffer *pairs, uint3
         return true;
     struct pass pass = {
         .count = count, .tiles = (count - 1) / tile_size(radix) + 1, .reverse = reverse};
-    kiln_buffer_reserve(&radix->other, pairs->size);
+    kiln_buffer_reserve(&radix->alternate, pairs->size);
     kiln_buffer_reserve(&radix->counts,
                         ((size_t)pass.tiles << radix->shape.bits) * sizeof(uint32_t));
     pass.from = kiln_buffer_gl(pairs, KILN_READ_WRITE, error);
-    pass.to = pass.from ? kiln_buffer_gl(&radix->other, KILN_OVERWRITE, error) : 0;
+    pass.to = pass.from ? kiln_buffer_gl(&radix->alternate, KILN_OVERWRITE, error) : 0;
     pass.counts = pass.to ? kiln_buffer_gl(&radix->counts, KILN_OVERWRITE, error) : 0;
     if (!pass.counts)
         return false;

@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "sort/bitonic.h"
 #include "sort/cpu.h"
-#include "sort/kept.h"
 #include "sort/radix.h"
+#include "sort/spread.h"
 
 struct kiln_sort {
     enum kiln_sort_technique technique;
@@ -15,8 +15,8 @@ struct kiln_sort {
     struct kiln_radix *radix;
     struct kiln_bitonic *bitonic;
     struct kiln_oddeven *oddeven;
-    bool keeps; /* the sort is spread over frames and uses `kept` */
-    struct kiln_kept kept;
+    bool is_spread; /* the sort is spread over frames and uses `spread` */
+    struct kiln_sort_spread spread;
 };
 
 static bool create_technique(struct kiln_sort *sort, struct kiln_device *device,
@@ -66,8 +66,8 @@ struct kiln_sort *kiln_sort_create_spread(struct kiln_device *device, uint32_t f
     struct kiln_sort *sort = kiln_sort_create(device, KILN_SORT_ODDEVEN, threads, error);
     if (!sort)
         return NULL;
-    sort->keeps = true;
-    if (!kiln_kept_init(&sort->kept, device, sort->oddeven, frames, error))
+    sort->is_spread = true;
+    if (!kiln_sort_spread_init(&sort->spread, device, sort->oddeven, frames, error))
         kiln_sort_destroy(&sort);
     return sort;
 }
@@ -76,8 +76,8 @@ void kiln_sort_destroy(struct kiln_sort **sort)
 {
     if (!*sort)
         return;
-    if ((*sort)->keeps)
-        kiln_kept_finish(&(*sort)->kept);
+    if ((*sort)->is_spread)
+        kiln_sort_spread_finish(&(*sort)->spread);
     kiln_oddeven_destroy(&(*sort)->oddeven);
     kiln_sort_cpu_destroy(&(*sort)->cpu);
     kiln_radix_destroy(&(*sort)->radix);
@@ -106,25 +106,26 @@ uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32
 
 bool kiln_sort_keeps_history(const struct kiln_sort *sort)
 {
-    return sort->keeps;
+    return sort->is_spread;
 }
 
-bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
-                      const struct kiln_sort_params *params, struct kiln_error *error)
+bool kiln_sort_advance(struct kiln_sort *sort, struct kiln_pool *pool,
+                       const struct kiln_sort_params *params, struct kiln_error *error)
 {
-    return !sort->keeps || kiln_kept_sort(&sort->kept, pool, params->eye, params->forward, error);
+    return !sort->is_spread ||
+           kiln_sort_spread_advance(&sort->spread, pool, params->eye, params->forward, error);
 }
 
 bool kiln_sort_save(struct kiln_sort *sort, const struct kiln_pool *pool, uint32_t *slots,
-                    uint32_t *turn, struct kiln_error *error)
+                    uint32_t *next_part, struct kiln_error *error)
 {
-    return kiln_kept_save(&sort->kept, pool, slots, turn, error);
+    return kiln_sort_spread_save(&sort->spread, pool, slots, next_part, error);
 }
 
 bool kiln_sort_restore(struct kiln_sort *sort, const struct kiln_pool *pool, const uint32_t *slots,
-                       uint32_t turn, struct kiln_error *error)
+                       uint32_t next_part, struct kiln_error *error)
 {
-    return kiln_kept_restore(&sort->kept, pool, slots, turn, error);
+    return kiln_sort_spread_restore(&sort->spread, pool, slots, next_part, error);
 }
 
 bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
@@ -140,8 +141,8 @@ bool kiln_sort_run(struct kiln_sort *sort, struct kiln_pool *pool,
         return kiln_network_run(kiln_bitonic_network(sort->bitonic), pool, params, entries, count,
                                 error);
     case KILN_SORT_ODDEVEN:
-        if (sort->keeps && params->order != KILN_SORT_BY_SERIAL)
-            return kiln_kept_list(&sort->kept, pool, params, entries, count, error);
+        if (sort->is_spread && params->order != KILN_SORT_BY_SERIAL)
+            return kiln_sort_spread_list(&sort->spread, pool, params, entries, count, error);
         return kiln_network_run(kiln_oddeven_network(sort->oddeven), pool, params, entries, count,
                                 error);
     }

@@ -39,24 +39,24 @@ struct kiln_sort *kiln_sort_create_spread(struct kiln_device *device, uint32_t f
                                           struct kiln_threads *threads, struct kiln_error *error);
 void kiln_sort_destroy(struct kiln_sort **sort);
 
-/* Returns whether the list depends on earlier frames. If so, kiln_sort_follow must be called in
+/* Returns whether the list depends on earlier frames. If so, kiln_sort_advance must be called in
  * order for each moment that could be drawn, even if that moment is not drawn. */
 bool kiln_sort_keeps_history(const struct kiln_sort *sort);
 
 /* Runs the next part of sorting the kept order; kiln_sort_run then lists particles in this order.
  * Every call must pass the same pool. Has no effect on a sort that keeps no history. Ignores
  * params->systems and params->order. */
-bool kiln_sort_follow(struct kiln_sort *sort, struct kiln_pool *pool,
-                      const struct kiln_sort_params *params, struct kiln_error *error);
+bool kiln_sort_advance(struct kiln_sort *sort, struct kiln_pool *pool,
+                       const struct kiln_sort_params *params, struct kiln_error *error);
 
 /* Save and restore the kept order, which consists of all slots of the pool and the part of a sort
- * that comes next (turn). They are only for sorts that keep history. Restoring fails with
+ * that comes next (next_part). They are only for sorts that keep history. Restoring fails with
  * KILN_INVALID_INPUT for slots that the pool does not have. */
 #define KILN_SORT_NOT_BEGUN UINT32_MAX
 bool kiln_sort_save(struct kiln_sort *sort, const struct kiln_pool *pool, uint32_t *slots,
-                    uint32_t *turn, struct kiln_error *error);
+                    uint32_t *next_part, struct kiln_error *error);
 bool kiln_sort_restore(struct kiln_sort *sort, const struct kiln_pool *pool, const uint32_t *slots,
-                       uint32_t turn, struct kiln_error *error);
+                       uint32_t next_part, struct kiln_error *error);
 
 /* Fills entries with the draw entries of the living particles of the chosen systems in the order
  * params->order, and counts them. entries has room for the pool's slot_count; a technique may make

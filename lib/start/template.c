@@ -54,7 +54,7 @@ static const char *find(const char *name, struct kiln_error *error)
 {
     char path[MAX_NAME + sizeof yaml];
     const char *names[MAX_TEMPLATES];
-    char kept[MAX_TEMPLATES][MAX_NAME], list[MAX_TEMPLATES * MAX_NAME] = "";
+    char name_buffers[MAX_TEMPLATES][MAX_NAME], list[MAX_TEMPLATES * MAX_NAME] = "";
     size_t count = 0, length = 0;
     snprintf(path, sizeof path, "%s%s", name, yaml);
     const char *text = kiln_embedded_find(kiln_embedded_templates, path);
@@ -62,10 +62,10 @@ static const char *find(const char *name, struct kiln_error *error)
         return text;
     const struct kiln_embedded_file *file = kiln_embedded_templates;
     for (; file->path && count < MAX_TEMPLATES; file++, count++) {
-        take_name(file, kept[count]);
-        names[count] = kept[count];
+        take_name(file, name_buffers[count]);
+        names[count] = name_buffers[count];
         length += (size_t)snprintf(list + length, sizeof list - length, "%s%s",
-                                   count > 0 ? ", " : "", kept[count]);
+                                   count > 0 ? ", " : "", name_buffers[count]);
     }
     const char *nearest = kiln_text_nearest(name, names, count);
     kiln_error_set(error, KILN_USAGE, "there is no template '%s'%s%s%s; there are %s", name,
@@ -78,14 +78,15 @@ static const char *find(const char *name, struct kiln_error *error)
  * or where the build was going to install it. False when it is in none of these places. */
 static bool find_schema(char path[KILN_PATH_SIZE])
 {
-    static const char *const ways[] = {"../share/kiln/" SCHEMA, "docs/" SCHEMA};
+    static const char *const relative_paths[] = {"../share/kiln/" SCHEMA, "docs/" SCHEMA};
     char *program = realpath("/proc/self/exe", NULL);
     const char *slash = program ? strrchr(program, '/') : NULL;
     bool found = false;
-    for (size_t i = 0; slash && !found && i < sizeof ways / sizeof *ways; i++) {
-        char way[PATH_MAX];
-        snprintf(way, sizeof way, "%.*s/%s", (int)(slash - program), program, ways[i]);
-        char *real = realpath(way, NULL);
+    for (size_t i = 0; slash && !found && i < sizeof relative_paths / sizeof *relative_paths; i++) {
+        char candidate[PATH_MAX];
+        snprintf(candidate, sizeof candidate, "%.*s/%s", (int)(slash - program), program,
+                 relative_paths[i]);
+        char *real = realpath(candidate, NULL);
         found = real && strlen(real) < KILN_PATH_SIZE;
         if (found)
             memcpy(path, real, strlen(real) + 1);

@@ -15,62 +15,66 @@
 #include "base/file.h"
 #include "suite/golden.h"
 
-/* The arguments of a command, which lie in the trial's arena. */
-struct words {
-    struct kiln_trial *trial;
+/* The arguments of a command, which lie in the test case's arena. */
+struct arguments {
+    struct kiln_test_case *test_case;
     const char **items;
     size_t count, capacity;
 };
 
-static void add(struct words *words, const char *word)
+static void add(struct arguments *arguments, const char *argument)
 {
-    if (words->count + 1 < words->capacity)
-        words->items[words->count++] = word;
+    if (arguments->count + 1 < arguments->capacity)
+        arguments->items[arguments->count++] = argument;
 }
 
-static void add_option(struct words *words, const char *option, const char *value)
+static void add_option(struct arguments *arguments, const char *option, const char *value)
 {
-    add(words, option);
-    add(words, value);
+    add(arguments, option);
+    add(arguments, value);
 }
 
 /* Adds the techniques of the result, "simulate=cpu sort=cpu", as options. */
-static void add_techniques(struct words *words)
+static void add_techniques(struct arguments *arguments)
 {
-    const char *rest = words->trial->result->techniques;
+    const char *rest = arguments->test_case->result->techniques;
     while (*rest) {
         const size_t length = strcspn(rest, " ");
-        const char *word = kiln_arena_text(words->trial->arena, rest, length);
-        if (length > 0 && word)
-            add_option(words, "--technique", word);
+        const char *technique = kiln_arena_text(arguments->test_case->arena, rest, length);
+        if (length > 0 && technique)
+            add_option(arguments, "--technique", technique);
         rest += length + (rest[length] == ' ');
     }
 }
 
 /* Returns the command that renders the test's scene, with its overrides, into a picture; NULL when
  * memory is short. */
-static const char **command_of(struct kiln_trial *trial, uint32_t frame, const char *picture)
+static const char **command_of(struct kiln_test_case *test_case, uint32_t frame,
+                               const char *picture)
 {
-    const struct kiln_test *test = trial->test;
-    const bool cpu = strcmp(trial->result->device_name, "cpu") == 0;
-    struct words words = {.trial = trial, .capacity = 64 + 2 * test->override_count};
-    words.items = kiln_arena_alloc(trial->arena, words.capacity, sizeof *words.items);
-    if (!words.items)
+    const struct kiln_test *test = test_case->test;
+    const bool cpu = strcmp(test_case->result->device_name, "cpu") == 0;
+    struct arguments arguments = {.test_case = test_case,
+                                  .capacity = 64 + 2 * test->override_count};
+    arguments.items =
+        kiln_arena_alloc(test_case->arena, arguments.capacity, sizeof *arguments.items);
+    if (!arguments.items)
         return NULL;
-    add(&words, trial->params->against);
-    add_option(&words, "render", test->scene);
+    add(&arguments, test_case->params->against);
+    add_option(&arguments, "render", test->scene);
     for (size_t i = 0; i < test->override_count; i++)
-        add_option(&words, "--set", test->overrides[i]);
-    add_option(&words, "--frames", kiln_trial_text(trial, "%u", frame));
-    add_option(&words, "--device", cpu ? "cpu" : trial->result->device);
-    add_option(&words, "--threads", kiln_trial_text(trial, "%u", trial->result->threads));
+        add_option(&arguments, "--set", test->overrides[i]);
+    add_option(&arguments, "--frames", kiln_test_case_text(test_case, "%u", frame));
+    add_option(&arguments, "--device", cpu ? "cpu" : test_case->result->device);
+    add_option(&arguments, "--threads",
+               kiln_test_case_text(test_case, "%u", test_case->result->threads));
     if (test->format == KILN_TEST_PNG16)
-        add_option(&words, "--png-bits", "16");
-    add_techniques(&words);
-    add_option(&words, "--output", picture);
-    add(&words, "--force");
-    add(&words, "--quiet");
-    return words.items;
+        add_option(&arguments, "--png-bits", "16");
+    add_techniques(&arguments);
+    add_option(&arguments, "--output", picture);
+    add(&arguments, "--force");
+    add(&arguments, "--quiet");
+    return arguments.items;
 }
 
 /* Runs a command, whose output goes to the file `log`. Returns its exit code, 128 plus the number
@@ -98,7 +102,7 @@ static int run(const char **command, const char *log)
 }
 
 /* Returns the last line of a log, or "". */
-static const char *last_line(struct kiln_trial *trial, const char *log)
+static const char *last_line(struct kiln_test_case *test_case, const char *log)
 {
     enum { MOST = 1 << 20 };
     struct kiln_error ignored = {0};
@@ -109,47 +113,48 @@ static const char *last_line(struct kiln_trial *trial, const char *log)
     while (size > 0 && (text[size - 1] == '\n' || text[size - 1] == ' '))
         text[--size] = '\0';
     const char *newline = strrchr(text, '\n');
-    const char *line = kiln_trial_text(trial, "%.400s", newline ? newline + 1 : text);
+    const char *line = kiln_test_case_text(test_case, "%.400s", newline ? newline + 1 : text);
     free(text);
     return line;
 }
 
-bool kiln_trial_draw_against(struct kiln_trial *trial, struct kiln_result_frame *frame,
-                             const char *picture, struct kiln_error *error)
+bool kiln_test_case_draw_against(struct kiln_test_case *test_case, struct kiln_result_frame *frame,
+                                 const char *picture, struct kiln_error *error)
 {
-    const char *program = trial->params->against;
+    const char *program = test_case->params->against;
     char log[KILN_PATH_SIZE], hash[65];
     struct kiln_error problem = {0};
     bool drawn = false;
-    if (!kiln_trial_path(trial, "against.txt", log, error))
+    if (!kiln_test_case_path(test_case, "against.txt", log, error))
         return false;
-    const char **command = command_of(trial, frame->number, picture);
+    const char **command = command_of(test_case, frame->number, picture);
     if (!command)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->path);
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
+                              test_case->test->path);
     const int code = run(command, log), failure = errno;
-    const char *line = last_line(trial, log);
+    const char *line = last_line(test_case, log);
     unlink(log);
     if (code < 0) {
         kiln_error_set_errno(&problem, KILN_USAGE, failure, "%s cannot be run", program);
-        kiln_trial_note(trial, "%s", problem.message);
+        kiln_test_case_note(test_case, "%s", problem.message);
     } else if (code != 0) {
-        kiln_trial_note(trial, "%s does not draw frame %u, exit code %d%s%s", program,
-                        frame->number, code, *line ? ": " : "", line);
+        kiln_test_case_note(test_case, "%s does not draw frame %u, exit code %d%s%s", program,
+                            frame->number, code, *line ? ": " : "", line);
     } else {
         drawn = kiln_pixel_hash(picture, hash, &problem);
         if (!drawn)
-            kiln_trial_note(trial, "%s does not draw frame %u: %s", program, frame->number,
-                            problem.message);
+            kiln_test_case_note(test_case, "%s does not draw frame %u: %s", program, frame->number,
+                                problem.message);
     }
     if (!drawn) {
         unlink(picture);
         return true;
     }
     if (*frame->pixels_expected && strcmp(hash, frame->pixels_expected) != 0)
-        kiln_trial_note(trial,
-                        "%s draws frame %u with other pixels than were accepted%s%s: its version "
-                        "differs, or the scene has changed",
-                        program, frame->number, *frame->kiln_expected ? " of kiln " : "",
-                        frame->kiln_expected);
+        kiln_test_case_note(
+            test_case,
+            "%s draws frame %u with other pixels than were accepted%s%s: its version "
+            "differs, or the scene has changed",
+            program, frame->number, *frame->kiln_expected ? " of kiln " : "", frame->kiln_expected);
     return true;
 }

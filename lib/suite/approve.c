@@ -36,7 +36,7 @@ static bool out_of_memory(struct approval *a)
 }
 
 /* Sets the error for a reason that another run removes; the message names the command. */
-static bool run_again(struct approval *a, const char *what)
+static bool fail_outdated(struct approval *a, const char *what)
 {
     return kiln_error_set(a->error, KILN_INVALID_INPUT, "%s: %s; run it again%s%s", a->params->name,
                           what, *a->result->rerun ? ": " : "", a->result->rerun);
@@ -147,7 +147,7 @@ static bool read_result(struct approval *a)
     if (is_passed_over(a))
         return true;
     if (r->status == KILN_TEST_SKIP)
-        return run_again(a, "the test was skipped and has no pictures");
+        return fail_outdated(a, "the test was skipped and has no pictures");
     if (r->status == KILN_TEST_ERROR || r->frame_count == 0)
         return kiln_error_set(a->error, KILN_INVALID_INPUT,
                               "%s: the test ended with an error, so nothing can be accepted: %s",
@@ -188,13 +188,13 @@ static bool print_scene(struct approval *a, const struct kiln_scene *scene)
  * would leave a golden that nothing uses; a frame that it judges now would have none. */
 static bool check_numbers(struct approval *a, uint32_t scene_frames)
 {
-    uint32_t usual[2];
+    uint32_t default_frames[2];
     const uint32_t *numbers = NULL;
-    size_t count = kiln_test_frames(&a->file.test, scene_frames, usual, &numbers);
+    size_t count = kiln_test_frames(&a->file.test, scene_frames, default_frames, &numbers);
     bool same = count == a->result->frame_count;
     for (size_t i = 0; i < count && same; i++)
         same = a->result->frames[i].number == numbers[i];
-    return same || run_again(a, "the test's frames have changed since the run");
+    return same || fail_outdated(a, "the test's frames have changed since the run");
 }
 
 static bool check_scene(struct approval *a)
@@ -209,7 +209,8 @@ static bool check_scene(struct approval *a)
     const struct kiln_scene_info info = kiln_scene_facts(scene);
     memcpy(a->scene_hash, info.hash, sizeof a->scene_hash);
     bool same = strcmp(a->scene_hash, a->result->scene_hash) == 0;
-    bool ok = same ? print_scene(a, scene) : run_again(a, "the scene has changed since the run");
+    bool ok =
+        same ? print_scene(a, scene) : fail_outdated(a, "the scene has changed since the run");
     ok = ok && check_numbers(a, info.frames);
     kiln_scene_destroy(&scene);
     return ok;
@@ -241,7 +242,7 @@ static bool check_hashes(struct approval *a, const struct kiln_result_frame *fra
             now = expected->pixels[i].hash;
     }
     return strcmp(now, frame->pixels_expected) == 0 || strcmp(now, frame->pixels) == 0 ||
-           run_again(a, changed);
+           fail_outdated(a, changed);
 }
 
 /* Checks that the golden that the picture was judged by has not changed, or that there is still
@@ -251,7 +252,7 @@ static bool check_golden(struct approval *a, const struct kiln_result_frame *fra
     static const char changed[] = "its goldens have changed since the run";
     struct kiln_goldens goldens;
     char path[KILN_PATH_SIZE], golden[65], reference[65];
-    if (a->file.test.kept == KILN_GOLDEN_HASH)
+    if (a->file.test.golden_form == KILN_GOLDEN_HASH)
         return check_hashes(a, frame, changed);
     if (!kiln_goldens_find(&a->file.test, frame->number, a->result->device_name, &goldens,
                            a->error))
@@ -260,18 +261,18 @@ static bool check_golden(struct approval *a, const struct kiln_result_frame *fra
     for (size_t i = 0; i < goldens.count; i++)
         found |= strcmp(goldens.paths[i], frame->golden) == 0;
     if (!found)
-        return run_again(a, changed);
+        return fail_outdated(a, changed);
     if (goldens.count == 0)
-        return !*frame->reference || run_again(a, changed);
+        return !*frame->reference || fail_outdated(a, changed);
     if (!kiln_pixel_hash(frame->golden, golden, a->error))
         return false;
     if (strcmp(golden, frame->pixels) == 0)
         return true;
     if (!*frame->reference || strchr(frame->reference, '/'))
-        return run_again(a, changed);
+        return fail_outdated(a, changed);
     return kiln_path_join(path, a->folder, frame->reference, a->error) &&
            kiln_pixel_hash(path, reference, a->error) &&
-           (strcmp(golden, reference) == 0 || run_again(a, changed));
+           (strcmp(golden, reference) == 0 || fail_outdated(a, changed));
 }
 
 static bool check_frame(struct approval *a, const struct kiln_result_frame *frame)
@@ -285,7 +286,7 @@ static bool check_frame(struct approval *a, const struct kiln_result_frame *fram
         return kiln_error_set(a->error, KILN_INVALID_INPUT,
                               "%s/result.json: frame %u has no picture", a->folder, frame->number);
     if (!has_suffix(&a->file.test, frame->picture))
-        return run_again(a, "the test's format has changed since the run");
+        return fail_outdated(a, "the test's format has changed since the run");
     if (!kiln_path_join(picture, a->folder, frame->picture, a->error) ||
         !kiln_pixel_hash(picture, pixels, a->error))
         return false;
@@ -313,7 +314,7 @@ static bool check_frames(struct approval *a)
 
 /* ---- writing -------------------------------------------------------------------------------- */
 
-static void tell(const struct approval *a, const char *folder, const char *name)
+static void report_change(const struct approval *a, const char *folder, const char *name)
 {
     char line[KILN_PATH_SIZE + 300];
     snprintf(line, sizeof line, "%s %s%s%s", a->params->dry_run ? "would write" : "wrote", folder,
@@ -332,7 +333,7 @@ static bool accept_frame(struct approval *a, const struct kiln_result_frame *fra
                                                .as = a->params->as,
                                                .golden = frame->golden,
                                                .build = a->result->version};
-    const bool hash = a->file.test.kept == KILN_GOLDEN_HASH;
+    const bool hash = a->file.test.golden_form == KILN_GOLDEN_HASH;
     const bool replace = a->params->as == KILN_APPROVE_REPLACE || hash;
     if (!kiln_path_join(picture, a->folder, frame->picture, a->error))
         return false;
@@ -344,7 +345,7 @@ static bool accept_frame(struct approval *a, const struct kiln_result_frame *fra
         !kiln_goldens_accept(a->arena, &a->file.test, a->expect, &acceptance, path, a->error))
         return false;
     if (!hash)
-        tell(a, a->params->dry_run && replace ? frame->golden : path, "");
+        report_change(a, a->params->dry_run && replace ? frame->golden : path, "");
     return true;
 }
 
@@ -358,17 +359,17 @@ static bool write_all(struct approval *a)
             return false;
     }
     a->expect->scene_hash = a->scene_hash;
-    a->expect->bare = test->kept == KILN_GOLDEN_HASH;
+    a->expect->hashes_only = test->golden_form == KILN_GOLDEN_HASH;
     if (!kiln_expect_set_techniques(a->arena, a->expect, a->result->techniques))
         return out_of_memory(a);
-    if (!a->expect->bare) {
+    if (!a->expect->hashes_only) {
         if (!a->params->dry_run && !kiln_goldens_write_scene(test, a->scene_text, a->error))
             return false;
-        tell(a, test->golden, "scene.yaml");
+        report_change(a, test->golden, "scene.yaml");
     }
     if (!a->params->dry_run && !kiln_expect_write(a->expect, test->golden, a->error))
         return false;
-    tell(a, test->golden, "expect.yaml");
+    report_change(a, test->golden, "expect.yaml");
     return true;
 }
 

@@ -16,7 +16,7 @@
 #include "compare/metric.h"
 #include "frame/technique.h"
 #include "suite/summary.h"
-#include "suite/trial.h"
+#include "suite/test_case.h"
 
 /* The strictest limits that are proposed: about three times what another code path of a driver
  * changes (docs/measurements.md, "How much changes show"), or a few pixels where nothing changes. A
@@ -24,7 +24,7 @@
 static const struct {
     const char *metric; /* the metric, or the start of its name */
     double value;
-} floors[] = {
+} strictest_limits[] = {
     {"flip.mean", 0.001},
     {"flip.max", 0.05},
     {"flip.p", 0.025},
@@ -40,7 +40,7 @@ static const struct {
 enum { MAX_THREAD_COUNTS = 3 };
 
 struct calibrating {
-    struct kiln_trial trial;
+    struct kiln_test_case test_case;
     struct kiln_test_params test_params;
     const struct kiln_calibrate_params *params;
     struct kiln_calibration *calibration;
@@ -82,7 +82,7 @@ static void list_variants(struct calibrating *c)
  * techniques, the threads advance by one more step, so that all pairs of both come up. */
 static struct variant choose_variant(const struct calibrating *c, size_t index)
 {
-    const struct kiln_test *test = c->trial.test;
+    const struct kiln_test *test = c->test_case.test;
     size_t round = index / c->devices;
     struct variant variant = {
         .device = c->params->device_count ? c->params->devices[index % c->devices] : test->device,
@@ -94,7 +94,7 @@ static struct variant choose_variant(const struct calibrating *c, size_t index)
 
 /* Reports a variant to the caller: "threads=2 simulate=inplace sort=cpu backdrop=cpu
  * raster=geometry device=llvmpipe". */
-static void tell(const struct calibrating *c, const struct variant *variant)
+static void report_variant(const struct calibrating *c, const struct variant *variant)
 {
     struct kiln_text text = {0};
     kiln_text_add(&text, "threads=%u", variant->threads);
@@ -116,18 +116,18 @@ static bool render(struct calibrating *c, const struct variant *variant,
     for (size_t i = 0; i < KILN_STAGE_COUNT; i++)
         flags[i] = variant->techniques.flags[i];
     const struct kiln_rendering_params params = {
-        .test = c->trial.test,
+        .test = c->test_case.test,
         .device = variant->device,
         .techniques = flags,
         .technique_count = KILN_STAGE_COUNT,
         .threads = variant->threads,
         .folder = c->folder,
-        .addition = c->calibration->renders == 0 ? "_first" : "_again",
+        .name_tag = c->calibration->renders == 0 ? "_first" : "_again",
         .stop = c->params->stop,
         .user = c->params->user,
         .log = c->params->log,
     };
-    bool ok = kiln_rendering_make(c->trial.arena, &params, rendering, error);
+    bool ok = kiln_rendering_make(c->test_case.arena, &params, rendering, error);
     bool lacks_gl = error->code == KILN_USAGE && rendering->device.usable && !rendering->device.gl;
     *refused = !ok && ((error->code == KILN_NO_DEVICE && !rendering->no_device) || lacks_gl);
     return ok;
@@ -148,7 +148,7 @@ static bool is_worse(const struct kiln_compare_column *column, double a, double 
 
 static void take_values(struct calibrating *c, const struct kiln_compare_frame *frame)
 {
-    const struct kiln_result *result = c->trial.result;
+    const struct kiln_result *result = c->test_case.result;
     for (size_t i = 0; i < result->column_count; i++) {
         if (c->measured == 0 || is_worse(&result->columns[i], frame->values[i], c->worst[i]))
             c->worst[i] = frame->values[i];
@@ -162,7 +162,7 @@ static bool check_state(const struct calibrating *c, const struct kiln_rendered_
                         const struct kiln_rendered_frame *first, bool has_golden,
                         struct kiln_error *error)
 {
-    const struct kiln_expect_frame *expected = kiln_expect_find(c->trial.expect, frame->number);
+    const struct kiln_expect_frame *expected = kiln_expect_find(c->test_case.expect, frame->number);
     if (strcmp(frame->state, first->state) != 0)
         return kiln_error_set(error, KILN_FRAME_FAILED,
                               "render %u has the state %s at frame %u, but the first render had "
@@ -180,9 +180,9 @@ static bool check_state(const struct calibrating *c, const struct kiln_rendered_
 
 static bool compare_with(struct calibrating *c, const char *reference,
                          const struct kiln_rendered_frame *frame,
-                         struct kiln_trial_comparison *comparison, struct kiln_error *error)
+                         struct kiln_test_case_comparison *comparison, struct kiln_error *error)
 {
-    if (!kiln_trial_compare(&c->trial, reference, frame->path, NULL, comparison, error))
+    if (!kiln_test_case_compare(&c->test_case, reference, frame->path, NULL, comparison, error))
         return false;
     return comparison->frame.measured ||
            kiln_error_set(error, KILN_FRAME_FAILED, "frame %u: %s: %s", frame->number, reference,
@@ -194,10 +194,11 @@ static bool measure_frame(struct calibrating *c, const struct kiln_rendering *re
 {
     const struct kiln_rendered_frame *frame = &rendering->frames[index];
     const struct kiln_rendered_frame *first = &c->first.frames[index];
-    struct kiln_trial_comparison comparison;
+    struct kiln_test_case_comparison comparison;
     struct kiln_compare_frame nearest = {0};
     struct kiln_goldens goldens;
-    if (!kiln_goldens_find(c->trial.test, frame->number, rendering->device_name, &goldens, error) ||
+    if (!kiln_goldens_find(c->test_case.test, frame->number, rendering->device_name, &goldens,
+                           error) ||
         !check_state(c, frame, first, goldens.count > 0, error))
         return false;
     for (size_t i = 0; i < goldens.count; i++) {
@@ -229,7 +230,8 @@ static bool measure_render(struct calibrating *c, const struct kiln_rendering *r
 {
     if (rendering->frame_count != c->first.frame_count)
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: the scene changed during the calibration", c->trial.test->path);
+                              "%s: the scene changed during the calibration",
+                              c->test_case.test->path);
     for (size_t i = 0; i < rendering->frame_count; i++) {
         if (!measure_frame(c, rendering, i, error))
             return false;
@@ -248,7 +250,7 @@ static bool measure_all(struct calibrating *c, struct kiln_error *error)
         if (c->params->stop && c->params->stop(c->params->user))
             return kiln_error_set(error, KILN_INTERRUPTED, "stopped after %u renders",
                                   c->calibration->renders);
-        tell(c, &variant);
+        report_variant(c, &variant);
         if (!render(c, &variant, &rendering, &refused, error)) {
             remove_pictures(&rendering);
             if (!refused || ++refusals > variants)
@@ -282,30 +284,31 @@ static double round_up(double value)
     return kiln_text_to_double(text, &rounded) ? rounded : value;
 }
 
-static double floor_of(const struct kiln_compare_column *column)
+static double strictest_limit(const struct kiln_compare_column *column)
 {
-    for (size_t i = 0; i < sizeof floors / sizeof *floors; i++) {
-        if (strncmp(column->name, floors[i].metric, strlen(floors[i].metric)) == 0)
-            return floors[i].value;
+    for (size_t i = 0; i < sizeof strictest_limits / sizeof *strictest_limits; i++) {
+        const char *metric = strictest_limits[i].metric;
+        if (strncmp(column->name, metric, strlen(metric)) == 0)
+            return strictest_limits[i].value;
     }
     return column->limit;
 }
 
 static double propose(const struct kiln_compare_column *column, double worst, double margin)
 {
-    double least = floor_of(column);
+    double strictest = strictest_limit(column);
     if (strcmp(column->name, "ssim") == 0) /* may go down to -1 */
-        return fmax(-1.0, fmin(least, 1.0 - round_up((1.0 - worst) * margin)));
+        return fmax(-1.0, fmin(strictest, 1.0 - round_up((1.0 - worst) * margin)));
     if (column->higher_is_better) /* decibels */
-        return fmax(0.0, fmin(least, floor(worst - 20.0 * log10(margin))));
-    double limit = fmax(least, round_up(worst * margin));
+        return fmax(0.0, fmin(strictest, floor(worst - 20.0 * log10(margin))));
+    double limit = fmax(strictest, round_up(worst * margin));
     bool is_part = strncmp(column->name, "flip.", 5) == 0 || strstr(column->name, ".share");
     return is_part ? fmin(limit, 1.0) : limit;
 }
 
 static void propose_all(struct calibrating *c)
 {
-    const struct kiln_result *result = c->trial.result;
+    const struct kiln_result *result = c->test_case.result;
     struct kiln_calibration *calibration = c->calibration;
     for (size_t i = 0; i < result->column_count; i++) {
         const struct kiln_compare_column *column = &result->columns[i];
@@ -324,15 +327,15 @@ static void propose_all(struct calibrating *c)
 static void note_looser(const struct calibrating *c, struct kiln_text *reason)
 {
     static const char *const default_limits[] = {KILN_COMPARE_DEFAULT_LIMITS};
-    struct kiln_metric_set usual;
+    struct kiln_metric_set defaults;
     struct kiln_error ignored = {0};
     bool any = false;
-    if (!kiln_metric_set_make(&usual, default_limits, 1, &ignored))
+    if (!kiln_metric_set_make(&defaults, default_limits, 1, &ignored))
         return;
     for (size_t i = 0; i < c->calibration->count; i++) {
         const struct kiln_calibrated *proposal = &c->calibration->metrics[i];
-        for (size_t k = 0; k < usual.count; k++) {
-            const struct kiln_compare_column *column = &usual.columns[k];
+        for (size_t k = 0; k < defaults.count; k++) {
+            const struct kiln_compare_column *column = &defaults.columns[k];
             if (!column->limited || strcmp(column->name, proposal->metric) != 0 ||
                 !is_worse(column, proposal->proposed, column->limit))
                 continue;
@@ -340,7 +343,7 @@ static void note_looser(const struct calibrating *c, struct kiln_text *reason)
                           any ? ", " : "; looser than the default limits: ", proposal->metric);
             kiln_log_write(&c->params->log, KILN_LOG_WARNING,
                            "%s: limit %s=%g is looser than the default limit, %g: %g was measured",
-                           c->trial.test->full_name, proposal->metric, proposal->proposed,
+                           c->test_case.test->full_name, proposal->metric, proposal->proposed,
                            column->limit, proposal->worst);
             any = true;
         }
@@ -361,22 +364,23 @@ static const char *make_reason(struct calibrating *c)
                   c->calibration->renders, c->device_names, c->threads[c->thread_counts - 1],
                   c->params->margin);
     note_looser(c, &reason);
-    const char *text = reason.failed ? "" : kiln_trial_text(&c->trial, "%s", reason.data);
+    const char *text = reason.failed ? "" : kiln_test_case_text(&c->test_case, "%s", reason.data);
     kiln_text_free(&reason);
     return text;
 }
 
 static bool write_expect(struct calibrating *c, const char *reason, struct kiln_error *error)
 {
-    struct kiln_arena *arena = c->trial.arena;
+    struct kiln_arena *arena = c->test_case.arena;
     size_t count = c->calibration->count;
-    struct kiln_expect *expect = kiln_expect_read(arena, c->trial.test->golden, error);
+    struct kiln_expect *expect = kiln_expect_read(arena, c->test_case.test->golden, error);
     if (!expect)
         return false;
     expect->limits = kiln_arena_alloc(arena, count + 1, sizeof *expect->limits);
     expect->measured = kiln_arena_alloc(arena, count + 1, sizeof *expect->measured);
     if (!expect->limits || !expect->measured)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", c->trial.test->path);
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
+                              c->test_case.test->path);
     expect->limit_count = expect->measured_count = 0;
     for (size_t i = 0; i < count; i++) {
         const struct kiln_calibrated *proposal = &c->calibration->metrics[i];
@@ -387,18 +391,19 @@ static bool write_expect(struct calibrating *c, const char *reason, struct kiln_
                 (struct kiln_expect_value){proposal->metric, proposal->worst};
     }
     expect->reason = reason;
-    return kiln_expect_write(expect, c->trial.test->golden, error);
+    return kiln_expect_write(expect, c->test_case.test->golden, error);
 }
 
 static bool propose_and_write(struct calibrating *c, struct kiln_error *error)
 {
     propose_all(c);
     const char *reason = make_reason(c);
-    if (c->trial.no_memory)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", c->trial.test->path);
+    if (c->test_case.no_memory)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
+                              c->test_case.test->path);
     if (!c->params->write)
         return true;
-    int lock = kiln_goldens_lock(c->trial.test, error);
+    int lock = kiln_goldens_lock(c->test_case.test, error);
     if (lock < 0)
         return false;
     bool ok = write_expect(c, reason, error);
@@ -424,9 +429,10 @@ static bool check_params(const struct kiln_calibrate_params *params, struct kiln
  */
 static bool make_folder(struct calibrating *c, struct kiln_error *error)
 {
-    char *folder = kiln_arena_format(c->trial.arena, "%s/kiln-XXXXXX", c->params->scratch);
+    char *folder = kiln_arena_format(c->test_case.arena, "%s/kiln-XXXXXX", c->params->scratch);
     if (!folder)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", c->trial.test->path);
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
+                              c->test_case.test->path);
     c->folder = mkdtemp(folder);
     return c->folder ||
            kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be made", folder);
@@ -434,18 +440,20 @@ static bool make_folder(struct calibrating *c, struct kiln_error *error)
 
 static bool prepare(struct calibrating *c, struct kiln_error *error)
 {
-    struct kiln_trial *trial = &c->trial;
-    if (trial->test->problem.code != KILN_OK) {
-        *error = trial->test->problem;
+    struct kiln_test_case *test_case = &c->test_case;
+    if (test_case->test->problem.code != KILN_OK) {
+        *error = test_case->test->problem;
         return false;
     }
-    trial->result = trial->arena ? kiln_result_start(trial->arena, trial->test) : NULL;
-    if (!trial->result) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", trial->test->path);
+    test_case->result =
+        test_case->arena ? kiln_result_start(test_case->arena, test_case->test) : NULL;
+    if (!test_case->result) {
+        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test_case->test->path);
         return false;
     }
-    trial->expect = kiln_expect_read(trial->arena, trial->test->golden, error);
-    return trial->expect && kiln_trial_set_limits(trial, error) && make_folder(c, error);
+    test_case->expect = kiln_expect_read(test_case->arena, test_case->test->golden, error);
+    return test_case->expect && kiln_test_case_set_limits(test_case, error) &&
+           make_folder(c, error);
 }
 
 bool kiln_test_calibrate(const struct kiln_suite *suite, size_t index,
@@ -453,12 +461,12 @@ bool kiln_test_calibrate(const struct kiln_suite *suite, size_t index,
                          struct kiln_calibration *calibration, struct kiln_error *error)
 {
     struct calibrating c = {
-        .trial = {.suite = suite, .test = &suite->tests[index], .arena = kiln_arena_create()},
+        .test_case = {.suite = suite, .test = &suite->tests[index], .arena = kiln_arena_create()},
         .test_params = kiln_test_defaults(),
         .params = params,
         .calibration = calibration,
     };
-    c.trial.params = &c.test_params;
+    c.test_case.params = &c.test_params;
     *calibration = (struct kiln_calibration){.equal = true};
     bool ok = check_params(params, error) && prepare(&c, error);
     if (ok) {
@@ -469,6 +477,6 @@ bool kiln_test_calibrate(const struct kiln_suite *suite, size_t index,
     }
     if (c.folder)
         rmdir(c.folder);
-    kiln_arena_destroy(&c.trial.arena);
+    kiln_arena_destroy(&c.test_case.arena);
     return ok;
 }

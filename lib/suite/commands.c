@@ -3,61 +3,61 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "suite/trial.h"
+#include "suite/test_case.h"
 
-static void add_word(struct kiln_text *text, const char *word)
+static void add_argument(struct kiln_text *text, const char *argument)
 {
-    kiln_text_add(text, *word == '-' ? " ./" : " "); /* so that no path is an option */
-    kiln_text_add_shell_word(text, word);
+    kiln_text_add(text, *argument == '-' ? " ./" : " "); /* so that no path is an option */
+    kiln_text_add_shell_word(text, argument);
 }
 
 static void add_option(struct kiln_text *text, const char *option, const char *value)
 {
     kiln_text_add(text, " %s", option);
-    add_word(text, value);
+    add_argument(text, value);
 }
 
 /* Adds options for the run's folders that are not the default ones. The folder GOLDEN is
  * test->golden, which is GOLDEN/NAME, without the name. */
-static void add_folders(const struct kiln_trial *trial, struct kiln_text *text, bool golden)
+static void add_folders(const struct kiln_test_case *test_case, struct kiln_text *text, bool golden)
 {
-    const struct kiln_test *test = trial->test;
+    const struct kiln_test *test = test_case->test;
     size_t length = strlen(test->golden), name = strlen(test->name);
     const char *folder = NULL;
     if (length > name + 1)
-        folder = kiln_arena_text(trial->arena, test->golden, length - name - 1);
+        folder = kiln_arena_text(test_case->arena, test->golden, length - name - 1);
     if (golden && folder && strcmp(folder, kiln_suite_defaults().golden) != 0)
         add_option(text, "--golden", folder);
-    const char *results = trial->suite->results_folder;
+    const char *results = test_case->suite->results_folder;
     if (results && strcmp(results, kiln_suite_defaults().results) != 0)
         add_option(text, "--results", results);
 }
 
 /* Adds the arguments that select the test: its file and, for one of several devices, its full name.
  */
-static void add_selection(const struct kiln_trial *trial, struct kiln_text *text)
+static void add_selection(const struct kiln_test_case *test_case, struct kiln_text *text)
 {
-    const struct kiln_test *test = trial->test;
+    const struct kiln_test *test = test_case->test;
     if (strcmp(test->name, test->full_name) != 0)
         add_option(text, "--filter", test->full_name);
-    add_word(text, test->path);
+    add_argument(text, test->path);
 }
 
-static const char *take(struct kiln_trial *trial, struct kiln_text *text)
+static const char *finish_command(struct kiln_test_case *test_case, struct kiln_text *text)
 {
-    trial->no_memory = trial->no_memory || text->failed;
-    const char *command = text->failed ? "" : kiln_trial_text(trial, "%s", text->data);
+    test_case->no_memory = test_case->no_memory || text->failed;
+    const char *command = text->failed ? "" : kiln_test_case_text(test_case, "%s", text->data);
     kiln_text_free(text);
     return command;
 }
 
-const char *kiln_trial_rerun_command(struct kiln_trial *trial)
+const char *kiln_test_case_rerun_command(struct kiln_test_case *test_case)
 {
-    const struct kiln_test_params *params = trial->params;
+    const struct kiln_test_params *params = test_case->params;
     struct kiln_text text = {0};
     kiln_text_add(&text, "kiln test");
-    add_folders(trial, &text, true);
-    if (params->device && !trial->test->device)
+    add_folders(test_case, &text, true);
+    if (params->device && !test_case->test->device)
         add_option(&text, "--device", params->device);
     for (size_t i = 0; i < params->technique_count; i++)
         add_option(&text, "--technique", params->techniques[i]);
@@ -67,15 +67,15 @@ const char *kiln_trial_rerun_command(struct kiln_trial *trial)
                   params->strict ? " --strict" : "");
     if (params->against)
         add_option(&text, "--against", params->against);
-    add_selection(trial, &text);
-    return take(trial, &text);
+    add_selection(test_case, &text);
+    return finish_command(test_case, &text);
 }
 
-const char *kiln_trial_approve_command(struct kiln_trial *trial)
+const char *kiln_test_case_approve_command(struct kiln_test_case *test_case)
 {
     struct kiln_text text = {0};
     kiln_text_add(&text, "kiln test approve");
-    add_folders(trial, &text, false);
-    add_word(&text, trial->test->full_name);
-    return take(trial, &text);
+    add_folders(test_case, &text, false);
+    add_argument(&text, test_case->test->full_name);
+    return finish_command(test_case, &text);
 }

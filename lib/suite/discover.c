@@ -61,16 +61,17 @@ static size_t root_length(const struct search *search, const char *path)
  * name tells the parent. */
 static const char *find_parent(struct kiln_arena *arena, const char *folder)
 {
-    char *there = realpath(folder, NULL);
-    const char *path = there ? kiln_arena_text(arena, there, strlen(there)) : folder;
-    free(there);
+    char *real_folder = realpath(folder, NULL);
+    const char *path =
+        real_folder ? kiln_arena_text(arena, real_folder, strlen(real_folder)) : folder;
+    free(real_folder);
     const char *slash = path ? strrchr(path, '/') : NULL;
     const size_t length = slash ? (size_t)(slash - path) : 0;
     const char *parent = length ? kiln_arena_text(arena, path, length) : slash ? "/" : ".";
     char *real = path && parent ? realpath(parent, NULL) : NULL;
-    const char *kept = real ? kiln_arena_text(arena, real, strlen(real)) : NULL;
+    const char *copy = real ? kiln_arena_text(arena, real, strlen(real)) : NULL;
     free(real);
-    return kept;
+    return copy;
 }
 
 /* ---- one file ------------------------------------------------------------------------------- */
@@ -290,7 +291,7 @@ static bool search_folder(struct search *search, const char *folder)
 
 /* Adds the prefix of the names of tests in a folder. Names below a folder with a marker have
  * another. */
-static bool add_start(struct search *search, const char *folder)
+static bool add_name_prefix(struct search *search, const char *folder)
 {
     struct kiln_findings *findings = search->findings;
     char *real = realpath(*folder ? folder : ".", NULL);
@@ -298,7 +299,7 @@ static bool add_start(struct search *search, const char *folder)
     free(real);
     if (!path)
         return out_of_memory(search);
-    findings->starts[findings->start_count++] = path + root_length(search, path);
+    findings->name_prefixes[findings->name_prefix_count++] = path + root_length(search, path);
     return true;
 }
 
@@ -311,8 +312,8 @@ static bool search_operand_folder(struct search *search)
         length--;
     bool here = length == 1 && *operand == '.';
     char *folder = strndup(operand, here ? 0 : length);
-    bool ok =
-        folder ? search_folder(search, folder) && add_start(search, folder) : out_of_memory(search);
+    bool ok = folder ? search_folder(search, folder) && add_name_prefix(search, folder)
+                     : out_of_memory(search);
     free(folder);
     return ok &&
            (search->seen > before ||
@@ -346,8 +347,9 @@ bool kiln_discover(struct kiln_arena *arena, const struct kiln_suite_params *par
                             .error = error,
                             .root = find_parent(arena, params->golden)};
     const char *const skipped[] = {params->golden, params->results};
-    findings->starts = kiln_arena_alloc(arena, params->path_count + 1, sizeof *findings->starts);
-    if (!findings->starts)
+    findings->name_prefixes =
+        kiln_arena_alloc(arena, params->path_count + 1, sizeof *findings->name_prefixes);
+    if (!findings->name_prefixes)
         return out_of_memory(&search);
     for (size_t i = 0; i < 2; i++) {
         if (stat(skipped[i], &search.skipped[search.skipped_count]) == 0)

@@ -17,9 +17,9 @@ struct kiln_found {
 struct kiln_findings {
     struct kiln_found *items; /* in the arena */
     size_t count, capacity;
-    const char **starts; /* for each searched folder, the prefix of the names of its tests,
-                            "effects/" or "" */
-    size_t start_count;
+    const char **name_prefixes; /* for each searched folder, the prefix of the names of its tests,
+                                   "effects/" or "" */
+    size_t name_prefix_count;
 };
 
 /* Finds the tests among the operands, params->paths. In a folder, it takes test files and YAML

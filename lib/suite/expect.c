@@ -47,14 +47,14 @@ static bool out_of_memory(struct kiln_error *error)
 static bool read_hex(struct kiln_reader *reader, const struct kiln_option *option,
                      const struct kiln_node *node, void *field)
 {
-    const char *text = node->kind == KILN_NODE_SCALAR ? node->text : "-", *kept = NULL;
+    const char *text = node->kind == KILN_NODE_SCALAR ? node->text : "-", *copy = NULL;
     size_t length = strlen(text);
     bool none = length == 0 && node->quoted && option->min == 0;
     if (!none && ((double)length != option->max || strspn(text, "0123456789abcdef") != length))
         return kiln_reader_mismatch(reader, option, node);
-    if (!none && !(kept = kiln_arena_text(reader->arena, text, length)))
+    if (!none && !(copy = kiln_arena_text(reader->arena, text, length)))
         return kiln_reader_out_of_memory(reader);
-    memcpy(field, &kept, sizeof kept);
+    memcpy(field, &copy, sizeof copy);
     return true;
 }
 
@@ -102,7 +102,7 @@ static bool read_pixels(struct kiln_reader *reader, const struct kiln_option *op
             return kiln_reader_error(reader, entry->key,
                                      "no device's name; a name has lower-case letters, digits, '.' "
                                      "and '-', as in llvmpipe-llvm-15.0.6-256-bits");
-        if (!kiln_reader_keep_text(reader, device, &pixels->device) ||
+        if (!kiln_reader_copy_text(reader, device, &pixels->device) ||
             !kiln_read_members(reader, pixels_rows, entry, pixels))
             return false;
         kiln_reader_leave(reader, before);
@@ -399,12 +399,12 @@ static void print_frames(struct kiln_text *text, const struct kiln_expect *expec
 
 bool kiln_expect_print(const struct kiln_expect *expect, const char *golden, struct kiln_text *text)
 {
-    if (!expect->bare)
+    if (!expect->hashes_only)
         kiln_text_add(text,
                       "# Written by kiln test, and rewritten by it: comments are not kept.\n");
     kiln_text_add(text, "kiln_expect: 1\n");
     print_text(text, "scene_hash", expect->scene_hash);
-    if (!expect->bare)
+    if (!expect->hashes_only)
         print_techniques(text, expect);
     print_values(text, "limits", expect->limits, expect->limit_count);
     print_text(text, "reason", expect->reason);

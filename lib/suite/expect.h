@@ -46,7 +46,7 @@ struct kiln_expect_value {
 
 struct kiln_expect {
     bool missing;           /* there is no expect.yaml */
-    bool bare;              /* the test keeps hashes alone: techniques are not written */
+    bool hashes_only;       /* the test keeps hashes alone: techniques are not written */
     const char *scene_hash; /* SHA-256 of the accepted scene, or NULL */
     const char **techniques;
     size_t technique_count;

@@ -24,17 +24,18 @@ void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE])
     bool gap = false;
     for (const char *c = renderer; *c; c++) {
         bool capital = *c >= 'A' && *c <= 'Z';
-        bool kept = capital || (*c >= 'a' && *c <= 'z') || (*c >= '0' && *c <= '9') || *c == '.';
-        if (kept && length + 2 + gap > KILN_DEVICE_NAME_SIZE)
+        bool is_name_character =
+            capital || (*c >= 'a' && *c <= 'z') || (*c >= '0' && *c <= '9') || *c == '.';
+        if (is_name_character && length + 2 + gap > KILN_DEVICE_NAME_SIZE)
             break;
-        if (kept && gap && length > 0)
+        if (is_name_character && gap && length > 0)
             name[length++] = '-';
-        if (kept)
+        if (is_name_character)
             name[length] = *c;
         if (capital)
             name[length] = (char)(*c - 'A' + 'a');
-        length += kept;
-        gap = !kept;
+        length += is_name_character;
+        gap = !is_name_character;
     }
     name[length] = '\0';
 }
@@ -327,9 +328,9 @@ bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error)
 static bool put_picture(const struct kiln_acceptance *acceptance, const char *path,
                         const char *pixels, struct kiln_error *error)
 {
-    char there[65];
+    char existing_hash[65];
     struct kiln_error ignored = {0}; /* a file that is missing or broken is replaced */
-    if (kiln_pixel_hash(path, there, &ignored) && strcmp(there, pixels) == 0)
+    if (kiln_pixel_hash(path, existing_hash, &ignored) && strcmp(existing_hash, pixels) == 0)
         return true;
     return kiln_file_copy(acceptance->picture, path, error);
 }
@@ -355,9 +356,10 @@ static bool choose_place(const struct kiln_test *test, const struct kiln_accepta
         !kiln_goldens_find(test, acceptance->frame, device, &goldens, error))
         return false;
     for (size_t i = 0; !place && i < goldens.count; i++) {
-        char there[65];
+        char existing_hash[65];
         struct kiln_error ignored = {0};
-        if (kiln_pixel_hash(goldens.paths[i], there, &ignored) && strcmp(there, pixels) == 0)
+        if (kiln_pixel_hash(goldens.paths[i], existing_hash, &ignored) &&
+            strcmp(existing_hash, pixels) == 0)
             place = goldens.paths[i];
     }
     if (!place)
@@ -371,7 +373,7 @@ bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
                          char path[KILN_PATH_SIZE], struct kiln_error *error)
 {
     char pixels[65];
-    const bool hash = test->kept == KILN_GOLDEN_HASH;
+    const bool hash = test->golden_form == KILN_GOLDEN_HASH;
     if (!kiln_pixel_hash(acceptance->picture, pixels, error))
         return false;
     if (hash ? !kiln_path_join(path, test->golden, "expect.yaml", error)

@@ -8,12 +8,12 @@
 
 #include "base/error.h"
 #include "suite/against.h"
-#include "suite/trial.h"
+#include "suite/test_case.h"
 
 struct judging {
-    struct kiln_trial *trial;
+    struct kiln_test_case *test_case;
     struct kiln_result_frame *frame;
-    struct kiln_trial_frame *own;
+    struct kiln_test_case_frame *case_frame;
     char picture[KILN_PATH_SIZE];
     struct kiln_goldens goldens;
     char hashes[KILN_MAX_GOLDENS][65];
@@ -35,8 +35,8 @@ static bool decide(struct judging *j, enum kiln_test_status status, enum kiln_ju
 /* Checks that the picture can be compared: one with NaN must not become a golden. */
 static bool check_picture(struct judging *j, struct kiln_error *error)
 {
-    struct kiln_trial_comparison comparison;
-    return kiln_trial_compare(j->trial, j->picture, j->picture, NULL, &comparison, error);
+    struct kiln_test_case_comparison comparison;
+    return kiln_test_case_compare(j->test_case, j->picture, j->picture, NULL, &comparison, error);
 }
 
 /* Hashes a golden. A golden that cannot be decoded is the frame's error, but an update can replace
@@ -48,31 +48,32 @@ static bool hash_golden(struct judging *j, size_t index)
         return true;
     if (j->error.code != KILN_INVALID_INPUT || !check_picture(j, &ignored))
         return false;
-    j->own->broken_golden = true;
-    j->frame->golden = kiln_trial_text(j->trial, "%s", j->goldens.paths[index]);
+    j->case_frame->broken_golden = true;
+    j->frame->golden = kiln_test_case_text(j->test_case, "%s", j->goldens.paths[index]);
     return false;
 }
 
 static bool find_goldens(struct judging *j)
 {
-    struct kiln_trial *trial = j->trial;
-    if (!kiln_trial_path(trial, j->frame->picture, j->picture, &j->error))
+    struct kiln_test_case *test_case = j->test_case;
+    if (!kiln_test_case_path(test_case, j->frame->picture, j->picture, &j->error))
         return false;
-    if (trial->test->kept == KILN_GOLDEN_HASH) {
-        j->frame->golden = kiln_trial_text(trial, "%s/expect.yaml", trial->test->golden);
+    if (test_case->test->golden_form == KILN_GOLDEN_HASH) {
+        j->frame->golden =
+            kiln_test_case_text(test_case, "%s/expect.yaml", test_case->test->golden);
         return true;
     }
-    if (!kiln_goldens_find(trial->test, j->frame->number, trial->rendering.device_name, &j->goldens,
-                           &j->error))
+    if (!kiln_goldens_find(test_case->test, j->frame->number, test_case->rendering.device_name,
+                           &j->goldens, &j->error))
         return false;
-    j->frame->golden = kiln_trial_text(trial, "%s", j->goldens.paths[0]);
-    j->own->has_golden = j->goldens.count > 0;
+    j->frame->golden = kiln_test_case_text(test_case, "%s", j->goldens.paths[0]);
+    j->case_frame->has_golden = j->goldens.count > 0;
     for (size_t i = 0; i < j->goldens.count; i++) {
         if (!hash_golden(j, i))
             return false;
-        if (!j->own->equals_golden && strcmp(j->hashes[i], j->frame->pixels) == 0) {
-            j->own->equals_golden = true;
-            memcpy(j->own->golden_hash, j->hashes[i], sizeof j->own->golden_hash);
+        if (!j->case_frame->equals_golden && strcmp(j->hashes[i], j->frame->pixels) == 0) {
+            j->case_frame->equals_golden = true;
+            memcpy(j->case_frame->golden_hash, j->hashes[i], sizeof j->case_frame->golden_hash);
         }
     }
     return true;
@@ -88,16 +89,17 @@ static void take_expected(struct judging *j, const struct kiln_expect_pixels *pi
  * while the golden that they were accepted with is there. */
 static void find_expected(struct judging *j)
 {
-    const struct kiln_trial *trial = j->trial;
-    const struct kiln_expect_frame *expected = kiln_expect_find(trial->expect, j->frame->number);
+    const struct kiln_test_case *test_case = j->test_case;
+    const struct kiln_expect_frame *expected =
+        kiln_expect_find(test_case->expect, j->frame->number);
     if (!expected)
         return;
     j->frame->state_expected = expected->state ? expected->state : "";
     for (size_t i = 0; i < expected->pixel_count; i++) {
         const struct kiln_expect_pixels *pixels = &expected->pixels[i];
-        if (strcmp(pixels->device, trial->rendering.device_name) != 0)
+        if (strcmp(pixels->device, test_case->rendering.device_name) != 0)
             continue;
-        if (trial->test->kept == KILN_GOLDEN_HASH)
+        if (test_case->test->golden_form == KILN_GOLDEN_HASH)
             take_expected(j, pixels);
         for (size_t k = 0; pixels->golden && k < j->goldens.count; k++) {
             if (strcmp(pixels->golden, j->hashes[k]) == 0) {
@@ -114,19 +116,19 @@ static bool copy_reference(struct judging *j)
 {
     const char *golden = j->goldens.paths[j->nearest];
     char path[KILN_PATH_SIZE];
-    const char *name = kiln_trial_text(j->trial, "frame_%04u_reference%s", j->frame->number,
-                                       kiln_test_suffix(j->trial->test));
-    if (!kiln_trial_path(j->trial, name, path, &j->error) ||
+    const char *name = kiln_test_case_text(j->test_case, "frame_%04u_reference%s", j->frame->number,
+                                           kiln_test_suffix(j->test_case->test));
+    if (!kiln_test_case_path(j->test_case, name, path, &j->error) ||
         !kiln_file_copy(golden, path, &j->error))
         return false;
-    j->frame->golden = kiln_trial_text(j->trial, "%s", golden);
+    j->frame->golden = kiln_test_case_text(j->test_case, "%s", golden);
     j->frame->reference = name;
     return true;
 }
 
 /* ---- Metrics ------------------------------------------------------------------------------ */
 
-static void take_values(struct judging *j, const struct kiln_trial_comparison *comparison)
+static void take_values(struct judging *j, const struct kiln_test_case_comparison *comparison)
 {
     struct kiln_result_frame *frame = j->frame;
     const struct kiln_compare_frame *found = &comparison->frame;
@@ -143,16 +145,17 @@ static void take_values(struct judging *j, const struct kiln_trial_comparison *c
     frame->window_width = found->window_width;
     frame->window_height = found->window_height;
     frame->window_differing = found->window_differing;
-    j->trial->result->hdr = comparison->result.hdr;
+    j->test_case->result->hdr = comparison->result.hdr;
 }
 
 /* Compares the picture with every golden and chooses the nearest. Only the nearest gets an error
  * map. */
-static bool measure(struct judging *j, struct kiln_trial_comparison *best)
+static bool measure(struct judging *j, struct kiln_test_case_comparison *best)
 {
     double least = INFINITY;
     for (size_t i = 0; i < j->goldens.count && j->goldens.count > 1; i++) {
-        if (!kiln_trial_compare(j->trial, j->goldens.paths[i], j->picture, NULL, best, &j->error))
+        if (!kiln_test_case_compare(j->test_case, j->goldens.paths[i], j->picture, NULL, best,
+                                    &j->error))
             return false;
         if (i == 0 || best->frame.score < least) {
             least = best->frame.score;
@@ -160,10 +163,10 @@ static bool measure(struct judging *j, struct kiln_trial_comparison *best)
         }
     }
     char path[KILN_PATH_SIZE];
-    const char *name = kiln_trial_text(j->trial, "frame_%04u_error.png", j->frame->number);
-    if (!kiln_trial_path(j->trial, name, path, &j->error) ||
-        !kiln_trial_compare(j->trial, j->goldens.paths[j->nearest], j->picture, path, best,
-                            &j->error))
+    const char *name = kiln_test_case_text(j->test_case, "frame_%04u_error.png", j->frame->number);
+    if (!kiln_test_case_path(j->test_case, name, path, &j->error) ||
+        !kiln_test_case_compare(j->test_case, j->goldens.paths[j->nearest], j->picture, path, best,
+                                &j->error))
         return false;
     take_values(j, best);
     j->frame->error_map = best->frame.measured ? name : "";
@@ -184,14 +187,14 @@ static void print_value(char out[32], double value, double limit)
 
 /* Describes the metrics that are beyond their limits, "flip.mean is 0.02, beyond 0.01; ...", or, if
  * `beyond` is false, all metrics that have a limit. */
-static const char *describe(struct judging *j, const struct kiln_trial_comparison *comparison,
+static const char *describe(struct judging *j, const struct kiln_test_case_comparison *comparison,
                             bool beyond)
 {
-    const struct kiln_result *result = j->trial->result;
+    const struct kiln_result *result = j->test_case->result;
     char text[KILN_MESSAGE_SIZE] = "";
     size_t used = 0;
     if (!comparison->frame.measured)
-        return kiln_trial_text(j->trial, "%s", comparison->message);
+        return kiln_test_case_text(j->test_case, "%s", comparison->message);
     for (size_t i = 0; i < result->column_count && used < sizeof text; i++) {
         const struct kiln_compare_column *column = &result->columns[i];
         if (!column->limited || (beyond && !j->frame->beyond[i]))
@@ -203,21 +206,22 @@ static const char *describe(struct judging *j, const struct kiln_trial_compariso
                      column->name, value, beyond ? "beyond" : "the limit", column->limit);
         used += length > 0 ? (size_t)length : 0;
     }
-    return kiln_trial_text(j->trial, "%s", text);
+    return kiln_test_case_text(j->test_case, "%s", text);
 }
 
 /* ---- The verdict -------------------------------------------------------------------------- */
 
 static bool state_changed(const struct judging *j)
 {
-    return !j->trial->params->ignore_hashes && *j->frame->state_expected &&
+    return !j->test_case->params->ignore_hashes && *j->frame->state_expected &&
            strcmp(j->frame->state_expected, j->frame->state) != 0;
 }
 
 static const char *describe_state(struct judging *j, const char *picture)
 {
-    return kiln_trial_text(
-        j->trial, "the simulation changed: the state is %s at frame %u, but %s was accepted; %s",
+    return kiln_test_case_text(
+        j->test_case,
+        "the simulation changed: the state is %s at frame %u, but %s was accepted; %s",
         j->frame->state, j->frame->number, j->frame->state_expected, picture);
 }
 
@@ -229,31 +233,34 @@ static bool judge_new(struct judging *j)
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE,
                       describe_state(j, "the frame has no golden picture"));
     return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING,
-                  kiln_trial_text(j->trial, "frame %u has no golden: the file %s is missing",
-                                  j->frame->number, j->goldens.paths[0]));
+                  kiln_test_case_text(j->test_case,
+                                      "frame %u has no golden: the file %s is missing",
+                                      j->frame->number, j->goldens.paths[0]));
 }
 
 /* Judges a frame within the limits of its golden if no expect.yaml says which state was accepted.
  * Such a frame is new, since a picture alone does not show whether the state has changed. */
-static bool judge_unlisted(struct judging *j)
+static bool judge_without_expect(struct judging *j)
 {
-    j->own->unlisted = true;
-    memcpy(j->own->golden_hash, j->hashes[j->nearest], sizeof j->own->golden_hash);
-    return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_METRICS,
-                  kiln_trial_text(j->trial,
-                                  "frame %u is like its golden, but there is no %s/expect.yaml, so "
-                                  "the accepted state is not known",
-                                  j->frame->number, j->trial->test->golden));
+    j->case_frame->without_expect = true;
+    memcpy(j->case_frame->golden_hash, j->hashes[j->nearest], sizeof j->case_frame->golden_hash);
+    return decide(
+        j, KILN_TEST_NEW, KILN_JUDGED_BY_METRICS,
+        kiln_test_case_text(j->test_case,
+                            "frame %u is like its golden, but there is no %s/expect.yaml, so "
+                            "the accepted state is not known",
+                            j->frame->number, j->test_case->test->golden));
 }
 
 /* Returns whether scene and state are the accepted ones, so that only the renderer can have
  * changed. */
 static bool renderer_changed(const struct judging *j)
 {
-    const struct kiln_trial *trial = j->trial;
-    const char *scene = trial->result->scene_hash_expected, *state = j->frame->state_expected;
-    bool same_scene = *scene && (strcmp(scene, trial->rendering.scene.hash) == 0 ||
-                                 (trial->other_keys && trial->result->change_count == 0));
+    const struct kiln_test_case *test_case = j->test_case;
+    const char *scene = test_case->result->scene_hash_expected, *state = j->frame->state_expected;
+    bool same_scene =
+        *scene && (strcmp(scene, test_case->rendering.scene.hash) == 0 ||
+                   (test_case->scene_keys_differ && test_case->result->change_count == 0));
     return same_scene && *state && strcmp(state, j->frame->state) == 0;
 }
 
@@ -263,26 +270,27 @@ static const char *describe_change(struct judging *j, const char *picture)
 {
     const char *before = j->frame->kiln_expected;
     if (!renderer_changed(j))
-        return kiln_trial_text(j->trial,
-                               "frame %u has other pixels than the accepted ones on %s; %s",
-                               j->frame->number, j->trial->rendering.device_name, picture);
-    return kiln_trial_text(j->trial, "frame %u: the renderer changed, from %s %s to kiln %s; %s",
-                           j->frame->number, *before ? "kiln" : "a version that is not",
-                           *before ? before : "known", j->trial->result->version, picture);
+        return kiln_test_case_text(j->test_case,
+                                   "frame %u has other pixels than the accepted ones on %s; %s",
+                                   j->frame->number, j->test_case->rendering.device_name, picture);
+    return kiln_test_case_text(j->test_case,
+                               "frame %u: the renderer changed, from %s %s to kiln %s; %s",
+                               j->frame->number, *before ? "kiln" : "a version that is not",
+                               *before ? before : "known", j->test_case->result->version, picture);
 }
 
 /* Returns whether the device is `cpu`, which makes the same pixels everywhere. */
 static bool is_cpu(const struct judging *j)
 {
-    return strcmp(j->trial->rendering.device_name, "cpu") == 0;
+    return strcmp(j->test_case->rendering.device_name, "cpu") == 0;
 }
 
 static bool judge_by_metrics(struct judging *j, bool known)
 {
-    struct kiln_trial_comparison comparison;
+    struct kiln_test_case_comparison comparison;
     if (!measure(j, &comparison) || !copy_reference(j))
         return false;
-    const bool same = comparison.result.same, strict = j->trial->params->strict;
+    const bool same = comparison.result.same, strict = j->test_case->params->strict;
     const char *beyond = same ? "the picture is within its limits" : describe(j, &comparison, true);
     if (state_changed(j))
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE, describe_state(j, beyond));
@@ -291,22 +299,23 @@ static bool judge_by_metrics(struct judging *j, bool known)
                       describe_change(j, beyond));
     if (!same)
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_METRICS,
-                      kiln_trial_text(j->trial, "frame %u: %s", j->frame->number, beyond));
-    if (j->trial->expect->missing && !j->trial->params->ignore_hashes)
-        return judge_unlisted(j);
+                      kiln_test_case_text(j->test_case, "frame %u: %s", j->frame->number, beyond));
+    if (j->test_case->expect->missing && !j->test_case->params->ignore_hashes)
+        return judge_without_expect(j);
     if (known)
         return decide(j, KILN_TEST_CHANGE, KILN_JUDGED_BY_METRICS, describe_change(j, beyond));
     if (strict && is_cpu(j))
-        return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_PIXELS,
-                      kiln_trial_text(j->trial,
-                                      "frame %u has no accepted pixels of cpu, which are the same "
-                                      "everywhere; --update all accepts them",
-                                      j->frame->number));
-    if (j->frame->score > j->trial->warn)
+        return decide(
+            j, KILN_TEST_FAIL, KILN_JUDGED_BY_PIXELS,
+            kiln_test_case_text(j->test_case,
+                                "frame %u has no accepted pixels of cpu, which are the same "
+                                "everywhere; --update all accepts them",
+                                j->frame->number));
+    if (j->frame->score > j->test_case->warn)
         return decide(j, KILN_TEST_WARN, KILN_JUDGED_BY_METRICS,
-                      kiln_trial_text(j->trial, "frame %u is at %.0f %% of its limits: %s",
-                                      j->frame->number, 100 * j->frame->score,
-                                      describe(j, &comparison, false)));
+                      kiln_test_case_text(j->test_case, "frame %u is at %.0f %% of its limits: %s",
+                                          j->frame->number, 100 * j->frame->score,
+                                          describe(j, &comparison, false)));
     return decide(j, KILN_TEST_PASS, KILN_JUDGED_BY_METRICS, "");
 }
 
@@ -316,26 +325,26 @@ static bool judge_by_hashes(struct judging *j)
     const bool known = *j->frame->pixels_expected;
     if (!check_picture(j, &j->error))
         return false;
-    if (j->trial->params->ignore_hashes)
+    if (j->test_case->params->ignore_hashes)
         return decide(
             j, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING,
-            kiln_trial_text(j->trial,
-                            "frame %u: the test keeps hashes alone, and the hashes are ignored",
-                            j->frame->number));
+            kiln_test_case_text(j->test_case,
+                                "frame %u: the test keeps hashes alone, and the hashes are ignored",
+                                j->frame->number));
     if (state_changed(j))
         return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_STATE,
                       describe_state(j, "no picture is kept"));
     if (!known)
         return decide(j, KILN_TEST_NEW, KILN_JUDGED_BY_NOTHING,
-                      kiln_trial_text(j->trial, "frame %u has no accepted hash of %s in %s",
-                                      j->frame->number, j->trial->rendering.device_name,
-                                      j->frame->golden));
-    j->own->has_golden = true;
-    j->own->equals_golden = strcmp(j->frame->pixels, j->frame->pixels_expected) == 0;
-    if (j->own->equals_golden)
+                      kiln_test_case_text(j->test_case, "frame %u has no accepted hash of %s in %s",
+                                          j->frame->number, j->test_case->rendering.device_name,
+                                          j->frame->golden));
+    j->case_frame->has_golden = true;
+    j->case_frame->equals_golden = strcmp(j->frame->pixels, j->frame->pixels_expected) == 0;
+    if (j->case_frame->equals_golden)
         return decide(j, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS, "");
     return decide(j, KILN_TEST_FAIL, KILN_JUDGED_BY_PIXELS,
-                  describe_change(j, j->trial->params->against
+                  describe_change(j, j->test_case->params->against
                                          ? "no picture is kept"
                                          : "no picture is kept; --against PROGRAM draws it"));
 }
@@ -346,17 +355,17 @@ static bool judge_by_hashes(struct judging *j)
 static bool show_against(struct judging *j)
 {
     struct kiln_result_frame *frame = j->frame;
-    const bool hash = j->trial->test->kept == KILN_GOLDEN_HASH;
+    const bool hash = j->test_case->test->golden_form == KILN_GOLDEN_HASH;
     const bool differs = frame->status == KILN_TEST_CHANGE || frame->status == KILN_TEST_FAIL;
     char path[KILN_PATH_SIZE];
-    struct kiln_trial_comparison comparison;
-    if (!j->trial->params->against || !differs)
+    struct kiln_test_case_comparison comparison;
+    if (!j->test_case->params->against || !differs)
         return true;
     const char *name =
-        kiln_trial_text(j->trial, "frame_%04u_%s%s", frame->number, hash ? "reference" : "against",
-                        kiln_test_suffix(j->trial->test));
-    if (!kiln_trial_path(j->trial, name, path, &j->error) ||
-        !kiln_trial_draw_against(j->trial, frame, path, &j->error))
+        kiln_test_case_text(j->test_case, "frame_%04u_%s%s", frame->number,
+                            hash ? "reference" : "against", kiln_test_suffix(j->test_case->test));
+    if (!kiln_test_case_path(j->test_case, name, path, &j->error) ||
+        !kiln_test_case_draw_against(j->test_case, frame, path, &j->error))
         return false;
     if (!hash)
         unlink(path);
@@ -373,24 +382,25 @@ static bool judge(struct judging *j)
     if (!find_goldens(j))
         return false;
     find_expected(j);
-    if (j->trial->test->kept == KILN_GOLDEN_HASH)
+    if (j->test_case->test->golden_form == KILN_GOLDEN_HASH)
         return judge_by_hashes(j);
     if (j->goldens.count == 0)
         return judge_new(j);
-    bool known = !j->trial->params->ignore_hashes && *j->frame->pixels_expected;
+    bool known = !j->test_case->params->ignore_hashes && *j->frame->pixels_expected;
     if (!known || state_changed(j) || strcmp(j->frame->pixels, j->frame->pixels_expected) != 0)
         return judge_by_metrics(j, known);
     return copy_reference(j) && decide(j, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS, "");
 }
 
-void kiln_trial_judge(struct kiln_trial *trial, size_t index)
+void kiln_test_case_judge(struct kiln_test_case *test_case, size_t index)
 {
-    struct judging j = {
-        .trial = trial, .frame = &trial->result->frames[index], .own = &trial->frames[index]};
+    struct judging j = {.test_case = test_case,
+                        .frame = &test_case->result->frames[index],
+                        .case_frame = &test_case->frames[index]};
     if (judge(&j) && show_against(&j))
         return;
-    j.own->code = j.error.code;
+    j.case_frame->code = j.error.code;
     decide(&j, KILN_TEST_ERROR, KILN_JUDGED_BY_NOTHING,
-           kiln_trial_text(trial, "frame %u: %s%s", j.frame->number, j.error.message,
-                           j.own->broken_golden ? "; --update failed replaces it" : ""));
+           kiln_test_case_text(test_case, "frame %u: %s%s", j.frame->number, j.error.message,
+                               j.case_frame->broken_golden ? "; --update failed replaces it" : ""));
 }

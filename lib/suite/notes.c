@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "compare/metric.h"
-#include "suite/trial.h"
+#include "suite/test_case.h"
 
 enum { STALE_FACTOR = 10 };
 
@@ -31,9 +31,9 @@ static const struct kiln_compare_column *find_column(const struct kiln_metric_se
 }
 
 /* Finds the worst value that this run or a calibration measured; false when neither did. */
-static bool worst_measured(const struct kiln_trial *trial, size_t column, double *worst)
+static bool worst_measured(const struct kiln_test_case *test_case, size_t column, double *worst)
 {
-    const struct kiln_result *result = trial->result;
+    const struct kiln_result *result = test_case->result;
     const struct kiln_compare_column *c = &result->columns[column];
     bool found = false;
     for (size_t i = 0; i < result->frame_count; i++) {
@@ -44,8 +44,8 @@ static bool worst_measured(const struct kiln_trial *trial, size_t column, double
             *worst = frame->values[column];
         found = true;
     }
-    for (size_t i = 0; i < trial->expect->measured_count; i++) {
-        const struct kiln_expect_value *value = &trial->expect->measured[i];
+    for (size_t i = 0; i < test_case->expect->measured_count; i++) {
+        const struct kiln_expect_value *value = &test_case->expect->measured[i];
         if (strcmp(value->metric, c->name) != 0)
             continue;
         if (!found || distance(c, value->value) > distance(c, *worst))
@@ -57,78 +57,83 @@ static bool worst_measured(const struct kiln_trial *trial, size_t column, double
 
 /* Notes metrics that have a limit by default and none in this test. The test's limits replace the
  * default ones, so a metric without a limit may have any value. */
-static void note_missing_limits(struct kiln_trial *trial, const struct kiln_metric_set *defaults)
+static void note_missing_limits(struct kiln_test_case *test_case,
+                                const struct kiln_metric_set *defaults)
 {
     for (size_t i = 0; i < defaults->count; i++) {
-        const struct kiln_compare_column *usual = &defaults->columns[i];
-        const struct kiln_compare_column *own = NULL;
-        for (size_t k = 0; k < trial->result->column_count; k++) {
-            if (strcmp(trial->result->columns[k].name, usual->name) == 0)
-                own = &trial->result->columns[k];
+        const struct kiln_compare_column *default_column = &defaults->columns[i];
+        const struct kiln_compare_column *column = NULL;
+        for (size_t k = 0; k < test_case->result->column_count; k++) {
+            if (strcmp(test_case->result->columns[k].name, default_column->name) == 0)
+                column = &test_case->result->columns[k];
         }
-        if (usual->limited && (!own || !own->limited))
-            kiln_trial_note(
-                trial,
+        if (default_column->limited && (!column || !column->limited))
+            kiln_test_case_note(
+                test_case,
                 "%s has no limit, although its default limit is %.4g, and no reason is given",
-                usual->name, usual->limit);
+                default_column->name, default_column->limit);
     }
 }
 
 /* Notes settings that make the count of differing pixels smaller. */
-static void note_settings(struct kiln_trial *trial)
+static void note_settings(struct kiln_test_case *test_case)
 {
-    const struct kiln_compare_params usual = kiln_compare_defaults();
-    const struct kiln_test *test = trial->test;
-    if (test->threshold > usual.threshold)
-        kiln_trial_note(
-            trial, "threshold %.4g is above the default threshold, %.4g, and no reason is given",
-            test->threshold, usual.threshold);
-    if (test->window > usual.window)
-        kiln_trial_note(trial, "window %u is above the default window, %u, and no reason is given",
-                        test->window, usual.window);
+    const struct kiln_compare_params defaults = kiln_compare_defaults();
+    const struct kiln_test *test = test_case->test;
+    if (test->threshold > defaults.threshold)
+        kiln_test_case_note(
+            test_case,
+            "threshold %.4g is above the default threshold, %.4g, and no reason is given",
+            test->threshold, defaults.threshold);
+    if (test->window > defaults.window)
+        kiln_test_case_note(test_case,
+                            "window %u is above the default window, %u, and no reason is given",
+                            test->window, defaults.window);
 }
 
-static void note_limits(struct kiln_trial *trial)
+static void note_limits(struct kiln_test_case *test_case)
 {
     static const char *const default_limits[] = {KILN_COMPARE_DEFAULT_LIMITS};
-    const struct kiln_result *result = trial->result;
+    const struct kiln_result *result = test_case->result;
     struct kiln_metric_set defaults;
     struct kiln_error error = {0};
-    const char *own = trial->expect->reason, *test = trial->test->limits_reason;
-    bool reason = (own && *own) || (test && *test);
-    if (!reason)
-        note_settings(trial);
-    if (!trial->own_limits || !kiln_metric_set_make(&defaults, default_limits, 1, &error))
+    const char *expect_reason = test_case->expect->reason;
+    const char *test_reason = test_case->test->limits_reason;
+    bool has_reason = (expect_reason && *expect_reason) || (test_reason && *test_reason);
+    if (!has_reason)
+        note_settings(test_case);
+    if (!test_case->has_own_limits || !kiln_metric_set_make(&defaults, default_limits, 1, &error))
         return;
-    if (!reason)
-        note_missing_limits(trial, &defaults);
+    if (!has_reason)
+        note_missing_limits(test_case, &defaults);
     for (size_t i = 0; i < result->column_count; i++) {
         const struct kiln_compare_column *c = &result->columns[i];
-        const struct kiln_compare_column *usual = find_column(&defaults, c->name);
-        if (!c->limited || !usual || !usual->limited ||
-            distance(c, c->limit) <= distance(c, usual->limit))
+        const struct kiln_compare_column *default_column = find_column(&defaults, c->name);
+        if (!c->limited || !default_column || !default_column->limited ||
+            distance(c, c->limit) <= distance(c, default_column->limit))
             continue;
         double worst = 0;
-        if (worst_measured(trial, i, &worst) &&
+        if (worst_measured(test_case, i, &worst) &&
             distance(c, c->limit) > STALE_FACTOR * distance(c, worst))
-            kiln_trial_note(trial, "limit %s=%.4g is stale: no value %s %.4g was ever measured",
-                            c->name, c->limit, c->higher_is_better ? "below" : "above", worst);
-        if (!reason)
-            kiln_trial_note(
-                trial,
+            kiln_test_case_note(
+                test_case, "limit %s=%.4g" KILN_NOTE_STALE ": no value %s %.4g was ever measured",
+                c->name, c->limit, c->higher_is_better ? "below" : "above", worst);
+        if (!has_reason)
+            kiln_test_case_note(
+                test_case,
                 "limit %s=%.4g is looser than the default limit, %.4g, and no reason is given",
-                c->name, c->limit, usual->limit);
+                c->name, c->limit, default_column->limit);
     }
 }
 
-static void note_states(struct kiln_trial *trial)
+static void note_states(struct kiln_test_case *test_case)
 {
-    const struct kiln_result *result = trial->result;
+    const struct kiln_result *result = test_case->result;
     char list[256] = "";
     size_t used = 0, count = 0;
     for (size_t i = 0; i < result->frame_count; i++) {
         const struct kiln_result_frame *frame = &result->frames[i];
-        if (!trial->frames[i].has_golden || *frame->state_expected ||
+        if (!test_case->frames[i].has_golden || *frame->state_expected ||
             frame->status == KILN_TEST_ERROR || frame->status == KILN_TEST_NEW)
             continue;
         if (used < sizeof list) {
@@ -139,38 +144,39 @@ static void note_states(struct kiln_trial *trial)
         count++;
     }
     if (count > 0)
-        kiln_trial_note(trial, "no state is accepted for frame%s %s: --update all adds it",
-                        count > 1 ? "s" : "", list);
+        kiln_test_case_note(test_case, "no state is accepted for frame%s %s: --update all adds it",
+                            count > 1 ? "s" : "", list);
 }
 
-static void note_scene(struct kiln_trial *trial)
+static void note_scene(struct kiln_test_case *test_case)
 {
-    const struct kiln_result *result = trial->result;
+    const struct kiln_result *result = test_case->result;
     bool passes = result->status == KILN_TEST_PASS || result->status == KILN_TEST_WARN;
     if (!passes || !*result->scene_hash_expected ||
         strcmp(result->scene_hash, result->scene_hash_expected) == 0)
         return;
     if (result->change_count > 0)
-        kiln_trial_note(trial, "the scene has changed in %zu key%s, and the test passes",
-                        result->change_count, result->change_count > 1 ? "s" : "");
-    else if (!trial->other_keys) /* other keys give another hash of the same scene */
-        kiln_trial_note(trial, "the scene or a file that it uses has changed, and the test passes");
+        kiln_test_case_note(test_case, "the scene has changed in %zu key%s, and the test passes",
+                            result->change_count, result->change_count > 1 ? "s" : "");
+    else if (!test_case->scene_keys_differ) /* other keys give another hash of the same scene */
+        kiln_test_case_note(test_case,
+                            "the scene or a file that it uses has changed, and the test passes");
 }
 
 /* Returns whether a golden belongs to a frame of the test: its name has the frame's number and the
  * suffix of the test's format. */
-static bool is_used(const struct kiln_trial *trial, const char *name)
+static bool is_used(const struct kiln_test_case *test_case, const char *name)
 {
-    const char *suffix = kiln_test_suffix(trial->test);
-    if (trial->test->kept == KILN_GOLDEN_HASH)
+    const char *suffix = kiln_test_suffix(test_case->test);
+    if (test_case->test->golden_form == KILN_GOLDEN_HASH)
         return false;
     size_t length = strlen(name), end = strlen(suffix);
     if (length < end || strcmp(name + length - end, suffix) != 0)
         return false;
-    for (size_t i = 0; i < trial->result->frame_count; i++) {
+    for (size_t i = 0; i < test_case->result->frame_count; i++) {
         char start[32];
-        size_t begin =
-            (size_t)snprintf(start, sizeof start, "frame_%04u", trial->result->frames[i].number);
+        size_t begin = (size_t)snprintf(start, sizeof start, "frame_%04u",
+                                        test_case->result->frames[i].number);
         if (strncmp(name, start, begin) == 0 && strchr(".@~", name[begin]))
             return true;
     }
@@ -178,42 +184,43 @@ static bool is_used(const struct kiln_trial *trial, const char *name)
 }
 
 /* Notes goldens that belong to no frame of the test, as after a frame was removed from its list. */
-static void note_unused(struct kiln_trial *trial)
+static void note_unused(struct kiln_test_case *test_case)
 {
     struct dirent **entries = NULL;
-    int count = scandir(trial->test->golden, &entries, NULL, alphasort);
+    int count = scandir(test_case->test->golden, &entries, NULL, alphasort);
     const char *first = NULL;
     int unused = 0;
     for (int i = 0; i < count; i++) {
         const char *name = entries[i]->d_name, *suffix = strrchr(name, '.');
         if (strncmp(name, "frame_", 6) != 0 || !suffix ||
-            (strcmp(suffix, ".png") != 0 && strcmp(suffix, ".exr") != 0) || is_used(trial, name))
+            (strcmp(suffix, ".png") != 0 && strcmp(suffix, ".exr") != 0) ||
+            is_used(test_case, name))
             continue;
         first = first ? first : name;
         unused++;
     }
     if (unused == 1)
-        kiln_trial_note(trial, "%s/%s is a golden of a frame that the test does not have",
-                        trial->test->golden, first);
+        kiln_test_case_note(test_case, "%s/%s is a golden of a frame that the test does not have",
+                            test_case->test->golden, first);
     else if (unused > 1)
-        kiln_trial_note(trial,
-                        "%s/%s and %d more are goldens of frames that the test does not have",
-                        trial->test->golden, first, unused - 1);
+        kiln_test_case_note(test_case,
+                            "%s/%s and %d more are goldens of frames that the test does not have",
+                            test_case->test->golden, first, unused - 1);
     for (int i = 0; i < count; i++)
         free(entries[i]);
     free(entries);
 }
 
-void kiln_trial_take_notes(struct kiln_trial *trial)
+void kiln_test_case_take_notes(struct kiln_test_case *test_case)
 {
-    const struct kiln_result *result = trial->result;
-    note_limits(trial);
-    if (!trial->params->ignore_hashes)
-        note_states(trial);
-    note_scene(trial);
-    note_unused(trial);
+    const struct kiln_result *result = test_case->result;
+    note_limits(test_case);
+    if (!test_case->params->ignore_hashes)
+        note_states(test_case);
+    note_scene(test_case);
+    note_unused(test_case);
     if (*result->techniques_expected &&
         strcmp(result->techniques, result->techniques_expected) != 0)
-        kiln_trial_note(trial, "the techniques are %s, but %s were accepted", result->techniques,
-                        result->techniques_expected);
+        kiln_test_case_note(test_case, "the techniques are %s, but %s were accepted",
+                            result->techniques, result->techniques_expected);
 }

@@ -45,22 +45,22 @@ static bool load_scene(struct job *job)
     return job->rendering->scene_text || no_memory(job);
 }
 
-size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames, uint32_t usual[2],
-                        const uint32_t **numbers)
+size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames,
+                        uint32_t default_frames[2], const uint32_t **numbers)
 {
-    usual[0] = scene_frames / 2;
-    usual[1] = scene_frames - 1;
-    bool own = test->frame_count > 0, single = usual[0] == usual[1];
-    *numbers = own ? test->frames : usual + single;
+    default_frames[0] = scene_frames / 2;
+    default_frames[1] = scene_frames - 1;
+    bool own = test->frame_count > 0, single = default_frames[0] == default_frames[1];
+    *numbers = own ? test->frames : default_frames + single;
     return own ? test->frame_count : single ? 1 : 2;
 }
 
 static bool choose_frames(struct job *job)
 {
     const struct kiln_test *test = job->params->test;
-    uint32_t usual[2], last = job->rendering->scene.frames - 1;
+    uint32_t default_frames[2], last = job->rendering->scene.frames - 1;
     const uint32_t *numbers = NULL;
-    size_t count = kiln_test_frames(test, job->rendering->scene.frames, usual, &numbers);
+    size_t count = kiln_test_frames(test, job->rendering->scene.frames, default_frames, &numbers);
     if (numbers[count - 1] > last)
         return kiln_error_set(job->error, KILN_INVALID_INPUT,
                               "%s: frame %u: the last one of %s is %u", test->path,
@@ -80,7 +80,7 @@ static bool name_frames(struct job *job)
 {
     struct kiln_path_pattern pattern;
     int length = snprintf(job->output, sizeof job->output, "%s/frame_####%s%s", job->params->folder,
-                          job->params->addition, kiln_test_suffix(job->params->test));
+                          job->params->name_tag, kiln_test_suffix(job->params->test));
     bool fits = length >= 0 && (size_t)length < sizeof job->output;
     if (fits && !kiln_path_pattern_parse(&pattern, job->output, KILN_NUMBER_ALWAYS, job->error))
         return false;

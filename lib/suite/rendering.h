@@ -5,10 +5,10 @@
 #include "suite/golden.h"
 
 /* Chooses the frames that a test judges: those that it names, or else the middle and the last of
- * the scene's frames, which go into `usual`. Returns their count; *numbers points to them,
+ * the scene's frames, which go into `default_frames`. Returns their count; *numbers points to them,
  * ascending. */
-size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames, uint32_t usual[2],
-                        const uint32_t **numbers);
+size_t kiln_test_frames(const struct kiln_test *test, uint32_t scene_frames,
+                        uint32_t default_frames[2], const uint32_t **numbers);
 
 struct kiln_rendering_params {
     const struct kiln_test *test;
@@ -18,7 +18,7 @@ struct kiln_rendering_params {
     size_t technique_count;
     uint32_t threads;
     const char *folder;   /* for pictures; it must exist */
-    const char *addition; /* goes into their names: frame_0024ADDITION.png */
+    const char *name_tag; /* goes into their names: frame_0024TAG.png */
     bool (*stop)(void *user);
     void *user;
     struct kiln_log log;

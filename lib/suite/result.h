@@ -43,6 +43,10 @@ struct kiln_result_frame {
     uint32_t window_x, window_y, window_width, window_height, window_differing;
 };
 
+/* The words in a note that say that a limit is stale. A note is a text alone in result.json, so the
+ * reports find such notes by these words. */
+#define KILN_NOTE_STALE " is stale"
+
 /* A key of the scene that has changed since the goldens were accepted. */
 struct kiln_result_change {
     const char *key;            /* "systems.fire.emit.rate" */

@@ -396,15 +396,15 @@ static bool begin(struct folder *f)
 /* Removes the tests of this run from `writing`. */
 static void end_writing(struct folder *f)
 {
-    size_t kept = 0;
+    size_t count = 0;
     for (size_t i = 0; i < f->writing.count; i++) {
         bool ended = false;
         for (size_t j = 0; j < f->suite->count && !ended; j++)
             ended = strcmp(f->writing.items[i].path, f->suite->tests[j].full_name) == 0;
         if (!ended)
-            f->writing.items[kept++] = f->writing.items[i];
+            f->writing.items[count++] = f->writing.items[i];
     }
-    f->writing.count = kept;
+    f->writing.count = count;
 }
 
 static bool end(struct folder *f)

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "scene/options.h"
-#include "suite/trial.h"
+#include "suite/test_case.h"
 
 struct entry {
     const char *key, *value;

@@ -52,8 +52,8 @@ static bool read_files(struct loader *loader)
     struct kiln_findings findings = {0};
     if (!kiln_discover(arena, loader->params, &findings, loader->error))
         return false;
-    loader->suite->starts = findings.starts;
-    loader->suite->start_count = findings.start_count;
+    loader->suite->name_prefixes = findings.name_prefixes;
+    loader->suite->name_prefix_count = findings.name_prefix_count;
     loader->entries = kiln_arena_alloc(arena, findings.count + 1, sizeof *loader->entries);
     if (!loader->entries)
         return out_of_memory(loader);
@@ -90,19 +90,19 @@ static void drop_named_scenes(struct loader *loader)
                 entry->dropped = true;
         }
     }
-    size_t kept = 0;
+    size_t count = 0;
     for (size_t i = 0; i < loader->count; i++) {
         if (!loader->entries[i].dropped)
-            loader->entries[kept++] = loader->entries[i];
+            loader->entries[count++] = loader->entries[i];
     }
-    loader->count = kept;
+    loader->count = count;
 }
 
 /* ---- names ---------------------------------------------------------------------------------- */
 
-/* Gives a test with an invalid name a similar good name, and sets the invalid name as the test's
+/* Gives a test with an invalid name a similar valid name, and sets the invalid name as the test's
  * problem. */
-static bool mend_name(struct loader *loader, struct entry *entry)
+static bool sanitize_name(struct loader *loader, struct entry *entry)
 {
     char quoted[64];
     kiln_node_quote(quoted, entry->found.name);
@@ -110,15 +110,15 @@ static bool mend_name(struct loader *loader, struct entry *entry)
                    "%s: '%s' cannot name a test: a name has up to %d bytes of letters, digits, "
                    "'.', '_' and '-', and does not start with '.' or '-'",
                    entry->found.path, quoted, KILN_TEST_MAX_NAME);
-    entry->found.name = kiln_test_name_mended(loader->suite->arena, entry->found.name);
+    entry->found.name = kiln_test_name_sanitize(loader->suite->arena, entry->found.name);
     return entry->found.name || out_of_memory(loader);
 }
 
 static bool check_names(struct loader *loader)
 {
     for (size_t i = 0; i < loader->count; i++) {
-        if (!kiln_test_name_is_good(loader->entries[i].found.name) &&
-            !mend_name(loader, &loader->entries[i]))
+        if (!kiln_test_name_is_valid(loader->entries[i].found.name) &&
+            !sanitize_name(loader, &loader->entries[i]))
             return false;
     }
     qsort(loader->entries, loader->count, sizeof *loader->entries, by_name);
@@ -236,12 +236,12 @@ static bool choose_names(struct loader *loader)
         if (!any)
             return unknown_name(loader, params->names[n]);
     }
-    size_t kept = 0;
+    size_t count = 0;
     for (size_t i = 0; i < suite->count; i++) {
         if (chosen[i])
-            suite->tests[kept++] = suite->tests[i];
+            suite->tests[count++] = suite->tests[i];
     }
-    suite->count = kept;
+    suite->count = count;
     return true;
 }
 
@@ -249,15 +249,15 @@ static void choose_shard(struct loader *loader)
 {
     struct kiln_suite *suite = loader->suite;
     uint32_t shard = loader->params->shard, shards = loader->params->shards;
-    size_t kept = 0;
+    size_t count = 0;
     suite->shard = shard;
     suite->shards = shards;
     suite->all_count = suite->count;
     for (size_t i = 0; i < suite->count; i++) {
         if (shards == 0 || i % shards == shard - 1)
-            suite->tests[kept++] = suite->tests[i];
+            suite->tests[count++] = suite->tests[i];
     }
-    suite->count = kept;
+    suite->count = count;
 }
 
 /* ---- the suite ------------------------------------------------------------------------------ */
@@ -278,9 +278,9 @@ static bool check_params(const struct kiln_suite_params *params, struct kiln_err
 static bool check_folders(const struct kiln_suite_params *params, struct kiln_error *error)
 {
     struct stat golden, results;
-    bool there = stat(params->golden, &golden) == 0 && stat(params->results, &results) == 0;
-    bool same = there ? golden.st_dev == results.st_dev && golden.st_ino == results.st_ino
-                      : strcmp(params->golden, params->results) == 0;
+    bool both_exist = stat(params->golden, &golden) == 0 && stat(params->results, &results) == 0;
+    bool same = both_exist ? golden.st_dev == results.st_dev && golden.st_ino == results.st_ino
+                           : strcmp(params->golden, params->results) == 0;
     return !same || kiln_error_set(error, KILN_USAGE,
                                    "%s: the folder of the results is also the folder of the "
                                    "goldens; results need a folder of their own",
@@ -311,19 +311,19 @@ static bool is_whole(const struct kiln_suite_params *params)
 static bool load(struct kiln_suite *suite, const struct kiln_suite_params *params,
                  struct kiln_error *error)
 {
-    struct kiln_suite_params own = *params;
-    struct loader loader = {.params = &own, .suite = suite, .error = error};
+    struct kiln_suite_params tidied = *params;
+    struct loader loader = {.params = &tidied, .suite = suite, .error = error};
     suite->results_folder = tidy_folder(suite->arena, params->results);
-    own.golden = tidy_folder(suite->arena, params->golden);
-    own.results = suite->results_folder;
-    if (!own.golden || !own.results)
+    tidied.golden = tidy_folder(suite->arena, params->golden);
+    tidied.results = suite->results_folder;
+    if (!tidied.golden || !tidied.results)
         return out_of_memory(&loader);
-    if (!check_folders(&own, error) || !read_files(&loader))
+    if (!check_folders(&tidied, error) || !read_files(&loader))
         return false;
     drop_named_scenes(&loader);
     if (!check_names(&loader) || !make_tests(&loader))
         return false;
-    if (is_whole(&own) && !kiln_unused_find(suite, own.golden))
+    if (is_whole(&tidied) && !kiln_unused_find(suite, tidied.golden))
         return out_of_memory(&loader);
     if (!choose_names(&loader))
         return false;

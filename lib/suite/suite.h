@@ -34,7 +34,7 @@ struct kiln_test {
     uint32_t *frames; /* ascending; none: the middle and the last one of the scene */
     size_t frame_count;
     enum kiln_test_format format;
-    enum kiln_test_golden kept;
+    enum kiln_test_golden golden_form;
     const char *device;      /* as in kiln_device_params; NULL: the run's device */
     bool may_skip;           /* the device may be absent: the test is skipped then */
     const char **techniques; /* "stage=name"; they override those that every test pins */
@@ -54,10 +54,10 @@ struct kiln_suite {
     struct kiln_arena *arena;
     struct kiln_test *tests;
     size_t count;
-    uint32_t shard, shards; /* as requested; 0 and 0: all tests */
-    size_t all_count;       /* count of the tests of all shards */
-    const char **starts;    /* prefixes of the names of tests in the searched folders */
-    size_t start_count;
+    uint32_t shard, shards;     /* as requested; 0 and 0: all tests */
+    size_t all_count;           /* count of the tests of all shards */
+    const char **name_prefixes; /* prefixes of the names of tests in the searched folders */
+    size_t name_prefix_count;
     const char **unused; /* folders of goldens that no test uses */
     size_t unused_count, unused_capacity;
     char *results_folder;

@@ -17,7 +17,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "suite/trial.h"
+#include "suite/test_case.h"
 
 /* Returns "" for NULL, since no text of a result is NULL. */
 static const char *text_or_empty(const char *text)
@@ -91,9 +91,9 @@ bool kiln_test_record_error(const struct kiln_suite *suite, size_t index, enum k
         result->message = message;
         result->total_s = total_s;
         const struct kiln_test_params params = kiln_test_defaults();
-        struct kiln_trial trial = {
+        struct kiln_test_case test_case = {
             .arena = arena, .suite = suite, .test = test, .params = &params, .result = result};
-        result->rerun = kiln_trial_rerun_command(&trial);
+        result->rerun = kiln_test_case_rerun_command(&test_case);
         ok = kiln_result_write(result, test->results, error);
     }
     kiln_arena_destroy(&arena);

@@ -196,7 +196,7 @@ static bool take_document(struct kiln_arena *arena, struct document *document, c
     test->frames = document->frames;
     test->frame_count = document->frame_count;
     test->format = document->format;
-    test->kept = document->golden;
+    test->golden_form = document->golden;
     test->warn = document->warn;
     test->threshold = document->threshold;
     test->window = document->window;

@@ -1,11 +1,11 @@
-/* Checks the names of tests, and mends names that are not good. kiln_suite_load does both once it
- * has found the tests (suite/suite.c). A test with an odd name ends as an error, and the mended
+/* Checks the names of tests, and sanitizes invalid ones. kiln_suite_load does both once it has
+ * found the tests (suite/suite.c). A test with an invalid name ends as an error, and the sanitized
  * name stands for it in the results.
  *
  * A name becomes a folder of goldens and of results, and an argument of the commands that reports
  * print. So none of its parts may be hidden or be "..", and it may not look like an option. A rule
  * that is made stricter renames tests whose goldens exist. Which characters are letters follows
- * from a table and not from the locale, so that a name is good on every machine or on none. */
+ * from a table and not from the locale, so that a name is valid on every machine or on none. */
 #include "suite/test_name.h"
 
 #include <stdint.h>
@@ -47,7 +47,7 @@ static size_t name_character(const char *text)
     return code >= 0xc0 ? length : 0;
 }
 
-bool kiln_test_name_is_good(const char *name)
+bool kiln_test_name_is_valid(const char *name)
 {
     size_t length = strlen(name);
     bool hidden = *name == '.' || strstr(name, "/.");
@@ -62,23 +62,23 @@ bool kiln_test_name_is_good(const char *name)
     return true;
 }
 
-const char *kiln_test_name_mended(struct kiln_arena *arena, const char *name)
+const char *kiln_test_name_sanitize(struct kiln_arena *arena, const char *name)
 {
     /* The arena's bytes are zero, so the text always ends. */
-    char *mended = kiln_arena_alloc(arena, KILN_TEST_MAX_NAME + 1, 1);
+    char *sanitized = kiln_arena_alloc(arena, KILN_TEST_MAX_NAME + 1, 1);
     size_t used = 0;
-    for (const char *c = name; mended && *c;) {
+    for (const char *c = name; sanitized && *c;) {
         size_t bytes = name_character(c);
-        bool first = used == 0 || mended[used - 1] == '/';
+        bool first = used == 0 || sanitized[used - 1] == '/';
         bool wrong = bytes == 0 || (first && (*c == '.' || *c == '-' || *c == '/'));
         size_t step = bytes > 0 ? bytes : 1;
         if (used + step > KILN_TEST_MAX_NAME)
             break;
-        memcpy(mended + used, wrong ? "____" : c, step);
+        memcpy(sanitized + used, wrong ? "____" : c, step);
         used += step;
         c += step;
     }
-    if (mended && used == 0)
-        mended[0] = '_';
-    return mended;
+    if (sanitized && used == 0)
+        sanitized[0] = '_';
+    return sanitized;
 }

@@ -10,9 +10,9 @@
 #include "option/rows.h"
 #include "suite/golden.h"
 
-static bool is_word(const struct kiln_node *node, const char *word)
+static bool is_keyword(const struct kiln_node *node, const char *keyword)
 {
-    return !node->quoted && kiln_node_is(node, word);
+    return !node->quoted && kiln_node_is(node, keyword);
 }
 
 /* ---- texts ---------------------------------------------------------------------------------- */
@@ -53,10 +53,10 @@ static bool read_technique(struct kiln_reader *reader, const struct kiln_option 
     struct kiln_error error = {0};
     if (kiln_techniques_choose(&any_device, text, 1, &techniques, &error))
         return true;
-    static const char stutter[] = "technique: ";
-    bool stutters = strncmp(error.message, stutter, sizeof stutter - 1) == 0;
+    static const char prefix[] = "technique: ";
+    bool has_prefix = strncmp(error.message, prefix, sizeof prefix - 1) == 0;
     return kiln_reader_error(reader, node, "%s",
-                             error.message + (stutters ? sizeof stutter - 1 : 0));
+                             error.message + (has_prefix ? sizeof prefix - 1 : 0));
 }
 
 static void describe_technique(const struct kiln_option *option, struct kiln_text *out)
@@ -92,7 +92,7 @@ static bool read_size(struct kiln_reader *reader, const struct kiln_option *opti
                       const struct kiln_node *node, void *field)
 {
     uint32_t *size = field;
-    if (is_word(node, "scene")) {
+    if (is_keyword(node, "scene")) {
         size[0] = size[1] = 0;
         return true;
     }
@@ -167,9 +167,9 @@ static int compare_numbers(const void *a, const void *b)
 static bool read_frames(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
-    uint32_t *frames = field, *count = kiln_option_count_of(option, field), kept = 0;
+    uint32_t *frames = field, *count = kiln_option_count_of(option, field), unique_count = 0;
     *count = 0;
-    if (is_word(node, "auto"))
+    if (is_keyword(node, "auto"))
         return true;
     const struct kiln_node *first = node->kind == KILN_NODE_LIST ? node->first : node;
     if (!first)
@@ -183,9 +183,9 @@ static bool read_frames(struct kiln_reader *reader, const struct kiln_option *op
     qsort(frames, *count, sizeof *frames, compare_numbers);
     for (uint32_t i = 0; i < *count; i++) {
         if (i == 0 || frames[i] != frames[i - 1])
-            frames[kept++] = frames[i];
+            frames[unique_count++] = frames[i];
     }
-    *count = kept;
+    *count = unique_count;
     return true;
 }
 
@@ -217,7 +217,7 @@ static bool read_limit(struct kiln_reader *reader, const struct kiln_option *opt
         const char *message = strstr(error.message, "': "); /* after "limit '...'" */
         return kiln_reader_error(reader, node->key, "%s", message ? message + 3 : error.message);
     }
-    return kiln_reader_keep_text(reader, name, &value->metric);
+    return kiln_reader_copy_text(reader, name, &value->metric);
 }
 
 static bool read_limits(struct kiln_reader *reader, const struct kiln_option *option,
@@ -255,7 +255,7 @@ static bool read_rectangle(struct kiln_reader *reader, const struct kiln_option 
                            const struct kiln_node *node, void *field)
 {
     uint32_t *rect = field;
-    if (is_word(node, "none")) {
+    if (is_keyword(node, "none")) {
         memset(rect, 0, 4 * sizeof *rect);
         return true;
     }

@@ -21,8 +21,8 @@ static bool is_test(const struct kiln_suite *suite, const char *name)
 /* Returns whether a test of this name would lie in a searched folder. */
 static bool is_searched(const struct kiln_suite *suite, const char *name)
 {
-    for (size_t i = 0; i < suite->start_count; i++) {
-        if (strncmp(name, suite->starts[i], strlen(suite->starts[i])) == 0)
+    for (size_t i = 0; i < suite->name_prefix_count; i++) {
+        if (strncmp(name, suite->name_prefixes[i], strlen(suite->name_prefixes[i])) == 0)
             return true;
     }
     return false;

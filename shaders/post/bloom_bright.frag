@@ -12,6 +12,6 @@ void main()
 {
     vec4 color = min(composed(ivec2(gl_FragCoord.xy)), vec4(65504.0));
     float strongest = max(max(color.r, color.g), color.b) * exposure;
-    float beyond = max(strongest - threshold, 0.0) / max(strongest, 1e-6);
-    out_color = vec4(color.rgb * beyond, 0.0);
+    float excess_part = max(strongest - threshold, 0.0) / max(strongest, 1e-6);
+    out_color = vec4(color.rgb * excess_part, 0.0);
 }

@@ -46,7 +46,7 @@ REAL_FN S(billboard_plane) billboard_plane_facing(uint facing, real3 upward, rea
         normal = real3_scale(center, -real_rsqrt(real3_dot(center, center)));
     real3 sideways = real3_cross(upward, normal);
     sideways = real3_select(real3_dot(sideways, sideways) < 1e-8f,
-                            real3_along(picture.right, normal, -normal.x), sideways);
+                            real3_add_scaled(picture.right, normal, -normal.x), sideways);
     real square = real3_dot(sideways, sideways);
     sideways =
         real3_select(square < 1e-30f, picture.right, real3_scale(sideways, real_rsqrt(square)));
@@ -99,12 +99,12 @@ REAL_FN real billboard_side(real unit)
 
 /* Returns a plane turned so that its up direction is that of the upward edge. side: billboard_side,
  * by which the right edge is mirrored. */
-REAL_FN S(billboard_plane) billboard_turned(S(billboard_plane) plane, S(billboard_edge) edge,
-                                            real side)
+REAL_FN S(billboard_plane) billboard_rotated(S(billboard_plane) plane, S(billboard_edge) edge,
+                                             real side)
 {
     return billboard_plane_of(
-        real3_along(real3_scale(plane.right, edge.y * side), plane.up, -edge.x * side),
-        real3_along(real3_scale(plane.right, edge.x), plane.up, edge.y), plane.normal);
+        real3_add_scaled(real3_scale(plane.right, edge.y * side), plane.up, -edge.x * side),
+        real3_add_scaled(real3_scale(plane.right, edge.x), plane.up, edge.y), plane.normal);
 }
 
 /* Half edges of a billboard, m, and a factor for its opacity. */

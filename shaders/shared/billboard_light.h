@@ -30,7 +30,7 @@ REAL_FN S(light_channel) light_channel_add(S(light_channel) channel, float radia
                                            real3 towards)
 {
     channel.all = channel.all + radiance * factor;
-    channel.along = real3_along(channel.along, towards, real_all(radiance));
+    channel.along = real3_add_scaled(channel.along, towards, real_all(radiance));
     return channel;
 }
 

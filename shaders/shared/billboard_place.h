@@ -143,7 +143,8 @@ REAL_FN S(stroke_width) stroke_width_of(bool is_line, real width)
 REAL_FN real3 stroke_tail(real3 head, real3 tail, float near_m)
 {
     real part = (-head.z - near_m) / (tail.z - head.z);
-    return real3_select(-tail.z < near_m, real3_along(head, real3_sub(tail, head), part), tail);
+    return real3_select(-tail.z < near_m, real3_add_scaled(head, real3_sub(tail, head), part),
+                        tail);
 }
 
 /* A rectangle in the picture along a line. u and v count pixels from its middle, and only the depth

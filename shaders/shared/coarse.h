@@ -6,23 +6,23 @@
 
 #include "shared/exact.h"
 
-/* COARSE_ALIKE: relative difference of two depths at which the weight is one half. COARSE_BENT:
- * relative second difference of reciprocal depths above which there is an edge. COARSE_REMOTE, 1/m:
- * smaller differences of reciprocal depths are far away and do not count. COARSE_APART: weight of
- * places that are not neighbours. */
-#define COARSE_ALIKE  0.03f
-#define COARSE_BENT   0.04f
-#define COARSE_REMOTE 0.001f
-#define COARSE_APART  0.001f
+/* COARSE_SIMILAR: relative difference of two depths at which the weight is one half.
+ * COARSE_NONPLANAR: relative second difference of reciprocal depths above which there is an edge.
+ * COARSE_REMOTE, 1/m: smaller differences of reciprocal depths are far away and do not count.
+ * COARSE_APART: weight of places that are not neighbours. */
+#define COARSE_SIMILAR   0.03f
+#define COARSE_NONPLANAR 0.04f
+#define COARSE_REMOTE    0.001f
+#define COARSE_APART     0.001f
 
 /* Returns whether three depths in a row do not lie on a plane. On a plane, the reciprocal depth is
  * linear in the picture: 1/a - 2/b + 1/c, times all of them, is 0. */
-FN bool coarse_is_bent(float a, float b, float c)
+FN bool coarse_is_nonplanar(float a, float b, float c)
 {
     EXACT float bc = b * c, ac = a * c, ab = a * b;
     EXACT float leap = exact_abs(bc - 2.0f * ac + ab);
     EXACT float larger = exact_max(bc, ac);
-    EXACT float limit = COARSE_BENT * exact_max(larger, ab) + COARSE_REMOTE * (ab * c);
+    EXACT float limit = COARSE_NONPLANAR * exact_max(larger, ab) + COARSE_REMOTE * (ab * c);
     return leap > limit;
 }
 
@@ -49,10 +49,10 @@ FN float4 coarse_spline(float t)
 }
 
 /* Returns the weight of a depth by its similarity to another. */
-FN float coarse_alike(float depth, float other)
+FN float coarse_similarity(float depth, float other)
 {
     EXACT float between = exact_abs(depth - other), least = exact_min(depth, other);
-    EXACT float away = exact_min(between / (COARSE_ALIKE * least), 1e4f);
+    EXACT float away = exact_min(between / (COARSE_SIMILAR * least), 1e4f);
     EXACT float away2 = away * away;
     EXACT float weight = 1.0f / (1.0f + away2 * away2);
     return weight;

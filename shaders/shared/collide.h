@@ -1,7 +1,7 @@
 /* Computes collisions with all kinds of colliders: with axis-aligned boxes and the floor (Heinz
  * 2019, 3.5), where the floor is a box that is infinite except at its top; with round shapes
- * (shared/collide_round.h); with shapes that may turn (shared/collide_turned.h); and with surfaces
- * from grids (shared/collide_field.h).
+ * (shared/collide_round.h); with shapes that may turn (shared/collide_oriented.h); and with
+ * surfaces from grids (shared/collide_field.h).
  *
  * In the swept mode (shared/sweep.h), a piece of a path is a segment. Each of a box's six faces
  * moves evenly in that time, so its distance from the particle changes evenly along the segment.
@@ -21,11 +21,11 @@
 #endif
 
 /* Shaders of scenes without shapes in frames of their own are compiled without their code. */
-#if defined(GL_core_profile) && !defined(COLLIDE_TURNED)
-#define COLLIDE_IS_TURNED(collider) false
+#if defined(GL_core_profile) && !defined(COLLIDE_ORIENTED)
+#define COLLIDE_IS_ORIENTED(collider) false
 #else
-#define COLLIDE_IS_TURNED(collider)                                                                \
-    ((collider).kind >= COLLIDER_TURNED_BOX && (collider).kind < COLLIDER_TERRAIN)
+#define COLLIDE_IS_ORIENTED(collider)                                                              \
+    ((collider).kind >= COLLIDER_ORIENTED_BOX && (collider).kind < COLLIDER_TERRAIN)
 #endif
 
 /* Shaders of scenes without colliders from grids are compiled without their code. This kind is
@@ -77,11 +77,11 @@ FN S(collide_state) collide_round_impact(SIM_PARAM S(collide_state) s, S(kiln_co
     return after;
 }
 
-FN S(collide_state) collide_turned_impact(SIM_PARAM S(collide_state) s, uint number, uint face,
-                                          S(collide_answer) answer)
+FN S(collide_state) collide_oriented_impact(SIM_PARAM S(collide_state) s, uint number, uint face,
+                                            S(collide_answer) answer)
 {
     EXACT S(collide_state) after = s;
-    EXACT S(collide_contact) contact = collide_turned_contact(
+    EXACT S(collide_contact) contact = collide_oriented_contact(
         SIM number, answer.radius, s.since, face, s.position, AROUND(steps_per_s), 1.0f);
     after.position = contact.position;
     EXACT float3 relative = float3_sub(s.velocity, contact.velocity);
@@ -144,8 +144,8 @@ FN S(collide_state) collide_impact(SIM_PARAM S(collide_state) s, uint number, ui
         return after;
     }
 #endif
-    if (COLLIDE_IS_TURNED(c)) {
-        after = collide_turned_impact(SIM s, number, face, answer);
+    if (COLLIDE_IS_ORIENTED(c)) {
+        after = collide_oriented_impact(SIM s, number, face, answer);
         return after;
     }
     if (COLLIDE_IS_ROUND(c)) {
@@ -245,8 +245,8 @@ FN S(collide_span) collide_through(SIM_PARAM uint number, float radius, float si
         return span;
     }
 #endif
-    if (COLLIDE_IS_TURNED(c))
-        span = collide_turned_through(SIM number, radius, since, until, from, end);
+    if (COLLIDE_IS_ORIENTED(c))
+        span = collide_oriented_through(SIM number, radius, since, until, from, end);
     else
         span = collide_solid_through(c, since, until, from, end);
     return span;
@@ -261,8 +261,8 @@ FN uint collide_nearest(SIM_PARAM uint number, float radius, float since, float3
     if (COLLIDE_IS_FIELD(c))
         return COLLIDE_SURFACE;
 #endif
-    if (COLLIDE_IS_TURNED(c)) {
-        face = collide_turned_nearest(SIM number, radius, since, p);
+    if (COLLIDE_IS_ORIENTED(c)) {
+        face = collide_oriented_nearest(SIM number, radius, since, p);
     } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) shape = collide_round_at(c, since);
         face = collide_round_nearest(c.kind, shape, p);
@@ -284,8 +284,8 @@ FN bool collide_is_inside(SIM_PARAM uint number, float radius, float until, floa
         return inside;
     }
 #endif
-    if (COLLIDE_IS_TURNED(c)) {
-        inside = collide_turned_inside(SIM number, radius, until, p);
+    if (COLLIDE_IS_ORIENTED(c)) {
+        inside = collide_oriented_inside(SIM number, radius, until, p);
     } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) shape = collide_round_at(c, until);
         inside = collide_round_inside(c.kind, shape, p);
@@ -307,9 +307,9 @@ FN uint collide_face_met(SIM_PARAM uint number, float radius, S(collide_state) s
         return collide_pack_normal(ground.normal);
     }
 #endif
-    if (COLLIDE_IS_TURNED(c)) {
+    if (COLLIDE_IS_ORIENTED(c)) {
         EXACT S(collide_contact) contact =
-            collide_turned_contact(SIM number, radius, s.since, face, s.position, 1.0f, 1.0f);
+            collide_oriented_contact(SIM number, radius, s.since, face, s.position, 1.0f, 1.0f);
         met = collide_pack_normal(contact.normal);
     } else if (COLLIDE_IS_ROUND(c)) {
         EXACT S(collide_round) shape = collide_round_at(c, s.since);
@@ -365,9 +365,9 @@ FN float3 collide_rise(SIM_PARAM float3 position, float until, float radius)
 #if COLLIDE_HAS_FIELDS
                 box = collide_field_below(SIM c, box, p);
 #endif
-                if (COLLIDE_IS_TURNED(AROUND(colliders[i])) &&
+                if (COLLIDE_IS_ORIENTED(AROUND(colliders[i])) &&
                     (pass < 2u || AROUND(colliders[i].kind) == COLLIDER_PLANE))
-                    p = collide_turned_rise(SIM i, radius, until, p);
+                    p = collide_oriented_rise(SIM i, radius, until, p);
                 else
                     p = collide_put_beside(box, 3u, p);
                 free = false;
@@ -439,9 +439,9 @@ FN S(collide_way) collide_clamp(SIM_PARAM S(collide_state) s, float3 end, float 
                                                                   collide_seen_from(c, before, now),
                                                                   COLLIDE_SURFACE));
 #endif
-        } else if (inside && COLLIDE_IS_TURNED(c)) {
-            uint nearest = collide_turned_nearest(SIM i, answer.radius, until, now.position);
-            EXACT S(collide_contact) contact = collide_turned_contact(
+        } else if (inside && COLLIDE_IS_ORIENTED(c)) {
+            uint nearest = collide_oriented_nearest(SIM i, answer.radius, until, now.position);
+            EXACT S(collide_contact) contact = collide_oriented_contact(
                 SIM i, answer.radius, until, nearest, now.position, 1.0f, 0.0f);
             now.position = contact.position;
             draw.purpose = collide_purpose(SIM impacts & 7u);

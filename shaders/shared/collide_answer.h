@@ -4,7 +4,7 @@
 #ifndef KILN_SHARED_COLLIDE_ANSWER_H
 #define KILN_SHARED_COLLIDE_ANSWER_H
 
-#include "shared/collide_turned.h"
+#include "shared/collide_oriented.h"
 #include "shared/random.h"
 #include "shared/spin.h"
 
@@ -72,10 +72,10 @@ FN_APART float3 collide_rubbed(float restitution, float friction, float3 mirrore
     EXACT float given = outwards * (1.0f + restitution);
     EXACT float slower = speed - friction * given;
     EXACT float quotient = exact_div(slower, speed);
-    EXACT float kept = exact_clamp(quotient, 0.0f, 1.0f);
+    EXACT float remaining = exact_clamp(quotient, 0.0f, 1.0f);
     EXACT float returned = outwards * restitution;
     EXACT float3 along = float3_scale(normal, returned);
-    EXACT float3 y = float3_add_scaled(along, aside, kept);
+    EXACT float3 y = float3_add_scaled(along, aside, remaining);
     return y;
 }
 
@@ -100,8 +100,8 @@ FN float3 collide_scatter(S(collide_answer) answer, float3 velocity, float3 refl
     if (literal)
         pole = straight;
     EXACT float3 astray = random_direction(answer.stream, answer.purpose, pole, 0.0f);
-    EXACT float kept = 1.0f - answer.randomness;
-    EXACT float3 part = float3_scale(straight, kept);
+    EXACT float straight_part = 1.0f - answer.randomness;
+    EXACT float3 part = float3_scale(straight, straight_part);
     EXACT float3 mixed = float3_add_scaled(part, astray, answer.randomness);
     EXACT float3 direction = float3_normalize(mixed, straight);
     EXACT float slowed = speed * answer.slowdown;
@@ -180,8 +180,8 @@ FN_APART S(collide_state) collide_roll(S(collide_answer) answer, S(collide_state
     EXACT float3 slip = float3_add_scaled(moving, normal, across);
     EXACT float most = answer.grip * given;
     EXACT float3 change = spin_grip(slip, most);
-    EXACT float3 turned = spin_from(change, normal, answer.radius);
-    rate = float3_add(rate, turned);
+    EXACT float3 spin_change = spin_from(change, normal, answer.radius);
+    rate = float3_add(rate, spin_change);
     EXACT float3 slower = collide_rolling(answer, rate, given);
     rate = float3_add(rate, slower);
     EXACT float3 spin = float3_add(rate, turning);

@@ -32,9 +32,9 @@ FN S(kiln_collider) collide_field_around(S(kiln_collider) collider, float radius
 FN float collide_askew_growth(uint kind)
 {
     EXACT float y = 1.0f;
-    if (kind == COLLIDER_TURNED_BOX)
+    if (kind == COLLIDER_ORIENTED_BOX)
         y = 1.7321f;
-    else if (kind == COLLIDER_TURNED_CYLINDER)
+    else if (kind == COLLIDER_ORIENTED_CYLINDER)
         y = 1.4143f;
     return y;
 }

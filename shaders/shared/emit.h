@@ -143,7 +143,7 @@ FN S(emit_state) emit_particle(SIM_PARAM uint stream, uint serial, float time_s)
 }
 
 /* Rotates v from a space whose y axis is y to one whose y axis is the unit vector `axis`. */
-FN float3 emit_turned(float3 v, float3 axis)
+FN float3 emit_rotate(float3 v, float3 axis)
 {
     EXACT S(random_frame) frame = random_frame_about(axis);
     EXACT float3 across = float3_scale(frame.u, v.x);
@@ -159,8 +159,8 @@ FN S(emit_state) emit_child(SIM_PARAM uint stream, uint serial, float time_s, S(
 {
     EXACT S(emit_state) own = emit_at_rest(SIM stream, serial, time_s);
     EXACT float inherit = value_at(SIM_KEYS STEP(emit.inherit), time_s, 0.0f);
-    EXACT float3 offset = emit_turned(own.position, axis);
-    EXACT float3 thrown = emit_turned(own.velocity, axis);
+    EXACT float3 offset = emit_rotate(own.position, axis);
+    EXACT float3 thrown = emit_rotate(own.velocity, axis);
     EXACT S(emit_state) born;
     born.position = float3_add(parent.position, offset);
     born.velocity = float3_add_scaled(thrown, parent.velocity, inherit);

@@ -1,8 +1,8 @@
 /* Computes the floor's look: squares, and the gloss of a floor that is wet, or of water. A glossy
- * floor mirrors sky, shapes and lamps by Fresnel's law for water. A rough floor draws the mirror
- * image of a lamp out into a streak towards the eye (a microfacet lobe, GGX). Waves tilt the floor;
- * waves too small for a pixel widen the streaks instead. Of particles, only the light that they
- * shed is mirrored. Meshes are not mirrored, since they are rasterised from the eye. */
+ * floor reflects sky, shapes and lamps by Fresnel's law for water. Waves tilt it; those too small
+ * for a pixel widen the lamps' streaks instead, which a rough surface seen at a flat angle draws
+ * out towards the eye (a microfacet lobe, GGX). Particles are reflected by the light alone that
+ * they shed, and meshes not at all: their rays are rasterised from the eye. */
 #ifndef KILN_SHARED_FLOOR_H
 #define KILN_SHARED_FLOOR_H
 
@@ -104,10 +104,10 @@ REAL_FN real floor_lobe(real3 normal, real3 to_eye, real3 to_light, real spread)
            real_max(shadowing, real_all(1e-6f));
 }
 
-/* Returns the light of a lamp that the floor mirrors to the eye, for each unit of the lamp's
- * colour. towards, radius2: as for lamp_irradiance; a large lamp has a wide streak. */
-REAL_FN real floor_mirrors_lamp(real3 towards, float radius2, real3 normal, real3 to_eye,
-                                real spread)
+/* Returns what reaches the eye for each unit of a lamp's colour. towards, radius2: as for
+ * lamp_irradiance; a large lamp has a wide streak. */
+REAL_FN real floor_reflects_lamp(real3 towards, float radius2, real3 normal, real3 to_eye,
+                                 real spread)
 {
     real d2 = real_max(real3_dot(towards, towards), real_all(1e-6f));
     real wide = real_min(spread + 0.25f * real_sqrt(radius2 / d2), real_all(1.0f));
@@ -116,25 +116,26 @@ REAL_FN real floor_mirrors_lamp(real3 towards, float radius2, real3 normal, real
 }
 
 /* Describes the floor where a ray from the eye meets it. */
-struct floor_mirror {
+struct floor_reflection {
     real3 normal, to_eye; /* unit */
-    real spread;          /* roughness, to which the averaged waves are added */
-    real3 onwards;        /* direction of the reflected ray */
-    real reflected;       /* part of the light along that ray that the floor reflects to the eye */
+    real spread;          /* of reflections: the roughness, with the waves that are averaged */
+    real3 direction;      /* of the reflected ray */
+    real reflectance;     /* part of the light along it that reaches the eye */
 };
 
-/* Returns the mirror of a floor. direction: of the ray; roughness: of the floor without waves. */
-REAL_FN S(floor_mirror) floor_mirror_of(real3 direction, S(floor_water) water, float roughness)
+/* roughness: of the floor without waves. */
+REAL_FN S(floor_reflection) floor_reflection_of(real3 direction, S(floor_water) water,
+                                                float roughness)
 {
-    S(floor_mirror) m;
+    S(floor_reflection) m;
     m.normal = real3_normalize(REAL3(-water.slope_x, real_all(1.0f), -water.slope_z));
     real3 way = real3_scale(direction, 1.0f / real3_length(direction));
     m.to_eye = real3_scale(way, real_all(-1.0f));
     m.spread = real_clamp(real_sqrt(roughness * roughness + 2.0f * water.averaged), 0.02f, 1.0f);
-    m.onwards = real3_along(way, m.normal, -2.0f * real3_dot(way, m.normal));
+    m.direction = real3_add_scaled(way, m.normal, -2.0f * real3_dot(way, m.normal));
     /* A ray that goes down would meet a wave again. */
-    m.onwards.y = real_max(m.onwards.y, real_all(0.01f));
-    m.reflected = fresnel(real3_dot(m.normal, m.to_eye));
+    m.direction.y = real_max(m.direction.y, real_all(0.01f));
+    m.reflectance = fresnel(real3_dot(m.normal, m.to_eye));
     return m;
 }
 

@@ -8,7 +8,7 @@
 
 /* Binding points of storage blocks. */
 #define KILN_BIND_FRAGMENT_COUNTS 2
-#define KILN_BIND_FRAGMENT_PLACES 3
+#define KILN_BIND_FRAGMENT_RANGES 3
 #define KILN_BIND_FRAGMENT_KEYS   4
 #define KILN_BIND_FRAGMENTS       5
 #define KILN_BIND_FRAGMENT_MERGED 6 /* keys, in a pass of the sort */

@@ -22,8 +22,8 @@ FN float instance_angle(uint stream, float4 turn, float4 spread, float age_s)
     EXACT float angle = random_between(stream, RANDOM_ROTATION, turn.x, turn.y);
     EXACT float spin = random_between(stream, RANDOM_SPIN, spread.z, spread.w);
     EXACT float side = random_unit(stream, RANDOM_SPIN + 1u);
-    EXACT float turned = spin * age_s;
-    angle = side < 0.5f ? angle - turned : angle + turned;
+    EXACT float spun = spin * age_s;
+    angle = side < 0.5f ? angle - spun : angle + spun;
     return angle;
 }
 

@@ -333,8 +333,8 @@ FN S(contact_turning) contact_answer_turning(CROWD_PARAM S(contact_turning) a, S
     EXACT float3 slower = float3_sub(velocity, part);
     EXACT float3 shifted = float3_add_scaled(position, part, -blow.since_s);
     after.body = body_with_motion(after.body, shifted, slower);
-    EXACT float3 turned = spin_from(part, blow.normal, radius);
-    EXACT float3 rate = float3_add(a.rate, turned);
+    EXACT float3 spin_change = spin_from(part, blow.normal, radius);
+    EXACT float3 rate = float3_add(a.rate, spin_change);
     after.rate = spin_held(rate);
     return after;
 }

@@ -167,11 +167,11 @@ struct kiln_step_params {
 #define COLLIDER_BOX      0u
 #define COLLIDER_SPHERE   1u
 #define COLLIDER_CYLINDER 2u
-/* Shapes in frames of their own, which may turn (collide_turned.h): */
-#define COLLIDER_TURNED_BOX      3u
-#define COLLIDER_TURNED_CYLINDER 4u
-#define COLLIDER_CAPSULE         5u
-#define COLLIDER_PLANE           6u
+/* Shapes in frames of their own, which may turn (collide_oriented.h): */
+#define COLLIDER_ORIENTED_BOX      3u
+#define COLLIDER_ORIENTED_CYLINDER 4u
+#define COLLIDER_CAPSULE           5u
+#define COLLIDER_PLANE             6u
 
 #define COLLIDER_TERRAIN 16u /* this kind and those below look up grids */
 #define COLLIDER_SDF     17u

@@ -51,8 +51,8 @@ FN float3 noise_curl_corner(uint bits, float3 r, float weight, float3 slope)
     EXACT float3 g3 = noise_gradient(bits >> 18u);
     EXACT float3 v = FLOAT3(float3_dot(g1, r), float3_dot(g2, r), float3_dot(g3, r));
     EXACT float3 k = FLOAT3(g3.y - g2.z, g1.z - g3.x, g2.x - g1.y);
-    EXACT float3 turned = float3_cross(slope, v);
-    EXACT float3 y = float3_add_scaled(turned, k, weight);
+    EXACT float3 slope_part = float3_cross(slope, v);
+    EXACT float3 y = float3_add_scaled(slope_part, k, weight);
     return y;
 }
 

@@ -9,9 +9,9 @@
 /* Fetches along the longer edge of the part of the floor that a pixel covers. */
 #define FLOOR_TAPS 8
 
-/* The part of the floor that a pixel covers, a parallelogram. Several fetches lie along its longer
- * edge, m; its width chooses their mipmap level. */
-struct floor_patch {
+/* What a pixel covers of the floor is a parallelogram. Several fetches lie along its longer edge,
+ * m; the shorter one chooses their level. */
+struct floor_footprint {
     real longer_x, longer_z, level;
 };
 
@@ -31,11 +31,10 @@ REAL_FN S(floor_shift) floor_shift_of(real3 direction, float4 row, float factor,
     return shift;
 }
 
-/* Returns the part of the floor that the pixel of a ray covers; the ray meets the floor at t.
- * right, up: the camera's first two rows; frustum: that of struct kiln_view; texels_a_m: texels of
- * the picture a metre. */
-REAL_FN S(floor_patch) floor_patch_of(real3 direction, real t, float4 right, float4 up,
-                                      float4 frustum, float texels_a_m)
+/* Finds what the pixel of a ray covers of the floor, which the ray meets at t. right, up: the
+ * camera's first two rows; frustum: that of struct kiln_view; texels_a_m: of the picture. */
+REAL_FN S(floor_footprint) floor_footprint_of(real3 direction, real t, float4 right, float4 up,
+                                              float4 frustum, float texels_a_m)
 {
     S(floor_shift) u = floor_shift_of(direction, right, 2.0f * frustum.x / frustum.z, t);
     S(floor_shift) v = floor_shift_of(direction, up, 2.0f * frustum.y / frustum.w, t);
@@ -46,7 +45,7 @@ REAL_FN S(floor_patch) floor_patch_of(real3 direction, real t, float4 right, flo
     /* The width is the area over the length, since the two edges need not be perpendicular. */
     real width = real_abs(u.x * v.z - u.z * v.x) * inverse;
     real covered = real_max(width, square * inverse * (1.0f / FLOAT(FLOOR_TAPS)));
-    S(floor_patch) covered_patch;
+    S(floor_footprint) covered_patch;
     covered_patch.longer_x = real_select(along_u, u.x, v.x);
     covered_patch.longer_z = real_select(along_u, u.z, v.z);
     covered_patch.level =

@@ -36,7 +36,7 @@
 #define KILN_SURFACE_BOXES         0
 #define KILN_SURFACE_SPHERES       1000
 #define KILN_SURFACE_CYLINDERS     1100
-#define KILN_SURFACE_TURNED        1200
+#define KILN_SURFACE_ORIENTED      1200
 #define KILN_SURFACE_CAPSULES      2200
 #define KILN_SURFACE_PLANES        2250
 #define KILN_SURFACE_MESHES        2300
@@ -74,7 +74,7 @@ struct kiln_draw_mesh {
 };
 
 /* A box that does not lie along the axes. */
-struct kiln_draw_turned_box {
+struct kiln_draw_oriented_box {
     float4 center;
     float4 rows[3]; /* axes of the world in its frame */
     float4 half_size;
@@ -83,7 +83,7 @@ struct kiln_draw_turned_box {
 
 struct kiln_draw_shapes {
     uint4 counts;           /* spheres, cylinders, meshes; bins of particles along an edge, or 0 */
-    uint4 more;             /* capsules, turned boxes, planes; unused */
+    uint4 oriented_counts;  /* capsules, oriented boxes, planes; unused */
     float4 sun_right;       /* unit, across the sun's direction; w: tangent of the sun's radius */
     float4 sun_up;          /* unit, across sun_right and the sun's direction */
     float4 world_to_bin[2]; /* rows: world positions to bins of particles */
@@ -104,9 +104,9 @@ struct kiln_draw_shapes {
     float4 capsule_color[KILN_MAX_OBJECTS];
     float4 planes[KILN_MAX_OBJECTS]; /* unit normal; w: distance from the origin along it */
     float4 plane_color[KILN_MAX_OBJECTS];
-    S(kiln_draw_turned_box) turned[KILN_MAX_OBJECTS];
+    S(kiln_draw_oriented_box) oriented_boxes[KILN_MAX_OBJECTS];
     S(sun_edges) edges; /* of boxes along the axes */
-    S(sun_edges) turned_edges[KILN_MAX_OBJECTS];
+    S(sun_edges) oriented_edges[KILN_MAX_OBJECTS];
     S(sun_band) bands[KILN_MAX_OBJECTS]; /* of cylinders */
 };
 

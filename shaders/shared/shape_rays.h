@@ -100,7 +100,7 @@ REAL_FN S(ray_interval) ray_cross_ball(float4 ball, real3 origin, real3 directio
     real3 towards = real3_towards(ball, origin);
     real a = 1.0f / real3_dot(direction, direction);
     real middle = real3_dot(towards, direction) * a;
-    real3 across = real3_along(towards, direction, -middle);
+    real3 across = real3_add_scaled(towards, direction, -middle);
     real inside = (ball.w * ball.w - real3_dot(across, across)) * a;
     real extent = real_sqrt(real_max(inside, real_all(0.0f)));
     return ray_interval_or_miss(inside > 0.0f, middle - extent, middle + extent);
@@ -118,12 +118,12 @@ REAL_FN S(ray_cylinder) ray_cross_cylinder(float4 cylinder, float4 axis, real3 o
 {
     real3 from = real3_sub(origin, real3_all(cylinder));
     real height = real3_dot_all(from, axis), climb = real3_dot_all(direction, axis);
-    real3 flat_from = real3_along(from, real3_all(axis), -height);
-    real3 flat_direction = real3_along(direction, real3_all(axis), -climb);
+    real3 flat_from = real3_add_scaled(from, real3_all(axis), -height);
+    real3 flat_direction = real3_add_scaled(direction, real3_all(axis), -climb);
 
     real a = 1.0f / real_max(real3_dot(flat_direction, flat_direction), real_all(1e-12f));
     real middle = -real3_dot(flat_from, flat_direction) * a;
-    real3 across = real3_along(flat_from, flat_direction, middle);
+    real3 across = real3_add_scaled(flat_from, flat_direction, middle);
     real inside = (cylinder.w * cylinder.w - real3_dot(across, across)) * a;
     real extent = real_sqrt(real_max(inside, real_all(0.0f)));
 

@@ -88,7 +88,7 @@ FN float4 spin_unit(float4 q)
 }
 
 /* Returns a pose after turning at a rate, rad/s, for a time. */
-FN float4 spin_turned(float4 p, float3 rate, float time_s)
+FN float4 spin_integrate(float4 p, float3 rate, float time_s)
 {
     EXACT float speed = float3_length(rate);
     EXACT float half_angle = (0.5f * time_s) * speed;

@@ -128,9 +128,9 @@ FN void step_turn(SIM_PARAM S(kiln_particle) p, uint slot, float3 rate)
         time_s = time_s * part;
         pose = spin_any_pose(particle_stream(STEP(derived), p));
     }
-    EXACT float4 turned = spin_turned(pose, rate, time_s);
+    EXACT float4 rotated = spin_integrate(pose, rate, time_s);
     SPIN_WORD(at) = spin_words_of(rate);
-    SPIN_WORD(at + 1u) = spin_pose_words(turned);
+    SPIN_WORD(at + 1u) = spin_pose_words(rotated);
 }
 
 #endif

@@ -63,7 +63,7 @@ REAL_FN real both_strips(real a, real b, float alike)
 
 struct sun_hidden {
     real cover;
-    real way; /* distance from the point to where the light leaves the box, m */
+    real exit_distance; /* how far light goes until it leaves the box, m */
 };
 
 /* Computes the cover of a box from where the light's ray crosses its slabs. For a ray that passes
@@ -79,8 +79,8 @@ REAL_FN S(sun_hidden) sun_cross_box(S(ray_slabs) s, S(sun_edges) e, float margin
     real aside = outside + margin;
     S(sun_hidden) box;
     box.cover = both_strips(both_strips(yz.cover, xz.cover, e.alike.x), xy.cover, e.alike.y);
-    box.way = real_min(real_min(s.far.x + aside * e.later.x, s.far.y + aside * e.later.y),
-                       s.far.z + aside * e.later.z);
+    box.exit_distance = real_min(real_min(s.far.x + aside * e.later.x, s.far.y + aside * e.later.y),
+                                 s.far.z + aside * e.later.z);
     return box;
 }
 
@@ -90,7 +90,7 @@ REAL_FN S(sun_hidden) sun_cross_box(S(ray_slabs) s, S(sun_edges) e, float margin
 REAL_FN real ball_cover(real3 towards, float radius, float4 sun, float spread)
 {
     real t = real3_dot_all(towards, sun);
-    real across = real3_length(real3_along(towards, real3_all(sun), -t));
+    real across = real3_length(real3_add_scaled(towards, real3_all(sun), -t));
     return real_where(t >= 0.0f, strip_cover(radius - across, radius + across, t * spread));
 }
 
@@ -103,7 +103,7 @@ REAL_FN real3 capsule_nearest(real3 towards, float4 axis, float4 sun)
         FLOAT4(axis.x - sun.x * climb, axis.y - sun.y * climb, axis.z - sun.z * climb, 0.0f);
     float square = level.x * level.x + level.y * level.y + level.z * level.z;
     real along = real3_dot_all(towards, level) * (-1.0f / exact_max(square, 1e-6f));
-    return real3_along(towards, real3_all(axis), real_clamp(along, -axis.w, axis.w));
+    return real3_add_scaled(towards, real3_all(axis), real_clamp(along, -axis.w, axis.w));
 }
 
 /* Returns the cover of a capped cylinder. towards: the way to its middle; axis: w: half of its
@@ -120,7 +120,7 @@ REAL_FN real cylinder_cover(real3 towards, float radius, float4 axis, float4 sun
     real ends = strip_cover(end - real_abs(y), end + real_abs(y), t * spread);
     /* Light that starts beside the cylinder or beyond an end may only lead away from it. */
     real height = -real3_dot_all(towards, axis);
-    real3 aside = real3_along(towards, real3_all(axis), height);
+    real3 aside = real3_add_scaled(towards, real3_all(axis), height);
     truth beyond = truth_and(real_abs(height) >= axis.w, height * band.lean.x > 0.0f);
     truth beside =
         truth_and(real3_dot(aside, aside) >= radius * radius, real3_dot_all(aside, sun) < 0.0f);
@@ -133,7 +133,7 @@ REAL_FN real cylinder_cover(real3 towards, float radius, float4 axis, float4 sun
 REAL_FN real speck_cover(real3 towards, real size, float4 sun, float spread, float fade)
 {
     real t = real3_dot_all(towards, sun);
-    real across = real3_length(real3_along(towards, real3_all(sun), -t));
+    real across = real3_length(real3_add_scaled(towards, real3_all(sun), -t));
     real radius = real_max(t * spread, real_all(1e-5f));
     real smaller = real_min(radius, size), ratio = smaller / real_max(radius, size);
     real x = real_clamp01((radius + size - across) / (2.0f * smaller));

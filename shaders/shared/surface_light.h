@@ -12,7 +12,7 @@
 
 /* Returns how much a surface is turned towards an object, 0 to 1; a little of an object behind the
  * surface counts as well. along_normal: of the way to the object's middle. */
-REAL_FN real sky_turned_to(real along_normal, real distance2)
+REAL_FN real sky_facing(real along_normal, real distance2)
 {
     return real_clamp01(along_normal * real_rsqrt(real_max(distance2, real_all(1e-9f))) + 0.4f);
 }
@@ -41,7 +41,7 @@ REAL_FN real sky_beside_box(float4 halves, real3 towards, real3 normal)
                          real_max(real_abs(towards.z) - halves.z, zero));
     float size = exact_min(exact_min(halves.x, halves.y), halves.z);
     real fall = size / (size + 2.0f * real3_length(beyond));
-    real facing = sky_turned_to(real3_dot(towards, normal), real3_dot(towards, towards));
+    real facing = sky_facing(real3_dot(towards, normal), real3_dot(towards, towards));
     return sky_left(facing, fall * fall);
 }
 
@@ -49,7 +49,7 @@ REAL_FN real sky_beside_ball(real3 towards, float radius, real3 normal)
 {
     real distance2 = real_max(real3_dot(towards, towards), real_all(1e-9f));
     real fall = real_min(radius * radius / distance2, real_all(1.0f));
-    return sky_left(sky_turned_to(real3_dot(towards, normal), distance2), fall);
+    return sky_left(sky_facing(real3_dot(towards, normal), distance2), fall);
 }
 
 /* Returns the part of the sky that a capsule does not hide: that of the nearest of the balls that
@@ -57,7 +57,7 @@ REAL_FN real sky_beside_ball(real3 towards, float radius, real3 normal)
 REAL_FN real sky_beside_capsule(real3 towards, float radius, float4 axis, real3 normal)
 {
     real along = real_clamp(-real3_dot_all(towards, axis), -axis.w, axis.w);
-    return sky_beside_ball(real3_along(towards, real3_all(axis), along), radius, normal);
+    return sky_beside_ball(real3_add_scaled(towards, real3_all(axis), along), radius, normal);
 }
 
 /* Returns whether a cylinder hides any sky, as sky_meets_box does for a box. axis: unit, w: half of
@@ -73,11 +73,11 @@ REAL_FN real sky_beside_cylinder(real3 towards, float radius, float4 axis, real3
 {
     float size = exact_min(axis.w, radius);
     real height = real3_dot_all(towards, axis);
-    real3 aside = real3_along(towards, real3_all(axis), -height);
+    real3 aside = real3_add_scaled(towards, real3_all(axis), -height);
     real above = real_max(real_abs(height) - axis.w, real_all(0.0f));
     real beside = real_max(real3_length(aside) - radius, real_all(0.0f));
     real fall = size / (size + 2.0f * real_sqrt(above * above + beside * beside));
-    real facing = sky_turned_to(real3_dot(towards, normal), real3_dot(towards, towards));
+    real facing = sky_facing(real3_dot(towards, normal), real3_dot(towards, towards));
     return sky_left(facing, fall * fall);
 }
 
@@ -90,7 +90,7 @@ REAL_FN real sky_beside_mesh(real3 towards, float4 halves, real3 normal)
                         towards.z * (1.0f / exact_max(halves.z, 1e-4f)));
     real away = real_max(real3_length(parts) - 1.0f, real_all(0.0f));
     real fall = 1.0f / (1.0f + 2.0f * away);
-    real facing = sky_turned_to(real3_dot(towards, normal), real3_dot(towards, towards));
+    real facing = sky_facing(real3_dot(towards, normal), real3_dot(towards, towards));
     return sky_left(facing, fall * fall);
 }
 

@@ -208,8 +208,8 @@ FN S(collide_state) sweep_stay(SIM_PARAM S(sweep_path) path, float radius)
         now.position =
             volume_carry(SIM AROUND(colliders[last]), path.hit.face, path.until, now.position);
 #endif
-    if (COLLIDE_IS_TURNED(AROUND(colliders[last])))
-        now.position = collide_turned_carry(SIM last, now.since, path.until, now.position);
+    if (COLLIDE_IS_ORIENTED(AROUND(colliders[last])))
+        now.position = collide_oriented_carry(SIM last, now.since, path.until, now.position);
     now.position = collide_rise(SIM now.position, path.until, radius);
     return now;
 }

@@ -41,10 +41,10 @@
 /* A bin, a square of 8 x 8 tiles: its list, and bounds of what a sprite of it can add to a
  * pixel. */
 struct tiled_bin {
-    uint first, count; /* range of the list in all lists */
-    uint adding;       /* number of its sprites that cover nothing */
+    uint first, count;   /* range of the list in all lists */
+    uint additive_count; /* number of its sprites that cover nothing */
     /* most light that a covering sprite adds, and one that does not cover; bits of floats */
-    uint cover, add;
+    uint covering_max, additive_max;
 };
 
 /* Rows of float4 of a sprite (shaders/draw/sprites/tiled.glsl). */

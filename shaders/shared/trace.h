@@ -57,13 +57,13 @@ FN S(kiln_trace) trace_nothing(void)
  * or at the impact. */
 FN S(emit_state) trace_at(S(kiln_trace) t, float since)
 {
-    bool turned = (t.serial_event.y & TRACE_TURN) != 0u;
-    bool before = turned && since < t.turn.w;
+    bool has_turn = (t.serial_event.y & TRACE_TURN) != 0u;
+    bool before = has_turn && since < t.turn.w;
     EXACT float4 from = t.start;
     EXACT float4 to = t.end;
     if (before)
         to = t.turn;
-    if (turned && !before)
+    if (has_turn && !before)
         from = t.turn;
     EXACT float passed = since - from.w;
     EXACT float whole = to.w - from.w;
@@ -75,7 +75,7 @@ FN S(emit_state) trace_at(S(kiln_trace) t, float since)
     EXACT float3 slow = trace_vector(t.start_velocity);
     EXACT float3 fast = trace_vector(t.end_velocity);
     EXACT float3 change = float3_sub(fast, slow);
-    EXACT float changed = turned ? (before ? 0.0f : 1.0f) : part;
+    EXACT float changed = has_turn ? (before ? 0.0f : 1.0f) : part;
     EXACT S(emit_state) s;
     s.position = float3_add_scaled(a, way, part);
     s.velocity = float3_add_scaled(slow, change, changed);

@@ -1,4 +1,4 @@
-/* Finds the living particles in the slots of one system, in order of serials, or with KEPT in all
+/* Finds the living particles in the slots of one system, in order of serials, or with SPREAD in all
  * slots of the pool, in the order that is kept between frames. Each invocation takes a stretch of
  * SORT_ITEMS slots. alive_count.comp and alive_list.comp include it. */
 #ifndef KILN_SORT_ALIVE_GLSL
@@ -18,9 +18,9 @@ layout(std430, binding = SORT_BIND_COUNTS) buffer count_block
                     * before */
 };
 
-#ifdef KEPT /* all slots, in the order that is kept between frames */
+#ifdef SPREAD /* all slots, in the order that is kept between frames */
 
-#include "sort/kept.glsl"
+#include "sort/spread.glsl"
 
 layout(location = 3) uniform uint used; /* slots of the pool */
 layout(location = 4) uniform uint chosen; /* bit i: system i takes part */
@@ -35,7 +35,7 @@ uint slot_of(uint i)
 
 uint system_of(uint slot)
 {
-    return kept_system_of(slot);
+    return pool_system_of(slot);
 }
 
 #else
@@ -64,7 +64,7 @@ uint system_of(uint slot)
 bool is_listed(uint slot)
 {
     bool alive = (records[slot].velocity_birth.w & KILN_PARTICLE_ALIVE) != 0u;
-#ifdef KEPT
+#ifdef SPREAD
     alive = alive && (chosen >> system_of(slot) & 1u) != 0u;
 #endif
     return alive;
@@ -77,15 +77,15 @@ uint stretch_begin()
 
 /* Returns a bit for each slot of the stretch: bit k is set if slot k has a living particle of a
  * chosen system. */
-uint living_of_stretch()
+uint alive_mask()
 {
     uint first = stretch_begin();
-    uint living = 0u;
+    uint mask = 0u;
     for (uint k = 0u; k < SORT_ITEMS; k++) {
         if (first + k < used)
-            living |= is_listed(slot_of(first + k)) ? 1u << k : 0u;
+            mask |= is_listed(slot_of(first + k)) ? 1u << k : 0u;
     }
-    return living;
+    return mask;
 }
 
 #endif

@@ -1,13 +1,13 @@
-/* Counts the living particles in each block of a system's slots, or with KEPT of all slots. */
+/* Counts the living particles in each block of a system's slots, or with SPREAD of all slots. */
 // variant:
-// variant: KEPT=1
+// variant: SPREAD=1
 #include "sort/alive.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 
 void main()
 {
-    group_sum_before(uint(bitCount(living_of_stretch())));
+    group_sum_before(uint(bitCount(alive_mask())));
     if (gl_LocalInvocationID.x == 0u && group_index() * SORT_BLOCK < used)
         counts[first_block + group_index()] = group_total();
 }

@@ -1,10 +1,10 @@
-/* Writes the draw entries of the living particles of a system, or with KEPT of all systems, in
+/* Writes the draw entries of the living particles of a system, or with SPREAD of all systems, in
  * order, behind those of the blocks before. PAIRED writes pairs of a key by depth and the entry
  * instead. NUMBERED writes the entries, and pairs of the key and the entry's place in the list. */
 // variant:
 // variant: PAIRED=1
 // variant: NUMBERED=1
-// variant: KEPT=1
+// variant: SPREAD=1
 #include "shared/keys.h"
 #include "sort/alive.glsl"
 
@@ -42,12 +42,12 @@ void write(uint place, uint slot)
 
 void main()
 {
-    uint living = living_of_stretch();
-    uint place = group_sum_before(uint(bitCount(living)));
+    uint alive = alive_mask();
+    uint place = group_sum_before(uint(bitCount(alive)));
     if (stretch_begin() < used)
         place += counts[first_block + group_index()];
     for (uint k = 0u; k < SORT_ITEMS; k++) {
-        if ((living >> k & 1u) != 0u)
+        if ((alive >> k & 1u) != 0u)
             write(place++, slot_of(stretch_begin() + k));
     }
 }

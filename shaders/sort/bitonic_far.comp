@@ -8,27 +8,27 @@
 
 layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
-#define HELD (1u << LEVELS)
+#define PAIRS (1u << LEVELS)
 
 layout(location = 0) uniform uint count;   /* a power of two */
-layout(location = 1) uniform uint size;    /* pairs of a bunch, ordered in one direction */
+layout(location = 1) uniform uint bunch;   /* pairs of a bunch, ordered in one direction */
 layout(location = 2) uniform uint spacing; /* the least distance of these passes */
 
 void main()
 {
     uint i = group_index() * NETWORK_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (i >= count / HELD)
+    if (i >= count / PAIRS)
         return;
     uint at = first_of(i, spacing, LEVELS);
-    bool descending = (at & size) != 0u;
-    uvec2 p[HELD];
-    for (uint k = 0u; k < HELD; k++)
+    bool descending = (at & bunch) != 0u;
+    uvec2 p[PAIRS];
+    for (uint k = 0u; k < PAIRS; k++)
         p[k] = pairs[at + k * spacing];
-    for (uint distance = HELD / 2u; distance > 0u; distance /= 2u)
-        for (uint k = 0u; k < HELD / 2u; k++) {
+    for (uint distance = PAIRS / 2u; distance > 0u; distance /= 2u)
+        for (uint k = 0u; k < PAIRS / 2u; k++) {
             uint low = first_of(k, distance, 1u);
             order(p[low], p[low + distance], descending);
         }
-    for (uint k = 0u; k < HELD; k++)
+    for (uint k = 0u; k < PAIRS; k++)
         pairs[at + k * spacing] = p[k];
 }

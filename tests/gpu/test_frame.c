@@ -276,9 +276,9 @@ static void jobs_go_on_from_each_other(void **state)
     struct kiln_job *jobs[JOBS];
     for (int i = 0; i < JOBS; i++) {
         jobs[i] = make_job(*state, scene, &params[i], &flags[i]);
-        bool ok = i == 0
-                      ? kiln_loop_advance(kiln_job_loop(jobs[0]), 2, &error)
-                      : kiln_loop_adopt(kiln_job_loop(jobs[i]), kiln_job_loop(jobs[i - 1]), &error);
+        bool ok = i == 0 ? kiln_loop_advance(kiln_job_loop(jobs[0]), 2, &error)
+                         : kiln_loop_copy_state(kiln_job_loop(jobs[i]), kiln_job_loop(jobs[i - 1]),
+                                                &error);
         if (!ok)
             fail_msg("%s", error.message);
     }

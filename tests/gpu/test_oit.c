@@ -272,7 +272,7 @@ static void small_storage_blocks_are_respected(void **state)
  * nothing of the left half is counted. */
 static void lists_do_not_outgrow_their_counts(void **state)
 {
-    static const char counts[] = "if (!fills) {";
+    static const char counts[] = "if (!writes) {";
     const struct frame_setting setting = {{OIT}, 1, FRAME_GL, 0};
     struct kiln_picture *whole = frame_draw(*state, CROWD, STEPS, &setting);
     char folder[32], path[128];

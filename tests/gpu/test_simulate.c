@@ -90,7 +90,7 @@ static void round_colliders(void **state)
 static void turned_colliders(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 60);
-    fixture_add_turned(&fixture);
+    fixture_add_oriented(&fixture);
     some_agree(*state, &fixture.scene, 60, 1);
 }
 

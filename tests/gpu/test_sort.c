@@ -453,7 +453,7 @@ static bool spread_agrees(struct spread *s, const struct kiln_sort_params *param
 static bool spread_follows(struct spread *s, struct kiln_sort_params *params)
 {
     struct kiln_error error = {0};
-    if (!kiln_sort_follow(s->spread, &s->run.pool, params, &error))
+    if (!kiln_sort_advance(s->spread, &s->run.pool, params, &error))
         fail_msg("%s", error.message);
     static const uint32_t masks[] = {0xffff, 5, 0};
     bool same = true;
@@ -485,7 +485,7 @@ static void a_spread_sort_converges(void **state)
         }
         assert_true(frames[f] == 1 ? late == 0 : late > 10);
         for (uint32_t frame = 0; frame < 2 * frames[f] - 1; frame++)
-            assert_true(kiln_sort_follow(s.spread, &s.run.pool, &params, &(struct kiln_error){0}));
+            assert_true(kiln_sort_advance(s.spread, &s.run.pool, &params, &(struct kiln_error){0}));
         for (int frame = 0; frame < 3; frame++)
             assert_true(spread_follows(&s, &params));
         spread_finish(&s);
@@ -512,7 +512,7 @@ static void small_pools_are_spread(void **state)
             .forward = {0, 0, -1}, .systems = 7, .order = KILN_SORT_FRONT_TO_BACK};
         for (int frame = 0; frame < 6; frame++) {
             uint32_t count = 99;
-            assert_true(kiln_sort_follow(sort, &pool, &params, &error));
+            assert_true(kiln_sort_advance(sort, &pool, &params, &error));
             assert_true(kiln_sort_run(sort, &pool, &params, &entries, &count, &error));
             assert_int_equal(count, pool.slot_count);
         }

@@ -1,11 +1,11 @@
-/* lib/bench/sort_trial.c: what is timed has sorted. */
+/* lib/bench/sort_timer.c: what is timed has sorted. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "bench/bitonic_field.h"
-#include "bench/sort_trial.h"
+#include "bench/sort_timer.h"
 #include "sort/pairs.h"
 #include "support/cmocka.h"
 #include "support/device.h"
@@ -31,15 +31,15 @@ static void fill(struct task *task, enum pattern pattern, uint32_t count, uint32
               by_pair);
 }
 
-static void expect_result(struct kiln_sort_trial *trial, const struct task *task, uint32_t count,
+static void expect_result(struct kiln_sort_timer *timer, const struct task *task, uint32_t count,
                           const char *what)
 {
     struct kiln_error error = {0};
     double ms = -1;
-    if (!kiln_sort_trial_run(trial, task->keys, count, &ms, &error))
+    if (!kiln_sort_timer_run(timer, task->keys, count, &ms, &error))
         fail_msg("%s: %s", what, error.message);
     assert_true(ms >= 0 && ms < 60e3);
-    const uint32_t *places = kiln_sort_trial_places(trial, &error);
+    const uint32_t *places = kiln_sort_timer_places(timer, &error);
     assert_non_null(places);
     for (uint32_t i = 0; i < count; i++)
         if (places[i] != (uint32_t)task->expected[i])
@@ -53,19 +53,19 @@ static void all_kinds_sort(void **state)
     static const uint32_t counts[] = {0, 1, 2, 3, 4, 1000, 1 << 14, MOST - 1, MOST};
     struct kiln_error error = {0};
     struct kiln_threads *threads = kiln_threads_create(2);
-    for (int kind = 0; kind < KILN_TRIAL_COUNT; kind++) {
-        const char *name = kiln_sort_trial_name((enum kiln_sort_trial_kind)kind);
-        struct kiln_sort_trial *trial =
-            kiln_sort_trial_create(*state, threads, (enum kiln_sort_trial_kind)kind, MOST, &error);
-        if (!trial)
+    for (int kind = 0; kind < KILN_SORT_TIMER_COUNT; kind++) {
+        const char *name = kiln_sort_timer_name((enum kiln_sort_timer_kind)kind);
+        struct kiln_sort_timer *timer =
+            kiln_sort_timer_create(*state, threads, (enum kiln_sort_timer_kind)kind, MOST, &error);
+        if (!timer)
             fail_msg("%s: %s", name, error.message);
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
             for (int pattern = 0; pattern < (counts[c] > 1000 ? 1 : PATTERNS); pattern++) {
                 fill(&task, (enum pattern)pattern, counts[c], MOST);
-                expect_result(trial, &task, counts[c], name);
+                expect_result(timer, &task, counts[c], name);
             }
-        kiln_sort_trial_destroy(&trial);
-        assert_null(trial);
+        kiln_sort_timer_destroy(&timer);
+        assert_null(timer);
     }
     kiln_threads_destroy(&threads);
 }
@@ -78,19 +78,19 @@ static void variants_sort_sets_of_rows(void **state)
     const uint32_t count = 1 << 14, width = kiln_bitonic_field_width(count);
     assert_int_equal(width, 128);
     struct kiln_error error = {0};
-    for (int kind = KILN_TRIAL_COMPUTED; kind <= KILN_TRIAL_PACKED; kind++) {
-        struct kiln_sort_trial *trial =
-            kiln_sort_trial_create(*state, NULL, (enum kiln_sort_trial_kind)kind, count, &error);
-        if (!trial)
+    for (int kind = KILN_SORT_TIMER_COMPUTED; kind <= KILN_SORT_TIMER_PACKED; kind++) {
+        struct kiln_sort_timer *timer =
+            kiln_sort_timer_create(*state, NULL, (enum kiln_sort_timer_kind)kind, count, &error);
+        if (!timer)
             fail_msg("%s", error.message);
         for (size_t r = 0; r < sizeof row_counts / sizeof *row_counts; r++) {
             const uint32_t rows = row_counts[r] ? row_counts[r] : count;
             fill(&task, RANDOM, count, rows * width);
-            kiln_sort_trial_restrict(trial, row_counts[r]);
-            expect_result(trial, &task, count,
-                          kiln_sort_trial_name((enum kiln_sort_trial_kind)kind));
+            kiln_sort_timer_restrict(timer, row_counts[r]);
+            expect_result(timer, &task, count,
+                          kiln_sort_timer_name((enum kiln_sort_timer_kind)kind));
         }
-        kiln_sort_trial_destroy(&trial);
+        kiln_sort_timer_destroy(&timer);
     }
 }
 
@@ -107,9 +107,9 @@ static void a_device_is_needed(void **state)
 {
     (void)state;
     struct kiln_error error = {0};
-    for (int kind = KILN_TRIAL_RADIX; kind < KILN_TRIAL_COUNT; kind++) {
+    for (int kind = KILN_SORT_TIMER_RADIX; kind < KILN_SORT_TIMER_COUNT; kind++) {
         error = (struct kiln_error){0};
-        assert_null(kiln_sort_trial_create(NULL, NULL, (enum kiln_sort_trial_kind)kind, 1, &error));
+        assert_null(kiln_sort_timer_create(NULL, NULL, (enum kiln_sort_timer_kind)kind, 1, &error));
         assert_int_equal(error.code, KILN_USAGE);
     }
 }

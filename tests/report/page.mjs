@@ -498,7 +498,7 @@ test("is quick with a thousand tests", async () => {
     assert.ok(times.paint < 3000 && times.reason < 3000, "first paint and reason");
     assert.ok(times.whole < 15000, "all loaded");
     assert.ok(filter < 2000 && sort < 2000 && open < 2000, "answers");
-    assert.ok(await page.evaluate(() => pictures.kept.size) < 12, "pictures are decoded when they are shown");
+    assert.ok(await page.evaluate(() => pictures.cache.size) < 12, "pictures are decoded when they are shown");
     await photograph(page, "many-light");
     await page.close();
 });

@@ -278,7 +278,7 @@ void fixture_add_round(struct scene_fixture *f)
     cylinder->height = fixture_ramp(f, time, 0.0f, 0.2f, 2.0f, 1.4f);
 }
 
-void fixture_add_turned(struct scene_fixture *f)
+void fixture_add_oriented(struct scene_fixture *f)
 {
     const uint32_t time = KILN_CLOCK_TIME;
     struct kiln_object *box = fixture_add_box(f, 0.6f, 0.9f, 0.0f, 0.9f, 0.1f, 0.8f);

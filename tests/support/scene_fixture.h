@@ -80,9 +80,8 @@ void fixture_zoo_backdrop(struct scene_fixture *f);
 /* Adds a sphere that moves and a cylinder that grows. */
 void fixture_add_round(struct scene_fixture *f);
 
-/* Adds boxes, a capsule, a cylinder and planes that are rotated or turn, and gives half of the
- * systems restitution and friction. */
-void fixture_add_turned(struct scene_fixture *f);
+/* What turns, beside what there is, and surfaces that rub. */
+void fixture_add_oriented(struct scene_fixture *f);
 
 /* Adds the wind of a file to a system: velocity (-2 z, 0.5 + 0.3 y, 2 x), for x from -1.5 to 1.5, y
  * from -0.5 to 1.9 and z from -1.5 to 1.5. */

@@ -19,7 +19,7 @@ static struct kiln_object *add_flat_box(void)
     return fixture_add_box(&fixture, 0, -1, 0, 40, 2, 40);
 }
 
-static struct kiln_object *add_turned_box(void)
+static struct kiln_object *add_oriented_box(void)
 {
     struct kiln_object *box = fixture_add_box(&fixture, 0, -1, 0, 40, 2, 40);
     box->rotation.y = fixture_constant(0.7f);
@@ -93,7 +93,7 @@ static struct kiln_object *add_mapped_slab(void)
 const struct surface surfaces[SURFACES] = {
     {"floor", add_floor, SURFACE_FLAT, false},
     {"box", add_flat_box, SURFACE_FLAT, true},
-    {"turned box", add_turned_box, SURFACE_FLAT, true},
+    {"turned box", add_oriented_box, SURFACE_FLAT, true},
     {"plane", add_level_plane, SURFACE_FLAT, true},
     {"sphere", add_globe, SURFACE_ROUND, true},
     {"end of a cylinder", add_cylinder_end, SURFACE_FLAT, true},

@@ -4,7 +4,7 @@
 #include <stdint.h>
 
 #include "shared/collide.h"
-#include "sim/world/turned.h"
+#include "sim/world/oriented.h"
 #include "support/cmocka.h"
 #include "support/simulation.h"
 #include "support/thrown.h"
@@ -153,13 +153,13 @@ static void paths_meet_what_they_should(void **state)
         float3 way = random_in_ball(stream, 20u, true);
         object->axis = fixture_constant3(way.x, way.y, way.z);
         object->rotation = fixture_constant3(way.x * 6.0f, way.y * 3.0f, way.z * 6.0f);
-        const struct kiln_collider c = kiln_turned_collider(&fixture.scene, object, 0.0f, 1.0f);
+        const struct kiln_collider c = kiln_oriented_collider(&fixture.scene, object, 0.0f, 1.0f);
         float3 from = float3_scale(random_in_ball(stream, 30u, false), 2.0f);
         float3 to = float3_scale(random_in_ball(stream, 40u, false), 2.0f);
         const struct kiln_surroundings around = {.collider_count = 1, .colliders = {c}};
         const struct kiln_sim sim = {.surroundings = &around};
         const struct collide_span span =
-            collide_turned_through(&sim, 0, 0.0f, 0.0f, 1.0f, from, to);
+            collide_oriented_through(&sim, 0, 0.0f, 0.0f, 1.0f, from, to);
         double nearest = 1e9, first = 2;
         for (int k = 0; k <= 1000; k++) {
             struct vec at = along(vec_of(from), sub(vec_of(to), vec_of(from)), k / 1000.0);
@@ -375,10 +375,10 @@ static void nothing_passes_a_turning_plate(void **state)
     assert_true(bounced > 10000);
 }
 
-static bool is_in_turned(const struct kiln_scene *scene, const struct kiln_object *object, float3 p,
-                         float time_s)
+static bool is_in_oriented(const struct kiln_scene *scene, const struct kiln_object *object,
+                           float3 p, float time_s)
 {
-    return object->collide && kiln_turned_is(object) &&
+    return object->collide && kiln_object_is_oriented(object) &&
            outside_of(scene, object, vec_of(p), time_s) < 0;
 }
 
@@ -386,8 +386,8 @@ static void nobody_ends_a_step_inside(void **state)
 {
     (void)state;
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 200);
-    fixture_add_turned(&fixture);
-    nobody_ends_inside(200, is_in_turned);
+    fixture_add_oriented(&fixture);
+    nobody_ends_inside(200, is_in_oriented);
 }
 
 /* Born inside: out by the nearest part of the surface; the clamp mode, onto it. */

@@ -3,14 +3,14 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "suite/trial.h"
+#include "suite/test_case.h"
 #include "support/cmocka.h"
 
 struct fixture {
     struct kiln_suite suite;
     struct kiln_test test;
     struct kiln_test_params params;
-    struct kiln_trial trial;
+    struct kiln_test_case test_case;
 };
 
 static void fixture_init(struct fixture *f, const char *name, const char *path)
@@ -20,9 +20,9 @@ static void fixture_init(struct fixture *f, const char *name, const char *path)
         .test = {.name = name, .full_name = name, .path = path},
         .params = kiln_test_defaults(),
     };
-    f->trial = (struct kiln_trial){
+    f->test_case = (struct kiln_test_case){
         .arena = kiln_arena_create(), .suite = &f->suite, .test = &f->test, .params = &f->params};
-    f->test.golden = kiln_trial_text(&f->trial, "golden/%s", name);
+    f->test.golden = kiln_test_case_text(&f->test_case, "golden/%s", name);
 }
 
 static void expect_rerun(const char *name, const char *full_name, const char *path,
@@ -31,8 +31,8 @@ static void expect_rerun(const char *name, const char *full_name, const char *pa
     struct fixture f;
     fixture_init(&f, name, path);
     f.test.full_name = full_name;
-    assert_string_equal(kiln_trial_rerun_command(&f.trial), expected);
-    kiln_arena_destroy(&f.trial.arena);
+    assert_string_equal(kiln_test_case_rerun_command(&f.test_case), expected);
+    kiln_arena_destroy(&f.test_case.arena);
 }
 
 static void a_test_is_found_under_its_name_again(void **state)
@@ -61,13 +61,14 @@ static void what_was_asked_for_is_asked_for_again(void **state)
     f.params.technique_count = 1;
     f.params.repeat = 3;
     f.params.strict = f.params.ignore_hashes = true;
-    assert_string_equal(kiln_trial_rerun_command(&f.trial),
+    assert_string_equal(kiln_test_case_rerun_command(&f.test_case),
                         "kiln test --golden 'my goldens' --results r --device 'nvidia h200' "
                         "--technique sort=cpu --repeat 3 --ignore-hashes --strict fire.yaml");
-    assert_string_equal(kiln_trial_approve_command(&f.trial), "kiln test approve --results r fire");
+    assert_string_equal(kiln_test_case_approve_command(&f.test_case),
+                        "kiln test approve --results r fire");
     f.test.device = "software"; /* is in the test file */
-    assert_null(strstr(kiln_trial_rerun_command(&f.trial), "--device"));
-    kiln_arena_destroy(&f.trial.arena);
+    assert_null(strstr(kiln_test_case_rerun_command(&f.test_case), "--device"));
+    kiln_arena_destroy(&f.test_case.arena);
 }
 
 int main(void)

@@ -191,7 +191,7 @@ static void equal_pictures_are_held_once(void **state)
     album.frames[1].reference = "1r.png";
     album.frames[1].status = KILN_TEST_FAIL;
     struct kiln_gallery *gallery = plan(&album, false);
-    assert_int_equal(kiln_gallery_inside(gallery), 3);
+    assert_int_equal(kiln_gallery_embedded_count(gallery), 3);
     const struct kiln_gallery_place *same = kiln_gallery_places(gallery, 0, 0);
     const struct kiln_gallery_place *other = kiln_gallery_places(gallery, 0, 1);
     assert_int_equal(same[KILN_GALLERY_RESULT].number, same[KILN_GALLERY_REFERENCE].number);
@@ -277,10 +277,10 @@ static void a_page_has_a_size(void **state)
     }
     album.frames[2].status = KILN_TEST_FAIL;
     struct kiln_gallery *gallery = plan(&album, false);
-    assert_int_equal(kiln_gallery_inside(gallery), 2);
-    assert_int_equal(kiln_gallery_crowded_out(gallery), 1);
-    static const enum kiln_gallery_kind kinds[] = {KILN_GALLERY_INSIDE, KILN_GALLERY_LINKED,
-                                                   KILN_GALLERY_INSIDE};
+    assert_int_equal(kiln_gallery_embedded_count(gallery), 2);
+    assert_int_equal(kiln_gallery_linked_for_size(gallery), 1);
+    static const enum kiln_gallery_kind kinds[] = {KILN_GALLERY_EMBEDDED, KILN_GALLERY_LINKED,
+                                                   KILN_GALLERY_EMBEDDED};
     for (size_t i = 0; i < 3; i++)
         assert_int_equal(kiln_gallery_places(gallery, 0, i)[KILN_GALLERY_RESULT].kind, kinds[i]);
     close_album(&album);

@@ -7,7 +7,7 @@
 
 #include "draw/light/firelight.h"
 #include "draw/light/smoke_shadow.h"
-#include "draw/moment/living_blocks.h"
+#include "draw/moment/appearance_blocks.h"
 #include "draw/moment/looks.h"
 #include "draw/moment/view.h"
 #include "support/cmocka.h"

@@ -8,7 +8,7 @@
 
 #include "draw/light/firelight.h"
 #include "draw/light/smoke_shadow.h"
-#include "draw/moment/living_blocks.h"
+#include "draw/moment/appearance_blocks.h"
 #include "draw/moment/looks.h"
 #include "draw/moment/view.h"
 #include "support/cmocka.h"
@@ -208,10 +208,10 @@ static void fill_by_the_book(const struct fixture *f, const float4 rows[3], stru
         1 / (GRID *
              sqrt((double)(rows[0].x * rows[0].x + rows[0].y * rows[0].y + rows[0].z * rows[0].z)));
     for (uint32_t i = 0; i < 2; i++) {
-        const struct kiln_living_system system = kiln_living_system(&f->moment, i);
+        const struct kiln_appearance_system system = kiln_appearance_system(&f->moment, i);
         for (uint32_t slot = 0; slot < system.used; slot++) {
-            struct kiln_living puff;
-            if (!kiln_living_at(&system, slot, &puff) || !(puff.opacity > 0))
+            struct kiln_appearance puff;
+            if (!kiln_appearance_at(&system, slot, &puff) || !(puff.opacity > 0))
                 continue;
             double at[3], radius = (double)puff.radius;
             for (int k = 0; k < 3; k++)

@@ -72,9 +72,9 @@ static void write_manifest(const struct kiln_manifest_params *params, uint32_t f
     const struct kiln_frame_range clip = {0, frames - 1};
     struct kiln_records records = make_records(&clip, frames);
     if (frames > 0) {
-        const struct kiln_whole image = {
+        const struct kiln_finished_file image = {
             .path = "x", .frames = {2, 2}, .bytes = 77, .sha256 = "abc"};
-        const struct kiln_whole clip_file = {
+        const struct kiln_finished_file clip_file = {
             .path = "clip.mp4", .is_clip = true, .bytes = 78, .sha256 = "def"};
         kiln_records_take(&records, &image);
         kiln_records_take(&records, &clip_file);

@@ -35,23 +35,24 @@ static struct level_picture noise(uint32_t width, uint32_t height, unsigned seed
     return p;
 }
 
-static struct kiln_subject *subject_of(const struct kiln_asset_image *image)
+static struct kiln_compare_picture *picture_of(const struct kiln_asset_image *image)
 {
     struct kiln_error error = {0};
     struct kiln_threads *threads = kiln_threads_create(2);
     assert_non_null(threads);
-    struct kiln_subject *subject = kiln_subject_create(image, NULL, "picture", threads, &error);
+    struct kiln_compare_picture *picture =
+        kiln_compare_picture_create(image, NULL, "picture", threads, &error);
     kiln_threads_destroy(&threads);
     assert_string_equal(error.message, "");
-    return subject;
+    return picture;
 }
 
 /* Frees the picture. */
-static struct kiln_subject *subject(struct level_picture p)
+static struct kiln_compare_picture *make_picture(struct level_picture p)
 {
     const struct kiln_asset_image image = {p.width,       p.height,     p.channels,
                                            KILN_IMAGE_U8, .srgb = true, .pixels = p.rgba};
-    struct kiln_subject *made = subject_of(&image);
+    struct kiln_compare_picture *made = picture_of(&image);
     free(p.rgba);
     return made;
 }
@@ -62,7 +63,7 @@ struct judged {
     struct kiln_level_difference levels;
 };
 
-static struct judged judge_subjects(struct kiln_subject *a, struct kiln_subject *b,
+static struct judged judge_pictures(struct kiln_compare_picture *a, struct kiln_compare_picture *b,
                                     const char *limits, uint32_t window)
 {
     struct judged judged = {0};
@@ -77,14 +78,14 @@ static struct judged judge_subjects(struct kiln_subject *a, struct kiln_subject 
     judged.levels = m.levels;
     kiln_measurement_finish(&m);
     kiln_threads_destroy(&threads);
-    kiln_subject_destroy(&a);
-    kiln_subject_destroy(&b);
+    kiln_compare_picture_destroy(&a);
+    kiln_compare_picture_destroy(&b);
     return judged;
 }
 
 static struct judged judge(struct level_picture a, struct level_picture b)
 {
-    return judge_subjects(subject(a), subject(b), KILN_COMPARE_DEFAULT_LIMITS, 8);
+    return judge_pictures(make_picture(a), make_picture(b), KILN_COMPARE_DEFAULT_LIMITS, 8);
 }
 
 static double value(const struct judged *judged, const char *name)
@@ -203,8 +204,8 @@ static void the_densest_window_is_found(void **state)
     assert_true(j.levels.window_x <= 93 && j.levels.window_x + 8 >= 97);
     assert_true(j.levels.window_y <= 40 && j.levels.window_y + 8 >= 44);
     /* A window larger than the picture is the picture. */
-    struct judged all =
-        judge_subjects(subject(flat(10, 6, 3, 0)), subject(flat(10, 6, 3, 9)), "abs.max=1", 32);
+    struct judged all = judge_pictures(make_picture(flat(10, 6, 3, 0)),
+                                       make_picture(flat(10, 6, 3, 9)), "abs.max=1", 32);
     assert_int_equal(all.levels.window_width, 10);
     assert_int_equal(all.levels.window_height, 6);
     assert_near(value(&all, "window.share"), 1, 0);
@@ -280,7 +281,7 @@ static void float_pictures_go_beyond_white(void **state)
     for (int i = 0; i < 2; i++)
         images[i] = (struct kiln_asset_image){
             8, 8, 3, KILN_IMAGE_F32, .premultiplied = true, .pixels = light[i]};
-    struct judged j = judge_subjects(subject_of(&images[0]), subject_of(&images[1]), "psnr=30", 8);
+    struct judged j = judge_pictures(picture_of(&images[0]), picture_of(&images[1]), "psnr=30", 8);
     double level = 255 * 1.055 * (pow(40, 1 / 2.4) - pow(20, 1 / 2.4));
     assert_near(value(&j, "abs.max"), level, 1e-3);
     assert_true(value(&j, "flip.mean") > 0.01);
@@ -294,15 +295,15 @@ static void fire_on_black_is_compared(void **state)
     (void)state;
     static const float lights[][2] = {{20, 5}, {5, 20}, {0, 5}, {5, 0}};
     for (size_t i = 0; i < sizeof lights / sizeof *lights; i++) {
-        struct kiln_subject *subjects[2];
+        struct kiln_compare_picture *pictures[2];
         for (int k = 0; k < 2; k++) {
             float pixels[4 * 64 * 64] = {0};
             for (size_t p = 0; p < sizeof pixels / sizeof *pixels; p++)
                 pixels[p] = p % 4 == 3 ? 1.0f : p / 4 / 64 < 4 ? lights[i][k] : 0.0f;
             const struct kiln_asset_image image = {64, 64, 3, KILN_IMAGE_F32, .pixels = pixels};
-            subjects[k] = subject_of(&image);
+            pictures[k] = picture_of(&image);
         }
-        struct judged j = judge_subjects(subjects[0], subjects[1], KILN_COMPARE_DEFAULT_LIMITS, 8);
+        struct judged j = judge_pictures(pictures[0], pictures[1], KILN_COMPARE_DEFAULT_LIMITS, 8);
         assert_int_equal(j.frame.verdict, KILN_COMPARE_DIFFERENT);
         assert_true(value(&j, "flip.p99") > 0.1);
     }
@@ -315,7 +316,7 @@ static void deep_pictures_are_as_bright_as_others(void **state)
     for (size_t i = 0; i < 16; i++)
         deep[i] = i % 4 == 3 ? 65535 : 100 * 257;
     const struct kiln_asset_image image = {2, 2, 3, KILN_IMAGE_U16, .srgb = true, .pixels = deep};
-    struct judged j = judge_subjects(subject_of(&image), subject(flat(2, 2, 3, 100)),
+    struct judged j = judge_pictures(picture_of(&image), make_picture(flat(2, 2, 3, 100)),
                                      KILN_COMPARE_DEFAULT_LIMITS, 8);
     assert_true(value(&j, "abs.max") < 1e-3);
     assert_true(value(&j, "flip.max") < 1e-5);
@@ -334,7 +335,7 @@ static void what_is_not_finite_is_refused(void **state)
             const struct kiln_asset_image image = {3, 2, 4, KILN_IMAGE_F32, .pixels = pixels};
             struct kiln_error error = {0};
             struct kiln_threads *threads = kiln_threads_create(1);
-            assert_null(kiln_subject_create(&image, NULL, "x.exr", threads, &error));
+            assert_null(kiln_compare_picture_create(&image, NULL, "x.exr", threads, &error));
             assert_int_equal(error.code, KILN_INVALID_INPUT);
             assert_string_equal(error.message, "x.exr: pixel 1,1 has a value that is not finite");
             kiln_threads_destroy(&threads);
@@ -345,7 +346,7 @@ static void what_is_not_finite_is_refused(void **state)
 static void assert_mismatch(struct level_picture a, struct level_picture b, const char *message)
 {
     struct kiln_error error = {0};
-    struct kiln_subject *p = subject(a), *q = subject(b);
+    struct kiln_compare_picture *p = make_picture(a), *q = make_picture(b);
     struct kiln_measurement m;
     struct kiln_threads *threads = kiln_threads_create(1);
     const struct kiln_measure_params params = {false, 67.0206, 2, 8};
@@ -354,8 +355,8 @@ static void assert_mismatch(struct level_picture a, struct level_picture b, cons
     assert_string_equal(error.message, message);
     kiln_measurement_finish(&m);
     kiln_threads_destroy(&threads);
-    kiln_subject_destroy(&p);
-    kiln_subject_destroy(&q);
+    kiln_compare_picture_destroy(&p);
+    kiln_compare_picture_destroy(&q);
 }
 
 static void what_does_not_match_is_no_pass(void **state)
@@ -403,20 +404,20 @@ static void limits_decide(void **state)
 {
     (void)state;
     struct judged j =
-        judge_subjects(subject(flat(8, 8, 3, 100)), subject(flat(8, 8, 3, 110)),
+        judge_pictures(make_picture(flat(8, 8, 3, 100)), make_picture(flat(8, 8, 3, 110)),
                        "abs.max=10,psnr=28.13,flip.p99.5=1,flip.mean=0,flip.mean=1", 8);
     assert_int_equal(j.frame.verdict, KILN_COMPARE_SAME);
     assert_true(j.frame.score > 0.999 && j.frame.score <= 1.0);
     assert_string_equal(j.set.columns[j.set.count - 1].name, "flip.p99.5");
-    struct judged max =
-        judge_subjects(subject(flat(8, 8, 3, 100)), subject(flat(8, 8, 3, 110)), "abs.max=9.9", 8);
+    struct judged max = judge_pictures(make_picture(flat(8, 8, 3, 100)),
+                                       make_picture(flat(8, 8, 3, 110)), "abs.max=9.9", 8);
     assert_int_equal(max.frame.verdict, KILN_COMPARE_DIFFERENT);
     assert_near(max.frame.score, 10 / 9.9, 1e-9);
-    struct judged psnr =
-        judge_subjects(subject(flat(8, 8, 3, 100)), subject(flat(8, 8, 3, 110)), "psnr=28.14", 8);
+    struct judged psnr = judge_pictures(make_picture(flat(8, 8, 3, 100)),
+                                        make_picture(flat(8, 8, 3, 110)), "psnr=28.14", 8);
     assert_int_equal(psnr.frame.verdict, KILN_COMPARE_DIFFERENT);
-    struct judged zero =
-        judge_subjects(subject(flat(8, 8, 3, 100)), subject(flat(8, 8, 3, 101)), "abs.max=0", 8);
+    struct judged zero = judge_pictures(make_picture(flat(8, 8, 3, 100)),
+                                        make_picture(flat(8, 8, 3, 101)), "abs.max=0", 8);
     assert_int_equal(zero.frame.verdict, KILN_COMPARE_DIFFERENT);
     assert_true(isinf(zero.frame.score));
 }

@@ -99,13 +99,13 @@ static const struct kiln_option rows[] = {
      LIMITS(KILN_PIXELS, 1, 9)},
     BOOLEAN(NO_PART, "quiet", quiet, "false", "It makes no noise."),
     {ROW(NO_PART, "rate", rational, AT(rate), "auto", "Lines a second."),
-     LIMITS(KILN_PLAIN, 1, 100), .word = "auto"},
+     LIMITS(KILN_PLAIN, 1, 100), .special_word = "auto"},
     {ROW(NO_PART, "pause", number, AT(pause_s), "0 s", "Between two lines."),
      LIMITS(KILN_SECONDS, 0, 10)},
     CHOICE(NO_PART, "medium", medium, media, "paper", "What it draws on."),
     {ROW(NO_PART, "title", text, AT(title), "\"\"", "What it draws."), LIMITS(KILN_PLAIN, 0, 20)},
     {ROW(NO_PART, "room", bounds, AT(room), "none", "Where the pen may be."),
-     LIMITS(KILN_METRES, -9, 9), .word = "none"},
+     LIMITS(KILN_METRES, -9, 9), .special_word = "none"},
     VALUE(NO_PART, "speed", speed, KILN_SPEED, 0, 10, BOTH, "1 m/s", "Of the pen."),
     VECTOR(NO_PART, "place", place, KILN_METRES, -9, 9, TIME, "[0, 0, 0]", "Of the plotter."),
     COLOR(NO_PART, "ink", ink, 1, TIME, "0", "What it draws with."),
@@ -309,7 +309,7 @@ static void count_key(void *user, const struct kiln_option_key *key)
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         if (strcmp(key->path, words[i][0]) != 0)
             continue;
-        assert_string_equal(key->words, words[i][1]);
+        assert_string_equal(key->choices, words[i][1]);
         ++*found;
     }
 }

@@ -208,9 +208,9 @@ static void make_splats(void)
             number[k] = random_unit(random_stream(77, i), k);
         const float radius = 0.02f + 0.2f * number[3];
         splats[i] = (struct kiln_splat){
-            .at = {2.4f * number[0] - 1.2f, 2.4f * number[1] - 1.2f, 2.4f * number[2] - 1.2f},
+            .position = {2.4f * number[0] - 1.2f, 2.4f * number[1] - 1.2f, 2.4f * number[2] - 1.2f},
             .opacity = number[4],
-            .square = radius * radius,
+            .radius_squared = radius * radius,
             .color = {number[5], number[6], number[7]},
             .slope = (1.0f + 9.0f * number[8]) / (radius * radius),
         };
@@ -225,11 +225,11 @@ static void paint_texel(const struct kiln_chart *chart, uint32_t i, double out[4
         const struct kiln_splat *splat = &splats[s];
         double square = 0, facing = 0;
         for (int c = 0; c < 3; c++) {
-            const double way = (double)chart->place[c][i] - (double)splat->at[c];
+            const double way = (double)chart->place[c][i] - (double)splat->position[c];
             square += way * way;
             facing += (double)chart->normal[c][i] * (double)splat->normal[c];
         }
-        double inside = ((double)splat->square - square) * (double)splat->slope;
+        double inside = ((double)splat->radius_squared - square) * (double)splat->slope;
         inside = fmin(fmax(inside, 0), 1);
         const double part =
             facing < 0 ? 0 : inside * inside * (3 - 2 * inside) * (double)splat->opacity;

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "report/words.h"
+#include "report/text.h"
 #include "suite/result_member.h"
 #include "suite/suite.h"
 #include "support/cmocka.h"
@@ -100,7 +100,7 @@ static void a_run_is_summed_up(void **state)
     assert_int_equal(results->tests[7]->status, KILN_TEST_ERROR);
     assert_string_equal(results->folders[7], "out/lost");
     char text[256];
-    kiln_words_summary(text, results);
+    kiln_report_text_summary(text, results);
     assert_string_equal(text, "10 tests: 1 pass, 1 skip, 1 warn, 1 change, 1 new, 2 fail, 3 error; "
                               "in 12.346 s");
     char *line = NULL;
@@ -517,14 +517,14 @@ static void numbers_are_short(void **state)
     };
     char text[32];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        kiln_words_number(text, cases[i].value);
+        kiln_report_text_number(text, cases[i].value);
         assert_string_equal(text, cases[i].text);
     }
-    kiln_words_seconds(text, 0.0004);
+    kiln_report_text_seconds(text, 0.0004);
     assert_string_equal(text, "0.000");
-    kiln_words_seconds(text, 61.9996);
+    kiln_report_text_seconds(text, 61.9996);
     assert_string_equal(text, "62.000");
-    kiln_words_seconds(text, -1);
+    kiln_report_text_seconds(text, -1);
     assert_string_equal(text, "0.000");
 }
 

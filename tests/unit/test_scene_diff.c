@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "suite/trial.h"
+#include "suite/test_case.h"
 #include "support/cmocka.h"
 
 static void expect_changes(const char *before, const char *after, const char *expected)

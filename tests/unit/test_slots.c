@@ -172,7 +172,7 @@ static void position_first_among_turning_colliders(void **state)
 {
     (void)state;
     fixture_zoo(&fixture, KILN_INTEGRATE_POSITION_FIRST, STEPS);
-    fixture_add_turned(&fixture);
+    fixture_add_oriented(&fixture);
     run_levels();
 }
 
@@ -229,7 +229,7 @@ static void clamped_among_turning_colliders(void **state)
 {
     (void)state;
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, STEPS);
-    fixture_add_turned(&fixture);
+    fixture_add_oriented(&fixture);
     for (uint32_t i = 0; i < fixture.scene.system_count; i++) {
         fixture_add_collisions(&fixture.scene.systems[i], 0.1f);
         fixture.scene.systems[i].collide.mode = KILN_COLLIDE_CLAMP;

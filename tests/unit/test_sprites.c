@@ -52,7 +52,7 @@ static void vectors_draw_the_same_random_numbers(void **state)
         uint32_t purpose = (uint32_t)i % 16;
         float low = raster_random(-2.0f, 2.0f), high = raster_random(-2.0f, 2.0f);
         vf unit = vu_unit(streams, purpose);
-        vf between = vf_lerp_within(vf_all(low), vf_all(high), unit);
+        vf between = vf_lerp_clamped(vf_all(low), vf_all(high), unit);
         for (int k = 0; k < LANES; k++) {
             assert_true(unit[k] == random_unit(streams[k], purpose));
             assert_true(between[k] == random_between(streams[k], purpose, low, high));

@@ -32,7 +32,7 @@ static struct kiln_scene *load(const char *fixture, const char *override)
 
 static void save(struct simulation *run, uint32_t *slots)
 {
-    struct kiln_state state = {.pool = &run->pool, .slots = slots, .turn = 3};
+    struct kiln_state state = {.pool = &run->pool, .slots = slots, .next_part = 3};
     struct kiln_error error = {0};
     memcpy(state.info.motion, MOTION, sizeof state.info.motion);
     if (slots)
@@ -138,7 +138,7 @@ static void orders_are_kept(void **state)
     struct kiln_state with = {.slots = read}, without = {.slots = NULL};
     take_up(&run, &with);
     assert_memory_equal(read, slots, count * sizeof *slots);
-    assert_int_equal(with.turn, 3);
+    assert_int_equal(with.next_part, 3);
     assert_int_equal(with.info.frame, 7);
     take_up(&run, &without); /* the same file serves who wants none */
     save(&run, NULL);

@@ -201,7 +201,7 @@ static void two_tests_of_one_name(void **state)
 }
 
 /* Loads one file, whose name is none, and compares what is wrong and what stands for it. */
-static void expect_mended(const char *path, const char *name, const char *quoted)
+static void expect_sanitized(const char *path, const char *name, const char *quoted)
 {
     test_write_file(path, fire_test);
     struct kiln_suite_params params = paths(&path, 1);
@@ -222,11 +222,11 @@ static void odd_names_are_errors_of_their_tests(void **state)
 {
     (void)state;
     test_write_file("fire.yaml", scene);
-    expect_mended("my fire.test.yaml", "my_fire", "my fire");
-    expect_mended("./-q.test.yaml", "_q", "-q");
-    expect_mended("..test.yaml", "_", ".");
-    expect_mended("a\xe2\x80\x8b.test.yaml", "a___", "a\xe2\x80\x8b");
-    expect_mended("a\xff.test.yaml", "a_", "a?");
+    expect_sanitized("my fire.test.yaml", "my_fire", "my fire");
+    expect_sanitized("./-q.test.yaml", "_q", "-q");
+    expect_sanitized("..test.yaml", "_", ".");
+    expect_sanitized("a\xe2\x80\x8b.test.yaml", "a___", "a\xe2\x80\x8b");
+    expect_sanitized("a\xff.test.yaml", "a_", "a?");
     /* The others run. */
     test_write_file("fine.test.yaml", fire_test);
     static const char *const files[] = {"my fire.test.yaml", "fine.test.yaml"};
@@ -236,7 +236,7 @@ static void odd_names_are_errors_of_their_tests(void **state)
     assert_string_equal(suite->tests[0].name, "fine");
     assert_int_equal(suite->tests[0].problem.code, KILN_OK);
     kiln_suite_destroy(&suite);
-    /* Two that are mended alike cannot be told apart. */
+    /* Two that are sanitized alike cannot be told apart. */
     test_write_file("my,fire.test.yaml", fire_test);
     static const char *const alike[] = {"my fire.test.yaml", "my,fire.test.yaml"};
     params = paths(alike, 2);
@@ -248,22 +248,22 @@ static void odd_names_are_errors_of_their_tests(void **state)
 static void letters_of_any_script_name_tests(void **state)
 {
     (void)state;
-    static const char *const good[] = {"Gl\xc3\xbch", "\xd0\xbe\xd0\xb3\xd0\xbe\xd0\xbd\xd1\x8c",
-                                       "\xe7\x81\xab/\xe7\x84\xb0_2", "a.b-c"};
-    static const char *const odd[] = {"",
-                                      "a b",
-                                      "a\xc2\xa0",
-                                      "a\xe2\x80\x8b",
-                                      "a\xef\xbb\xbf",
-                                      "a\xc3\x97",
-                                      "\xf0\x9f\x94\xa5\xff",
-                                      "a/.b",
-                                      "a\n",
-                                      "a@b"};
-    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
-        assert_true(kiln_test_name_is_good(good[i]));
-    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++)
-        assert_false(kiln_test_name_is_good(odd[i]));
+    static const char *const valid[] = {"Gl\xc3\xbch", "\xd0\xbe\xd0\xb3\xd0\xbe\xd0\xbd\xd1\x8c",
+                                        "\xe7\x81\xab/\xe7\x84\xb0_2", "a.b-c"};
+    static const char *const invalid[] = {"",
+                                          "a b",
+                                          "a\xc2\xa0",
+                                          "a\xe2\x80\x8b",
+                                          "a\xef\xbb\xbf",
+                                          "a\xc3\x97",
+                                          "\xf0\x9f\x94\xa5\xff",
+                                          "a/.b",
+                                          "a\n",
+                                          "a@b"};
+    for (size_t i = 0; i < sizeof valid / sizeof *valid; i++)
+        assert_true(kiln_test_name_is_valid(valid[i]));
+    for (size_t i = 0; i < sizeof invalid / sizeof *invalid; i++)
+        assert_false(kiln_test_name_is_valid(invalid[i]));
 }
 
 static void names_are_chosen(void **state)

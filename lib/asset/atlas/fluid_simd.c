@@ -93,7 +93,7 @@ static void take_velocity(struct kiln_fluid *fluid)
 static void turn(struct kiln_fluid *fluid, float dt)
 {
     const float scale = 0.5f / SPACING * fluid->buoyancy * dt;
-    const float kept = 1.0f - fluid->drag * dt;
+    const float remaining = 1.0f - fluid->drag * dt;
     for (int y = 0; y < EDGE; y++) {
         float row[EDGE + 2];
         memcpy(row + 1, fluid->heat + (size_t)y * EDGE, EDGE * sizeof(float));
@@ -101,7 +101,7 @@ static void turn(struct kiln_fluid *fluid, float dt)
         row[EDGE + 1] = row[EDGE];
         float *vorticity = fluid->vorticity + (size_t)y * EDGE;
         for (int x = 0; x < EDGE; x++)
-            vorticity[x] = kept * vorticity[x] + scale * (row[x + 2] - row[x]);
+            vorticity[x] = remaining * vorticity[x] + scale * (row[x + 2] - row[x]);
     }
 }
 

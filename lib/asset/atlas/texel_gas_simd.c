@@ -47,9 +47,9 @@ static void stir(struct kiln_fluid *fluid, float time, float amount, float frequ
 
 static void cool(struct kiln_fluid *fluid, float rate, float dt)
 {
-    float kept = 1.0f - rate * dt;
+    float remaining = 1.0f - rate * dt;
     for (uint32_t i = 0; i < KILN_FLUID_SIZE; i++)
-        fluid->heat[i] *= kept;
+        fluid->heat[i] *= remaining;
 }
 
 /* Adds a ball of gas whose heat goes from 0 to 1 between two ragged circles. */

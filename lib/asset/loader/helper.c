@@ -64,9 +64,9 @@ static bool find_own_folder(char folder[KILN_PATH_SIZE])
     return fits;
 }
 
-static bool put_path(char path[KILN_PATH_SIZE], const char *folder, const char *way)
+static bool put_path(char path[KILN_PATH_SIZE], const char *folder, const char *subfolder)
 {
-    const int length = snprintf(path, KILN_PATH_SIZE, "%s/%skiln-decode", folder, way);
+    const int length = snprintf(path, KILN_PATH_SIZE, "%s/%skiln-decode", folder, subfolder);
     return length > 0 && length < KILN_PATH_SIZE && is_program(path);
 }
 
@@ -74,7 +74,8 @@ bool kiln_helper_find(char path[KILN_PATH_SIZE], struct kiln_error *error)
 {
     /* Paths from the folder of a program as built, of a test as built, of an installed program, of
      * an installed library of one or several architectures. */
-    static const char *const ways[] = {"libexec/kiln/", "../libexec/kiln/", "../../libexec/kiln/"};
+    static const char *const subfolders[] = {"libexec/kiln/", "../libexec/kiln/",
+                                             "../../libexec/kiln/"};
     char folder[KILN_PATH_SIZE];
     const char *set = getenv("KILN_LIBEXEC_DIR"); /* NOLINT(concurrency-mt-unsafe): only read */
     if (set && *set)
@@ -84,8 +85,8 @@ bool kiln_helper_find(char path[KILN_PATH_SIZE], struct kiln_error *error)
                               "(KILN_LIBEXEC_DIR is set)",
                               path);
     const bool known = find_own_folder(folder);
-    for (size_t i = 0; known && i < sizeof ways / sizeof *ways; i++) {
-        if (put_path(path, folder, ways[i]))
+    for (size_t i = 0; known && i < sizeof subfolders / sizeof *subfolders; i++) {
+        if (put_path(path, folder, subfolders[i]))
             return true;
     }
     if (put_path(path, KILN_LIBEXEC_DIR, ""))
@@ -98,12 +99,12 @@ bool kiln_helper_find(char path[KILN_PATH_SIZE], struct kiln_error *error)
 
 /* ---- starting and ending --------------------------------------------------------------------- */
 
-static const char *word_of(enum kiln_decode_kind kind)
+static const char *kind_name(enum kiln_decode_kind kind)
 {
 #define WORD(id, word) word,
-    static const char *const words[] = {KILN_DECODE_KINDS(WORD)};
+    static const char *const names[] = {KILN_DECODE_KINDS(WORD)};
 #undef WORD
-    return words[kind];
+    return names[kind];
 }
 
 /* Chooses the environment of the process: the folders of libraries, and the variables of kiln and
@@ -112,14 +113,14 @@ static const char *word_of(enum kiln_decode_kind kind)
 static char **choose_environment(void)
 {
     static const char *const prefixes[] = {"LD_", "KILN_", "ASAN_", "LSAN_", "UBSAN_", "LANG="};
-    size_t count = 0, kept = 0;
+    size_t count = 0, chosen_count = 0;
     while (environ && environ[count])
         count++;
     char **chosen = calloc(count + 1, sizeof *chosen);
     for (size_t i = 0; chosen && i < count; i++) {
         for (size_t k = 0; k < sizeof prefixes / sizeof *prefixes; k++) {
             if (strncmp(environ[i], prefixes[k], strlen(prefixes[k])) == 0)
-                chosen[kept++] = environ[i];
+                chosen[chosen_count++] = environ[i];
         }
     }
     return chosen;
@@ -152,7 +153,7 @@ static int spawn(pid_t *process, const char *path, enum kiln_decode_kind kind, u
     if (!status)
         status = posix_spawn_file_actions_addclosefrom_np(&actions, KILN_DECODE_SOCKET + 1);
     snprintf(memory, sizeof memory, "%" PRIu64, most_memory);
-    char *const arguments[] = {(char *)"kiln-decode", (char *)word_of(kind), memory, NULL};
+    char *const arguments[] = {(char *)"kiln-decode", (char *)kind_name(kind), memory, NULL};
     char **environment = choose_environment();
     if (!environment)
         status = ENOMEM;

@@ -33,7 +33,7 @@ static void fill_boxes(const struct kiln_scene *scene, float time_s,
 {
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *box = &scene->backdrop.objects[i];
-        if (box->kind != KILN_OBJECT_BOX || kiln_object_is_turned_box(box))
+        if (box->kind != KILN_OBJECT_BOX || kiln_object_is_oriented_box(box))
             continue;
         uint k = block->counts.x++;
         float3 size = kiln_scene_value3(scene, &box->size, time_s);
@@ -203,24 +203,25 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
 {
     const float time_s = moment->view.clock.x;
     const struct pictures pictures = pictures_of(stage);
-    struct kiln_backdrop_inputs now = {
+    struct kiln_backdrop_inputs inputs = {
         .view = moment->view, .block = make_block(moment), .shapes = moment->shapes};
-    fill_maps(stage->scene, &pictures, time_s, &now.shapes);
+    fill_maps(stage->scene, &pictures, time_s, &inputs.shapes);
     if (pictures.sky.width)
-        light_by_image(stage, now.shapes.sky_map.y, &now.block);
+        light_by_image(stage, inputs.shapes.sky_map.y, &inputs.block);
     if (moment->meshes.painted)
-        now.paint = kiln_painted_all_changes(moment->meshes.painted);
-    add_lighting(&now.block, lighting);
-    now.shapes.counts.w = lighting->solids.edge;
-    memcpy(now.shapes.world_to_bin, lighting->solids.world_to_bin, sizeof now.shapes.world_to_bin);
-    return now;
+        inputs.paint = kiln_painted_all_changes(moment->meshes.painted);
+    add_lighting(&inputs.block, lighting);
+    inputs.shapes.counts.w = lighting->solids.edge;
+    memcpy(inputs.shapes.world_to_bin, lighting->solids.world_to_bin,
+           sizeof inputs.shapes.world_to_bin);
+    return inputs;
 }
 
 /* Refuses shadow lists that llvmpipe would silently not read to their end. A shader invocation
  * reads a list for each of its rays, and for the floor's reflection. Half of the iterations that
  * its loops may run is left to all other loops. */
-static bool lists_are_short(const struct kiln_backdrop_stage *stage,
-                            const struct kiln_solid_bins *solids, struct kiln_error *error)
+static bool shadow_lists_fit_loops(const struct kiln_backdrop_stage *stage,
+                                   const struct kiln_solid_bins *solids, struct kiln_error *error)
 {
     const uint32_t readings =
         KILN_EDGE_SAMPLES * (kiln_shape_features(stage->scene).floor_gloss ? 2 : 1);
@@ -236,16 +237,17 @@ static bool lists_are_short(const struct kiln_backdrop_stage *stage,
 bool kiln_backdrop_draw(struct kiln_backdrop_stage *stage, const struct kiln_moment *moment,
                         const struct kiln_lighting *lighting, struct kiln_error *error)
 {
-    const struct kiln_backdrop_inputs now = make_inputs(stage, moment, lighting);
-    bool kept = stage->has_drawn && same_picture(&now, &stage->drawn);
-    stage->drawn = now;
+    const struct kiln_backdrop_inputs inputs = make_inputs(stage, moment, lighting);
+    bool is_current = stage->has_drawn && same_picture(&inputs, &stage->drawn);
+    stage->drawn = inputs;
     stage->has_drawn = false;
     if (stage->cpu)
-        stage->has_drawn = kiln_backdrop_cpu_draw(stage->cpu, &stage->drawn, lighting, kept, error);
+        stage->has_drawn =
+            kiln_backdrop_cpu_draw(stage->cpu, &stage->drawn, lighting, is_current, error);
     else
-        stage->has_drawn = lists_are_short(stage, &lighting->solids, error) &&
+        stage->has_drawn = shadow_lists_fit_loops(stage, &lighting->solids, error) &&
                            kiln_lighting_bind(lighting, error) &&
-                           kiln_backdrop_gl_draw(stage->gl, &stage->drawn, kept, error);
+                           kiln_backdrop_gl_draw(stage->gl, &stage->drawn, is_current, error);
     return stage->has_drawn;
 }
 

@@ -128,7 +128,7 @@ static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 cent
 {
     const float near = 0.01f, margin = 3.0f, width = view->frustum.z, height = view->frustum.w;
     float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
-    int before = 0;
+    int in_front = 0;
     mat4 world_to_view;
     kiln_matrix_from_rows(view->world_to_view, world_to_view);
     for (int i = 0; i < 8; i++) {
@@ -137,7 +137,7 @@ static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 cent
         glm_mat4_mulv3(world_to_view, at, 1.0f, at);
         if (-at[2] < near)
             continue;
-        before++;
+        in_front++;
         float x = (at[0] / (-at[2] * view->frustum.x) + 1.0f) * 0.5f * width;
         float y = (1.0f - at[1] / (-at[2] * view->frustum.y)) * 0.5f * height;
         low[0] = exact_min(low[0], x);
@@ -145,9 +145,9 @@ static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 cent
         low[1] = exact_min(low[1], y);
         high[1] = exact_max(high[1], y);
     }
-    if (before < 8) /* part of the box is behind the eye: all pixels; the whole box: none */
-        return (struct kiln_pixel_box){0, before ? (int32_t)width : 0, 0,
-                                       before ? (int32_t)height : 0};
+    if (in_front < 8) /* part of the box is behind the eye: all pixels; the whole box: none */
+        return (struct kiln_pixel_box){0, in_front ? (int32_t)width : 0, 0,
+                                       in_front ? (int32_t)height : 0};
     return (struct kiln_pixel_box){
         pixel_within(low[0] - margin, width), pixel_within(high[0] + margin, width),
         pixel_within(low[1] - margin, height), pixel_within(high[1] + margin, height)};
@@ -159,11 +159,11 @@ static float reach_along(float axis, float half_height, float radius)
            1e-4f * radius;
 }
 
-static void find_more_boxes(struct kiln_backdrop_picture *picture)
+static void find_oriented_boxes(struct kiln_backdrop_picture *picture)
 {
     const struct kiln_view *view = picture->frame->view;
     const struct kiln_draw_shapes *shapes = picture->frame->shapes;
-    for (uint32_t i = 0; i < shapes->more.x; i++) {
+    for (uint32_t i = 0; i < shapes->oriented_counts.x; i++) {
         const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
         const float radius = 1.0001f * capsule.w;
         const float3 half = {radius + axis.w * exact_abs(axis.x),
@@ -171,8 +171,9 @@ static void find_more_boxes(struct kiln_backdrop_picture *picture)
                              radius + axis.w * exact_abs(axis.z)};
         picture->capsules[i] = cover_box(view, capsule, half);
     }
-    for (uint32_t i = 0; i < shapes->more.y; i++) {
-        const float4 *rows = shapes->turned[i].rows, half_size = shapes->turned[i].half_size;
+    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
+        const float4 *rows = shapes->oriented_boxes[i].rows,
+                     half_size = shapes->oriented_boxes[i].half_size;
         const float halves[3] = {half_size.x, half_size.y, half_size.z};
         float3 half = {0.0f, 0.0f, 0.0f};
         for (int k = 0; k < 3; k++) {
@@ -180,7 +181,7 @@ static void find_more_boxes(struct kiln_backdrop_picture *picture)
             half.y += exact_abs(rows[k].y) * halves[k];
             half.z += exact_abs(rows[k].z) * halves[k];
         }
-        picture->turned[i] = cover_box(view, shapes->turned[i].center, half);
+        picture->oriented_boxes[i] = cover_box(view, shapes->oriented_boxes[i].center, half);
     }
 }
 
@@ -206,7 +207,7 @@ static void find_boxes(struct kiln_backdrop_picture *picture)
                              reach_along(axis.z, axis.w, cylinder.w)};
         picture->cylinders[i] = cover_box(frame->view, cylinder, half);
     }
-    find_more_boxes(picture);
+    find_oriented_boxes(picture);
 }
 
 /* ---- the picture ----------------------------------------------------------------------------- */
@@ -234,11 +235,11 @@ static void antialias(void *context, size_t begin, size_t end, uint32_t worker)
 
 bool kiln_backdrop_cpu_draw(struct kiln_backdrop_cpu *cpu,
                             const struct kiln_backdrop_inputs *inputs,
-                            const struct kiln_lighting *lighting, bool kept,
+                            const struct kiln_lighting *lighting, bool is_current,
                             struct kiln_error *error)
 {
     cpu->frame = make_frame(cpu, inputs, lighting);
-    if (kept)
+    if (is_current)
         return true;
     if (cpu->meshes &&
         !kiln_meshes_cpu_run(cpu->meshes, &inputs->view, &inputs->block, &inputs->shapes, error))

@@ -18,12 +18,12 @@ void kiln_backdrop_cpu_destroy(struct kiln_backdrop_cpu **cpu);
 void kiln_backdrop_cpu_pictures(const struct kiln_backdrop_cpu *cpu,
                                 struct kiln_picture_size *floor, struct kiln_picture_size *sky);
 
-/* Draws the backdrop. kept: the picture of the last call still holds and is not drawn again. Inputs
- * and lighting must live until the next call, or until the result of kiln_backdrop_cpu_rays is no
- * longer read. */
+/* Draws the backdrop. is_current: the picture of the last call still holds and is not drawn again.
+ * Inputs and lighting must live until the next call, or until the result of kiln_backdrop_cpu_rays
+ * is no longer read. */
 bool kiln_backdrop_cpu_draw(struct kiln_backdrop_cpu *cpu,
                             const struct kiln_backdrop_inputs *inputs,
-                            const struct kiln_lighting *lighting, bool kept,
+                            const struct kiln_lighting *lighting, bool is_current,
                             struct kiln_error *error);
 
 /* Returns the objects and lights that rays read, as of the last kiln_backdrop_cpu_draw. */

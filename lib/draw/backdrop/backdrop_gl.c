@@ -154,7 +154,7 @@ static bool cast(struct kiln_backdrop_gl *stage, const struct kiln_draw_shapes *
 }
 
 bool kiln_backdrop_gl_draw(struct kiln_backdrop_gl *gl, const struct kiln_backdrop_inputs *inputs,
-                           bool kept, struct kiln_error *error)
+                           bool is_current, struct kiln_error *error)
 {
     if (!kiln_draw_blocks_bind(&gl->blocks, &inputs->view, &inputs->block, error))
         return false;
@@ -164,6 +164,6 @@ bool kiln_backdrop_gl_draw(struct kiln_backdrop_gl *gl, const struct kiln_backdr
     glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_SHAPES, shapes);
     bind_picture(KILN_UNIT_SKY, &gl->sky_image);
     kiln_meshes_gl_bind_shadows(gl->meshes);
-    return kept ||
+    return is_current ||
            (cast(gl, &inputs->shapes, error) && kiln_device_check(gl->device, "backdrop", error));
 }

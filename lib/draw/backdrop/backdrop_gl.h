@@ -19,9 +19,9 @@ void kiln_backdrop_gl_destroy(struct kiln_backdrop_gl **gl);
 void kiln_backdrop_gl_pictures(const struct kiln_backdrop_gl *gl, struct kiln_picture_size *floor,
                                struct kiln_picture_size *sky);
 
-/* Binds blocks and textures, and draws the backdrop unless kept: the picture of the last call still
- * holds. */
+/* Binds blocks and textures, and draws the backdrop unless is_current: the picture of the last call
+ * still holds. */
 bool kiln_backdrop_gl_draw(struct kiln_backdrop_gl *gl, const struct kiln_backdrop_inputs *inputs,
-                           bool kept, struct kiln_error *error);
+                           bool is_current, struct kiln_error *error);
 
 #endif

@@ -18,7 +18,7 @@ struct kiln_backdrop_picture {
     float *depth;    /* m */
     float *surfaces; /* number of the surface at each pixel's centre; differs across edges */
     struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], spheres[KILN_MAX_OBJECTS],
-        cylinders[KILN_MAX_OBJECTS], capsules[KILN_MAX_OBJECTS], turned[KILN_MAX_OBJECTS];
+        cylinders[KILN_MAX_OBJECTS], capsules[KILN_MAX_OBJECTS], oriented_boxes[KILN_MAX_OBJECTS];
 };
 
 /* Each function draws KILN_EDGE_TILE rows from row y. */

@@ -12,7 +12,7 @@ struct eye_rays {
     struct ray_place place;
 };
 
-SIMD struct eye_rays aim_at(const struct kiln_ray_frame *frame, const struct ray_place *place)
+SIMD struct eye_rays rays_at(const struct kiln_ray_frame *frame, const struct ray_place *place)
 {
     const float4 *rows = frame->view->world_to_view;
     vf u = place->u, v = place->v;
@@ -26,7 +26,7 @@ SIMD struct eye_rays aim_at(const struct kiln_ray_frame *frame, const struct ray
 }
 
 /* Returns the rays through the centres of pixels. */
-SIMD struct eye_rays aim(const struct kiln_ray_frame *frame, vi column, vi row)
+SIMD struct eye_rays rays_through_pixels(const struct kiln_ray_frame *frame, vi column, vi row)
 {
     const float4 frustum = frame->view->frustum;
     vf x = vf_of(column) + 0.5f, y = vf_of(row) + 0.5f;
@@ -36,7 +36,7 @@ SIMD struct eye_rays aim(const struct kiln_ray_frame *frame, vi column, vi row)
     };
     if (frame->meshes)
         place.hit = row * (int32_t)(KILN_HIT_LAYERS * frame->meshes->pitch) + column;
-    return aim_at(frame, &place);
+    return rays_at(frame, &place);
 }
 
 /* Finds the first hit of each ray. floor: the t at which each ray meets the floor; the albedo of
@@ -53,7 +53,7 @@ SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
     trace_spheres(frame, objects->spheres, ray, &nearest);
     trace_cylinders(frame, objects->cylinders, ray, &nearest);
     trace_capsules(frame, objects->capsules, ray, &nearest);
-    trace_turned(frame, objects->turned, ray, &nearest);
+    trace_oriented_boxes(frame, objects->oriented_boxes, ray, &nearest);
     trace_planes(frame, objects->planes, ray, &nearest);
     if (frame->meshes && place->layer >= 0)
         trace_meshes(frame, place, &nearest);
@@ -66,35 +66,36 @@ SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
 }
 
 /* Holds the colours and the first hits of rays. */
-struct sight {
+struct shaded_rays {
     struct ray_color color;
     struct ray_hit first;
     vf sunlit;  /* part of the sun that the hit sees, smoke left out */
     vf arrives; /* part of the sun that arrives at the hit through smoke */
 };
 
-SIMD struct sight look_along(const struct kiln_ray_frame *frame,
-                             const struct kiln_ray_objects *objects, const struct ray *ray,
-                             vf floor, const struct ray_place *place)
+SIMD struct shaded_rays shade_rays(const struct kiln_ray_frame *frame,
+                                   const struct kiln_ray_objects *objects, const struct ray *ray,
+                                   vf floor, const struct ray_place *place)
 {
-    struct sight seen = {.first = trace(frame, objects, ray, floor, place)};
-    vi below = seen.first.surface == 0.0f;
+    struct shaded_rays shaded = {.first = trace(frame, objects, ray, floor, place)};
+    vi below = shaded.first.surface == 0.0f;
     if (any(below))
-        seen.first.albedo =
-            vf3_select(below, floor_albedo(frame, ray, seen.first.t, below), seen.first.albedo);
-    const struct ray_point point = {ray_at(ray, seen.first.t), seen.first.normal,
-                                    seen.first.surface >= 0.0f};
+        shaded.first.albedo =
+            vf3_select(below, floor_albedo(frame, ray, shaded.first.t, below), shaded.first.albedo);
+    const struct ray_point point = {ray_at(ray, shaded.first.t), shaded.first.normal,
+                                    shaded.first.surface >= 0.0f};
     struct vf3 irradiance = {{0}, {0}, {0}};
-    if (any(point.wanted)) {
-        vi lit = turned_to_sun(frame, &point);
-        seen.sunlit = sun_visibility(frame, point.at, point.normal, lit);
-        const struct ray_point sunny = {point.at, point.normal, seen.sunlit > 0.0f};
-        seen.arrives = seen.sunlit * smoke_lets_through(frame->smoke_to_sun,
-                                                        frame->backdrop->sun_to_grid, &sunny);
-        irradiance = soft_irradiance(frame, &point);
+    if (any(point.active)) {
+        vi lit = facing_sun(frame, &point);
+        shaded.sunlit = sun_visibility(frame, point.at, point.normal, lit);
+        const struct ray_point sunny = {point.at, point.normal, shaded.sunlit > 0.0f};
+        shaded.arrives = shaded.sunlit * smoke_lets_through(frame->smoke_to_sun,
+                                                            frame->backdrop->sun_to_grid, &sunny);
+        irradiance = irradiance_without_sun(frame, &point);
     }
-    seen.color = radiance_or_sky(frame, &seen.first, ray->direction, irradiance, seen.arrives);
-    return seen;
+    shaded.color =
+        radiance_or_sky(frame, &shaded.first, ray->direction, irradiance, shaded.arrives);
+    return shaded;
 }
 
 SIMD uint32_t first_bits(uint32_t count)
@@ -103,51 +104,52 @@ SIMD uint32_t first_bits(uint32_t count)
 }
 
 /* Adds the reflection of a glossy floor by following the reflected ray. */
-SIMD void add_mirrored(const struct kiln_ray_frame *frame, const struct ray *ray,
-                       struct sight *seen)
+SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *ray,
+                         struct shaded_rays *shaded)
 {
-    vi floor = seen->first.surface == 0.0f;
+    vi floor = shaded->first.surface == 0.0f;
     if (!any(floor))
         return;
-    const uint4 round = frame->shapes->counts, others = frame->shapes->more;
+    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
     const struct kiln_ray_objects objects = {first_bits(frame->backdrop->counts.x),
                                              first_bits(round.x),
                                              first_bits(round.y),
-                                             first_bits(others.x),
-                                             first_bits(others.y),
-                                             first_bits(others.z)};
-    const struct ray_mirror m = floor_mirror(frame, ray);
-    const struct ray onwards = {ray_at(ray, seen->first.t), m.onwards};
+                                             first_bits(oriented.x),
+                                             first_bits(oriented.y),
+                                             first_bits(oriented.z)};
+    const struct ray_reflection m = floor_reflection_along(frame, ray);
+    const struct ray reflected = {ray_at(ray, shaded->first.t), m.direction};
     const struct ray_place nowhere = {.layer = -1};
-    const struct sight next =
-        look_along(frame, &objects, &onwards, vf_all(2.0f * RAY_FAR), &nowhere);
-    struct vf3 more = vf3_along(m.lights, m.sun, seen->arrives);
-    more = vf3_along(more, next.color.rgb, m.weight);
-    seen->color.rgb = vf3_select(floor, vf3_add(seen->color.rgb, more), seen->color.rgb);
+    const struct shaded_rays reflection =
+        shade_rays(frame, &objects, &reflected, vf_all(2.0f * RAY_FAR), &nowhere);
+    struct vf3 more = vf3_add_scaled(m.lights, m.sun, shaded->arrives);
+    more = vf3_add_scaled(more, reflection.color.rgb, m.weight);
+    shaded->color.rgb = vf3_select(floor, vf3_add(shaded->color.rgb, more), shaded->color.rgb);
 }
 
-SIMD struct sight look(const struct kiln_ray_frame *frame, const struct kiln_ray_objects *objects,
-                       const struct eye_rays *eye)
+SIMD struct shaded_rays shade_eye_rays(const struct kiln_ray_frame *frame,
+                                       const struct kiln_ray_objects *objects,
+                                       const struct eye_rays *eye)
 {
-    struct sight seen =
-        look_along(frame, objects, &eye->ray, find_floor(frame, &eye->ray), &eye->place);
+    struct shaded_rays shaded =
+        shade_rays(frame, objects, &eye->ray, find_floor(frame, &eye->ray), &eye->place);
     if (frame->floor_gloss)
-        add_mirrored(frame, &eye->ray, &seen);
-    return seen;
+        add_reflection(frame, &eye->ray, &shaded);
+    return shaded;
 }
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
-static uint32_t seen_in(const struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], uint32_t count,
-                        int32_t x, int32_t y, int32_t width)
+static uint32_t objects_overlapping(const struct kiln_pixel_box boxes[KILN_MAX_OBJECTS],
+                                    uint32_t count, int32_t x, int32_t y, int32_t width)
 {
-    uint32_t seen = 0;
+    uint32_t overlapping = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct kiln_pixel_box *b = &boxes[i];
         if (b->x_from < x + width && b->x_to > x && b->y_from < y + TILE && b->y_to > y)
-            seen |= 1u << i;
+            overlapping |= 1u << i;
     }
-    return seen;
+    return overlapping;
 }
 
 /* Returns the objects that may be visible in TILE rows from y, in `width` columns from x. */
@@ -157,12 +159,13 @@ static struct kiln_ray_objects find_objects(const struct kiln_backdrop_picture *
     const struct kiln_ray_frame *frame = p->frame;
     int32_t left = (int32_t)x, top = (int32_t)y, columns = (int32_t)width;
     return (struct kiln_ray_objects){
-        seen_in(p->boxes, frame->backdrop->counts.x, left, top, columns),
-        seen_in(p->spheres, frame->shapes->counts.x, left, top, columns),
-        seen_in(p->cylinders, frame->shapes->counts.y, left, top, columns),
-        seen_in(p->capsules, frame->shapes->more.x, left, top, columns),
-        seen_in(p->turned, frame->shapes->more.y, left, top, columns),
-        first_bits(frame->shapes->more.z)};
+        objects_overlapping(p->boxes, frame->backdrop->counts.x, left, top, columns),
+        objects_overlapping(p->spheres, frame->shapes->counts.x, left, top, columns),
+        objects_overlapping(p->cylinders, frame->shapes->counts.y, left, top, columns),
+        objects_overlapping(p->capsules, frame->shapes->oriented_counts.x, left, top, columns),
+        objects_overlapping(p->oriented_boxes, frame->shapes->oriented_counts.y, left, top,
+                            columns),
+        first_bits(frame->shapes->oriented_counts.z)};
 }
 
 SIMD void store_colors(float *to, const struct ray_color *color, uint32_t count)
@@ -200,14 +203,14 @@ SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_r
     vi column = vi_count() + (int32_t)x;
     vi last = vi_all((int32_t)p->width - 1);
     column = vi_select(column < last, column, last);
-    const struct eye_rays eye = aim(frame, column, vi_all((int32_t)y));
-    const struct sight seen = look(frame, objects, &eye);
-    vf surface = seen.first.surface;
+    const struct eye_rays eye = rays_through_pixels(frame, column, vi_all((int32_t)y));
+    const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye);
+    vf surface = shaded.first.surface;
     if (frame->meshes)
         surface = mark_mesh_edges(frame, &eye.place, surface, -((column + (int32_t)y) & 1));
-    surface = 2.0f * surface + seen.sunlit;
-    store_colors(p->color + 4 * first, &seen.color, count);
-    store_numbers(p->depth + first, seen.first.t, count);
+    surface = 2.0f * surface + shaded.sunlit;
+    store_colors(p->color + 4 * first, &shaded.color, count);
+    store_numbers(p->depth + first, shaded.first.t, count);
     store_numbers(p->surfaces + first, surface, count);
 }
 
@@ -233,7 +236,7 @@ static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 
 /* The greatest difference of neighbouring pixels that is no edge. The sun's light changes by this
  * much a pixel in a penumbra four pixels wide; numbers of surfaces differ by more. */
-static const float WIDE = 0.25f;
+static const float EDGE_THRESHOLD = 0.25f;
 
 static inline int32_t within(int32_t x, uint32_t size)
 {
@@ -249,7 +252,7 @@ static inline const float *surface_row(const struct kiln_backdrop_picture *p, in
  * surfaces. */
 static bool has_edge(const struct kiln_backdrop_picture *p, int32_t x, int32_t y)
 {
-    float steepest = 0.0f, above[TILE + 2] = {0};
+    float largest_step = 0.0f, above[TILE + 2] = {0};
     for (int32_t j = -1; j <= TILE; j++) {
         const float *from = surface_row(p, y + j);
         float row[TILE + 2];
@@ -265,10 +268,10 @@ static bool has_edge(const struct kiln_backdrop_picture *p, int32_t x, int32_t y
         for (int i = 0; j >= 0 && i < TILE + 2; i++)
             steps[i] = exact_max(steps[i], fabsf(row[i] - above[i]));
         for (int i = 0; i < TILE + 2; i++)
-            steepest = exact_max(steepest, steps[i]);
+            largest_step = exact_max(largest_step, steps[i]);
         memcpy(above, row, sizeof above);
     }
-    return steepest > WIDE;
+    return largest_step > EDGE_THRESHOLD;
 }
 
 SIMD void store_tile(const struct kiln_backdrop_picture *p, const struct ray_color *color, vi pixel,
@@ -293,15 +296,15 @@ static void antialias_tile(const struct kiln_backdrop_picture *p, uint32_t x, ui
         if (!any(inside))
             continue;
         vi pixel = row * (int32_t)p->width + column, zero = vi_all(0);
-        const struct eye_rays center =
-            aim(frame, vi_select(inside, column, zero), vi_select(inside, row, zero));
+        const struct eye_rays center = rays_through_pixels(frame, vi_select(inside, column, zero),
+                                                           vi_select(inside, row, zero));
         struct ray_color sum = {{{0}, {0}, {0}}, {0}};
         for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
             const struct ray_place place = sample_place(frame, &center.place, s);
-            const struct eye_rays eye = aim_at(frame, &place);
-            const struct sight seen = look(frame, &objects, &eye);
-            sum.rgb = vf3_add(sum.rgb, seen.color.rgb);
-            sum.alpha += seen.color.alpha;
+            const struct eye_rays eye = rays_at(frame, &place);
+            const struct shaded_rays shaded = shade_eye_rays(frame, &objects, &eye);
+            sum.rgb = vf3_add(sum.rgb, shaded.color.rgb);
+            sum.alpha += shaded.color.alpha;
         }
         const vf share = vf_all(1.0f / (float)KILN_EDGE_SAMPLES);
         const struct ray_color mean = {vf3_scale(sum.rgb, share), sum.alpha * share};

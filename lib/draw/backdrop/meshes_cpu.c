@@ -14,7 +14,7 @@
 #include "draw/light/mesh_shadow.h"
 #include "shared/exact.h"
 
-enum { AT_A_TIME = 512 };
+enum { GRAIN = 512 };
 
 static const float NEAREST = 0.01f; /* m */
 
@@ -23,9 +23,9 @@ static_assert((int)KILN_HIT_LAYERS == (int)KILN_MESH_LAYERS, "a layer for each r
 struct kiln_meshes_cpu {
     const struct kiln_meshes *meshes;
     uint32_t width, height;
-    float3 *seen, *normals;               /* of all vertices, in view space; in world space */
-    struct kiln_mesh_triangle *triangles; /* of all meshes */
-    struct kiln_mesh_uvs *uvs;            /* of all meshes; NULL: no mesh takes paint */
+    float3 *view_positions, *world_normals; /* of all vertices */
+    struct kiln_mesh_triangle *triangles;   /* of all meshes */
+    struct kiln_mesh_uvs *uvs;              /* of all meshes; NULL: no mesh takes paint */
     int32_t *hits;
     bool *empty; /* bands whose hits are all 0 */
     struct kiln_mesh_canvas canvas;
@@ -59,8 +59,8 @@ static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
            bands = (m->height + KILN_MESH_ROWS - 1) / KILN_MESH_ROWS;
     if (vertices == 0 || triangles == 0) /* never, since no mesh is empty */
         return false;
-    m->seen = calloc(vertices, sizeof *m->seen);
-    m->normals = calloc(vertices, sizeof *m->normals);
+    m->view_positions = calloc(vertices, sizeof *m->view_positions);
+    m->world_normals = calloc(vertices, sizeof *m->world_normals);
     m->triangles = calloc(triangles, sizeof *m->triangles);
     if (m->meshes->painted)
         m->uvs = calloc(triangles, sizeof *m->uvs);
@@ -75,8 +75,9 @@ static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
         malloc(kiln_threads_count(threads) * canvas->strip * sizeof *canvas->nearness);
     if (m->empty)
         memset(m->empty, 1, bands * sizeof *m->empty);
-    return m->seen && m->normals && m->triangles && (m->uvs || !m->meshes->painted) && m->hits &&
-           m->empty && canvas->triangles && canvas->nearness;
+    return m->view_positions && m->world_normals && m->triangles &&
+           (m->uvs || !m->meshes->painted) && m->hits && m->empty && canvas->triangles &&
+           canvas->nearness;
 }
 
 struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
@@ -120,8 +121,8 @@ void kiln_meshes_cpu_destroy(struct kiln_meshes_cpu **meshes)
         return;
     for (uint32_t i = 0; i < KILN_MAX_MESHES; i++)
         kiln_mesh_shadow_finish(&m->shadows[i]);
-    free(m->seen);
-    free(m->normals);
+    free(m->view_positions);
+    free(m->world_normals);
     free(m->triangles);
     free(m->uvs);
     free(m->hits);
@@ -140,26 +141,26 @@ const struct kiln_mesh_view *kiln_meshes_cpu_view(const struct kiln_meshes_cpu *
 
 /* ---- triangles ------------------------------------------------------------------------------- */
 
-/* Describes a mesh that is being placed in the picture. */
-struct placing {
+/* Describes a mesh that is being projected into the picture. */
+struct mesh_projection {
     struct kiln_meshes_cpu *m;
     const struct kiln_view *view;
-    const struct kiln_draw_mesh *placed;
+    const struct kiln_draw_mesh *draw_mesh;
     const struct kiln_mesh *mesh;
     int32_t number;
-    float3 *seen, *normals; /* of this mesh, as are triangles, uvs, flat */
+    float3 *view_positions, *world_normals; /* of this mesh, as are triangles, uvs, flat */
     struct kiln_mesh_triangle *triangles;
     struct kiln_mesh_uvs *uvs; /* NULL: the mesh takes no paint */
-    struct kiln_flat_triangle *flat;
+    struct kiln_projected_triangle *flat;
 };
 
-static void place_vertices(void *context, size_t begin, size_t end, uint32_t worker)
+static void transform_vertices(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct placing *p = context;
+    const struct mesh_projection *p = context;
     mat4 to_world, world_to_view;
     mat3 turn;
-    kiln_matrix_from_rows(p->placed->to_world, to_world);
+    kiln_matrix_from_rows(p->draw_mesh->to_world, to_world);
     glm_mat4_pick3(to_world, turn);
     kiln_matrix_from_rows(p->view->world_to_view, world_to_view);
     for (size_t i = begin; i < end; i++) {
@@ -168,8 +169,8 @@ static void place_vertices(void *context, size_t begin, size_t end, uint32_t wor
         glm_mat4_mulv3(to_world, vertex, 1.0f, at);
         glm_mat4_mulv3(world_to_view, at, 1.0f, at);
         glm_mat3_mulv(turn, vertex + 3, normal);
-        p->seen[i] = (float3){at[0], at[1], at[2]};
-        p->normals[i] = (float3){normal[0], normal[1], normal[2]};
+        p->view_positions[i] = (float3){at[0], at[1], at[2]};
+        p->world_normals[i] = (float3){normal[0], normal[1], normal[2]};
     }
 }
 
@@ -199,16 +200,16 @@ static struct kiln_row_range pixels_between(float low, float high, float size)
 /* Bounds the pixels that a triangle may touch: all of them if part of it is behind the eye, none if
  * all of it is. */
 static void find_bounds(const struct kiln_view *view, const float3 p[3],
-                        struct kiln_flat_triangle *flat)
+                        struct kiln_projected_triangle *flat)
 {
     const float width = view->frustum.z, height = view->frustum.w;
     float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
-    int before = 0;
+    int in_front = 0;
     for (int k = 0; k < 3; k++) {
         float depth = -p[k].z;
         if (depth < NEAREST)
             continue;
-        before++;
+        in_front++;
         float x = (p[k].x / (depth * view->frustum.x) + 1.0f) * 0.5f * width;
         float y = (1.0f - p[k].y / (depth * view->frustum.y)) * 0.5f * height;
         low[0] = exact_min(low[0], x);
@@ -216,14 +217,14 @@ static void find_bounds(const struct kiln_view *view, const float3 p[3],
         low[1] = exact_min(low[1], y);
         high[1] = exact_max(high[1], y);
     }
-    if (before == 0)
+    if (in_front == 0)
         return;
-    bool any = before < 3;
-    flat->x = pixels_between(any ? 0.0f : low[0], any ? width : high[0], width);
-    flat->y = pixels_between(any ? 0.0f : low[1], any ? height : high[1], height);
+    bool crosses_eye = in_front < 3;
+    flat->x = pixels_between(crosses_eye ? 0.0f : low[0], crosses_eye ? width : high[0], width);
+    flat->y = pixels_between(crosses_eye ? 0.0f : low[1], crosses_eye ? height : high[1], height);
 }
 
-static void place_uvs(const struct placing *p, size_t i, float volume)
+static void project_uvs(const struct mesh_projection *p, size_t i, float volume)
 {
     struct kiln_mesh_uvs *uvs = &p->uvs[i];
     *uvs = (struct kiln_mesh_uvs){{0}, {0}};
@@ -237,25 +238,26 @@ static void place_uvs(const struct placing *p, size_t i, float volume)
     }
 }
 
-static void place_triangle(const struct placing *p, size_t i)
+static void project_triangle(const struct mesh_projection *p, size_t i)
 {
     const uint32_t *corners = p->mesh->triangles[i];
     struct kiln_mesh_triangle *t = &p->triangles[i];
-    struct kiln_flat_triangle *flat = &p->flat[i];
-    *flat = (struct kiln_flat_triangle){.y = {0, 0}};
-    const float3 seen[3] = {p->seen[corners[0]], p->seen[corners[1]], p->seen[corners[2]]};
-    float3 face = float3_cross(float3_sub(seen[1], seen[0]), float3_sub(seen[2], seen[0]));
-    float volume = float3_dot(seen[0], face), sign = volume < 0.0f ? -1.0f : 1.0f;
+    struct kiln_projected_triangle *flat = &p->flat[i];
+    *flat = (struct kiln_projected_triangle){.y = {0, 0}};
+    const float3 corner[3] = {p->view_positions[corners[0]], p->view_positions[corners[1]],
+                              p->view_positions[corners[2]]};
+    float3 face = float3_cross(float3_sub(corner[1], corner[0]), float3_sub(corner[2], corner[0]));
+    float volume = float3_dot(corner[0], face), sign = volume < 0.0f ? -1.0f : 1.0f;
     /* A triangle seen edge-on has no pixels and no depth. */
-    float size2 = float3_dot(face, face) * float3_dot(seen[0], seen[0]);
+    float size2 = float3_dot(face, face) * float3_dot(corner[0], corner[0]);
     if (!(volume * volume > 1e-10f * size2))
         return;
     set_plane(t->nearness, float3_scale(face, 1.0f / volume));
     memset(t->normal, 0, sizeof t->normal);
     for (int k = 0; k < 3; k++) {
-        float3 side = float3_scale(side_of(seen[(k + 1) % 3], seen[(k + 2) % 3]), sign);
+        float3 side = float3_scale(side_of(corner[(k + 1) % 3], corner[(k + 2) % 3]), sign);
         set_plane(flat->edges[k], side);
-        const float3 normal = p->normals[corners[k]];
+        const float3 normal = p->world_normals[corners[k]];
         for (int c = 0; c < 3; c++) {
             float part = flat->edges[k][c] / exact_abs(volume);
             t->normal[0][c] += part * normal.x;
@@ -264,55 +266,55 @@ static void place_triangle(const struct placing *p, size_t i)
         }
     }
     if (p->uvs)
-        place_uvs(p, i, exact_abs(volume));
+        project_uvs(p, i, exact_abs(volume));
     memcpy(flat->nearness, t->nearness, sizeof flat->nearness);
     const float4 *rows = p->view->world_to_view;
     t->face[0] = -sign * (rows[0].x * face.x + rows[1].x * face.y + rows[2].x * face.z);
     t->face[1] = -sign * (rows[0].y * face.x + rows[1].y * face.y + rows[2].y * face.z);
     t->face[2] = -sign * (rows[0].z * face.x + rows[1].z * face.y + rows[2].z * face.z);
     t->mesh = p->number;
-    find_bounds(p->view, seen, flat);
+    find_bounds(p->view, corner, flat);
 }
 
-static void place_triangles(void *context, size_t begin, size_t end, uint32_t worker)
+static void project_triangles(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     for (size_t i = begin; i < end; i++)
-        place_triangle(context, i);
+        project_triangle(context, i);
 }
 
-static void place_meshes(struct kiln_meshes_cpu *m, const struct kiln_view *view,
-                         const struct kiln_draw_shapes *shapes)
+static void project_meshes(struct kiln_meshes_cpu *m, const struct kiln_view *view,
+                           const struct kiln_draw_shapes *shapes)
 {
     for (uint32_t i = 0; i < m->meshes->count; i++) {
         const struct kiln_mesh *mesh = m->meshes->loaded[i];
         size_t vertex = vertices_before(m->meshes, i), triangle = triangles_before(m->meshes, i);
-        struct placing placing = {
+        struct mesh_projection projection = {
             .m = m,
             .view = view,
-            .placed = &shapes->meshes[i],
+            .draw_mesh = &shapes->meshes[i],
             .mesh = mesh,
             .number = (int32_t)i,
-            .seen = m->seen + vertex,
-            .normals = m->normals + vertex,
+            .view_positions = m->view_positions + vertex,
+            .world_normals = m->world_normals + vertex,
             .triangles = m->triangles + triangle,
             .uvs = mesh->uvs ? m->uvs + triangle : NULL,
             .flat = m->canvas.triangles + triangle,
         };
         struct kiln_threads *threads = m->canvas.threads;
-        kiln_threads_for(threads, mesh->vertex_count, AT_A_TIME, place_vertices, &placing);
-        kiln_threads_for(threads, mesh->triangle_count, AT_A_TIME, place_triangles, &placing);
+        kiln_threads_for(threads, mesh->vertex_count, GRAIN, transform_vertices, &projection);
+        kiln_threads_for(threads, mesh->triangle_count, GRAIN, project_triangles, &projection);
     }
 }
 
 /* ---- hits ------------------------------------------------------------------------------------ */
 
-struct finding {
+struct raster_job {
     struct kiln_meshes_cpu *m;
     const struct kiln_view *view;
 };
 
-static void find_band(const struct finding *f, uint32_t band, float *nearness)
+static void rasterise_band(const struct raster_job *f, uint32_t band, float *nearness)
 {
 #define PAIR(x, y)                                                                                 \
     {                                                                                              \
@@ -341,7 +343,7 @@ static void find_band(const struct finding *f, uint32_t band, float *nearness)
         .v_step = -2.0f * frustum.y / frustum.w,
         .layers = KILN_HIT_LAYERS,
         .offsets = {{0.5f, 0.5f}, KILN_EDGE_OFFSETS(PAIR)},
-        .most = 1.0f / NEAREST,
+        .nearness_max = 1.0f / NEAREST,
         .nearness = nearness,
         .triangles = hits,
         .pitch = m->view.pitch,
@@ -350,11 +352,11 @@ static void find_band(const struct finding *f, uint32_t band, float *nearness)
 #undef PAIR
 }
 
-static void find_bands(void *context, size_t begin, size_t end, uint32_t worker)
+static void rasterise_bands(void *context, size_t begin, size_t end, uint32_t worker)
 {
-    const struct finding *f = context;
+    const struct raster_job *f = context;
     for (size_t band = begin; band < end; band++)
-        find_band(f, (uint32_t)band, f->m->canvas.nearness + worker * f->m->canvas.strip);
+        rasterise_band(f, (uint32_t)band, f->m->canvas.nearness + worker * f->m->canvas.strip);
 }
 
 bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view *view,
@@ -367,12 +369,12 @@ bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view 
                                      &shapes->meshes[i], shapes, backdrop->sun_direction, error))
             return false;
     }
-    place_meshes(m, view, shapes);
+    project_meshes(m, view, shapes);
     uint32_t triangles = (uint32_t)triangles_before(m->meshes, m->meshes->count);
     if (!kiln_row_lists_fill(&m->canvas.lists, &m->canvas.triangles->y, sizeof *m->canvas.triangles,
                              triangles, m->height, KILN_MESH_ROWS, error))
         return false;
-    struct finding finding = {m, view};
-    return kiln_threads_try(m->canvas.threads, m->canvas.lists.bands, 1, find_bands, &finding,
+    struct raster_job job = {m, view};
+    return kiln_threads_try(m->canvas.threads, m->canvas.lists.bands, 1, rasterise_bands, &job,
                             error);
 }

@@ -23,7 +23,7 @@ struct kiln_ray_frame {
 
 /* Holds the objects that rays may hit, a bit for each. */
 struct kiln_ray_objects {
-    uint32_t boxes, spheres, cylinders, capsules, turned, planes;
+    uint32_t boxes, spheres, cylinders, capsules, oriented_boxes, planes;
 };
 
 #endif

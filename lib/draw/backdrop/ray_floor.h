@@ -24,15 +24,15 @@ SIMD vf find_floor(const struct kiln_ray_frame *frame, const struct ray *ray)
 
 /* Returns the albedo of the floor where rays hit it. */
 SIMD struct vf3 floor_albedo(const struct kiln_ray_frame *frame, const struct ray *ray, vf t,
-                             vi wanted)
+                             vi active)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     vf x = ray->origin.x + ray->direction.x * t, z = ray->origin.z + ray->direction.z * t;
     if (frame->floor_image) {
         const float4 *rows = frame->view->world_to_view;
-        const struct floor_patch patch = floor_patch_of(
+        const struct floor_footprint footprint = floor_footprint_of(
             ray->direction, t, rows[0], rows[1], frame->view->frustum, frame->shapes->floor_map.z);
-        return floor_picture(frame, &patch, x, z, wanted);
+        return floor_picture(frame, &footprint, x, z, active);
     }
     if (b->floor_params.y <= 0.0f)
         return vf3_all(b->floor_color);
@@ -54,29 +54,30 @@ SIMD struct floor_water find_water(const struct kiln_ray_frame *frame, vf x, vf 
 }
 
 /* Holds how the floor reflects a ray. */
-struct ray_mirror {
-    struct vf3 lights;  /* light of lamps that is reflected to the eye */
-    struct vf3 sun;     /* sunlight that is reflected to the eye where there is no shadow */
-    struct vf3 onwards; /* direction of the reflected ray */
-    vf weight;          /* factor of the light that comes back along it */
+struct ray_reflection {
+    struct vf3 lights;    /* light of lamps that is reflected to the eye */
+    struct vf3 sun;       /* sunlight that is reflected to the eye where there is no shadow */
+    struct vf3 direction; /* of the reflected ray */
+    vf weight;            /* factor of the light that comes back along it */
 };
 
-SIMD struct vf3 mirrored_lights(const struct kiln_ray_frame *frame, struct vf3 point,
-                                struct vf3 normal, struct vf3 to_eye, vf spread)
+SIMD struct vf3 reflected_lights(const struct kiln_ray_frame *frame, struct vf3 point,
+                                 struct vf3 normal, struct vf3 to_eye, vf spread)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     struct vf3 sum = {{0}, {0}, {0}};
     for (uint32_t i = 0; i < b->counts.y; i++) {
         const struct kiln_draw_light *light = &b->lights[i];
         const struct vf3 towards = vf3_towards(light->position_radius2, point);
-        vf part = floor_mirrors_lamp(towards, light->position_radius2.w, normal, to_eye, spread);
-        sum = vf3_along(sum, vf3_all(light->color), part);
+        vf part = floor_reflects_lamp(towards, light->position_radius2.w, normal, to_eye, spread);
+        sum = vf3_add_scaled(sum, vf3_all(light->color), part);
     }
     return sum;
 }
 
 /* Computes the reflection of the floor along rays from the eye. */
-SIMD struct ray_mirror floor_mirror(const struct kiln_ray_frame *frame, const struct ray *ray)
+SIMD struct ray_reflection floor_reflection_along(const struct kiln_ray_frame *frame,
+                                                  const struct ray *ray)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     const float4 gloss = frame->shapes->floor_gloss;
@@ -86,18 +87,18 @@ SIMD struct ray_mirror floor_mirror(const struct kiln_ray_frame *frame, const st
     struct vf3 point = ray_at(ray, t);
     const struct floor_water water =
         find_water(frame, point.x, point.z, floor_extent_along(frame, direction, t));
-    const struct floor_mirror m = floor_mirror_of(direction, water, gloss.y);
+    const struct floor_reflection m = floor_reflection_of(direction, water, gloss.y);
 
     vf part = vf_all(gloss.x);
     if (b->counts.z == 0)
         part *= vf_exp(-b->floor_params.z * t * vf3_length(direction));
     const struct vf3 sun = vf3_all(b->sun_direction);
-    return (struct ray_mirror){
-        .lights = vf3_scale(mirrored_lights(frame, point, m.normal, m.to_eye, m.spread), part),
+    return (struct ray_reflection){
+        .lights = vf3_scale(reflected_lights(frame, point, m.normal, m.to_eye, m.spread), part),
         .sun =
             vf3_scale(vf3_all(b->sun_color), part * floor_lobe(m.normal, m.to_eye, sun, m.spread)),
-        .onwards = m.onwards,
-        .weight = part * m.reflected,
+        .direction = m.direction,
+        .weight = part * m.reflectance,
     };
 }
 

@@ -17,72 +17,77 @@ struct ray_color {
 
 /* Returns the visible part of the sky times `beside`, the part that an object leaves, in the lanes
  * where the object hides some sky. */
-SIMD vf less_sky(vf visible, vi hides, vf beside)
+SIMD vf occlude_sky(vf visible, vi hides, vf beside)
 {
     return visible * vf_select(hides, beside, vf_all(1.0f));
 }
 
 /* Returns the part of the sky that stays visible beside a box; the vectors are in the box's
  * frame. */
-SIMD vf box_leaves_sky(float4 half, struct vf3 towards, struct vf3 normal, vi wanted, vf visible)
+SIMD vf box_sky_visibility(float4 half, struct vf3 towards, struct vf3 normal, vi active,
+                           vf visible)
 {
-    vi hides = wanted & sky_meets_box(half, towards, normal);
+    vi hides = active & sky_meets_box(half, towards, normal);
     if (!any(hides))
         return visible;
-    return less_sky(visible, hides, sky_beside_box(half, towards, normal));
+    return occlude_sky(visible, hides, sky_beside_box(half, towards, normal));
 }
 
-SIMD vf boxes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
+SIMD vf boxes_sky_visibility(const struct kiln_ray_frame *frame, const struct ray_point *p,
+                             vf visible)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     for (uint32_t i = 0; i < b->counts.x; i++) {
         struct vf3 towards = vf3_towards(b->box_center[i], p->at);
-        visible = box_leaves_sky(b->box_half[i], towards, p->normal, p->wanted, visible);
+        visible = box_sky_visibility(b->box_half[i], towards, p->normal, p->active, visible);
     }
     return visible;
 }
 
-SIMD vf round_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
+SIMD vf round_sky_visibility(const struct kiln_ray_frame *frame, const struct ray_point *p,
+                             vf visible)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     for (uint32_t i = 0; i < shapes->counts.x; i++) {
         const float4 sphere = shapes->spheres[i];
         vf beside = sky_beside_ball(vf3_towards(sphere, p->at), sphere.w, p->normal);
-        visible = less_sky(visible, p->wanted, beside);
+        visible = occlude_sky(visible, p->active, beside);
     }
     for (uint32_t i = 0; i < shapes->counts.y; i++) {
         const float4 axis = shapes->cylinder_axis[i], cylinder = shapes->cylinders[i];
         const struct vf3 towards = vf3_towards(cylinder, p->at);
-        vi hides = p->wanted & sky_meets_cylinder(towards, cylinder.w, axis, p->normal);
+        vi hides = p->active & sky_meets_cylinder(towards, cylinder.w, axis, p->normal);
         visible =
-            less_sky(visible, hides, sky_beside_cylinder(towards, cylinder.w, axis, p->normal));
+            occlude_sky(visible, hides, sky_beside_cylinder(towards, cylinder.w, axis, p->normal));
     }
     return visible;
 }
 
-SIMD vf turned_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
+SIMD vf oriented_sky_visibility(const struct kiln_ray_frame *frame, const struct ray_point *p,
+                                vf visible)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
-    for (uint32_t i = 0; i < shapes->more.x; i++) {
+    for (uint32_t i = 0; i < shapes->oriented_counts.x; i++) {
         const float4 axis = shapes->capsule_axis[i], capsule = shapes->capsules[i];
         vf beside = sky_beside_capsule(vf3_towards(capsule, p->at), capsule.w, axis, p->normal);
-        visible = less_sky(visible, p->wanted, beside);
+        visible = occlude_sky(visible, p->active, beside);
     }
-    for (uint32_t i = 0; i < shapes->more.y; i++) {
-        const struct kiln_draw_turned_box *box = &shapes->turned[i];
+    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
+        const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
         struct vf3 towards = into_box(box, vf3_towards(box->center, p->at));
         struct vf3 normal = into_box(box, p->normal);
-        visible = box_leaves_sky(box->half_size, towards, normal, p->wanted, visible);
+        visible = box_sky_visibility(box->half_size, towards, normal, p->active, visible);
     }
     return visible;
 }
 
-SIMD vf meshes_leave_sky(const struct kiln_ray_frame *frame, const struct ray_point *p, vf visible)
+SIMD vf meshes_sky_visibility(const struct kiln_ray_frame *frame, const struct ray_point *p,
+                              vf visible)
 {
     for (uint32_t i = 0; i < frame->shapes->counts.z; i++) {
         const struct kiln_draw_mesh *mesh = &frame->shapes->meshes[i];
         vf beside = sky_beside_mesh(vf3_towards(mesh->center, p->at), mesh->half_size, p->normal);
-        visible = less_sky(visible, p->wanted, beside);
+        visible = occlude_sky(visible, p->active, beside);
     }
     return visible;
 }
@@ -93,7 +98,7 @@ SIMD void add_light(const struct kiln_draw_light *light, const struct ray_point 
                     struct vf3 *irradiance)
 {
     struct vf3 towards = vf3_towards(light->position_radius2, p->at);
-    vi faces = p->wanted & (vf3_dot(p->normal, towards) > 0.0f);
+    vi faces = p->active & (vf3_dot(p->normal, towards) > 0.0f);
     if (!any(faces))
         return;
     vf part = vf_where(faces, lamp_irradiance(towards, p->normal, light->position_radius2.w));
@@ -103,13 +108,14 @@ SIMD void add_light(const struct kiln_draw_light *light, const struct ray_point 
 }
 
 /* Returns the irradiance from the sky and the point lights. */
-SIMD struct vf3 soft_irradiance(const struct kiln_ray_frame *frame, const struct ray_point *p)
+SIMD struct vf3 irradiance_without_sun(const struct kiln_ray_frame *frame,
+                                       const struct ray_point *p)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
-    vf sky = boxes_leave_sky(frame, p, vf_all(1.0f));
-    sky = round_leave_sky(frame, p, sky);
-    sky = turned_leave_sky(frame, p, sky);
-    sky = meshes_leave_sky(frame, p, sky);
+    vf sky = boxes_sky_visibility(frame, p, vf_all(1.0f));
+    sky = round_sky_visibility(frame, p, sky);
+    sky = oriented_sky_visibility(frame, p, sky);
+    sky = meshes_sky_visibility(frame, p, sky);
     sky *= smoke_lets_through(frame->smoke_to_sky, b->sky_to_grid, p);
     struct vf3 ambient = sky_ambient(b->sky_horizon, b->sky_top, p->normal);
     struct vf3 irradiance = vf3_scale(ambient, RAY_PI * sky);
@@ -119,32 +125,32 @@ SIMD struct vf3 soft_irradiance(const struct kiln_ray_frame *frame, const struct
 }
 
 /* Returns the lanes whose surface faces the sun; none where the sun is black. */
-SIMD vi turned_to_sun(const struct kiln_ray_frame *frame, const struct ray_point *p)
+SIMD vi facing_sun(const struct kiln_ray_frame *frame, const struct ray_point *p)
 {
     const float4 color = frame->backdrop->sun_color;
     if (color.x + color.y + color.z <= 0.0f)
         return vi_all(0);
-    return p->wanted & (vf3_dot_all(p->normal, frame->backdrop->sun_direction) > 0.0f);
+    return p->active & (vf3_dot_all(p->normal, frame->backdrop->sun_direction) > 0.0f);
 }
 
 /* ---- light that goes to the eye -------------------------------------------------------------- */
 
-SIMD struct vf3 sky_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi wanted)
+SIMD struct vf3 sky_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi active)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     const float4 frustum = frame->view->frustum;
     if (frame->sky_image)
-        return sky_picture(frame, direction, 2.0f * frustum.y / frustum.w, wanted);
+        return sky_picture(frame, direction, 2.0f * frustum.y / frustum.w, active);
     return sky_gradient(b->sky_horizon, b->sky_top, direction);
 }
 
 /* Returns the colour that surfaces fade into far away: that of the sky at the horizon. */
-SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi wanted)
+SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi active)
 {
     if (!frame->sky_image)
         return vf3_all(frame->backdrop->sky_horizon);
     direction.y = vf_all(0.0f);
-    return sky_picture(frame, direction, 0.1f, wanted);
+    return sky_picture(frame, direction, 0.1f, active);
 }
 
 /* Returns the radiance of a Lambertian surface: albedo / pi * irradiance, with haze. sunlight: the
@@ -156,14 +162,14 @@ SIMD struct ray_color radiance(const struct kiln_ray_frame *frame, const struct 
     bool transparent = b->counts.z != 0;
     vi surface = hit->surface >= 0.0f;
     vf sun = vf_max(vf3_dot_all(hit->normal, b->sun_direction), vf_all(0.0f)) * sunlight;
-    irradiance = vf3_along(irradiance, vf3_all(b->sun_color), sun);
+    irradiance = vf3_add_scaled(irradiance, vf3_all(b->sun_color), sun);
     struct vf3 color = {hit->albedo.x * (1.0f / RAY_PI) * irradiance.x,
                         hit->albedo.y * (1.0f / RAY_PI) * irradiance.y,
                         hit->albedo.z * (1.0f / RAY_PI) * irradiance.z};
     if (!transparent && b->floor_params.z > 0.0f) {
         vf clear = vf_exp(-b->floor_params.z * hit->t * vf3_length(direction));
         struct vf3 haze = horizon_color(frame, direction, surface);
-        color = vf3_along(haze, vf3_sub(color, haze), clear);
+        color = vf3_add_scaled(haze, vf3_sub(color, haze), clear);
     }
     return (struct ray_color){color, vf_all(1.0f)};
 }

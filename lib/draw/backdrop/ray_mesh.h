@@ -55,14 +55,14 @@ SIMD struct ray_mesh_hit find_mesh(const struct kiln_mesh_view *meshes, vi trian
 }
 
 /* Holds the derivatives by u and v of a value that is linear on a triangle. */
-struct ray_drift {
+struct ray_derivative {
     vf u, v;
 };
 
-SIMD struct ray_drift find_slope(const float *plane, const float *nearness, vi uvs, vi triangle,
-                                 vf value, vf depth)
+SIMD struct ray_derivative find_derivative(const float *plane, const float *nearness, vi uvs,
+                                           vi triangle, vf value, vf depth)
 {
-    return (struct ray_drift){
+    return (struct ray_derivative){
         (vf_gather(plane, uvs) - value * vf_gather(nearness, triangle)) * depth,
         (vf_gather(plane + 1, uvs) - value * vf_gather(nearness + 1, triangle)) * depth};
 }
@@ -71,7 +71,7 @@ SIMD struct ray_drift find_slope(const float *plane, const float *nearness, vi u
  * that a pixel covers: the area that its derivatives span, or the square of half of the longer one
  * if that is more. */
 SIMD struct vf3 add_paint(const struct kiln_ray_frame *frame, const struct ray_place *at,
-                          const struct ray_mesh_hit *found, vi wanted, struct vf3 albedo)
+                          const struct ray_mesh_hit *found, vi active, struct vf3 albedo)
 {
     const struct kiln_mesh_view *meshes = frame->meshes;
     const int stride = (int)(sizeof *meshes->triangles / sizeof(float));
@@ -83,15 +83,17 @@ SIMD struct vf3 add_paint(const struct kiln_ray_frame *frame, const struct ray_p
     vf v = read_plane(meshes->uvs->v, uvs, at) * found->depth;
     const float4 frustum = frame->view->frustum;
     const float right = 2.0f * frustum.x / frustum.z, down = 2.0f * frustum.y / frustum.w;
-    struct ray_drift of_u = find_slope(meshes->uvs->u, nearness, uvs, triangle, u, found->depth);
-    struct ray_drift of_v = find_slope(meshes->uvs->v, nearness, uvs, triangle, v, found->depth);
+    struct ray_derivative of_u =
+        find_derivative(meshes->uvs->u, nearness, uvs, triangle, u, found->depth);
+    struct ray_derivative of_v =
+        find_derivative(meshes->uvs->v, nearness, uvs, triangle, v, found->depth);
     vf area = vf_abs(of_u.u * of_v.v - of_u.v * of_v.u) * (right * down);
     vf across = (of_u.u * of_u.u + of_v.u * of_v.u) * (right * right);
     vf along = (of_u.v * of_u.v + of_v.v * of_v.v) * (down * down);
     vf square = vf_max(area, vf_max(across, along) * 0.25f);
     vf level = vf_log2(vf_min(vf_max(square, vf_all(1e-12f)), vf_all(1e12f))) * 0.5f;
     for (int lane = 0; lane < LANES; lane++) {
-        const struct kiln_pyramid *paint = wanted[lane] ? meshes->paint[found->mesh[lane]] : NULL;
+        const struct kiln_pyramid *paint = active[lane] ? meshes->paint[found->mesh[lane]] : NULL;
         if (!paint)
             continue;
         const struct ray_levels levels =

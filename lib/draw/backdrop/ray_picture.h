@@ -84,21 +84,21 @@ SIMD void set_lane(struct vf3 *color, int lane, ray_texel texel)
 /* ---- the floor ------------------------------------------------------------------------------- */
 
 /* Reads the floor's picture at (x, z) on the floor, m. */
-SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame, const struct floor_patch *patch,
-                              vf x, vf z, vi wanted)
+SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame,
+                              const struct floor_footprint *footprint, vf x, vf z, vi active)
 {
     const struct kiln_pyramid *picture = frame->floor_image;
     const float4 map = frame->shapes->floor_map;
     struct vf3 color = {{0}, {0}, {0}};
     for (int lane = 0; lane < LANES; lane++) {
-        if (!wanted[lane])
+        if (!active[lane])
             continue;
-        const struct ray_levels levels = choose_levels(picture, patch->level[lane]);
+        const struct ray_levels levels = choose_levels(picture, footprint->level[lane]);
         ray_texel sum = {0};
         for (int i = 0; i < FLOOR_TAPS; i++) {
             float way = floor_tap_of(i);
-            float u = fraction((x[lane] + patch->longer_x[lane] * way) * map.x);
-            float v = fraction((z[lane] + patch->longer_z[lane] * way) * map.y);
+            float u = fraction((x[lane] + footprint->longer_x[lane] * way) * map.x);
+            float v = fraction((z[lane] + footprint->longer_z[lane] * way) * map.y);
             sum += read_picture(picture, &levels, u, v, true);
         }
         set_lane(&color, lane, sum * (1.0f / (float)FLOOR_TAPS));
@@ -110,7 +110,7 @@ SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame, const struct f
 
 /* Reads the sky's picture, averaged over at least `angle` radians. */
 SIMD struct vf3 sky_picture(const struct kiln_ray_frame *frame, struct vf3 direction, float angle,
-                            vi wanted)
+                            vi active)
 {
     const struct kiln_pyramid *picture = frame->sky_image;
     const float4 map = frame->shapes->sky_map;
@@ -120,7 +120,7 @@ SIMD struct vf3 sky_picture(const struct kiln_ray_frame *frame, struct vf3 direc
     vf u = at.u - vf_floor(at.u);
     struct vf3 color = {{0}, {0}, {0}};
     for (int lane = 0; lane < LANES; lane++) {
-        if (wanted[lane])
+        if (active[lane])
             set_lane(&color, lane,
                      read_picture(picture, &levels, u[lane], at.v[lane], false) * map.y);
     }

@@ -20,7 +20,7 @@ struct ray_hit {
 
 SIMD struct vf3 ray_at(const struct ray *ray, vf t)
 {
-    return vf3_along(ray->origin, ray->direction, t);
+    return vf3_add_scaled(ray->origin, ray->direction, t);
 }
 
 /* Replaces the nearest hit in the lanes where another hit is nearer. */
@@ -88,7 +88,7 @@ SIMD void trace_cylinders(const struct kiln_ray_frame *frame, uint32_t cylinders
             continue;
         struct vf3 from = vf3_sub(ray_at(ray, at.near), vf3_all(cylinder));
         vf height = vf3_dot_all(from, axis);
-        struct vf3 side = vf3_normalize(vf3_along(from, vf3_all(axis), -height));
+        struct vf3 side = vf3_normalize(vf3_add_scaled(from, vf3_all(axis), -height));
         struct vf3 end = vf3_scale(vf3_all(axis), vf_sign_one(height));
         vf part = vf_where(c.on_end, vf_select(height > 0.0f, vf_all(1.0f), vf_all(2.0f)));
         keep_nearer(nearest, nearer, at.near, part + (float)(KILN_SURFACE_CYLINDERS + 3 * i),

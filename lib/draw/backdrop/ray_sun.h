@@ -4,14 +4,14 @@
 #ifndef KILN_DRAW_BACKDROP_RAY_SUN_H
 #define KILN_DRAW_BACKDROP_RAY_SUN_H
 
-#include "draw/backdrop/ray_turned.h"
+#include "draw/backdrop/ray_oriented.h"
 #include "shared/shadow_map.h"
 #include "shared/sun_cover.h"
 
 /* Describes points whose sunlight is computed, and the lanes that need it. */
-struct ray_shade {
+struct sun_receiver {
     struct vf3 origin, normal;
-    vi wanted;
+    vi active;
 };
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
@@ -22,24 +22,25 @@ struct ray_shade {
 SIMD vf box_cover(const struct ray_slabs *s, const struct sun_edges *edges, float spread)
 {
     const struct sun_hidden hidden = sun_cross_box(*s, *edges, BOX_EDGE, spread, 0.0f);
-    return vf_where(hidden.way > 0.0f, hidden.cover);
+    return vf_where(hidden.exit_distance > 0.0f, hidden.cover);
 }
 
-SIMD vf boxes_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,
+                             const struct sun_receiver *receiver)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     const struct sun_edges *edges = &frame->shapes->edges;
     const struct vf3 inverses = vf3_all(edges->inverse);
     vf visible = vf_all(1.0f);
     for (uint32_t i = 0; i < b->counts.x; i++) {
-        struct ray_slabs s =
-            ray_cross_slabs(vf3_towards(b->box_center[i], shade->origin), b->box_half[i], inverses);
+        struct ray_slabs s = ray_cross_slabs(vf3_towards(b->box_center[i], receiver->origin),
+                                             b->box_half[i], inverses);
         if (!frame->soft_sun) {
-            vi hidden = shade->wanted & ray_is_blocked(ray_slabs_interval(s));
+            vi hidden = receiver->active & ray_is_blocked(ray_slabs_interval(s));
             visible = vf_where(~hidden, visible);
         } else {
             vf cover = box_cover(&s, edges, frame->shapes->sun_right.w);
-            visible *= 1.0f - vf_where(shade->wanted, cover);
+            visible *= 1.0f - vf_where(receiver->active, cover);
         }
     }
     return visible;
@@ -55,7 +56,8 @@ SIMD vf cylinder_of_sun(const struct kiln_ray_frame *frame, int i, struct vf3 or
                           frame->backdrop->sun_direction, shapes->bands[i], shapes->sun_right.w);
 }
 
-SIMD vf round_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+SIMD vf round_sun_visibility(const struct kiln_ray_frame *frame,
+                             const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const float4 sun = frame->backdrop->sun_direction;
@@ -63,25 +65,26 @@ SIMD vf round_let_through(const struct kiln_ray_frame *frame, const struct ray_s
     vf visible = vf_all(1.0f);
     for (int i = 0; i < (int)shapes->counts.x; i++) {
         if (frame->soft_sun)
-            visible *= 1.0f - ball_cover(vf3_towards(shapes->spheres[i], shade->origin),
+            visible *= 1.0f - ball_cover(vf3_towards(shapes->spheres[i], receiver->origin),
                                          shapes->spheres[i].w, sun, shapes->sun_right.w);
         else
-            visible = vf_where(
-                ~ray_is_blocked(ray_cross_ball(shapes->spheres[i], shade->origin, way)), visible);
+            visible =
+                vf_where(~ray_is_blocked(ray_cross_ball(shapes->spheres[i], receiver->origin, way)),
+                         visible);
     }
     for (int i = 0; i < (int)shapes->counts.y; i++) {
         if (frame->soft_sun) {
-            visible *= 1.0f - cylinder_of_sun(frame, i, shade->origin);
+            visible *= 1.0f - cylinder_of_sun(frame, i, receiver->origin);
         } else {
             struct ray_cylinder c = ray_cross_cylinder(
-                shapes->cylinders[i], shapes->cylinder_axis[i], shade->origin, way);
+                shapes->cylinders[i], shapes->cylinder_axis[i], receiver->origin, way);
             visible = vf_where(~ray_is_blocked(c.interval), visible);
         }
     }
     return visible;
 }
 
-/* ---- capsules and turned boxes --------------------------------------------------------------- */
+/* ---- capsules and oriented boxes ------------------------------------------------------------- */
 
 SIMD vf capsule_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
 {
@@ -91,24 +94,25 @@ SIMD vf capsule_cover(const struct kiln_ray_frame *frame, int i, struct vf3 orig
     return ball_cover(towards, capsule.w, sun, frame->shapes->sun_right.w);
 }
 
-SIMD vf turned_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+SIMD vf oriented_sun_visibility(const struct kiln_ray_frame *frame,
+                                const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
     vf visible = vf_all(1.0f);
-    for (int i = 0; i < (int)shapes->more.x; i++) {
+    for (int i = 0; i < (int)shapes->oriented_counts.x; i++) {
         if (frame->soft_sun)
-            visible *= 1.0f - capsule_cover(frame, i, shade->origin);
+            visible *= 1.0f - capsule_cover(frame, i, receiver->origin);
         else
             visible =
                 vf_where(~ray_is_blocked(ray_cross_capsule(
-                             shapes->capsules[i], shapes->capsule_axis[i], shade->origin, way)),
+                             shapes->capsules[i], shapes->capsule_axis[i], receiver->origin, way)),
                          visible);
     }
-    for (int i = 0; i < (int)shapes->more.y; i++) {
-        const struct sun_edges *edges = &shapes->turned_edges[i];
-        struct ray_slabs s =
-            cross_turned(&shapes->turned[i], shade->origin, vf3_all(edges->inverse));
+    for (int i = 0; i < (int)shapes->oriented_counts.y; i++) {
+        const struct sun_edges *edges = &shapes->oriented_edges[i];
+        struct ray_slabs s = cross_oriented_box(&shapes->oriented_boxes[i], receiver->origin,
+                                                vf3_all(edges->inverse));
         if (frame->soft_sun)
             visible *= 1.0f - box_cover(&s, edges, shapes->sun_right.w);
         else
@@ -121,12 +125,12 @@ SIMD vf turned_let_through(const struct kiln_ray_frame *frame, const struct ray_
 
 /* Holds the part of a place in a shadow map that is covered, and that part times the mean
  * distance. */
-struct ray_seen {
+struct shadow_sample {
     vf cover, distance;
 };
 
 /* Interpolates linearly between four texels of a level; texels beside the map are empty. */
-SIMD struct ray_seen read_shadow_level(const uint32_t *map, vf u, vf v, vi level)
+SIMD struct shadow_sample read_shadow_level(const uint32_t *map, vf u, vf v, vi level)
 {
     static const int32_t first[KILN_SHADOW_LEVELS] = {0,       1048576, 1310720, 1376256,
                                                       1392640, 1396736, 1397760, 1398016,
@@ -137,7 +141,7 @@ SIMD struct ray_seen read_shadow_level(const uint32_t *map, vf u, vf v, vi level
     vf y = vf_min(vf_max(v * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
     vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
     vi start = vi_gather(first, level);
-    struct ray_seen seen = {{0}, {0}};
+    struct shadow_sample sum = {{0}, {0}};
     for (int i = 0; i < 4; i++) {
         vi column = vi_of(left) + (i & 1), row = vi_of(top) + (i >> 1);
         vi inside = (column >= 0) & (row >= 0) & (column < edge) & (row < edge);
@@ -146,53 +150,53 @@ SIMD struct ray_seen read_shadow_level(const uint32_t *map, vf u, vf v, vi level
         vi at = vi_select(inside, start + row * edge + column, vi_all(0));
         vi texel = vi_gather((const int32_t *)map, at);
         weight *= 1.0f / (float)KILN_SHADOW_ONE;
-        seen.cover += weight * vf_of(texel & 0xffff);
-        seen.distance += weight * vf_of(texel >> 16 & 0xffff);
+        sum.cover += weight * vf_of(texel & 0xffff);
+        sum.distance += weight * vf_of(texel >> 16 & 0xffff);
     }
-    return seen;
+    return sum;
 }
 
 /* Reads a shadow map, interpolated between two levels. */
-SIMD struct ray_seen read_shadow(const uint32_t *map, vf u, vf v, vf level)
+SIMD struct shadow_sample read_shadow(const uint32_t *map, vf u, vf v, vf level)
 {
     level = vf_clamp(level, 0.0f, (float)(KILN_SHADOW_LEVELS - 1));
     vf fine = vf_floor(level), part = level - fine;
-    struct ray_seen seen = read_shadow_level(map, u, v, vi_of(fine));
+    struct shadow_sample shadow = read_shadow_level(map, u, v, vi_of(fine));
     if (any(part > 0.0f)) {
         vf coarse = vf_min(fine + 1.0f, vf_all((float)(KILN_SHADOW_LEVELS - 1)));
-        struct ray_seen more = read_shadow_level(map, u, v, vi_of(coarse));
-        seen.cover += (more.cover - seen.cover) * part;
-        seen.distance += (more.distance - seen.distance) * part;
+        struct shadow_sample coarser = read_shadow_level(map, u, v, vi_of(coarse));
+        shadow.cover += (coarser.cover - shadow.cover) * part;
+        shadow.distance += (coarser.distance - shadow.distance) * part;
     }
-    return seen;
+    return shadow;
 }
 
 /* Returns the part of the sun that a mesh covers. */
-SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct ray_shade *shade)
+SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const uint32_t *map = frame->meshes->shadows[i];
     const float spread = shapes->sun_right.w;
     const struct shadow_receiver at =
-        shadow_receiver_of(shapes->meshes[i].center, shade->origin, shade->normal,
+        shadow_receiver_of(shapes->meshes[i].center, receiver->origin, receiver->normal,
                            frame->backdrop->sun_direction, shapes->sun_right, shapes->sun_up);
     vf widest = shadow_widest(at, spread), reach = 4.0f * widest;
-    vi near = shade->wanted & (at.u > -reach) & (at.v > -reach) & (at.u < 1.0f + reach) &
+    vi near = receiver->active & (at.u > -reach) & (at.v > -reach) & (at.u < 1.0f + reach) &
               (at.v < 1.0f + reach);
     if (!any(near))
         return vf_all(0.0f);
 
-    struct ray_seen seen = read_shadow(map, at.u, at.v, shadow_level(widest) + 1.0f);
-    near &= seen.cover > 0.0f;
+    struct shadow_sample shadow = read_shadow(map, at.u, at.v, shadow_level(widest) + 1.0f);
+    near &= shadow.cover > 0.0f;
     if (!any(near))
         return vf_all(0.0f);
-    vf width = shadow_width(at, spread, seen.cover, seen.distance);
+    vf width = shadow_width(at, spread, shadow.cover, shadow.distance);
     vf level = shadow_level(width), stride = 0.5f * width, cover = vf_all(0.0f);
     vf ramp = 1.0f / (at.slack + stride);
     for (int k = 0; k < 4; k++) {
         vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
-        seen = read_shadow(map, at.u + aside_u, at.v + aside_v, level);
-        cover += shadow_tap(at, aside_u, aside_v, seen.cover, seen.distance, ramp);
+        shadow = read_shadow(map, at.u + aside_u, at.v + aside_v, level);
+        cover += shadow_tap(at, aside_u, aside_v, shadow.cover, shadow.distance, ramp);
     }
     return vf_where(near, cover);
 }
@@ -268,10 +272,10 @@ struct ray_entry {
     vi at, edge;    /* offset in the lists, in floats; edge of the tile, texels, 0: no tile */
 };
 
-SIMD struct ray_entry read_entry(const struct kiln_solid_bins *solids, vi entry, vi wanted)
+SIMD struct ray_entry read_entry(const struct kiln_solid_bins *solids, vi entry, vi active)
 {
     const float *list = (const float *)solids->list, *tiles = (const float *)solids->tiles;
-    const vi at = vi_select(wanted, 4 * entry, vi_all(0));
+    const vi at = vi_select(active, 4 * entry, vi_all(0));
     struct ray_entry e = {
         .center = {vf_gather(list, at), vf_gather(list + 1, at), vf_gather(list + 2, at)},
         .size = vf_gather(list + 3, at),
@@ -316,15 +320,16 @@ SIMD vf entry_cover(const struct kiln_ray_frame *frame, const struct ray_entry *
 
 /* Returns the part of the sun that solid particles let through. Each lane first skips to the next
  * entry of its list that is near, so that few lanes wait for others. */
-SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct ray_shade *shade)
+SIMD vf particles_sun_visibility(const struct kiln_ray_frame *frame,
+                                 const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const int32_t *bins = (const int32_t *)frame->solids.bins;
     const float edge = (float)shapes->counts.w;
     vf visible = vf_all(1.0f);
-    vf x = vf3_map(shapes->world_to_bin[0], shade->origin);
-    vf y = vf3_map(shapes->world_to_bin[1], shade->origin);
-    vi inside = shade->wanted & (x >= 0.0f) & (y >= 0.0f) & (x < edge) & (y < edge);
+    vf x = vf3_map(shapes->world_to_bin[0], receiver->origin);
+    vf y = vf3_map(shapes->world_to_bin[1], receiver->origin);
+    vi inside = receiver->active & (x >= 0.0f) & (y >= 0.0f) & (x < edge) & (y < edge);
     if (!any(inside))
         return visible;
     vi bin = vi_of(vf_where(inside, y)) * (int32_t)shapes->counts.w + vi_of(vf_where(inside, x));
@@ -333,7 +338,7 @@ SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct r
         vi found = vi_all(0), pending = count > 0;
         while (any(pending)) {
             const struct ray_entry e = read_entry(&frame->solids, entry, pending);
-            const vi near = pending & entry_is_near(frame, &e, shade->origin);
+            const vi near = pending & entry_is_near(frame, &e, receiver->origin);
             found |= near;
             pending &= ~near;
             entry -= pending; /* a mask's lane is -1 where it is set */
@@ -343,7 +348,7 @@ SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct r
         if (!any(found))
             return visible;
         const struct ray_entry e = read_entry(&frame->solids, entry, found);
-        visible *= 1.0f - vf_where(found, entry_cover(frame, &e, shade->origin));
+        visible *= 1.0f - vf_where(found, entry_cover(frame, &e, receiver->origin));
         entry -= found;
         count += found;
     }
@@ -351,24 +356,25 @@ SIMD vf particles_let_through(const struct kiln_ray_frame *frame, const struct r
 
 /* ---- all objects and particles --------------------------------------------------------------- */
 
-/* Returns the visible part of the sun; 0 for lanes that are not wanted. */
+/* Returns the visible part of the sun; 0 for lanes that are not active. */
 SIMD vf sun_visibility(const struct kiln_ray_frame *frame, struct vf3 point, struct vf3 normal,
-                       vi wanted)
+                       vi active)
 {
-    if (!any(wanted))
+    if (!any(active))
         return vf_all(0.0f);
     const struct kiln_draw_shapes *shapes = frame->shapes;
-    const struct ray_shade shade = {vf3_along(point, normal, vf_all(1e-3f)), normal, wanted};
-    vf visible = boxes_let_through(frame, &shade);
+    const struct sun_receiver receiver = {vf3_add_scaled(point, normal, vf_all(1e-3f)), normal,
+                                          active};
+    vf visible = boxes_sun_visibility(frame, &receiver);
     if (shapes->counts.x + shapes->counts.y > 0)
-        visible *= round_let_through(frame, &shade);
-    if (shapes->more.x + shapes->more.y > 0)
-        visible *= turned_let_through(frame, &shade);
+        visible *= round_sun_visibility(frame, &receiver);
+    if (shapes->oriented_counts.x + shapes->oriented_counts.y > 0)
+        visible *= oriented_sun_visibility(frame, &receiver);
     for (int i = 0; i < (int)shapes->counts.z; i++)
-        visible *= 1.0f - mesh_cover(frame, i, &shade);
+        visible *= 1.0f - mesh_cover(frame, i, &receiver);
     if (shapes->counts.w > 0)
-        visible *= particles_let_through(frame, &shade);
-    return vf_where(wanted, visible);
+        visible *= particles_sun_visibility(frame, &receiver);
+    return vf_where(active, visible);
 }
 
 #endif

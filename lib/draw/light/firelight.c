@@ -4,58 +4,58 @@
  * flame or a burst. Since ages grow evenly, a light moves and flickers with its part of the fire
  * and never jumps.
  *
- * Sums are taken over stretches of slots, whose number depends on the slots alone, and then over
- * the stretches, so that the result is the same for any number of threads. */
+ * Sums are taken over chunks of slots, whose number depends on the slots alone, and then over
+ * the chunks, so that the result is the same for any number of threads. */
 #include "draw/light/firelight.h"
 
 #include "draw/light/light_blocks.h"
 
 /* The part of a billboard's square that its cell fills with light. */
-static const float FILL = 0.25f;
+static const float CELL_FILL = 0.25f;
 
 static const double PI = 3.14159265358979;
 
-enum { MOST_STRETCHES = 16, LEAST_STRETCH = 2048 /* slots */ };
+enum { MAX_CHUNKS = 16, MIN_CHUNK = 2048 /* slots */ };
 
-struct gatherer {
-    kiln_living_find *find;
+struct system_lights {
+    kiln_appearance_find *find;
     const struct kiln_light_loops *loops;
-    struct kiln_living_system system;
+    struct kiln_appearance_system system;
     struct kiln_glow glow;
     uint32_t light_count;
-    uint32_t stretches;
-    struct kiln_gathering lights[MOST_STRETCHES][KILN_MAX_FIRE_LIGHTS];
+    uint32_t chunks;
+    struct kiln_light_sums lights[MAX_CHUNKS][KILN_MAX_FIRE_LIGHTS];
 };
 
-/* Gathers some stretches; each consists of whole blocks. */
-static void gather_stretches(void *context, size_t begin, size_t end, uint32_t worker)
+/* Gathers some chunks; each consists of whole blocks. */
+static void gather_chunks(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    struct gatherer *gatherer = context;
-    const uint64_t blocks = (gatherer->system.used + KILN_LANES - 1) / KILN_LANES;
-    struct kiln_living_block block;
-    for (size_t stretch = begin; stretch < end; stretch++) {
-        uint64_t last = blocks * (stretch + 1) / gatherer->stretches;
-        for (uint64_t k = blocks * stretch / gatherer->stretches; k < last; k++) {
-            gatherer->find(&gatherer->system, (uint32_t)k * KILN_LANES, &block);
-            gatherer->loops->gather_fire(&block, &gatherer->glow, FILL, gatherer->light_count,
-                                         gatherer->lights[stretch]);
+    struct system_lights *fire = context;
+    const uint64_t blocks = (fire->system.used + KILN_LANES - 1) / KILN_LANES;
+    struct kiln_appearance_block block;
+    for (size_t chunk = begin; chunk < end; chunk++) {
+        uint64_t last = blocks * (chunk + 1) / fire->chunks;
+        for (uint64_t k = blocks * chunk / fire->chunks; k < last; k++) {
+            fire->find(&fire->system, (uint32_t)k * KILN_LANES, &block);
+            fire->loops->gather_fire(&block, &fire->glow, CELL_FILL, fire->light_count,
+                                     fire->lights[chunk]);
         }
     }
 }
 
-static void sample_glow(struct gatherer *gatherer)
+static void sample_glow(struct system_lights *fire)
 {
     for (uint32_t i = 0; i < KILN_LOOK_SAMPLES; i++) {
         float3 glow =
-            kiln_living_glow(&gatherer->system, (float)i / (float)(KILN_LOOK_SAMPLES - 1));
-        gatherer->glow.red[i] = glow.x;
-        gatherer->glow.green[i] = glow.y;
-        gatherer->glow.blue[i] = glow.z;
+            kiln_appearance_glow(&fire->system, (float)i / (float)(KILN_LOOK_SAMPLES - 1));
+        fire->glow.red[i] = glow.x;
+        fire->glow.green[i] = glow.y;
+        fire->glow.blue[i] = glow.z;
     }
 }
 
-static void add_gathering(struct kiln_gathering *sum, const struct kiln_gathering *other)
+static void add_sums(struct kiln_light_sums *sum, const struct kiln_light_sums *other)
 {
     for (int c = 0; c < 3; c++) {
         sum->color[c] += other->color[c];
@@ -66,15 +66,15 @@ static void add_gathering(struct kiln_gathering *sum, const struct kiln_gatherin
     sum->radius += other->radius;
 }
 
-/* Gathers a system's lights; the sums are left in the first stretch. */
-static void gather_system(struct gatherer *gatherer, struct kiln_threads *threads)
+/* Gathers a system's lights; the sums are left in the first chunk. */
+static void gather_system(struct system_lights *fire, struct kiln_threads *threads)
 {
-    uint32_t useful = gatherer->system.used / LEAST_STRETCH + 1;
-    gatherer->stretches = useful < MOST_STRETCHES ? useful : MOST_STRETCHES;
-    kiln_threads_for(threads, gatherer->stretches, 1, gather_stretches, gatherer);
-    for (uint32_t stretch = 1; stretch < gatherer->stretches; stretch++) {
-        for (uint32_t k = 0; k < gatherer->light_count; k++)
-            add_gathering(&gatherer->lights[0][k], &gatherer->lights[stretch][k]);
+    uint32_t useful = fire->system.used / MIN_CHUNK + 1;
+    fire->chunks = useful < MAX_CHUNKS ? useful : MAX_CHUNKS;
+    kiln_threads_for(threads, fire->chunks, 1, gather_chunks, fire);
+    for (uint32_t chunk = 1; chunk < fire->chunks; chunk++) {
+        for (uint32_t k = 0; k < fire->light_count; k++)
+            add_sums(&fire->lights[0][k], &fire->lights[chunk][k]);
     }
 }
 
@@ -82,7 +82,7 @@ static void gather_system(struct gatherer *gatherer, struct kiln_threads *thread
  * it at distance d the irradiance L A / d^2. A light of colour c (the radiance of a white surface
  * at 1 m, irradiance over pi) gives it pi c / d^2. The light's radius is how far its particles are
  * spread, so that a surface among them is not lit by a point. */
-static struct kiln_draw_light make_light(const struct kiln_gathering *light, float3 strength)
+static struct kiln_draw_light make_light(const struct kiln_light_sums *light, float3 strength)
 {
     double mean[3], square = 0.0;
     for (int c = 0; c < 3; c++) {
@@ -100,15 +100,15 @@ static struct kiln_draw_light make_light(const struct kiln_gathering *light, flo
     };
 }
 
-/* Returns a gatherer for one of the systems, with nothing gathered yet. */
-static struct gatherer gatherer_of(const struct kiln_moment *moment, uint32_t system)
+/* Returns the lights of a system with nothing gathered yet. */
+static struct system_lights system_lights_of(const struct kiln_moment *moment, uint32_t system)
 {
-    struct gatherer gatherer = {.find = KILN_SIMD_PICK(kiln_living_find, moment->simd),
-                                .loops = KILN_SIMD_PICK(kiln_light_loops, moment->simd),
-                                .system = kiln_living_system(moment, system),
-                                .light_count = moment->scene->systems[system].look.light_count};
-    sample_glow(&gatherer);
-    return gatherer;
+    struct system_lights fire = {.find = KILN_SIMD_PICK(kiln_appearance_find, moment->simd),
+                                 .loops = KILN_SIMD_PICK(kiln_light_loops, moment->simd),
+                                 .system = kiln_appearance_system(moment, system),
+                                 .light_count = moment->scene->systems[system].look.light_count};
+    sample_glow(&fire);
+    return fire;
 }
 
 uint32_t kiln_firelight_gather(const struct kiln_moment *moment, struct kiln_threads *threads,
@@ -121,11 +121,11 @@ uint32_t kiln_firelight_gather(const struct kiln_moment *moment, struct kiln_thr
         float3 strength = kiln_scene_value3(scene, &look->light, moment->view.clock.x);
         if (!scene->systems[i].enabled || !(strength.x + strength.y + strength.z > 0.0f))
             continue;
-        struct gatherer gatherer = gatherer_of(moment, i);
-        gather_system(&gatherer, threads);
-        for (uint32_t k = 0; k < gatherer.light_count && count < KILN_MAX_FIRE_LIGHTS; k++) {
-            if (gatherer.lights[0][k].energy > 0.0)
-                lights[count++] = make_light(&gatherer.lights[0][k], strength);
+        struct system_lights fire = system_lights_of(moment, i);
+        gather_system(&fire, threads);
+        for (uint32_t k = 0; k < fire.light_count && count < KILN_MAX_FIRE_LIGHTS; k++) {
+            if (fire.lights[0][k].energy > 0.0)
+                lights[count++] = make_light(&fire.lights[0][k], strength);
         }
     }
     return count;

@@ -4,7 +4,7 @@
 #define KILN_DRAW_LIGHT_FIRELIGHT_H
 
 #include "base/thread.h"
-#include "draw/moment/living.h"
+#include "draw/moment/appearance.h"
 
 /* Gathers the lights of all systems with look.light and returns their number. lights has room for
  * KILN_MAX_FIRE_LIGHTS. */

@@ -21,7 +21,7 @@ struct kiln_instance_tiles {
     const struct kiln_instances *meshes;
     uint32_t edge;
     float *texels;
-    struct kiln_instance_place *places; /* of the current run */
+    struct kiln_silhouette *places; /* of the current run */
 };
 
 /* Returns where a level starts, in texels. */
@@ -126,7 +126,7 @@ static void set_triangle(uint64_t (*rows)[WORDS], int32_t bits, const float p[3]
     }
 }
 
-static void set_mesh(const struct kiln_instance_tiles *tiles, struct kiln_instance_place *place,
+static void set_mesh(const struct kiln_instance_tiles *tiles, struct kiln_silhouette *place,
                      uint64_t (*rows)[WORDS])
 {
     const struct kiln_instance_mesh *mesh = &tiles->meshes->meshes[place->system];
@@ -204,7 +204,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
     }
 }
 
-void kiln_instance_tiles_run(struct kiln_instance_tiles *tiles, struct kiln_instance_place *places,
+void kiln_instance_tiles_run(struct kiln_instance_tiles *tiles, struct kiln_silhouette *places,
                              uint32_t count, struct kiln_threads *threads)
 {
     tiles->places = places;

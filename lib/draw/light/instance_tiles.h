@@ -10,7 +10,7 @@
 
 /* Describes the projection of a mesh along the sun's direction: `across` takes a corner of
  * kiln_instances to coordinates in the tile, -1 to 1. */
-struct kiln_instance_place {
+struct kiln_silhouette {
     float across[2][3];
     uint32_t system;
     /* Results: the part of the tile that is covered; the silhouette's bounding box in the tile. */
@@ -37,7 +37,7 @@ const struct kiln_instance_mesh *kiln_instance_tiles_mesh(const struct kiln_inst
 
 /* Draws the silhouette of each place into the tile with the place's number. The result is the same
  * for any number of threads. */
-void kiln_instance_tiles_run(struct kiln_instance_tiles *tiles, struct kiln_instance_place *places,
+void kiln_instance_tiles_run(struct kiln_instance_tiles *tiles, struct kiln_silhouette *places,
                              uint32_t count, struct kiln_threads *threads);
 
 struct kiln_instance_tile kiln_instance_tile_at(const struct kiln_instance_tiles *tiles,

@@ -12,11 +12,11 @@ enum { SUMS = 16 };
 
 /* A vector of SUMS partial sums. It has this size whatever the width of the machine's vectors, so
  * that all levels add in the same order. */
-typedef float sums __attribute__((vector_size(4 * SUMS), may_alias));
+typedef float partial_sums __attribute__((vector_size(4 * SUMS), may_alias));
 
-static inline double total(const sums *of)
+static inline double sum_of(const partial_sums *of)
 {
-    const sums parts = *of;
+    const partial_sums parts = *of;
     double halves[SUMS / 2], sum = 0.0;
     for (int i = 0; i < SUMS / 2; i++)
         halves[i] = (double)(parts[i] + parts[i + SUMS / 2]);
@@ -30,14 +30,14 @@ struct fire {
     kiln_floats red, green, blue, energy;
     struct kiln_floats3 offset; /* from `origin`, so that squares stay small */
     float3 origin;
-    float least, most; /* of the places */
+    float place_min, place_max; /* of the places */
 };
 
-static inline void find_fire(struct fire *f, const struct kiln_living_block *b,
+static inline void find_fire(struct fire *f, const struct kiln_appearance_block *b,
                              const struct kiln_glow *glow, float fill, uint32_t light_count)
 {
     f->origin = kiln_get3(&b->position, 0);
-    f->least = f->most = b->progress[0] * (float)(light_count - 1);
+    f->place_min = f->place_max = b->progress[0] * (float)(light_count - 1);
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         struct kiln_look_place at = kiln_look_place_at(b->progress[i]);
         float sent = fill * 4.0f * b->radius[i] * b->radius[i] * b->opacity[i];
@@ -51,30 +51,30 @@ static inline void find_fire(struct fire *f, const struct kiln_living_block *b,
         kiln_set3(&f->offset, i, float3_sub(kiln_get3(&b->position, i), f->origin));
     }
     for (uint32_t i = 0; i < KILN_LANES; i++) {
-        f->least = exact_min(f->least, f->place[i]);
-        f->most = exact_max(f->most, f->place[i]);
+        f->place_min = exact_min(f->place_min, f->place[i]);
+        f->place_max = exact_max(f->place_max, f->place[i]);
     }
 }
 
-/* Returns floats of an array, aligned to 64 bytes, as vectors of sums. */
-static inline const sums *as_sums(const float *from)
+/* Returns floats of an array, aligned to 64 bytes, as vectors of partial sums. */
+static inline const partial_sums *as_sums(const float *from)
 {
-    return (const sums *)__builtin_assume_aligned(from, 64);
+    return (const partial_sums *)__builtin_assume_aligned(from, 64);
 }
 
 /* Adds the block's particles to light k, each by its share. */
-static inline void add_light(const struct fire *f, const struct kiln_living_block *b, float k,
-                             struct kiln_gathering *light)
+static inline void add_light(const struct fire *f, const struct kiln_appearance_block *b, float k,
+                             struct kiln_light_sums *light)
 {
-    sums red = {0}, green = {0}, blue = {0}, energy = {0}, radius = {0};
-    sums x = {0}, y = {0}, z = {0}, square = {0};
+    partial_sums red = {0}, green = {0}, blue = {0}, energy = {0}, radius = {0};
+    partial_sums x = {0}, y = {0}, z = {0}, square = {0};
     for (uint32_t i = 0; i < KILN_LANES; i += SUMS) {
-        sums share;
+        partial_sums share;
         for (uint32_t j = 0; j < SUMS; j++)
             share[j] = exact_max(1.0f - exact_abs(f->place[i + j] - k), 0.0f);
-        const sums sent = share * *as_sums(f->energy + i);
-        const sums dx = *as_sums(f->offset.x + i), dy = *as_sums(f->offset.y + i);
-        const sums dz = *as_sums(f->offset.z + i);
+        const partial_sums sent = share * *as_sums(f->energy + i);
+        const partial_sums dx = *as_sums(f->offset.x + i), dy = *as_sums(f->offset.y + i);
+        const partial_sums dz = *as_sums(f->offset.z + i);
         red += share * *as_sums(f->red + i);
         green += share * *as_sums(f->green + i);
         blue += share * *as_sums(f->blue + i);
@@ -85,28 +85,29 @@ static inline void add_light(const struct fire *f, const struct kiln_living_bloc
         z += sent * dz;
         square += sent * (dx * dx + dy * dy + dz * dz);
     }
-    const double all = total(&energy), offset[3] = {total(&x), total(&y), total(&z)};
+    const double all = sum_of(&energy), offset[3] = {sum_of(&x), sum_of(&y), sum_of(&z)};
     const double origin[3] = {(double)f->origin.x, (double)f->origin.y, (double)f->origin.z};
-    light->color[0] += total(&red);
-    light->color[1] += total(&green);
-    light->color[2] += total(&blue);
+    light->color[0] += sum_of(&red);
+    light->color[1] += sum_of(&green);
+    light->color[2] += sum_of(&blue);
     light->energy += all;
-    light->radius += total(&radius);
-    light->square += total(&square);
+    light->radius += sum_of(&radius);
+    light->square += sum_of(&square);
     for (int c = 0; c < 3; c++) {
         light->position[c] += offset[c] + all * origin[c];
         light->square += origin[c] * (2.0 * offset[c] + all * origin[c]);
     }
 }
 
-__attribute__((flatten)) static void gather_fire(const struct kiln_living_block *b,
+__attribute__((flatten)) static void gather_fire(const struct kiln_appearance_block *b,
                                                  const struct kiln_glow *glow, float fill,
                                                  uint32_t light_count,
-                                                 struct kiln_gathering *lights)
+                                                 struct kiln_light_sums *lights)
 {
     struct fire fire;
     find_fire(&fire, b, glow, fill, light_count);
-    for (uint32_t k = (uint32_t)fire.least; k < light_count && (float)k < fire.most + 1.0f; k++)
+    for (uint32_t k = (uint32_t)fire.place_min; k < light_count && (float)k < fire.place_max + 1.0f;
+         k++)
         add_light(&fire, b, (float)k, &lights[k]);
 }
 
@@ -115,8 +116,9 @@ __attribute__((flatten)) static void gather_fire(const struct kiln_living_block 
 /* Computes the extinction of each particle, summed over its ball. At the distance d from the
  * centre, in radii r, extinction is e (1 - d^2)^2. The optical depth through the middle of the ball
  * is then 16/15 e r, and the sum over its volume e r^3 32 pi / 105. */
-__attribute__((flatten)) static void find_extinction(const struct kiln_living_block *b, float cover,
-                                                     float shadow, float extinction[KILN_LANES])
+__attribute__((flatten)) static void find_extinction(const struct kiln_appearance_block *b,
+                                                     float cover, float shadow,
+                                                     float extinction[KILN_LANES])
 {
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         float alpha = cover * b->opacity[i], radius = b->radius[i];
@@ -131,18 +133,18 @@ __attribute__((flatten)) static void find_extinction(const struct kiln_living_bl
 
 /* Returns whether any particle may be in a box's shade. Most blocks are far from most boxes' shade,
  * and skip those boxes. */
-static inline bool any_near(const struct kiln_living_block *b, const struct kiln_sun_box *box,
+static inline bool any_near(const struct kiln_appearance_block *b, const struct kiln_sun_box *box,
                             const struct kiln_sun_frame *sun)
 {
     uint32_t near = 0;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         const struct kiln_ball ball = {kiln_get3(&b->position, i), b->radius[i]};
-        near |= b->alive[i] & !kiln_sun_misses(box->center, box->size, ball, sun);
+        near |= b->alive[i] & !kiln_sun_cover_is_zero(box->center, box->size, ball, sun);
     }
     return near != 0;
 }
 
-__attribute__((flatten)) static void shade(const struct kiln_living_block *b,
+__attribute__((flatten)) static void shade(const struct kiln_appearance_block *b,
                                            const struct kiln_sun_box *boxes, uint32_t box_count,
                                            const struct kiln_sun_frame *sun,
                                            float visible[KILN_LANES])

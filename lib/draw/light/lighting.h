@@ -8,7 +8,7 @@
 #include "draw/light/smoke_shadow.h"
 #include "draw/light/solid_shadow.h"
 #include "draw/light/sun_shade.h"
-#include "draw/moment/living.h"
+#include "draw/moment/appearance.h"
 
 /* Holds the light of one frame on the host; kiln_lighting_bind sends it to GL. The stage owns the
  * arrays, which are valid until its next run. */

@@ -29,7 +29,7 @@ void kiln_mesh_shadow_finish(struct kiln_mesh_shadow *shadow)
     shadow->texels = NULL;
 }
 
-struct drawing {
+struct shadow_job {
     struct kiln_mesh_shadow *shadow;
     struct kiln_mesh_canvas *canvas;
     const struct kiln_mesh *mesh;
@@ -79,9 +79,9 @@ static struct kiln_row_range pixels_between(float low, float high)
                                    (int16_t)exact_clamp(high + 2.0f, 0.0f, last)};
 }
 
-static void flatten(const struct corner c[3], struct kiln_flat_triangle *t)
+static void project_triangle(const struct corner c[3], struct kiln_projected_triangle *t)
 {
-    *t = (struct kiln_flat_triangle){.y = {0, 0}};
+    *t = (struct kiln_projected_triangle){.y = {0, 0}};
     float area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
     if (!(exact_abs(area) > 1e-6f))
         return;
@@ -99,23 +99,23 @@ static void flatten(const struct corner c[3], struct kiln_flat_triangle *t)
                           exact_max(exact_max(c[0].y, c[1].y), c[2].y));
 }
 
-static void flatten_some(void *context, size_t begin, size_t end, uint32_t worker)
+static void project_triangles(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct drawing *d = context;
+    const struct shadow_job *d = context;
     mat4 to_world;
     kiln_matrix_from_rows(d->shadow->placed.to_world, to_world);
     for (size_t i = begin; i < end; i++) {
         struct corner corners[3];
         for (int k = 0; k < 3; k++)
             corners[k] = project(d->shadow, to_world, d->mesh->vertices[d->mesh->triangles[i][k]]);
-        flatten(corners, &d->canvas->triangles[i]);
+        project_triangle(corners, &d->canvas->triangles[i]);
     }
 }
 
 /* ---- texels ---------------------------------------------------------------------------------- */
 
-static void draw_band(const struct drawing *d, uint32_t band, float *nearness)
+static void draw_band(const struct shadow_job *d, uint32_t band, float *nearness)
 {
     const struct kiln_mesh_canvas *canvas = d->canvas;
     const struct kiln_row_lists *lists = &canvas->lists;
@@ -129,7 +129,7 @@ static void draw_band(const struct drawing *d, uint32_t band, float *nearness)
         .v_step = 1.0f,
         .layers = 1,
         .offsets = {{0.5f, 0.5f}},
-        .most = 2.0f,
+        .nearness_max = 2.0f,
         .nearness = nearness,
         .pitch = canvas->pitch,
     };
@@ -148,7 +148,7 @@ static void draw_band(const struct drawing *d, uint32_t band, float *nearness)
 
 static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
 {
-    const struct drawing *d = context;
+    const struct shadow_job *d = context;
     for (size_t band = begin; band < end; band++)
         draw_band(d, (uint32_t)band, d->canvas->nearness + worker * d->canvas->strip);
 }
@@ -162,7 +162,7 @@ static size_t first_of(uint32_t level)
 static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct drawing *d = context;
+    const struct shadow_job *d = context;
     size_t edge = EDGE >> d->level;
     const uint32_t *from = d->shadow->texels + first_of(d->level - 1);
     uint32_t *to = d->shadow->texels + first_of(d->level);
@@ -180,8 +180,9 @@ static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker
     }
 }
 
-static bool shows(const struct kiln_mesh_shadow *shadow, const struct kiln_draw_mesh *placed,
-                  const struct kiln_draw_shapes *shapes, float4 sun)
+static bool is_up_to_date(const struct kiln_mesh_shadow *shadow,
+                          const struct kiln_draw_mesh *placed,
+                          const struct kiln_draw_shapes *shapes, float4 sun)
 {
     return shadow->drawn && memcmp(&shadow->placed, placed, sizeof *placed) == 0 &&
            memcmp(&shadow->right, &shapes->sun_right, sizeof(float4)) == 0 &&
@@ -194,22 +195,21 @@ bool kiln_mesh_shadow_update(struct kiln_mesh_shadow *shadow, struct kiln_mesh_c
                              const struct kiln_draw_shapes *shapes, float4 sun,
                              struct kiln_error *error)
 {
-    if (shows(shadow, placed, shapes, sun))
+    if (is_up_to_date(shadow, placed, shapes, sun))
         return true;
     shadow->placed = *placed;
     shadow->right = shapes->sun_right;
     shadow->up = shapes->sun_up;
     shadow->sun = sun;
-    struct drawing drawing = {shadow, canvas, mesh, 0};
-    kiln_threads_for(canvas->threads, mesh->triangle_count, 512, flatten_some, &drawing);
+    struct shadow_job job = {shadow, canvas, mesh, 0};
+    kiln_threads_for(canvas->threads, mesh->triangle_count, 512, project_triangles, &job);
     shadow->drawn =
         kiln_row_lists_fill(&canvas->lists, &canvas->triangles->y, sizeof *canvas->triangles,
                             mesh->triangle_count, EDGE, KILN_MESH_ROWS, error);
     if (!shadow->drawn)
         return false;
-    kiln_threads_for(canvas->threads, canvas->lists.bands, 1, draw_bands, &drawing);
-    while (++drawing.level < KILN_SHADOW_LEVELS)
-        kiln_threads_for(canvas->threads, EDGE >> drawing.level, ROWS_AT_A_TIME, shrink_rows,
-                         &drawing);
+    kiln_threads_for(canvas->threads, canvas->lists.bands, 1, draw_bands, &job);
+    while (++job.level < KILN_SHADOW_LEVELS)
+        kiln_threads_for(canvas->threads, EDGE >> job.level, ROWS_AT_A_TIME, shrink_rows, &job);
     return true;
 }

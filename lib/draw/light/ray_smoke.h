@@ -10,7 +10,7 @@
 /* Describes points that light is computed for, and the lanes that need it. */
 struct ray_point {
     struct vf3 at, normal;
-    vi wanted; /* mask of the lanes */
+    vi active; /* mask of the lanes */
 };
 
 /* Describes two neighbouring cells along an axis, between whose centres a position lies; positions
@@ -52,7 +52,7 @@ SIMD vf smoke_lets_through(const float *depth, const float4 to_grid[3], const st
     if (!depth)
         return one;
     struct vf3 at = smoke_grid_place(to_grid[0], to_grid[1], to_grid[2], p->at);
-    vi shaded = p->wanted & smoke_grid_shades(at);
+    vi shaded = p->active & smoke_grid_shades(at);
     if (!any(shaded))
         return one;
     vf x = vf_where(shaded, at.x), y = vf_where(shaded, at.y), z = vf_where(shaded, at.z);

@@ -1,5 +1,5 @@
 /* This file gathers the particles of smoke into a compact array of balls. It divides a system's
- * slots into stretches; the array has each stretch's living particles in order. */
+ * slots into chunks; the array has each chunk's living particles in order. */
 #include "draw/light/smoke.h"
 
 #include <assert.h>
@@ -8,24 +8,23 @@
 #include "base/error.h"
 #include "draw/light/light_blocks.h"
 
-static const float FILL = 0.6f; /* cover in the middle of an atlas's cell */
+static const float CELL_COVER = 0.6f; /* cover in the middle of an atlas's cell */
 
-struct gatherer {
-    kiln_living_find *find;
+struct gather_job {
+    kiln_appearance_find *find;
     const struct kiln_light_loops *loops;
-    struct kiln_living_system system;
+    struct kiln_appearance_system system;
     float shadow;
     struct kiln_puff *puffs; /* of the system */
     uint32_t *counts;
 };
 
-static uint32_t gather_block(const struct gatherer *gatherer, uint32_t first,
-                             struct kiln_puff *puffs)
+static uint32_t gather_block(const struct gather_job *job, uint32_t first, struct kiln_puff *puffs)
 {
-    struct kiln_living_block block;
+    struct kiln_appearance_block block;
     float extinction[KILN_LANES];
-    gatherer->find(&gatherer->system, first, &block);
-    gatherer->loops->find_extinction(&block, FILL, gatherer->shadow, extinction);
+    job->find(&job->system, first, &block);
+    job->loops->find_extinction(&block, CELL_COVER, job->shadow, extinction);
     uint32_t count = 0;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         if (block.radius[i] > 0.0f && block.opacity[i] > 0.0f)
@@ -35,18 +34,18 @@ static uint32_t gather_block(const struct gatherer *gatherer, uint32_t first,
     return count;
 }
 
-static_assert(KILN_SMOKE_STRETCH % KILN_LANES == 0, "stretches are of whole blocks");
+static_assert(KILN_SMOKE_CHUNK % KILN_LANES == 0, "chunks are of whole blocks");
 
 static void gather_slots(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct gatherer *gatherer = context;
-    size_t stretch = begin / KILN_SMOKE_STRETCH;
-    struct kiln_puff *puffs = gatherer->puffs + stretch * KILN_SMOKE_STRETCH;
+    const struct gather_job *job = context;
+    size_t chunk = begin / KILN_SMOKE_CHUNK;
+    struct kiln_puff *puffs = job->puffs + chunk * KILN_SMOKE_CHUNK;
     uint32_t count = 0;
     for (size_t slot = begin; slot < end; slot += KILN_LANES)
-        count += gather_block(gatherer, (uint32_t)slot, puffs + count);
-    gatherer->counts[stretch] = count;
+        count += gather_block(job, (uint32_t)slot, puffs + count);
+    job->counts[chunk] = count;
 }
 
 /* Returns whether a system is smoke. Spheres are not smoke, and particles a few pixels wide
@@ -66,18 +65,18 @@ static float shadow_of(const struct kiln_moment *moment, uint32_t system)
     return kiln_scene_value(moment->scene, &s->look.shadow, moment->view.clock.x);
 }
 
-static uint32_t stretches_of(const struct kiln_pool *pool, uint32_t system)
+static uint32_t chunks_of(const struct kiln_pool *pool, uint32_t system)
 {
-    return (kiln_pool_used(&pool->systems[system]) + KILN_SMOKE_STRETCH - 1) / KILN_SMOKE_STRETCH;
+    return (kiln_pool_used(&pool->systems[system]) + KILN_SMOKE_CHUNK - 1) / KILN_SMOKE_CHUNK;
 }
 
-static bool make_room(struct kiln_smoke *smoke, uint32_t stretches, struct kiln_error *error)
+static bool make_room(struct kiln_smoke *smoke, uint32_t chunks, struct kiln_error *error)
 {
-    if (stretches <= smoke->capacity)
+    if (chunks <= smoke->capacity)
         return true;
-    uint32_t capacity = stretches + stretches / 4;
+    uint32_t capacity = chunks + chunks / 4;
     kiln_smoke_finish(smoke);
-    smoke->puffs = malloc((size_t)capacity * KILN_SMOKE_STRETCH * sizeof *smoke->puffs);
+    smoke->puffs = malloc((size_t)capacity * KILN_SMOKE_CHUNK * sizeof *smoke->puffs);
     smoke->counts = malloc(capacity * sizeof *smoke->counts);
     if (!smoke->puffs || !smoke->counts) {
         kiln_smoke_finish(smoke);
@@ -91,29 +90,28 @@ static bool make_room(struct kiln_smoke *smoke, uint32_t stretches, struct kiln_
 bool kiln_smoke_gather(struct kiln_smoke *smoke, const struct kiln_moment *moment,
                        struct kiln_threads *threads, struct kiln_error *error)
 {
-    uint32_t stretches = 0, systems = moment->scene->system_count;
+    uint32_t chunks = 0, systems = moment->scene->system_count;
     for (uint32_t i = 0; i < systems; i++) {
         if (shadow_of(moment, i) > 0.0f)
-            stretches += stretches_of(moment->pool, i);
+            chunks += chunks_of(moment->pool, i);
     }
-    if (!make_room(smoke, stretches, error))
+    if (!make_room(smoke, chunks, error))
         return false;
-    smoke->stretch_count = 0;
+    smoke->chunk_count = 0;
     for (uint32_t i = 0; i < systems; i++) {
         float shadow = shadow_of(moment, i);
         if (!(shadow > 0.0f))
             continue;
-        struct gatherer gatherer = {
-            .find = KILN_SIMD_PICK(kiln_living_find, moment->simd),
+        struct gather_job job = {
+            .find = KILN_SIMD_PICK(kiln_appearance_find, moment->simd),
             .loops = KILN_SIMD_PICK(kiln_light_loops, moment->simd),
-            .system = kiln_living_system(moment, i),
+            .system = kiln_appearance_system(moment, i),
             .shadow = shadow,
-            .puffs = smoke->puffs + (size_t)smoke->stretch_count * KILN_SMOKE_STRETCH,
-            .counts = smoke->counts + smoke->stretch_count,
+            .puffs = smoke->puffs + (size_t)smoke->chunk_count * KILN_SMOKE_CHUNK,
+            .counts = smoke->counts + smoke->chunk_count,
         };
-        kiln_threads_for(threads, gatherer.system.used, KILN_SMOKE_STRETCH, gather_slots,
-                         &gatherer);
-        smoke->stretch_count += stretches_of(moment->pool, i);
+        kiln_threads_for(threads, job.system.used, KILN_SMOKE_CHUNK, gather_slots, &job);
+        smoke->chunk_count += chunks_of(moment->pool, i);
     }
     return true;
 }

@@ -4,7 +4,7 @@
 #define KILN_DRAW_LIGHT_SMOKE_H
 
 #include "base/thread.h"
-#include "draw/moment/living.h"
+#include "draw/moment/appearance.h"
 
 struct kiln_error;
 
@@ -15,15 +15,15 @@ struct kiln_puff {
     float extinction; /* summed over its volume, m^2 */
 };
 
-/* Each stretch of puffs starts at a multiple of KILN_SMOKE_STRETCH, so that the index of a puff
+/* Each chunk of puffs starts at a multiple of KILN_SMOKE_CHUNK, so that the index of a puff
  * follows from the pool alone, not from threads. */
-enum { KILN_SMOKE_STRETCH = 2048 };
+enum { KILN_SMOKE_CHUNK = 2048 };
 
 struct kiln_smoke {
     struct kiln_puff *puffs;
-    uint32_t *counts; /* number of puffs in each stretch */
-    uint32_t stretch_count;
-    uint32_t capacity; /* stretches that there is room for */
+    uint32_t *counts; /* number of puffs in each chunk */
+    uint32_t chunk_count;
+    uint32_t capacity; /* chunks that there is room for */
 };
 
 /* Gathers the puffs of all systems that throw a shadow. `smoke` starts as zeros and can be gathered

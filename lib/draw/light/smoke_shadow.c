@@ -19,7 +19,7 @@ enum {
     EDGE = KILN_SMOKE_GRID,
     LEVELS = 4, /* 64, 32, 16 and 8 cells */
     MOST_PARTS = 8,
-    LEAST_PART = 2, /* stretches of puffs */
+    LEAST_PART = 2, /* chunks of puffs */
     BAND = 8,       /* rows of a slice that are summed along the light together */
     LANES = 8,      /* cells of a row that a ball reaches at most */
     BALLS = 64,     /* balls that are placed together */
@@ -30,9 +30,9 @@ static const float LEAST_CELLS = 1.2f; /* of a ball's radius: smaller balls are 
 
 /* Holds the smoke of one part in one grid, at all levels. */
 struct pyramid {
-    float *levels[LEVELS];    /* extinction, 1/m */
-    uint64_t touched[LEVELS]; /* a bit for each slice of cells that is not empty */
-    float low[3], high[3];    /* bounds along the axes, m */
+    float *levels[LEVELS];          /* extinction, 1/m */
+    uint64_t filled_slices[LEVELS]; /* a bit for each slice of cells that is not empty */
+    float low[3], high[3];          /* bounds along the axes, m */
     bool any;
 };
 
@@ -106,13 +106,13 @@ static void choose_axes(float3 axes[3], float3 direction)
     axes[2] = direction;
 }
 
-/* Returns the first stretch of a part. */
-static uint32_t first_stretch(const struct kiln_smoke_shadow *shadow, size_t part)
+/* Returns the first chunk of a part. */
+static uint32_t first_chunk(const struct kiln_smoke_shadow *shadow, size_t part)
 {
-    return (uint32_t)((uint64_t)shadow->smoke->stretch_count * part / shadow->parts);
+    return (uint32_t)((uint64_t)shadow->smoke->chunk_count * part / shadow->parts);
 }
 
-static void widen(const struct box *box, struct pyramid *part, const struct kiln_puff *puff)
+static void grow_bounds(const struct box *box, struct pyramid *part, const struct kiln_puff *puff)
 {
     for (int i = 0; i < 3; i++) {
         float at = float3_dot(box->axes[i], puff->position);
@@ -134,12 +134,11 @@ static void find_bounds(void *context, size_t begin, size_t end, uint32_t worker
         size_t index = work % shadow->parts;
         struct pyramid *part = &box->parts[index];
         part->any = false;
-        uint32_t last = first_stretch(shadow, index + 1);
-        for (uint32_t stretch = first_stretch(shadow, index); stretch < last; stretch++) {
-            const struct kiln_puff *puffs =
-                shadow->smoke->puffs + (size_t)stretch * KILN_SMOKE_STRETCH;
-            for (uint32_t i = 0; i < shadow->smoke->counts[stretch]; i++)
-                widen(box, part, &puffs[i]);
+        uint32_t last = first_chunk(shadow, index + 1);
+        for (uint32_t chunk = first_chunk(shadow, index); chunk < last; chunk++) {
+            const struct kiln_puff *puffs = shadow->smoke->puffs + (size_t)chunk * KILN_SMOKE_CHUNK;
+            for (uint32_t i = 0; i < shadow->smoke->counts[chunk]; i++)
+                grow_bounds(box, part, &puffs[i]);
         }
     }
 }
@@ -236,7 +235,7 @@ struct ball {
     row8 weights[LANES * LANES];
 };
 
-static inline void measure(const struct balls *balls, int i, struct ball *ball)
+static inline void compute_distances(const struct balls *balls, int i, struct ball *ball)
 {
     const row8 middles = {0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f};
     for (int axis = 0; axis < 3; axis++) {
@@ -248,7 +247,7 @@ static inline void measure(const struct balls *balls, int i, struct ball *ball)
 }
 
 /* Computes a ball's weights and returns their sum. */
-static inline float weigh(const struct balls *balls, int i, struct ball *ball)
+static inline float compute_weights(const struct balls *balls, int i, struct ball *ball)
 {
     row8 sum = {0.0f}, squares;
     memcpy(&squares, ball->squares[0], sizeof squares);
@@ -279,13 +278,13 @@ static inline void add_ball(float *cells, const struct balls *balls, int i, cons
 }
 
 /* Clears the slices of a level that are about to be written for the first time. */
-static inline void touch(struct pyramid *part, int level, int first, int count)
+static inline void clear_new_slices(struct pyramid *part, int level, int first, int count)
 {
     size_t slice = (size_t)(EDGE >> level) * (size_t)(EDGE >> level);
     for (int z = first; z < first + count; z++) {
-        if (!(part->touched[level] >> z & 1))
+        if (!(part->filled_slices[level] >> z & 1))
             memset(part->levels[level] + (size_t)z * slice, 0, slice * sizeof(float));
-        part->touched[level] |= (uint64_t)1 << z;
+        part->filled_slices[level] |= (uint64_t)1 << z;
     }
 }
 
@@ -299,12 +298,12 @@ static inline void deposit(const struct box *box, struct pyramid *part,
     place_balls(box, puffs, count, &balls);
     find_reaches(count, &balls);
     for (int i = 0; i < count; i++) {
-        measure(&balls, i, &ball);
-        float sum = weigh(&balls, i, &ball);
+        compute_distances(&balls, i, &ball);
+        float sum = compute_weights(&balls, i, &ball);
         if (!(sum > 0.0f))
             continue;
         const int level = balls.level[i];
-        touch(part, level, balls.first[2][i], balls.count[2][i]);
+        clear_new_slices(part, level, balls.first[2][i], balls.count[2][i]);
         add_ball(part->levels[level], &balls, i, &ball,
                  puffs[i].extinction / (sum * balls.volume[i]));
     }
@@ -319,12 +318,11 @@ static void deposit_parts(void *context, size_t begin, size_t end, uint32_t work
         const struct box *box = &shadow->boxes[work / shadow->parts];
         size_t index = work % shadow->parts;
         struct pyramid *part = &shadow->boxes[work / shadow->parts].parts[index];
-        memset(part->touched, 0, sizeof part->touched);
-        uint32_t last = first_stretch(shadow, index + 1);
-        for (uint32_t stretch = first_stretch(shadow, index); stretch < last; stretch++) {
-            const struct kiln_puff *puffs =
-                shadow->smoke->puffs + (size_t)stretch * KILN_SMOKE_STRETCH;
-            const uint32_t count = shadow->smoke->counts[stretch];
+        memset(part->filled_slices, 0, sizeof part->filled_slices);
+        uint32_t last = first_chunk(shadow, index + 1);
+        for (uint32_t chunk = first_chunk(shadow, index); chunk < last; chunk++) {
+            const struct kiln_puff *puffs = shadow->smoke->puffs + (size_t)chunk * KILN_SMOKE_CHUNK;
+            const uint32_t count = shadow->smoke->counts[chunk];
             for (uint32_t i = 0; i < count; i += BALLS)
                 deposit(box, part, puffs + i, (int)(count - i < BALLS ? count - i : BALLS));
         }
@@ -339,12 +337,12 @@ static void add_parts(struct box *box, int level, uint32_t parts)
     for (int z = 0; z < EDGE >> level; z++) {
         float *cells = sum->levels[level] + (size_t)z * slice;
         for (uint32_t k = 1; k < parts; k++) {
-            if (!(box->parts[k].touched[level] >> z & 1))
+            if (!(box->parts[k].filled_slices[level] >> z & 1))
                 continue;
             const float *more = box->parts[k].levels[level] + (size_t)z * slice;
-            if (!(sum->touched[level] >> z & 1))
+            if (!(sum->filled_slices[level] >> z & 1))
                 memset(cells, 0, slice * sizeof *cells);
-            sum->touched[level] |= (uint64_t)1 << z;
+            sum->filled_slices[level] |= (uint64_t)1 << z;
             for (size_t i = 0; i < slice; i++)
                 cells[i] += more[i];
         }
@@ -409,12 +407,12 @@ static void add_levels(void *context, size_t begin, size_t end, uint32_t worker)
             int edge = EDGE >> level;
             float *cells = box->parts[0].levels[level];
             add_parts(box, level, shadow->parts);
-            uint64_t touched = box->parts[0].touched[level];
-            if (!box->coarse && !touched)
+            uint64_t filled_slices = box->parts[0].filled_slices[level];
+            if (!box->coarse && !filled_slices)
                 continue;
             for (int row = 0; row < edge * edge; row++) {
                 float *fine = cells + (size_t)row * (size_t)edge;
-                if (!(touched >> (row / edge) & 1))
+                if (!(filled_slices >> (row / edge) & 1))
                     memset(fine, 0, (size_t)edge * sizeof *fine);
                 if (box->coarse)
                     add_coarser(box->finer, edge, row % edge, row / edge, fine);
@@ -431,7 +429,7 @@ static inline void add_row(const struct kiln_smoke_shadow *shadow, const struct 
 {
     for (uint32_t k = 0; k < shadow->parts; k++) {
         const struct pyramid *part = &box->parts[k];
-        if (!(part->touched[0] >> z & 1))
+        if (!(part->filled_slices[0] >> z & 1))
             continue;
         const float *restrict cells = part->levels[0] + (size_t)(z * EDGE + y) * EDGE;
         for (int x = 0; x < EDGE; x++)
@@ -479,7 +477,7 @@ bool kiln_smoke_shadow_fill(struct kiln_smoke_shadow *shadow, const struct kiln_
                             struct kiln_threads *threads, struct kiln_smoke_grid *grids,
                             uint32_t count)
 {
-    uint32_t useful = smoke->stretch_count / LEAST_PART;
+    uint32_t useful = smoke->chunk_count / LEAST_PART;
     shadow->parts = useful < 1 ? 1 : useful > MOST_PARTS ? MOST_PARTS : useful;
     shadow->smoke = smoke;
     for (uint32_t i = 0; i < count; i++) {

@@ -27,7 +27,7 @@ struct kiln_solid_shadow {
     struct solid *solids;
     size_t count, room;
     struct kiln_instance_tiles *instances; /* NULL: there are no tiles */
-    struct kiln_instance_place *places;    /* of the first place_count solids, which have tiles */
+    struct kiln_silhouette *places;        /* of the first place_count solids, which have tiles */
     uint32_t place_count, place_room;
     bool failed;                                          /* memory was short for a solid */
     uint32_t bins[KILN_SOLID_BINS * KILN_SOLID_BINS * 2]; /* first entry and count of each */
@@ -78,7 +78,7 @@ static float penumbra_of(const struct kiln_solid_shadow *shadow, float3 center, 
 }
 
 /* Returns the radius of a solid's shadow with its penumbra, m. */
-static float reach_of(const struct kiln_solid_shadow *shadow, float3 center, float radius)
+static float shadow_radius(const struct kiln_solid_shadow *shadow, float3 center, float radius)
 {
     return radius + penumbra_of(shadow, center, radius * KILN_SOLID_FADE);
 }
@@ -101,8 +101,8 @@ static struct solid *add(struct kiln_solid_shadow *shadow, float3 at)
 }
 
 /* Sets the bounds of a solid's shadow from bounds relative to its middle. */
-static void bound(const struct kiln_solid_shadow *shadow, struct solid *solid, const float low[2],
-                  const float high[2])
+static void set_bounds(const struct kiln_solid_shadow *shadow, struct solid *solid,
+                       const float low[2], const float high[2])
 {
     const float3 at = {solid->center.x, solid->center.y, solid->center.z};
     const float across[2] = {float3_dot(at, shadow->sun.right), float3_dot(at, shadow->sun.up)};
@@ -114,7 +114,7 @@ static void bound(const struct kiln_solid_shadow *shadow, struct solid *solid, c
 
 /* Collects a particle as a sphere. radius: that of the sphere with the particle's shadow, in radii
  * of the particle. */
-static void collect(struct kiln_solid_shadow *shadow, const struct kiln_living *particle,
+static void collect(struct kiln_solid_shadow *shadow, const struct kiln_appearance *particle,
                     float radius)
 {
     /* A particle's opacity scales its radius (solids_spheres.vert). */
@@ -123,17 +123,17 @@ static void collect(struct kiln_solid_shadow *shadow, const struct kiln_living *
     if (!solid)
         return;
     solid->center.w = radius;
-    const float reach = reach_of(shadow, particle->position, radius);
-    bound(shadow, solid, (const float[2]){-reach, -reach}, (const float[2]){reach, reach});
+    const float reach = shadow_radius(shadow, particle->position, radius);
+    set_bounds(shadow, solid, (const float[2]){-reach, -reach}, (const float[2]){reach, reach});
 }
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
-static struct kiln_instance_place *add_place(struct kiln_solid_shadow *shadow)
+static struct kiln_silhouette *add_place(struct kiln_solid_shadow *shadow)
 {
     if (shadow->place_count == shadow->place_room) {
         const uint32_t room = shadow->place_room ? 2 * shadow->place_room : FIRST_ROOM;
-        struct kiln_instance_place *more = realloc(shadow->places, room * sizeof *more);
+        struct kiln_silhouette *more = realloc(shadow->places, room * sizeof *more);
         if (!more) {
             shadow->failed = true;
             return NULL;
@@ -145,18 +145,19 @@ static struct kiln_instance_place *add_place(struct kiln_solid_shadow *shadow)
 }
 
 /* Collects a mesh with a tile; draw_tiles sets its radius, which depends on its silhouette. */
-static void collect_mesh(struct kiln_solid_shadow *shadow, const struct kiln_living_system *system,
-                         uint32_t number, uint32_t slot, const struct kiln_living *particle)
+static void collect_mesh(struct kiln_solid_shadow *shadow,
+                         const struct kiln_appearance_system *system, uint32_t number,
+                         uint32_t slot, const struct kiln_appearance *particle)
 {
     const struct kiln_look *look = &shadow->scene->systems[number].look;
     const float reach = kiln_instance_tiles_mesh(shadow->instances, number)->reach;
     const float size = 2.0f * particle->radius * particle->opacity;
     struct solid *solid = size > 0.0f ? add(shadow, particle->position) : NULL;
-    struct kiln_instance_place *place = solid ? add_place(shadow) : NULL;
+    struct kiln_silhouette *place = solid ? add_place(shadow) : NULL;
     if (!place)
         return;
     const struct instance_axes axes =
-        kiln_living_axes(system, slot, particle->progress, look->mesh.orient);
+        kiln_appearance_axes(system, slot, particle->progress, look->mesh.orient);
     const float3 columns[3] = {axes.x, axes.y, axes.z};
     place->system = number;
     for (int c = 0; c < 3; c++) {
@@ -171,14 +172,15 @@ static void collect_mesh(struct kiln_solid_shadow *shadow, const struct kiln_liv
  * texels up to twice as large as the sun's radius. Where a sphere takes the silhouette's place, the
  * sphere's shadow counts as well. */
 static void bound_silhouette(const struct kiln_solid_shadow *shadow, struct solid *solid,
-                             const struct kiln_instance_place *place)
+                             const struct kiln_silhouette *place)
 {
     const float4 center = solid->center, tile = solid->tile;
     const float3 at = {center.x, center.y, center.z};
     const float soft = penumbra_of(shadow, at, tile.z * KILN_INSTANCE_ROUND);
     const float texel = exact_max(2.0f * tile.z / tile.w, 2.0f * soft);
     const float farthest = tile.z + 0.5f * texel;
-    const float ball = soft > tile.z * KILN_INSTANCE_SHARP ? reach_of(shadow, at, center.w) : 0.0f;
+    const float ball =
+        soft > tile.z * KILN_INSTANCE_SHARP ? shadow_radius(shadow, at, center.w) : 0.0f;
     float low[2], high[2];
     for (int c = 0; c < 2; c++) {
         low[c] = exact_max(tile.z * place->low[c] - 1.5f * texel, -farthest);
@@ -186,7 +188,7 @@ static void bound_silhouette(const struct kiln_solid_shadow *shadow, struct soli
         low[c] = exact_min(low[c], -ball);
         high[c] = exact_max(high[c], ball);
     }
-    bound(shadow, solid, low, high);
+    set_bounds(shadow, solid, low, high);
 }
 
 /* Draws the tiles of the meshes. The disc of the sphere that stands for a mesh has the area of the
@@ -210,13 +212,13 @@ static void draw_tiles(struct kiln_solid_shadow *shadow, struct kiln_threads *th
 static void collect_system(struct kiln_solid_shadow *shadow, const struct kiln_moment *moment,
                            uint32_t index)
 {
-    const struct kiln_living_system system = kiln_living_system(moment, index);
+    const struct kiln_appearance_system system = kiln_appearance_system(moment, index);
     const struct kiln_look *look = &shadow->scene->systems[index].look;
     const bool mesh = look->shape == KILN_SHAPE_MESH;
     float radius = mesh ? 2.0f * look->mesh.shade : 1.0f;
     for (uint32_t slot = 0; slot < system.used && !shadow->failed; slot++) {
-        struct kiln_living particle;
-        if (!kiln_living_at(&system, slot, &particle))
+        struct kiln_appearance particle;
+        if (!kiln_appearance_at(&system, slot, &particle))
             continue;
         if (mesh && shadow->instances)
             collect_mesh(shadow, &system, index, slot, &particle);

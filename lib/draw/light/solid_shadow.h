@@ -8,7 +8,7 @@
 #define KILN_DRAW_LIGHT_SOLID_SHADOW_H
 
 #include "base/thread.h"
-#include "draw/moment/living.h"
+#include "draw/moment/appearance.h"
 #include "draw/moment/shapes.h"
 
 /* Holds the lists of one moment; they are valid until the next run. */

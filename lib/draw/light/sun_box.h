@@ -6,11 +6,11 @@
 #include "draw/light/sun_cover.h"
 
 /* Returns the factor by which a shape's cover counts for a ball that is partly inside the shape.
- * way: from the ball's centre towards the sun until it leaves the shape, m. The factor is 1 for a
- * way of the ball's radius or more, and falls to 0 with the way. */
-static inline float kiln_sun_behind(float way, struct kiln_ball ball)
+ * exit_distance: from the ball's centre towards the sun until it leaves the shape, m. The factor is
+ * 1 at a distance of the ball's radius or more, and falls to 0 with it. */
+static inline float kiln_sun_inside_factor(float exit_distance, struct kiln_ball ball)
 {
-    return exact_clamp(way / exact_max(ball.radius, 1e-4f), 0.0f, 1.0f);
+    return exact_clamp(exit_distance / exact_max(ball.radius, 1e-4f), 0.0f, 1.0f);
 }
 
 struct kiln_sun_box {
@@ -34,12 +34,12 @@ static inline struct kiln_sun_box kiln_sun_box_at(float3 center, float3 half_siz
 static inline float kiln_sun_box_cover(const struct kiln_sun_box *box, struct kiln_ball ball,
                                        const struct kiln_sun_frame *sun)
 {
-    bool misses = kiln_sun_misses(box->center, box->size, ball, sun);
+    bool misses = kiln_sun_cover_is_zero(box->center, box->size, ball, sun);
     const struct ray_slabs slabs = ray_cross_slabs(float3_sub(box->center, ball.center),
                                                    box->half_size, real3_all(box->edges.inverse));
     const struct sun_hidden hidden =
         sun_cross_box(slabs, box->edges, 1e-3f * box->size, sun->spread, ball.radius);
-    float seen = hidden.cover * kiln_sun_behind(hidden.way, ball);
+    float seen = hidden.cover * kiln_sun_inside_factor(hidden.exit_distance, ball);
     return misses ? 0.0f : seen;
 }
 

@@ -12,7 +12,8 @@ float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
     float disc = sun_penumbra(ahead, sun->spread, ball.radius);
     float most = exact_min(radius / disc, 1.0f);
     float cover = strip_cover(radius - away, radius + away, disc) * most;
-    return cover * kiln_sun_behind(ahead + sqrtf(exact_max(radius * radius - square, 0.0f)), ball);
+    return cover *
+           kiln_sun_inside_factor(ahead + sqrtf(exact_max(radius * radius - square, 0.0f)), ball);
 }
 
 /* Returns the cover of a cylinder. Seen from the sun, its outline is a band along band.up, with
@@ -40,7 +41,7 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
     float side = (inside - beside) / slant;
     float cap = ((climb < 0.0f ? -half_height : half_height) - height) /
                 (climb < 0.0f ? exact_min(climb, -1e-6f) : exact_max(climb, 1e-6f));
-    return cover * kiln_sun_behind(exact_min(side, cap), ball);
+    return cover * kiln_sun_inside_factor(exact_min(side, cap), ball);
 }
 
 /* Returns the cover of a capsule: that of one of the balls that form the capsule, the one nearest

@@ -16,8 +16,8 @@ struct kiln_ball {
 
 /* Returns true if a shape surely hides nothing from a ball. size: radius of the shape's bounding
  * sphere about its centre, m. */
-static inline bool kiln_sun_misses(float3 center, float size, struct kiln_ball ball,
-                                   const struct kiln_sun_frame *sun)
+static inline bool kiln_sun_cover_is_zero(float3 center, float size, struct kiln_ball ball,
+                                          const struct kiln_sun_frame *sun)
 {
     float3 to = float3_sub(center, ball.center);
     float ahead = float3_dot(to, sun->towards);

@@ -12,8 +12,8 @@
 
 enum { GRAIN = 8 * KILN_LANES }; /* slots that a worker takes at a time */
 
-/* Describes a rotated box in its own frame. */
-struct turned_box {
+/* Describes an oriented box in its own frame. */
+struct oriented_box {
     struct kiln_sun_box box; /* centred at the origin */
     struct kiln_sun_frame sun;
 };
@@ -25,8 +25,8 @@ struct kiln_sun_shade {
     const struct kiln_draw_shapes *shapes;
     uint32_t box_count;
     struct kiln_sun_box boxes[KILN_MAX_OBJECTS];
-    struct turned_box turned[KILN_MAX_OBJECTS]; /* shapes->more.y of them */
-    float *visible;                             /* by slot, whole rows of KILN_SUN_SHADE_ROW */
+    struct oriented_box oriented[KILN_MAX_OBJECTS]; /* shapes->oriented_counts.y of them */
+    float *visible;                                 /* by slot, whole rows of KILN_SUN_SHADE_ROW */
 };
 
 static bool is_shaded(const struct kiln_scene *scene, uint32_t system)
@@ -78,19 +78,19 @@ static float3 xyz(float4 v)
     return (float3){v.x, v.y, v.z};
 }
 
-static float3 into_box(const struct kiln_draw_turned_box *box, float3 v)
+static float3 into_box(const struct kiln_draw_oriented_box *box, float3 v)
 {
     return (float3){float3_dot(v, xyz(box->rows[0])), float3_dot(v, xyz(box->rows[1])),
                     float3_dot(v, xyz(box->rows[2]))};
 }
 
-static struct turned_box turned_box_at(const struct kiln_draw_turned_box *box,
-                                       const struct kiln_sun_frame *sun)
+static struct oriented_box oriented_box_at(const struct kiln_draw_oriented_box *box,
+                                           const struct kiln_sun_frame *sun)
 {
     const struct kiln_sun_frame there = {into_box(box, sun->right), into_box(box, sun->up),
                                          into_box(box, sun->towards), sun->spread};
     const float3 middle = {0.0f, 0.0f, 0.0f};
-    return (struct turned_box){kiln_sun_box_at(middle, xyz(box->half_size), &there), there};
+    return (struct oriented_box){kiln_sun_box_at(middle, xyz(box->half_size), &there), there};
 }
 
 static void place_objects(struct kiln_sun_shade *shade, const struct kiln_moment *moment)
@@ -103,48 +103,48 @@ static void place_objects(struct kiln_sun_shade *shade, const struct kiln_moment
     shade->box_count = 0;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
-        if (object->kind != KILN_OBJECT_BOX || kiln_object_is_turned_box(object))
+        if (object->kind != KILN_OBJECT_BOX || kiln_object_is_oriented_box(object))
             continue;
         float3 size = kiln_scene_value3(scene, &object->size, time_s);
         const float3 half = {0.5f * size.x, 0.5f * size.y, 0.5f * size.z};
         shade->boxes[shade->box_count++] =
             kiln_sun_box_at(kiln_scene_value3(scene, &object->center, time_s), half, &shade->sun);
     }
-    for (uint32_t i = 0; i < shade->shapes->more.y; i++)
-        shade->turned[i] = turned_box_at(&shade->shapes->turned[i], &shade->sun);
+    for (uint32_t i = 0; i < shade->shapes->oriented_counts.y; i++)
+        shade->oriented[i] = oriented_box_at(&shade->shapes->oriented_boxes[i], &shade->sun);
     for (uint32_t i = 0; i < shade->shapes->counts.z; i++)
         kiln_sun_mesh_update(&shade->maps[i], meshes[i], &shade->shapes->meshes[i], &shade->sun);
 }
 
-/* Describes the system whose particles are being computed. */
-struct seen_system {
+/* Describes the system whose particles are being shaded. */
+struct shade_job {
     const struct kiln_sun_shade *shade;
-    kiln_living_find *find;
+    kiln_appearance_find *find;
     const struct kiln_light_loops *loops;
-    struct kiln_living_system system;
+    struct kiln_appearance_system system;
     float *visible; /* by slot of the system */
 };
 
-static float look_past_turned(const struct kiln_sun_shade *shade, struct kiln_ball ball)
+static float oriented_visibility(const struct kiln_sun_shade *shade, struct kiln_ball ball)
 {
     const struct kiln_draw_shapes *shapes = shade->shapes;
     float visible = 1.0f;
-    for (uint32_t i = 0; i < shapes->more.x; i++)
+    for (uint32_t i = 0; i < shapes->oriented_counts.x; i++)
         visible *= 1.0f - kiln_capsule_sun_cover(xyz(shapes->capsules[i]), shapes->capsules[i].w,
                                                  xyz(shapes->capsule_axis[i]),
                                                  shapes->capsule_axis[i].w, ball, &shade->sun);
-    for (uint32_t i = 0; i < shapes->more.y; i++) {
-        const struct turned_box *turned = &shade->turned[i];
-        const struct kiln_draw_turned_box *box = &shapes->turned[i];
+    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
+        const struct oriented_box *oriented = &shade->oriented[i];
+        const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
         const struct kiln_ball there = {into_box(box, float3_sub(ball.center, xyz(box->center))),
                                         ball.radius};
-        visible *= 1.0f - kiln_sun_box_cover(&turned->box, there, &turned->sun);
+        visible *= 1.0f - kiln_sun_box_cover(&oriented->box, there, &oriented->sun);
     }
     return visible;
 }
 
 /* Returns the part of the sun that a ball sees past all objects except boxes along the axes. */
-static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ball ball)
+static float others_visibility(const struct kiln_sun_shade *shade, struct kiln_ball ball)
 {
     const struct kiln_draw_shapes *shapes = shade->shapes;
     const struct kiln_sun_frame *sun = &shade->sun;
@@ -158,44 +158,44 @@ static float look_past_others(const struct kiln_sun_shade *shade, struct kiln_ba
                                                   shapes->cylinder_axis[i].w, ball, sun);
     for (uint32_t i = 0; i < shapes->counts.z; i++)
         visible *= 1.0f - kiln_sun_mesh_cover(&shade->maps[i], ball);
-    return visible * look_past_turned(shade, ball);
+    return visible * oriented_visibility(shade, ball);
 }
 
 /* Returns whether any object except boxes along the axes may hide the sun. */
 static bool has_others(const struct kiln_sun_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = shade->shapes;
-    const uint4 counts = shapes->counts, more = shapes->more;
-    return counts.x > 0 || counts.y > 0 || counts.z > 0 || more.x > 0 || more.y > 0;
+    const uint4 counts = shapes->counts, oriented = shapes->oriented_counts;
+    return counts.x > 0 || counts.y > 0 || counts.z > 0 || oriented.x > 0 || oriented.y > 0;
 }
 
 /* Computes the shade of a block of particles. The parts that objects let through are multiplied, as
  * on the backdrop's surfaces. */
-static void look_from_block(const struct seen_system *seen, uint32_t first)
+static void shade_block(const struct shade_job *job, uint32_t first)
 {
-    const struct kiln_sun_shade *shade = seen->shade;
-    struct kiln_living_block block;
+    const struct kiln_sun_shade *shade = job->shade;
+    struct kiln_appearance_block block;
     alignas(64) float visible[KILN_LANES];
-    seen->find(&seen->system, first, &block);
+    job->find(&job->system, first, &block);
     for (uint32_t i = 0; i < KILN_LANES; i++)
         visible[i] = 1.0f;
-    seen->loops->shade(&block, shade->boxes, shade->box_count, &shade->sun, visible);
+    job->loops->shade(&block, shade->boxes, shade->box_count, &shade->sun, visible);
     if (has_others(shade)) {
         for (uint32_t i = 0; i < KILN_LANES; i++) {
             const struct kiln_ball ball = {kiln_get3(&block.position, i), block.radius[i]};
-            visible[i] *= block.alive[i] ? look_past_others(shade, ball) : 1.0f;
+            visible[i] *= block.alive[i] ? others_visibility(shade, ball) : 1.0f;
         }
     }
-    const uint32_t left = seen->system.used - first;
-    memcpy(seen->visible + first, visible,
+    const uint32_t left = job->system.used - first;
+    memcpy(job->visible + first, visible,
            (left < KILN_LANES ? left : KILN_LANES) * sizeof *visible);
 }
 
-static void look_from_slots(void *context, size_t begin, size_t end, uint32_t worker)
+static void shade_slots(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     for (size_t slot = begin; slot < end; slot += KILN_LANES)
-        look_from_block(context, (uint32_t)slot);
+        shade_block(context, (uint32_t)slot);
 }
 
 const float *kiln_sun_shade_run(struct kiln_sun_shade *shade, const struct kiln_moment *moment,
@@ -211,14 +211,14 @@ const float *kiln_sun_shade_run(struct kiln_sun_shade *shade, const struct kiln_
     }
     place_objects(shade, moment);
     for (uint32_t i = 0; i < shade->scene->system_count; i++) {
-        struct seen_system seen = {.shade = shade,
-                                   .find = KILN_SIMD_PICK(kiln_living_find, moment->simd),
-                                   .loops = KILN_SIMD_PICK(kiln_light_loops, moment->simd)};
+        struct shade_job job = {.shade = shade,
+                                .find = KILN_SIMD_PICK(kiln_appearance_find, moment->simd),
+                                .loops = KILN_SIMD_PICK(kiln_light_loops, moment->simd)};
         if (!is_shaded(shade->scene, i))
             continue;
-        seen.system = kiln_living_system(moment, i);
-        seen.visible = shade->visible + moment->pool->systems[i].base;
-        kiln_threads_for(threads, seen.system.used, GRAIN, look_from_slots, &seen);
+        job.system = kiln_appearance_system(moment, i);
+        job.visible = shade->visible + moment->pool->systems[i].base;
+        kiln_threads_for(threads, job.system.used, GRAIN, shade_slots, &job);
     }
     return shade->visible;
 }

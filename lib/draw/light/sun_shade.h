@@ -5,7 +5,7 @@
 #define KILN_DRAW_LIGHT_SUN_SHADE_H
 
 #include "base/thread.h"
-#include "draw/moment/living.h"
+#include "draw/moment/appearance.h"
 
 struct kiln_sun_shade;
 

@@ -23,17 +23,17 @@ static_assert(LOOK_SCREEN == KILN_FACING_SCREEN && LOOK_VIEWPOINT == KILN_FACING
 struct sampler {
     const struct kiln_scene *scene;
     const struct kiln_observer *observer;
-    float time_s, life;
+    float time_s, progress;
 };
 
 static float at(const struct sampler *s, const struct kiln_value *value)
 {
-    return value_at(s->scene->keys, *value, s->time_s, s->life);
+    return value_at(s->scene->keys, *value, s->time_s, s->progress);
 }
 
 static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
 {
-    return value3_at(s->scene->keys, *value, s->time_s, s->life);
+    return value3_at(s->scene->keys, *value, s->time_s, s->progress);
 }
 
 /* Returns the mean of a value from birth to the sampler's age. For a spin, the mean times the age
@@ -41,9 +41,9 @@ static float3 at3(const struct sampler *s, const struct kiln_value3 *value)
 static float mean_at(const struct sampler *s, const struct kiln_value *value)
 {
     bool over_life = value->count > 0 && value->clock == KILN_CLOCK_LIFE;
-    if (!over_life || s->life <= 0.0f)
+    if (!over_life || s->progress <= 0.0f)
         return at(s, value);
-    return value_sum_at(s->scene->keys, *value, s->life) / s->life;
+    return value_sum_at(s->scene->keys, *value, s->progress) / s->progress;
 }
 
 static float saturate(float x)
@@ -56,13 +56,13 @@ static float saturate(float x)
 static float fade(const struct sampler *s, const struct kiln_look *look)
 {
     float in = at(s, &look->fade_in), out = at(s, &look->fade_out);
-    float risen = in > 0.0f ? saturate(s->life / in) : 1.0f;
-    float left = out > 0.0f ? saturate((1.0f - s->life) / out) : 1.0f;
+    float risen = in > 0.0f ? saturate(s->progress / in) : 1.0f;
+    float left = out > 0.0f ? saturate((1.0f - s->progress) / out) : 1.0f;
     return risen * left;
 }
 
 /* Returns the light of a black body of a temperature, times a tint, with w as the fourth number. */
-static float4 emitted(const struct sampler *s, float3 tint, float kelvin, float w)
+static float4 blackbody_light(const struct sampler *s, float3 tint, float kelvin, float w)
 {
     float rgb[3];
     kiln_blackbody_color(s->observer, kelvin, rgb);
@@ -88,8 +88,8 @@ static void sample_light(const struct sampler *s, const struct kiln_look *look,
     row[KILN_LOOK_COVER] = additive ? covers_none : cover;
     row[KILN_LOOK_OTHER] = additive ? covers_none : (float4){other.x, other.y, other.z, cover.w};
     if (kelvin > 0.0f) {
-        row[KILN_LOOK_HOT] = emitted(s, tint, kelvin, near_fade);
-        row[KILN_LOOK_COOL] = emitted(s, tint, COOL_SHARE * kelvin, cycles);
+        row[KILN_LOOK_HOT] = blackbody_light(s, tint, kelvin, near_fade);
+        row[KILN_LOOK_COOL] = blackbody_light(s, tint, COOL_SHARE * kelvin, cycles);
     } else {
         float3 glow = additive ? tint : (float3){0.0f, 0.0f, 0.0f};
         row[KILN_LOOK_HOT] = (float4){glow.x, glow.y, glow.z, near_fade};
@@ -133,7 +133,7 @@ void kiln_looks_sample(const struct kiln_scene *scene, float time_s, float4 *tab
                 .scene = scene,
                 .observer = &observer,
                 .time_s = time_s,
-                .life = (float)k / (float)(KILN_LOOK_SAMPLES - 1),
+                .progress = (float)k / (float)(KILN_LOOK_SAMPLES - 1),
             };
             float4 texel[KILN_LOOK_ROWS];
             sample_look(&sampler, &scene->systems[i].look, texel);

@@ -17,8 +17,8 @@ static_assert(KILN_MAX_SYSTEMS * sizeof(struct kiln_draw_look) <= 16384, "of eve
 struct kiln_moment_gl {
     struct kiln_device *device;
     struct kiln_buffer looks, keys;
-    GLuint look_table; /* texture, KILN_LOOK_SAMPLES wide; 0: nothing is made yet */
-    uint64_t sent;     /* the moment's look_changes when the texture was uploaded */
+    GLuint look_table;         /* texture, KILN_LOOK_SAMPLES wide; 0: nothing is made yet */
+    uint64_t uploaded_changes; /* the moment's look_changes when the texture was uploaded */
 };
 
 struct kiln_moment_gl *kiln_moment_gl_create(struct kiln_device *device)
@@ -73,11 +73,11 @@ static void bind_look_table(const struct kiln_moment *moment)
     struct kiln_moment_gl *gl = moment->gl;
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, gl->look_table);
-    if (gl->sent == moment->look_changes)
+    if (gl->uploaded_changes == moment->look_changes)
         return;
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, KILN_LOOK_SAMPLES, KILN_LOOK_TEXELS / KILN_LOOK_SAMPLES,
                     GL_RGBA, GL_FLOAT, moment->look_table);
-    gl->sent = moment->look_changes;
+    gl->uploaded_changes = moment->look_changes;
 }
 
 bool kiln_moment_bind(const struct kiln_moment *moment, struct kiln_buffer *entries,

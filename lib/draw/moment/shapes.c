@@ -14,7 +14,7 @@
 enum { FIRST_SPHERE = 144 + 2 * 16 * KILN_WAVES };
 
 static_assert(sizeof(struct kiln_draw_mesh) == 96, "std140");
-static_assert(sizeof(struct kiln_draw_turned_box) == 96, "std140");
+static_assert(sizeof(struct kiln_draw_oriented_box) == 96, "std140");
 static_assert(offsetof(struct kiln_draw_shapes, spheres) == FIRST_SPHERE, "std140");
 static_assert(offsetof(struct kiln_draw_shapes, meshes) == FIRST_SPHERE + 80 * KILN_MAX_OBJECTS,
               "std140");
@@ -34,8 +34,8 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
     for (uint32_t i = 0; i < backdrop->object_count; i++) {
         const struct kiln_object *object = &backdrop->objects[i];
         enum kiln_object_kind kind = object->kind;
-        features.turned |= kind == KILN_OBJECT_CAPSULE || kiln_object_is_turned_box(object) ||
-                           (kind == KILN_OBJECT_PLANE && object->visible);
+        features.oriented |= kind == KILN_OBJECT_CAPSULE || kiln_object_is_oriented_box(object) ||
+                             (kind == KILN_OBJECT_PLANE && object->visible);
         features.round |= kind == KILN_OBJECT_SPHERE || kind == KILN_OBJECT_CYLINDER;
         features.meshes |= kiln_object_is_mesh(&backdrop->objects[i]);
         features.paint |= kiln_object_takes_paint(object);
@@ -51,16 +51,17 @@ struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene)
 void kiln_shape_defines(const struct kiln_shape_features *features, int samples,
                         char out[KILN_SHAPE_DEFINES])
 {
-    snprintf(
-        out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s%s%s%s", samples,
-        features->round ? "#define ROUND 1\n" : "", features->turned ? "#define TURNED 1\n" : "",
-        features->meshes ? "#define MESHES 1\n" : "", features->paint ? "#define PAINT 1\n" : "",
-        features->solids ? "#define SOLIDS 1\n" : "",
-        features->instances ? "#define INSTANCES 1\n" : "",
-        features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
-        features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
-        features->sky_image ? "#define SKY_IMAGE 1\n" : "",
-        features->soft_sun ? "#define SOFT_SUN 1\n" : "");
+    snprintf(out, KILN_SHAPE_DEFINES, "#define SAMPLES %d\n%s%s%s%s%s%s%s%s%s%s", samples,
+             features->round ? "#define ROUND 1\n" : "",
+             features->oriented ? "#define ORIENTED 1\n" : "",
+             features->meshes ? "#define MESHES 1\n" : "",
+             features->paint ? "#define PAINT 1\n" : "",
+             features->solids ? "#define SOLIDS 1\n" : "",
+             features->instances ? "#define INSTANCES 1\n" : "",
+             features->floor_image ? "#define FLOOR_IMAGE 1\n" : "",
+             features->floor_gloss ? "#define FLOOR_GLOSS 1\n" : "",
+             features->sky_image ? "#define SKY_IMAGE 1\n" : "",
+             features->soft_sun ? "#define SOFT_SUN 1\n" : "");
 }
 
 static float4 with_w(float3 v, float w)
@@ -184,8 +185,8 @@ static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *
     }
 }
 
-static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_object *object,
-                            float time_s, struct kiln_draw_turned_box *out)
+static void fill_oriented_box(const struct kiln_scene *scene, const struct kiln_object *object,
+                              float time_s, struct kiln_draw_oriented_box *out)
 {
     mat3 rotation; /* the columns of a rotation are the rows of its inverse */
     kiln_scene_rotation(kiln_scene_value3(scene, &object->rotation, time_s), rotation);
@@ -197,23 +198,24 @@ static void fill_turned_box(const struct kiln_scene *scene, const struct kiln_ob
     out->color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
 }
 
-/* Adds a capsule, a visible plane or a rotated box; ignores other objects. */
-static void fill_more(const struct kiln_scene *scene, const struct kiln_object *object,
-                      float time_s, struct kiln_draw_shapes *shapes)
+/* Adds a capsule, a visible plane or a oriented box; ignores other objects. */
+static void fill_oriented(const struct kiln_scene *scene, const struct kiln_object *object,
+                          float time_s, struct kiln_draw_shapes *shapes)
 {
     float3 center = kiln_scene_value3(scene, &object->center, time_s);
     float4 color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
     if (object->kind == KILN_OBJECT_CAPSULE) {
-        uint k = shapes->more.x++;
+        uint k = shapes->oriented_counts.x++;
         float3 axis = kiln_direction(kiln_scene_value3(scene, &object->axis, time_s));
         shapes->capsules[k] = with_w(center, kiln_scene_value(scene, &object->radius, time_s));
         shapes->capsule_axis[k] =
             with_w(axis, 0.5f * kiln_scene_value(scene, &object->height, time_s));
         shapes->capsule_color[k] = color;
-    } else if (kiln_object_is_turned_box(object)) {
-        fill_turned_box(scene, object, time_s, &shapes->turned[shapes->more.y++]);
+    } else if (kiln_object_is_oriented_box(object)) {
+        fill_oriented_box(scene, object, time_s,
+                          &shapes->oriented_boxes[shapes->oriented_counts.y++]);
     } else if (object->kind == KILN_OBJECT_PLANE && object->visible) {
-        uint k = shapes->more.z++;
+        uint k = shapes->oriented_counts.z++;
         float3 normal = kiln_direction(kiln_scene_value3(scene, &object->axis, time_s));
         shapes->planes[k] = with_w(normal, float3_dot(normal, center));
         shapes->plane_color[k] = color;
@@ -224,13 +226,13 @@ static void fill_more(const struct kiln_scene *scene, const struct kiln_object *
 static void fill_sun(const struct kiln_sun_frame *sun, struct kiln_draw_shapes *shapes)
 {
     shapes->edges = sun_edges_of(sun->towards);
-    for (uint32_t i = 0; i < shapes->more.y; i++) {
+    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
         float way[3];
         for (int k = 0; k < 3; k++) {
-            const float4 row = shapes->turned[i].rows[k];
+            const float4 row = shapes->oriented_boxes[i].rows[k];
             way[k] = float3_dot((float3){row.x, row.y, row.z}, sun->towards);
         }
-        shapes->turned_edges[i] = sun_edges_of((float3){way[0], way[1], way[2]});
+        shapes->oriented_edges[i] = sun_edges_of((float3){way[0], way[1], way[2]});
     }
     for (uint32_t i = 0; i < shapes->counts.y; i++) {
         const float4 axis = shapes->cylinder_axis[i];
@@ -267,7 +269,7 @@ void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *co
             uint k = shapes->counts.z++;
             fill_mesh(scene, object, meshes[k], time_s, &shapes->meshes[k]);
         } else {
-            fill_more(scene, object, time_s, shapes);
+            fill_oriented(scene, object, time_s, shapes);
         }
     }
     fill_sun(sun, shapes);

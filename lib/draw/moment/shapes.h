@@ -12,7 +12,7 @@
  * solids: there are opaque particles, which throw shadows; instances: some particles are meshes
  * with silhouette tiles (lib/draw/light/instance_tiles.h). */
 struct kiln_shape_features {
-    bool round, turned, meshes, paint, solids, instances, floor_image, floor_gloss, sky_image,
+    bool round, oriented, meshes, paint, solids, instances, floor_image, floor_gloss, sky_image,
         soft_sun;
 };
 struct kiln_shape_features kiln_shape_features(const struct kiln_scene *scene);

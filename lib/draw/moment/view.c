@@ -14,7 +14,7 @@ static float3 normalized(float3 v)
 }
 
 /* Returns v rotated about an axis of length 1, by Rodrigues' formula. */
-static float3 turned(float3 v, float3 axis, float angle)
+static float3 rotate(float3 v, float3 axis, float angle)
 {
     angle -= FULL_TURN * floorf(angle / FULL_TURN);
     const struct exact_angle turn = exact_sincos(angle);
@@ -61,7 +61,7 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step
     if (fabsf(forward.y) > 0.9999f)
         up = (float3){0.0f, 0.0f, forward.y > 0.0f ? 1.0f : -1.0f};
     if (roll != 0.0f)
-        up = turned(up, forward, roll);
+        up = rotate(up, forward, roll);
     float3 right = normalized(float3_cross(forward, up));
 
     struct kiln_view view = {

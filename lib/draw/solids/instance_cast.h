@@ -62,7 +62,7 @@ static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct
 {
     const float4 frustum = view->frustum;
     float x[2] = {1e9f, -1e9f}, y[2] = {1e9f, -1e9f};
-    int before = 0;
+    int corners_beyond = 0;
     for (int k = 0; k < 3; k++) {
         t->depth[k] = -p[k].z;
         if (!(t->depth[k] >= view->eye.w))
@@ -77,12 +77,14 @@ static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct
         x[1] = exact_max(x[1], column);
         y[0] = exact_min(y[0], row);
         y[1] = exact_max(y[1], row);
-        before++;
+        corners_beyond++;
     }
-    bool any_place = before > 0 && before < 3;
-    t->x = any_place ? cast_range(0.0f, frustum.z, frustum.z) : cast_range(x[0], x[1], frustum.z);
-    t->y = any_place ? cast_range(0.0f, frustum.w, frustum.w) : cast_range(y[0], y[1], frustum.w);
-    if (before == 0)
+    bool crosses_near = corners_beyond > 0 && corners_beyond < 3;
+    t->x =
+        crosses_near ? cast_range(0.0f, frustum.z, frustum.z) : cast_range(x[0], x[1], frustum.z);
+    t->y =
+        crosses_near ? cast_range(0.0f, frustum.w, frustum.w) : cast_range(y[0], y[1], frustum.w);
+    if (corners_beyond == 0)
         t->y = (struct kiln_row_range){0, 0};
 }
 
@@ -128,13 +130,13 @@ SIMD void cast_pixels(const struct kiln_solid_strip *s, const struct cast_triang
     vf b = vf_max(cast_edge(t->edges[1], middle.x, middle.y), zero);
     vf c = vf_max(cast_edge(t->edges[2], middle.x, middle.y), zero), sum = a + b + c;
     vf depth = (a * t->depth[0] + b * t->depth[1] + c * t->depth[2]) / vf_max(sum, vf_all(1e-30f));
-    vi seen = (sum > 0.0f) & (depth >= s->frame->view->eye.w);
+    vi visible = (sum > 0.0f) & (depth >= s->frame->view->eye.w);
     size_t at = (size_t)row * KILN_SOLID_SAMPLES * s->pitch + (size_t)x;
-    for (int k = 0; k < KILN_SOLID_SAMPLES && any(seen); k++, at += s->pitch) {
+    for (int k = 0; k < KILN_SOLID_SAMPLES && any(visible); k++, at += s->pitch) {
         const struct vf3 ray =
             view_ray(s->frame, column + SAMPLE_OFFSETS[k][0], vf_all(line + SAMPLE_OFFSETS[k][1]));
         vf before = vf_load(s->samples + at);
-        vi nearer = seen & (depth < before) & (cast_edge(t->edges[0], ray.x, ray.y) >= 0.0f) &
+        vi nearer = visible & (depth < before) & (cast_edge(t->edges[0], ray.x, ray.y) >= 0.0f) &
                     (cast_edge(t->edges[1], ray.x, ray.y) >= 0.0f) &
                     (cast_edge(t->edges[2], ray.x, ray.y) >= 0.0f);
         if (!any(nearer))
@@ -186,7 +188,7 @@ SIMD struct vf3 cast_cross(struct vf3 a, struct vf3 b)
 
 /* Returns a corner's weight on the ray, times a factor that is the same for all three corners; 0
  * instead of a negative weight. a, b: the two other corners. */
-SIMD vf cast_part(struct vf3 a, struct vf3 b, struct vf3 ray, vf sign)
+SIMD vf cast_weight(struct vf3 a, struct vf3 b, struct vf3 ray, vf sign)
 {
     vf part = vf3_dot(cast_cross(a, vf3_sub(b, a)), ray) * sign;
     return vf_max(part, vf_all(0.0f));
@@ -194,32 +196,34 @@ SIMD vf cast_part(struct vf3 a, struct vf3 b, struct vf3 ray, vf sign)
 
 SIMD struct vf3 cast_mean(const struct vf3 of[3], const vf parts[3])
 {
-    return vf3_along(vf3_along(vf3_scale(of[0], parts[0]), of[1], parts[1]), of[2], parts[2]);
+    return vf3_add_scaled(vf3_add_scaled(vf3_scale(of[0], parts[0]), of[1], parts[1]), of[2],
+                          parts[2]);
 }
 
 /* Computes the colours of a vector of visible triangles in row y, one a lane. */
-static void light_triangles(const struct kiln_solid_strip *s, const struct seen_things *seen,
-                            uint32_t y, struct ray_color *color)
+static void light_triangles(const struct kiln_solid_strip *s,
+                            const struct visible_particles *visible, uint32_t y,
+                            struct ray_color *color)
 {
     const struct kiln_ray_frame *frame = s->frame;
     const struct kiln_drawn_instance *all = s->instances;
     const float *corners = &s->corners[0][0].x;
-    const struct vf3 ray = view_ray(frame, vf_of(seen->column) + 0.5f, vf_all((float)y + 0.5f));
+    const struct vf3 ray = view_ray(frame, vf_of(visible->column) + 0.5f, vf_all((float)y + 0.5f));
     struct vf3 rows[3], p[3], normals[3];
     for (int i = 0; i < 3; i++)
-        rows[i] = gather3(all->to_view[i], seen->thing);
-    const struct vf3 center = {vf_gather(&all->to_view[0][3], seen->thing),
-                               vf_gather(&all->to_view[1][3], seen->thing),
-                               vf_gather(&all->to_view[2][3], seen->thing)};
+        rows[i] = gather3(all->to_view[i], visible->particle);
+    const struct vf3 center = {vf_gather(&all->to_view[0][3], visible->particle),
+                               vf_gather(&all->to_view[1][3], visible->particle),
+                               vf_gather(&all->to_view[2][3], visible->particle)};
     for (size_t k = 0; k < 3; k++) {
-        p[k] = vf3_add(cast_to_view(rows, gather3(corners + 8 * k, seen->corner)), center);
-        normals[k] = gather3(corners + 8 * k + 4, seen->corner);
+        p[k] = vf3_add(cast_to_view(rows, gather3(corners + 8 * k, visible->corner)), center);
+        normals[k] = gather3(corners + 8 * k + 4, visible->corner);
     }
     struct vf3 face = cast_cross(vf3_sub(p[1], p[0]), vf3_sub(p[2], p[0]));
     vi away = vf3_dot(face, p[0]) > 0.0f;
     vf sign = vf_select(away, vf_all(1.0f), vf_all(-1.0f));
-    vf parts[3] = {cast_part(p[1], p[2], ray, sign), cast_part(p[2], p[0], ray, sign),
-                   cast_part(p[0], p[1], ray, sign)};
+    vf parts[3] = {cast_weight(p[1], p[2], ray, sign), cast_weight(p[2], p[0], ray, sign),
+                   cast_weight(p[0], p[1], ray, sign)};
     vf scale = 1.0f / vf_max(parts[0] + parts[1] + parts[2], vf_all(1e-30f));
     for (int k = 0; k < 3; k++)
         parts[k] *= scale;
@@ -228,10 +232,10 @@ static void light_triangles(const struct kiln_solid_strip *s, const struct seen_
     vi behind = vf3_dot(normal, face) * sign > 0.0f; /* both sides of a triangle are visible */
     normal = vf3_normalize(vf3_scale(normal, vf_select(behind, vf_all(-1.0f), vf_all(1.0f))));
 
-    struct seen_place place = {.depth = -point.z,
-                               .lit = vf_gather(&all->lit, seen->thing),
-                               .albedo = gather3(all->albedo, seen->thing),
-                               .glow = gather3(all->glow, seen->thing)};
+    struct visible_point place = {.depth = -point.z,
+                                  .lit = vf_gather(&all->lit, visible->particle),
+                                  .albedo = gather3(all->albedo, visible->particle),
+                                  .glow = gather3(all->glow, visible->particle)};
     place.direction = view_to_world(frame, ray);
     place.normal = view_to_world(frame, normal);
     place.at = vf3_add(vf3_all(frame->view->eye), view_to_world(frame, point));
@@ -239,9 +243,9 @@ static void light_triangles(const struct kiln_solid_strip *s, const struct seen_
      * particle in shadows does not shade the particle itself. */
     const float4 sun = frame->backdrop->sun_direction;
     vf ahead = vf3_dot_all(view_to_world(frame, vf3_sub(center, point)), sun);
-    vf out = ahead + 0.05f * vf_gather(&all->shade, seen->thing) + 1e-5f * place.depth;
-    place.sun_from = vf3_along(place.at, vf3_all(sun), vf_max(out, vf_all(0.0f)));
-    light_place(frame, &place, seen, color);
+    vf out = ahead + 0.05f * vf_gather(&all->shade, visible->particle) + 1e-5f * place.depth;
+    place.sun_from = vf3_add_scaled(place.at, vf3_all(sun), vf_max(out, vf_all(0.0f)));
+    light_place(frame, &place, visible, color);
 }
 
 #endif

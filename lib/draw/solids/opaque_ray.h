@@ -35,14 +35,14 @@ SIMD struct vf3 view_to_world(const struct kiln_ray_frame *frame, struct vf3 v)
 }
 
 /* Holds visible particles in pixels of a row, one particle in one pixel a lane. */
-struct seen_things {
-    vi column, thing; /* thing: offset of the particle's record in its array, in floats */
-    vi corner;        /* for a mesh, offset of the triangle's first corner, in floats */
-    vf part;          /* part of the pixel that the particle covers */
+struct visible_particles {
+    vi column, particle; /* particle: offset of the particle's record in its array, in floats */
+    vi corner;           /* for a mesh, offset of the triangle's first corner, in floats */
+    vf part;             /* part of the pixel that the particle covers */
 };
 
 /* Holds the visible point of each particle of a vector, in world space. */
-struct seen_place {
+struct visible_point {
     struct vf3 at, normal, direction; /* position, m; unit normal; direction of the ray */
     struct vf3 sun_from;              /* start of the ray to the sun, m */
     vf depth, lit;
@@ -50,22 +50,22 @@ struct seen_place {
 };
 
 /* Computes the colour of visible points from sky, sun and lights, and their glow. */
-SIMD void light_place(const struct kiln_ray_frame *frame, const struct seen_place *place,
-                      const struct seen_things *seen, struct ray_color *color)
+SIMD void light_place(const struct kiln_ray_frame *frame, const struct visible_point *place,
+                      const struct visible_particles *visible, struct ray_color *color)
 {
     const struct ray_hit hit = {.t = place->depth,
                                 .surface = vf_all(0.0f),
                                 .normal = place->normal,
                                 .albedo = place->albedo};
-    const struct ray_point point = {place->at, hit.normal, seen->part > 0.0f};
-    vf sunlit = sun_visibility(frame, place->sun_from, point.normal, turned_to_sun(frame, &point));
+    const struct ray_point point = {place->at, hit.normal, visible->part > 0.0f};
+    vf sunlit = sun_visibility(frame, place->sun_from, point.normal, facing_sun(frame, &point));
     const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
     sunlit *= smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
     const struct ray_color lit =
-        radiance(frame, &hit, place->direction, soft_irradiance(frame, &point), sunlit);
-    struct vf3 shown = vf3_along(hit.albedo, vf3_sub(lit.rgb, hit.albedo), place->lit);
+        radiance(frame, &hit, place->direction, irradiance_without_sun(frame, &point), sunlit);
+    struct vf3 shown = vf3_add_scaled(hit.albedo, vf3_sub(lit.rgb, hit.albedo), place->lit);
     color->rgb = vf3_add(place->glow, shown);
-    color->alpha = seen->part;
+    color->alpha = visible->part;
 }
 
 #endif

@@ -7,7 +7,7 @@
 enum { SAMPLES = KILN_SOLID_SAMPLES };
 
 /* A depth beyond any scene. */
-#define NOTHING 2e9f
+#define NO_DEPTH 2e9f
 
 /* Holds the t at which a ray passes the centre of a sphere most closely. */
 struct approach {
@@ -15,7 +15,7 @@ struct approach {
     vf inverse2;  /* 1 / the squared length of the ray's direction */
 };
 
-SIMD struct approach come_close(struct vf3 ray, struct vf3 center, vf radius)
+SIMD struct approach closest_approach(struct vf3 ray, struct vf3 center, vf radius)
 {
     vf inverse2 = 1.0f / vf3_dot(ray, ray), t = vf3_dot(ray, center) * inverse2;
     struct vf3 away = vf3_sub(vf3_scale(ray, t), center);
@@ -39,13 +39,13 @@ SIMD void sample_pixels(const struct kiln_solid_strip *s, const struct kiln_draw
     vf radius = vf_all(sphere->radius), column = vf_count() + ((float)x + 0.5f);
     float line = (float)(s->y + row) + 0.5f;
     const struct approach middle =
-        come_close(view_ray(s->frame, column, vf_all(line)), center, radius);
+        closest_approach(view_ray(s->frame, column, vf_all(line)), center, radius);
     vf t = surface_depth(&middle);
     size_t at = (size_t)row * SAMPLES * s->pitch + (size_t)x;
     for (int k = 0; k < SAMPLES; k++, at += s->pitch) {
         struct vf3 ray =
             view_ray(s->frame, column + SAMPLE_OFFSETS[k][0], vf_all(line + SAMPLE_OFFSETS[k][1]));
-        const struct approach aside = come_close(ray, center, radius);
+        const struct approach aside = closest_approach(ray, center, radius);
         vf before = vf_load(s->samples + at);
         vi nearer = (aside.inside >= 0.0f) & (t < before);
         if (!any(nearer))
@@ -87,63 +87,65 @@ static void clear_samples(const struct kiln_solid_strip *s, uint32_t row)
 
 /* Transforms a direction from the world to the ball's own axes. axis, w: the ball's pose, a unit
  * quaternion from its axes to the world. */
-SIMD struct vf3 into_ball(const struct vf3 axis, vf w, struct vf3 v)
+SIMD struct vf3 world_to_ball(const struct vf3 axis, vf w, struct vf3 v)
 {
     struct vf3 twice = vf3_scale(cast_cross(axis, v), vf_all(-2.0f));
-    return vf3_add(vf3_along(v, twice, w), vf3_scale(cast_cross(axis, twice), vf_all(-1.0f)));
+    return vf3_add(vf3_add_scaled(v, twice, w), vf3_scale(cast_cross(axis, twice), vf_all(-1.0f)));
 }
 
 /* Mixes the second colour of patterns into the albedo, antialiased over the width of a pixel. */
-static void paint_spheres(const struct kiln_solid_strip *s, const struct seen_things *seen,
-                          struct seen_place *place)
+static void paint_spheres(const struct kiln_solid_strip *s, const struct visible_particles *visible,
+                          struct visible_point *place)
 {
     const struct kiln_drawn_sphere *all = s->spheres;
     const float4 frustum = s->frame->view->frustum;
-    const struct vf3 axis = gather3(all->pose, seen->thing);
-    struct vf3 n = into_ball(axis, vf_gather(all->pose + 3, seen->thing), place->normal);
+    const struct vf3 axis = gather3(all->pose, visible->particle);
+    struct vf3 n = world_to_ball(axis, vf_gather(all->pose + 3, visible->particle), place->normal);
     vf away = vf3_dot(place->direction, place->direction);
     vf facing = vf_max(-vf3_dot(place->direction, place->normal), vf_all(0.0f)) / vf_sqrt(away);
     vf pixel = place->depth * (2.0f * frustum.y / frustum.w);
-    vf width = pixel / (vf_gather(&all->radius, seen->thing) * vf_max(facing, vf_all(0.1f)));
-    vf part = ball_other_part(n, vf_gather(&all->segments, seen->thing), width);
-    struct vf3 other = gather3(all->other, seen->thing);
-    place->albedo = vf3_along(place->albedo, vf3_sub(other, place->albedo), part);
+    vf width = pixel / (vf_gather(&all->radius, visible->particle) * vf_max(facing, vf_all(0.1f)));
+    vf part = ball_other_part(n, vf_gather(&all->segments, visible->particle), width);
+    struct vf3 other = gather3(all->other, visible->particle);
+    place->albedo = vf3_add_scaled(place->albedo, vf3_sub(other, place->albedo), part);
 }
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-static void light_spheres(const struct kiln_solid_strip *s, const struct seen_things *seen,
+static void light_spheres(const struct kiln_solid_strip *s, const struct visible_particles *visible,
                           uint32_t y, struct ray_color *color)
 {
     const struct kiln_ray_frame *frame = s->frame;
     const struct kiln_drawn_sphere *all = s->spheres;
-    struct vf3 ray = view_ray(frame, vf_of(seen->column) + 0.5f, vf_all((float)y + 0.5f));
-    struct vf3 center = gather3(all->center, seen->thing);
-    const struct approach close = come_close(ray, center, vf_gather(&all->radius, seen->thing));
+    struct vf3 ray = view_ray(frame, vf_of(visible->column) + 0.5f, vf_all((float)y + 0.5f));
+    struct vf3 center = gather3(all->center, visible->particle);
+    const struct approach close =
+        closest_approach(ray, center, vf_gather(&all->radius, visible->particle));
     vf t = surface_depth(&close);
     struct vf3 out = vf3_normalize(vf3_sub(vf3_scale(ray, t), center));
-    struct seen_place place = {.depth = t,
-                               .lit = vf_gather(&all->lit, seen->thing),
-                               .albedo = gather3(all->albedo, seen->thing),
-                               .glow = gather3(all->glow, seen->thing)};
+    struct visible_point place = {.depth = t,
+                                  .lit = vf_gather(&all->lit, visible->particle),
+                                  .albedo = gather3(all->albedo, visible->particle),
+                                  .glow = gather3(all->glow, visible->particle)};
     place.direction = view_to_world(frame, ray);
     place.normal = view_to_world(frame, out);
-    place.at = vf3_along(vf3_all(frame->view->eye), place.direction, t);
+    place.at = vf3_add_scaled(vf3_all(frame->view->eye), place.direction, t);
     place.sun_from = place.at;
     if (s->patterned)
-        paint_spheres(s, seen, &place);
-    light_place(frame, &place, seen, color);
+        paint_spheres(s, visible, &place);
+    light_place(frame, &place, visible, color);
 }
 
 /* Adds the light of particles to their pixels, lane by lane. bloom: the bloom weights in the first
  * record of the particles' array. */
-SIMD void add_things(const struct kiln_solid_strip *s, const struct seen_things *seen,
-                     uint32_t count, uint32_t y, const float *bloom, const struct ray_color *light)
+SIMD void add_particles(const struct kiln_solid_strip *s, const struct visible_particles *visible,
+                        uint32_t count, uint32_t y, const float *bloom,
+                        const struct ray_color *light)
 {
     for (uint32_t i = 0; i < count; i++) {
-        const float *weights = bloom + seen->thing[i];
-        size_t at = 4 * ((size_t)y * s->width + (size_t)seen->column[i]);
-        float part = seen->part[i];
+        const float *weights = bloom + visible->particle[i];
+        size_t at = 4 * ((size_t)y * s->width + (size_t)visible->column[i]);
+        float part = visible->part[i];
         const float rgb[3] = {light->rgb.x[i], light->rgb.y[i], light->rgb.z[i]};
         for (int c = 0; c < 3; c++) {
             s->color[at + (size_t)c] += rgb[c] * part;
@@ -182,8 +184,8 @@ struct row_entries {
     uint32_t *spheres, *triangles; /* end of the list of spheres; start of that of triangles */
 };
 
-static void list_thing(const struct kiln_solid_strip *s, struct row_entries *entries,
-                       const uint32_t entry[3])
+static void list_particle(const struct kiln_solid_strip *s, struct row_entries *entries,
+                          const uint32_t entry[3])
 {
     uint32_t **to = is_instance(s, entry[1] >> 2) ? &entries->triangles : &entries->spheres;
     if (to == &entries->triangles)
@@ -203,12 +205,12 @@ static void list_pixel(const struct kiln_solid_strip *s, size_t first, uint32_t 
     for (size_t k = 0; k < SAMPLES; k++) {
         size_t at = first + k * s->pitch + x;
         numbers[k] = s->nearest[at];
-        t[k] = numbers[k] < 0 ? NOTHING : s->samples[at];
+        t[k] = numbers[k] < 0 ? NO_DEPTH : s->samples[at];
         if (numbers[k] >= 0 && is_instance(s, (uint32_t)numbers[k]))
             triangles[k] = s->triangles[at];
     }
     float second = second_of(t);
-    if (second < NOTHING)
+    if (second < NO_DEPTH)
         *depth = second;
     for (int k = 0; k < SAMPLES; k++) {
         uint32_t quarters = 0;
@@ -219,9 +221,9 @@ static void list_pixel(const struct kiln_solid_strip *s, size_t first, uint32_t 
                 numbers[other] = -1;
         }
         if (quarters > 0)
-            list_thing(s, entries,
-                       (const uint32_t[3]){x, (uint32_t)numbers[k] << 2 | (quarters - 1),
-                                           (uint32_t)triangles[k]});
+            list_particle(s, entries,
+                          (const uint32_t[3]){x, (uint32_t)numbers[k] << 2 | (quarters - 1),
+                                              (uint32_t)triangles[k]});
     }
 }
 
@@ -238,22 +240,22 @@ static void add_scene(const struct kiln_solid_strip *s, uint32_t y)
 }
 
 /* Fills in the lanes from entries. size: bytes of a record of the particles. */
-static void see_things(const struct kiln_solid_strip *s, const uint32_t *entries, uint32_t lanes,
-                       size_t size, struct seen_things *seen)
+static void load_particles(const struct kiln_solid_strip *s, const uint32_t *entries,
+                           uint32_t lanes, size_t size, struct visible_particles *visible)
 {
     const int32_t stride = (int32_t)(size / sizeof(float));
-    *seen = (struct seen_things){{0}, {0}, {0}, {0}};
+    *visible = (struct visible_particles){{0}, {0}, {0}, {0}};
     for (uint32_t lane = 0; lane < lanes; lane++, entries += 3) {
         uint32_t number = entries[1] >> 2;
-        seen->column[lane] = (int32_t)entries[0];
-        seen->thing[lane] = (int32_t)number * stride;
-        seen->part[lane] = 0.25f * (float)((entries[1] & 3) + 1);
+        visible->column[lane] = (int32_t)entries[0];
+        visible->particle[lane] = (int32_t)number * stride;
+        visible->part[lane] = 0.25f * (float)((entries[1] & 3) + 1);
         if (is_instance(s, number))
-            seen->corner[lane] = corner_of(s, number, entries[2]);
+            visible->corner[lane] = corner_of(s, number, entries[2]);
     }
     for (uint32_t lane = lanes; lane < LANES; lane++) { /* repeats lane 0, with part 0 */
-        seen->thing[lane] = seen->thing[0];
-        seen->corner[lane] = seen->corner[0];
+        visible->particle[lane] = visible->particle[0];
+        visible->corner[lane] = visible->corner[0];
     }
 }
 
@@ -273,21 +275,21 @@ static void resolve_row(const struct kiln_solid_strip *s, uint32_t row)
     }
     const size_t spheres = (size_t)(entries.spheres - s->entries) / 3;
     for (size_t i = 0; i < spheres; i += LANES) {
-        struct seen_things seen;
+        struct visible_particles visible;
         struct ray_color light;
         uint32_t lanes = spheres - i < LANES ? (uint32_t)(spheres - i) : LANES;
-        see_things(s, s->entries + 3 * i, lanes, sizeof *s->spheres, &seen);
-        light_spheres(s, &seen, y, &light);
-        add_things(s, &seen, lanes, y, s->spheres->bloom, &light);
+        load_particles(s, s->entries + 3 * i, lanes, sizeof *s->spheres, &visible);
+        light_spheres(s, &visible, y, &light);
+        add_particles(s, &visible, lanes, y, s->spheres->bloom, &light);
     }
     const size_t triangles = (size_t)(room_end - entries.triangles) / 3;
     for (size_t i = 0; i < triangles; i += LANES) {
-        struct seen_things seen;
+        struct visible_particles visible;
         struct ray_color light;
         uint32_t lanes = triangles - i < LANES ? (uint32_t)(triangles - i) : LANES;
-        see_things(s, entries.triangles + 3 * i, lanes, sizeof *s->instances, &seen);
-        light_triangles(s, &seen, y, &light);
-        add_things(s, &seen, lanes, y, s->instances->bloom, &light);
+        load_particles(s, entries.triangles + 3 * i, lanes, sizeof *s->instances, &visible);
+        light_triangles(s, &visible, y, &light);
+        add_particles(s, &visible, lanes, y, s->instances->bloom, &light);
     }
     add_scene(s, y);
 }

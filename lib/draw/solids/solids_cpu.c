@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "base/matrix.h"
-#include "draw/moment/living.h"
+#include "draw/moment/appearance.h"
 #include "draw/solids/solid_rows.h"
 #include "shared/derived.h"
 
-enum { MAKE_AT_A_TIME = 512 };
+enum { GRAIN = 512 };
 
 struct kiln_solids_cpu {
     const struct kiln_scene *scene;
@@ -23,7 +23,7 @@ struct kiln_solids_cpu {
     struct kiln_drawn_sphere *spheres;
     struct kiln_drawn_instance *instances; /* NULL where there are no meshes */
     struct kiln_row_range *ranges;         /* rows that each particle may touch */
-    uint32_t room;                         /* elements of spheres, instances and ranges */
+    uint32_t capacity;                     /* elements of spheres, instances and ranges */
     struct kiln_row_lists lists;
     size_t pitch; /* elements of a row of samples */
     /* The next four are scratch memory of struct kiln_solid_strip, a part for each thread. */
@@ -94,13 +94,13 @@ void kiln_solids_cpu_destroy(struct kiln_solids_cpu **stage)
 
 /* ---- from particles to solids ---------------------------------------------------------------- */
 
-struct making {
+struct convert_job {
     struct kiln_solids_cpu *stage;
     const struct kiln_pool *pool;
     const struct kiln_view *view;
     const uint32_t *entries;
     uint32_t patterns[KILN_MAX_SYSTEMS]; /* LOOK_* */
-    struct kiln_living_system systems[KILN_MAX_SYSTEMS];
+    struct kiln_appearance_system systems[KILN_MAX_SYSTEMS];
 };
 
 /* Returns the range of pixels between the two tangents from the eye to a circle, widened by 2 px.
@@ -157,16 +157,16 @@ static void set3(float to[3], float4 from)
     to[2] = from.z;
 }
 
-static void make_pattern(const struct making *m, uint32_t number, uint32_t slot, float progress,
-                         struct kiln_drawn_sphere *s)
+static void make_pattern(const struct convert_job *m, uint32_t number, uint32_t slot,
+                         float progress, struct kiln_drawn_sphere *s)
 {
-    const struct kiln_living_system *system = &m->systems[number];
+    const struct kiln_appearance_system *system = &m->systems[number];
     const uint32_t pattern = m->patterns[number];
     if (pattern == LOOK_PLAIN)
         return;
     s->segments = pattern == LOOK_STRIPE ? -1.0f : (float)(pattern - LOOK_SEGMENTS);
-    set3(s->other, kiln_living_look(system, KILN_LOOK_OTHER, progress));
-    const float4 pose = kiln_living_pose(system, slot, progress);
+    set3(s->other, kiln_appearance_look(system, KILN_LOOK_OTHER, progress));
+    const float4 pose = kiln_appearance_pose(system, slot, progress);
     s->pose[0] = pose.x;
     s->pose[1] = pose.y;
     s->pose[2] = pose.z;
@@ -175,8 +175,8 @@ static void make_pattern(const struct making *m, uint32_t number, uint32_t slot,
 
 /* Makes a drawn sphere. An opaque sphere cannot fade, so its opacity scales its radius. A sphere
  * that reaches the near plane is not drawn. */
-static void make_sphere(const struct making *m, const struct kiln_living_system *system,
-                        const struct kiln_living *particle, struct kiln_drawn_sphere *s,
+static void make_sphere(const struct convert_job *m, const struct kiln_appearance_system *system,
+                        const struct kiln_appearance *particle, struct kiln_drawn_sphere *s,
                         struct kiln_row_range *rows)
 {
     const struct kiln_view *view = m->view;
@@ -185,11 +185,11 @@ static void make_sphere(const struct making *m, const struct kiln_living_system 
     s->radius = exact_max(radius, least_radius(view, depth));
     if (!(radius > 0.0f) || depth - s->radius <= view->eye.w)
         return;
-    float4 cover = kiln_living_look(system, KILN_LOOK_COVER, particle->progress);
+    float4 cover = kiln_appearance_look(system, KILN_LOOK_COVER, particle->progress);
     set3(s->albedo, cover);
     s->lit = cover.w;
-    set3(s->glow, kiln_living_look(system, KILN_LOOK_HOT, particle->progress));
-    set3(s->bloom, kiln_living_look(system, KILN_LOOK_BLOOM, particle->progress));
+    set3(s->glow, kiln_appearance_look(system, KILN_LOOK_HOT, particle->progress));
+    set3(s->bloom, kiln_appearance_look(system, KILN_LOOK_BLOOM, particle->progress));
     bound_ball(view, s->center, s->radius, &s->x, rows);
 }
 
@@ -210,11 +210,11 @@ static void place_axes(const struct kiln_view *view, const struct instance_axes 
 }
 
 /* Makes a drawn mesh. An opaque mesh cannot fade, so its opacity scales its size. */
-static void make_instance(const struct making *m, uint32_t number, uint32_t slot,
-                          const struct kiln_living *particle, struct kiln_drawn_instance *d,
+static void make_instance(const struct convert_job *m, uint32_t number, uint32_t slot,
+                          const struct kiln_appearance *particle, struct kiln_drawn_instance *d,
                           struct kiln_row_range *rows)
 {
-    const struct kiln_living_system *system = &m->systems[number];
+    const struct kiln_appearance_system *system = &m->systems[number];
     const struct kiln_instance_mesh *mesh = &m->stage->meshes->meshes[number];
     const struct kiln_look *look = &m->stage->scene->systems[number].look;
     const struct kiln_view *view = m->view;
@@ -224,16 +224,16 @@ static void make_instance(const struct making *m, uint32_t number, uint32_t slot
     if (!(size > 0.0f) || depth + reach <= view->eye.w)
         return;
     const struct instance_axes axes =
-        kiln_living_axes(system, slot, particle->progress, look->mesh.orient);
+        kiln_appearance_axes(system, slot, particle->progress, look->mesh.orient);
     place_axes(view, &axes, reach / mesh->reach, d);
     for (int i = 0; i < 3; i++)
         d->to_view[i][3] = center[i];
-    float4 cover = kiln_living_look(system, KILN_LOOK_COVER, particle->progress);
+    float4 cover = kiln_appearance_look(system, KILN_LOOK_COVER, particle->progress);
     set3(d->albedo, cover);
     d->lit = cover.w;
     d->shade = size * look->mesh.shade;
-    set3(d->glow, kiln_living_look(system, KILN_LOOK_HOT, particle->progress));
-    set3(d->bloom, kiln_living_look(system, KILN_LOOK_BLOOM, particle->progress));
+    set3(d->glow, kiln_appearance_look(system, KILN_LOOK_HOT, particle->progress));
+    set3(d->bloom, kiln_appearance_look(system, KILN_LOOK_BLOOM, particle->progress));
     d->first = mesh->first;
     d->triangles = mesh->triangles;
     bound_ball(view, center, reach, &d->x, rows);
@@ -242,18 +242,18 @@ static void make_instance(const struct making *m, uint32_t number, uint32_t slot
 static void make_solids(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct making *m = context;
+    const struct convert_job *m = context;
     for (size_t i = begin; i < end; i++) {
         uint32_t number = m->entries[i] >> 24, slot = m->entries[i] & 0xffffffu;
-        const struct kiln_living_system *system = &m->systems[number];
-        struct kiln_living particle;
+        const struct kiln_appearance_system *system = &m->systems[number];
+        struct kiln_appearance particle;
         m->stage->ranges[i] = (struct kiln_row_range){0, 0};
         m->stage->spheres[i] = (struct kiln_drawn_sphere){.radius = 0.0f};
         struct kiln_drawn_instance *instance = m->stage->instances ? &m->stage->instances[i] : NULL;
         if (instance)
             *instance = (struct kiln_drawn_instance){.triangles = 0};
         slot -= m->pool->systems[number].base;
-        if (!kiln_living_at(system, slot, &particle))
+        if (!kiln_appearance_at(system, slot, &particle))
             continue;
         if (instance && m->stage->meshes->meshes[number].triangles > 0)
             make_instance(m, number, slot, &particle, instance, &m->stage->ranges[i]);
@@ -265,16 +265,16 @@ static void make_solids(void *context, size_t begin, size_t end, uint32_t worker
 
 static bool make_room(struct kiln_solids_cpu *stage, uint32_t count, struct kiln_error *error)
 {
-    if (count <= stage->room && stage->spheres)
+    if (count <= stage->capacity && stage->spheres)
         return true;
     free(stage->spheres);
     free(stage->ranges);
     free(stage->instances);
-    stage->room = count + count / 4 + 64;
-    stage->spheres = malloc(stage->room * sizeof *stage->spheres);
-    stage->ranges = malloc(stage->room * sizeof *stage->ranges);
+    stage->capacity = count + count / 4 + 64;
+    stage->spheres = malloc(stage->capacity * sizeof *stage->spheres);
+    stage->ranges = malloc(stage->capacity * sizeof *stage->ranges);
     bool meshes = stage->meshes->corners != NULL;
-    stage->instances = meshes ? malloc(stage->room * sizeof *stage->instances) : NULL;
+    stage->instances = meshes ? malloc(stage->capacity * sizeof *stage->instances) : NULL;
     if (stage->spheres && stage->ranges && (stage->instances || !meshes))
         return true;
     free(stage->spheres);
@@ -285,25 +285,25 @@ static bool make_room(struct kiln_solids_cpu *stage, uint32_t count, struct kiln
 static void make_all(struct kiln_solids_cpu *stage, const struct kiln_moment *moment,
                      const uint32_t *entries, uint32_t count)
 {
-    struct making making = {
+    struct convert_job job = {
         .stage = stage, .pool = moment->pool, .view = &moment->view, .entries = entries};
     for (uint32_t i = 0; i < stage->scene->system_count; i++) {
-        making.systems[i] = kiln_living_system(moment, i);
-        making.patterns[i] = kiln_look_pattern(&stage->scene->systems[i].look);
+        job.systems[i] = kiln_appearance_system(moment, i);
+        job.patterns[i] = kiln_look_pattern(&stage->scene->systems[i].look);
     }
-    kiln_threads_for(stage->threads, count, MAKE_AT_A_TIME, make_solids, &making);
+    kiln_threads_for(stage->threads, count, GRAIN, make_solids, &job);
 }
 
 /* ---- drawing --------------------------------------------------------------------------------- */
 
-struct drawing {
+struct draw_job {
     struct kiln_solids_cpu *stage;
     struct kiln_solid_strip strip; /* the members that all strips share */
 };
 
 static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
 {
-    const struct drawing *d = context;
+    const struct draw_job *d = context;
     struct kiln_solids_cpu *stage = d->stage;
     const struct kiln_row_lists *lists = &stage->lists;
     for (size_t band = begin; band < end; band++) {
@@ -344,18 +344,18 @@ bool kiln_solids_cpu_draw(struct kiln_solids_cpu *stage, const struct kiln_momen
     if (!list || !make_room(stage, count, error))
         return false;
     make_all(stage, moment, list, count);
-    struct drawing drawing = {stage,
-                              {.frame = kiln_backdrop_rays(stage->backdrop),
-                               .spheres = stage->spheres,
-                               .instances = stage->instances,
-                               .corners = (const float4(*)[2])stage->meshes->corners,
-                               .rows = stage->ranges,
-                               .patterned = kiln_looks_patterned(stage->scene),
-                               .width = stage->scene->width,
-                               .pitch = stage->pitch}};
+    struct draw_job job = {stage,
+                           {.frame = kiln_backdrop_rays(stage->backdrop),
+                            .spheres = stage->spheres,
+                            .instances = stage->instances,
+                            .corners = (const float4(*)[2])stage->meshes->corners,
+                            .rows = stage->ranges,
+                            .patterned = kiln_looks_patterned(stage->scene),
+                            .width = stage->scene->width,
+                            .pitch = stage->pitch}};
     if (!kiln_row_lists_fill(&stage->lists, stage->ranges, sizeof *stage->ranges, count,
                              stage->scene->height, KILN_SOLID_ROWS, error) ||
-        !open_images(&stage->targets, &drawing.strip, error))
+        !open_images(&stage->targets, &job.strip, error))
         return false;
-    return kiln_threads_try(stage->threads, stage->lists.bands, 1, draw_bands, &drawing, error);
+    return kiln_threads_try(stage->threads, stage->lists.bands, 1, draw_bands, &job, error);
 }

@@ -86,7 +86,7 @@ struct filling {
 };
 
 /* Returns whether a sprite lies behind the scene everywhere in a tile. */
-static bool hidden(const struct kiln_sprite *s, struct kiln_tile_depth depth)
+static bool is_hidden(const struct kiln_sprite *s, struct kiln_tile_depth depth)
 {
     return !(s->flags & KILN_SPRITE_DEEP) && s->depth > depth.farthest;
 }
@@ -111,7 +111,7 @@ static void visit_piece(const struct filling *f, size_t piece, uint32_t *list)
         for (uint32_t y = (uint32_t)s->y_from / KILN_TILE_HEIGHT; y <= bottom; y++) {
             for (uint32_t x = left; x <= right; x++) {
                 size_t tile = (size_t)y * bins->columns + x;
-                if (hidden(s, bins->depth[tile]))
+                if (is_hidden(s, bins->depth[tile]))
                     continue;
                 if (list)
                     list[counts[tile]] = i;
@@ -159,17 +159,18 @@ static bool scan(struct kiln_bins *bins, size_t pieces, size_t *total)
     return true;
 }
 
-/* Makes room for `count` words; earlier contents are lost. Returns false when memory is short. */
-static bool make_room(uint32_t **words, size_t *room, size_t count)
+/* Makes room for `count` elements; earlier contents are lost. Returns false when memory is short.
+ */
+static bool make_room(uint32_t **array, size_t *room, size_t count)
 {
     if (count <= *room)
         return true;
-    free(*words);
+    free(*array);
     *room = count + count / 4;
-    *words = malloc(*room * sizeof **words);
-    if (!*words)
+    *array = malloc(*room * sizeof **array);
+    if (!*array)
         *room = 0;
-    return *words != NULL;
+    return *array != NULL;
 }
 
 bool kiln_bins_fill(struct kiln_bins *bins, const struct kiln_sprite *sprites, uint32_t count,

@@ -1,5 +1,5 @@
 /* This file prepares cells of flipbooks for the CPU rasteriser: it lays their texels out for
- * sampling, finds the hulls of their visible texels, and mixes the wanted cells between two
+ * sampling, finds the hulls of their visible texels, and mixes the requested cells between two
  * adjacent ones. Mixed cells are stored as bytes, like the atlas. Mixing follows the cells' motion
  * at each texel, where the shader follows it at each pixel. */
 #include "draw/sprites/cells.h"
@@ -15,16 +15,16 @@ enum {
 };
 
 /* Holds the parts of a kiln_cell_name that do not follow from the slot's number. */
-struct slot {
+struct mix_source {
     uint32_t next_layer;
     float motion;
 };
 
 struct kiln_cells {
     const struct kiln_atlas *atlas;
-    struct slot *slots;  /* by layer, phase and level */
-    atomic_bool *wanted; /* by slot: the slot's cell was wanted */
-    uint8_t **texels;    /* by slot: the cell, laid out; NULL: it is not made yet */
+    struct mix_source *sources; /* by layer, phase and level */
+    atomic_bool *requested;     /* by slot: the slot's cell was requested */
+    uint8_t **texels;           /* by slot: the cell, laid out; NULL: it is not made yet */
     uint32_t slot_count;
     uint32_t *missing;            /* numbers of the slots to be made now */
     struct kiln_cell_hull *hulls; /* by layer and level */
@@ -33,8 +33,8 @@ struct kiln_cells {
 
 /* Lays `count` channels of RGBA out for sampling, from `channel` on: beside each channel of a texel
  * is that of the texel below it. Values are stored less 128. */
-static void spread(const uint8_t *from, uint32_t edge, uint32_t channel, uint32_t count,
-                   uint8_t *to)
+static void lay_out(const uint8_t *from, uint32_t edge, uint32_t channel, uint32_t count,
+                    uint8_t *to)
 {
     for (uint32_t y = 0; y <= edge; y++) {
         const uint8_t *row = from + 4 * (size_t)(y > 0 ? y - 1 : 0) * edge;
@@ -50,21 +50,21 @@ static void spread(const uint8_t *from, uint32_t edge, uint32_t channel, uint32_
 }
 
 /* Lays a cell out: all four channels, then a copy with only blue and alpha. */
-static void spread_cell(const uint8_t *from, uint32_t edge, uint8_t *to)
+static void lay_out_cell(const uint8_t *from, uint32_t edge, uint8_t *to)
 {
-    spread(from, edge, 0, 4, to);
-    spread(from, edge, 2, 2, to + KILN_CELL_TEXEL * kiln_cells_texels(edge));
+    lay_out(from, edge, 0, 4, to);
+    lay_out(from, edge, 2, 2, to + KILN_CELL_TEXEL * kiln_cells_texels(edge));
 }
 
 /* Lays the atlas's motion of a layer out for sampling. */
-static void spread_moves(const int8_t *from, uint8_t *to)
+static void lay_out_moves(const int8_t *from, uint8_t *to)
 {
     uint8_t texels[4 * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION] = {0};
     for (size_t i = 0; i < (size_t)KILN_ATLAS_MOTION * KILN_ATLAS_MOTION; i++) {
         texels[4 * i] = (uint8_t)(128 + from[2 * i]);
         texels[4 * i + 1] = (uint8_t)(128 + from[2 * i + 1]);
     }
-    spread(texels, KILN_ATLAS_MOTION, 0, 2, to);
+    lay_out(texels, KILN_ATLAS_MOTION, 0, 2, to);
 }
 
 static bool make_moves(struct kiln_cells *cells)
@@ -75,7 +75,7 @@ static bool make_moves(struct kiln_cells *cells)
     size_t bytes = KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION);
     cells->moves = calloc((size_t)atlas->layers + 1, bytes); /* never 0 bytes */
     for (uint32_t i = 0; cells->moves && i < atlas->layers; i++)
-        spread_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES, cells->moves + i * bytes);
+        lay_out_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES, cells->moves + i * bytes);
     return cells->moves != NULL;
 }
 
@@ -87,7 +87,7 @@ struct extent {
 };
 
 /* Returns a mask over RGBA in memory: a texel is visible if it has one of these bits. */
-static uint32_t shown_bits(uint32_t kind)
+static uint32_t visible_bits(uint32_t kind)
 {
     const uint8_t any = kind == KILN_CELL_COLOR ? 0xff : 0, bytes[4] = {any, any, any, 0xff};
     uint32_t bits;
@@ -95,14 +95,14 @@ static uint32_t shown_bits(uint32_t kind)
     return bits;
 }
 
-static bool shows(const uint8_t *texel, uint32_t bits)
+static bool is_visible(const uint8_t *texel, uint32_t bits)
 {
     uint32_t rgba;
     memcpy(&rgba, texel, sizeof rgba);
     return (rgba & bits) != 0;
 }
 
-static bool row_shows(const uint8_t *texels, int edge, uint32_t bits)
+static bool row_is_visible(const uint8_t *texels, int edge, uint32_t bits)
 {
     uint32_t any = 0;
     for (int x = 0; x < edge; x++) {
@@ -128,14 +128,14 @@ static struct extent measure(const uint8_t *texels, int edge, uint32_t kind)
 {
     struct extent extent = {{INT_MAX, INT_MAX, INT_MAX, INT_MAX},
                             {INT_MIN, INT_MIN, INT_MIN, INT_MIN}};
-    const uint32_t bits = shown_bits(kind);
+    const uint32_t bits = visible_bits(kind);
     for (int y = 0; y < edge; y++, texels += 4 * (size_t)edge) {
         int first = 0, last = edge - 1;
-        if (!row_shows(texels, edge, bits))
+        if (!row_is_visible(texels, edge, bits))
             continue;
-        while (!shows(texels + 4 * (size_t)first, bits))
+        while (!is_visible(texels + 4 * (size_t)first, bits))
             first++;
-        while (!shows(texels + 4 * (size_t)last, bits))
+        while (!is_visible(texels + 4 * (size_t)last, bits))
             last--;
         extend_to(&extent, first, y);
         extend_to(&extent, last, y);
@@ -213,13 +213,13 @@ struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln
     if (cells) {
         cells->atlas = atlas;
         cells->slot_count = (atlas->layers ? atlas->layers : 1) * KILN_CELL_NUMBERS;
-        cells->slots = calloc(cells->slot_count, sizeof *cells->slots);
-        cells->wanted = calloc(cells->slot_count, sizeof *cells->wanted);
+        cells->sources = calloc(cells->slot_count, sizeof *cells->sources);
+        cells->requested = calloc(cells->slot_count, sizeof *cells->requested);
         cells->texels = calloc(cells->slot_count, sizeof *cells->texels);
         cells->missing = calloc(cells->slot_count, sizeof *cells->missing);
         cells->hulls = calloc(cells->slot_count / KILN_CELL_PHASES, sizeof *cells->hulls);
     }
-    if (!cells || !cells->slots || !cells->wanted || !cells->texels || !cells->missing ||
+    if (!cells || !cells->sources || !cells->requested || !cells->texels || !cells->missing ||
         !cells->hulls || !make_moves(cells)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
         kiln_cells_destroy(&cells);
@@ -236,8 +236,8 @@ void kiln_cells_destroy(struct kiln_cells **cells)
         return;
     for (uint32_t i = 0; c->texels && i < c->slot_count; i++)
         free(c->texels[i]);
-    free(c->slots);
-    free(c->wanted);
+    free(c->sources);
+    free(c->requested);
     free(c->texels);
     free(c->missing);
     free(c->hulls);
@@ -246,22 +246,22 @@ void kiln_cells_destroy(struct kiln_cells **cells)
     *cells = NULL;
 }
 
-uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *name)
+uint32_t kiln_cells_request(struct kiln_cells *cells, const struct kiln_cell_name *name)
 {
     uint32_t number =
         (name->layer * KILN_CELL_PHASES + name->phase) * KILN_ATLAS_LEVELS + name->level;
-    atomic_bool *wanted = &cells->wanted[number];
+    atomic_bool *requested = &cells->requested[number];
     /* Only the first thread that wants the cell writes the slot; any would write the same. */
-    if (!atomic_load_explicit(wanted, memory_order_relaxed) &&
-        !atomic_exchange_explicit(wanted, true, memory_order_relaxed))
-        cells->slots[number] = (struct slot){name->next_layer, name->motion};
+    if (!atomic_load_explicit(requested, memory_order_relaxed) &&
+        !atomic_exchange_explicit(requested, true, memory_order_relaxed))
+        cells->sources[number] = (struct mix_source){name->next_layer, name->motion};
     return number;
 }
 
 struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells)
 {
     return (struct kiln_cells_content){.texels = (const uint8_t *const *)cells->texels,
-                                       .wanted = cells->wanted,
+                                       .requested = cells->requested,
                                        .hulls = cells->hulls,
                                        .moves = cells->moves,
                                        .move_bytes =
@@ -352,18 +352,18 @@ static void read_move(const int8_t *moves, float x, float y, float way[2])
 static void mix(const struct kiln_cells *cells, uint32_t number)
 {
     uint8_t texels[4 * MIXED_EDGE * MIXED_EDGE] = {0}, *texel = texels;
-    const struct slot *slot = &cells->slots[number];
+    const struct mix_source *source = &cells->sources[number];
     const struct kiln_atlas *atlas = cells->atlas;
     uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
     uint32_t phase = number / KILN_ATLAS_LEVELS % KILN_CELL_PHASES;
     uint32_t edge = (uint32_t)KILN_ATLAS_CELL >> level;
     const uint8_t *from = kiln_atlas_level(atlas, layer, level);
-    const uint8_t *to = kiln_atlas_level(atlas, slot->next_layer, level);
-    const int8_t *moves = atlas->moves && slot->motion > 0.0f
+    const uint8_t *to = kiln_atlas_level(atlas, source->next_layer, level);
+    const int8_t *moves = atlas->moves && source->motion > 0.0f
                               ? atlas->moves + (size_t)layer * KILN_ATLAS_MOVES_BYTES
                               : NULL;
     const float part = (float)phase / (float)KILN_CELL_PHASES, left = 1.0f - part;
-    const float scale = slot->motion / 127.0f;
+    const float scale = source->motion / 127.0f;
     for (uint32_t y = 0; y < edge; y++) {
         for (uint32_t x = 0; x < edge; x++, texel += 4) {
             float u = ((float)x + 0.5f) / (float)edge, v = ((float)y + 0.5f) / (float)edge;
@@ -378,15 +378,15 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
                     (uint8_t)(clamp(first[c] + (second[c] - first[c]) * part, 0.0f, 255.0f) + 0.5f);
         }
     }
-    spread_cell(texels, edge, cells->texels[number]);
+    lay_out_cell(texels, edge, cells->texels[number]);
 }
 
 /* Lays a layer of the atlas out as the cell of a slot with phase 0. */
 static void copy(const struct kiln_cells *cells, uint32_t number)
 {
     uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
-    spread_cell(kiln_atlas_level(cells->atlas, layer, level), (uint32_t)KILN_ATLAS_CELL >> level,
-                cells->texels[number]);
+    lay_out_cell(kiln_atlas_level(cells->atlas, layer, level), (uint32_t)KILN_ATLAS_CELL >> level,
+                 cells->texels[number]);
 }
 
 static void mix_missing(void *context, size_t begin, size_t end, uint32_t worker)
@@ -405,7 +405,7 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < cells->slot_count; i++) {
-        if (cells->texels[i] || !atomic_load_explicit(&cells->wanted[i], memory_order_relaxed))
+        if (cells->texels[i] || !atomic_load_explicit(&cells->requested[i], memory_order_relaxed))
             continue;
         size_t texels = kiln_cells_texels((size_t)KILN_ATLAS_CELL >> i % KILN_ATLAS_LEVELS);
         cells->texels[i] = malloc((KILN_CELL_TEXEL + KILN_CELL_PAIR) * texels);

@@ -6,7 +6,7 @@
  * mixed, since so many of them would not stay in the processor's cache.
  *
  * The CPU rasteriser (particles_cpu.c) calls it for each piece of the particles: threads that make
- * sprites want cells (sprite_cells.h), then kiln_cells_mix makes those that are missing, then
+ * sprites request cells (sprite_cells.h), then kiln_cells_mix makes those that are missing, then
  * threads that draw tiles sample them (tile_draw.h). Texels must stay as texels.h reads them. The
  * limits below decide only between speed and accuracy, but change pixels. */
 #ifndef KILN_DRAW_SPRITES_CELLS_H
@@ -72,10 +72,10 @@ void kiln_cells_destroy(struct kiln_cells **cells);
 
 /* Returns the number of a cell, which will exist after the next kiln_cells_mix. Any thread may call
  * it. */
-uint32_t kiln_cells_want(struct kiln_cells *cells, const struct kiln_cell_name *name);
+uint32_t kiln_cells_request(struct kiln_cells *cells, const struct kiln_cell_name *name);
 
-/* Makes the wanted cells that do not exist yet: copies layers of the atlas for phase 0, mixes them
- * for other phases. Returns false with KILN_DEVICE_FAILED when memory is short. */
+/* Makes the requested cells that do not exist yet: copies layers of the atlas for phase 0, mixes
+ * them for other phases. Returns false with KILN_DEVICE_FAILED when memory is short. */
 bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
                     struct kiln_error *error);
 
@@ -86,7 +86,8 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
  * stands for no motion, 128 + 127 for a full move. */
 struct kiln_cells_content {
     const uint8_t *const *texels; /* by a cell's number; NULL: the cell is not made yet */
-    const atomic_bool *wanted;    /* by a cell's number; true: kiln_cells_want was called for it */
+    const atomic_bool
+        *requested; /* by a cell's number; true: kiln_cells_request was called for it */
     const struct kiln_cell_hull *hulls;
     const uint8_t *moves; /* motion by layer, move_bytes each; NULL: no cell moves */
     size_t move_bytes;

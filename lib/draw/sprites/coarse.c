@@ -28,8 +28,8 @@ static bool init_images(struct kiln_coarse_stage *stage, const struct kiln_scene
     images->factor = factor;
     images->width = scene->width;
     images->height = scene->height;
-    images->beyond_x = 0.5f * (float)(width * factor - scene->width);
-    images->beyond_y = 0.5f * (float)(height * factor - scene->height);
+    images->margin_x = 0.5f * (float)(width * factor - scene->width);
+    images->margin_y = 0.5f * (float)(height * factor - scene->height);
     images->mixed = scene->post.mixed_resolution;
     kiln_image_init(&images->depth, stage->device, width, height, GL_R32F, "coarse depth");
     kiln_image_init(&images->edges, stage->device, width, height, GL_R32F, "coarse edges");

@@ -17,9 +17,9 @@ struct kiln_coarse_cpu {
     struct kiln_threads *threads;
     const struct kiln_coarse_loops *loops;
     struct kiln_coarse_place *columns, *rows; /* by column and by row of the frame */
-    uint8_t *bent;                            /* this and the next as in struct kiln_coarse_rows */
-    struct kiln_coarse_shown *mixed;
-    struct kiln_coarse_columns *known;
+    uint8_t *nonplanar;                       /* this and the next as in struct kiln_coarse_rows */
+    struct kiln_coarse_pixel *mixed;
+    struct kiln_coarse_columns *measured;
 };
 
 static int32_t limit(int32_t index, uint32_t count)
@@ -27,15 +27,15 @@ static int32_t limit(int32_t index, uint32_t count)
     return index < 0 ? 0 : index < (int32_t)count ? index : (int32_t)count - 1;
 }
 
-/* Returns where a column or a row of the frame lies among `count` coarse ones; beyond: px of the
+/* Returns where a column or a row of the frame lies among `count` coarse ones; margin: px of the
  * frame by which the coarse picture reaches beyond the frame's edge. */
-static struct kiln_coarse_place find_place(uint32_t pixel, float beyond, uint32_t factor,
+static struct kiln_coarse_place find_place(uint32_t pixel, float margin, uint32_t factor,
                                            uint32_t count)
 {
-    struct kiln_coarse_place place = {.at = ((float)pixel + 0.5f + beyond) / (float)factor - 0.5f};
+    struct kiln_coarse_place place = {.at = ((float)pixel + 0.5f + margin) / (float)factor - 0.5f};
     int32_t low = (int32_t)(place.at + 1.0f) - 1; /* floor, since `at` > -1 */
     place.part = place.at - (float)low;
-    place.own = limit(place.part < 0.5f ? low : low + 1, count);
+    place.containing = limit(place.part < 0.5f ? low : low + 1, count);
     const float4 weights = coarse_spline(place.part);
     memcpy(place.weights, &weights, sizeof place.weights);
     for (int32_t i = 0; i < 4; i++)
@@ -51,9 +51,9 @@ static bool find_places(struct kiln_coarse_cpu *coarse)
     if (!coarse->columns || !coarse->rows)
         return false;
     for (uint32_t x = 0; x < images->width; x++)
-        coarse->columns[x] = find_place(x, images->beyond_x, images->factor, images->depth.width);
+        coarse->columns[x] = find_place(x, images->margin_x, images->factor, images->depth.width);
     for (uint32_t y = 0; y < images->height; y++)
-        coarse->rows[y] = find_place(y, images->beyond_y, images->factor, images->depth.height);
+        coarse->rows[y] = find_place(y, images->margin_y, images->factor, images->depth.height);
     return true;
 }
 
@@ -61,15 +61,15 @@ static bool make_scratch(struct kiln_coarse_cpu *coarse)
 {
     const struct kiln_coarse_images *images = coarse->images;
     const size_t width = images->depth.width, threads = kiln_threads_count(coarse->threads);
-    coarse->bent = calloc(width * images->depth.height, sizeof *coarse->bent);
+    coarse->nonplanar = calloc(width * images->depth.height, sizeof *coarse->nonplanar);
     coarse->mixed = aligned_alloc(16, width * threads * sizeof *coarse->mixed);
-    coarse->known = calloc(threads, sizeof *coarse->known);
-    bool ok = coarse->bent && coarse->mixed && coarse->known;
+    coarse->measured = calloc(threads, sizeof *coarse->measured);
+    bool ok = coarse->nonplanar && coarse->mixed && coarse->measured;
     for (size_t i = 0; ok && i < threads; i++) {
-        struct kiln_coarse_columns *known = &coarse->known[i];
-        known->farthest = malloc(images->width * sizeof *known->farthest);
-        known->bent = malloc(images->width * sizeof *known->bent);
-        ok = known->farthest && known->bent;
+        struct kiln_coarse_columns *measured = &coarse->measured[i];
+        measured->farthest = malloc(images->width * sizeof *measured->farthest);
+        measured->nonplanar = malloc(images->width * sizeof *measured->nonplanar);
+        ok = measured->farthest && measured->nonplanar;
     }
     return ok;
 }
@@ -99,13 +99,13 @@ void kiln_coarse_cpu_destroy(struct kiln_coarse_cpu **coarse)
         return;
     free(c->columns);
     free(c->rows);
-    free(c->bent);
+    free(c->nonplanar);
     free(c->mixed);
-    for (size_t i = 0; c->known && i < kiln_threads_count(c->threads); i++) {
-        free(c->known[i].farthest);
-        free(c->known[i].bent);
+    for (size_t i = 0; c->measured && i < kiln_threads_count(c->threads); i++) {
+        free(c->measured[i].farthest);
+        free(c->measured[i].nonplanar);
     }
-    free(c->known);
+    free(c->measured);
     free(c);
     *coarse = NULL;
 }
@@ -115,9 +115,9 @@ static struct kiln_coarse_rows begin(const struct kiln_coarse_cpu *coarse)
     return (struct kiln_coarse_rows){.images = coarse->images,
                                      .columns = coarse->columns,
                                      .rows = coarse->rows,
-                                     .bent = coarse->bent,
+                                     .nonplanar = coarse->nonplanar,
                                      .mixed = coarse->mixed,
-                                     .known = coarse->known};
+                                     .measured = coarse->measured};
 }
 
 static bool run(struct kiln_coarse_cpu *coarse, uint32_t height, kiln_coarse_loop *loop,

@@ -22,7 +22,8 @@ struct kiln_coarse_gl {
     GLuint programs[PROGRAM_COUNT];
     GLint has_fine; /* uniform of SPREAD */
     GLuint vertex_array;
-    struct kiln_image bent; /* 1 where depths in a coarse pixel do not lie on a plane; else 0 */
+    struct kiln_image
+        nonplanar; /* 1 where depths in a coarse pixel do not lie on a plane; else 0 */
     struct kiln_framebuffer depth_target, edges_target, mask_target;
 };
 
@@ -39,8 +40,8 @@ static bool create_programs(struct kiln_coarse_gl *coarse, struct kiln_error *er
         if (!program)
             return false;
         glUseProgram(program);
-        glUniform1f(glGetUniformLocation(program, "factor"), (float)images->factor);
-        glUniform2f(glGetUniformLocation(program, "beyond"), images->beyond_x, images->beyond_y);
+        glUniform1f(glGetUniformLocation(program, "coarse_edge_px"), (float)images->factor);
+        glUniform2f(glGetUniformLocation(program, "margin_px"), images->margin_x, images->margin_y);
     }
     coarse->has_fine = glGetUniformLocation(coarse->programs[SPREAD], "has_fine");
     return true;
@@ -49,9 +50,9 @@ static bool create_programs(struct kiln_coarse_gl *coarse, struct kiln_error *er
 static bool create_targets(struct kiln_coarse_gl *coarse, struct kiln_error *error)
 {
     struct kiln_coarse_images *images = coarse->images;
-    kiln_image_init(&coarse->bent, coarse->device, images->depth.width, images->depth.height,
+    kiln_image_init(&coarse->nonplanar, coarse->device, images->depth.width, images->depth.height,
                     GL_R32F, "bent depth");
-    struct kiln_image *depth[] = {&images->depth, &coarse->bent}, *edges[] = {&images->edges};
+    struct kiln_image *depth[] = {&images->depth, &coarse->nonplanar}, *edges[] = {&images->edges};
     if (!kiln_framebuffer_init(&coarse->depth_target, coarse->device, depth, 2, error) ||
         !kiln_framebuffer_init(&coarse->edges_target, coarse->device, edges, 1, error))
         return false;
@@ -87,7 +88,7 @@ void kiln_coarse_gl_destroy(struct kiln_coarse_gl **coarse)
     kiln_framebuffer_finish(&c->depth_target);
     kiln_framebuffer_finish(&c->edges_target);
     kiln_framebuffer_finish(&c->mask_target);
-    kiln_image_finish(&c->bent);
+    kiln_image_finish(&c->nonplanar);
     glDeleteVertexArrays(1, &c->vertex_array);
     free(c);
     *coarse = NULL;
@@ -116,10 +117,10 @@ bool kiln_coarse_gl_measure(struct kiln_coarse_gl *coarse, struct kiln_image *de
                             struct kiln_error *error)
 {
     struct kiln_coarse_images *images = coarse->images;
-    struct kiln_image *bent[] = {&coarse->bent}, *mask[] = {depth, &images->edges};
+    struct kiln_image *nonplanar[] = {&coarse->nonplanar}, *mask[] = {depth, &images->edges};
     glDisable(GL_BLEND);
     return run_pass(coarse, DEPTH, &coarse->depth_target, &depth, 1, error) &&
-           run_pass(coarse, EDGES, &coarse->edges_target, bent, 1, error) &&
+           run_pass(coarse, EDGES, &coarse->edges_target, nonplanar, 1, error) &&
            (!images->mixed || run_pass(coarse, MASK, &coarse->mask_target, mask, 2, error));
 }
 

@@ -10,7 +10,7 @@
 struct kiln_coarse_images {
     uint32_t factor;          /* 2 or 4 */
     uint32_t width, height;   /* size of the frame, px */
-    float beyond_x, beyond_y; /* how far the coarse picture reaches beyond the frame's left and
+    float margin_x, margin_y; /* how far the coarse picture reaches beyond the frame's left and
                                * upper edge, px of the frame */
     bool mixed;               /* true: particles near edges are drawn at full resolution, too */
     struct kiln_image depth;  /* the farthest depth in each coarse pixel, m */

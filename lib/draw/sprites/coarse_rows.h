@@ -10,7 +10,7 @@
 typedef float kiln_coarse_quad __attribute__((vector_size(16)));
 
 /* Holds colour and bloom of one pixel. */
-struct kiln_coarse_shown {
+struct kiln_coarse_pixel {
     kiln_coarse_quad color, bloom;
 };
 
@@ -20,14 +20,14 @@ struct kiln_coarse_place {
     int32_t taps[4];  /* the two coarse ones before it and the two after it, clamped at the edge */
     float weights[4]; /* weights of the taps for a cubic spline */
     float part;       /* the place between the second and the third tap, 0 to 1 */
-    int32_t own;      /* the coarse one in which it lies */
-    float at;         /* the place in coarse pixels; whole numbers are their middles */
+    int32_t containing; /* the coarse one in which it lies */
+    float at;           /* the place in coarse pixels; whole numbers are their middles */
 };
 
 /* Holds measurements over the frame's pixels in a coarse row, by column of the frame. */
 struct kiln_coarse_columns {
-    float *farthest; /* the farthest depth, m */
-    uint32_t *bent;  /* 1 where depths do not lie on a plane, else 0 */
+    float *farthest;     /* the farthest depth, m */
+    uint32_t *nonplanar; /* 1 where depths do not lie on a plane, else 0 */
 };
 
 /* Holds the pictures that the loops read and write. Each loop uses only some of them. */
@@ -36,17 +36,17 @@ struct kiln_coarse_rows {
     const struct kiln_coarse_place *columns, *rows; /* by column and by row of the frame */
     const float *depth;                             /* depth of the frame, m */
     float *coarse_depth;
-    uint8_t *bent;     /* 1 where the depths in a coarse pixel do not lie on a plane */
-    float *edges;      /* 1 where `bent` is 1 in a coarse pixel or in one around it; else 0 */
-    float *fine_depth; /* m; 0 away from edges */
+    uint8_t *nonplanar; /* 1 where the depths in a coarse pixel do not lie on a plane */
+    float *edges;       /* 1 where `nonplanar` is 1 in a coarse pixel or in one around it; else 0 */
+    float *fine_depth;  /* m; 0 away from edges */
 
     const float *coarse_color, *coarse_bloom;
     const float *fine_color, *fine_bloom; /* NULL unless mixed */
     float *color, *bloom;                 /* pictures of the frame; bloom NULL: none */
     bool keep_bloom;
     float over; /* 1: alpha covers the bloom of an earlier pass; 0: bloom is added to it */
-    struct kiln_coarse_shown *mixed;   /* scratch: a coarse row for each thread */
-    struct kiln_coarse_columns *known; /* scratch: one for each thread */
+    struct kiln_coarse_pixel *mixed;      /* scratch: a coarse row for each thread */
+    struct kiln_coarse_columns *measured; /* scratch: one for each thread */
 };
 
 /* Processes rows begin to end - 1 of the struct kiln_coarse_rows that context points to; for
@@ -55,7 +55,7 @@ typedef void kiln_coarse_loop(void *context, size_t begin, size_t end, uint32_t 
 
 struct kiln_coarse_loops {
     /* The first two loops run over rows of the coarse picture, the other two over the frame's. */
-    kiln_coarse_loop *measure, *find_edges; /* write coarse_depth and bent; edges */
+    kiln_coarse_loop *measure, *find_edges; /* write coarse_depth and nonplanar; edges */
     kiln_coarse_loop *mask, *spread;        /* write fine_depth; color and bloom */
 };
 KILN_SIMD_DECLARE(const struct kiln_coarse_loops, kiln_coarse_loops);

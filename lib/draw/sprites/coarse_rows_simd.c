@@ -40,9 +40,9 @@ struct range {
 };
 
 /* Returns the range of the frame's columns or rows that lie in a coarse one. */
-static inline struct range pixels_of(uint32_t coarse, float beyond, uint32_t factor, uint32_t size)
+static inline struct range pixels_of(uint32_t coarse, float margin, uint32_t factor, uint32_t size)
 {
-    uint32_t past = (uint32_t)beyond, from = coarse * factor;
+    uint32_t past = (uint32_t)margin, from = coarse * factor;
     return (struct range){from > past ? from - past : 0,
                           from + factor - past < size ? from + factor - past : size};
 }
@@ -55,39 +55,39 @@ static inline void add_row(const struct kiln_coarse_images *images, const float 
     const size_t width = images->width;
     const float *at = depth + y * width;
     float *restrict farthest = columns->farthest;
-    uint32_t *restrict bent = columns->bent;
+    uint32_t *restrict nonplanar = columns->nonplanar;
     for (size_t x = 0; x < width; x++)
         farthest[x] = at[x] > farthest[x] ? at[x] : farthest[x];
     for (size_t x = 1; x + 1 < width; x++)
-        bent[x] |= coarse_is_bent(at[x - 1], at[x], at[x + 1]);
+        nonplanar[x] |= coarse_is_nonplanar(at[x - 1], at[x], at[x + 1]);
     if (y == 0 || y + 1 == images->height)
         return;
     for (size_t x = 0; x < width; x++)
-        bent[x] |= coarse_is_bent(at[x - width], at[x], at[x + width]);
+        nonplanar[x] |= coarse_is_nonplanar(at[x - width], at[x], at[x + width]);
 }
 
 static inline void measure_row(const struct kiln_coarse_rows *m, uint32_t y,
                                struct kiln_coarse_columns *columns)
 {
     const struct kiln_coarse_images *images = m->images;
-    const struct range rows = pixels_of(y, images->beyond_y, images->factor, images->height);
+    const struct range rows = pixels_of(y, images->margin_y, images->factor, images->height);
     for (uint32_t x = 0; x < images->width; x++) {
         columns->farthest[x] = m->depth[(size_t)rows.from * images->width + x];
-        columns->bent[x] = 0;
+        columns->nonplanar[x] = 0;
     }
     for (uint32_t j = rows.from; j < rows.to; j++)
         add_row(images, m->depth, j, columns);
     for (uint32_t x = 0; x < images->depth.width; x++) {
-        const struct range in = pixels_of(x, images->beyond_x, images->factor, images->width);
+        const struct range in = pixels_of(x, images->margin_x, images->factor, images->width);
         float farthest = columns->farthest[in.from];
-        uint32_t bent = 0;
+        uint32_t nonplanar = 0;
         for (uint32_t i = in.from; i < in.to; i++) {
             farthest = columns->farthest[i] > farthest ? columns->farthest[i] : farthest;
-            bent |= columns->bent[i];
+            nonplanar |= columns->nonplanar[i];
         }
         const size_t at = (size_t)y * images->depth.width + x;
         m->coarse_depth[at] = farthest;
-        m->bent[at] = (uint8_t)bent;
+        m->nonplanar[at] = (uint8_t)nonplanar;
     }
 }
 
@@ -95,16 +95,16 @@ static void measure_rows(void *context, size_t begin, size_t end, uint32_t worke
 {
     const struct kiln_coarse_rows *m = context;
     for (size_t y = begin; y < end; y++)
-        measure_row(m, (uint32_t)y, &m->known[worker]);
+        measure_row(m, (uint32_t)y, &m->measured[worker]);
 }
 
 static void find_edges(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct kiln_coarse_rows *m = context;
     const size_t width = m->images->depth.width, height = m->images->depth.height;
-    uint32_t *restrict around = m->known[worker].bent;
+    uint32_t *restrict around = m->measured[worker].nonplanar;
     for (size_t y = begin; y < end; y++) {
-        const uint8_t *at = m->bent + y * width;
+        const uint8_t *at = m->nonplanar + y * width;
         const uint8_t *above = y > 0 ? at - width : at, *below = y + 1 < height ? at + width : at;
         for (size_t x = 0; x < width; x++)
             around[x] = above[x] | at[x] | below[x];
@@ -116,8 +116,8 @@ static void find_edges(void *context, size_t begin, size_t end, uint32_t worker)
 }
 
 /* Returns the weight of the fine picture: 1 near an edge, falling to 0 over a coarse pixel. */
-static inline float fine_part(const float *above, const float *below,
-                              const struct kiln_coarse_place *x, float down)
+static inline float fine_weight(const float *above, const float *below,
+                                const struct kiln_coarse_place *x, float down)
 {
     float left = above[x->taps[1]] + (below[x->taps[1]] - above[x->taps[1]]) * down;
     float right = above[x->taps[2]] + (below[x->taps[2]] - above[x->taps[2]]) * down;
@@ -134,7 +134,7 @@ static void mask_rows(void *context, size_t begin, size_t end, uint32_t worker)
         const float *above = m->edges + (size_t)row.taps[1] * images->depth.width;
         const float *below = m->edges + (size_t)row.taps[2] * images->depth.width;
         for (size_t x = 0; x < images->width; x++) {
-            float part = fine_part(above, below, &m->columns[x], row.part);
+            float part = fine_weight(above, below, &m->columns[x], row.part);
             m->fine_depth[y * images->width + x] =
                 part > 0.0f ? m->depth[y * images->width + x] : 0.0f;
         }
@@ -155,7 +155,7 @@ static inline quad interpolate(quad before, quad low, quad high, quad after, con
  * four rows are empty. */
 static inline struct range mix_rows(const struct kiln_coarse_rows *s,
                                     const struct kiln_coarse_place *row,
-                                    struct kiln_coarse_shown *mixed)
+                                    struct kiln_coarse_pixel *mixed)
 {
     const size_t width = s->images->depth.width;
     const float *colors[4], *blooms[4];
@@ -184,26 +184,26 @@ static inline struct range mix_rows(const struct kiln_coarse_rows *s,
 
 /* Returns the mean of the coarse pixel in which a pixel lies and of the eight around it, weighted
  * by distance and by how similar their depth is to the pixel's. */
-static inline struct kiln_coarse_shown choose(const struct kiln_coarse_rows *s,
+static inline struct kiln_coarse_pixel choose(const struct kiln_coarse_rows *s,
                                               const struct kiln_coarse_place *x,
                                               const struct kiln_coarse_place *y, float depth)
 {
     const int32_t width = (int32_t)s->images->depth.width;
     const int32_t height = (int32_t)s->images->depth.height;
-    struct kiln_coarse_shown sum = {{0}, {0}};
+    struct kiln_coarse_pixel sum = {{0}, {0}};
     float weights = 0.0f;
     for (int32_t j = -1; j <= 1; j++) {
-        int32_t row = y->own + j;
+        int32_t row = y->containing + j;
         if (row < 0 || row >= height)
             continue;
         float down = coarse_near(y->at - (float)row);
         for (int32_t i = -1; i <= 1; i++) {
-            int32_t column = x->own + i;
+            int32_t column = x->containing + i;
             if (column < 0 || column >= width)
                 continue;
             size_t at = (size_t)row * (size_t)width + (size_t)column;
             float weight = down * coarse_near(x->at - (float)column) *
-                           coarse_alike(depth, s->coarse_depth[at]);
+                           coarse_similarity(depth, s->coarse_depth[at]);
             sum.color += load(s->coarse_color + 4 * at) * weight;
             sum.bloom += load(s->coarse_bloom + 4 * at) * weight;
             weights += weight;
@@ -215,23 +215,23 @@ static inline struct kiln_coarse_shown choose(const struct kiln_coarse_rows *s,
 }
 
 static inline void spread_pixel(const struct kiln_coarse_rows *s, uint32_t x, uint32_t y,
-                                const struct kiln_coarse_shown *mixed)
+                                const struct kiln_coarse_pixel *mixed)
 {
     const struct kiln_coarse_place *column = &s->columns[x], *row = &s->rows[y];
     const size_t width = s->images->depth.width, at = (size_t)y * s->images->width + x;
-    const struct kiln_coarse_shown *taps[4];
+    const struct kiln_coarse_pixel *taps[4];
     for (int i = 0; i < 4; i++)
         taps[i] = &mixed[column->taps[i]];
-    struct kiln_coarse_shown shown = {interpolate(taps[0]->color, taps[1]->color, taps[2]->color,
+    struct kiln_coarse_pixel shown = {interpolate(taps[0]->color, taps[1]->color, taps[2]->color,
                                                   taps[3]->color, column->weights),
                                       interpolate(taps[0]->bloom, taps[1]->bloom, taps[2]->bloom,
                                                   taps[3]->bloom, column->weights)};
-    if (s->edges[(size_t)row->own * width + (size_t)column->own] > 0.0f)
+    if (s->edges[(size_t)row->containing * width + (size_t)column->containing] > 0.0f)
         shown = choose(s, column, row, s->depth[at]);
     float fine = 0.0f;
     if (s->fine_color)
-        fine = fine_part(s->edges + (size_t)row->taps[1] * width,
-                         s->edges + (size_t)row->taps[2] * width, column, row->part);
+        fine = fine_weight(s->edges + (size_t)row->taps[1] * width,
+                           s->edges + (size_t)row->taps[2] * width, column, row->part);
     if (fine > 0.0f) {
         shown.color += (load(s->fine_color + 4 * at) - shown.color) * fine;
         shown.bloom += (load(s->fine_bloom + 4 * at) - shown.bloom) * fine;
@@ -255,7 +255,7 @@ static void spread_nothing(const struct kiln_coarse_rows *s, uint32_t y, struct 
 }
 
 static inline void spread_row(const struct kiln_coarse_rows *s, uint32_t y,
-                              struct kiln_coarse_shown *mixed)
+                              struct kiln_coarse_pixel *mixed)
 {
     const uint32_t width = s->images->width;
     const struct range shown = mix_rows(s, &s->rows[y], mixed);
@@ -275,7 +275,7 @@ static inline void spread_row(const struct kiln_coarse_rows *s, uint32_t y,
 static void spread_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct kiln_coarse_rows *s = context;
-    struct kiln_coarse_shown *mixed = s->mixed + worker * (size_t)s->images->depth.width;
+    struct kiln_coarse_pixel *mixed = s->mixed + worker * (size_t)s->images->depth.width;
     for (size_t y = begin; y < end; y++)
         spread_row(s, (uint32_t)y, mixed);
 }

@@ -28,9 +28,9 @@ struct kiln_fragments {
     struct kiln_tile *scratch;  /* some rows of the tile, with one sprite at a time */
     struct fragment *fragments; /* FRAGMENTS_AT_A_TIME elements, as in links */
     struct link *links;
-    size_t count;               /* number of fragments */
-    uint64_t from, until;       /* fragments with from <= key < until are gathered now */
-    uint32_t ends[TILE_PIXELS]; /* end of each pixel's list in links */
+    size_t count;                /* number of fragments */
+    uint64_t first_key, end_key; /* fragments with first_key <= key < end_key are gathered now */
+    uint32_t list_ends[TILE_PIXELS]; /* end of each pixel's list in links */
 };
 
 struct kiln_fragments *kiln_fragments_create(void)
@@ -102,15 +102,15 @@ static void clear_box(struct kiln_tile *tile, const struct box *box)
 
 /* Holds the view depth of a sprite's plane at a pixel, m, and half of the sprite's thickness there,
  * m. */
-struct place {
+struct sheet_depths {
     float depth, half_depth;
 };
 
-static struct place find_place(const struct kiln_sprite *s, float x, float y)
+static struct sheet_depths find_sheet_depths(const struct kiln_sprite *s, float x, float y)
 {
     float dx = x - s->x, dy = y - s->y;
     float u = s->u + s->u_x * dx + s->u_y * dy, v = s->v + s->v_x * dx + s->v_y * dy;
-    struct place place = {.depth = s->depth};
+    struct sheet_depths place = {.depth = s->depth};
     if (s->flags & KILN_SPRITE_DEEP) {
         place.depth = 1.0f / (s->q + s->q_x * dx + s->q_y * dy);
         u *= place.depth;
@@ -126,11 +126,11 @@ static struct place find_place(const struct kiln_sprite *s, float x, float y)
 
 /* Adds a fragment, unless its key is not gathered now. place: its number among fragments of equal
  * depth. */
-static void put(struct kiln_fragments *f, const struct fragment *fragment, float depth,
-                uint32_t place)
+static void add_fragment(struct kiln_fragments *f, const struct fragment *fragment, float depth,
+                         uint32_t place)
 {
     const uint64_t key = (uint64_t)~FLOAT_BITS(exact_max(depth, 0.0f)) << 32 | place;
-    if (key < f->from || key >= f->until)
+    if (key < f->first_key || key >= f->end_key)
         return;
     struct fragment *to = &f->fragments[f->count++];
     *to = *fragment;
@@ -138,7 +138,7 @@ static void put(struct kiln_fragments *f, const struct fragment *fragment, float
 }
 
 /* Adds the fragment of a sprite in a pixel of the scratch tile; two for a thick sprite. */
-static void put_pixel(struct kiln_fragments *f, const struct kiln_sprite *s, int x, int y,
+static void add_pixel(struct kiln_fragments *f, const struct kiln_sprite *s, int x, int y,
                       uint32_t number, uint32_t order)
 {
     const struct kiln_tile *tile = f->scratch;
@@ -152,17 +152,18 @@ static void put_pixel(struct kiln_fragments *f, const struct kiln_sprite *s, int
     if (fragment.rgb[0] == 0.0f && fragment.rgb[1] == 0.0f && fragment.rgb[2] == 0.0f &&
         fragment.alpha == 0.0f)
         return;
-    struct place at = find_place(s, (float)(tile->x + x) + 0.5f, (float)(tile->y + y) + 0.5f);
+    struct sheet_depths at =
+        find_sheet_depths(s, (float)(tile->x + x) + 0.5f, (float)(tile->y + y) + 0.5f);
     if (!(at.half_depth > 0.0f)) {
-        put(f, &fragment, at.depth, 2 * order);
+        add_fragment(f, &fragment, at.depth, 2 * order);
         return;
     }
     fragment.alpha = half_alpha(fragment.alpha);
     float part = half_color(fragment.alpha);
     for (int c = 0; c < 3; c++)
         fragment.rgb[c] *= part;
-    put(f, &fragment, at.depth + at.half_depth, 2 * order);
-    put(f, &fragment, at.depth - at.half_depth, 2 * order + 1);
+    add_fragment(f, &fragment, at.depth + at.half_depth, 2 * order);
+    add_fragment(f, &fragment, at.depth - at.half_depth, 2 * order + 1);
 }
 
 static size_t count_before(const struct kiln_fragments *f, uint64_t key)
@@ -175,24 +176,24 @@ static size_t count_before(const struct kiln_fragments *f, uint64_t key)
 
 /* Drops about the nearer half of the fragments, and gathers only farther ones from now on. A key
  * occurs in a row at most once a pixel, so there is a key that divides the fragments. */
-static void keep_farther(struct kiln_fragments *f)
+static void drop_nearer(struct kiln_fragments *f)
 {
-    uint64_t low = f->from, high = f->until;
-    size_t kept;
+    uint64_t low = f->first_key, high = f->end_key;
+    size_t kept_count;
     do {
-        f->until = low + (high - low) / 2;
-        kept = count_before(f, f->until);
-        if (kept < f->count / 4)
-            low = f->until;
+        f->end_key = low + (high - low) / 2;
+        kept_count = count_before(f, f->end_key);
+        if (kept_count < f->count / 4)
+            low = f->end_key;
         else
-            high = f->until;
-    } while (kept < f->count / 4 || kept > f->count * 3 / 4);
-    kept = 0;
+            high = f->end_key;
+    } while (kept_count < f->count / 4 || kept_count > f->count * 3 / 4);
+    kept_count = 0;
     for (size_t i = 0; i < f->count; i++) {
-        if (f->fragments[i].key < f->until)
-            f->fragments[kept++] = f->fragments[i];
+        if (f->fragments[i].key < f->end_key)
+            f->fragments[kept_count++] = f->fragments[i];
     }
-    f->count = kept;
+    f->count = kept_count;
 }
 
 /* Gathers the fragments of some rows of a tile. In a single row it gathers as many as there is room
@@ -213,11 +214,11 @@ static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct 
         if (most > FRAGMENTS_AT_A_TIME && rows > 1)
             return false;
         if (most > FRAGMENTS_AT_A_TIME)
-            keep_farther(f);
+            drop_nearer(f);
         draw(f->scratch, sprites, cells, &list[i], 1);
         for (int row = box.y_from; row < box.y_to; row++) {
             for (int x = box.x_from; x < box.x_to; x++)
-                put_pixel(f, s, x, row, list[i], (uint32_t)i);
+                add_pixel(f, s, x, row, list[i], (uint32_t)i);
         }
         clear_box(f->scratch, &box);
     }
@@ -230,17 +231,17 @@ static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct 
  * writes the links. */
 static void make_lists(struct kiln_fragments *f)
 {
-    memset(f->ends, 0, sizeof f->ends);
+    memset(f->list_ends, 0, sizeof f->list_ends);
     for (size_t i = 0; i < f->count; i++)
-        f->ends[f->fragments[i].pixel]++;
+        f->list_ends[f->fragments[i].pixel]++;
     uint32_t place = 0;
     for (size_t pixel = 0; pixel < TILE_PIXELS; pixel++) {
-        uint32_t length = f->ends[pixel];
-        f->ends[pixel] = place;
+        uint32_t length = f->list_ends[pixel];
+        f->list_ends[pixel] = place;
         place += length;
     }
     for (size_t i = 0; i < f->count; i++)
-        f->links[f->ends[f->fragments[i].pixel]++] =
+        f->links[f->list_ends[f->fragments[i].pixel]++] =
             (struct link){f->fragments[i].key, (uint32_t)i};
 }
 
@@ -292,7 +293,7 @@ static void blend_rows(struct kiln_fragments *f, struct kiln_tile *tile, int y, 
     make_lists(f);
     uint32_t first = 0;
     for (int pixel = 0; pixel < rows * KILN_TILE_WIDTH; pixel++) {
-        uint32_t count = f->ends[pixel] - first;
+        uint32_t count = f->list_ends[pixel] - first;
         if (count > 0) {
             sort_list(f->links + first, count);
             blend_list(f, f->links + first, count, sprites,
@@ -308,16 +309,16 @@ void kiln_fragments_draw(struct kiln_fragments *fragments, kiln_tile_draw *draw,
 {
     struct kiln_fragments *f = fragments;
     int rows = tile->height;
-    f->from = 0;
+    f->first_key = 0;
     for (int y = 0; y < tile->height;) {
         rows = rows < tile->height - y ? rows : tile->height - y;
-        f->until = UINT64_MAX;
+        f->end_key = UINT64_MAX;
         if (!gather(f, draw, tile, y, rows, sprites, cells, list, count)) {
             rows = (rows + 1) / 2;
             continue;
         }
         blend_rows(f, tile, y, rows, sprites);
-        f->from = f->until < UINT64_MAX ? f->until : 0;
-        y += f->from ? 0 : rows;
+        f->first_key = f->end_key < UINT64_MAX ? f->end_key : 0;
+        y += f->first_key ? 0 : rows;
     }
 }

@@ -16,16 +16,16 @@ enum { FRAGMENTS_AT_A_TIME = 1 << 21, KEY_BYTES = 16, FRAGMENT_BYTES = 32 };
 
 /* The most fragments of a list that an invocation blends at once on software GL; it may also sort a
  * short list. */
-enum { SOFTWARE_STRETCH = 1 << 14 };
+enum { SOFTWARE_SPAN = 1 << 14 };
 static_assert(KILN_FRAGMENT_SHORT * KILN_FRAGMENT_SHORT * 7 / 10 + KILN_FRAGMENT_SHORT * 10 +
-                      SOFTWARE_STRETCH <
+                      SOFTWARE_SPAN <
                   KILN_SOFTWARE_ITERATIONS,
               "fragments_resolve.frag");
 
 /* Holds where a pixel's list starts, and how many of its fragments are written; `counts` has its
  * length. */
-struct place {
-    uint32_t first, filled;
+struct list_range {
+    uint32_t first, written;
 };
 
 /* Describes KILN_FRAGMENT_BLOCK fragments of a long list, which one work group sorts. */
@@ -44,9 +44,9 @@ struct part {
 struct kiln_fragments_gl {
     struct kiln_device *device;
     GLuint programs[PROGRAM_COUNT];
-    GLint row_length[PROGRAM_COUNT], fills, stretch;
+    GLint row_length[PROGRAM_COUNT], writes, span;
     GLuint vertex_array;
-    struct kiln_buffer counts, places; /* by pixel: length of its list; struct place */
+    struct kiln_buffer counts, ranges; /* by pixel: length of its list; struct list_range */
     struct kiln_buffer keys, fragments;
     struct kiln_buffer merged, blocks; /* for long lists: second buffer of keys; struct block */
     struct part *parts;
@@ -70,8 +70,8 @@ static bool create_programs(struct kiln_fragments_gl *f,
             return false;
         f->row_length[i] = glGetUniformLocation(f->programs[i], "row_length");
     }
-    f->fills = glGetUniformLocation(f->programs[LISTS], "fills");
-    f->stretch = glGetUniformLocation(f->programs[RESOLVE], "stretch");
+    f->writes = glGetUniformLocation(f->programs[LISTS], "writes");
+    f->span = glGetUniformLocation(f->programs[RESOLVE], "span");
     return true;
 }
 
@@ -86,7 +86,7 @@ struct kiln_fragments_gl *kiln_fragments_gl_create(struct kiln_device *device,
     }
     f->device = device;
     kiln_buffer_init(&f->counts, device, 0, "fragment counts");
-    kiln_buffer_init(&f->places, device, 0, "fragment places");
+    kiln_buffer_init(&f->ranges, device, 0, "fragment places");
     kiln_buffer_init(&f->keys, device, 0, "fragment keys");
     kiln_buffer_init(&f->fragments, device, 0, "fragments");
     kiln_buffer_init(&f->merged, device, 0, "merged fragment keys");
@@ -105,7 +105,7 @@ void kiln_fragments_gl_destroy(struct kiln_fragments_gl **fragments)
     for (int i = 0; i < PROGRAM_COUNT; i++)
         glDeleteProgram(f->programs[i]); /* 0 is ignored */
     kiln_buffer_finish(&f->counts);
-    kiln_buffer_finish(&f->places);
+    kiln_buffer_finish(&f->ranges);
     kiln_buffer_finish(&f->keys);
     kiln_buffer_finish(&f->fragments);
     kiln_buffer_finish(&f->merged);
@@ -133,12 +133,12 @@ static void use_program(const struct kiln_fragments_gl *f, enum program program,
 
 /* Draws the particles to count fragments or to fill lists. Colour writes are masked, since a
  * program without outputs would leave the colour targets undefined. */
-static void submit_to_lists(const struct kiln_fragments_gl *f, bool fills,
+static void submit_to_lists(const struct kiln_fragments_gl *f, bool writes,
                             const struct kiln_image *size, void (*submit)(void *context),
                             void *context)
 {
     use_program(f, LISTS, size);
-    glUniform1i(f->fills, fills);
+    glUniform1i(f->writes, writes);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     submit(context);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -149,14 +149,14 @@ static bool count(struct kiln_fragments_gl *f, const struct kiln_image *size,
 {
     const size_t pixels = (size_t)size->width * size->height;
     const struct kiln_device_info *info = &f->device->info;
-    if (pixels * sizeof(struct place) > (uint64_t)info->max_storage_block_bytes)
+    if (pixels * sizeof(struct list_range) > (uint64_t)info->max_storage_block_bytes)
         return kiln_error_set(error, KILN_DEVICE_FAILED,
                               "post.compose: oit of %u x %u pixels needs a storage block of %zu "
                               "bytes; %s allows %lld: use raster=cpu, or a smaller picture",
-                              size->width, size->height, pixels * sizeof(struct place), info->name,
-                              (long long)info->max_storage_block_bytes);
+                              size->width, size->height, pixels * sizeof(struct list_range),
+                              info->name, (long long)info->max_storage_block_bytes);
     kiln_buffer_reserve(&f->counts, pixels * sizeof(uint32_t));
-    kiln_buffer_reserve(&f->places, pixels * sizeof(struct place));
+    kiln_buffer_reserve(&f->ranges, pixels * sizeof(struct list_range));
     if (!bind_buffer(&f->counts, KILN_BIND_FRAGMENT_COUNTS, KILN_OVERWRITE, error))
         return false;
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, f->counts.gl);
@@ -186,38 +186,38 @@ static bool add_part(struct kiln_fragments_gl *f, const struct part *part, struc
 
 /* Holds the state of dividing a picture into parts whose lists fit into memory together: whole
  * rows, or pieces of one row. */
-struct cutting {
+struct partition {
     struct kiln_fragments_gl *f;
     size_t width;
     const uint32_t *counts;
-    struct place *places;
+    struct list_range *ranges;
     size_t limit;     /* most fragments of a part, unless one pixel alone has more */
-    size_t most;      /* most fragments of a part so far */
+    size_t largest;   /* most fragments of a part so far */
     struct part part; /* the part that is being made; height 0: none */
     size_t total;     /* number of its fragments so far */
 };
 
-static bool end_part(struct cutting *c, struct kiln_error *error)
+static bool end_part(struct partition *c, struct kiln_error *error)
 {
     bool ok = c->part.height == 0 || add_part(c->f, &c->part, error);
-    c->most = c->total > c->most ? c->total : c->most;
+    c->largest = c->total > c->largest ? c->total : c->largest;
     c->part.height = 0;
     c->total = 0;
     return ok;
 }
 
-/* Gives the lists of `count` pixels of a row, from (x, y) on, places in the part. */
-static void give_places(struct cutting *c, uint32_t x, uint32_t y, uint32_t count)
+/* Gives the lists of `count` pixels of a row, from (x, y) on, ranges in the part. */
+static void assign_ranges(struct partition *c, uint32_t x, uint32_t y, uint32_t count)
 {
     for (size_t i = y * c->width + x, end = i + count; i < end; i++) {
-        c->places[i] = (struct place){(uint32_t)c->total, 0};
+        c->ranges[i] = (struct list_range){(uint32_t)c->total, 0};
         c->total += c->counts[i];
         c->part.longest = c->counts[i] > c->part.longest ? c->counts[i] : c->part.longest;
     }
 }
 
 /* Divides a row whose lists do not fit into memory together. */
-static bool cut_row(struct cutting *c, uint32_t y, struct kiln_error *error)
+static bool partition_row(struct partition *c, uint32_t y, struct kiln_error *error)
 {
     for (uint32_t x = 0; x < c->width; x++) {
         const size_t next = c->counts[y * c->width + x];
@@ -225,14 +225,14 @@ static bool cut_row(struct cutting *c, uint32_t y, struct kiln_error *error)
             return false;
         if (c->part.height == 0)
             c->part = (struct part){x, y, 0, 1, 0};
-        give_places(c, x, y, 1);
+        assign_ranges(c, x, y, 1);
         c->part.width++;
     }
     return end_part(c, error);
 }
 
 /* Divides a picture of `height` rows. */
-static bool cut(struct cutting *c, uint32_t height, struct kiln_error *error)
+static bool partition_picture(struct partition *c, uint32_t height, struct kiln_error *error)
 {
     const uint32_t width = (uint32_t)c->width;
     for (uint32_t y = 0; y < height; y++) {
@@ -242,13 +242,13 @@ static bool cut(struct cutting *c, uint32_t height, struct kiln_error *error)
         if (c->total + total > c->limit && !end_part(c, error))
             return false;
         if (total > c->limit) {
-            if (!cut_row(c, y, error))
+            if (!partition_row(c, y, error))
                 return false;
             continue;
         }
         if (c->part.height == 0)
             c->part = (struct part){0, y, width, 0, 0};
-        give_places(c, 0, y, width);
+        assign_ranges(c, 0, y, width);
         c->part.height++;
     }
     return end_part(c, error);
@@ -261,23 +261,23 @@ static size_t scan(struct kiln_fragments_gl *f, const struct kiln_image *size,
 {
     const struct kiln_device_info *info = &f->device->info;
     const uint64_t allowed = (uint64_t)info->max_storage_block_bytes / FRAGMENT_BYTES;
-    struct cutting c = {
+    struct partition c = {
         .f = f,
         .width = size->width,
         .counts = kiln_buffer_host(&f->counts, KILN_READ, error),
         .limit = allowed < FRAGMENTS_AT_A_TIME ? (size_t)allowed : FRAGMENTS_AT_A_TIME,
-        .most = 1,
+        .largest = 1,
     };
-    c.places = c.counts ? kiln_buffer_host(&f->places, KILN_OVERWRITE, error) : NULL;
+    c.ranges = c.counts ? kiln_buffer_host(&f->ranges, KILN_OVERWRITE, error) : NULL;
     f->part_count = 0;
-    if (!c.places || !cut(&c, size->height, error))
+    if (!c.ranges || !partition_picture(&c, size->height, error))
         return 0;
-    if (c.most <= allowed && c.most <= UINT32_MAX)
-        return c.most;
+    if (c.largest <= allowed && c.largest <= UINT32_MAX)
+        return c.largest;
     kiln_error_set(error, KILN_DEVICE_FAILED,
                    "post.compose: oit: a pixel has %zu fragments; a storage block of %s takes at "
                    "most %llu: use raster=cpu, or fewer particles in one place",
-                   c.most, info->name, (unsigned long long)allowed);
+                   c.largest, info->name, (unsigned long long)allowed);
     return 0;
 }
 
@@ -350,13 +350,13 @@ static bool sort_long_lists(struct kiln_fragments_gl *f, const struct kiln_image
 
 /* ---- a pass ---------------------------------------------------------------------------------- */
 
-/* Blends the lists of a part. On software GL it blends a stretch of each list at a time, over the
- * result of the stretches before. */
+/* Blends the lists of a part. On software GL it blends a span of each list at a time, over the
+ * result of the spans before. */
 static void resolve(const struct kiln_fragments_gl *f, const struct kiln_particles_draw *draw,
                     const struct part *part)
 {
     const bool software = f->device->info.software;
-    uint32_t step = software ? SOFTWARE_STRETCH : UINT32_MAX, from = 0;
+    uint32_t step = software ? SOFTWARE_SPAN : UINT32_MAX, from = 0;
     use_program(f, RESOLVE, draw->framebuffer->images[0]);
     do {
         uint32_t until = part->longest - from > step ? from + step : part->longest;
@@ -366,7 +366,7 @@ static void resolve(const struct kiln_fragments_gl *f, const struct kiln_particl
                 glBlendFunci(target, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
             }
         }
-        glUniform2ui(f->stretch, from, until);
+        glUniform2ui(f->span, from, until);
         kiln_framebuffer_fill(f->vertex_array);
         from = until;
     } while (from < part->longest);
@@ -399,7 +399,7 @@ bool kiln_fragments_gl_run(struct kiln_fragments_gl *fragments,
     kiln_buffer_reserve(&f->keys, most * KEY_BYTES);
     kiln_buffer_reserve(&f->fragments, most * FRAGMENT_BYTES);
     if (!bind_buffer(&f->counts, KILN_BIND_FRAGMENT_COUNTS, KILN_READ, error) ||
-        !bind_buffer(&f->places, KILN_BIND_FRAGMENT_PLACES, KILN_READ_WRITE, error) ||
+        !bind_buffer(&f->ranges, KILN_BIND_FRAGMENT_RANGES, KILN_READ_WRITE, error) ||
         !bind_buffer(&f->keys, KILN_BIND_FRAGMENT_KEYS, KILN_OVERWRITE, error) ||
         !bind_buffer(&f->fragments, KILN_BIND_FRAGMENTS, KILN_OVERWRITE, error))
         return false;

@@ -10,10 +10,10 @@
 #include "gpu/program.h"
 
 /* On software GL a depth test costs a few hundredths of the time to shade a fragment, and saves
- * four fifths of that time for a hidden one. So it is used only if at least one in PAYS of the
- * sampled particles is hidden. On GPUs it costs nothing. SAMPLES: particles that are sampled,
- * about. */
-enum { SAMPLES = 1024, PAYS = 8 };
+ * four fifths of that time for a hidden one. So it is used only if at least 1 / MIN_HIDDEN_DIVISOR
+ * of the sampled particles is hidden. On GPUs it costs nothing. SAMPLES: particles that are
+ * sampled, about. */
+enum { SAMPLES = 1024, MIN_HIDDEN_DIVISOR = 8 };
 
 struct kiln_occlusion {
     struct kiln_device *device;
@@ -21,7 +21,7 @@ struct kiln_occlusion {
     GLuint buffer; /* renderbuffer, at least as large as any picture so far */
     uint32_t width, height;
     struct kiln_buffer hidden; /* one number: how many sampled particles are hidden */
-    bool tests;                /* true: the depth test is used in this pass */
+    bool is_enabled;           /* true: the depth test is used in this pass */
 };
 
 static bool create_programs(struct kiln_occlusion *o, struct kiln_error *error)
@@ -66,10 +66,10 @@ void kiln_occlusion_destroy(struct kiln_occlusion **occlusion)
     *occlusion = NULL;
 }
 
-/* Decides whether the depth test is worth its cost in this pass: sets `tests`. */
+/* Decides whether the depth test is worth its cost in this pass: sets `is_enabled`. */
 static bool sample(struct kiln_occlusion *o, uint32_t count, struct kiln_error *error)
 {
-    o->tests = true;
+    o->is_enabled = true;
     if (!o->device->info.software)
         return true;
     const uint32_t spacing = (count - 1) / SAMPLES + 1, samples = (count - 1) / spacing + 1;
@@ -86,7 +86,7 @@ static bool sample(struct kiln_occlusion *o, uint32_t count, struct kiln_error *
     glUniform1ui(1, spacing);
     kiln_device_dispatch(o->device, samples, 64);
     hidden = kiln_buffer_host(&o->hidden, KILN_READ, error);
-    o->tests = hidden && *hidden >= samples / PAYS;
+    o->is_enabled = hidden && *hidden >= samples / MIN_HIDDEN_DIVISOR;
     return hidden != NULL;
 }
 
@@ -108,7 +108,7 @@ bool kiln_occlusion_begin(struct kiln_occlusion *occlusion, const struct kiln_pa
 {
     if (!sample(occlusion, draw->count, error))
         return false;
-    if (!occlusion->tests)
+    if (!occlusion->is_enabled)
         return true;
     if (!make_room(occlusion, draw->depth, error))
         return false;
@@ -127,7 +127,7 @@ bool kiln_occlusion_begin(struct kiln_occlusion *occlusion, const struct kiln_pa
 
 void kiln_occlusion_end(struct kiln_occlusion *occlusion)
 {
-    if (!occlusion->tests)
+    if (!occlusion->is_enabled)
         return;
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);

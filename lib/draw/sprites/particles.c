@@ -17,7 +17,7 @@ struct kiln_particles_stage {
     struct kiln_atlas *atlas;
     struct kiln_geometry *geometry; /* NULL for `cpu` */
     struct kiln_tiled *tiled;       /* NULL unless `tiled` */
-    struct kiln_tiles *tiles;       /* NULL unless `cpu` */
+    struct kiln_raster_cpu *tiles;  /* NULL unless `cpu` */
 };
 
 struct kiln_particles_stage *
@@ -34,7 +34,7 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
         .technique = technique, .device = device, .scene = scene, .atlas = atlas};
     kiln_draw_blocks_init(&stage->blocks, device);
     if (technique == KILN_RASTER_CPU)
-        stage->tiles = kiln_tiles_create(scene, atlas, threads, error);
+        stage->tiles = kiln_raster_cpu_create(scene, atlas, threads, error);
     else if (kiln_atlas_send(atlas, error))
         stage->geometry = kiln_geometry_create(device, scene, atlas, technique, error);
     if (technique == KILN_RASTER_TILED && stage->geometry)
@@ -51,7 +51,7 @@ void kiln_particles_destroy(struct kiln_particles_stage **stage)
     kiln_tiled_destroy(&(*stage)->tiled);
     kiln_draw_blocks_finish(&(*stage)->blocks);
     kiln_geometry_destroy(&(*stage)->geometry);
-    kiln_tiles_destroy(&(*stage)->tiles);
+    kiln_raster_cpu_destroy(&(*stage)->tiles);
     free(*stage);
     *stage = NULL;
 }
@@ -77,7 +77,7 @@ bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_pa
         return draw->by_fragment ? kiln_geometry_run(stage->geometry, draw, error)
                                  : kiln_tiled_run(stage->tiled, draw, error);
     case KILN_RASTER_CPU:
-        return kiln_tiles_run(stage->tiles, draw, error);
+        return kiln_raster_cpu_run(stage->tiles, draw, error);
     }
     return false;
 }

@@ -14,10 +14,10 @@
 enum {
     SPRITES_AT_A_TIME = 1 << 18, /* sprites of a piece */
     SPRITES_OF_A_TILE = 1 << 22, /* most sprites of one tile in a scene with post.compose: oit */
-    MAKE_AT_A_TIME = 512         /* particles of which a thread makes sprites at once */
+    GRAIN = 512                  /* particles of which a thread makes sprites at once */
 };
 
-struct kiln_tiles {
+struct kiln_raster_cpu {
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
     struct kiln_cells *cells;
@@ -35,7 +35,7 @@ static bool out_of_memory(struct kiln_error *error)
     return kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
 }
 
-static bool create_fragments(struct kiln_tiles *tiles)
+static bool create_fragments(struct kiln_raster_cpu *tiles)
 {
     if (tiles->scene->post.compose != KILN_COMPOSE_OIT)
         return true;
@@ -49,10 +49,12 @@ static bool create_fragments(struct kiln_tiles *tiles)
     return tiles->fragments != NULL;
 }
 
-struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
-                                     struct kiln_threads *threads, struct kiln_error *error)
+struct kiln_raster_cpu *kiln_raster_cpu_create(const struct kiln_scene *scene,
+                                               const struct kiln_atlas *atlas,
+                                               struct kiln_threads *threads,
+                                               struct kiln_error *error)
 {
-    struct kiln_tiles *tiles = calloc(1, sizeof *tiles);
+    struct kiln_raster_cpu *tiles = calloc(1, sizeof *tiles);
     if (!tiles) {
         out_of_memory(error);
         return NULL;
@@ -61,7 +63,7 @@ struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struc
     tiles->threads = threads;
     enum kiln_simd simd;
     if (!kiln_simd_choose(&simd, error)) {
-        kiln_tiles_destroy(&tiles);
+        kiln_raster_cpu_destroy(&tiles);
         return NULL;
     }
     tiles->make = KILN_SIMD_PICK(kiln_sprites_make, simd);
@@ -71,14 +73,14 @@ struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struc
     if (!tiles->tiles || !tiles->cells || !create_fragments(tiles) ||
         !kiln_bins_init(&tiles->bins, scene->width, scene->height, error)) {
         out_of_memory(error);
-        kiln_tiles_destroy(&tiles);
+        kiln_raster_cpu_destroy(&tiles);
     }
     return tiles;
 }
 
-void kiln_tiles_destroy(struct kiln_tiles **tiles)
+void kiln_raster_cpu_destroy(struct kiln_raster_cpu **tiles)
 {
-    struct kiln_tiles *t = *tiles;
+    struct kiln_raster_cpu *t = *tiles;
     if (!t)
         return;
     kiln_cells_destroy(&t->cells);
@@ -94,7 +96,7 @@ void kiln_tiles_destroy(struct kiln_tiles **tiles)
 
 /* ---- sprites --------------------------------------------------------------------------------- */
 
-struct making {
+struct sprite_job {
     kiln_sprites_make *make;
     const struct kiln_sprite_pass *pass;
     const uint32_t *entries;
@@ -104,26 +106,26 @@ struct making {
 static void make_sprites(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
-    const struct making *making = context;
-    making->make(making->pass, making->entries + begin, end - begin, making->sprites + begin);
+    const struct sprite_job *job = context;
+    job->make(job->pass, job->entries + begin, end - begin, job->sprites + begin);
 }
 
-static bool make_room(struct kiln_tiles *tiles, uint32_t wanted, struct kiln_error *error)
+static bool make_room(struct kiln_raster_cpu *tiles, uint32_t count, struct kiln_error *error)
 {
-    if (wanted <= tiles->sprite_room)
+    if (count <= tiles->sprite_room)
         return true;
     free(tiles->sprites);
     /* Tiles read sprites at scattered addresses; with small pages, a quarter of the drawing time is
      * spent on address translation. */
-    tiles->sprites = kiln_alloc_pages(wanted * sizeof *tiles->sprites);
-    tiles->sprite_room = tiles->sprites ? wanted : 0;
+    tiles->sprites = kiln_alloc_pages(count * sizeof *tiles->sprites);
+    tiles->sprite_room = tiles->sprites ? count : 0;
     return tiles->sprites || out_of_memory(error);
 }
 
 /* ---- tiles ----------------------------------------------------------------------------------- */
 
-struct drawing {
-    struct kiln_tiles *tiles;
+struct tile_job {
+    struct kiln_raster_cpu *tiles;
     float *color, *bloom; /* pixels of the targets; bloom NULL: there is none */
     const float *depth;
     uint32_t width, height;
@@ -135,7 +137,7 @@ struct drawing {
 };
 
 /* Empties a row of a tile and loads the scene's depth into it; at: the row's first pixel. */
-static void begin_row(const struct drawing *d, struct kiln_tile *tile, int y, size_t at)
+static void begin_row(const struct tile_job *d, struct kiln_tile *tile, int y, size_t at)
 {
     float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
     memcpy(planes[KILN_TILE_DEPTH], d->depth + at, (size_t)tile->width * sizeof(float));
@@ -160,8 +162,8 @@ static inline void transpose(four c[4])
 
 /* Writes up to four pixels to `to`; keep: blends them over the pixels there. passed: the part of
  * each pixel there that stays. */
-static inline void put_over(const four drawn[4], const float passed[4], bool keep, float *to,
-                            size_t count)
+static inline void blend_pixels(const four drawn[4], const float passed[4], bool keep, float *to,
+                                size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         four_unaligned *pixel = (four_unaligned *)(to + 4 * i);
@@ -171,7 +173,7 @@ static inline void put_over(const four drawn[4], const float passed[4], bool kee
 
 /* Blends a row of a tile over the result of earlier pieces, and its glow over the bloom of an
  * earlier pass, too, if that is kept. */
-static void store_row(const struct drawing *d, const struct kiln_tile *tile, int y, size_t at)
+static void store_row(const struct tile_job *d, const struct kiln_tile *tile, int y, size_t at)
 {
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
     for (size_t x = 0; x < (size_t)tile->width; x += 4) {
@@ -193,14 +195,14 @@ static void store_row(const struct drawing *d, const struct kiln_tile *tile, int
         transpose(color);
         transpose(glow);
         size_t count = (size_t)tile->width - x < 4 ? (size_t)tile->width - x : 4;
-        put_over(color, passed, !d->first, d->color + 4 * (at + x), count);
+        blend_pixels(color, passed, !d->first, d->color + 4 * (at + x), count);
         if (d->bloom)
-            put_over(glow, passed, !d->first || d->keep_bloom, d->bloom + 4 * (at + x), count);
+            blend_pixels(glow, passed, !d->first || d->keep_bloom, d->bloom + 4 * (at + x), count);
     }
 }
 
 /* Clears the pixels of a tile without sprites in the first piece; does nothing in later pieces. */
-static void leave_empty(const struct drawing *d, size_t at, uint32_t width, uint32_t height)
+static void clear_tile(const struct tile_job *d, size_t at, uint32_t width, uint32_t height)
 {
     const size_t bytes = 4 * sizeof(float) * (width < KILN_TILE_WIDTH ? width : KILN_TILE_WIDTH);
     for (uint32_t row = 0; row < height && row < KILN_TILE_HEIGHT && d->first; row++) {
@@ -211,9 +213,9 @@ static void leave_empty(const struct drawing *d, size_t at, uint32_t width, uint
     }
 }
 
-static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
+static void draw_tile(const struct tile_job *d, size_t number, uint32_t worker)
 {
-    const struct kiln_tiles *tiles = d->tiles;
+    const struct kiln_raster_cpu *tiles = d->tiles;
     const struct kiln_bins *bins = &tiles->bins;
     struct kiln_tile *tile = &tiles->tiles[worker];
     uint32_t x = (uint32_t)(number % bins->columns) * KILN_TILE_WIDTH;
@@ -221,7 +223,7 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
     uint32_t width = d->width - x, height = d->height - y;
     size_t count = bins->first[number + 1] - bins->first[number];
     if (count == 0) {
-        leave_empty(d, (size_t)y * d->width + x, width, height);
+        clear_tile(d, (size_t)y * d->width + x, width, height);
         return;
     }
     const uint32_t *list = bins->list + bins->first[number];
@@ -245,55 +247,56 @@ static void draw_tile(const struct drawing *d, size_t number, uint32_t worker)
 
 static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
 {
-    const struct drawing *d = context;
+    const struct tile_job *d = context;
     for (size_t number = begin; number < end; number++)
         draw_tile(d, d->first_tile + number, worker);
 }
 
 /* ---- a pass ---------------------------------------------------------------------------------- */
 
-static bool draw_piece(struct kiln_tiles *tiles, const struct kiln_sprite_pass *pass,
-                       const uint32_t *entries, uint32_t count, struct drawing *drawing,
+static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_pass *pass,
+                       const uint32_t *entries, uint32_t count, struct tile_job *tile_job,
                        struct kiln_error *error)
 {
-    struct making making = {tiles->make, pass, entries, tiles->sprites};
-    kiln_threads_for(tiles->threads, count, MAKE_AT_A_TIME, make_sprites, &making);
+    struct sprite_job job = {tiles->make, pass, entries, tiles->sprites};
+    kiln_threads_for(tiles->threads, count, GRAIN, make_sprites, &job);
     if (!kiln_cells_mix(tiles->cells, tiles->threads, error) ||
         !kiln_bins_fill(&tiles->bins, tiles->sprites, count, tiles->threads, error))
         return false;
     size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
-    return kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, drawing, error);
+    return kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, tile_job, error);
 }
 
 /* ---- sorted pixels with more sprites than a piece -------------------------------------------- */
 
 /* Holds the state of drawing a pass with by_fragment that has more sprites than a piece. Sorting a
- * pixel needs all sprites of its tile, so sprites are kept and drawn for some tiles at a time. */
-struct sorting {
-    struct kiln_tiles *tiles;
+ * pixel needs all sprites of its tile, so sprites are selected and drawn for some tiles at a time.
+ */
+struct sorted_pass {
+    struct kiln_raster_cpu *tiles;
     const struct kiln_sprite_pass *pass;
     const uint32_t *entries;
     uint32_t count;
-    size_t *totals;           /* number of sprites of each tile */
-    bool *wanted;             /* by sprite of a piece: it touches the present tiles */
-    struct kiln_sprite *kept; /* the sprites of all pieces that touch the present tiles */
-    uint32_t kept_count;
+    size_t *totals;               /* number of sprites of each tile */
+    bool *is_selected;            /* by sprite of a piece: it touches the present tiles */
+    struct kiln_sprite *selected; /* the sprites of all pieces that touch the present tiles */
+    uint32_t selected_count;
 };
 
 /* Makes the sprites and the bins of a piece. Returns the number of sprites, or 0 with an error. */
-static uint32_t make_piece(const struct sorting *s, uint32_t first, struct kiln_error *error)
+static uint32_t make_piece(const struct sorted_pass *s, uint32_t first, struct kiln_error *error)
 {
     const uint32_t left = s->count - first;
     const uint32_t count = left < SPRITES_AT_A_TIME ? left : SPRITES_AT_A_TIME;
-    struct making making = {s->tiles->make, s->pass, s->entries + first, s->tiles->sprites};
-    kiln_threads_for(s->tiles->threads, count, MAKE_AT_A_TIME, make_sprites, &making);
+    struct sprite_job job = {s->tiles->make, s->pass, s->entries + first, s->tiles->sprites};
+    kiln_threads_for(s->tiles->threads, count, GRAIN, make_sprites, &job);
     bool ok = kiln_bins_fill(&s->tiles->bins, s->tiles->sprites, count, s->tiles->threads, error);
     return ok ? count : 0;
 }
 
 /* Counts the sprites of each tile, and mixes the cells that they want. Returns false with an error
  * if a tile has more than SPRITES_OF_A_TILE sprites. */
-static bool count_tiles(const struct sorting *s, size_t tile_count, struct kiln_error *error)
+static bool count_tiles(const struct sorted_pass *s, size_t tile_count, struct kiln_error *error)
 {
     const uint32_t *first = s->tiles->bins.first;
     for (uint32_t done = 0, count; done < s->count; done += count) {
@@ -315,65 +318,64 @@ static bool count_tiles(const struct sorting *s, size_t tile_count, struct kiln_
 }
 
 /* Makes all sprites again, piece by piece, and keeps those that touch some tiles, in order. */
-static bool keep_sprites(struct sorting *s, size_t first_tile, size_t end_tile,
-                         struct kiln_error *error)
+static bool select_sprites(struct sorted_pass *s, size_t first_tile, size_t end_tile,
+                           struct kiln_error *error)
 {
     const struct kiln_bins *bins = &s->tiles->bins;
-    s->kept_count = 0;
+    s->selected_count = 0;
     for (uint32_t done = 0, count; done < s->count; done += count) {
         count = make_piece(s, done, error);
         if (count == 0)
             return false;
-        memset(s->wanted, 0, count * sizeof *s->wanted);
+        memset(s->is_selected, 0, count * sizeof *s->is_selected);
         for (size_t i = bins->first[first_tile]; i < bins->first[end_tile]; i++)
-            s->wanted[bins->list[i]] = true;
+            s->is_selected[bins->list[i]] = true;
         for (uint32_t i = 0; i < count; i++) {
-            if (s->wanted[i])
-                s->kept[s->kept_count++] = s->tiles->sprites[i];
+            if (s->is_selected[i])
+                s->selected[s->selected_count++] = s->tiles->sprites[i];
         }
     }
     return true;
 }
 
-static bool draw_some_tiles(struct sorting *s, struct drawing *drawing, size_t first_tile,
+static bool draw_some_tiles(struct sorted_pass *s, struct tile_job *job, size_t first_tile,
                             size_t end_tile, struct kiln_error *error)
 {
-    struct kiln_tiles *tiles = s->tiles;
-    if (!keep_sprites(s, first_tile, end_tile, error))
+    struct kiln_raster_cpu *tiles = s->tiles;
+    if (!select_sprites(s, first_tile, end_tile, error))
         return false;
     struct kiln_sprite *piece = tiles->sprites;
-    tiles->sprites = s->kept;
-    bool ok = kiln_bins_fill(&tiles->bins, s->kept, s->kept_count, tiles->threads, error);
-    drawing->first_tile = first_tile;
-    ok = ok &&
-         kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, drawing, error);
+    tiles->sprites = s->selected;
+    bool ok = kiln_bins_fill(&tiles->bins, s->selected, s->selected_count, tiles->threads, error);
+    job->first_tile = first_tile;
+    ok = ok && kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, job, error);
     tiles->sprites = piece;
     return ok;
 }
 
-static bool draw_sorting(struct sorting *s, struct drawing *drawing, struct kiln_error *error)
+static bool draw_sorted(struct sorted_pass *s, struct tile_job *job, struct kiln_error *error)
 {
     const size_t tile_count = (size_t)s->tiles->bins.columns * s->tiles->bins.rows;
     size_t most = SPRITES_AT_A_TIME;
     s->totals = calloc(tile_count, sizeof *s->totals);
-    s->wanted = calloc(SPRITES_AT_A_TIME, sizeof *s->wanted);
-    bool ok = s->totals && s->wanted;
+    s->is_selected = calloc(SPRITES_AT_A_TIME, sizeof *s->is_selected);
+    bool ok = s->totals && s->is_selected;
     if (!ok)
         out_of_memory(error);
     ok = ok && count_tiles(s, tile_count, error);
     for (size_t tile = 0; ok && tile < tile_count; tile++)
         most = s->totals[tile] > most ? s->totals[tile] : most;
-    s->kept = ok ? kiln_alloc_pages(most * sizeof *s->kept) : NULL;
-    if (ok && !s->kept)
+    s->selected = ok ? kiln_alloc_pages(most * sizeof *s->selected) : NULL;
+    if (ok && !s->selected)
         ok = out_of_memory(error);
     for (size_t first = 0, end; ok && first < tile_count; first = end) {
         size_t total = s->totals[first];
         for (end = first + 1; end < tile_count && total + s->totals[end] <= most; end++)
             total += s->totals[end];
-        ok = draw_some_tiles(s, drawing, first, end, error);
+        ok = draw_some_tiles(s, job, first, end, error);
     }
-    free(s->kept);
-    free(s->wanted);
+    free(s->selected);
+    free(s->is_selected);
     free(s->totals);
     return ok;
 }
@@ -395,7 +397,7 @@ static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
 
 /* Chooses how tiles draw the glow: not at all if there is none, and with less work where all
  * glowing particles have the same bloom weights, as in most scenes. */
-static void choose_glow(const struct kiln_moment *moment, struct drawing *d)
+static void choose_glow(const struct kiln_moment *moment, struct tile_job *d)
 {
     d->glow = KILN_TILE_GLOW_NONE;
     if (!d->bloom)
@@ -419,7 +421,7 @@ static void choose_glow(const struct kiln_moment *moment, struct drawing *d)
 }
 
 /* Makes the pixels that a pass reads and writes available on the host. */
-static bool open_images(const struct kiln_particles_draw *draw, struct drawing *d,
+static bool open_images(const struct kiln_particles_draw *draw, struct tile_job *d,
                         struct kiln_error *error)
 {
     struct kiln_image *color = draw->framebuffer->images[0];
@@ -434,19 +436,19 @@ static bool open_images(const struct kiln_particles_draw *draw, struct drawing *
     return d->color && (d->bloom || !glows);
 }
 
-bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *draw,
-                    struct kiln_error *error)
+bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_particles_draw *draw,
+                         struct kiln_error *error)
 {
     const uint32_t most = SPRITES_AT_A_TIME;
-    struct drawing drawing = {.tiles = tiles,
-                              .keep_bloom = draw->keep_bloom,
-                              .sum = draw->sum_alpha,
-                              .by_fragment = draw->by_fragment};
+    struct tile_job job = {.tiles = tiles,
+                           .keep_bloom = draw->keep_bloom,
+                           .sum = draw->sum_alpha,
+                           .by_fragment = draw->by_fragment};
     const uint32_t *entries = kiln_buffer_host(draw->entries, KILN_READ, error);
-    if (!entries || !open_images(draw, &drawing, error) ||
+    if (!entries || !open_images(draw, &job, error) ||
         !make_room(tiles, draw->count < most ? draw->count : most, error))
         return false;
-    choose_glow(draw->moment, &drawing);
+    choose_glow(draw->moment, &job);
     struct kiln_sprite_pass pass = {
         .scene = tiles->scene,
         .looks = draw->moment->looks,
@@ -459,18 +461,18 @@ bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *
         .content = kiln_cells_content(tiles->cells),
         .fire_covers = draw->sum_alpha || draw->fire_covers,
     };
-    kiln_bins_measure(&tiles->bins, drawing.depth, drawing.width, drawing.height, tiles->threads);
+    kiln_bins_measure(&tiles->bins, job.depth, job.width, job.height, tiles->threads);
     if (draw->by_fragment && draw->count > most) {
-        struct sorting sorting = {
+        struct sorted_pass sorted = {
             .tiles = tiles, .pass = &pass, .entries = entries, .count = draw->count};
-        drawing.first = true;
-        return draw_sorting(&sorting, &drawing, error);
+        job.first = true;
+        return draw_sorted(&sorted, &job, error);
     }
     uint32_t done = 0;
     do { /* at least once, to clear the picture if there are no particles */
         uint32_t count = draw->count - done < most ? draw->count - done : most;
-        drawing.first = done == 0;
-        if (!draw_piece(tiles, &pass, entries + done, count, &drawing, error))
+        job.first = done == 0;
+        if (!draw_piece(tiles, &pass, entries + done, count, &job, error))
             return false;
         done += count;
     } while (done < draw->count);

@@ -1,4 +1,4 @@
-/* A kiln_tiles draws particles by technique `cpu`: as sprites into tiles, on threads, with the
+/* A kiln_raster_cpu draws particles by technique `cpu`: as sprites into tiles, on threads, with the
  * widest vectors that the machine has. The pixels are the same bytes on every machine and for any
  * number of threads. */
 #ifndef KILN_DRAW_SPRITES_PARTICLES_CPU_H
@@ -6,14 +6,16 @@
 
 #include "draw/sprites/particles.h"
 
-struct kiln_tiles;
+struct kiln_raster_cpu;
 
-struct kiln_tiles *kiln_tiles_create(const struct kiln_scene *scene, const struct kiln_atlas *atlas,
-                                     struct kiln_threads *threads, struct kiln_error *error);
-void kiln_tiles_destroy(struct kiln_tiles **tiles);
+struct kiln_raster_cpu *kiln_raster_cpu_create(const struct kiln_scene *scene,
+                                               const struct kiln_atlas *atlas,
+                                               struct kiln_threads *threads,
+                                               struct kiln_error *error);
+void kiln_raster_cpu_destroy(struct kiln_raster_cpu **tiles);
 
 /* Draws the particles of a pass, as kiln_particles_run does. */
-bool kiln_tiles_run(struct kiln_tiles *tiles, const struct kiln_particles_draw *draw,
-                    struct kiln_error *error);
+bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_particles_draw *draw,
+                         struct kiln_error *error);
 
 #endif

@@ -18,35 +18,35 @@
 static_assert(sizeof(struct tiled_bin) == 20, "std430");
 
 /* Describes how the work is divided, which changes no result beyond rounding. */
-struct shape {
-    uint32_t edge;         /* edge of a tile, px */
-    uint32_t rows;         /* rows of invocations in a tile */
-    uint32_t chunk;        /* particles of a chunk, a power of two */
-    uint32_t most_entries; /* entries of all lists of a chunk; an entry takes three words */
+struct tiling {
+    uint32_t edge;        /* edge of a tile, px */
+    uint32_t rows;        /* rows of invocations in a tile */
+    uint32_t chunk;       /* particles of a chunk, a power of two */
+    uint32_t max_entries; /* entries of all lists of a chunk; an entry takes three words */
 };
 
 /* On software GL the cost of a tile is its pixels times its sprites, so tiles are small; GPUs need
  * many invocations in a work group. */
-static const struct shape FOR_SOFTWARE = {8, 2, 1 << 16, 1 << 18},
-                          FOR_GPUS = {16, 16, 1 << 18, 1 << 23};
+static const struct tiling FOR_SOFTWARE = {8, 2, 1 << 16, 1 << 18},
+                           FOR_GPUS = {16, 16, 1 << 18, 1 << 23};
 
-/* A chunk is smaller than the shape says when the picture has so many bins that the masks would
- * take more than MOST_WORDS words, or when sprites touch so many bins that there would be too many
- * entries. A chunk of LEAST_CHUNK particles or fewer is not made smaller. */
-enum { MOST_WORDS = 1 << 24, LEAST_CHUNK = 64 };
+/* A chunk is smaller than the tiling says when the picture has so many bins that the masks would
+ * take more than MAX_WORDS words, or when sprites touch so many bins that there would be too many
+ * entries. A chunk of MIN_CHUNK particles or fewer is not made smaller. */
+enum { MAX_WORDS = 1 << 24, MIN_CHUNK = 64 };
 
-enum { SPRITE_BYTES = TILED_SPRITE_ROWS * sizeof(float4), MOST_GROUP_SIZE = 1024 };
+enum { SPRITE_BYTES = TILED_SPRITE_ROWS * sizeof(float4), MAX_GROUP_SIZE = 1024 };
 
 /* Sprites may be left out of a pass where together they could add less than this to any channel of
  * a pixel. */
-static const float UNSEEN = 1.0f / 2048.0f;
+static const float NEGLIGIBLE = 1.0f / 2048.0f;
 
 struct kiln_tiled {
     struct kiln_device *device;
     struct kiln_geometry *geometry;
-    struct shape shape;
+    struct tiling tiling;
     uint32_t group_size; /* invocations of a work group that makes, counts or lists sprites */
-    uint32_t most_words; /* mask words that one dispatch draws, a multiple of TILED_ROUND_WORDS */
+    uint32_t max_words;  /* mask words that one dispatch draws, a multiple of TILED_ROUND_WORDS */
     GLuint make_program, count_program, list_program, mark_program, depth_program, draw_program;
     GLint additive_alpha; /* uniform of draw_program */
     GLuint sprite_texels; /* buffer texture of the sprites */
@@ -60,7 +60,7 @@ static GLuint create_program(struct kiln_tiled *tiled, const struct kiln_scene *
     kiln_geometry_defines(scene, drawing, sizeof drawing);
     snprintf(defines, sizeof defines,
              "%s#define TILED_EDGE %u\n#define TILED_ROWS %u\n#define TILED_GROUP_SIZE %u\n",
-             drawing, tiled->shape.edge, tiled->shape.rows, tiled->group_size);
+             drawing, tiled->tiling.edge, tiled->tiling.rows, tiled->group_size);
     const struct kiln_program_params params = {.compute = file, .defines = defines};
     return kiln_program_create(tiled->device, &params, error);
 }
@@ -88,16 +88,16 @@ static bool create_programs(struct kiln_tiled *tiled, const struct kiln_scene *s
     return true;
 }
 
-/* Chooses the shape for the device. The size of a tile does not depend on the size of a work group,
- * so that the picture is the same: each invocation draws more or fewer rows of the tile, at least
- * one. */
-static struct shape choose_shape(const struct kiln_device *device)
+/* Chooses the tiling for the device. The size of a tile does not depend on the size of a work
+ * group, so that the picture is the same: each invocation draws more or fewer rows of the tile, at
+ * least one. */
+static struct tiling choose_tiling(const struct kiln_device *device)
 {
-    struct shape shape = device->info.software ? FOR_SOFTWARE : FOR_GPUS;
-    uint32_t usual = shape.edge * shape.rows, most = shape.edge * shape.edge;
+    struct tiling tiling = device->info.software ? FOR_SOFTWARE : FOR_GPUS;
+    uint32_t usual = tiling.edge * tiling.rows, most = tiling.edge * tiling.edge;
     uint32_t size = kiln_device_group_size(device, usual, most);
-    shape.rows = size > shape.edge ? size / shape.edge : 1;
-    return shape;
+    tiling.rows = size > tiling.edge ? size / tiling.edge : 1;
+    return tiling;
 }
 
 /* ---- loop iterations on software GL ---------------------------------------------------------- */
@@ -115,27 +115,27 @@ static uint32_t listing_iterations(uint32_t chunk, uint32_t group_size)
  * pixels, to see if anything is left to draw; over its share of the words, and for each over the
  * words before and over its bits; over all sprites, and for each over its pixels. The loops over
  * pixels count even where the driver may unroll them. */
-static uint32_t round_iterations(const struct shape *shape)
+static uint32_t round_iterations(const struct tiling *tiling)
 {
-    uint32_t pixels = shape->edge / shape->rows, group_size = shape->edge * shape->rows;
+    uint32_t pixels = tiling->edge / tiling->rows, group_size = tiling->edge * tiling->rows;
     uint32_t shares = TILED_ROUND_WORDS / group_size + 1, bits = 33;
     return 1 + pixels + 1 + shares * (2 + TILED_ROUND_WORDS + bits) + 2 +
            TILED_ROUND_WORDS * 32 * (1 + pixels + 1) + 1;
 }
 
-/* On software GL, limits chunk and most_words so that no invocation runs too many iterations. */
+/* On software GL, limits chunk and max_words so that no invocation runs too many iterations. */
 static void limit_loops(struct kiln_tiled *tiled)
 {
-    struct shape *shape = &tiled->shape;
-    tiled->most_words = UINT32_MAX / TILED_ROUND_WORDS * TILED_ROUND_WORDS;
+    struct tiling *tiling = &tiled->tiling;
+    tiled->max_words = UINT32_MAX / TILED_ROUND_WORDS * TILED_ROUND_WORDS;
     if (!tiled->device->info.software)
         return;
-    while (listing_iterations(shape->chunk, tiled->group_size) > KILN_SOFTWARE_ITERATIONS)
-        shape->chunk /= 2;
-    uint32_t ends = 2 * (shape->edge / shape->rows + 1) + 1; /* opening and closing pixels */
-    uint32_t rounds = (KILN_SOFTWARE_ITERATIONS - ends) / round_iterations(shape);
-    assert(rounds > 0 && shape->chunk >= LEAST_CHUNK);
-    tiled->most_words = rounds * TILED_ROUND_WORDS;
+    while (listing_iterations(tiling->chunk, tiled->group_size) > KILN_SOFTWARE_ITERATIONS)
+        tiling->chunk /= 2;
+    uint32_t ends = 2 * (tiling->edge / tiling->rows + 1) + 1; /* opening and closing pixels */
+    uint32_t rounds = (KILN_SOFTWARE_ITERATIONS - ends) / round_iterations(tiling);
+    assert(rounds > 0 && tiling->chunk >= MIN_CHUNK);
+    tiled->max_words = rounds * TILED_ROUND_WORDS;
 }
 
 /* ---- the stage ------------------------------------------------------------------------------- */
@@ -151,8 +151,8 @@ struct kiln_tiled *kiln_tiled_create(struct kiln_device *device, const struct ki
     *tiled = (struct kiln_tiled){
         .device = device,
         .geometry = geometry,
-        .shape = choose_shape(device),
-        .group_size = kiln_device_group_size(device, TILED_GROUP_SIZE, MOST_GROUP_SIZE),
+        .tiling = choose_tiling(device),
+        .group_size = kiln_device_group_size(device, TILED_GROUP_SIZE, MAX_GROUP_SIZE),
     };
     limit_loops(tiled);
     kiln_buffer_init(&tiled->boxes, device, 0, "boxes of sprites");
@@ -211,22 +211,22 @@ static void plan(const struct kiln_tiled *tiled, struct run *run)
     const struct kiln_image *color = run->draw->framebuffer->images[0];
     run->width = color->width;
     run->height = color->height;
-    run->tile_columns = divide_up(run->width, tiled->shape.edge);
-    run->tile_rows = divide_up(run->height, tiled->shape.edge);
+    run->tile_columns = divide_up(run->width, tiled->tiling.edge);
+    run->tile_rows = divide_up(run->height, tiled->tiling.edge);
     run->columns = divide_up(run->tile_columns, TILED_BIN_TILES);
     run->rows = divide_up(run->tile_rows, TILED_BIN_TILES);
     run->bins = run->columns * run->rows;
     GLint texels = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-    run->chunk = tiled->shape.chunk;
-    while (run->chunk > LEAST_CHUNK && (run->chunk / 32 > MOST_WORDS / run->bins ||
-                                        run->chunk > (uint32_t)texels / TILED_SPRITE_ROWS))
+    run->chunk = tiled->tiling.chunk;
+    while (run->chunk > MIN_CHUNK && (run->chunk / 32 > MAX_WORDS / run->bins ||
+                                      run->chunk > (uint32_t)texels / TILED_SPRITE_ROWS))
         run->chunk /= 2;
     run->additive_alpha = run->draw->sum_alpha || run->draw->fire_covers ? 1.0f : 0.0f;
 }
 
 /* Returns the number of words of a bin's mask. */
-static uint32_t words_of(const struct run *run)
+static uint32_t mask_words(const struct run *run)
 {
     return divide_up(run->count, 32);
 }
@@ -252,7 +252,7 @@ static void dispatch(uint32_t columns, uint32_t rows)
 static bool make_sprites(struct kiln_tiled *tiled, const struct run *run, struct kiln_error *error)
 {
     static const GLuint zero = 0;
-    uint32_t words = words_of(run);
+    uint32_t words = mask_words(run);
     if (!kiln_geometry_bind_draw(tiled->geometry, run->draw, error) ||
         !bind_output(TILED_BIND_BOXES, &tiled->boxes, (size_t)run->count * 2 * sizeof(uint32_t),
                      error) ||
@@ -284,7 +284,7 @@ static bool place_lists(struct kiln_tiled *tiled, struct run *run, struct kiln_e
         return false;
     if (run->count > 0) {
         glUseProgram(tiled->count_program);
-        glUniform1ui(0, words_of(run));
+        glUniform1ui(0, mask_words(run));
         dispatch(run->columns, run->rows);
     }
     const uint32_t *counts = kiln_buffer_host(&tiled->counts, KILN_READ, error);
@@ -312,7 +312,7 @@ static bool fill_bins(struct kiln_tiled *tiled, const struct run *run, struct ki
     if (run->entries == 0)
         return true;
     glUseProgram(tiled->list_program);
-    glUniform1ui(0, words_of(run));
+    glUniform1ui(0, mask_words(run));
     dispatch(run->columns, run->rows);
 
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TILED_BIND_FARTHEST, tiled->farthest.gl);
@@ -363,7 +363,7 @@ static void draw_spans(const struct kiln_tiled *tiled, const struct run *run, bo
 {
     uint32_t words = divide_up(run->longest, 32), from = 0;
     do {
-        uint32_t until = words - from > tiled->most_words ? from + tiled->most_words : words;
+        uint32_t until = words - from > tiled->max_words ? from + tiled->max_words : words;
         glUniform2i(2, first && from == 0, last && until == words);
         glUniform2ui(6, from, until);
         dispatch(run->tile_columns, run->tile_rows);
@@ -375,7 +375,7 @@ static bool draw_tiles(struct kiln_tiled *tiled, const struct run *run, struct k
 {
     uint32_t all = run->draw->count;
     bool first = run->first == 0, last = run->first + run->count == all;
-    bool whole = first && last && divide_up(run->longest, 32) <= tiled->most_words;
+    bool whole = first && last && divide_up(run->longest, 32) <= tiled->max_words;
     size_t pixels = whole ? 0 : (size_t)run->width * run->height;
     if (!kiln_buffer_gl(&tiled->sprites, KILN_READ, error) ||
         !bind_output(TILED_BIND_CARRY, &tiled->carry, pixels * TILED_CARRY_BYTES, error))
@@ -389,7 +389,7 @@ static bool draw_tiles(struct kiln_tiled *tiled, const struct run *run, struct k
     glUniform1ui(1, run->columns);
     glUniform1i(3, run->draw->keep_bloom);
     glUniform1f(4, run->draw->sum_alpha ? 0.0f : 1.0f);
-    glUniform1f(5, all > 0 ? UNSEEN * ((float)run->count / (float)all) : UNSEEN);
+    glUniform1f(5, all > 0 ? NEGLIGIBLE * ((float)run->count / (float)all) : NEGLIGIBLE);
     draw_spans(tiled, run, first, last);
     return true;
 }
@@ -401,7 +401,7 @@ static bool draw_chunk(struct kiln_tiled *tiled, struct run *run, struct kiln_er
         run->count = left < run->chunk ? left : run->chunk;
         if ((run->count > 0 && !make_sprites(tiled, run, error)) || !place_lists(tiled, run, error))
             return false;
-        if (run->entries <= tiled->shape.most_entries || run->count <= LEAST_CHUNK)
+        if (run->entries <= tiled->tiling.max_entries || run->count <= MIN_CHUNK)
             break;
         run->chunk = run->count / 64 * 32;
     }

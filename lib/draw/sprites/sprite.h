@@ -65,7 +65,7 @@ struct kiln_sprite_pass {
     bool fire_covers; /* true: additive particles cover, too, or their alpha is summed */
 };
 
-/* Makes the sprites of draw entries and calls kiln_cells_want for their cells. Invisible sprites
+/* Makes the sprites of draw entries and calls kiln_cells_request for their cells. Invisible sprites
  * touch no pixels (x_from = x_to). */
 typedef void kiln_sprites_make(const struct kiln_sprite_pass *pass, const uint32_t *entries,
                                size_t count, struct kiln_sprite *sprites);

@@ -3,7 +3,7 @@
 #ifndef KILN_DRAW_SPRITES_SPRITE_CELLS_H
 #define KILN_DRAW_SPRITES_SPRITE_CELLS_H
 
-#include "draw/sprites/sprite_subjects.h"
+#include "draw/sprites/sprite_lanes.h"
 
 /* Holds the cells of a vector of billboards, as members of struct kiln_cell_name. */
 struct chosen_cells {
@@ -12,7 +12,7 @@ struct chosen_cells {
 };
 
 /* Chooses at random which of their system's textures the particles have. */
-SIMD struct columns choose_textures(const struct subjects *p)
+SIMD struct columns choose_textures(const struct sprite_lanes *p)
 {
     const uint32_t count = p->look->flags.w;
     const uint4 *textures = p->look->textures;
@@ -22,7 +22,7 @@ SIMD struct columns choose_textures(const struct subjects *p)
         vi last = vi_all((int32_t)count - 1);
         chosen = vi_select(chosen < last, chosen, last) * 4;
     }
-    const struct places places = places_of_lanes(chosen);
+    const struct lane_offsets places = lane_offsets_of(chosen);
     return columns_load((const float *)(const void *)textures, &places);
 }
 
@@ -39,39 +39,40 @@ SIMD vi cell_number(vi layer, vi phase, vi level)
     return (layer * KILN_CELL_PHASES + phase) * KILN_ATLAS_LEVELS + level;
 }
 
-/* Calls kiln_cells_want for the cell of each visible lane. It first checks whether all of them were
- * wanted before, as is usual. */
-SIMD void want_cells(const struct subjects *p, const struct chosen_cells *chosen, vi number,
-                     vi lanes)
+/* Calls kiln_cells_request for the cell of each visible lane. It first checks whether all of them
+ * were requested before, as is usual. */
+SIMD void request_cells(const struct sprite_lanes *p, const struct chosen_cells *chosen, vi number,
+                        vi lanes)
 {
-    const atomic_bool *wanted = p->pass->content.wanted;
-    const struct places numbers = places_of_lanes(number), seen = places_of_lanes(lanes);
+    const atomic_bool *requested = p->pass->content.requested;
+    const struct lane_offsets numbers = lane_offsets_of(number), visible = lane_offsets_of(lanes);
     int32_t missing = 0;
     for (int i = 0; i < LANES; i++)
-        missing |= seen.at[i] & !atomic_load_explicit(&wanted[numbers.at[i]], memory_order_relaxed);
+        missing |=
+            visible.at[i] & !atomic_load_explicit(&requested[numbers.at[i]], memory_order_relaxed);
     for (int i = 0; missing && i < LANES; i++) {
         const struct kiln_cell_name name = {
             (uint32_t)chosen->layer[i], (uint32_t)chosen->next_layer[i], (uint32_t)chosen->phase[i],
             (uint32_t)chosen->level[i], chosen->motion[i]};
-        if (seen.at[i])
-            (void)kiln_cells_want(p->pass->cells, &name);
+        if (visible.at[i])
+            (void)kiln_cells_request(p->pass->cells, &name);
     }
 }
 
 /* Reads the hulls of the cells; lanes with an empty hull become invisible. */
-SIMD void read_hulls(struct subjects *p, vi layer)
+SIMD void read_hulls(struct sprite_lanes *p, vi layer)
 {
     enum { FLOATS = sizeof(struct kiln_cell_hull) / sizeof(float) };
-    const struct places at = places_of_lanes((layer * KILN_ATLAS_LEVELS + p->level) * FLOATS);
+    const struct lane_offsets at = lane_offsets_of((layer * KILN_ATLAS_LEVELS + p->level) * FLOATS);
     const float *hulls = (const float *)(const void *)p->pass->content.hulls;
     p->hull_from = columns_load(hulls, &at);
     p->hull_to = columns_load(hulls + 4, &at);
-    p->seen &= p->hull_from.c[0] < p->hull_to.c[0];
+    p->visible &= p->hull_from.c[0] < p->hull_to.c[0];
 }
 
 /* Chooses the two adjacent cells and the part of the way between them by the progress through life
  * (equation 3.2). */
-static void choose_cells(struct subjects *p)
+static void choose_cells(struct sprite_lanes *p)
 {
     vi first = (vi)p->texture.c[0], count = (vi)p->texture.c[1];
     vf counted = vf_of(count), position = p->progress * p->cool.c[3] * (counted - 1.0f);
@@ -82,7 +83,8 @@ static void choose_cells(struct subjects *p)
     vf motion = p->texture.c[3] * edge;
     vi alone = (count == 1) & (motion == 0.0f); /* the next cell is the cell itself */
     position = vf_where(~alone, position);
-    vi mixed = (p->level >= KILN_CELL_MIXED_LEVEL) & (motion <= KILN_CELL_MIXED_MOVE) & p->many;
+    vi mixed =
+        (p->level >= KILN_CELL_MIXED_LEVEL) & (motion <= KILN_CELL_MIXED_MOVE) & p->mixes_cells;
     mixed |= alone;
     vi fine = p->level > KILN_CELL_MIXED_LEVEL;
     vi step = vi_select(fine, vi_all(1), vi_all(KILN_CELL_LARGE_STEP));
@@ -98,23 +100,23 @@ static void choose_cells(struct subjects *p)
                                   (phase & (KILN_CELL_PHASES - 1)) & mixed, p->level,
                                   p->texture.c[3]};
     vi cells = cell_number(chosen.layer, chosen.phase, p->level);
-    want_cells(p, &chosen, cells, p->seen);
-    p->w[WORD_OF(cell)] = (vf)cells;
-    p->w[WORD_OF(edge_u)] = p->w[WORD_OF(edge_v)] = edge;
+    request_cells(p, &chosen, cells, p->visible);
+    p->words[WORD_OF(cell)] = (vf)cells;
+    p->words[WORD_OF(edge_u)] = p->words[WORD_OF(edge_v)] = edge;
     p->flags |= mixed & KILN_SPRITE_MIXED;
     if (billboard_is_flat(p->look->form.y))
-        p->flags |=
-            p->few & (motion == 0.0f) & (p->level >= KILN_CELL_FINE_LEVEL) & KILN_SPRITE_FINE;
+        p->flags |= p->samples_floats & (motion == 0.0f) & (p->level >= KILN_CELL_FINE_LEVEL) &
+                    KILN_SPRITE_FINE;
     read_hulls(p, chosen.layer);
-    vi large = p->seen & ~mixed;
+    vi large = p->visible & ~mixed;
     if (!any(large))
         return;
     chosen.layer = chosen.next_layer;
     vi next = cell_number(chosen.layer, chosen.phase, p->level);
-    want_cells(p, &chosen, next, large);
-    p->w[WORD_OF(part)] = vf_where(large, position - vf_of(number));
-    p->w[WORD_OF(motion)] = vf_where(large, motion);
-    p->w[WORD_OF(next_cell)] = (vf)(next & large);
+    request_cells(p, &chosen, next, large);
+    p->words[WORD_OF(part)] = vf_where(large, position - vf_of(number));
+    p->words[WORD_OF(motion)] = vf_where(large, motion);
+    p->words[WORD_OF(next_cell)] = (vf)(next & large);
 }
 
 #endif

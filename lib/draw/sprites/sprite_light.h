@@ -3,20 +3,20 @@
 #define KILN_DRAW_SPRITES_SPRITE_LIGHT_H
 
 #include "draw/light/ray_smoke.h"
-#include "draw/sprites/sprite_subjects.h"
+#include "draw/sprites/sprite_lanes.h"
 #include "shared/billboard_light.h"
 
 /* Lights sprites. lit: how much of the light is reflected; the rest of a sprite is as bright as if
  * in white light. */
-static void light_sprites(const struct subjects *p, struct light_sum *light)
+static void light_sprites(const struct sprite_lanes *p, struct light_sum *light)
 {
     const struct kiln_draw_backdrop *b = p->pass->backdrop;
     const struct kiln_lighting *lighting = p->pass->lighting;
     vf lit = vf_max(p->cover.c[3], vf_all(0.0f));
-    const struct ray_point point = {.at = p->record.position, .wanted = p->seen & (lit > 0.0f)};
+    const struct ray_point point = {.at = p->record.position, .active = p->visible & (lit > 0.0f)};
     struct light_sum sum;
     memset(&sum, 0, sizeof sum);
-    if (any(point.wanted)) {
+    if (any(point.active)) {
         vf sky = smoke_lets_through(lighting->smoke ? lighting->sky_depth : NULL,
                                     lighting->sky_to_grid, &point);
         vf sun = smoke_lets_through(lighting->smoke ? lighting->sun_depth : NULL,

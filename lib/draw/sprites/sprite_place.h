@@ -3,7 +3,7 @@
 #ifndef KILN_DRAW_SPRITES_SPRITE_PLACE_H
 #define KILN_DRAW_SPRITES_SPRITE_PLACE_H
 
-#include "draw/sprites/sprite_subjects.h"
+#include "draw/sprites/sprite_lanes.h"
 #include "shared/billboard_place.h"
 
 /* A sprite with more texels a pixel than this is too thin to be visible, and its coordinates would
@@ -20,45 +20,46 @@ SIMD void limit_range(vf low, vf high, float size, vi *from, vi *to)
     *to = vi_of(vf_clamp(high + 0.5f, 0.0f, size));
 }
 
-SIMD void limit_box(struct subjects *p, struct picture_point low, struct picture_point high)
+SIMD void limit_box(struct sprite_lanes *p, struct picture_point low, struct picture_point high)
 {
     const float4 frustum = p->pass->view->frustum;
     vi x_from, y_from, x_to, y_to;
     limit_range(low.x, high.x, frustum.z, &x_from, &x_to);
     limit_range(low.y, high.y, frustum.w, &y_from, &y_to);
-    p->seen &= (x_from < x_to) & (y_from < y_to);
-    p->w[WORD_OF(x_from)] = (vf)((x_from | y_from << 16) & p->seen);
-    p->w[WORD_OF(x_to)] = (vf)((x_to | y_to << 16) & p->seen);
+    p->visible &= (x_from < x_to) & (y_from < y_to);
+    p->words[WORD_OF(x_from)] = (vf)((x_from | y_from << 16) & p->visible);
+    p->words[WORD_OF(x_to)] = (vf)((x_to | y_to << 16) & p->visible);
 }
 
 /* Stores the rows of a sprite. */
-SIMD void put_place(struct subjects *p, const struct billboard_place *place)
+SIMD void put_place(struct sprite_lanes *p, const struct billboard_place *place)
 {
-    p->seen &= place->seen;
-    p->w[WORD_OF(x)] = place->anchor.x;
-    p->w[WORD_OF(y)] = place->anchor.y;
-    p->w[WORD_OF(u)] = place->u.at;
-    p->w[WORD_OF(u_x)] = place->u.x;
-    p->w[WORD_OF(u_y)] = place->u.y;
-    p->w[WORD_OF(v)] = place->v.at;
-    p->w[WORD_OF(v_x)] = place->v.x;
-    p->w[WORD_OF(v_y)] = place->v.y;
-    p->w[WORD_OF(q)] = place->q.at;
-    p->w[WORD_OF(q_x)] = place->q.x;
-    p->w[WORD_OF(q_y)] = place->q.y;
+    p->visible &= place->seen;
+    p->words[WORD_OF(x)] = place->anchor.x;
+    p->words[WORD_OF(y)] = place->anchor.y;
+    p->words[WORD_OF(u)] = place->u.at;
+    p->words[WORD_OF(u_x)] = place->u.x;
+    p->words[WORD_OF(u_y)] = place->u.y;
+    p->words[WORD_OF(v)] = place->v.at;
+    p->words[WORD_OF(v_x)] = place->v.x;
+    p->words[WORD_OF(v_y)] = place->v.y;
+    p->words[WORD_OF(q)] = place->q.at;
+    p->words[WORD_OF(q_x)] = place->q.x;
+    p->words[WORD_OF(q_y)] = place->q.y;
 }
 
 /* Places billboards that are parallel to the picture, and bounds the part of them that shows. */
-static void place_flat(struct subjects *p)
+static void place_flat(struct sprite_lanes *p)
 {
     const struct billboard_flat flat =
         billboard_place_flat(p->pass->view->frustum, p->center, p->plane.right, p->half_size,
-                             p->plane.up, p->half_length, p->w[WORD_OF(edge_u)]);
+                             p->plane.up, p->half_length, p->words[WORD_OF(edge_u)]);
     const struct billboard_place *place = &flat.place;
     put_place(p, place);
-    p->seen &= vf_abs(place->u.x) + vf_abs(place->u.y) + vf_abs(place->v.x) + vf_abs(place->v.y) <
-               MOST_TEXELS_A_PIXEL;
-    p->w[WORD_OF(depth)] = p->depth;
+    p->visible &=
+        vf_abs(place->u.x) + vf_abs(place->u.y) + vf_abs(place->v.x) + vf_abs(place->v.y) <
+        MOST_TEXELS_A_PIXEL;
+    p->words[WORD_OF(depth)] = p->depth;
     vf width = p->hull_to.c[0] - p->hull_from.c[0], height = p->hull_to.c[1] - p->hull_from.c[1];
     vf across = p->hull_from.c[0] + p->hull_to.c[0] - 1.0f;
     vf along = 1.0f - (p->hull_from.c[1] + p->hull_to.c[1]);
@@ -72,7 +73,7 @@ static void place_flat(struct subjects *p)
 
 /* Bounds the pixels by the projected corners of the visible part of the cell; a sprite that reaches
  * behind the eye may touch any pixel. */
-SIMD void limit_corners(struct subjects *p, struct vf3 right, struct vf3 up)
+SIMD void limit_corners(struct sprite_lanes *p, struct vf3 right, struct vf3 up)
 {
     const struct kiln_view *view = p->pass->view;
     struct picture_point low = {vf_all(view->frustum.z), vf_all(view->frustum.w)};
@@ -81,8 +82,8 @@ SIMD void limit_corners(struct subjects *p, struct vf3 right, struct vf3 up)
     for (int i = 0; i < 4; i++) {
         vf across = i & 1 ? p->hull_to.c[0] : p->hull_from.c[0];
         vf down = i & 2 ? p->hull_to.c[1] : p->hull_from.c[1];
-        struct vf3 corner = vf3_along(p->center, right, 2.0f * across - 1.0f);
-        corner = vf3_along(corner, up, 1.0f - 2.0f * down);
+        struct vf3 corner = vf3_add_scaled(p->center, right, 2.0f * across - 1.0f);
+        corner = vf3_add_scaled(corner, up, 1.0f - 2.0f * down);
         behind |= -corner.z < 1e-3f * p->depth;
         struct picture_point at = picture_point_of(view->frustum, corner);
         low = (struct picture_point){vf_min(low.x, at.x), vf_min(low.y, at.y)};
@@ -95,34 +96,34 @@ SIMD void limit_corners(struct subjects *p, struct vf3 right, struct vf3 up)
 }
 
 /* Places billboards in any plane. */
-static void place_deep(struct subjects *p)
+static void place_deep(struct sprite_lanes *p)
 {
     struct vf3 right = vf3_scale(p->plane.right, p->half_size);
     struct vf3 up = vf3_scale(p->plane.up, p->half_length);
-    const struct billboard_place place =
-        billboard_place_deep(p->pass->view->frustum, p->center, right, up, p->w[WORD_OF(edge_u)]);
+    const struct billboard_place place = billboard_place_deep(p->pass->view->frustum, p->center,
+                                                              right, up, p->words[WORD_OF(edge_u)]);
     put_place(p, &place);
     p->flags |= KILN_SPRITE_DEEP;
     limit_corners(p, right, up);
 }
 
 /* Returns the rear end of a line. */
-SIMD struct vf3 find_tail(const struct subjects *p)
+SIMD struct vf3 find_tail(const struct sprite_lanes *p)
 {
     const struct kiln_view *view = p->pass->view;
     vf back = p->look->form.w != 0 ? vf_all(view->clock.z) : p->shape.c[1];
-    struct vf3 tail = vf3_along(p->center, to_view(view, p->record.velocity), -back);
+    struct vf3 tail = vf3_add_scaled(p->center, to_view(view, p->record.velocity), -back);
     return stroke_tail(p->center, tail, exact_max(view->eye.w, 1e-3f));
 }
 
 /* Places points and lines, whose texture coordinates count pixels. */
-static void place_plain(struct subjects *p, vf diameter_px)
+static void place_plain(struct sprite_lanes *p, vf diameter_px)
 {
     bool is_line = p->look->form.x == LOOK_LINE;
     vf scale = p->scale * p->pass->view->clock.w, size = p->turn.c[2];
     vf width = is_line ? p->turn.c[3] * scale : vf_select(size > 0.0f, size * scale, diameter_px);
     const struct stroke_width drawn = stroke_width_of(is_line, width);
-    p->w[WORD_OF(opacity)] *= drawn.opacity;
+    p->words[WORD_OF(opacity)] *= drawn.opacity;
     if (is_line)
         p->flags |= KILN_SPRITE_DEEP;
     else if (p->look->form.z != 0)
@@ -130,9 +131,9 @@ static void place_plain(struct subjects *p, vf diameter_px)
     const struct stroke_place stroke = stroke_place_of(
         p->pass->view->frustum, p->center, is_line ? find_tail(p) : p->center, drawn.half_width);
     put_place(p, &stroke.place);
-    p->w[WORD_OF(edge_u)] = stroke.edge_u;
-    p->w[WORD_OF(edge_v)] = stroke.edge_v;
-    p->w[WORD_OF(depth)] = p->depth;
+    p->words[WORD_OF(edge_u)] = stroke.edge_u;
+    p->words[WORD_OF(edge_v)] = stroke.edge_v;
+    p->words[WORD_OF(depth)] = p->depth;
     const struct picture_point *middle = &stroke.place.anchor;
     vf x = stroke.place.u.x, y = stroke.place.u.y;
     vf reach_u = stroke.edge_u + 0.5f, reach_v = stroke.edge_v + 0.5f;

@@ -7,13 +7,13 @@
 #include "draw/vector/real.h"
 
 enum {
-    AT_A_TIME = 512, /* particles of a piece, which are sorted by system */
-    AHEAD = 32,      /* particles that are prefetched */
+    PIECE_SIZE = 512,       /* particles of a piece, which are sorted by system */
+    PREFETCH_DISTANCE = 32, /* particles that are prefetched */
 };
 
 /* ---- form ------------------------------------------------------------------------------------ */
 
-static struct billboard_plane find_plane(const struct subjects *p)
+static struct billboard_plane find_plane(const struct sprite_lanes *p)
 {
     const uint32_t facing = p->look->form.y;
     if (billboard_is_flat(facing))
@@ -27,32 +27,32 @@ static struct billboard_plane find_plane(const struct subjects *p)
 }
 
 /* Returns whether the velocity of some billboard turns or lengthens it. */
-SIMD bool some_stretch(const struct subjects *p)
+SIMD bool some_stretch(const struct sprite_lanes *p)
 {
     const uint32_t facing = p->look->form.y;
     return facing == LOOK_AXIAL || facing == LOOK_VELOCITY || any(p->shape.c[1] > 0.0f);
 }
 
 /* Turns billboards in their plane by their angle, or along their velocity. */
-static void turn_billboards(struct subjects *p)
+static void turn_billboards(struct sprite_lanes *p)
 {
     const struct billboard_plane plane = find_plane(p);
     vf angle = vf_lerp(p->turn.c[0], p->turn.c[1], vu_unit(p->stream, RANDOM_ROTATION));
     vf spin = vf_lerp(p->spread.c[2], p->spread.c[3], vu_unit(p->stream, RANDOM_SPIN));
     vf side = billboard_side(vu_unit(p->stream, RANDOM_SPIN + 1u));
-    const struct vf_angle turned = vf_sincos(angle + spin * side * p->age_s);
-    struct billboard_edge edge = {-turned.sine, turned.cosine, p->half_size};
+    const struct vf_angle rotation = vf_sincos(angle + spin * side * p->age_s);
+    struct billboard_edge edge = {-rotation.sine, rotation.cosine, p->half_size};
     if (some_stretch(p)) {
         struct vf3 moving = to_view(p->pass->view, p->record.velocity);
         edge = billboard_stretched(p->look->form.y, edge, p->shape.c[1],
                                    vf3_dot(moving, plane.right), vf3_dot(moving, plane.up));
     }
     p->half_length = edge.half_length;
-    p->plane = billboard_turned(plane, edge, side);
+    p->plane = billboard_rotated(plane, edge, side);
 }
 
 /* Widens small billboards of a picture smaller than the frame. */
-SIMD void widen(struct subjects *p, vf pixels_per_m)
+SIMD void widen(struct sprite_lanes *p, vf pixels_per_m)
 {
     if (!(p->pass->view->clock.w < 1.0f) || p->look->form.x != 0)
         return;
@@ -60,18 +60,18 @@ SIMD void widen(struct subjects *p, vf pixels_per_m)
         billboard_widened(p->half_size, p->half_length, pixels_per_m);
     p->half_size = size.half_width;
     p->half_length = size.half_length;
-    p->w[WORD_OF(opacity)] *= size.opacity;
+    p->words[WORD_OF(opacity)] *= size.opacity;
 }
 
 /* ---- colour ---------------------------------------------------------------------------------- */
 
 /* Returns a mask of the particles that reflect light. */
-SIMD vi reflecting(const struct subjects *p)
+SIMD vi reflecting(const struct sprite_lanes *p)
 {
     return (p->cover.c[0] > 0.0f) | (p->cover.c[1] > 0.0f) | (p->cover.c[2] > 0.0f);
 }
 
-static void choose_shade(struct subjects *p)
+static void choose_shade(struct sprite_lanes *p)
 {
     p->shade = vi_all(KILN_SHADE_PLAIN);
     if (p->look->form.x != 0)
@@ -81,15 +81,15 @@ static void choose_shade(struct subjects *p)
                          vi_select(lit, vi_all(KILN_SHADE_LIT), vi_all(KILN_SHADE_GLOW)));
 }
 
-static void color_sprites(struct subjects *p)
+static void color_sprites(struct sprite_lanes *p)
 {
     const vf zero = vf_all(0.0f);
     vi lit = p->shade == KILN_SHADE_LIT, glows = p->shade == KILN_SHADE_GLOW, emits = vi_all(0);
     struct light_sum light;
     memset(&light, 0, sizeof light);
-    if (any(p->seen & reflecting(p)))
+    if (any(p->visible & reflecting(p)))
         light_sprites(p, &light);
-    bool some_lit = any(lit & p->seen);
+    bool some_lit = any(lit & p->visible);
     const struct light_channel *channels[3] = {&light.red, &light.green, &light.blue};
     for (size_t c = 0; c < 3; c++) {
         const struct light_channel *channel = channels[c];
@@ -99,26 +99,26 @@ static void color_sprites(struct subjects *p)
         vf base = vf_select(lit, cool, vf_select(glows, cool, hot) + flat);
         vf slope = vf_where(lit | glows, hot - cool);
         emits |= (base != 0.0f) | (slope != 0.0f);
-        p->w[WORD_OF(base) + c] = base;
-        p->w[WORD_OF(slope) + c] = slope;
+        p->words[WORD_OF(base) + c] = base;
+        p->words[WORD_OF(slope) + c] = slope;
         if (!some_lit)
             continue;
-        p->w[WORD_OF(light) + c] = vf_where(lit, channel->all * albedo);
-        p->w[WORD_OF(light) + 3 + c] = vf_where(lit, channel->along.x * albedo);
-        p->w[WORD_OF(light) + 6 + c] = vf_where(lit, channel->along.y * albedo);
-        p->w[WORD_OF(light) + 9 + c] = vf_where(lit, channel->along.z * albedo);
+        p->words[WORD_OF(light) + c] = vf_where(lit, channel->all * albedo);
+        p->words[WORD_OF(light) + 3 + c] = vf_where(lit, channel->along.x * albedo);
+        p->words[WORD_OF(light) + 6 + c] = vf_where(lit, channel->along.y * albedo);
+        p->words[WORD_OF(light) + 9 + c] = vf_where(lit, channel->along.z * albedo);
     }
     p->flags |= emits & KILN_SPRITE_EMITS;
     const struct columns bloom = look_row(p, KILN_LOOK_BLOOM);
     for (size_t c = 0; c < 3; c++)
-        p->w[WORD_OF(bloom) + c] = bloom.c[c];
+        p->words[WORD_OF(bloom) + c] = bloom.c[c];
     if (p->look->form.x == 0)
-        p->w[WORD_OF(bulge)] = p->half_size * bloom.c[3];
+        p->words[WORD_OF(bulge)] = p->half_size * bloom.c[3];
 }
 
 /* ---- from particle to sprite ----------------------------------------------------------------- */
 
-static void read_particles(struct subjects *p)
+static void read_particles(struct sprite_lanes *p)
 {
     const struct kiln_sprite_pass *pass = p->pass;
     const struct kiln_view *view = pass->view;
@@ -129,7 +129,7 @@ static void read_particles(struct subjects *p)
         p->age_s, vf_life(pass->scene->keys, &p->look->derived, p->stream, p->record.birth));
     vf sample = p->progress * (float)(KILN_LOOK_SAMPLES - 1);
     vi number = vi_of(vf_min(sample, vf_all((float)(KILN_LOOK_SAMPLES - 2))));
-    p->samples = places_of_lanes(number * 4);
+    p->samples = lane_offsets_of(number * 4);
     vf_spread_fours(sample - vf_of(number), p->sample_part);
     const float4 *rows = view->world_to_view;
     p->center =
@@ -139,19 +139,19 @@ static void read_particles(struct subjects *p)
 }
 
 /* Computes the opacity of particles from their look at their age and from the near fade. */
-static void fade_particles(struct subjects *p)
+static void fade_particles(struct sprite_lanes *p)
 {
     const float near = p->pass->view->eye.w;
     p->shape = look_row(p, KILN_LOOK_SHAPE);
     p->hot = look_row(p, KILN_LOOK_HOT);
     vf near_fade = vf_clamp01((p->depth - near) / vf_max(p->hot.c[3], vf_all(1e-6f)));
     vf opacity = p->shape.c[2] * near_fade;
-    p->w[WORD_OF(opacity)] = opacity;
-    p->w[WORD_OF(soft)] = p->shape.c[3];
-    p->seen = (p->depth > near) & (opacity > 0.0f);
+    p->words[WORD_OF(opacity)] = opacity;
+    p->words[WORD_OF(soft)] = p->shape.c[3];
+    p->visible = (p->depth > near) & (opacity > 0.0f);
 }
 
-static void place_sprites(struct subjects *p)
+static void place_sprites(struct sprite_lanes *p)
 {
     const struct kiln_view *view = p->pass->view;
     p->spread = look_row(p, KILN_LOOK_SPREAD);
@@ -183,17 +183,17 @@ static_assert(WORD_OF(pitch) == WORD_OF(shade) && WORD_OF(pitch) == WORD_OF(flag
                   offsetof(struct kiln_sprite, shade) % 4 == 2,
               "pitch, shade and flags are one word");
 
-static void finish_sprites(struct subjects *p)
+static void finish_sprites(struct sprite_lanes *p)
 {
     bool covers = p->look->flags.x == 0 || p->pass->fire_covers;
     p->flags |=
         (covers ? KILN_SPRITE_COVERS : 0) | (p->look->flags.z != 0 ? KILN_SPRITE_LITERAL : 0);
     vi pitch = vi_all(0);
     if (p->look->form.x == 0)
-        pitch = vi_of(p->w[WORD_OF(edge_u)]) + KILN_CELL_MARGIN;
-    p->w[WORD_OF(pitch)] = (vf)(pitch | p->shade << 16 | p->flags << 24);
+        pitch = vi_of(p->words[WORD_OF(edge_u)]) + KILN_CELL_MARGIN;
+    p->words[WORD_OF(pitch)] = (vf)(pitch | p->shade << 16 | p->flags << 24);
     if (p->look->flags.z != 0)
-        p->w[WORD_OF(distance)] = vf_sqrt(vf3_dot(p->center, p->center));
+        p->words[WORD_OF(distance)] = vf_sqrt(vf3_dot(p->center, p->center));
 }
 
 /* Holds the entries of a piece, and in `order` their numbers sorted by system; entries of one
@@ -202,7 +202,7 @@ struct piece {
     const uint32_t *entries;
     struct kiln_sprite *sprites;
     uint32_t count;
-    uint16_t order[AT_A_TIME];
+    uint16_t order[PIECE_SIZE];
 };
 
 /* Sorts a piece by system. Writes where each system's entries start in `order`, and the end, to
@@ -240,44 +240,45 @@ SIMD void fetch(const struct kiln_sprite_pass *pass, const struct piece *piece, 
 }
 
 /* Makes the sprites of a vector of particles. lanes: numbers of their entries in the piece. */
-static void make_vector(struct subjects *p, const struct piece *piece, const uint16_t lanes[LANES])
+static void make_vector(struct sprite_lanes *p, const struct piece *piece,
+                        const uint16_t lanes[LANES])
 {
     for (int i = 0; i < LANES; i++)
         p->slots[i] = (int32_t)KILN_ENTRY_SLOT(piece->entries[lanes[i]]);
-    memset(p->w, 0, sizeof p->w);
+    memset(p->words, 0, sizeof p->words);
     p->flags = vi_all(0);
     read_particles(p);
     fade_particles(p);
-    if (any(p->seen))
+    if (any(p->visible))
         place_sprites(p);
-    if (any(p->seen)) {
+    if (any(p->visible)) {
         color_sprites(p);
         finish_sprites(p);
     }
     float *sprites = (float *)(void *)piece->sprites;
     for (int line = 0; line < SPRITE_WORDS; line += LINE_FLOATS)
-        vf_store_lines(p->w + line, sprites + line, SPRITE_WORDS, lanes);
+        vf_store_lines(p->words + line, sprites + line, SPRITE_WORDS, lanes);
 }
 
 static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
 {
     uint32_t first[KILN_MAX_SYSTEMS + 1];
     order_piece(piece, first);
-    fetch(pass, piece, 0, AHEAD);
-    struct subjects p;
+    fetch(pass, piece, 0, PREFETCH_DISTANCE);
+    struct sprite_lanes p;
     p.pass = pass;
     for (uint32_t system = 0; system < KILN_MAX_SYSTEMS; system++) {
         p.look = &pass->looks[system];
         p.rows = &pass->table[(size_t)system * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES].x;
         const uint32_t end = first[system + 1];
         const uint32_t capacity = pass->scene->systems[system].capacity;
-        p.many = vi_all(-(capacity >= KILN_CELL_MIXED_LEAST));
-        p.few = vi_all(-(capacity <= KILN_CELL_FINE_MOST));
+        p.mixes_cells = vi_all(-(capacity >= KILN_CELL_MIXED_LEAST));
+        p.samples_floats = vi_all(-(capacity <= KILN_CELL_FINE_MOST));
         for (uint32_t i = first[system]; i < end; i += LANES) {
             uint16_t rest[LANES]; /* the last entries, padded with the last one */
             for (uint32_t k = 0; end - i < LANES && k < LANES; k++)
                 rest[k] = piece->order[i + k < end ? i + k : end - 1];
-            fetch(pass, piece, i + AHEAD, i + AHEAD + LANES);
+            fetch(pass, piece, i + PREFETCH_DISTANCE, i + PREFETCH_DISTANCE + LANES);
             make_vector(&p, piece, end - i < LANES ? rest : piece->order + i);
         }
     }
@@ -286,10 +287,10 @@ static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
 void KILN_SIMD_NAME(kiln_sprites_make)(const struct kiln_sprite_pass *pass, const uint32_t *entries,
                                        size_t count, struct kiln_sprite *sprites)
 {
-    for (size_t i = 0; i < count; i += AT_A_TIME) {
+    for (size_t i = 0; i < count; i += PIECE_SIZE) {
         struct piece piece = {.entries = entries + i,
                               .sprites = sprites + i,
-                              .count = count - i < AT_A_TIME ? (uint32_t)(count - i) : AT_A_TIME};
+                              .count = count - i < PIECE_SIZE ? (uint32_t)(count - i) : PIECE_SIZE};
         make_piece(pass, &piece);
     }
 }

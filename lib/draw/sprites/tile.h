@@ -43,10 +43,11 @@ struct kiln_tile {
     int x, y, width, height; /* in the picture, px */
     enum kiln_tile_glow glow;
     float nearest; /* least depth of the scene in the tile, m */
-    /* a bit for each pixel in which sprites behind the drawn ones are visible; valid if hides */
-    uint64_t seen[KILN_TILE_HEIGHT];
-    bool hides; /* true: some pixels hide the sprites behind them */
-    bool over;  /* true: sprites cover those behind them; false: alpha is summed */
+    /* a bit for each pixel in which sprites behind the drawn ones are visible; valid if has_opaque
+     */
+    uint64_t transparent[KILN_TILE_HEIGHT];
+    bool has_opaque; /* true: some pixels hide the sprites behind them */
+    bool over;       /* true: sprites cover those behind them; false: alpha is summed */
 };
 
 /* Draws sprites into the tile. The list has the farthest sprite first. Sprites are drawn from the

@@ -7,12 +7,12 @@
 #include "draw/sprites/tile_rows.h"
 
 enum {
-    TILE_AHEAD = 6,  /* sprites that are prefetched */
-    LOOK_EVERY = 24, /* covering sprites between two calls of look_behind */
+    PREFETCH_DISTANCE = 6,     /* sprites that are prefetched */
+    COVER_CHECK_INTERVAL = 24, /* covering sprites between two calls of find_transparent */
 };
 
 /* A pixel that lets through less than this part of the light from behind counts as opaque. */
-#define UNSEEN 0x1p-16f
+#define NEGLIGIBLE 0x1p-16f
 
 /* Holds the data that all pixels of a sprite share. */
 struct brush {
@@ -20,13 +20,13 @@ struct brush {
     int32_t pitch, texel;               /* bytes of a row and of a texel of the cells */
     int32_t edge;                       /* edge of the cells, as a place */
     int32_t part;                       /* weight of the next cell, of PART_ONE */
-    int32_t from, to;              /* `part` of places_moved, for the cell and for the next cell */
+    int32_t cell_move, next_move;  /* `part` of places_moved, for the cell and for the next cell */
     int32_t move_shift, move_mask; /* turn a place in the cells into a place in the motion */
     float sampled;                 /* the unit of sampled channels, SAMPLED_UNIT or a part of it */
     bool emits;                    /* base or slope is not 0 */
-    bool whole;                    /* true: the scene is too far behind it for any pixel to fade */
+    bool unfaded;                  /* true: the scene is too far behind it for any pixel to fade */
     int32_t layer;                 /* the first of the three planes that its colour goes to */
-    bool weighs;                   /* true: colour times bloom weights goes to the glow's planes */
+    bool weighted_glow;            /* true: colour times bloom weights goes to the glow's planes */
 };
 
 static inline float least(float a, float b)
@@ -110,7 +110,7 @@ SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struc
         float *color = planes[b->layer + c];
         vf_store_units(color, at, vf_load_units(color, at) + rgb[c]);
     }
-    for (int c = 0; c < 3 && b->weighs; c++) {
+    for (int c = 0; c < 3 && b->weighted_glow; c++) {
         float *glow = planes[KILN_TILE_GLOW_RED + c];
         vf_store_units(glow, at, vf_load_units(glow, at) + rgb[c] * bloom[c]);
     }
@@ -140,7 +140,7 @@ struct batch {
 };
 
 /* Holds the sprite that is drawn, and its tile. */
-struct drawn {
+struct target {
     struct kiln_tile *tile;
     const struct kiln_sprite *s;
     struct brush brush;
@@ -153,7 +153,7 @@ SIMD void put_texels(struct batch *batch, int cell, int i, vi places, int32_t pi
     memcpy(batch->texels[cell][i], &texels, sizeof texels);
 }
 
-SIMD void put_pixels(struct batch *batch, const struct drawn *d, struct pixels p,
+SIMD void put_pixels(struct batch *batch, const struct target *d, struct pixels p,
                      enum kiln_sprite_shade kind, bool deep, bool mixed)
 {
     const struct brush *b = &d->brush;
@@ -202,8 +202,8 @@ SIMD void follow(struct batch *batch, const struct brush *b)
         vi places = batch->places[0][i], next;
         if (b->moves) {
             vi way = ways_of(sample_pairs(b->moves, batch->texels[1][i], batch->places[1][i], 1));
-            next = places_moved(places, way, b->to, half, most);
-            places = places_moved(places, way, -b->from, half, most);
+            next = places_moved(places, way, b->next_move, half, most);
+            places = places_moved(places, way, -b->cell_move, half, most);
         } else {
             next = places = places_clamped(places, half, most);
         }
@@ -230,7 +230,7 @@ SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b, 
 }
 
 /* Draws vector i of a batch behind the sprites that were drawn before. */
-SIMD void draw_vector(const struct batch *batch, int i, const struct drawn *d, struct shaded c,
+SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, struct shaded c,
                       bool multiplied, bool deep, bool covers)
 {
     float(*planes)[KILN_TILE_PITCH] = d->tile->pixels[0];
@@ -238,7 +238,7 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct drawn *d, s
     const bool over = d->tile->over;
     const int32_t *at = batch->at[i];
     vf left = vf_where(batch->inside[i], vf_all(s->opacity)), before = vf_all(0.0f);
-    if (!d->brush.whole) {
+    if (!d->brush.unfaded) {
         vf depth = deep ? batch->depth[i] : vf_all(s->depth);
         left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
     }
@@ -258,7 +258,7 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct drawn *d, s
     }
 }
 
-SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprite_shade kind,
+SIMD void draw_batch(struct batch *batch, const struct target *d, enum kiln_sprite_shade kind,
                      bool deep, bool covers, bool mixed)
 {
     const struct kiln_sprite *s = d->s;
@@ -281,9 +281,9 @@ SIMD void draw_batch(struct batch *batch, const struct drawn *d, enum kiln_sprit
 
 /* ---- wide sprites: units of their rows ------------------------------------------------------- */
 
-SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, const struct box *box,
-                    struct batch *batch, enum kiln_sprite_shade kind, bool deep, bool covers,
-                    bool mixed)
+SIMD void draw_wide(const struct target *d, const struct kiln_cell_hull *hull,
+                    const struct box *box, struct batch *batch, enum kiln_sprite_shade kind,
+                    bool deep, bool covers, bool mixed)
 {
     const struct kiln_sprite *s = d->s;
     struct rows rows;
@@ -298,10 +298,10 @@ SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, co
     }
     const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
     int count = list_units(&rows, box, steps, deep, &units);
-    if (d->tile->hides)
+    if (d->tile->has_opaque)
         count = drop_hidden(d->tile, &units, count);
     if (UNITS > 1)
-        add_nowhere(&units, count);
+        add_padding(&units, count);
     for (int begin = 0; begin < count; begin += BATCH / UNIT_PARTS * UNITS) {
         int end =
             count - begin < BATCH / UNIT_PARTS * UNITS ? count : begin + BATCH / UNIT_PARTS * UNITS;
@@ -324,7 +324,7 @@ SIMD void draw_wide(const struct drawn *d, const struct kiln_cell_hull *hull, co
 
 /* ---- sprites no wider than a unit: one a row ------------------------------------------------- */
 
-SIMD void draw_narrow(const struct drawn *d, const struct box *box, struct batch *batch,
+SIMD void draw_narrow(const struct target *d, const struct box *box, struct batch *batch,
                       enum kiln_sprite_shade kind, bool covers, bool mixed)
 {
     const struct kiln_sprite *s = d->s;
@@ -368,10 +368,10 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
     bool apart = glows && tile->glow == KILN_TILE_GLOW_APART;
     *b = (struct brush){
         .layer = apart ? KILN_TILE_GLOW_RED : KILN_TILE_RED,
-        .weighs = glows && tile->glow == KILN_TILE_GLOW_WEIGHED,
+        .weighted_glow = glows && tile->glow == KILN_TILE_GLOW_WEIGHED,
     };
-    b->whole = !deep && !(s->flags & KILN_SPRITE_LITERAL) && tile->nearest >= s->depth &&
-               (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f);
+    b->unfaded = !deep && !(s->flags & KILN_SPRITE_LITERAL) && tile->nearest >= s->depth &&
+                 (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f);
     if (kind == KILN_SHADE_PLAIN)
         return;
     bool pair = kind == KILN_SHADE_GLOW;
@@ -389,8 +389,8 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
     b->part = (int32_t)(s->part * (float)PART_ONE + 0.5f);
     b->moves = s->motion > 0.0f ? kiln_cells_moves(cells, s->cell) : NULL;
     float full = s->motion * (float)PLACE_ONE * (32768.0f / WAY_ONE);
-    b->from = (int32_t)least(full * s->part + 0.5f, 32767.0f);
-    b->to = (int32_t)least(full * (1.0f - s->part) + 0.5f, 32767.0f);
+    b->cell_move = (int32_t)least(full * s->part + 0.5f, 32767.0f);
+    b->next_move = (int32_t)least(full * (1.0f - s->part) + 0.5f, 32767.0f);
     b->move_shift = 0;
     for (int32_t edge = b->edge / PLACE_ONE; edge > KILN_ATLAS_MOTION; edge >>= 1)
         b->move_shift++;
@@ -410,29 +410,30 @@ SIMD struct box box_in(const struct kiln_tile *tile, const struct kiln_sprite *s
 /* Returns whether all pixels of a box hide the sprites behind them. */
 SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
 {
-    uint64_t seen = 0;
+    uint64_t transparent = 0;
     for (int y = box->y_from; y < box->y_to; y++)
-        seen |= tile->seen[y];
-    seen &= ~(uint64_t)0 >> (KILN_TILE_WIDTH - (box->x_to - box->x_from)) << box->x_from;
-    return seen == 0;
+        transparent |= tile->transparent[y];
+    transparent &= ~(uint64_t)0 >> (KILN_TILE_WIDTH - (box->x_to - box->x_from)) << box->x_from;
+    return transparent == 0;
 }
 
 /* Finds the pixels in which sprites behind the drawn ones are still visible; returns false if there
  * are none. */
-static bool look_behind(struct kiln_tile *tile)
+static bool find_transparent(struct kiln_tile *tile)
 {
     const uint64_t whole = ~(uint64_t)0 >> (KILN_TILE_WIDTH - tile->width);
     uint64_t any = 0, every = whole;
     for (int y = 0; y < tile->height; y++) {
-        uint64_t seen = 0;
+        uint64_t transparent = 0;
         for (int x = 0; x < KILN_TILE_WIDTH; x += LANES)
-            seen |= (uint64_t)vi_bits(vf_load(&tile->pixels[y][KILN_TILE_ALPHA][x]) < 1.0f - UNSEEN)
-                    << x;
-        tile->seen[y] = seen & whole;
-        any |= tile->seen[y];
-        every &= tile->seen[y];
+            transparent |=
+                (uint64_t)vi_bits(vf_load(&tile->pixels[y][KILN_TILE_ALPHA][x]) < 1.0f - NEGLIGIBLE)
+                << x;
+        tile->transparent[y] = transparent & whole;
+        any |= tile->transparent[y];
+        every &= tile->transparent[y];
     }
-    tile->hides = every != whole;
+    tile->has_opaque = every != whole;
     return any != 0;
 }
 
@@ -441,16 +442,17 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
                       bool covers, bool mixed)
 {
     const struct box box = box_in(tile, s);
-    if (tile->hides && (box.x_from >= box.x_to || box_hidden(tile, &box)))
+    if (tile->has_opaque && (box.x_from >= box.x_to || box_hidden(tile, &box)))
         return;
-    struct drawn drawn = {.tile = tile, .s = s};
-    make_brush(tile, cells, s, kind, deep, mixed, &drawn.brush);
+    struct target target = {.tile = tile, .s = s};
+    make_brush(tile, cells, s, kind, deep, mixed, &target.brush);
     struct batch batch;
     batch.count = 0;
     if (!deep && box.x_to - box.x_from <= UNIT)
-        draw_narrow(&drawn, &box, &batch, kind, covers, mixed);
+        draw_narrow(&target, &box, &batch, kind, covers, mixed);
     else
-        draw_wide(&drawn, kiln_cells_hull(cells, s->cell), &box, &batch, kind, deep, covers, mixed);
+        draw_wide(&target, kiln_cells_hull(cells, s->cell), &box, &batch, kind, deep, covers,
+                  mixed);
 }
 
 /* ---- small sprites of systems with few slots ------------------------------------------------- */
@@ -475,7 +477,7 @@ SIMD struct vf4 sample_floats(const struct brush *b, const uint8_t *cell, size_t
 }
 
 /* Draws a unit in each of UNITS rows, or a part of one unit. u, v: texels. */
-SIMD void draw_floats(const struct drawn *d, struct batch *batch, vf u, vf v)
+SIMD void draw_floats(const struct target *d, struct batch *batch, vf u, vf v)
 {
     const struct kiln_sprite *s = d->s;
     const struct brush *b = &d->brush;
@@ -497,13 +499,13 @@ SIMD void draw_floats(const struct drawn *d, struct batch *batch, vf u, vf v)
                 (s->flags & KILN_SPRITE_COVERS) != 0);
 }
 
-static void draw_few(struct kiln_tile *tile, const struct kiln_cells_content *cells,
-                     const struct kiln_sprite *s)
+static void draw_in_floats(struct kiln_tile *tile, const struct kiln_cells_content *cells,
+                           const struct kiln_sprite *s)
 {
     const struct box box = box_in(tile, s);
-    if (tile->hides && (box.x_from >= box.x_to || box_hidden(tile, &box)))
+    if (tile->has_opaque && (box.x_from >= box.x_to || box_hidden(tile, &box)))
         return;
-    struct drawn d = {.tile = tile, .s = s};
+    struct target d = {.tile = tile, .s = s};
     make_brush(tile, cells, s, (enum kiln_sprite_shade)s->shade, false,
                (s->flags & KILN_SPRITE_MIXED) != 0, &d.brush);
     d.brush.sampled = 1.0f / 255.0f;
@@ -558,25 +560,25 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
         {ROW(mixed_glow), ROW(mixed_lit), ROW(mixed_color), ROW(plain)},
     };
     const struct kiln_cells_content content = kiln_cells_content(cells);
-    tile->hides = false;
+    tile->has_opaque = false;
     uint32_t covering = 0;
     for (size_t i = count; i-- > 0;) {
         const struct kiln_sprite *s = &sprites[list[i]];
-        if (i >= TILE_AHEAD) { /* neighbours in a list are far apart in memory */
-            const char *next = (const char *)&sprites[list[i - TILE_AHEAD]];
+        if (i >= PREFETCH_DISTANCE) { /* neighbours in a list are far apart in memory */
+            const char *next = (const char *)&sprites[list[i - PREFETCH_DISTANCE]];
             for (size_t line = 0; line < sizeof *s; line += 64)
                 __builtin_prefetch(next + line);
         }
         bool mixed = (s->flags & KILN_SPRITE_MIXED) != 0;
         uint32_t form = s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_COVERS);
         if (s->flags & KILN_SPRITE_FINE)
-            draw_few(tile, &content, s);
+            draw_in_floats(tile, &content, s);
         else
             draw[mixed][s->shade][form](tile, &content, s);
         covering += (s->flags & KILN_SPRITE_COVERS) != 0;
-        if (covering == LOOK_EVERY && tile->over) {
+        if (covering == COVER_CHECK_INTERVAL && tile->over) {
             covering = 0;
-            if (!look_behind(tile))
+            if (!find_transparent(tile))
                 return;
         }
     }

@@ -36,8 +36,8 @@ SIMD void find_limits(const struct kiln_sprite *s, const struct kiln_cell_hull *
 /* Narrows each row's columns to those with least <= place + x / pixels_a_step < most, slightly
  * widened. place: the value at the sprite's anchor; offset: the anchor's column in the tile less
  * 0.5. */
-SIMD void narrow(vf place, float pixels_a_step, float least, float most, float offset, vf *from,
-                 vf *to)
+SIMD void clip_columns(vf place, float pixels_a_step, float least, float most, float offset,
+                       vf *from, vf *to)
 {
     if (pixels_a_step == 0.0f)
         return;
@@ -73,8 +73,8 @@ SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
         if (hull) {
             const vf places[4] = {u, v, u + v, u - v};
             for (int k = 0; k < 4; k++)
-                narrow(places[k], limits.pixels_a_step[k], limits.least[k], limits.most[k], offset,
-                       &from, &to);
+                clip_columns(places[k], limits.pixels_a_step[k], limits.least[k], limits.most[k],
+                             offset, &from, &to);
         }
         vi any = from < to;
         vi first = vi_of(vf_where(any, from));
@@ -120,21 +120,21 @@ SIMD int list_units(const struct rows *rows, const struct box *box, const float 
 /* Removes units whose pixels are all hidden; returns the number of units that remain. */
 SIMD int drop_hidden(const struct kiln_tile *tile, struct units *units, int count)
 {
-    int kept = 0;
+    int remaining = 0;
     for (int i = 0; i < count; i++) {
         uint32_t at = (uint32_t)units->at[i], pixel = at % (KILN_TILE_PLANES * KILN_TILE_PITCH);
-        uint64_t row = tile->seen[at / (KILN_TILE_PLANES * KILN_TILE_PITCH)];
-        units->at[kept] = units->at[i];
-        units->u[kept] = units->u[i];
-        units->v[kept] = units->v[i];
-        units->q[kept] = units->q[i];
-        kept += (row >> pixel & 0xff) != 0;
+        uint64_t row = tile->transparent[at / (KILN_TILE_PLANES * KILN_TILE_PITCH)];
+        units->at[remaining] = units->at[i];
+        units->u[remaining] = units->u[i];
+        units->v[remaining] = units->v[i];
+        units->q[remaining] = units->q[i];
+        remaining += (row >> pixel & 0xff) != 0;
     }
-    return kept;
+    return remaining;
 }
 
 /* Appends a padding unit that lies outside of the tile, so that units can be drawn in pairs. */
-SIMD void add_nowhere(struct units *units, int count)
+SIMD void add_padding(struct units *units, int count)
 {
     units->at[count] = KILN_TILE_HEIGHT * KILN_TILE_PLANES * KILN_TILE_PITCH;
     units->u[count] = units->v[count] = -1e6f;

@@ -18,7 +18,7 @@ enum {
 /* Describes a projected triangle by planes over positions (u, v) of a picture, each as factors of
  * u, v and 1. A position is inside where no edge plane is negative. Triangles with a common edge
  * have the same plane for it with opposite signs, so that no position lies between them. */
-struct kiln_flat_triangle {
+struct kiln_projected_triangle {
     float edges[3][3];
     float nearness[3];          /* the nearest triangle has the greatest value */
     struct kiln_row_range x, y; /* pixels that the triangle may touch */
@@ -31,7 +31,7 @@ struct kiln_mesh_strip {
     float u, v, u_step, v_step; /* of the picture's upper left corner; steps from pixel to pixel */
     uint32_t layers;
     float offsets[KILN_MESH_LAYERS][2]; /* of layers, px, from a pixel's upper left corner */
-    float most;                         /* greatest nearness that is drawn */
+    float nearness_max;                 /* greatest nearness that is drawn */
     float *nearness;                    /* of the nearest triangle, by row, layer, pixel; 0: none */
     int32_t *triangles; /* 1 + number of the nearest triangle, likewise; NULL: not wanted */
     size_t pitch;       /* entries of a row of one layer */
@@ -39,8 +39,9 @@ struct kiln_mesh_strip {
 
 struct kiln_mesh_rows {
     /* Draws the triangles whose numbers are in the list, in the list's order. */
-    void (*draw)(const struct kiln_mesh_strip *strip, const struct kiln_flat_triangle *triangles,
-                 const uint32_t *list, size_t count);
+    void (*draw)(const struct kiln_mesh_strip *strip,
+                 const struct kiln_projected_triangle *triangles, const uint32_t *list,
+                 size_t count);
 };
 
 KILN_SIMD_DECLARE(const struct kiln_mesh_rows, kiln_mesh_rows);

@@ -12,8 +12,9 @@ static inline struct plane_row cut(const float plane[3], float v)
     return (struct plane_row){plane[0], plane[1] * v + plane[2]};
 }
 
-static inline void draw_row(const struct kiln_mesh_strip *s, const struct kiln_flat_triangle *t,
-                            int32_t number, uint32_t row, uint32_t layer)
+static inline void draw_row(const struct kiln_mesh_strip *s,
+                            const struct kiln_projected_triangle *t, int32_t number, uint32_t row,
+                            uint32_t layer)
 {
     float v = s->v + ((float)(s->y + row) + s->offsets[layer][1]) * s->v_step;
     struct plane_row edges[3], nearness = cut(t->nearness, v);
@@ -27,7 +28,7 @@ static inline void draw_row(const struct kiln_mesh_strip *s, const struct kiln_f
                     (edges[1].u * u + edges[1].rest >= 0.0f) &
                     (edges[2].u * u + edges[2].rest >= 0.0f);
         vf here = nearness.u * u + nearness.rest, before = vf_load(near + x);
-        inside &= (here > before) & (here <= s->most);
+        inside &= (here > before) & (here <= s->nearness_max);
         if (!any(inside))
             continue;
         vf_store(near + x, vf_select(inside, here, before));
@@ -40,12 +41,12 @@ static inline void draw_row(const struct kiln_mesh_strip *s, const struct kiln_f
 }
 
 static void draw_triangles(const struct kiln_mesh_strip *strip,
-                           const struct kiln_flat_triangle *triangles, const uint32_t *list,
+                           const struct kiln_projected_triangle *triangles, const uint32_t *list,
                            size_t count)
 {
     int32_t top = (int32_t)strip->y, bottom = top + (int32_t)strip->rows;
     for (size_t i = 0; i < count; i++) {
-        const struct kiln_flat_triangle *t = &triangles[list[i]];
+        const struct kiln_projected_triangle *t = &triangles[list[i]];
         int32_t from = t->y.from > top ? t->y.from : top, to = t->y.to < bottom ? t->y.to : bottom;
         for (int32_t y = from; y < to; y++) {
             for (uint32_t layer = 0; layer < strip->layers; layer++)

@@ -22,7 +22,7 @@ SIMD vf vf_lerp(vf a, vf b, vf t)
 }
 
 /* Interpolates as exact_lerp does: the result is within a and b for t from 0 to 1. */
-SIMD vf vf_lerp_within(vf a, vf b, vf t)
+SIMD vf vf_lerp_clamped(vf a, vf b, vf t)
 {
     return vf_min(vf_max(vf_lerp(a, b, t), vf_min(a, b)), vf_max(a, b));
 }
@@ -58,8 +58,8 @@ struct vf_particles {
 /* Reads the particles in slots of a pool's records. */
 SIMD struct vf_particles read_records(const struct kiln_particle *records, vi slots)
 {
-    const struct places places =
-        places_of_lanes(slots * (int32_t)(sizeof *records / sizeof(float)));
+    const struct lane_offsets places =
+        lane_offsets_of(slots * (int32_t)(sizeof *records / sizeof(float)));
     const float *from = (const float *)(const void *)records;
     const struct columns first = columns_load(from, &places),
                          second = columns_load(from + 4, &places);
@@ -98,8 +98,8 @@ SIMD vf vf_life(const float4 *keys, const struct kiln_derived_params *d, vu stre
 {
     vf before = vf_of((vi)((birth >> KILN_BIRTH_STEP_SHIFT) - 1u)) - (float)d->warmup_steps;
     vf born_s = (before + vf_birth_fraction(birth)) * d->dt_s;
-    return vf_lerp_within(vf_value_at(keys, &d->life.min, born_s),
-                          vf_value_at(keys, &d->life.max, born_s), vu_unit(stream, RANDOM_LIFE));
+    return vf_lerp_clamped(vf_value_at(keys, &d->life.min, born_s),
+                           vf_value_at(keys, &d->life.max, born_s), vu_unit(stream, RANDOM_LIFE));
 }
 
 /* Returns the progress through life, 0 to 1, as particle_progress does. */

@@ -234,7 +234,7 @@ SIMD struct vf3 vf3_scale(struct vf3 a, vf factor)
 }
 
 /* Returns a + b * factor. */
-SIMD struct vf3 vf3_along(struct vf3 a, struct vf3 b, vf factor)
+SIMD struct vf3 vf3_add_scaled(struct vf3 a, struct vf3 b, vf factor)
 {
     return (struct vf3){a.x + b.x * factor, a.y + b.y * factor, a.z + b.z * factor};
 }

@@ -35,7 +35,7 @@
 #define real3_add(a, b)              vf3_add(a, b)
 #define real3_sub(a, b)              vf3_sub(a, b)
 #define real3_scale(a, x)            vf3_scale(a, x)
-#define real3_along(a, b, x)         vf3_along(a, b, x)
+#define real3_add_scaled(a, b, x)    vf3_add_scaled(a, b, x)
 #define real3_dot(a, b)              vf3_dot(a, b)
 #define real3_dot_all(a, b)          vf3_dot_all(a, b)
 #define real3_towards(to, from)      vf3_towards(to, from)

@@ -25,13 +25,13 @@
 
 /* Holds an offset for each lane. Offsets go through memory, since extracting lanes from a vector
  * costs twice as much. */
-struct places {
+struct lane_offsets {
     _Alignas(64) int32_t at[LANES];
 };
 
-SIMD struct places places_of_lanes(vi x)
+SIMD struct lane_offsets lane_offsets_of(vi x)
 {
-    struct places places;
+    struct lane_offsets places;
     memcpy(places.at, &x, sizeof places.at);
     __asm__("" : "+m"(places));
     return places;
@@ -71,7 +71,7 @@ SIMD struct columns columns_transpose(vf a, vf b, vf c, vf d)
 }
 
 /* Loads four floats of each lane's record. places: offsets of the records, in floats. */
-SIMD struct columns columns_load(const float *from, const struct places *places)
+SIMD struct columns columns_load(const float *from, const struct lane_offsets *places)
 {
     const int32_t *at = places->at;
     return columns_transpose(vf_load_fours(from, at), vf_load_fours(from, at + 1),
@@ -80,8 +80,8 @@ SIMD struct columns columns_load(const float *from, const struct places *places)
 
 /* Interpolates between four floats of each lane's record and the four floats after them. part: the
  * weight of the latter four, as vf_spread_fours lays it out. */
-SIMD struct columns columns_load_between(const float *from, const struct places *places,
-                                         const vf part[4])
+SIMD struct columns columns_load_lerp(const float *from, const struct lane_offsets *places,
+                                      const vf part[4])
 {
     vf between[4];
     for (int k = 0; k < 4; k++) {

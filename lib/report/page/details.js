@@ -51,13 +51,13 @@ function metricRow(column, value, beyond) {
 }
 
 function metricsCard(test, frame) {
-    const judged = {
+    const judgements = {
         nothing: "nothing was compared",
         state: "judged by the state hash: the simulation changed",
         pixels: "judged by its pixels, which are known",
         metrics: "judged by the metrics",
     };
-    const small = judged[frame.judgedBy] || "";
+    const small = judgements[frame.judgedBy] || "";
     if (!frame.measured) return card("Metrics", small, make("p", { class: "command muted" }, "This frame was not measured."));
     const rows = test.columns.map((column, i) => ({ column, value: frame.values[i], beyond: Boolean(frame.beyond[i]) }));
     rows.sort((a, b) => b.column.limited - a.column.limited);

@@ -32,7 +32,7 @@ const list = {
         byId("found").textContent = count === this.rows.length
             ? `${count} ${count === 1 ? "test" : "tests"}` : `${count} of ${this.rows.length} tests`;
         byId("none").hidden = count > 0 || this.rows.length === 0;
-        this.rove();
+        this.updateTabIndex();
     },
 
     sort() {
@@ -49,7 +49,7 @@ const list = {
     },
 
     /* Makes one row reachable by the Tab key; arrow keys reach the others. */
-    rove() {
+    updateTabIndex() {
         const visible = this.visible();
         const at = visible.includes(this.current) ? this.current : visible[0];
         for (const row of this.rows) row.firstChild.tabIndex = row === at ? 0 : -1;
@@ -60,7 +60,7 @@ const list = {
         this.current = row;
         row.firstChild.setAttribute("aria-current", "true");
         row.scrollIntoView({ block: "nearest" });
-        this.rove();
+        this.updateTabIndex();
     },
 
     /* Returns the visible row that is `step` places after the current one, or null. */

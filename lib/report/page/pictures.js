@@ -1,6 +1,6 @@
 /* Decodes pictures when they are first shown, and keeps them in a cache of limited size. */
 
-const KEPT_PIXELS = 32 << 20;
+const CACHE_PIXELS = 32 << 20;
 
 /* Returns an element with properties and children. Texts become text nodes, never markup. */
 function make(tag, properties, ...children) {
@@ -65,30 +65,30 @@ async function decode(place) {
 }
 
 const pictures = {
-    kept: new Map(), /* key -> promise of an ImageBitmap; the least recently used first */
+    cache: new Map(), /* key -> promise of an ImageBitmap; the least recently used first */
     pixels: 0,
 
     /* Returns a promise of a picture, or of null if there is none. */
     load(place) {
         if (place === null || place === undefined) return Promise.resolve(null);
         const key = typeof place === "number" ? place : place.url || place.problem;
-        const known = this.kept.get(key);
-        if (known) this.kept.delete(key);
+        const known = this.cache.get(key);
+        if (known) this.cache.delete(key);
         const promise = known || decode(place).then((bitmap) => {
             this.pixels += bitmap.width * bitmap.height;
             this.shrink();
             return bitmap;
         });
-        this.kept.set(key, promise);
+        this.cache.set(key, promise);
         return promise;
     },
 
     /* Drops the least recently used pictures. Those of the shown frame were used last, so they
      * stay. */
     shrink() {
-        for (const [key, promise] of this.kept) {
-            if (this.pixels <= KEPT_PIXELS || this.kept.size <= 6) break;
-            this.kept.delete(key);
+        for (const [key, promise] of this.cache) {
+            if (this.pixels <= CACHE_PIXELS || this.cache.size <= 6) break;
+            this.cache.delete(key);
             promise.then((bitmap) => {
                 this.pixels -= bitmap.width * bitmap.height;
             }, () => {});

@@ -54,7 +54,7 @@ function showReason(test, frame) {
 
 /* Shows the pictures of a frame once they are loaded, unless another call was made meanwhile. */
 async function showPictures(test, frame) {
-    const wish = ++page.shown;
+    const request = ++page.shown;
     const kinds = ["reference", "result", "error"];
     const any = frame && frame.pictures.some((place) => place !== null);
     byId("viewer").hidden = !any && test.frames.length < 2;
@@ -68,7 +68,7 @@ async function showPictures(test, frame) {
             problems[kind] = error.message;
         }
     }));
-    if (wish !== page.shown) return;
+    if (request !== page.shown) return;
     const places = {
         worst: [frame.worstX, frame.worstY],
         window: [frame.windowX, frame.windowY, frame.windowWidth, frame.windowHeight],
@@ -185,34 +185,34 @@ const click = (id) => () => {
 
 const KEYS = [
     { name: "Tests" },
-    { keys: ["j"], says: "next test", act: () => open(list.neighbor(1)) },
-    { keys: ["k"], says: "test before", act: () => open(list.neighbor(-1)) },
-    { keys: ["/"], says: "search", act: () => byId("search").focus() },
-    { keys: ["r"], says: "copy the command to run it again", act: click("copy-rerun") },
-    { keys: ["a"], says: "copy the command to approve it", act: click("copy-approve") },
+    { keys: ["j"], label: "next test", act: () => open(list.neighbor(1)) },
+    { keys: ["k"], label: "test before", act: () => open(list.neighbor(-1)) },
+    { keys: ["/"], label: "search", act: () => byId("search").focus() },
+    { keys: ["r"], label: "copy the command to run it again", act: click("copy-rerun") },
+    { keys: ["a"], label: "copy the command to approve it", act: click("copy-approve") },
     { name: "Frames" },
-    { keys: [","], says: "frame before", act: () => setFrame(page.frame - 1) },
-    { keys: ["."], says: "next frame", act: () => setFrame(page.frame + 1) },
-    { keys: ["w"], says: "worst frame", act: () => setFrame(page.test.first) },
+    { keys: [","], label: "frame before", act: () => setFrame(page.frame - 1) },
+    { keys: ["."], label: "next frame", act: () => setFrame(page.frame + 1) },
+    { keys: ["w"], label: "worst frame", act: () => setFrame(page.test.first) },
     { name: "View" },
-    ...MODES.map((mode, i) => ({ keys: [String(i + 1)], says: mode.name.toLowerCase(), act: () => viewer.setMode(mode.id) })),
-    { keys: ["["], says: "less: position, opacity, rate, gain", act: () => viewer.step(-1) },
-    { keys: ["]"], says: "more of it", act: () => viewer.step(1) },
-    { keys: ["Space", "p"], says: "play or pause flicker; swap by hand with x", act: () => viewer.effective().id === "flicker" && viewer.play(!viewer.flicker.on) },
-    { keys: ["x"], says: "swap the pictures of flicker", act: () => viewer.effective().id === "flicker" && viewer.flip() },
+    ...MODES.map((mode, i) => ({ keys: [String(i + 1)], label: mode.name.toLowerCase(), act: () => viewer.setMode(mode.id) })),
+    { keys: ["["], label: "less: position, opacity, rate, gain", act: () => viewer.step(-1) },
+    { keys: ["]"], label: "more of it", act: () => viewer.step(1) },
+    { keys: ["Space", "p"], label: "play or pause flicker; swap by hand with x", act: () => viewer.effective().id === "flicker" && viewer.play(!viewer.flicker.on) },
+    { keys: ["x"], label: "swap the pictures of flicker", act: () => viewer.effective().id === "flicker" && viewer.flip() },
     { name: "Zoom" },
-    { keys: ["+", "="], says: "larger", act: () => viewer.zoomBy(1) },
-    { keys: ["-"], says: "smaller", act: () => viewer.zoomBy(-1) },
-    { keys: ["0"], says: "fit", act: () => viewer.fit() },
-    { keys: ["9"], says: "one pixel to one", act: () => viewer.zoomTo(1 / (devicePixelRatio || 1)) },
-    { keys: ["z"], says: "go to the largest difference", act: click("zoom-worst") },
-    { keys: ["m"], says: "marks of the densest window and worst pixel", act: click("marks") },
-    { keys: ["Arrows"], says: "in the picture: move the pixel; Alt: by ten" },
-    { keys: ["Shift+Arrows"], says: "in the picture: move the picture" },
+    { keys: ["+", "="], label: "larger", act: () => viewer.zoomBy(1) },
+    { keys: ["-"], label: "smaller", act: () => viewer.zoomBy(-1) },
+    { keys: ["0"], label: "fit", act: () => viewer.fit() },
+    { keys: ["9"], label: "one pixel to one", act: () => viewer.zoomTo(1 / (devicePixelRatio || 1)) },
+    { keys: ["z"], label: "go to the largest difference", act: click("zoom-worst") },
+    { keys: ["m"], label: "marks of the densest window and worst pixel", act: click("marks") },
+    { keys: ["Arrows"], label: "in the picture: move the pixel; Alt: by ten" },
+    { keys: ["Shift+Arrows"], label: "in the picture: move the picture" },
     { name: "Page" },
-    { keys: ["t"], says: "theme: auto, light, dark", act: nextTheme },
-    { keys: ["?"], says: "these keys", act: click("help-open") },
-    { keys: ["Esc"], says: "close these keys" },
+    { keys: ["t"], label: "theme: auto, light, dark", act: nextTheme },
+    { keys: ["?"], label: "these keys", act: click("help-open") },
+    { keys: ["Esc"], label: "close these keys" },
 ];
 
 function showKeys() {
@@ -223,7 +223,7 @@ function showKeys() {
             continue;
         }
         const keys = entry.keys.flatMap((key, i) => [i ? " " : "", make("kbd", {}, key)]);
-        out.append(make("span", {}, ...keys), make("span", {}, entry.says));
+        out.append(make("span", {}, ...keys), make("span", {}, entry.label));
     }
 }
 

@@ -14,10 +14,10 @@ const MODES = [
 /* The values that a mode's slider sets. Flicker starts below three changes a second; only a
  * person's choice makes it faster. */
 const AMOUNTS = {
-    split: { name: "Position", min: 0, max: 100, step: 1, start: 50, say: (v) => v + " %" },
-    opacity: { name: "Result", min: 0, max: 100, step: 5, start: 50, say: (v) => v + " %" },
-    rate: { name: "Rate", min: 0.5, max: 10, step: 0.5, start: 2, say: (v) => v + " / s" },
-    gain: { name: "Gain", min: 0, max: 7, step: 1, start: 3, say: (v) => "\u00d7" + 2 ** v },
+    split: { name: "Position", min: 0, max: 100, step: 1, start: 50, format: (v) => v + " %" },
+    opacity: { name: "Result", min: 0, max: 100, step: 5, start: 50, format: (v) => v + " %" },
+    rate: { name: "Rate", min: 0.5, max: 10, step: 0.5, start: 2, format: (v) => v + " / s" },
+    gain: { name: "Gain", min: 0, max: 7, step: 1, start: 3, format: (v) => "\u00d7" + 2 ** v },
 };
 
 const TITLES = { reference: "Reference", result: "Result", error: "Error map" };
@@ -134,9 +134,9 @@ const viewer = {
         byId("amount-name").textContent = about.name;
         Object.assign(input, { min: about.min, max: about.max, step: about.step });
         input.value = this.amounts[amount];
-        const said = about.say(this.amounts[amount]);
-        input.setAttribute("aria-valuetext", said);
-        byId("amount-text").textContent = said;
+        const text = about.format(this.amounts[amount]);
+        input.setAttribute("aria-valuetext", text);
+        byId("amount-text").textContent = text;
         const play = byId("play");
         play.hidden = amount !== "rate";
         play.setAttribute("aria-pressed", this.flicker.on);
@@ -477,7 +477,7 @@ function showReadout(shown, cursor) {
     }
     const colors = ["reference", "result"].map((kind) => [kind, pixelOf(shown[kind], ...cursor)]);
     const parts = [make("span", {}, `x ${cursor[0]}  y ${cursor[1]}`)];
-    const said = [`${cursor[0]}, ${cursor[1]}`];
+    const spoken = [`${cursor[0]}, ${cursor[1]}`];
     for (const [kind, rgb] of colors) {
         if (rgb === null) continue;
         if (rgb === undefined) {
@@ -488,7 +488,7 @@ function showReadout(shown, cursor) {
         swatch.style.background = hexOf(rgb);
         const text = `${hexOf(rgb)}  ${rgb.map((v) => String(v).padStart(3)).join(" ")}`;
         parts.push(make("span", {}, make("span", { class: "key" }, TITLES[kind]), swatch, text));
-        said.push(`${TITLES[kind]} ${rgb.join(" ")}`);
+        spoken.push(`${TITLES[kind]} ${rgb.join(" ")}`);
     }
     const [a, b] = colors.map(([, rgb]) => rgb);
     if (a && b) {
@@ -497,8 +497,8 @@ function showReadout(shown, cursor) {
         const hex = hexOf(signed.map(Math.abs));
         const off = signed.some((v) => v !== 0);
         parts.push(make("span", { class: off ? "off" : "" }, make("span", { class: "key" }, "Difference "), `${hex}  ${text.map((t) => t.padStart(4)).join(" ")}`));
-        said.push(off ? `difference ${text.join(" ")}` : "equal");
+        spoken.push(off ? `difference ${text.join(" ")}` : "equal");
     }
     out.replaceChildren(...parts);
-    return said.join("; ");
+    return spoken.join("; ");
 }

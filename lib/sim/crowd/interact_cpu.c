@@ -109,9 +109,9 @@ static void push(void *context, size_t begin, size_t end, uint32_t worker)
     const uint32_t used = crowd->view.params->used;
     for (size_t i = begin; i < end; i++) {
         const uint32_t slot = crowd->bodies[i].velocity_slot.w;
-        const struct body_push words = body_push_of(crowd->bodies[i], crowd->records[slot]);
-        crowd->pushes[(size_t)slot * 2] = words.velocity;
-        crowd->pushes[(size_t)slot * 2 + 1] = words.position;
+        const struct body_push push = body_push_of(crowd->bodies[i], crowd->records[slot]);
+        crowd->pushes[(size_t)slot * 2] = push.velocity;
+        crowd->pushes[(size_t)slot * 2 + 1] = push.position;
         if (crowd->spins)
             crowd->spins[slot].rate = crowd->bodies[used + i].position_radius;
     }

@@ -75,9 +75,9 @@ bool kiln_interact_gl_init(struct kiln_interact *interact, struct kiln_error *er
     for (int i = 0; i < KILN_INTERACT_KERNELS; i++) {
         if ((used & KERNELS[i].used_for) == 0)
             continue;
-        char defines[128], counted[32] = "";
+        char defines[128], counted[48] = "";
         if (i == KILN_INTERACT_FIND && device->info.software)
-            snprintf(counted, sizeof counted, "#define COUNTED %uu\n", (unsigned)MOST_AROUND);
+            snprintf(counted, sizeof counted, "#define MOST_AROUND %uu\n", (unsigned)MOST_AROUND);
         snprintf(defines, sizeof defines, "#define SIM_GROUP_SIZE %u\n%s%s%s", interact->group_size,
                  KERNELS[i].defines, counted, interact->spins ? "#define SPINS 1\n" : "");
         interact->programs[i] = kiln_program_create(

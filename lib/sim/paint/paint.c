@@ -190,10 +190,10 @@ static struct kiln_splat make_splat(const struct making *m, const struct kiln_tr
     /* A limit keeps the slope at the rim finite. */
     const float outer = exact_max(soft * (2.0f - soft), 1e-3f);
     splat = (struct kiln_splat){
-        .at = {at.x, at.y, at.z},
+        .position = {at.x, at.y, at.z},
         .opacity = exact_clamp(value_at(keys, paint->opacity, time_s, mark.life), 0.0f, 1.0f),
         .normal = {normal.x, normal.y, normal.z},
-        .square = radius * radius,
+        .radius_squared = radius * radius,
         .color = {exact_clamp(color.x, 0.0f, 1.0f), exact_clamp(color.y, 0.0f, 1.0f),
                   exact_clamp(color.z, 0.0f, 1.0f)},
         .slope = 1.0f / (outer * radius * radius),
@@ -246,13 +246,13 @@ static uint32_t take_turns(const struct kiln_paint *paint, struct kiln_canvas *c
     for (uint32_t i = 0; i < paint->slot_count; i++) {
         if (!(paint->made[i].opacity > 0.0f))
             continue;
-        if (canvas->waiting)
-            canvas->waiting[i] = paint->made[i];
+        if (canvas->pending)
+            canvas->pending[i] = paint->made[i];
         else
             paint->turns[count++] = paint->made[i];
     }
-    for (uint32_t k = 0; canvas->waiting && k < per_step; k++) {
-        struct kiln_splat *splat = &canvas->waiting[canvas->next];
+    for (uint32_t k = 0; canvas->pending && k < per_step; k++) {
+        struct kiln_splat *splat = &canvas->pending[canvas->next];
         canvas->next = canvas->next + 1 < canvas->slot_count ? canvas->next + 1 : 0;
         if (splat->opacity > 0.0f)
             paint->turns[count++] = *splat;
@@ -264,7 +264,7 @@ static uint32_t take_turns(const struct kiln_paint *paint, struct kiln_canvas *c
 /* ---- a step ---------------------------------------------------------------------------------- */
 
 /* Returns how many slots keep a waiting splat; 0 where all splats are painted in their step. */
-static uint32_t waiting_slots(const struct kiln_object *object, uint32_t slot_count)
+static uint32_t pending_slots(const struct kiln_object *object, uint32_t slot_count)
 {
     const uint32_t per_step = object->paint.per_step;
     return per_step == 0 || per_step >= slot_count ? 0 : slot_count;
@@ -277,7 +277,7 @@ static bool make_canvases(const struct kiln_paint *paint, struct kiln_pool *pool
         const uint32_t i = pool->canvas_count;
         const struct kiln_object *taker = &paint->scene->backdrop.objects[paint->meshes[i].object];
         if (!kiln_canvas_init(&pool->canvases[i], taker->paint.size,
-                              waiting_slots(taker, paint->slot_count), error)) {
+                              pending_slots(taker, paint->slot_count), error)) {
             kiln_canvas_finish(&pool->canvases[i]);
             return false;
         }
@@ -297,7 +297,7 @@ bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_canvas_sh
         if (!kiln_object_takes_paint(object))
             continue;
         const struct kiln_canvas_shape *canvas = &shapes[count++];
-        const uint32_t slots = waiting_slots(object, slot_count);
+        const uint32_t slots = pending_slots(object, slot_count);
         fits = fits && count <= shape_count && canvas->edge == object->paint.size &&
                canvas->slot_count == slots && (slots == 0 || canvas->next < slots);
     }

@@ -123,11 +123,11 @@ static bool may_reach(const struct kiln_chart *chart, uint32_t block,
     const float *low = chart->low[block], *high = chart->high[block];
     float square = 0.0f;
     for (int c = 0; c < 3; c++) {
-        const float at = splat->at[c];
+        const float at = splat->position[c];
         const float beside = at < low[c] ? low[c] - at : at > high[c] ? at - high[c] : 0.0f;
         square += beside * beside;
     }
-    return square * 0.9999f <= splat->square; /* the factor covers rounding */
+    return square * 0.9999f <= splat->radius_squared; /* the factor covers rounding */
 }
 
 /* Visits the blocks that a splat may reach. The first pass, in which list is NULL, adds 1 to each
@@ -137,11 +137,11 @@ static void deal(const struct gathering *g, uint32_t number, uint32_t *ends, uin
 {
     const struct kiln_paint_grid *grid = g->gather->grid;
     const struct kiln_splat *splat = &g->splats[number];
-    const float reach = sqrtf(splat->square) * 1.0001f + grid->reach;
+    const float reach = sqrtf(splat->radius_squared) * 1.0001f + grid->reach;
     uint32_t from[3], to[3];
     for (int c = 0; c < 3; c++) {
-        from[c] = cell_along(grid, c, splat->at[c] - reach);
-        to[c] = cell_along(grid, c, splat->at[c] + reach);
+        from[c] = cell_along(grid, c, splat->position[c] - reach);
+        to[c] = cell_along(grid, c, splat->position[c] + reach);
     }
     for (uint32_t z = from[2]; z <= to[2]; z++) {
         for (uint32_t y = from[1]; y <= to[1]; y++) {

@@ -35,7 +35,8 @@ static bool measure(const struct kiln_chart *chart, size_t first, const struct k
 {
     const float *x = chart->place[0] + first, *y = chart->place[1] + first;
     const float *z = chart->place[2] + first;
-    const float at[3] = {splat->at[0], splat->at[1], splat->at[2]}, square = splat->square;
+    const float at[3] = {splat->position[0], splat->position[1], splat->position[2]},
+                square = splat->radius_squared;
     for (int i = 0; i < KILN_CHART_BLOCK; i++) {
         const float dx = x[i] - at[0], dy = y[i] - at[1], dz = z[i] - at[2];
         out[i] = dx * dx + dy * dy + dz * dz - square;

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "shared/trace.h"
-#include "sim/world/turned.h"
+#include "sim/world/oriented.h"
 
 static size_t step_stride(void)
 {
@@ -166,12 +166,12 @@ static bool has_round_colliders(const struct kiln_scene *scene)
     return any;
 }
 
-static bool has_turned_colliders(const struct kiln_scene *scene)
+static bool has_oriented_colliders(const struct kiln_scene *scene)
 {
     bool any = false;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
-        any = any || (object->collide && kiln_turned_is(object));
+        any = any || (object->collide && kiln_object_is_oriented(object));
     }
     return any;
 }
@@ -226,15 +226,16 @@ bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_devi
 {
     *programs = (struct kiln_sim_programs){.alone = 0};
     struct defines defines;
-    const bool grids = params->grids->count > 0, turned = has_turned_colliders(scene);
+    const bool grids = params->grids->count > 0, oriented = has_oriented_colliders(scene);
     const bool fields = has_field_colliders(scene), pushes = params->push_count > 0;
     const bool forces = kiln_sim_needs_all_forces(scene);
     const bool round = has_round_colliders(scene), volumes = params->grids->volumes.count > 0;
     snprintf(defines.text, sizeof defines.text,
              "#define SIM_GROUP_SIZE %u\n#define SIM_EMITTER_BIRTHS %u\n", group_size(device),
              kiln_sim_emitter_births(device));
-    add_define(&defines, "COLLIDE_ROUND", grids || volumes || turned || pushes || forces || round);
-    add_define(&defines, "COLLIDE_TURNED", turned);
+    add_define(&defines, "COLLIDE_ROUND",
+               grids || volumes || oriented || pushes || forces || round);
+    add_define(&defines, "COLLIDE_ORIENTED", oriented);
     add_define(&defines, "COLLIDE_RUB", has_rubbing(params));
     add_define(&defines, "GRIDS", grids);
     add_define(&defines, "COLLIDE_FIELD", fields);

@@ -53,7 +53,7 @@ struct kiln_sim_programs {
 };
 
 /* Creates the programs of a kernel. `files` name a kernel that knows the variants COLLIDE_ROUND,
- * COLLIDE_TURNED, GRIDS, PUSHES, SPINS (with PUSHES and COLLIDE_RUB), FORCES_ALL, SWEEP_ALL (with
+ * COLLIDE_ORIENTED, GRIDS, PUSHES, SPINS (with PUSHES and COLLIDE_RUB), FORCES_ALL, SWEEP_ALL (with
  * FORCES_ALL), COLLIDE_FIELD (with GRIDS), COLLIDE_VOLUME, COLLIDE_RUB and FAMILY; defines in
  * `files` are ignored. kiln_sim_programs_finish frees everything, also after a failure. */
 bool kiln_sim_programs_init(struct kiln_sim_programs *programs, struct kiln_device *device,

@@ -328,16 +328,16 @@ static inline void move(struct block *b)
             step_with_motion(p, kiln_get3(&b->position, i), kiln_get3(&b->velocity, i));
         bool stays = !particle_is_alive(p) || b->alone[i] != 0;
         bool dies = b->lanes.age_s[i] >= b->lanes.life_s[i] || b->lost[i] != 0;
-        uint32_t living = dies ? 0u : ~0u;
+        uint32_t alive_mask = dies ? 0u : ~0u;
         const uint4 *place = &moved.position_serial, *speed = &moved.velocity_birth;
-        b->lanes.words[0][i] = stays ? b->lanes.words[0][i] : place->x & living;
-        b->lanes.words[1][i] = stays ? b->lanes.words[1][i] : place->y & living;
-        b->lanes.words[2][i] = stays ? b->lanes.words[2][i] : place->z & living;
-        b->lanes.words[3][i] = stays ? b->lanes.words[3][i] : place->w & living;
-        b->lanes.words[4][i] = stays ? b->lanes.words[4][i] : speed->x & living;
-        b->lanes.words[5][i] = stays ? b->lanes.words[5][i] : speed->y & living;
-        b->lanes.words[6][i] = stays ? b->lanes.words[6][i] : speed->z & living;
-        b->lanes.words[7][i] = stays ? b->lanes.words[7][i] : speed->w & living;
+        b->lanes.words[0][i] = stays ? b->lanes.words[0][i] : place->x & alive_mask;
+        b->lanes.words[1][i] = stays ? b->lanes.words[1][i] : place->y & alive_mask;
+        b->lanes.words[2][i] = stays ? b->lanes.words[2][i] : place->z & alive_mask;
+        b->lanes.words[3][i] = stays ? b->lanes.words[3][i] : place->w & alive_mask;
+        b->lanes.words[4][i] = stays ? b->lanes.words[4][i] : speed->x & alive_mask;
+        b->lanes.words[5][i] = stays ? b->lanes.words[5][i] : speed->y & alive_mask;
+        b->lanes.words[6][i] = stays ? b->lanes.words[6][i] : speed->z & alive_mask;
+        b->lanes.words[7][i] = stays ? b->lanes.words[7][i] : speed->w & alive_mask;
     }
 }
 
@@ -359,11 +359,11 @@ static inline void turn(const struct kiln_sim *sim, struct block *b, uint32_t fi
     }
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         const float4 pose = {b->pose[0][i], b->pose[1][i], b->pose[2][i], b->pose[3][i]};
-        const float4 turned = spin_turned(pose, kiln_get3(&b->rate, i), time_s);
-        b->pose[0][i] = turned.x;
-        b->pose[1][i] = turned.y;
-        b->pose[2][i] = turned.z;
-        b->pose[3][i] = turned.w;
+        const float4 rotated = spin_integrate(pose, kiln_get3(&b->rate, i), time_s);
+        b->pose[0][i] = rotated.x;
+        b->pose[1][i] = rotated.y;
+        b->pose[2][i] = rotated.z;
+        b->pose[3][i] = rotated.w;
     }
     for (uint32_t i = 0; i < slots; i++) {
         const float4 pose = {b->pose[0][i], b->pose[1][i], b->pose[2][i], b->pose[3][i]};

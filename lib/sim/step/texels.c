@@ -29,8 +29,8 @@ void kiln_texels_finish(struct kiln_texels *texels)
         glDeleteProgram(texels->to_records);
     if (texels->from_records)
         glDeleteProgram(texels->from_records);
-    kiln_words_finish(&texels->state);
-    kiln_words_finish(&texels->next);
+    kiln_integer_textures_finish(&texels->state);
+    kiln_integer_textures_finish(&texels->next);
     *texels = (struct kiln_texels){.step = 0};
 }
 
@@ -40,11 +40,13 @@ static bool make_textures(struct kiln_texels *texels, struct kiln_device *device
     const uint32_t rows = (pool->slot_count + SIM_TEXEL_ROW - 1) / SIM_TEXEL_ROW;
     if (texels->state.height == rows)
         return true;
-    kiln_words_finish(&texels->state);
-    kiln_words_finish(&texels->next);
+    kiln_integer_textures_finish(&texels->state);
+    kiln_integer_textures_finish(&texels->next);
     texels->step = 0;
-    return kiln_words_init(&texels->state, device, 2, SIM_TEXEL_ROW, rows, "particles", error) &&
-           kiln_words_init(&texels->next, device, 2, SIM_TEXEL_ROW, rows, KILN_SIM_SECOND, error);
+    return kiln_integer_textures_init(&texels->state, device, 2, SIM_TEXEL_ROW, rows, "particles",
+                                      error) &&
+           kiln_integer_textures_init(&texels->next, device, 2, SIM_TEXEL_ROW, rows,
+                                      KILN_SIM_SECOND, error);
 }
 
 /* Copies the state to or from the bound records. */
@@ -67,7 +69,7 @@ static void step_system(const struct kiln_texels *texels, const struct kiln_step
     const uint32_t first_row = step->base / SIM_TEXEL_ROW;
     const uint32_t last_row = (step->base + step->used - 1) / SIM_TEXEL_ROW;
     glUseProgram(kiln_sim_programs_of(&texels->programs, step));
-    kiln_words_draw(&texels->next, first_row, last_row - first_row + 1);
+    kiln_integer_textures_draw(&texels->next, first_row, last_row - first_row + 1);
 }
 
 bool kiln_texels_step(struct kiln_texels *texels, const struct kiln_sim_blocks *blocks,
@@ -84,7 +86,7 @@ bool kiln_texels_step(struct kiln_texels *texels, const struct kiln_sim_blocks *
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_RECORDS, records);
     if (texels->step == 0 || texels->step != step - 1)
         copy(texels, blocks->device, texels->from_records, pool->slot_count);
-    kiln_words_bind_textures(&texels->state, 0);
+    kiln_integer_textures_bind(&texels->state, 0);
     for (uint32_t k = 0; k < params->system_count; k++) {
         uint32_t i = params->order[k];
         if (params->systems[i].used == 0)
@@ -92,7 +94,7 @@ bool kiln_texels_step(struct kiln_texels *texels, const struct kiln_sim_blocks *
         kiln_sim_blocks_bind(blocks, params, i);
         step_system(texels, &params->systems[i]);
     }
-    const struct kiln_words before = texels->state;
+    const struct kiln_integer_textures before = texels->state;
     texels->state = texels->next;
     texels->next = before;
     texels->step = step;

@@ -3,14 +3,14 @@
 #ifndef KILN_SIM_STEP_TEXELS_H
 #define KILN_SIM_STEP_TEXELS_H
 
-#include "gpu/words.h"
+#include "gpu/integer_textures.h"
 #include "sim/step/blocks.h"
 
 struct kiln_texels {
     struct kiln_sim_programs programs;
     GLuint to_records, from_records; /* programs */
     /* one texture has position and serial, the other velocity and birth */
-    struct kiln_words state, next;
+    struct kiln_integer_textures state, next;
     uint32_t step; /* the step after which `state` is; 0: none */
 };
 

@@ -6,7 +6,7 @@
 
 #include "base/matrix.h"
 #include "shared/exact.h"
-#include "sim/world/turned.h"
+#include "sim/world/oriented.h"
 
 static float4 to_float4(const float v[3])
 {
@@ -243,8 +243,8 @@ static struct kiln_collider object_collider(struct kiln_surroundings *around,
 {
     const struct kiln_object *object = &scene->backdrop.objects[index];
     struct kiln_collider c;
-    if (kiln_turned_is(object))
-        c = kiln_turned_collider(scene, object, start_s, end_s);
+    if (kiln_object_is_oriented(object))
+        c = kiln_oriented_collider(scene, object, start_s, end_s);
     else if (object->kind == KILN_OBJECT_BOX)
         c = box_collider(scene, object, start_s, end_s);
     else if (object->kind == KILN_OBJECT_TERRAIN)

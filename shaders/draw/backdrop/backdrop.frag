@@ -1,8 +1,8 @@
 /* Draws the scene behind the particles by ray casting: a sky gradient, a floor that fades into the
  * horizon, boxes, a sun with hard shadows, and point lights. View-space depth goes to a texture of
  * its own, for soft particles (Heinz 2019, 3.2.1 and 3.2.6). Defines compile in the parts that not
- * every scene has: ROUND shapes (spheres, cylinders), TURNED ones (capsules, turned boxes, planes),
- * MESHES, shadows of particles that are SOLIDS or INSTANCES of meshes, PAINT on meshes,
+ * every scene has: ROUND shapes (spheres, cylinders), ORIENTED ones (capsules, oriented boxes,
+ * planes), MESHES, shadows of particles that are SOLIDS or INSTANCES of meshes, PAINT on meshes,
  * FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
  *
  * lib/draw/backdrop/backdrop_gl.c runs two passes. The first casts one ray through the centre of
@@ -12,14 +12,14 @@
 // variant: SAMPLES=4
 // variant: SAMPLES=1 ROUND=1
 // variant: SAMPLES=4 ROUND=1 SOFT_SUN=1
-// variant: SAMPLES=1 TURNED=1
-// variant: SAMPLES=4 TURNED=1 SOFT_SUN=1
+// variant: SAMPLES=1 ORIENTED=1
+// variant: SAMPLES=4 ORIENTED=1 SOFT_SUN=1
 // variant: SAMPLES=1 MESHES=1
 // variant: SAMPLES=1 MESHES=1 PAINT=1
 // variant: SAMPLES=1 SOLIDS=1
 // variant: SAMPLES=1 ROUND=1 MESHES=1 FLOOR_IMAGE=1 SKY_IMAGE=1 SOFT_SUN=1
 // variant: SAMPLES=1 FLOOR_GLOSS=1
-// variant: SAMPLES=4 ROUND=1 TURNED=1 MESHES=1 PAINT=1 SOLIDS=1 INSTANCES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SAMPLES=4 ROUND=1 ORIENTED=1 MESHES=1 PAINT=1 SOLIDS=1 INSTANCES=1 FLOOR_IMAGE=1 FLOOR_GLOSS=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 
@@ -100,9 +100,9 @@ hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
     trace_spheres(origin, direction, nearest);
     trace_cylinders(origin, direction, nearest);
 #endif
-#ifdef TURNED
+#ifdef ORIENTED
     trace_capsules(origin, direction, nearest);
-    trace_turned(origin, direction, nearest);
+    trace_oriented_boxes(origin, direction, nearest);
     trace_planes(origin, direction, nearest);
 #endif
 #ifdef MESHES
@@ -114,57 +114,57 @@ hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
     return nearest;
 }
 
-/* Holds what is seen along a ray from the eye. */
-struct sight {
+/* Holds the colour of a ray from the eye and its first hit. */
+struct shaded_ray {
     vec4 color;
     hit first;
     float sunlit; /* part of the sun, 0 to 1, that no object hides from the hit */
 };
 
-/* Follows a ray from the eye and, where it hits a glossy floor, the mirrored ray. Both run in one
+/* Follows a ray from the eye and, where it hits a glossy floor, the reflected ray. Both run in one
  * loop, since compilers take minutes over a second copy of this code. The loop has its test at the
  * end, since software GL runs the body of a loop with its test at the start once more than
  * needed. */
-sight look(vec3 direction, int layer)
+shaded_ray shade_eye_ray(vec3 direction, int layer)
 {
-    sight seen;
+    shaded_ray shaded;
     vec3 origin = view.eye.xyz;
     vec4 ground = floor_along(origin, direction);
     bool first = true, goes_on = false;
 #ifdef FLOOR_GLOSS
-    mirror m = mirror_along(direction);
+    reflection m = reflection_along(direction);
 #endif
     do {
         hit h = trace(origin, direction, ground, first ? layer : -1);
         vec3 point = origin + direction * h.t;
         float sunlit = sun_visibility(point, h.normal);
         float arriving = sunlit * sunlight_through_smoke(point);
-        vec4 color = radiance(h, direction, soft_irradiance(h, point), arriving);
+        vec4 color = radiance(h, direction, irradiance_without_sun(h, point), arriving);
         if (first)
-            seen = sight(color, h, sunlit);
+            shaded = shaded_ray(color, h, sunlit);
 #ifdef FLOOR_GLOSS
         if (!first)
-            seen.color.rgb += m.weight * color.rgb;
+            shaded.color.rgb += m.weight * color.rgb;
         goes_on = first && h.surface == 0;
         if (goes_on)
-            seen.color.rgb += m.lights + arriving * m.sun;
+            shaded.color.rgb += m.lights + arriving * m.sun;
         origin = point;
-        direction = m.onwards;
+        direction = m.direction;
         ground.w = 2.0 * FAR;
         first = false;
 #endif
     } while (goes_on);
-    return seen;
+    return shaded;
 }
 
 #if SAMPLES == 1
 
 void main()
 {
-    sight seen = look(ray_direction(gl_FragCoord.xy), 0);
-    hit h = seen.first;
-    float sunlit = seen.sunlit;
-    out_color = seen.color;
+    shaded_ray shaded = shade_eye_ray(ray_direction(gl_FragCoord.xy), 0);
+    hit h = shaded.first;
+    float sunlit = shaded.sunlit;
+    out_color = shaded.color;
     out_depth = h.t;
 #ifdef MESHES
     h.surface = mark_mesh_edge(h.surface);
@@ -182,7 +182,8 @@ void main()
 {
     vec4 sum = vec4(0.0);
     for (int s = 0; s < SAMPLES; s++)
-        sum += look(ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]), 1 + s).color;
+        sum += shade_eye_ray(ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]), 1 + s)
+                   .color;
     out_color = sum / float(SAMPLES);
 }
 

@@ -7,14 +7,14 @@ layout(binding = 0) uniform sampler2D surfaces;
 
 /* The greatest change from a pixel to the next that is no edge. It allows the sun's light to change
  * over a penumbra four pixels wide; numbers of different surfaces differ by more. */
-const float WIDE = 0.25;
+const float EDGE_THRESHOLD = 0.25;
 
 void main()
 {
     ivec2 size = textureSize(surfaces, 0);
     int columns = (size.x + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;
     ivec2 first = ivec2(gl_VertexID % columns, gl_VertexID / columns) * KILN_EDGE_TILE;
-    float steepest = 0.0;
+    float largest_step = 0.0;
     float above[KILN_EDGE_TILE + 2];
     for (int y = -1; y <= KILN_EDGE_TILE; y++) {
         float before = 0.0;
@@ -22,9 +22,9 @@ void main()
             ivec2 at = clamp(first + ivec2(x, y), ivec2(0), size - 1);
             float surface = texelFetch(surfaces, at, 0).r;
             if (x >= 0)
-                steepest = max(steepest, abs(surface - before));
+                largest_step = max(largest_step, abs(surface - before));
             if (y >= 0)
-                steepest = max(steepest, abs(surface - above[x + 1]));
+                largest_step = max(largest_step, abs(surface - above[x + 1]));
             above[x + 1] = before = surface;
         }
     }
@@ -32,6 +32,6 @@ void main()
      * inwards. */
     vec2 center = min(vec2(first) + 0.5 * float(KILN_EDGE_TILE), vec2(size) - 0.5);
     vec2 ndc = center / vec2(size) * 2.0 - 1.0;
-    gl_Position = steepest > WIDE ? vec4(ndc, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    gl_Position = largest_step > EDGE_THRESHOLD ? vec4(ndc, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = float(KILN_EDGE_TILE);
 }

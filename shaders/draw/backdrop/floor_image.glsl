@@ -6,8 +6,9 @@ layout(binding = KILN_UNIT_FLOOR) uniform sampler2D floor_image;
 /* position: on the floor, m, where the ray in the direction meets it at t. */
 vec3 floor_picture(vec2 position, vec3 direction, float t)
 {
-    floor_patch covered = floor_patch_of(direction, t, view.world_to_view[0], view.world_to_view[1],
-                                         view.frustum, shapes.floor_map.z);
+    floor_footprint covered =
+        floor_footprint_of(direction, t, view.world_to_view[0], view.world_to_view[1],
+                           view.frustum, shapes.floor_map.z);
     vec2 longer = vec2(covered.longer_x, covered.longer_z);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < FLOOR_TAPS; i++) {

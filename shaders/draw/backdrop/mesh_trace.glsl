@@ -16,12 +16,12 @@ layout(binding = KILN_UNIT_MESH_PAINT) uniform sampler2DArray mesh_paint;
 /* Returns the mesh's own colour with its paint over it. */
 vec3 add_paint(int i, uvec4 found, vec3 albedo)
 {
-    int where = int(shapes.meshes[i].color.w);
-    int layer = (where & 15) - 1;
+    int layer_and_level = int(shapes.meshes[i].color.w);
+    int layer = (layer_and_level & 15) - 1;
     if (layer < 0)
         return albedo;
     float finest = log2(float(textureSize(mesh_paint, 0).x));
-    float level = max(uintBitsToFloat(found.w) + finest, float(where >> 4));
+    float level = max(uintBitsToFloat(found.w) + finest, float(layer_and_level >> 4));
     vec4 paint = textureLod(mesh_paint, vec3(unpackUnorm2x16(found.z), float(layer)), level);
     return albedo * (1.0 - paint.a) + paint.rgb;
 }
@@ -78,14 +78,15 @@ float mesh_sun_cover(int i, vec3 point, vec3 normal)
     float stride = 0.0, cover = 0.0;
     for (int k = 0; k < taps; k++) {
         vec2 aside = vec2(k & 1, k >> 1 & 1) * 2.0 * stride - stride;
-        vec2 seen = textureLod(mesh_shadow, vec3(vec2(at.u, at.v) + aside, i), level).rg;
+        vec2 shadow = textureLod(mesh_shadow, vec3(vec2(at.u, at.v) + aside, i), level).rg;
         if (k == 0) {
-            taps = seen.r > 0.0 ? taps : 1;
-            float width = shadow_width(at, spread, seen.r, seen.g);
+            taps = shadow.r > 0.0 ? taps : 1;
+            float width = shadow_width(at, spread, shadow.r, shadow.g);
             level = shadow_level(width);
             stride = 0.5 * width;
         } else {
-            cover += shadow_tap(at, aside.x, aside.y, seen.r, seen.g, 1.0 / (at.slack + stride));
+            cover += shadow_tap(at, aside.x, aside.y, shadow.r, shadow.g,
+                                1.0 / (at.slack + stride));
         }
     }
     return cover;

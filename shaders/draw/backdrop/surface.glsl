@@ -45,7 +45,7 @@ float box_sun_visibility(ray_slabs slabs, sun_edges edges)
     /* The margin, 1e-4 m, is more than rounding moves a ray aside, and less than rays start beside
      * their surface. */
     sun_hidden hidden = sun_cross_box(slabs, edges, 1e-4, shapes.sun_right.w, 0.0);
-    return hidden.way > 0.0 ? 1.0 - hidden.cover : 1.0;
+    return hidden.exit_distance > 0.0 ? 1.0 - hidden.cover : 1.0;
 #else
     return ray_is_blocked(ray_slabs_interval(slabs)) ? 0.0 : 1.0;
 #endif
@@ -54,8 +54,8 @@ float box_sun_visibility(ray_slabs slabs, sun_edges edges)
 #ifdef ROUND
 #include "draw/backdrop/round.glsl"
 #endif
-#ifdef TURNED
-#include "draw/backdrop/turned.glsl"
+#ifdef ORIENTED
+#include "draw/backdrop/oriented.glsl"
 #endif
 #ifdef MESHES
 #include "draw/backdrop/mesh_trace.glsl"
@@ -82,8 +82,8 @@ float sun_visibility(vec3 point, vec3 normal)
 #ifdef ROUND
     visible *= round_sun_visibility(origin);
 #endif
-#ifdef TURNED
-    visible *= turned_sun_visibility(origin);
+#ifdef ORIENTED
+    visible *= oriented_sun_visibility(origin);
 #endif
 #ifdef MESHES
     visible *= mesh_sun_visibility(origin, normal);
@@ -105,8 +105,8 @@ float sky_visibility(vec3 point, vec3 normal)
 #ifdef ROUND
     visible *= round_sky_visibility(point, normal);
 #endif
-#ifdef TURNED
-    visible *= turned_sky_visibility(point, normal);
+#ifdef ORIENTED
+    visible *= oriented_sky_visibility(point, normal);
 #endif
 #ifdef MESHES
     visible *= mesh_sky_visibility(point, normal);
@@ -132,7 +132,7 @@ vec3 horizon(vec3 direction)
 }
 
 /* Returns the irradiance from the sky and the point lights. */
-vec3 soft_irradiance(hit h, vec3 point)
+vec3 irradiance_without_sun(hit h, vec3 point)
 {
     vec3 ambient = sky_ambient(backdrop.sky_horizon, backdrop.sky_top, h.normal);
     vec3 irradiance =

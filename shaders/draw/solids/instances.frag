@@ -58,7 +58,7 @@ void main()
     hit h = hit(t, 0, normal, albedo.rgb);
     float sunlit = sun_visibility(point + backdrop.sun_direction.xyz * outwards, normal) *
                    sunlight_through_smoke(point);
-    vec3 lit = radiance(h, direction, soft_irradiance(h, point), sunlit).rgb;
+    vec3 lit = radiance(h, direction, irradiance_without_sun(h, point), sunlit).rgb;
     vec3 rgb = glow.rgb + mix(albedo.rgb, lit, albedo.a);
 
     gl_FragDepth = 1.0 / (1.0 + t); /* near is 1, far is 0, as in solids_spheres.frag */

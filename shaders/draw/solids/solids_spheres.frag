@@ -13,7 +13,7 @@
  * picture on the host, with samples at the same places. */
 // variant: SOLIDS=1
 // variant: SOLIDS=1 PATTERN=1
-// variant: SOLIDS=1 ROUND=1 TURNED=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
+// variant: SOLIDS=1 ROUND=1 ORIENTED=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 
@@ -54,7 +54,7 @@ vec3 view_ray(vec2 pixel)
 
 /* Returns the t at which a ray is nearest to the sphere's centre, and the square of the radius
  * minus the square of that distance, which is negative if the ray misses the sphere. */
-vec2 approach(vec3 ray)
+vec2 closest_approach(vec3 ray)
 {
     float t = dot(ray, sphere.xyz) / dot(ray, ray);
     vec3 away = ray * t - sphere.xyz;
@@ -65,7 +65,7 @@ vec2 approach(vec3 ray)
 
 /* Returns the albedo of the sphere's pattern where its normal is `normal`. pose turns the ball into
  * the world, so its conjugate turns the normal into the ball's own axes. */
-vec3 painted(vec3 normal, vec3 direction, float t)
+vec3 pattern_albedo(vec3 normal, vec3 direction, float t)
 {
     vec3 twice = -2.0 * cross(pose.xyz, normal);
     vec3 n = normal + twice * pose.w - cross(pose.xyz, twice);
@@ -79,10 +79,12 @@ vec3 painted(vec3 normal, vec3 direction, float t)
 void main()
 {
     int mask = 0;
-    for (int i = 0; i < 4; i++)
-        mask |= approach(view_ray(gl_FragCoord.xy + SAMPLE_OFFSETS[i])).y >= 0.0 ? 1 << i : 0;
+    for (int i = 0; i < 4; i++) {
+        vec3 ray = view_ray(gl_FragCoord.xy + SAMPLE_OFFSETS[i]);
+        mask |= closest_approach(ray).y >= 0.0 ? 1 << i : 0;
+    }
     vec3 ray = view_ray(gl_FragCoord.xy);
-    vec2 near = approach(ray);
+    vec2 near = closest_approach(ray);
     float t = near.x - sqrt(max(near.y, 0.0) / dot(ray, ray));
     if (mask == 0 || t > texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r)
         discard;
@@ -92,11 +94,11 @@ void main()
     vec3 point = view.eye.xyz + direction * t;
     vec3 reflected = albedo.rgb;
 #ifdef PATTERN
-    reflected = painted(normal, direction, t);
+    reflected = pattern_albedo(normal, direction, t);
 #endif
     hit h = hit(t, 0, normal, reflected);
     float sunlit = sun_visibility(point, normal) * sunlight_through_smoke(point);
-    vec3 lit = radiance(h, direction, soft_irradiance(h, point), sunlit).rgb;
+    vec3 lit = radiance(h, direction, irradiance_without_sun(h, point), sunlit).rgb;
     vec3 rgb = glow.rgb + mix(reflected, lit, albedo.a);
 
     gl_SampleMask[0] = mask;

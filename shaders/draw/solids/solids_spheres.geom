@@ -15,8 +15,8 @@ layout(location = 1) in vec4 reflected[];
 layout(location = 2) in vec4 emitted[];
 layout(location = 3) in vec4 bloom_weights[];
 #ifdef PATTERN
-layout(location = 4) in vec4 second[];
-layout(location = 5) in vec4 lying[];
+layout(location = 4) in vec4 second_albedo[];
+layout(location = 5) in vec4 ball_pose[];
 #endif
 
 layout(location = 0) flat out vec4 sphere;
@@ -52,8 +52,8 @@ void main()
         glow = emitted[0];
         bloom = bloom_weights[0];
 #ifdef PATTERN
-        other = second[0];
-        pose = lying[0];
+        other = second_albedo[0];
+        pose = ball_pose[0];
 #endif
         EmitVertex();
     }

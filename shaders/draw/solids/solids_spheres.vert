@@ -13,9 +13,9 @@ layout(location = 1) out vec4 reflected;     /* albedo; a: 1 if lit, 0 if unlit,
 layout(location = 2) out vec4 emitted;       /* radiance */
 layout(location = 3) out vec4 bloom_weights; /* weights of equation 3.2 */
 #ifdef PATTERN
-layout(location = 4) out vec4 second; /* second albedo of the pattern; a: segments of each colour;
-                                       * 0: none, below 0: a stripe */
-layout(location = 5) out vec4 lying;  /* pose: turns vectors from the ball to the world */
+layout(location = 4) out vec4 second_albedo; /* of the pattern; a: segments of each colour;
+                                              * 0: none, below 0: a stripe */
+layout(location = 5) out vec4 ball_pose;     /* turns vectors from the ball to the world */
 #endif
 
 void main()
@@ -40,14 +40,14 @@ void main()
     bloom_weights = look_at(system, KILN_LOOK_BLOOM, life);
 #ifdef PATTERN
     uvec4 turn = looks[system].turn;
-    second = look_at(system, KILN_LOOK_OTHER, life);
-    second.a = turn.z == LOOK_STRIPE ? -1.0 : float(int(turn.z) - int(LOOK_SEGMENTS));
-    second.a = turn.z == LOOK_PLAIN ? 0.0 : second.a;
+    second_albedo = look_at(system, KILN_LOOK_OTHER, life);
+    second_albedo.a = turn.z == LOOK_STRIPE ? -1.0 : float(int(turn.z) - int(LOOK_SEGMENTS));
+    second_albedo.a = turn.z == LOOK_PLAIN ? 0.0 : second_albedo.a;
     float angle = instance_angle(stream, look_at(system, KILN_LOOK_TURN, life), spread, age);
-    lying = instance_pose(stream, angle);
+    ball_pose = instance_pose(stream, angle);
 #ifdef SPINS
     if (turn.x != 0u)
-        lying = pose_of_slot(system, entry & 0xffffffu);
+        ball_pose = pose_of_slot(system, entry & 0xffffffu);
 #endif
 #endif
 }

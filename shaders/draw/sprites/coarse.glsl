@@ -3,19 +3,19 @@
  * coarse_*.frag that need it include it. */
 #include "shared/coarse.h"
 
-uniform float factor; /* edge of a coarse pixel, px of the frame */
-uniform vec2 beyond; /* margin of the coarse picture at the frame's left and top, px of the frame */
+uniform float coarse_edge_px; /* edge of a coarse pixel, px of the frame */
+uniform vec2 margin_px;       /* of the coarse picture at the frame's left and top, px of the frame */
 
 /* Returns the place of a frame's pixel in the coarse picture, in coarse pixels. Whole numbers are
  * the middles of coarse pixels. */
 vec2 coarse_place(vec2 pixel)
 {
-    return (pixel + beyond) / factor - 0.5;
+    return (pixel + margin_px) / coarse_edge_px - 0.5;
 }
 
 /* Returns how much of a pixel comes from the picture of full resolution: 1 near an edge, falling to
  * 0 over a coarse pixel. */
-float fine_part(sampler2D edges, vec2 place)
+float fine_weight(sampler2D edges, vec2 place)
 {
     ivec2 low = ivec2(floor(place)), last = textureSize(edges, 0) - 1;
     vec2 part = place - vec2(low);

@@ -9,6 +9,6 @@ layout(location = 0) out float out_depth;
 
 void main()
 {
-    bool fine = fine_part(edges, coarse_place(gl_FragCoord.xy)) > 0.0;
+    bool fine = fine_weight(edges, coarse_place(gl_FragCoord.xy)) > 0.0;
     out_depth = fine ? texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r : 0.0;
 }

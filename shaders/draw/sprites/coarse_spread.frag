@@ -45,16 +45,16 @@ void interpolate_both(vec2 place)
     out_bloom = interpolate(blooms, across);
 }
 
-void choose_by_depth(vec2 place, ivec2 own, float here)
+void choose_by_depth(vec2 place, ivec2 containing, float here)
 {
     ivec2 size = textureSize(coarse_depth, 0);
     float weights = 0.0;
     out_color = out_bloom = vec4(0.0);
     for (int i = 0; i < 9; i++) {
-        ivec2 at = own + ivec2(i % 3, i / 3) - 1;
+        ivec2 at = containing + ivec2(i % 3, i / 3) - 1;
         vec2 away = place - vec2(at);
         float weight = coarse_near(away.x) * coarse_near(away.y) *
-                       coarse_alike(here, texelFetch(coarse_depth, at, 0).r);
+                       coarse_similarity(here, texelFetch(coarse_depth, at, 0).r);
         if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size)))
             continue;
         out_color += texelFetch(coarse_color, at, 0) * weight;
@@ -69,13 +69,13 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec2 place = coarse_place(gl_FragCoord.xy);
-    ivec2 own = clamp(ivec2(floor(place + 0.5)), ivec2(0), textureSize(coarse_depth, 0) - 1);
-    if (texelFetch(edges, own, 0).r > 0.0)
-        choose_by_depth(place, own, texelFetch(depth, pixel, 0).r);
+    ivec2 containing = clamp(ivec2(floor(place + 0.5)), ivec2(0), textureSize(coarse_depth, 0) - 1);
+    if (texelFetch(edges, containing, 0).r > 0.0)
+        choose_by_depth(place, containing, texelFetch(depth, pixel, 0).r);
     else
         interpolate_both(place);
     if (has_fine) {
-        float fine = fine_part(edges, place);
+        float fine = fine_weight(edges, place);
         out_color = mix(out_color, texelFetch(fine_color, pixel, 0), fine);
         out_bloom = mix(out_bloom, texelFetch(fine_bloom, pixel, 0), fine);
     }

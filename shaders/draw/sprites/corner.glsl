@@ -42,10 +42,10 @@ void put_corner(int i, outline s)
 #if SHAPES
     place_q = s.rows.q;
 #endif
-    float at = occlusion_place(s.least);
+    float at = occlusion_place(s.nearest_depth);
     vec2 scale = vec2(2.0, 2.0) / view.frustum.zw;
     gl_Position = vec4(outer_corner(s, i) * scale - 1.0, at, 1.0);
-    if (s.before)
+    if (s.in_front)
         return;
     vec2 corner = outline_corner(i);
     vec3 v = center.xyz + (right.xyz * corner.x + up.xyz * corner.y);

@@ -8,13 +8,13 @@ struct fragment {
     vec4 bloom; /* weights, rgb */
 };
 
-struct list_place {
+struct list_range {
     uint first;  /* index of the list's first fragment */
-    uint filled; /* number of fragments on the list so far */
+    uint written; /* number of fragments on the list so far */
 };
 
 layout(std430, binding = KILN_BIND_FRAGMENT_COUNTS) buffer list_count_block { uint counts[]; };
-layout(std430, binding = KILN_BIND_FRAGMENT_PLACES) buffer list_place_block { list_place places[]; };
+layout(std430, binding = KILN_BIND_FRAGMENT_RANGES) buffer list_range_block { list_range ranges[]; };
 /* x: bits of the depth; y: twice the place in the drawing order, plus 1 for a front sheet; z: index
  * of the fragment in `fragments`. */
 layout(std430, binding = KILN_BIND_FRAGMENT_KEYS) buffer list_key_block { uvec4 list_keys[]; };
@@ -23,7 +23,7 @@ layout(std430, binding = KILN_BIND_FRAGMENTS) buffer list_block { fragment fragm
 /* Returns how many fragments are on a pixel's list. */
 uint list_length(uint pixel)
 {
-    return min(counts[pixel], places[pixel].filled);
+    return min(counts[pixel], ranges[pixel].written);
 }
 
 bool is_behind(uvec4 a, uvec4 b)

@@ -40,7 +40,7 @@ void main()
     if (block >= block_count)
         return;
     uint pixel = blocks[block].x, i = blocks[block].y + gl_LocalInvocationID.x;
-    uint first = places[pixel].first, count = list_length(pixel);
+    uint first = ranges[pixel].first, count = list_length(pixel);
     if (i >= count)
         return;
     uint left = i & ~(2u * run - 1u), middle = min(left + run, count), end = min(middle + run, count);

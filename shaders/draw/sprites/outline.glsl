@@ -12,10 +12,10 @@
 
 struct outline {
     place rows;
-    vec2 corners[4]; /* px from the top left; without a meaning unless `before` */
-    float least;     /* the smallest of its depths, m */
-    bool before;     /* all corners are before the eye */
-    bool seen;       /* it has an area */
+    vec2 corners[4];     /* px from the top left; without a meaning unless `in_front` */
+    float nearest_depth; /* the smallest of its depths, m */
+    bool in_front;       /* all corners are before the eye */
+    bool has_area;       /* it has an area */
 };
 
 /* Returns corner i of a strip of two triangles, as -1 or 1 to the right and up. */
@@ -50,16 +50,16 @@ outline find_outline()
     billboard_place p = billboard_place_deep(view.frustum, center.xyz, right.xyz, up.xyz, 1.0);
     outline s;
     s.rows = rows_of(p);
-    s.least = -center.z;
-    s.before = true;
+    s.nearest_depth = -center.z;
+    s.in_front = true;
     for (int i = 0; i < 4; i++) {
         vec2 corner = outline_corner(i);
         vec3 at = center.xyz + (right.xyz * corner.x + up.xyz * corner.y);
-        s.before = s.before && -at.z >= 1e-3 * -center.z;
+        s.in_front = s.in_front && -at.z >= 1e-3 * -center.z;
         s.corners[i] = to_pixels(at);
-        s.least = min(s.least, -at.z);
+        s.nearest_depth = min(s.nearest_depth, -at.z);
     }
-    s.seen = p.seen;
+    s.has_area = p.seen;
     return s;
 }
 
@@ -81,9 +81,9 @@ outline find_plain_outline()
         vec2 corner = outline_corner(i) * s.rows.edge;
         s.corners[i] = middle + along * corner.x + vec2(-along.y, along.x) * corner.y;
     }
-    s.least = min(-head.z, -tail.z);
-    s.before = true;
-    s.seen = true;
+    s.nearest_depth = min(-head.z, -tail.z);
+    s.in_front = true;
+    s.has_area = true;
     return s;
 }
 
@@ -100,9 +100,9 @@ outline find_outline()
         vec2 corner = outline_corner(i);
         s.corners[i] = middle + vec2(p.right.x, p.right.y) * corner.x + vec2(p.up.x, p.up.y) * corner.y;
     }
-    s.least = -center.z;
-    s.before = true;
-    s.seen = p.place.seen;
+    s.nearest_depth = -center.z;
+    s.in_front = true;
+    s.has_area = p.place.seen;
     return s;
 }
 

@@ -76,12 +76,12 @@ uint4 choose_texture(uint system, uint stream)
 }
 
 /* Chooses two adjacent cells of the atlas and the mix between them (Heinz 2019, equation 3.2).
- * `passes` is how often the particle has gone through its cells until now. The last number is the
- * level of detail. */
-vec4 choose_cells(uint4 atlas, float passes, bool random_start, uint stream, float diameter_px)
+ * `cell_cycles` is how often the particle has gone through its cells until now. The last number is
+ * the level of detail. */
+vec4 choose_cells(uint4 atlas, float cell_cycles, bool random_start, uint stream, float diameter_px)
 {
     float cells = float(atlas.y);
-    float position = passes * (cells - 1.0);
+    float position = cell_cycles * (cells - 1.0);
     if (random_start)
         position += random_unit(stream, RANDOM_CELL) * cells;
     float first = floor(position);
@@ -151,7 +151,7 @@ void make_particle(uint entry)
     billboard_size size = billboard_size(half_size, edge.half_length, 1.0);
     if (view.clock.w < 1.0 && form.x == 0u)
         size = billboard_widened(size.half_width, size.half_length, pixels_per_m);
-    plane = billboard_turned(plane, edge, side);
+    plane = billboard_rotated(plane, edge, side);
     right = vec4(plane.right * size.half_width, 0.0);
     up = vec4(plane.up * size.half_length, 0.0);
     half_size = size.half_width;

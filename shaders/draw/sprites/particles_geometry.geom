@@ -32,7 +32,7 @@ void main()
     if (!is_seen(center, particle))
         return;
     outline s = find_any_outline();
-    if (!s.seen)
+    if (!s.has_area)
         return;
     for (int i = 0; i < 4; i++) {
         put_corner(i, s);

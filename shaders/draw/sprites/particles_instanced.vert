@@ -22,7 +22,7 @@ void main()
     make_particle(entries[gl_InstanceID]);
     particle.light_y.a = float(gl_InstanceID);
     outline s = find_any_outline();
-    if (is_seen(center, particle) && s.seen)
+    if (is_seen(center, particle) && s.has_area)
         put_corner(gl_VertexID, s);
     else
         gl_Position = vec4(0.0, 0.0, 0.0, 1.0); /* the quad has no area */

@@ -1,10 +1,10 @@
 /* Counts a fragment of a billboard, or puts it on the list of its pixel, for post.compose: oit.
- * lib/draw/sprites/fragments_gl.c draws all particles with it several times: once without `fills`,
- * to count the fragments of each pixel, and then with `fills`, for each part of the picture whose
+ * lib/draw/sprites/fragments_gl.c draws all particles with it several times: once without `writes`,
+ * to count the fragments of each pixel, and then with `writes`, for each part of the picture whose
  * lists fit into memory. fragments_merge.comp and fragments_resolve.frag sort and blend the lists.
  *
  * One program does both, since two programs may round differently and then keep different
- * fragments. So whether a fragment is kept, and in how many pieces, must not depend on `fills`. */
+ * fragments. So whether a fragment is kept, and in how many pieces, must not depend on `writes`. */
 // variant: SHAPES=0
 // variant: SHAPES=1
 #include "shared/draw_layout.h"
@@ -15,17 +15,17 @@ layout(early_fragment_tests) in;
 #include "draw/sprites/fragments.glsl"
 #include "draw/sprites/fragments_pixel.glsl"
 
-uniform bool fills; /* false: count fragments; true: put them on lists */
+uniform bool writes; /* false: count fragments; true: put them on lists */
 
-/* Puts a fragment on its pixel's list, at the place `number`. half_ is 1 for the front sheet of
+/* Puts a fragment on its pixel's list, at the place `number`. front is 1 for the front sheet of
  * two, or 0. A fragment beyond the count is dropped, since it would overwrite the list of the next
  * pixel. */
-void put(uint number, float depth, uint half_, vec4 color)
+void put(uint number, float depth, uint front, vec4 color)
 {
-    uint pixel = pixel_number(), next = places[pixel].first + number;
+    uint pixel = pixel_number(), next = ranges[pixel].first + number;
     if (number >= counts[pixel])
         return;
-    list_keys[next] = uvec4(floatBitsToUint(depth), uint(quad.light_y.a) * 2u + half_, next, 0u);
+    list_keys[next] = uvec4(floatBitsToUint(depth), uint(quad.light_y.a) * 2u + front, next, 0u);
     fragments[next].color = color;
     fragments[next].bloom = vec4(quad.bloom.rgb, 0.0);
 }
@@ -50,11 +50,11 @@ void main()
     vec2 from_middle = at * 2.0 - 1.0;
     float half_depth = 0.5 * bulge * sqrt(max(1.0 - dot(from_middle, from_middle), 0.0));
     uint pieces = half_depth > 0.0 ? 2u : 1u;
-    if (!fills) {
+    if (!writes) {
         atomicAdd(counts[pixel_number()], pieces);
         return;
     }
-    uint number = atomicAdd(places[pixel_number()].filled, pieces);
+    uint number = atomicAdd(ranges[pixel_number()].written, pieces);
     if (pieces == 1u) {
         put(number, depth, 0u, color);
         return;

@@ -49,12 +49,12 @@ layout(binding = TILED_IMAGE_COLOR) writeonly uniform image2D color_image;
 layout(binding = TILED_IMAGE_BLOOM) writeonly uniform image2D bloom_image;
 
 layout(location = 1) uniform uint bin_columns;
-layout(location = 2) uniform bvec2 ends;   /* x: the first run of the picture; y: the last run */
-layout(location = 3) uniform bool keeps;   /* the glow of an earlier pass is kept */
-layout(location = 4) uniform float over;   /* 1: sprites hide others behind; 0: they are summed */
-layout(location = 5) uniform float unseen; /* the least light of a chunk that must not be left out */
-layout(location = 6) uniform uvec2 span;   /* first and end of the words of masks that this run
-                                            * draws; the first is a multiple of TILED_ROUND_WORDS */
+layout(location = 2) uniform bvec2 first_last_run; /* this is the picture's first run; its last */
+layout(location = 3) uniform bool keep_glow;       /* the glow of an earlier pass is kept */
+layout(location = 4) uniform float occludes; /* 1: sprites hide others behind; 0: they are summed */
+layout(location = 5) uniform float min_light; /* of a chunk: less light may be left out */
+layout(location = 6) uniform uvec2 span;      /* first and end of the words of masks that this run
+                                               * draws; the first is a multiple of TILED_ROUND_WORDS */
 
 #include "draw/sprites/place.glsl"
 #include "draw/sprites/shade.glsl"
@@ -109,9 +109,9 @@ float open_pixels(uvec2 first, uvec2 size)
         if (!inside)
             continue;
         pixels[k].scene = texelFetch(scene_depth, ivec2(at), 0).r;
-        if (keeps)
+        if (keep_glow)
             before = max(before, texelFetch(bloom_before, ivec2(at), 0));
-        if (!ends.x) {
+        if (!first_last_run.x) {
             uint word = (at.y * size.x + at.x) * 2u;
             pixels[k].color = carry[word];
             pixels[k].glow = carry[word + 1u];
@@ -150,7 +150,7 @@ void draw(uint i, vec2 first)
             shade(quad, at, depth, pixels[k].scene, color, glow);
             float passed = pixels[k].glow.a;
             pixels[k].color += color * passed;
-            pixels[k].glow += vec4(glow.rgb, -over * color.a) * passed;
+            pixels[k].glow += vec4(glow.rgb, -occludes * color.a) * passed;
         }
     }
 }
@@ -162,11 +162,11 @@ float most_left(tiled_bin bin, float before, uint sprites_left)
     if (gl_LocalInvocationIndex == 0u)
         left_bits = 0u;
     barrier();
-    float adding = float(min(bin.adding, sprites_left)) * uintBitsToFloat(bin.add);
+    float adding = float(min(bin.additive_count, sprites_left)) * uintBitsToFloat(bin.additive_max);
     float transmittance = 0.0;
     for (uint k = 0u; k < PIXELS; k++)
         transmittance = max(transmittance, pixels[k].glow.a);
-    float left = transmittance * (max(uintBitsToFloat(bin.cover), before) + adding);
+    float left = transmittance * (max(uintBitsToFloat(bin.covering_max), before) + adding);
     atomicMax(left_bits, floatBitsToUint(left));
     barrier();
     return uintBitsToFloat(left_bits);
@@ -193,8 +193,8 @@ void close_pixels(uvec2 first, uvec2 size)
         if (any(greaterThanEqual(at, size)))
             continue;
         vec4 color = pixels[k].color, glow = pixels[k].glow;
-        if (ends.y) {
-            vec4 before = keeps ? texelFetch(bloom_before, ivec2(at), 0) : vec4(0.0);
+        if (first_last_run.y) {
+            vec4 before = keep_glow ? texelFetch(bloom_before, ivec2(at), 0) : vec4(0.0);
             imageStore(color_image, ivec2(at), color);
             imageStore(bloom_image, ivec2(at), vec4(glow.rgb, color.a) + before * glow.a);
         } else {
@@ -213,7 +213,7 @@ void main()
     uvec2 tile = gl_WorkGroupID.xy % uint(TILED_BIN_TILES);
     tiled_bin bin = bins[home.y * bin_columns + home.x];
     for (uint word = span.x; word < span.y && word * 32u < bin.count; word += WORDS) {
-        if (most_left(bin, before, bin.count - word * 32u) < unseen)
+        if (most_left(bin, before, bin.count - word * 32u) < min_light)
             break;
         uint count = list_hits(bin, tile.y * uint(TILED_BIN_TILES) + tile.x, word);
         for (uint i = 0u; i < count; i++)

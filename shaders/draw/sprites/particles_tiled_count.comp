@@ -15,7 +15,7 @@ layout(std430, binding = TILED_BIND_COUNTS) writeonly buffer count_block
     uint counts[];
 };
 
-layout(location = 0) uniform uint words; /* of a bin's mask */
+layout(location = 0) uniform uint mask_words; /* of a bin's mask */
 
 shared uint total;
 
@@ -26,8 +26,8 @@ void main()
         total = 0u;
     barrier();
     uint sum = 0u;
-    for (uint word = me; word < words; word += TILED_GROUP_SIZE)
-        sum += uint(bitCount(bin_masks[bin * words + word]));
+    for (uint word = me; word < mask_words; word += TILED_GROUP_SIZE)
+        sum += uint(bitCount(bin_masks[bin * mask_words + word]));
     atomicAdd(total, sum);
     barrier();
     if (me == 0u)

@@ -18,17 +18,17 @@ layout(std430, binding = TILED_BIND_FARTHEST) writeonly buffer farthest_block
 
 layout(binding = 2) uniform sampler2D scene_depth;
 
-shared uint most; /* the largest depth so far: bits of a float */
+shared uint largest_depth; /* the largest depth so far: bits of a float */
 
 void main()
 {
     if (gl_LocalInvocationIndex == 0u)
-        most = 0u;
+        largest_depth = 0u;
     barrier();
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(at, textureSize(scene_depth, 0))))
-        atomicMax(most, floatBitsToUint(max(texelFetch(scene_depth, at, 0).r, 0.0)));
+        atomicMax(largest_depth, floatBitsToUint(max(texelFetch(scene_depth, at, 0).r, 0.0)));
     barrier();
     if (gl_LocalInvocationIndex == 0u)
-        farthest[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = most;
+        farthest[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = largest_depth;
 }

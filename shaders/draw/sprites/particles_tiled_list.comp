@@ -22,15 +22,15 @@ layout(std430, binding = TILED_BIND_LISTS) writeonly buffer list_block
     uint lists[];
 };
 
-layout(location = 0) uniform uint words; /* of a bin's mask */
+layout(location = 0) uniform uint mask_words; /* of a bin's mask */
 
 void main()
 {
     uint bin = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint end = bins[bin].first;
-    for (uint first = 0u; first < words; first += TILED_GROUP_SIZE) {
+    for (uint first = 0u; first < mask_words; first += TILED_GROUP_SIZE) {
         uint word = first + gl_LocalInvocationID.x;
-        uint bits = word < words ? bin_masks[bin * words + word] : 0u;
+        uint bits = word < mask_words ? bin_masks[bin * mask_words + word] : 0u;
         uint place = end + group_sum_before(uint(bitCount(bits)));
         end += group_total();
         while (bits != 0u) {

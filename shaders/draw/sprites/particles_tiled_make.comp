@@ -30,7 +30,7 @@ layout(location = 0) uniform uint count;
 layout(location = 1) uniform uint first; /* index in `entries` of the nearest particle */
 layout(location = 2) uniform float additive_alpha;
 layout(location = 3) uniform uint bin_columns;
-layout(location = 4) uniform uint words; /* of a bin's mask */
+layout(location = 4) uniform uint mask_words; /* of a bin's mask */
 
 vec4 center, right, up;
 billboard particle;
@@ -53,9 +53,9 @@ uvec2 box_of(vec2 low, vec2 high)
  * eye. */
 uvec2 box_around(outline s)
 {
-    if (!s.seen)
+    if (!s.has_area)
         return uvec2(0u);
-    if (!s.before)
+    if (!s.in_front)
         return box_of(vec2(0.0), view.frustum.zw);
     return box_of(min(min(s.corners[0], s.corners[1]), min(s.corners[2], s.corners[3])),
                   max(max(s.corners[0], s.corners[1]), max(s.corners[2], s.corners[3])));
@@ -75,11 +75,11 @@ float most_added()
 
 void write(uint row, outline s)
 {
-    float least = s.before ? s.least : 0.0;
+    float nearest_depth = s.in_front ? s.nearest_depth : 0.0;
     sprites[row + uint(SPRITE_U)] = s.rows.u;
     sprites[row + uint(SPRITE_V)] = s.rows.v;
     sprites[row + uint(SPRITE_Q)] = s.rows.q;
-    sprites[row + uint(SPRITE_MOST)] = vec4(s.rows.edge, least, most_added());
+    sprites[row + uint(SPRITE_MOST)] = vec4(s.rows.edge, nearest_depth, most_added());
     row += uint(SPRITE_QUAD);
     sprites[row] = particle.color;
     sprites[row + 1u] = particle.hot;
@@ -100,7 +100,7 @@ void mark_bins(uint i, uvec2 box)
     uvec4 touched = squares_of(box, TILED_BIN_EDGE);
     for (uint y = touched.y; y <= touched.w; y++) {
         for (uint x = touched.x; x <= touched.z; x++)
-            atomicOr(bin_masks[(y * bin_columns + x) * words + i / 32u], 1u << (i % 32u));
+            atomicOr(bin_masks[(y * bin_columns + x) * mask_words + i / 32u], 1u << (i % 32u));
     }
 }
 

@@ -55,7 +55,7 @@ layout(location = 3) uniform uint tile_columns; /* tiles in a row of the picture
 
 const uint WORDS = uint(TILED_PIECE / 32);
 shared uint marks[TILED_TILES * WORDS]; /* for each tile, a bit for each sprite of the piece */
-shared uint adding, cover, add;         /* of the piece, as in tiled_bin */
+shared uint additive_count, covering_max, additive_max; /* of the piece, as in tiled_bin */
 
 /* Returns the bin in whose list an entry is: the last bin whose list starts at the entry or before
  * it. A bin without sprites starts where the next one does, so it is never the last. */
@@ -124,10 +124,10 @@ void mark_tiles(uint i, uvec2 bin_corner)
         }
     }
     if (most.w < 0.0) {
-        atomicAdd(adding, 1u);
-        atomicMax(add, floatBitsToUint(-most.w));
+        atomicAdd(additive_count, 1u);
+        atomicMax(additive_max, floatBitsToUint(-most.w));
     } else {
-        atomicMax(cover, floatBitsToUint(most.w));
+        atomicMax(covering_max, floatBitsToUint(most.w));
     }
 }
 
@@ -143,7 +143,7 @@ void main()
     for (uint k = 0u; k < WORDS; k++)
         marks[me * WORDS + k] = 0u;
     if (me == 0u)
-        adding = cover = add = 0u;
+        additive_count = covering_max = additive_max = 0u;
     barrier();
     if (at + me < bin.count)
         mark_tiles(lists[bin.first + at + me], uvec2(number % bin_columns, number / bin_columns));
@@ -151,8 +151,8 @@ void main()
     for (uint k = 0u; k < WORDS; k++)
         masks[mask_word(bin, me, at / 32u + k)] = marks[me * WORDS + k];
     if (me == 0u) {
-        atomicAdd(bins[number].adding, adding);
-        atomicMax(bins[number].cover, cover);
-        atomicMax(bins[number].add, add);
+        atomicAdd(bins[number].additive_count, additive_count);
+        atomicMax(bins[number].covering_max, covering_max);
+        atomicMax(bins[number].additive_max, additive_max);
     }
 }

@@ -45,7 +45,7 @@ layout(std430, binding = INTERACT_BIND_CELLS) buffer cell_block
      * begins (interact_scan.comp), then where it ends (interact_place.comp). Collisions in the
      * staggered mode use only the last cell's word: how many bodies there are. interact_speeds.comp
      * keeps its bounds in the first words, before the cells are filled. interact_find.comp with
-     * COUNTED uses the word behind the cells. */
+     * MOST_AROUND uses the word behind the cells. */
     uint cell_ends[];
 };
 
@@ -86,7 +86,7 @@ uint spin_word(uint slot)
 
 /* Copies a body's rate of spin from its slot to TURNING(body); those words lie behind all bodies.
  * Does nothing in a system whose balls do not spin. */
-void note_turning(uint body, uint slot)
+void copy_spin(uint body, uint slot)
 {
     if (interact_params.spins != 0u)
         bodies[interact_params.used + body].position_radius = spin_words[spin_word(slot)];

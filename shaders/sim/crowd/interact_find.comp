@@ -1,19 +1,19 @@
 /* Finds each body's closest partner, once a round; with STAGGERED, in two grids as the paper does
- * (shared/interact_staggered.h). COUNTED is for software GL, which ends long loops early: bodies
- * with more than COUNTED others around get no partner, and the word behind all cells gets the
- * number of others, which lib/sim/crowd/interact_gl.c reports as an error. */
+ * (shared/interact_staggered.h). MOST_AROUND is for software GL, which ends long loops early:
+ * bodies with more than MOST_AROUND others around get no partner, and the word behind all cells gets
+ * the number of others, which lib/sim/crowd/interact_gl.c reports as an error. */
 // variant:
 // variant: STAGGERED=1
-// variant: COUNTED=65000u
+// variant: MOST_AROUND=65000u
 #include "sim/crowd/interact.glsl"
 
 #include "shared/interact_staggered.h"
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
 
-layout(location = 0) uniform uint later; /* 1: not the first round */
+layout(location = 0) uniform uint is_later_round; /* 1: not the first round */
 
-#ifdef COUNTED
+#ifdef MOST_AROUND
 
 /* For each of the nine rows of cells around a body, the most bodies that any invocation of the
  * group looks at. The loops of all invocations run as long as the longest one. */
@@ -48,9 +48,9 @@ uint count_around(uint self)
 void main()
 {
     uint self = invocation();
-#ifdef COUNTED
+#ifdef MOST_AROUND
     uint around = count_around(min(self, max(body_count(), 1u) - 1u));
-    if (around > COUNTED) {
+    if (around > MOST_AROUND) {
         atomicMax(cell_ends[interact_params.cell_mask + 1u], around);
         if (self < body_count())
             partners[self] = INTERACT_NOBODY;
@@ -59,12 +59,12 @@ void main()
 #endif
     if (self >= body_count())
         return;
-    if (later != 0u && partners[self] == INTERACT_NOBODY)
+    if (is_later_round != 0u && partners[self] == INTERACT_NOBODY)
         return;
 #ifdef STAGGERED
     uint partner = stagger_find(self, body_count());
 #else
     uint partner = contact_find(self);
 #endif
-    partners[self] = later != 0u ? contact_later(partner) : partner;
+    partners[self] = is_later_round != 0u ? contact_later(partner) : partner;
 }

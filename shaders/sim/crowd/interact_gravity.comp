@@ -37,7 +37,7 @@ void main()
 {
     uint me = gl_LocalInvocationID.x;
     uint slot = min(invocation(), interact_params.used - 1u);
-    bool extra = slot != invocation();
+    bool is_padding = slot != invocation();
     kiln_particle p = records[interact_params.base + slot];
     EXACT float3 place = particle_position(p);
     EXACT float3 sum = sum_before(slot);
@@ -52,7 +52,7 @@ void main()
         }
         barrier();
     }
-    if (extra)
+    if (is_padding)
         return;
     if (end_source < all_sources)
         entries[sums_at + slot] =

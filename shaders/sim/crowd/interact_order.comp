@@ -15,17 +15,17 @@ void main()
     uint place = invocation();
     if (place >= body_count())
         return;
-    uint what = entries[place].z;
+    uint slot_or_body = entries[place].z;
 #ifdef SECOND
-    body_order[place] = what;
-    body_order[interact_params.used + what] = place;
+    body_order[place] = slot_or_body;
+    body_order[interact_params.used + slot_or_body] = place;
 #else
-    kiln_body body = body_of(records[interact_params.base + what], what);
+    kiln_body body = body_of(records[interact_params.base + slot_or_body], slot_or_body);
     EXACT float3 position = body_position(body);
     stagger_key key = stagger_key_of(position, 0.5f);
     bodies[place] = body;
 #ifdef SPINS
-    note_turning(place, what);
+    copy_spin(place, slot_or_body);
 #endif
     entries[place] = uvec4(key.high, key.low, place, 0u);
 #endif

@@ -21,6 +21,6 @@ void main()
     uint place = atomicAdd(cell_ends[cell_of(position)], 1u);
     bodies[place] = body_of(p, slot);
 #ifdef SPINS
-    note_turning(place, slot);
+    copy_spin(place, slot);
 #endif
 }

@@ -41,7 +41,7 @@ void main()
     uint first = group * SIM_GROUP_SIZE * SIM_HASH_SLOTS + gl_LocalInvocationID.x;
     uint a = 0u;
     uint b = 0u;
-    uint living = 0u;
+    uint alive_count = 0u;
     for (uint i = 0u; i < SIM_HASH_SLOTS; i++) {
         uint slot = first + i * SIM_GROUP_SIZE;
         if (slot < used) {
@@ -50,7 +50,7 @@ void main()
             state_hash_lanes lanes = state_hash_spin(system, p, spins[first_spin + slot]);
 #else
             state_hash_lanes lanes = state_hash_particle(system, p);
-            living += particle_is_alive(p) ? 1u : 0u;
+            alive_count += particle_is_alive(p) ? 1u : 0u;
 #endif
             a += lanes.a;
             b += lanes.b;
@@ -58,7 +58,7 @@ void main()
     }
     atomicAdd(group_sums[0], a);
     atomicAdd(group_sums[1], b);
-    atomicAdd(group_sums[2], living);
+    atomicAdd(group_sums[2], alive_count);
     barrier();
     if (gl_LocalInvocationID.x == 0u) {
         atomicAdd(sum_a, group_sums[0]);

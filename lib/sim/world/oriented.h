@@ -1,0 +1,19 @@
+/* Makes the colliders that have frames of their own, which may turn (shared/collide_oriented.h). */
+#ifndef KILN_SIM_WORLD_ORIENTED_H
+#define KILN_SIM_WORLD_ORIENTED_H
+
+#include "scene/scene.h"
+#include "shared/layout.h"
+
+/* m: half the edge of the world. Particles farther out are lost; planes and floors end here. */
+#define KILN_WORLD 2097152.0f
+
+/* Returns whether an object collides in a frame of its own. */
+bool kiln_object_is_oriented(const struct kiln_object *object);
+
+/* Makes the collider of a step between two clip times; kiln_object_is_oriented(object) holds. */
+struct kiln_collider kiln_oriented_collider(const struct kiln_scene *scene,
+                                            const struct kiln_object *object, float start_s,
+                                            float end_s);
+
+#endif

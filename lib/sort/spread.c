@@ -1,0 +1,186 @@
+/* This file keeps an order of all slots from frame to frame and runs a part of a full sort in each
+ * frame. Equal keys are ordered by the particles' systems and serials, as in every technique. So
+ * while particles and camera are at rest, the kept order reaches the same list as the other
+ * techniques within less than two full sorts. */
+#include "sort/spread.h"
+
+#include <string.h>
+
+#include "base/error.h"
+#include "gpu/program.h"
+#include "shared/sort_layout.h"
+
+enum { PAIR_BYTES = 8 };
+
+/* Uniform locations of shaders/sort/spread.glsl and spread_rank.comp. */
+enum { AT_EYE = 6, AT_FORWARD = 7, AT_SYSTEM_COUNT = 8, AT_SYSTEMS = 9 };
+
+bool kiln_sort_spread_init(struct kiln_sort_spread *spread, struct kiln_device *device,
+                           struct kiln_oddeven *oddeven, uint32_t part_count,
+                           struct kiln_error *error)
+{
+    *spread =
+        (struct kiln_sort_spread){.device = device, .oddeven = oddeven, .part_count = part_count};
+    kiln_buffer_init(&spread->pairs, device, 0, "kept order");
+    kiln_buffer_init(&spread->counts, device, 0, "counts of the living");
+    const struct kiln_network_kernel kernels[] = {
+        {"sort/network_pad.comp", NULL, &spread->pad_program},
+        {"sort/spread_rank.comp", NULL, &spread->rank_program},
+        {"sort/spread_slot.comp", NULL, &spread->slot_program},
+        {"sort/alive_count.comp", "#define SPREAD 1\n", &spread->count_program},
+        {"sort/alive_list.comp", "#define SPREAD 1\n", &spread->list_program},
+    };
+    return kiln_scan_init(&spread->scan, device, error) &&
+           kiln_network_programs(device, kernels, sizeof kernels / sizeof *kernels, error);
+}
+
+void kiln_sort_spread_finish(struct kiln_sort_spread *spread)
+{
+    kiln_scan_finish(&spread->scan);
+    kiln_buffer_finish(&spread->pairs);
+    kiln_buffer_finish(&spread->counts);
+    const GLuint programs[] = {spread->pad_program, spread->rank_program, spread->slot_program,
+                               spread->count_program, spread->list_program};
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
+        glDeleteProgram(programs[i]);
+    *spread = (struct kiln_sort_spread){.device = NULL};
+}
+
+/* Sets the uniforms of the current program that describe where the systems' slots lie. */
+static void set_systems(const struct kiln_pool *pool)
+{
+    uint32_t systems[KILN_MAX_SYSTEMS][3] = {{0}};
+    for (uint32_t i = 0; i < pool->system_count; i++) {
+        const struct kiln_pool_system *system = &pool->systems[i];
+        uint32_t used = kiln_pool_used(system);
+        systems[i][0] = system->base;
+        systems[i][1] = system->capacity;
+        systems[i][2] = used ? (uint32_t)((system->next_serial - used) % system->capacity) : 0;
+    }
+    glUniform1ui(AT_SYSTEM_COUNT, pool->system_count);
+    glUniform3uiv(AT_SYSTEMS, KILN_MAX_SYSTEMS, systems[0]);
+}
+
+static bool bind(struct kiln_sort_spread *spread, struct kiln_pool *pool, struct kiln_error *error)
+{
+    GLuint pairs = kiln_buffer_gl(&spread->pairs, KILN_READ_WRITE, error);
+    GLuint records = pairs ? kiln_buffer_gl(&pool->records, KILN_READ, error) : 0;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_PAIRS, pairs);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_RECORDS, records);
+    return records != 0;
+}
+
+/* Runs a program over all pairs that replaces slots by ranks (rank_program) or ranks by slots
+ * (slot_program). Ranks are sorted, since they follow the order of serials. */
+static void run_over_pairs(struct kiln_sort_spread *spread, GLuint program,
+                           const struct kiln_pool *pool)
+{
+    glUseProgram(program);
+    set_systems(pool);
+    kiln_network_dispatch(spread->device, program, &pool->slot_count, 1, pool->slot_count,
+                          SORT_GROUP_SIZE);
+}
+
+bool kiln_sort_spread_advance(struct kiln_sort_spread *spread, struct kiln_pool *pool, float3 eye,
+                              float3 forward, struct kiln_error *error)
+{
+    if (pool->slot_count == 0)
+        return true;
+    const uint32_t padded = kiln_network_padded(pool->slot_count);
+    kiln_buffer_reserve(&spread->pairs, (size_t)padded * PAIR_BYTES);
+    if (!bind(spread, pool, error))
+        return false;
+    const uint32_t passes = kiln_oddeven_passes(padded);
+    uint32_t first = 0, end = passes;
+    if (spread->started) {
+        first = passes * spread->next_part / spread->part_count;
+        end = passes * (spread->next_part + 1) / spread->part_count;
+        spread->next_part = (spread->next_part + 1) % spread->part_count;
+    } else {
+        kiln_network_dispatch(spread->device, spread->pad_program, (uint32_t[]){0, padded}, 2,
+                              padded, SORT_GROUP_SIZE);
+    }
+    spread->started = true;
+    glUseProgram(spread->rank_program);
+    glUniform3f(AT_EYE, eye.x, eye.y, eye.z);
+    glUniform3f(AT_FORWARD, forward.x, forward.y, forward.z);
+    run_over_pairs(spread, spread->rank_program, pool);
+    kiln_oddeven_run_passes(spread->oddeven, padded, first, end);
+    run_over_pairs(spread, spread->slot_program, pool);
+    return kiln_device_check(spread->device, "sort: kept order", error);
+}
+
+bool kiln_sort_spread_save(struct kiln_sort_spread *spread, const struct kiln_pool *pool,
+                           uint32_t *slots, uint32_t *next_part, struct kiln_error *error)
+{
+    *next_part = KILN_SORT_NOT_BEGUN;
+    memset(slots, 0, pool->slot_count * sizeof *slots);
+    if (!spread->started)
+        return true;
+    const uint32_t(*pairs)[2] = kiln_buffer_host(&spread->pairs, KILN_READ, error);
+    for (uint32_t i = 0; pairs && i < pool->slot_count; i++)
+        slots[i] = pairs[i][1];
+    *next_part = spread->next_part;
+    return pairs != NULL;
+}
+
+bool kiln_sort_spread_restore(struct kiln_sort_spread *spread, const struct kiln_pool *pool,
+                              const uint32_t *slots, uint32_t next_part, struct kiln_error *error)
+{
+    spread->started = false;
+    spread->next_part = 0;
+    if (next_part == KILN_SORT_NOT_BEGUN)
+        return true;
+    const uint32_t padded = kiln_network_padded(pool->slot_count);
+    kiln_buffer_reserve(&spread->pairs, (size_t)padded * PAIR_BYTES);
+    uint32_t(*pairs)[2] = kiln_buffer_host(&spread->pairs, KILN_OVERWRITE, error);
+    if (!pairs)
+        return false;
+    for (uint32_t i = 0; i < padded; i++) {
+        pairs[i][0] = UINT32_MAX; /* the next kiln_sort_spread_advance computes the keys */
+        pairs[i][1] = i < pool->slot_count ? slots[i] : i;
+        if (i < pool->slot_count && slots[i] >= pool->slot_count)
+            return kiln_error_set(error, KILN_INVALID_INPUT, "a saved order of %u slots names %u",
+                                  pool->slot_count, slots[i]);
+    }
+    spread->next_part = next_part % spread->part_count;
+    spread->started = true;
+    return true;
+}
+
+/* Counts or lists the living particles of the chosen systems, depending on the program. */
+static void run_over_slots(struct kiln_sort_spread *spread, GLuint program,
+                           const struct kiln_pool *pool, const struct kiln_sort_params *params)
+{
+    glUseProgram(program);
+    set_systems(pool);
+    glUniform1ui(3, pool->slot_count);
+    glUniform1ui(4, params->systems);
+    glUniform1ui(5, params->order == KILN_SORT_FRONT_TO_BACK);
+    kiln_device_dispatch(spread->device, pool->slot_count, SORT_BLOCK);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+bool kiln_sort_spread_list(struct kiln_sort_spread *spread, struct kiln_pool *pool,
+                           const struct kiln_sort_params *params, struct kiln_buffer *entries,
+                           uint32_t *count, struct kiln_error *error)
+{
+    *count = 0;
+    if (pool->slot_count == 0)
+        return true;
+    const uint32_t blocks = (pool->slot_count - 1) / SORT_BLOCK + 1;
+    kiln_buffer_reserve(&spread->counts, blocks * sizeof(uint32_t));
+    GLuint counts = kiln_buffer_gl(&spread->counts, KILN_OVERWRITE, error);
+    GLuint list = counts ? kiln_buffer_gl(entries, KILN_READ_WRITE, error) : 0;
+    if (!list || !bind(spread, pool, error))
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, counts);
+    run_over_slots(spread, spread->count_program, pool, params);
+    if (!kiln_scan_run(&spread->scan, counts, blocks, error))
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, counts);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_ENTRIES, list);
+    run_over_slots(spread, spread->list_program, pool, params);
+    return kiln_device_check(spread->device, "sort: list", error) &&
+           kiln_scan_total(&spread->scan, count, error);
+}
