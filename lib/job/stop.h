@@ -1,5 +1,5 @@
 /* Decides whether the work of a job goes on: its caller may want no more, or a limit is reached.
- * What has not ended half a second later, the program ends: after a signal by a timer
+ * The program ends work that goes on for half a second more: after a signal by a timer
  * (cmd/signals.c), at a limit by a thread (cmd/limits.c). */
 #ifndef KILN_JOB_STOP_H
 #define KILN_JOB_STOP_H

@@ -72,7 +72,7 @@ bool kiln_output_is_images(const char *path)
     return format && !format->one_file;
 }
 
-/* What `kiln help outputs` says below the table of formats. */
+/* The notes of `kiln help outputs`, which stand below its table of formats. */
 static const char notes[] =
     "\n"
     "The names of images are numbered: frame_####.png and frame_%04d.png both give "

@@ -32,7 +32,7 @@ struct kiln_rendered_frame {
     char path[KILN_PATH_SIZE];
 };
 
-/* What a rendering found and made. After an error, the members that were filled before it stay; the
+/* The results of a rendering. After an error, the members that were filled before it stay; the
  * others are zero. */
 struct kiln_rendering {
     bool no_device; /* there is no device with the requested name */

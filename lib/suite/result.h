@@ -10,7 +10,7 @@
 
 enum { KILN_TEST_MAX_FRAMES = 1000, KILN_RESULT_MAX_ENTRIES = 1000 };
 
-/* What decided the verdict on a frame. */
+/* The rule that decided the verdict on a frame. */
 enum kiln_judged_by {
     KILN_JUDGED_BY_NOTHING, /* no golden, nothing rendered, or repeated renders differ */
     KILN_JUDGED_BY_STATE,   /* the state hash differs: the simulation changed */

@@ -6,7 +6,7 @@
 #include "kiln_program.h"
 #include "suite/rendering.h"
 
-/* What a test case knows of a frame and does not write into its result. */
+/* The data of a frame that a test case needs and does not write into its result. */
 struct kiln_test_case_frame {
     enum kiln_code code; /* of the frame's error */
     bool has_golden;

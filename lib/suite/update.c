@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "suite/test_case.h"
 
-/* What an update does with a frame. */
+/* The ways in which an update treats a frame. */
 enum action {
     LEAVE,
     ACCEPT_HASHES,  /* only hashes go into expect.yaml */

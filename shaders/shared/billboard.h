@@ -77,7 +77,7 @@ REAL_FN S(billboard_edge) billboard_stretched(uint facing, S(billboard_edge) sti
     }
     truth points = stretch > 0.0f;
     if (facing == LOOK_VELOCITY)
-        points = stretch >= 0.0f;
+        points = stretch >= 0.0f; /* all of them: a stretch is never negative */
     real speed = real_sqrt(moving_x * moving_x + moving_y * moving_y);
     real scale = 1.0f / real_max(speed, real_all(1e-4f));
     real part = real_smoothstep(0.05f, 0.2f, speed);

@@ -9,8 +9,8 @@
 /* Fetches along the longer edge of the part of the floor that a pixel covers. */
 #define FLOOR_TAPS 8
 
-/* What a pixel covers of the floor is a parallelogram. Several fetches lie along its longer edge,
- * m; the shorter one chooses their level. */
+/* The footprint of a pixel on the floor, a parallelogram. Several fetches lie along its longer
+ * edge, m; its shorter edge chooses their level. */
 struct floor_footprint {
     real longer_x, longer_z, level;
 };
@@ -31,7 +31,7 @@ REAL_FN S(floor_shift) floor_shift_of(real3 direction, float4 row, float factor,
     return shift;
 }
 
-/* Finds what the pixel of a ray covers of the floor, which the ray meets at t. right, up: the
+/* Returns the footprint of the pixel of a ray that meets the floor at t. right, up: the
  * camera's first two rows; frustum: that of struct kiln_view; texels_a_m: of the picture. */
 REAL_FN S(floor_footprint) floor_footprint_of(real3 direction, real t, float4 right, float4 up,
                                               float4 frustum, float texels_a_m)
@@ -45,12 +45,12 @@ REAL_FN S(floor_footprint) floor_footprint_of(real3 direction, real t, float4 ri
     /* The width is the area over the length, since the two edges need not be perpendicular. */
     real width = real_abs(u.x * v.z - u.z * v.x) * inverse;
     real covered = real_max(width, square * inverse * (1.0f / FLOAT(FLOOR_TAPS)));
-    S(floor_footprint) covered_patch;
-    covered_patch.longer_x = real_select(along_u, u.x, v.x);
-    covered_patch.longer_z = real_select(along_u, u.z, v.z);
-    covered_patch.level =
+    S(floor_footprint) footprint;
+    footprint.longer_x = real_select(along_u, u.x, v.x);
+    footprint.longer_z = real_select(along_u, u.z, v.z);
+    footprint.level =
         real_log2(real_min(real_max(covered * texels_a_m, real_all(1e-6f)), real_all(1e9f)));
-    return covered_patch;
+    return footprint;
 }
 
 /* Returns where fetch i lies along the longer edge, as a part of it from the middle. */

@@ -81,9 +81,9 @@ REAL_FN real shadow_tap(S(shadow_receiver) at, real aside_u, real aside_v, real 
 
 /* ---- silhouettes of mesh particles ----------------------------------------------------------- */
 
-/* Where a receiver reads a tile: texture coordinates in it; the level whose texels are as large as
- * the sun's radius there; the last level; and the weight of the mesh's bounding sphere in place of
- * its silhouette, 0 to 1, which grows as the sun's blur exceeds the mesh's size. */
+/* The place where a receiver reads a tile: texture coordinates in it; the level whose texels are as
+ * large as the sun's radius there; the last level; and the weight of the mesh's bounding sphere in
+ * place of its silhouette, 0 to 1, which grows as the sun's blur exceeds the mesh's size. */
 struct silhouette_place {
     real u, v, level, last, round;
     truth before; /* the mesh is on the sun's side of the receiver */

@@ -20,8 +20,9 @@ REAL_FN real3 smoke_grid_place(float4 x, float4 y, float4 z, real3 position)
  * all of it. */
 REAL_FN truth smoke_grid_shades(real3 at)
 {
-    truth beside = truth_or(truth_or(at.x<0.0f, at.x> 1.0f), truth_or(at.y<0.0f, at.y> 1.0f));
-    return truth_not(truth_or(beside, at.z > 1.0f));
+    real least = real_min(at.x, at.y);
+    real most = real_max(real_max(at.x, at.y), at.z);
+    return truth_and(least >= 0.0f, most <= 1.0f);
 }
 
 /* Returns the part of the light that crosses an optical depth. */

@@ -6,8 +6,9 @@
 #include "draw/sprites/sprite_lanes.h"
 #include "shared/billboard_light.h"
 
-/* Lights sprites. lit: how much of the light is reflected; the rest of a sprite is as bright as if
- * in white light. */
+/* Computes the light on sprites along the axes of their billboards. The look's `lit` is the part of
+ * the scene's light that a sprite reflects; the rest of its light is white and comes from all
+ * sides. */
 static void light_sprites(const struct sprite_lanes *p, struct light_sum *light)
 {
     const struct kiln_draw_backdrop *b = p->pass->backdrop;

@@ -4,7 +4,6 @@
 #include "draw/sprites/sprite_cells.h"
 #include "draw/sprites/sprite_light.h"
 #include "draw/sprites/sprite_place.h"
-#include "draw/vector/real.h"
 
 enum {
     PIECE_SIZE = 512,       /* particles of a piece, which are sorted by system */

@@ -2,6 +2,9 @@
  * shaders/shared that are written in them compute a vector of points. A file includes it before any
  * header that includes shared/real.h, which would otherwise define them as single numbers. */
 #ifndef KILN_DRAW_VECTOR_REAL_H
+#ifdef KILN_SHARED_REAL_H
+#error "shared/real.h was included before draw/vector/real.h"
+#endif
 #define KILN_DRAW_VECTOR_REAL_H
 
 #include "draw/vector/ray_math.h"
