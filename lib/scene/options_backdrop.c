@@ -241,14 +241,16 @@ static const struct kiln_option point[] = {
            "Position of the light."),
     COLOR(LOOK, "color", color, 1000000, TIME, "1", "Light that arrives 1 m away."),
     VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",
-          "Radius of the light, which bounds the light nearby."),
+          "Radius of the light, which bounds the light nearby and softens shadows."),
+    BOOLEAN(LOOK, "shadow", shadow, "true",
+         "Objects of the backdrop hide it, except those that contain its centre."),
     END,
 };
 
 static const struct kiln_option_kind light_kinds[] = {
     {.name = "point",
      .members = point,
-     .help = "A light that shines to all sides, without a shadow."},
+     .help = "A light that shines to all sides."},
     {.name = NULL},
 };
 

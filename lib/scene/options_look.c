@@ -179,5 +179,7 @@ const struct kiln_option kiln_options_look[] = {
     INTEGER(LOOK, "lights", light_count, 1, KILN_MAX_FIRE_LIGHTS, "4",
             "Number of moving lights that shed the light of the system, grouped by the ages of its "
             "particles. A scene has up to 16 in all."),
+    BOOLEAN(LOOK, "light_shadow", light_shadow, "true",
+            "Objects of the backdrop hide that light, except those that contain a light's centre."),
     END,
 };

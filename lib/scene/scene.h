@@ -266,6 +266,7 @@ struct kiln_look {
     struct kiln_value shadow;    /* of particles that cover: factor on the shadow that they cast */
     struct kiln_value3 light;    /* factor on the light that they shed on other objects; 0: none */
     uint32_t light_count;        /* number of point lights for that light */
+    bool light_shadow;           /* objects hide them */
 };
 
 /* Returns whether particles are solid, with other particles in front of or behind them. */
@@ -380,7 +381,8 @@ struct kiln_object {
 struct kiln_light {
     struct kiln_value3 position;
     struct kiln_value3 color; /* radiance at 1 m */
-    struct kiln_value radius; /* m: softens the centre: 1 / (d^2 + r^2) */
+    struct kiln_value radius; /* m: softens the centre: 1 / (d^2 + r^2), and the shadows */
+    bool shadow;              /* objects hide it */
 };
 
 struct kiln_backdrop {

@@ -52,9 +52,13 @@ struct kiln_view {
     uint4 clock_step; /* number of steps; seed; unused; unused */
 };
 
+/* A lamp, or a part of the light of fire. */
 struct kiln_draw_light {
     float4 position_radius2; /* m, m^2 */
-    float4 color;            /* radiance at 1 m */
+    float4 color;            /* radiance at 1 m; w: radius, m */
+    /* x: a bit for each object of the backdrop that may hide the light: boxes first, then spheres,
+     * cylinders, capsules and oriented boxes */
+    uint4 casters;
 };
 
 /* Sky, floor, boxes, sun and lights: all that lies behind the particles and lights them. */

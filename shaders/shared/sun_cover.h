@@ -1,7 +1,7 @@
-/* Computes how much of the sun convex shapes hide from a point: penumbras without samples. At the
- * distance of an edge, the light from the sun to the point passes through a disc. The cover is the
- * part of this disc beyond the edge, 0 to 1. For a ball that is lit, the disc's radius grows by the
- * ball's. */
+/* Computes how much of a light convex shapes hide from a point: penumbras without samples. At the
+ * distance of an edge, the light to the point passes through a disc. The cover is the part of this
+ * disc beyond the edge, 0 to 1. For a ball that is lit, the disc's radius grows by the ball's. The
+ * sun is in one direction from all points; lamp_cover.h does the same for lamps, which are near. */
 #ifndef KILN_SHARED_SUN_COVER_H
 #define KILN_SHARED_SUN_COVER_H
 
@@ -26,105 +26,233 @@ REAL_FN real strip_cover(real one, real other, real radius)
 }
 
 /* Returns the radius of the disc at a distance along the ray, m. spread: the tangent of the angle
- * of the sun's radius; radius: of the ball that is lit, m. */
-REAL_FN real sun_penumbra(real along, float spread, float radius)
+ * of the light's radius; radius: of the ball that is lit, m. */
+REAL_FN real sun_penumbra(real along, real spread, float radius)
 {
     return real_max(along * spread + radius, real_all(exact_max(radius, 1e-5f)));
 }
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
-struct sun_crossed {
+/* The outline of a box as seen along a ray. It is a hexagon, the intersection of three strips. The
+ * two edges of a strip are edges of the box that lie along one axis. At each, a face that light
+ * enters, of one of the other two axes, meets a face that light leaves, of the other. */
+struct box_strip {
+    real first, second; /* squares of 1 / direction along these two axes */
+    real inverse;       /* 1 / (first + second) */
+    real root;          /* of inverse */
+};
+
+struct box_outline {
+    real3 later; /* how much later light leaves a slab for each metre that it passes aside */
+    S(box_strip) xy, yz, xz;
+    /* How much two edges coincide in the outline, 1 if they are parallel there: edges along x and
+     * y; edges along z and another axis. */
+    real alike_xy, alike_z;
+};
+
+REAL_FN S(box_strip) box_strip_of(real inverse_a, real inverse_b)
+{
+    S(box_strip) strip;
+    strip.first = inverse_a * inverse_a;
+    strip.second = inverse_b * inverse_b;
+    strip.inverse = 1.0f / (strip.first + strip.second);
+    strip.root = real_sqrt(strip.inverse);
+    return strip;
+}
+
+REAL_FN real box_likeness(real a, real b)
+{
+    real cosine =
+        a * b / real_sqrt(real_max((1.0f - a * a) * (1.0f - b * b), real_all(1e-12f)));
+    real square = real_min(cosine * cosine, real_all(1.0f));
+    return square * square * square * square;
+}
+
+REAL_FN real box_later(real inverse)
+{
+    return real_sqrt(real_max(inverse * inverse - 1.0f, real_all(0.0f)));
+}
+
+/* Returns the outline of a box. way: unit, to the light in the box's frame; inverse: its
+ * ray_inverse3. */
+REAL_FN S(box_outline) box_outline_of(real3 way, real3 inverse)
+{
+    S(box_outline) o;
+    o.later = REAL3(box_later(inverse.x), box_later(inverse.y), box_later(inverse.z));
+    o.xy = box_strip_of(inverse.x, inverse.y);
+    o.yz = box_strip_of(inverse.y, inverse.z);
+    o.xz = box_strip_of(inverse.x, inverse.z);
+    o.alike_xy = box_likeness(way.x, way.y);
+    o.alike_z = real_max(box_likeness(way.y, way.z), box_likeness(way.x, way.z));
+    return o;
+}
+
+REAL_FN S(box_strip) box_strip_all(float4 packed)
+{
+    S(box_strip) strip;
+    strip.first = real_all(packed.x);
+    strip.second = real_all(packed.y);
+    strip.inverse = real_all(packed.z);
+    strip.root = real_all(packed.w);
+    return strip;
+}
+
+/* Returns the outline that all points see, since the sun is in one direction from all of them. */
+REAL_FN S(box_outline) box_outline_all(S(sun_edges) edges)
+{
+    S(box_outline) o;
+    o.later = real3_all(edges.later);
+    o.xy = box_strip_all(edges.xy);
+    o.yz = box_strip_all(edges.yz);
+    o.xz = box_strip_all(edges.xz);
+    o.alike_xy = real_all(edges.alike.x);
+    o.alike_z = real_all(edges.alike.y);
+    return o;
+}
+
+struct box_crossed {
     real cover;
     real outside; /* how far the ray passes the strip, m; below 0: within it */
 };
 
 /* near_a to far_b: the t at which light enters and leaves the slabs of the strip's two axes. */
-REAL_FN S(sun_crossed) sun_cross_strip(float4 strip, real near_a, real near_b, real far_a,
-                                       real far_b, float spread, float radius)
+REAL_FN S(box_crossed) box_cross_strip(S(box_strip) strip, real near_a, real near_b, real far_a,
+                                       real far_b, real spread, float radius)
 {
-    real one = (far_b - near_a) * strip.w, other = (far_a - near_b) * strip.w;
-    real one_at = (near_a * strip.y + far_b * strip.x) * strip.z;
-    real other_at = (near_b * strip.x + far_a * strip.y) * strip.z;
+    real one = (far_b - near_a) * strip.root, other = (far_a - near_b) * strip.root;
+    real one_at = (near_a * strip.second + far_b * strip.first) * strip.inverse;
+    real other_at = (near_b * strip.first + far_a * strip.second) * strip.inverse;
     real cover = disc_cover(one / sun_penumbra(one_at, spread, radius)) +
                  disc_cover(other / sun_penumbra(other_at, spread, radius)) - 1.0f;
-    S(sun_crossed) crossed;
+    S(box_crossed) crossed;
     crossed.cover = real_max(cover, real_all(0.0f));
     crossed.outside = -real_min(one, other);
     return crossed;
 }
 
 /* Combines the covers of two strips. At a corner of the outline they are multiplied; but where the
- * sun is across an axis, two of the strips end at the same edge, which counts once. */
-REAL_FN real both_strips(real a, real b, float alike)
+ * light is across an axis, two of the strips end at the same edge, which counts once. */
+REAL_FN real both_strips(real a, real b, real alike)
 {
     return a * b + (real_min(a, b) - a * b) * alike;
 }
 
-struct sun_hidden {
+struct box_hidden {
     real cover;
-    real exit_distance; /* how far light goes until it leaves the box, m */
+    real enter_distance, exit_distance; /* how far light goes until it enters and leaves, m */
 };
 
 /* Computes the cover of a box from where the light's ray crosses its slabs. For a ray that passes
  * beside the outline, the way is that of a ray through the outline's edge and `margin` metres
- * further inside, which leaves the slabs later by at most sun_edges.later for each metre. */
-REAL_FN S(sun_hidden) sun_cross_box(S(ray_slabs) s, S(sun_edges) e, float margin, float spread,
-                                    float radius)
+ * further inside, which leaves the slabs later by at most `later` for each metre. */
+REAL_FN S(box_hidden) box_cross(S(ray_slabs) s, S(box_outline) o, float margin, real spread,
+                                float radius)
 {
-    S(sun_crossed) xy = sun_cross_strip(e.xy, s.near.x, s.near.y, s.far.x, s.far.y, spread, radius);
-    S(sun_crossed) yz = sun_cross_strip(e.yz, s.near.y, s.near.z, s.far.y, s.far.z, spread, radius);
-    S(sun_crossed) xz = sun_cross_strip(e.xz, s.near.x, s.near.z, s.far.x, s.far.z, spread, radius);
+    S(box_crossed) xy =
+        box_cross_strip(o.xy, s.near.x, s.near.y, s.far.x, s.far.y, spread, radius);
+    S(box_crossed) yz =
+        box_cross_strip(o.yz, s.near.y, s.near.z, s.far.y, s.far.z, spread, radius);
+    S(box_crossed) xz =
+        box_cross_strip(o.xz, s.near.x, s.near.z, s.far.x, s.far.z, spread, radius);
     real outside = real_max(real_max(xy.outside, real_all(0.0f)), real_max(yz.outside, xz.outside));
     real aside = outside + margin;
-    S(sun_hidden) box;
-    box.cover = both_strips(both_strips(yz.cover, xz.cover, e.alike.x), xy.cover, e.alike.y);
-    box.exit_distance = real_min(real_min(s.far.x + aside * e.later.x, s.far.y + aside * e.later.y),
-                                 s.far.z + aside * e.later.z);
+    real3 later = REAL3(aside * o.later.x, aside * o.later.y, aside * o.later.z);
+    S(box_hidden) box;
+    box.cover = both_strips(both_strips(yz.cover, xz.cover, o.alike_xy), xy.cover, o.alike_z);
+    box.enter_distance = real_max(real_max(s.near.x - later.x, s.near.y - later.y),
+                                  s.near.z - later.z);
+    box.exit_distance =
+        real_min(real_min(s.far.x + later.x, s.far.y + later.y), s.far.z + later.z);
     return box;
 }
 
 /* ---- round shapes ---------------------------------------------------------------------------- */
 
-/* Returns the cover of a ball. towards: the way to its centre; spread: as for sun_penumbra. */
-REAL_FN real ball_cover(real3 towards, float radius, float4 sun, float spread)
+/* What a shape hides of a light, and how far from the point it does, m. */
+struct cover_at {
+    real cover, distance;
+};
+
+/* Returns the cover of a ball. towards: the way to its centre; way: unit, to the light; spread: as
+ * for sun_penumbra. */
+REAL_FN S(cover_at) ball_cover(real3 towards, float radius, real3 way, real spread)
 {
-    real t = real3_dot_all(towards, sun);
-    real across = real3_length(real3_add_scaled(towards, real3_all(sun), -t));
-    return real_where(t >= 0.0f, strip_cover(radius - across, radius + across, t * spread));
+    real t = real3_dot(towards, way);
+    real across = real3_length(real3_add_scaled(towards, way, -t));
+    S(cover_at) at;
+    at.cover = real_where(t >= 0.0f, strip_cover(radius - across, radius + across, t * spread));
+    at.distance = t;
+    return at;
 }
 
 /* Returns the way to a ball: of the balls that form a capsule, the one that light passes most
  * closely. */
-REAL_FN real3 capsule_nearest(real3 towards, float4 axis, float4 sun)
+REAL_FN real3 capsule_nearest(real3 towards, float4 axis, real3 way)
 {
-    float climb = axis.x * sun.x + axis.y * sun.y + axis.z * sun.z;
-    float4 level =
-        FLOAT4(axis.x - sun.x * climb, axis.y - sun.y * climb, axis.z - sun.z * climb, 0.0f);
-    float square = level.x * level.x + level.y * level.y + level.z * level.z;
-    real along = real3_dot_all(towards, level) * (-1.0f / exact_max(square, 1e-6f));
+    real climb = real3_dot_all(way, axis);
+    real3 level = real3_add_scaled(real3_all(axis), way, -climb);
+    real square = real3_dot(level, level);
+    real along = real3_dot(towards, level) * (-1.0f / real_max(square, real_all(1e-6f)));
     return real3_add_scaled(towards, real3_all(axis), real_clamp(along, -axis.w, axis.w));
 }
 
-/* Returns the cover of a capped cylinder. towards: the way to its middle; axis: w: half of its
- * height. */
-REAL_FN real cylinder_cover(real3 towards, float radius, float4 axis, float4 sun, S(sun_band) band,
-                            float spread)
+/* How a capped cylinder looks along a ray: a band along `up`, with round ends. */
+struct cover_band {
+    real3 right, up;
+    /* Sine and cosine of the angle between the axis and the plane across the ray. */
+    real climb, slant;
+    real side; /* 1 if the axis points along `up`, -1 if against it */
+};
+
+/* Returns the band of a cylinder. axis: unit; aside: unit, across the ray, for a cylinder that is
+ * seen along its axis. */
+REAL_FN S(cover_band) cover_band_of(float4 axis, real3 way, real3 aside)
 {
-    real x = real3_dot_all(towards, band.right), y = real3_dot_all(towards, band.up);
-    real along = real_clamp(-y * (1.0f / (band.lean.y * band.lean.z)), -axis.w, axis.w);
-    real t = real_max(real3_dot_all(towards, sun) + along * band.lean.x, real_all(0.0f));
+    S(cover_band) band;
+    band.climb = real3_dot_all(way, axis);
+    band.slant = real_sqrt(real_max(1.0f - band.climb * band.climb, real_all(1e-6f)));
+    real3 across = real3_cross(real3_all(axis), way);
+    real3 level = real3_scale(across, 1.0f / band.slant);
+    band.right = real3_select(band.slant > 1e-3f, level, aside);
+    band.up = real3_cross(way, band.right);
+    band.side = real_sign_one(real3_dot_all(band.up, axis));
+    return band;
+}
+
+REAL_FN S(cover_band) cover_band_all(S(sun_band) packed)
+{
+    S(cover_band) band;
+    band.right = real3_all(packed.right);
+    band.up = real3_all(packed.up);
+    band.climb = real_all(packed.lean.x);
+    band.slant = real_all(packed.lean.y);
+    band.side = real_all(packed.lean.z);
+    return band;
+}
+
+/* Returns the cover of a capped cylinder. towards: the way to its middle; axis: w: half of its
+ * height; way: unit, to the light. */
+REAL_FN S(cover_at) cylinder_cover(real3 towards, float radius, float4 axis, real3 way,
+                                   S(cover_band) band, real spread)
+{
+    real x = real3_dot(towards, band.right), y = real3_dot(towards, band.up);
+    real along = real_clamp(-y * (1.0f / (band.slant * band.side)), -axis.w, axis.w);
+    real t = real_max(real3_dot(towards, way) + along * band.climb, real_all(0.0f));
     real inside = real_sqrt(real_max(radius * radius - x * x, real_all(0.0f)));
-    real end = axis.w * band.lean.y + exact_abs(band.lean.x) * inside;
+    real end = axis.w * band.slant + real_abs(band.climb) * inside;
     real sides = strip_cover(radius - real_abs(x), radius + real_abs(x), t * spread);
     real ends = strip_cover(end - real_abs(y), end + real_abs(y), t * spread);
     /* Light that starts beside the cylinder or beyond an end may only lead away from it. */
     real height = -real3_dot_all(towards, axis);
     real3 aside = real3_add_scaled(towards, real3_all(axis), height);
-    truth beyond = truth_and(real_abs(height) >= axis.w, height * band.lean.x > 0.0f);
+    truth beyond = truth_and(real_abs(height) >= axis.w, height * band.climb > 0.0f);
     truth beside =
-        truth_and(real3_dot(aside, aside) >= radius * radius, real3_dot_all(aside, sun) < 0.0f);
-    return real_where(truth_not(truth_or(beyond, beside)), sides * ends);
+        truth_and(real3_dot(aside, aside) >= radius * radius, real3_dot(aside, way) < 0.0f);
+    S(cover_at) at;
+    at.cover = real_where(truth_not(truth_or(beyond, beside)), sides * ends);
+    at.distance = t;
+    return at;
 }
 
 /* Returns the cover of a small ball, which may be smaller than the sun's disc: the common part of

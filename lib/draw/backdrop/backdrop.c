@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "draw/backdrop/backdrop_cpu.h"
 #include "draw/backdrop/backdrop_gl.h"
+#include "draw/light/lamps.h"
 #include "draw/light/lighting_gl.h"
 #include "draw/light/sun_cover.h"
 
@@ -50,8 +51,11 @@ static void fill_lights(const struct kiln_scene *scene, float time_s,
         const struct kiln_light *light = &scene->backdrop.lights[i];
         float radius = kiln_scene_value(scene, &light->radius, time_s);
         float3 position = kiln_scene_value3(scene, &light->position, time_s);
-        block->lights[i].position_radius2 = with_w(position, radius * radius);
-        block->lights[i].color = with_w(kiln_scene_value3(scene, &light->color, time_s), 0.0f);
+        block->lights[i] = (struct kiln_draw_light){
+            .position_radius2 = with_w(position, radius * radius),
+            .color = with_w(kiln_scene_value3(scene, &light->color, time_s), radius),
+            .casters = {light->shadow ? 1 : 0, 0, 0, 0},
+        };
     }
 }
 
@@ -211,6 +215,7 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
     if (moment->meshes.painted)
         inputs.paint = kiln_painted_all_changes(moment->meshes.painted);
     add_lighting(&inputs.block, lighting);
+    kiln_lamps_find_casters(&inputs.shapes, &inputs.block);
     inputs.shapes.counts.w = lighting->solids.edge;
     memcpy(inputs.shapes.world_to_bin, lighting->solids.world_to_bin,
            sizeof inputs.shapes.world_to_bin);

@@ -69,32 +69,48 @@ SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
 struct shaded_rays {
     struct ray_color color;
     struct ray_hit first;
-    vf sunlit;  /* part of the sun that the hit sees, smoke left out */
     vf arrives; /* part of the sun that arrives at the hit through smoke */
+    vf light;   /* part of the sun that the hit sees past objects, less the part of its other light
+                 * that shadows of lamps take; -1 to 1 */
+    struct ray_reflection mirror; /* of a glossy floor */
+    struct vf3 reflected;         /* light of the lamps that it reflects to the eye */
 };
 
+/* Computes the light that arrives at the hits, and their colours. */
+SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, bool glossy,
+                     struct shaded_rays *shaded)
+{
+    const struct ray_hit *hit = &shaded->first;
+    const struct ray_point point = {ray_at(ray, hit->t), hit->normal, hit->surface >= 0.0f};
+    struct arrived arrived = {.irradiance = {{0}, {0}, {0}}};
+    if (any(point.active)) {
+        const vi lit = facing_sun(frame, &point);
+        const vf sunlit = sun_visibility(frame, point.at, point.normal, lit);
+        const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
+        shaded->arrives = sunlit * smoke_lets_through(frame->smoke_to_sun,
+                                                      frame->backdrop->sun_to_grid, &sunny);
+        glossy = glossy && any(hit->surface == 0.0f);
+        if (glossy)
+            shaded->mirror = floor_reflection_along(frame, ray);
+        arrived = light_without_sun(frame, &point, glossy ? &shaded->mirror.at : NULL);
+        shaded->light = sunlit - arrived.hidden / vf_max(arrived.all, vf_all(1e-6f));
+        shaded->reflected = arrived.reflected;
+    }
+    shaded->color =
+        radiance_or_sky(frame, hit, ray->direction, arrived.irradiance, shaded->arrives);
+}
+
+/* glossy: whether reflections of a glossy floor are wanted. */
 SIMD struct shaded_rays shade_rays(const struct kiln_ray_frame *frame,
                                    const struct kiln_ray_objects *objects, const struct ray *ray,
-                                   vf floor, const struct ray_place *place)
+                                   vf floor, const struct ray_place *place, bool glossy)
 {
     struct shaded_rays shaded = {.first = trace(frame, objects, ray, floor, place)};
     vi below = shaded.first.surface == 0.0f;
     if (any(below))
         shaded.first.albedo =
             vf3_select(below, floor_albedo(frame, ray, shaded.first.t, below), shaded.first.albedo);
-    const struct ray_point point = {ray_at(ray, shaded.first.t), shaded.first.normal,
-                                    shaded.first.surface >= 0.0f};
-    struct vf3 irradiance = {{0}, {0}, {0}};
-    if (any(point.active)) {
-        vi lit = facing_sun(frame, &point);
-        shaded.sunlit = sun_visibility(frame, point.at, point.normal, lit);
-        const struct ray_point sunny = {point.at, point.normal, shaded.sunlit > 0.0f};
-        shaded.arrives = shaded.sunlit * smoke_lets_through(frame->smoke_to_sun,
-                                                            frame->backdrop->sun_to_grid, &sunny);
-        irradiance = irradiance_without_sun(frame, &point);
-    }
-    shaded.color =
-        radiance_or_sky(frame, &shaded.first, ray->direction, irradiance, shaded.arrives);
+    light_hits(frame, ray, glossy, &shaded);
     return shaded;
 }
 
@@ -117,13 +133,14 @@ SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *r
                                              first_bits(oriented.x),
                                              first_bits(oriented.y),
                                              first_bits(oriented.z)};
-    const struct ray_reflection m = floor_reflection_along(frame, ray);
-    const struct ray reflected = {ray_at(ray, shaded->first.t), m.direction};
+    const struct ray_reflection *m = &shaded->mirror;
+    const struct ray reflected = {ray_at(ray, shaded->first.t), m->at.direction};
     const struct ray_place nowhere = {.layer = -1};
     const struct shaded_rays reflection =
-        shade_rays(frame, &objects, &reflected, vf_all(2.0f * RAY_FAR), &nowhere);
-    struct vf3 more = vf3_add_scaled(m.lights, m.sun, shaded->arrives);
-    more = vf3_add_scaled(more, reflection.color.rgb, m.weight);
+        shade_rays(frame, &objects, &reflected, vf_all(2.0f * RAY_FAR), &nowhere, false);
+    struct vf3 more = vf3_scale(shaded->reflected, m->part);
+    more = vf3_add_scaled(more, m->sun, shaded->arrives);
+    more = vf3_add_scaled(more, reflection.color.rgb, m->part * m->at.reflectance);
     shaded->color.rgb = vf3_select(floor, vf3_add(shaded->color.rgb, more), shaded->color.rgb);
 }
 
@@ -131,8 +148,8 @@ SIMD struct shaded_rays shade_eye_rays(const struct kiln_ray_frame *frame,
                                        const struct kiln_ray_objects *objects,
                                        const struct eye_rays *eye)
 {
-    struct shaded_rays shaded =
-        shade_rays(frame, objects, &eye->ray, find_floor(frame, &eye->ray), &eye->place);
+    struct shaded_rays shaded = shade_rays(frame, objects, &eye->ray, find_floor(frame, &eye->ray),
+                                           &eye->place, frame->floor_gloss);
     if (frame->floor_gloss)
         add_reflection(frame, &eye->ray, &shaded);
     return shaded;
@@ -208,7 +225,7 @@ SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_r
     vf surface = shaded.first.surface;
     if (frame->meshes)
         surface = mark_mesh_edges(frame, &eye.place, surface, -((column + (int32_t)y) & 1));
-    surface = 2.0f * surface + shaded.sunlit;
+    surface = 4.0f * surface + shaded.light;
     store_colors(p->color + 4 * first, &shaded.color, count);
     store_numbers(p->depth + first, shaded.first.t, count);
     store_numbers(p->surfaces + first, surface, count);
@@ -234,8 +251,8 @@ static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 
 /* ---- edges ----------------------------------------------------------------------------------- */
 
-/* The greatest difference of neighbouring pixels that is no edge. The sun's light changes by this
- * much a pixel in a penumbra four pixels wide; numbers of surfaces differ by more. */
+/* The greatest difference of neighbouring pixels that is no edge. Light changes by this much a pixel
+ * in a penumbra four pixels wide; numbers of surfaces differ by more. */
 static const float EDGE_THRESHOLD = 0.25f;
 
 static inline int32_t within(int32_t x, uint32_t size)

@@ -53,27 +53,12 @@ SIMD struct floor_water find_water(const struct kiln_ray_frame *frame, vf x, vf 
     return water;
 }
 
-/* Holds how the floor reflects a ray. */
+/* Holds how the floor reflects rays. */
 struct ray_reflection {
-    struct vf3 lights;    /* light of lamps that is reflected to the eye */
-    struct vf3 sun;       /* sunlight that is reflected to the eye where there is no shadow */
-    struct vf3 direction; /* of the reflected ray */
-    vf weight;            /* factor of the light that comes back along it */
+    struct floor_reflection at;
+    vf part;        /* factor of the light that it reflects */
+    struct vf3 sun; /* sunlight that is reflected to the eye where there is no shadow */
 };
-
-SIMD struct vf3 reflected_lights(const struct kiln_ray_frame *frame, struct vf3 point,
-                                 struct vf3 normal, struct vf3 to_eye, vf spread)
-{
-    const struct kiln_draw_backdrop *b = frame->backdrop;
-    struct vf3 sum = {{0}, {0}, {0}};
-    for (uint32_t i = 0; i < b->counts.y; i++) {
-        const struct kiln_draw_light *light = &b->lights[i];
-        const struct vf3 towards = vf3_towards(light->position_radius2, point);
-        vf part = floor_reflects_lamp(towards, light->position_radius2.w, normal, to_eye, spread);
-        sum = vf3_add_scaled(sum, vf3_all(light->color), part);
-    }
-    return sum;
-}
 
 /* Computes the reflection of the floor along rays from the eye. */
 SIMD struct ray_reflection floor_reflection_along(const struct kiln_ray_frame *frame,
@@ -87,19 +72,16 @@ SIMD struct ray_reflection floor_reflection_along(const struct kiln_ray_frame *f
     struct vf3 point = ray_at(ray, t);
     const struct floor_water water =
         find_water(frame, point.x, point.z, floor_extent_along(frame, direction, t));
-    const struct floor_reflection m = floor_reflection_of(direction, water, gloss.y);
-
-    vf part = vf_all(gloss.x);
-    if (b->counts.z == 0)
-        part *= vf_exp(-b->floor_params.z * t * vf3_length(direction));
-    const struct vf3 sun = vf3_all(b->sun_direction);
-    return (struct ray_reflection){
-        .lights = vf3_scale(reflected_lights(frame, point, m.normal, m.to_eye, m.spread), part),
-        .sun =
-            vf3_scale(vf3_all(b->sun_color), part * floor_lobe(m.normal, m.to_eye, sun, m.spread)),
-        .direction = m.direction,
-        .weight = part * m.reflectance,
+    struct ray_reflection mirror = {
+        .at = floor_reflection_of(direction, water, gloss.y),
+        .part = vf_all(gloss.x),
     };
+    if (b->counts.z == 0)
+        mirror.part *= vf_exp(-b->floor_params.z * t * vf3_length(direction));
+    const vf lobe = floor_lobe(mirror.at.normal, mirror.at.to_eye, vf3_all(b->sun_direction),
+                               mirror.at.spread);
+    mirror.sun = vf3_scale(vf3_all(b->sun_color), mirror.part * lobe);
+    return mirror;
 }
 
 #endif

@@ -3,9 +3,11 @@
 #ifndef KILN_DRAW_BACKDROP_RAY_LIGHT_H
 #define KILN_DRAW_BACKDROP_RAY_LIGHT_H
 
+#include "draw/backdrop/ray_lamp.h"
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_sun.h"
 #include "draw/light/ray_smoke.h"
+#include "shared/floor.h"
 #include "shared/surface_light.h"
 
 struct ray_color {
@@ -94,22 +96,40 @@ SIMD vf meshes_sky_visibility(const struct kiln_ray_frame *frame, const struct r
 
 /* ---- light that arrives at a surface --------------------------------------------------------- */
 
-SIMD void add_light(const struct kiln_draw_light *light, const struct ray_point *p,
-                    struct vf3 *irradiance)
+/* Holds the light of sky and lamps that arrives at points. */
+struct arrived {
+    struct vf3 irradiance;
+    struct vf3 reflected; /* light of the lamps that a glossy floor reflects to the eye */
+    vf all, hidden; /* brightness of the irradiance without shadows of lamps; of what they take */
+};
+
+/* Adds the light of a lamp. gloss: how a glossy floor reflects it, or NULL. */
+SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_light *lamp,
+                   const struct ray_point *p, const struct floor_reflection *gloss,
+                   struct arrived *arrived)
 {
-    struct vf3 towards = vf3_towards(light->position_radius2, p->at);
+    const struct vf3 towards = vf3_towards(lamp->position_radius2, p->at);
+    const float radius2 = lamp->position_radius2.w;
     vi faces = p->active & (vf3_dot(p->normal, towards) > 0.0f);
-    if (!any(faces))
+    if (!any(faces) && !gloss)
         return;
-    vf part = vf_where(faces, lamp_irradiance(towards, p->normal, light->position_radius2.w));
-    irradiance->x += light->color.x * part;
-    irradiance->y += light->color.y * part;
-    irradiance->z += light->color.z * part;
+    const vf seen = lamp_visibility(frame, lamp, p, faces);
+    const vf part = vf_where(faces, lamp_irradiance(towards, p->normal, radius2));
+    const vf all = (lamp->color.x + lamp->color.y + lamp->color.z) * part;
+    arrived->all += all;
+    arrived->hidden += all * (1.0f - seen);
+    arrived->irradiance = vf3_add_scaled(arrived->irradiance, vf3_all(lamp->color), part * seen);
+    if (gloss) {
+        const vf mirrored = floor_reflects_lamp(towards, radius2, gloss->normal, gloss->to_eye,
+                                                gloss->spread);
+        arrived->reflected =
+            vf3_add_scaled(arrived->reflected, vf3_all(lamp->color), mirrored * seen);
+    }
 }
 
-/* Returns the irradiance from the sky and the point lights. */
-SIMD struct vf3 irradiance_without_sun(const struct kiln_ray_frame *frame,
-                                       const struct ray_point *p)
+/* Returns the light of the sky and of the lamps. gloss: as for add_lamp. */
+SIMD struct arrived light_without_sun(const struct kiln_ray_frame *frame, const struct ray_point *p,
+                                      const struct floor_reflection *gloss)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     vf sky = boxes_sky_visibility(frame, p, vf_all(1.0f));
@@ -117,11 +137,12 @@ SIMD struct vf3 irradiance_without_sun(const struct kiln_ray_frame *frame,
     sky = oriented_sky_visibility(frame, p, sky);
     sky = meshes_sky_visibility(frame, p, sky);
     sky *= smoke_lets_through(frame->smoke_to_sky, b->sky_to_grid, p);
-    struct vf3 ambient = sky_ambient(b->sky_horizon, b->sky_top, p->normal);
-    struct vf3 irradiance = vf3_scale(ambient, RAY_PI * sky);
+    const struct vf3 ambient = sky_ambient(b->sky_horizon, b->sky_top, p->normal);
+    struct arrived arrived = {.irradiance = vf3_scale(ambient, RAY_PI * sky)};
+    arrived.all = arrived.irradiance.x + arrived.irradiance.y + arrived.irradiance.z;
     for (uint32_t i = 0; i < b->counts.y; i++)
-        add_light(&b->lights[i], p, &irradiance);
-    return irradiance;
+        add_lamp(frame, &b->lights[i], p, gloss, &arrived);
+    return arrived;
 }
 
 /* Returns the lanes whose surface faces the sun; none where the sun is black. */

@@ -21,7 +21,8 @@ struct sun_receiver {
 
 SIMD vf box_cover(const struct ray_slabs *s, const struct sun_edges *edges, float spread)
 {
-    const struct sun_hidden hidden = sun_cross_box(*s, *edges, BOX_EDGE, spread, 0.0f);
+    const struct box_hidden hidden =
+        box_cross(*s, box_outline_all(*edges), BOX_EDGE, vf_all(spread), 0.0f);
     return vf_where(hidden.exit_distance > 0.0f, hidden.cover);
 }
 
@@ -53,20 +54,22 @@ SIMD vf cylinder_of_sun(const struct kiln_ray_frame *frame, int i, struct vf3 or
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const float4 cylinder = shapes->cylinders[i];
     return cylinder_cover(vf3_towards(cylinder, origin), cylinder.w, shapes->cylinder_axis[i],
-                          frame->backdrop->sun_direction, shapes->bands[i], shapes->sun_right.w);
+                          vf3_all(frame->backdrop->sun_direction), cover_band_all(shapes->bands[i]),
+                          vf_all(shapes->sun_right.w))
+        .cover;
 }
 
 SIMD vf round_sun_visibility(const struct kiln_ray_frame *frame,
                              const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
-    const float4 sun = frame->backdrop->sun_direction;
-    const struct vf3 way = vf3_all(sun);
+    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
     vf visible = vf_all(1.0f);
     for (int i = 0; i < (int)shapes->counts.x; i++) {
         if (frame->soft_sun)
             visible *= 1.0f - ball_cover(vf3_towards(shapes->spheres[i], receiver->origin),
-                                         shapes->spheres[i].w, sun, shapes->sun_right.w);
+                                         shapes->spheres[i].w, way, vf_all(shapes->sun_right.w))
+                                  .cover;
         else
             visible =
                 vf_where(~ray_is_blocked(ray_cross_ball(shapes->spheres[i], receiver->origin, way)),
@@ -88,10 +91,11 @@ SIMD vf round_sun_visibility(const struct kiln_ray_frame *frame,
 
 SIMD vf capsule_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
 {
-    const float4 sun = frame->backdrop->sun_direction, capsule = frame->shapes->capsules[i];
+    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
+    const float4 capsule = frame->shapes->capsules[i];
     const struct vf3 towards =
-        capsule_nearest(vf3_towards(capsule, origin), frame->shapes->capsule_axis[i], sun);
-    return ball_cover(towards, capsule.w, sun, frame->shapes->sun_right.w);
+        capsule_nearest(vf3_towards(capsule, origin), frame->shapes->capsule_axis[i], way);
+    return ball_cover(towards, capsule.w, way, vf_all(frame->shapes->sun_right.w)).cover;
 }
 
 SIMD vf oriented_sun_visibility(const struct kiln_ray_frame *frame,

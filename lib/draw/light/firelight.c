@@ -8,6 +8,8 @@
  * the chunks, so that the result is the same for any number of threads. */
 #include "draw/light/firelight.h"
 
+#include <math.h>
+
 #include "draw/light/light_blocks.h"
 
 /* The part of a billboard's square that its cell fills with light. */
@@ -82,7 +84,8 @@ static void gather_system(struct system_lights *fire, struct kiln_threads *threa
  * it at distance d the irradiance L A / d^2. A light of colour c (the radiance of a white surface
  * at 1 m, irradiance over pi) gives it pi c / d^2. The light's radius is how far its particles are
  * spread, so that a surface among them is not lit by a point. */
-static struct kiln_draw_light make_light(const struct kiln_light_sums *light, float3 strength)
+static struct kiln_draw_light make_light(const struct kiln_light_sums *light, float3 strength,
+                                         bool shadow)
 {
     double mean[3], square = 0.0;
     for (int c = 0; c < 3; c++) {
@@ -91,12 +94,13 @@ static struct kiln_draw_light make_light(const struct kiln_light_sums *light, fl
     }
     double radius = light->radius / light->energy;
     double spread = light->square / light->energy - square;
+    const float radius2 = (float)(radius * radius + (spread > 0.0 ? spread : 0.0));
     return (struct kiln_draw_light){
-        .position_radius2 = {(float)mean[0], (float)mean[1], (float)mean[2],
-                             (float)(radius * radius + (spread > 0.0 ? spread : 0.0))},
+        .position_radius2 = {(float)mean[0], (float)mean[1], (float)mean[2], radius2},
         .color = {strength.x * (float)(light->color[0] / PI),
                   strength.y * (float)(light->color[1] / PI),
-                  strength.z * (float)(light->color[2] / PI), 0.0f},
+                  strength.z * (float)(light->color[2] / PI), sqrtf(radius2)},
+        .casters = {shadow ? 1 : 0, 0, 0, 0},
     };
 }
 
@@ -125,7 +129,7 @@ uint32_t kiln_firelight_gather(const struct kiln_moment *moment, struct kiln_thr
         gather_system(&fire, threads);
         for (uint32_t k = 0; k < fire.light_count && count < KILN_MAX_FIRE_LIGHTS; k++) {
             if (fire.lights[0][k].energy > 0.0)
-                lights[count++] = make_light(&fire.lights[0][k], strength);
+                lights[count++] = make_light(&fire.lights[0][k], strength, look->light_shadow);
         }
     }
     return count;

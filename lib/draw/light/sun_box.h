@@ -4,6 +4,7 @@
 #define KILN_DRAW_LIGHT_SUN_BOX_H
 
 #include "draw/light/sun_cover.h"
+#include "draw/moment/sun_outline.h"
 
 /* Returns the factor by which a shape's cover counts for a ball that is partly inside the shape.
  * exit_distance: from the ball's centre towards the sun until it leaves the shape, m. The factor is
@@ -26,7 +27,7 @@ static inline struct kiln_sun_box kiln_sun_box_at(float3 center, float3 half_siz
     return (struct kiln_sun_box){.center = center,
                                  .half_size = {half_size.x, half_size.y, half_size.z, 0.0f},
                                  .size = sqrtf(float3_dot(half_size, half_size)),
-                                 .edges = sun_edges_of(sun->towards)};
+                                 .edges = kiln_sun_edges_of(sun->towards)};
 }
 
 /* Returns the part of the sun that a box hides from a ball. For a ball beside the box's outline,
@@ -37,8 +38,8 @@ static inline float kiln_sun_box_cover(const struct kiln_sun_box *box, struct ki
     bool misses = kiln_sun_cover_is_zero(box->center, box->size, ball, sun);
     const struct ray_slabs slabs = ray_cross_slabs(float3_sub(box->center, ball.center),
                                                    box->half_size, real3_all(box->edges.inverse));
-    const struct sun_hidden hidden =
-        sun_cross_box(slabs, box->edges, 1e-3f * box->size, sun->spread, ball.radius);
+    const struct box_hidden hidden = box_cross(slabs, box_outline_all(box->edges),
+                                               1e-3f * box->size, sun->spread, ball.radius);
     float seen = hidden.cover * kiln_sun_inside_factor(hidden.exit_distance, ball);
     return misses ? 0.0f : seen;
 }

@@ -22,9 +22,10 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
                               struct kiln_ball ball, const struct kiln_sun_frame *sun)
 {
     float3 to = float3_sub(center, ball.center);
-    const struct sun_band band = sun_band_of(axis, sun->towards, sun->right);
-    const float climb = band.lean.x, slant = band.lean.y;
-    float x = real3_dot_all(to, band.right), y = real3_dot_all(to, band.up);
+    const struct cover_band band =
+        cover_band_of((float4){axis.x, axis.y, axis.z, half_height}, sun->towards, sun->right);
+    const float climb = band.climb, slant = band.slant;
+    float x = float3_dot(to, band.right), y = float3_dot(to, band.up);
     float ahead = float3_dot(to, sun->towards);
     float inside = sqrtf(exact_max(radius * radius - x * x, 0.0f));
     float end = half_height * slant + fabsf(climb) * inside;
@@ -35,7 +36,7 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
         return 0.0f;
     /* The light's ray, its start moved to the nearest place inside of the outline, leaves the
      * cylinder through its side or its end. */
-    float at = exact_clamp(y, -end, end) * band.lean.z;
+    float at = exact_clamp(y, -end, end) * band.side;
     float height = -ahead * climb - at * slant; /* of the start above the middle */
     float beside = -ahead * slant + at * climb; /* of the start from the axis, towards the sun */
     float side = (inside - beside) / slant;
@@ -49,10 +50,8 @@ float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float ha
 float kiln_capsule_sun_cover(float3 center, float radius, float3 axis, float half_height,
                              struct kiln_ball ball, const struct kiln_sun_frame *sun)
 {
-    const float3 towards = sun->towards;
     float3 to = capsule_nearest(float3_sub(center, ball.center),
-                                (float4){axis.x, axis.y, axis.z, half_height},
-                                (float4){towards.x, towards.y, towards.z, 0.0f});
+                                (float4){axis.x, axis.y, axis.z, half_height}, sun->towards);
     return kiln_sphere_sun_cover(float3_add(ball.center, to), radius, ball, sun);
 }
 

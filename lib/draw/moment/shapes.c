@@ -9,6 +9,7 @@
 
 #include "base/matrix.h"
 #include "draw/moment/instances.h"
+#include "draw/moment/sun_outline.h"
 #include "shared/exact.h"
 
 enum { FIRST_SPHERE = 144 + 2 * 16 * KILN_WAVES };
@@ -222,22 +223,20 @@ static void fill_oriented(const struct kiln_scene *scene, const struct kiln_obje
     }
 }
 
-/* Fills in the outlines of boxes and cylinders as seen from the sun (shared/sun_edges.h). */
+/* Fills in the outlines of boxes and cylinders as seen from the sun. */
 static void fill_sun(const struct kiln_sun_frame *sun, struct kiln_draw_shapes *shapes)
 {
-    shapes->edges = sun_edges_of(sun->towards);
+    shapes->edges = kiln_sun_edges_of(sun->towards);
     for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
         float way[3];
         for (int k = 0; k < 3; k++) {
             const float4 row = shapes->oriented_boxes[i].rows[k];
             way[k] = float3_dot((float3){row.x, row.y, row.z}, sun->towards);
         }
-        shapes->oriented_edges[i] = sun_edges_of((float3){way[0], way[1], way[2]});
+        shapes->oriented_edges[i] = kiln_sun_edges_of((float3){way[0], way[1], way[2]});
     }
-    for (uint32_t i = 0; i < shapes->counts.y; i++) {
-        const float4 axis = shapes->cylinder_axis[i];
-        shapes->bands[i] = sun_band_of((float3){axis.x, axis.y, axis.z}, sun->towards, sun->right);
-    }
+    for (uint32_t i = 0; i < shapes->counts.y; i++)
+        shapes->bands[i] = kiln_sun_band_of(shapes->cylinder_axis[i], sun->towards, sun->right);
 }
 
 void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *const *meshes,

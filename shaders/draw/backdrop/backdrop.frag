@@ -119,6 +119,7 @@ struct shaded_ray {
     vec4 color;
     hit first;
     float sunlit; /* part of the sun, 0 to 1, that no object hides from the hit */
+    float hidden; /* part of its other light that shadows of lamps take */
 };
 
 /* Follows a ray from the eye and, where it hits a glossy floor, the reflected ray. Both run in one
@@ -139,17 +140,25 @@ shaded_ray shade_eye_ray(vec3 direction, int layer)
         vec3 point = origin + direction * h.t;
         float sunlit = sun_visibility(point, h.normal);
         float arriving = sunlit * sunlight_through_smoke(point);
-        vec4 color = radiance(h, direction, irradiance_without_sun(h, point), arriving);
+        arrived light = skylight(h, point);
+        vec3 mirrored = vec3(0.0);
+        for (int i = 0; i < int(backdrop.counts.y); i++) {
+            float seen = add_lamp(i, h, point, light);
+#ifdef FLOOR_GLOSS
+            mirrored += seen * reflected_lamp(i, point, m);
+#endif
+        }
+        vec4 color = radiance(h, direction, light.irradiance, arriving);
         if (first)
-            shaded = shaded_ray(color, h, sunlit);
+            shaded = shaded_ray(color, h, sunlit, light.hidden / max(light.all, 1e-6));
 #ifdef FLOOR_GLOSS
         if (!first)
-            shaded.color.rgb += m.weight * color.rgb;
+            shaded.color.rgb += m.part * m.at.reflectance * color.rgb;
         goes_on = first && h.surface == 0;
         if (goes_on)
-            shaded.color.rgb += m.lights + arriving * m.sun;
+            shaded.color.rgb += m.part * mirrored + arriving * m.sun;
         origin = point;
-        direction = m.direction;
+        direction = m.at.direction;
         ground.w = 2.0 * FAR;
         first = false;
 #endif
@@ -163,7 +172,6 @@ void main()
 {
     shaded_ray shaded = shade_eye_ray(ray_direction(gl_FragCoord.xy), 0);
     hit h = shaded.first;
-    float sunlit = shaded.sunlit;
     out_color = shaded.color;
     out_depth = h.t;
 #ifdef MESHES
@@ -171,7 +179,8 @@ void main()
 #endif
     bool sunny = dot(h.normal, backdrop.sun_direction.xyz) > 0.0 &&
                  dot(backdrop.sun_color.rgb, vec3(1.0)) > 0.0;
-    out_surface = float(2 * h.surface) + (h.surface >= 0 && sunny ? sunlit : 0.0);
+    float light = (sunny ? shaded.sunlit : 0.0) - shaded.hidden;
+    out_surface = float(4 * h.surface) + (h.surface >= 0 ? light : 0.0);
 }
 
 #else

@@ -11,23 +11,19 @@ floor_water find_water(vec2 position, floor_extent extent)
     return water;
 }
 
-vec3 reflected_lights(vec3 point, floor_reflection m)
-{
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < int(backdrop.counts.y); i++) {
-        vec4 lamp = backdrop.lights[i].position_radius2;
-        sum += backdrop.lights[i].color.rgb *
-               floor_reflects_lamp(lamp.xyz - point, lamp.w, m.normal, m.to_eye, m.spread);
-    }
-    return sum;
-}
-
 struct reflection {
-    vec3 lights;    /* light of the lamps that the floor sends to the eye */
-    vec3 sun;       /* the same of the sun, where the floor is not in shadow */
-    vec3 direction; /* of the reflected ray */
-    float weight;   /* part of the light along the reflected ray that the eye sees */
+    floor_reflection at;
+    float part; /* factor of the light that the floor reflects */
+    vec3 sun;   /* sunlight that it reflects to the eye where it is not in shadow */
 };
+
+/* Returns the light of lamp i, without its shadows, that the floor reflects to the eye. */
+vec3 reflected_lamp(int i, vec3 point, reflection m)
+{
+    vec4 lamp = backdrop.lights[i].position_radius2;
+    return backdrop.lights[i].color.rgb *
+           floor_reflects_lamp(lamp.xyz - point, lamp.w, m.at.normal, m.at.to_eye, m.at.spread);
+}
 
 /* Returns the reflections where a ray from the eye meets the floor, even if an object hides the
  * floor there. */
@@ -40,8 +36,7 @@ reflection reflection_along(vec3 direction)
 
     float clear = exp(-backdrop.floor_params.z * t * length(direction));
     float part = shapes.floor_gloss.x * (backdrop.counts.z != 0u ? 1.0 : clear);
-    return reflection(part * reflected_lights(point, m),
+    return reflection(m, part,
                       part * backdrop.sun_color.rgb *
-                          floor_lobe(m.normal, m.to_eye, backdrop.sun_direction.xyz, m.spread),
-                      m.direction, part * m.reflectance);
+                          floor_lobe(m.normal, m.to_eye, backdrop.sun_direction.xyz, m.spread));
 }

@@ -102,16 +102,16 @@ float oriented_sky_visibility(vec3 point, vec3 normal)
 
 float oriented_sun_visibility(vec3 origin)
 {
-    vec4 sun = backdrop.sun_direction;
+    vec3 sun = backdrop.sun_direction.xyz;
     float visible = 1.0;
     for (int i = 0; i < int(shapes.oriented_counts.x); i++) {
 #ifdef SOFT_SUN
         vec3 towards =
             capsule_nearest(shapes.capsules[i].xyz - origin, shapes.capsule_axis[i], sun);
-        visible *= 1.0 - ball_cover(towards, shapes.capsules[i].w, sun, shapes.sun_right.w);
+        visible *= 1.0 - ball_cover(towards, shapes.capsules[i].w, sun, shapes.sun_right.w).cover;
 #else
         if (ray_is_blocked(ray_cross_capsule(shapes.capsules[i], shapes.capsule_axis[i], origin,
-                                             sun.xyz)))
+                                             sun)))
             return 0.0;
 #endif
     }
@@ -119,5 +119,31 @@ float oriented_sun_visibility(vec3 origin)
         visible *= box_sun_visibility(
             cross_oriented_box(i, origin, shapes.oriented_edges[i].inverse.xyz),
             shapes.oriented_edges[i]);
+    return visible;
+}
+
+/* ---- lamps ---- */
+
+/* Returns the part of a lamp that capsules and boxes leave. casters: starts with their bits, which
+ * are taken. */
+float oriented_lamp_visibility(inout uint casters, vec3 origin, lamp_way way)
+{
+    float visible = 1.0;
+    int capsules = casters == 0u ? 0 : int(shapes.oriented_counts.x);
+    for (int i = 0; i < capsules; i++) {
+        vec3 towards = shapes.capsules[i].xyz - origin;
+        vec4 axis = shapes.capsule_axis[i];
+        float radius = shapes.capsules[i].w;
+        if (take_caster(casters) && lamp_meets(towards, radius + axis.w, way))
+            visible *= 1.0 - lamp_capsule_cover(towards, radius, axis, way);
+    }
+    int boxes = casters == 0u ? 0 : int(shapes.oriented_counts.y);
+    for (int i = 0; i < boxes; i++) {
+        vec3 towards = shapes.oriented_boxes[i].center.xyz - origin;
+        vec4 halves = shapes.oriented_boxes[i].half_size;
+        if (take_caster(casters) && lamp_meets(towards, lamp_box_size(halves), way))
+            visible *= 1.0 - lamp_box_cover(into_box(i, towards), halves,
+                                            into_box(i, way.direction), way);
+    }
     return visible;
 }

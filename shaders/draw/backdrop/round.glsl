@@ -61,14 +61,16 @@ float round_sky_visibility(vec3 point, vec3 normal)
 
 float round_sun_visibility(vec3 origin)
 {
-    vec4 sun = backdrop.sun_direction;
+    vec3 sun = backdrop.sun_direction.xyz;
     float spread = shapes.sun_right.w;
     float visible = 1.0;
     for (int i = 0; i < int(shapes.counts.x); i++)
-        visible *= 1.0 - ball_cover(shapes.spheres[i].xyz - origin, shapes.spheres[i].w, sun, spread);
+        visible *= 1.0 - ball_cover(shapes.spheres[i].xyz - origin, shapes.spheres[i].w, sun,
+                                    spread).cover;
     for (int i = 0; i < int(shapes.counts.y); i++)
         visible *= 1.0 - cylinder_cover(shapes.cylinders[i].xyz - origin, shapes.cylinders[i].w,
-                                        shapes.cylinder_axis[i], sun, shapes.bands[i], spread);
+                                        shapes.cylinder_axis[i], sun, cover_band_all(shapes.bands[i]),
+                                        spread).cover;
     return visible;
 }
 
@@ -90,3 +92,25 @@ float round_sun_visibility(vec3 origin)
 }
 
 #endif
+
+/* Returns the part of a lamp that spheres and cylinders leave. casters: starts with their bits,
+ * which are taken. */
+float round_lamp_visibility(inout uint casters, vec3 origin, lamp_way way)
+{
+    float visible = 1.0;
+    int spheres = casters == 0u ? 0 : int(shapes.counts.x);
+    for (int i = 0; i < spheres; i++) {
+        vec3 towards = shapes.spheres[i].xyz - origin;
+        if (take_caster(casters) && lamp_meets(towards, shapes.spheres[i].w, way))
+            visible *= 1.0 - lamp_ball_cover(towards, shapes.spheres[i].w, way);
+    }
+    int cylinders = casters == 0u ? 0 : int(shapes.counts.y);
+    for (int i = 0; i < cylinders; i++) {
+        vec3 towards = shapes.cylinders[i].xyz - origin;
+        vec4 axis = shapes.cylinder_axis[i];
+        float radius = shapes.cylinders[i].w;
+        if (take_caster(casters) && lamp_meets(towards, length(vec2(radius, axis.w)), way))
+            visible *= 1.0 - lamp_cylinder_cover(towards, radius, axis, way);
+    }
+    return visible;
+}

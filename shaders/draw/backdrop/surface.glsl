@@ -2,8 +2,8 @@
  * point lights, less the light that smoke absorbs, and with haze. The including shader declares the
  * blocks `view`, `backdrop` and `shapes`; the defines are those of backdrop.frag. */
 #include "draw/light/smoke_shadow.glsl"
+#include "shared/lamp_cover.h"
 #include "shared/shape_rays.h"
-#include "shared/sun_cover.h"
 #include "shared/surface_light.h"
 
 const float FAR = 1e9;
@@ -44,11 +44,20 @@ float box_sun_visibility(ray_slabs slabs, sun_edges edges)
 #ifdef SOFT_SUN
     /* The margin, 1e-4 m, is more than rounding moves a ray aside, and less than rays start beside
      * their surface. */
-    sun_hidden hidden = sun_cross_box(slabs, edges, 1e-4, shapes.sun_right.w, 0.0);
+    box_hidden hidden =
+        box_cross(slabs, box_outline_all(edges), 1e-4, shapes.sun_right.w, 0.0);
     return hidden.exit_distance > 0.0 ? 1.0 - hidden.cover : 1.0;
 #else
     return ray_is_blocked(ray_slabs_interval(slabs)) ? 0.0 : 1.0;
 #endif
+}
+
+/* Returns whether an object may hide a lamp, and moves the bits on to those of the next object. */
+bool take_caster(inout uint casters)
+{
+    bool casts = (casters & 1u) != 0u;
+    casters >>= 1;
+    return casts;
 }
 
 #ifdef ROUND
@@ -131,18 +140,65 @@ vec3 horizon(vec3 direction)
     return backdrop.sky_horizon.rgb;
 }
 
-/* Returns the irradiance from the sky and the point lights. */
-vec3 irradiance_without_sun(hit h, vec3 point)
+/* Returns the part of lamp i, 0 to 1, that a point sees past the backdrop's objects. */
+float lamp_visibility(int i, vec3 point, vec3 normal)
+{
+    uint casters = backdrop.lights[i].casters.x;
+    vec3 origin = point + normal * LAMP_START;
+    lamp_way way = lamp_way_of(backdrop.lights[i].position_radius2.xyz - origin,
+                               backdrop.lights[i].color.w);
+    float visible = 1.0;
+    int boxes = casters == 0u ? 0 : int(backdrop.counts.x);
+    for (int k = 0; k < boxes; k++) {
+        vec3 towards = backdrop.box_center[k].xyz - origin;
+        if (take_caster(casters) && lamp_meets(towards, lamp_box_size(backdrop.box_half[k]), way))
+            visible *= 1.0 - lamp_box_cover(towards, backdrop.box_half[k], way.direction, way);
+    }
+#ifdef ROUND
+    visible *= round_lamp_visibility(casters, origin, way);
+#endif
+#ifdef ORIENTED
+    visible *= oriented_lamp_visibility(casters, origin, way);
+#endif
+    return visible;
+}
+
+/* Holds the light of sky and lamps that arrives at a point. */
+struct arrived {
+    vec3 irradiance;
+    float all, hidden; /* brightness of it without shadows of lamps; of what they take */
+};
+
+/* Returns the light of the sky. */
+arrived skylight(hit h, vec3 point)
 {
     vec3 ambient = sky_ambient(backdrop.sky_horizon, backdrop.sky_top, h.normal);
     vec3 irradiance =
         PI * ambient * sky_visibility(point, h.normal) * skylight_through_smoke(point);
-    for (int i = 0; i < int(backdrop.counts.y); i++) {
-        vec3 towards = backdrop.lights[i].position_radius2.xyz - point;
-        irradiance += backdrop.lights[i].color.rgb *
-                      lamp_irradiance(towards, h.normal, backdrop.lights[i].position_radius2.w);
-    }
-    return irradiance;
+    return arrived(irradiance, dot(irradiance, vec3(1.0)), 0.0);
+}
+
+/* Adds the light of lamp i. Returns the part of the lamp that the point sees. */
+float add_lamp(int i, hit h, vec3 point, inout arrived light)
+{
+    vec3 towards = backdrop.lights[i].position_radius2.xyz - point;
+    vec3 color = backdrop.lights[i].color.rgb;
+    float part = lamp_irradiance(towards, h.normal, backdrop.lights[i].position_radius2.w);
+    float seen = dot(towards, h.normal) > 0.0 ? lamp_visibility(i, point, h.normal) : 1.0;
+    float all = dot(color, vec3(part));
+    light.irradiance += color * (part * seen);
+    light.all += all;
+    light.hidden += all * (1.0 - seen);
+    return seen;
+}
+
+/* Returns the irradiance from the sky and the lamps. */
+vec3 irradiance_without_sun(hit h, vec3 point)
+{
+    arrived light = skylight(h, point);
+    for (int i = 0; i < int(backdrop.counts.y); i++)
+        add_lamp(i, h, point, light);
+    return light.irradiance;
 }
 
 /* Returns the light that a surface sends along a ray, premultiplied, and its alpha. Lambert:

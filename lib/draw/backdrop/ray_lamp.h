@@ -1,0 +1,114 @@
+/* This header computes the part of each lamp that vectors of points see past the backdrop's
+ * objects (shared/lamp_cover.h). An object that hides nothing from a lane multiplies the lane's
+ * light by exactly 1, so that it does not matter which lanes share a vector. */
+#ifndef KILN_DRAW_BACKDROP_RAY_LAMP_H
+#define KILN_DRAW_BACKDROP_RAY_LAMP_H
+
+#include "draw/backdrop/ray_oriented.h"
+#include "draw/light/ray_smoke.h"
+#include "shared/lamp_cover.h"
+
+/* A point that sees a lamp, in the lanes where it is not yet hidden. */
+struct lamp_receiver {
+    struct vf3 origin;
+    struct lamp_way way;
+    vi active;
+    vf visible; /* part of the lamp, so far */
+};
+
+/* Returns the lanes where a shape with such a bounding sphere may hide a part of the lamp. */
+SIMD vi lamp_may_be_hidden(const struct lamp_receiver *r, struct vf3 towards, float size)
+{
+    return r->active & lamp_meets(towards, size, r->way);
+}
+
+SIMD void hide_lamp(struct lamp_receiver *r, vi near, vf cover)
+{
+    r->visible *= 1.0f - vf_where(near, cover);
+}
+
+SIMD void hide_lamp_by_boxes(const struct kiln_draw_backdrop *b, uint32_t boxes,
+                             struct lamp_receiver *r)
+{
+    for (; boxes; boxes &= boxes - 1) {
+        const int i = __builtin_ctz(boxes);
+        const float4 half = b->box_half[i];
+        const struct vf3 towards = vf3_towards(b->box_center[i], r->origin);
+        const vi near = lamp_may_be_hidden(r, towards, lamp_box_size(half));
+        if (any(near))
+            hide_lamp(r, near, lamp_box_cover(towards, half, r->way.direction, r->way));
+    }
+}
+
+SIMD void hide_lamp_by_round(const struct kiln_draw_shapes *shapes, uint32_t spheres,
+                             uint32_t cylinders, struct lamp_receiver *r)
+{
+    for (; spheres; spheres &= spheres - 1) {
+        const float4 sphere = shapes->spheres[__builtin_ctz(spheres)];
+        const struct vf3 towards = vf3_towards(sphere, r->origin);
+        const vi near = lamp_may_be_hidden(r, towards, sphere.w);
+        if (any(near))
+            hide_lamp(r, near, lamp_ball_cover(towards, sphere.w, r->way));
+    }
+    for (; cylinders; cylinders &= cylinders - 1) {
+        const int i = __builtin_ctz(cylinders);
+        const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
+        const struct vf3 towards = vf3_towards(cylinder, r->origin);
+        const float size = sqrtf(cylinder.w * cylinder.w + axis.w * axis.w);
+        const vi near = lamp_may_be_hidden(r, towards, size);
+        if (any(near))
+            hide_lamp(r, near, lamp_cylinder_cover(towards, cylinder.w, axis, r->way));
+    }
+}
+
+SIMD void hide_lamp_by_oriented(const struct kiln_draw_shapes *shapes, uint32_t capsules,
+                                uint32_t boxes, struct lamp_receiver *r)
+{
+    for (; capsules; capsules &= capsules - 1) {
+        const int i = __builtin_ctz(capsules);
+        const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
+        const struct vf3 towards = vf3_towards(capsule, r->origin);
+        const vi near = lamp_may_be_hidden(r, towards, capsule.w + axis.w);
+        if (any(near))
+            hide_lamp(r, near, lamp_capsule_cover(towards, capsule.w, axis, r->way));
+    }
+    for (; boxes; boxes &= boxes - 1) {
+        const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[__builtin_ctz(boxes)];
+        const struct vf3 towards = vf3_towards(box->center, r->origin);
+        const vi near = lamp_may_be_hidden(r, towards, lamp_box_size(box->half_size));
+        if (any(near))
+            hide_lamp(r, near,
+                      lamp_box_cover(into_box(box, towards), box->half_size,
+                                     into_box(box, r->way.direction), r->way));
+    }
+}
+
+/* Returns the next `count` bits, which belong to the objects of one kind, and removes them. */
+SIMD uint32_t take_bits(uint32_t *bits, uint32_t count)
+{
+    const uint32_t taken = *bits & (uint32_t)((1ull << count) - 1);
+    *bits = count < 32 ? *bits >> count : 0;
+    return taken;
+}
+
+/* Returns the part of a lamp, 0 to 1, that points of surfaces see. */
+SIMD vf lamp_visibility(const struct kiln_ray_frame *frame, const struct kiln_draw_light *lamp,
+                        const struct ray_point *p, vi active)
+{
+    uint32_t casters = lamp->casters.x;
+    if (!casters || !any(active))
+        return vf_all(1.0f);
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    struct lamp_receiver r = {.origin = vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)),
+                              .active = active,
+                              .visible = vf_all(1.0f)};
+    r.way = lamp_way_of(vf3_towards(lamp->position_radius2, r.origin), lamp->color.w);
+    hide_lamp_by_boxes(frame->backdrop, take_bits(&casters, frame->backdrop->counts.x), &r);
+    const uint32_t spheres = take_bits(&casters, shapes->counts.x);
+    hide_lamp_by_round(shapes, spheres, take_bits(&casters, shapes->counts.y), &r);
+    const uint32_t capsules = take_bits(&casters, shapes->oriented_counts.x);
+    hide_lamp_by_oriented(shapes, capsules, take_bits(&casters, shapes->oriented_counts.y), &r);
+    return r.visible;
+}
+
+#endif

@@ -1,0 +1,110 @@
+/* This file finds which objects may hide each lamp, a bit for each (struct kiln_draw_light), and
+ * dims lamps by planes, which hide the same part of a lamp from all places above them. */
+#include "draw/light/lamps.h"
+
+#include <math.h>
+
+#include "shared/exact.h"
+#include "shared/lamp_cover.h"
+
+static float3 xyz(float4 v)
+{
+    return (float3){v.x, v.y, v.z};
+}
+
+static float3 way_from(float4 center, float3 point)
+{
+    return float3_sub(point, xyz(center));
+}
+
+static bool box_contains(float4 half, float3 from)
+{
+    return fabsf(from.x) < half.x && fabsf(from.y) < half.y && fabsf(from.z) < half.z;
+}
+
+static bool cylinder_contains(float4 cylinder, float4 axis, float3 from)
+{
+    const float height = float3_dot(from, xyz(axis));
+    const float3 aside = float3_add_scaled(from, xyz(axis), -height);
+    return fabsf(height) < axis.w && float3_dot(aside, aside) < cylinder.w * cylinder.w;
+}
+
+static bool capsule_contains(float4 capsule, float4 axis, float3 from)
+{
+    const float height = exact_clamp(float3_dot(from, xyz(axis)), -axis.w, axis.w);
+    const float3 aside = float3_add_scaled(from, xyz(axis), -height);
+    return float3_dot(aside, aside) < capsule.w * capsule.w;
+}
+
+static bool oriented_box_contains(const struct kiln_draw_oriented_box *box, float3 from)
+{
+    const float3 there = {float3_dot(from, xyz(box->rows[0])), float3_dot(from, xyz(box->rows[1])),
+                          float3_dot(from, xyz(box->rows[2]))};
+    return box_contains(box->half_size, there);
+}
+
+/* Returns the bits of the objects that do not contain a point, in the order of the bits. */
+static uint32_t find_casters(const struct kiln_draw_shapes *shapes,
+                             const struct kiln_draw_backdrop *block, float3 at)
+{
+    uint32_t casters = 0, bit = 0;
+    for (uint32_t i = 0; i < block->counts.x; i++) {
+        const bool inside = box_contains(block->box_half[i], way_from(block->box_center[i], at));
+        casters |= inside ? 0 : 1u << bit;
+        bit++;
+    }
+    for (uint32_t i = 0; i < shapes->counts.x; i++) {
+        const float3 from = way_from(shapes->spheres[i], at);
+        const bool inside = float3_dot(from, from) < shapes->spheres[i].w * shapes->spheres[i].w;
+        casters |= inside ? 0 : 1u << bit;
+        bit++;
+    }
+    for (uint32_t i = 0; i < shapes->counts.y; i++) {
+        const bool inside = cylinder_contains(shapes->cylinders[i], shapes->cylinder_axis[i],
+                                              way_from(shapes->cylinders[i], at));
+        casters |= inside ? 0 : 1u << bit;
+        bit++;
+    }
+    for (uint32_t i = 0; i < shapes->oriented_counts.x; i++) {
+        const bool inside = capsule_contains(shapes->capsules[i], shapes->capsule_axis[i],
+                                             way_from(shapes->capsules[i], at));
+        casters |= inside ? 0 : 1u << bit;
+        bit++;
+    }
+    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
+        const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
+        casters |= oriented_box_contains(box, way_from(box->center, at)) ? 0 : 1u << bit;
+        bit++;
+    }
+    return casters;
+}
+
+/* Returns the part of a lamp that planes and the floor leave. */
+static float part_above_planes(const struct kiln_draw_shapes *shapes,
+                               const struct kiln_draw_backdrop *block, float3 at, float radius)
+{
+    float part = 1.0f;
+    if (block->floor_params.x > 0.0f)
+        part *= 1.0f - lamp_plane_cover(at.y - block->floor_color.w, radius);
+    for (uint32_t i = 0; i < shapes->oriented_counts.z; i++) {
+        const float4 plane = shapes->planes[i];
+        part *= 1.0f - lamp_plane_cover(float3_dot(at, xyz(plane)) - plane.w, radius);
+    }
+    return part;
+}
+
+void kiln_lamps_find_casters(const struct kiln_draw_shapes *shapes,
+                             struct kiln_draw_backdrop *block)
+{
+    for (uint32_t i = 0; i < block->counts.y; i++) {
+        struct kiln_draw_light *light = &block->lights[i];
+        if (!light->casters.x)
+            continue;
+        const float3 at = xyz(light->position_radius2);
+        const float part = part_above_planes(shapes, block, at, light->color.w);
+        light->casters.x = find_casters(shapes, block, at);
+        light->color.x *= part;
+        light->color.y *= part;
+        light->color.z *= part;
+    }
+}
