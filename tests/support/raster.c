@@ -52,7 +52,8 @@ void raster_add_lamps(struct raster *r, uint32_t lamps)
     r->light.counts.y = lamps;
     for (uint32_t i = 0; i < lamps; i++)
         r->light.lights[i] = (struct kiln_draw_light){
-            {(float)i - (float)(lamps / 2), 1.0f, 0.5f, 0.01f}, {0.3f, 0.2f, 0.1f, 0.0f}};
+            .position_radius2 = {(float)i - (float)(lamps / 2), 1.0f, 0.5f, 0.01f},
+            .color = {0.3f, 0.2f, 0.1f, 0.1f}};
 }
 
 float *raster_add_targets(struct raster *r)
