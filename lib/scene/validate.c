@@ -209,7 +209,7 @@ static bool check_division(struct kiln_reader *reader, const struct kiln_node *r
     const struct kiln_cells_source source = {file, look->columns, look->rows, 1,
                                              kiln_reader_scene(reader)->loader};
     struct kiln_error error = {0};
-    if (file[0] != '/' || kiln_cells_check_division(&source, &error))
+    if (file[0] != '/' || kiln_cells_check_layout(&source, &error))
         return true;
     char path[128];
     snprintf(path, sizeof path, "systems.%s.look.cells", system->name);

@@ -279,6 +279,38 @@ static void frames_of_a_video_are_cells(void **state)
     free(cells);
 }
 
+/* A frame is black on its left and white on its right, where the filter overshoots below 0. */
+static void light_of_a_video_is_not_negative(void **state)
+{
+    struct fixture *f = *state;
+    char path[64];
+    snprintf(path, sizeof path, "%s/x.mp4", f->folder);
+    const struct kiln_frame_range range = {0, 0};
+    struct kiln_output_params params = test_output_params(path, &range);
+    params.quality = 95;
+    struct kiln_error error = {0};
+    struct kiln_output *output = kiln_output_open(&params, &error);
+    assert_non_null(output);
+    struct kiln_picture *picture = test_picture(output, &params, 0);
+    const size_t row = (size_t)params.width * 4 * kiln_output_needs(output).bits / 8;
+    for (uint32_t y = 0; y < params.height; y++) {
+        memset((char *)picture->display + y * row, 0, row / 2);
+        memset((char *)picture->display + y * row + row / 2, 255, row / 2);
+    }
+    assert_true(kiln_output_write(output, picture, &error));
+    assert_true(kiln_output_finish(output, &error));
+    kiln_output_close(&output);
+
+    float cell[16 * 16 * 4], largest = 0.0f;
+    const struct kiln_cells_source source = {path, 1, 1, 16, NULL};
+    assert_true(kiln_cells_load(&source, cell, f->threads, &error));
+    for (size_t i = 0; i < sizeof cell / sizeof *cell; i++) {
+        assert_true(cell[i] >= 0.0f);
+        largest = fmaxf(largest, cell[i]);
+    }
+    assert_true(largest > 0.9f);
+}
+
 static void cells_must_divide_the_image(void **state)
 {
     struct fixture *f = *state;
@@ -291,8 +323,8 @@ static void cells_must_divide_the_image(void **state)
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_non_null(
         strstr(error.message, "32 x 16 pixels do not divide into 2 columns and 3 rows"));
-    assert_false(kiln_cells_check_division(&source, &error));
-    assert_true(kiln_cells_check_division(
+    assert_false(kiln_cells_check_layout(&source, &error));
+    assert_true(kiln_cells_check_layout(
         &(struct kiln_cells_source){.path = f->path, .columns = 2, .rows = 4}, &error));
     assert_true(kiln_cells_check(NULL, f->path, &error));
     assert_false(kiln_cells_check(NULL, f->folder, &error));
@@ -307,6 +339,7 @@ int main(void)
         WITH_FOLDER(motion_of_a_file_makes_up_for_cells),
         WITH_FOLDER(half_of_red_and_green_is_rest),
         WITH_FOLDER(frames_of_a_video_are_cells),
+        WITH_FOLDER(light_of_a_video_is_not_negative),
         WITH_FOLDER(cells_must_divide_the_image),
     };
     return cmocka_run_group_tests_name("cells", tests, NULL, NULL);

@@ -1,8 +1,8 @@
-/* This file reads the cells of flipbooks from images and videos and resizes them. An image is
- * resized cell by cell, so that neighbours do not bleed into each other: each row becomes linear
- * light, is filtered along, and is added to the rows of the cell that it touches. The filter is
- * Mitchell and Netravali's cubic ("Reconstruction Filters in Computer Graphics", 1988), widened
- * where a cell shrinks. */
+/* This file reads the cells of flipbooks from images and videos and resizes them for atlas.c. An
+ * image is resized cell by cell, so that neighbours do not bleed into each other. Each row of a
+ * cell is filtered horizontally and then added, weighted, to those rows of the resized cell whose
+ * filter covers it. The filter is Mitchell and Netravali's cubic ("Reconstruction Filters in
+ * Computer Graphics", 1988), widened where a cell shrinks. */
 #include "asset/atlas/cells_in.h"
 
 #include <math.h>
@@ -40,16 +40,16 @@ static void read_light(const struct kiln_asset_image *image, size_t pixel, float
     }
 }
 
-/* Reads a pixel as motion, in red and green. In 8 bits 128 is 0, since half of 255 is no whole
- * number. */
+/* Reads a pixel as motion, in red and green. The value 128 (of 8 bits), 32768 (of 16 bits) or 0.5
+ * (of floats) means no motion, and the largest value means 1. */
 static void read_motion(const struct kiln_asset_image *image, size_t pixel, float rgba[4])
 {
     read_raw(image, pixel, rgba);
-    float none = image->type == KILN_IMAGE_U8    ? 128.0f / 255.0f
+    float rest = image->type == KILN_IMAGE_U8    ? 128.0f / 255.0f
                  : image->type == KILN_IMAGE_U16 ? 32768.0f / 65535.0f
                                                  : 0.5f;
     for (int c = 0; c < 2; c++)
-        rgba[c] = (rgba[c] - none) / (1.0f - none);
+        rgba[c] = (rgba[c] - rest) / (1.0f - rest);
     rgba[2] = rgba[3] = 0.0f;
 }
 
@@ -58,8 +58,8 @@ static void read_motion(const struct kiln_asset_image *image, size_t pixel, floa
 /* The weights, along one axis, by which samples of a cell are summed into samples of the resized
  * cell. */
 struct filter {
-    uint32_t taps;   /* taps of each resized sample */
-    uint32_t *first; /* the cell's first sample under each filter */
+    uint32_t taps;   /* number of samples that are summed into each resized sample */
+    uint32_t *first; /* for each resized sample: the first sample that is summed */
     float *weights;  /* weights in the order [resized sample][tap] */
 };
 
@@ -90,8 +90,8 @@ static bool filter_init(struct filter *filter, uint32_t from, uint32_t to)
         return false;
     for (uint32_t i = 0; i < to; i++) {
         float middle = ((float)i + 0.5f) * step, lowest = floorf(middle - 2.0f * widening);
-        float most = (float)(from - filter->taps);
-        float first = fminf(fmaxf(lowest, 0.0f), most), sum = 0.0f;
+        float last_first = (float)(from - filter->taps);
+        float first = fminf(fmaxf(lowest, 0.0f), last_first), sum = 0.0f;
         float *weights = filter->weights + (size_t)i * filter->taps;
         filter->first[i] = (uint32_t)first;
         for (uint32_t k = 0; k < filter->taps; k++) {
@@ -109,13 +109,14 @@ static bool filter_init(struct filter *filter, uint32_t from, uint32_t to)
 struct resize {
     const struct kiln_asset_image *image;
     void (*read)(const struct kiln_asset_image *image, size_t pixel, float rgba[4]);
+    bool is_light; /* false: motion, which may be negative */
     uint32_t columns, cell_width, cell_height, edge;
     struct filter across, down;
     float *rows; /* for each worker: a row of a cell, and a row of the resized cell */
     float *cells;
 };
 
-/* Reads a row of a cell and filters it along the row. */
+/* Reads a row of a cell and filters it horizontally. */
 static void filter_row(const struct resize *job, size_t first_pixel, float *row, float *resized)
 {
     for (uint32_t x = 0; x < job->cell_width; x++)
@@ -148,6 +149,9 @@ static void resize_cell(const struct resize *job, size_t cell, float *row, float
                 out[to * row_floats + i] += weight * resized[i];
         }
     }
+    /* The filter overshoots at hard edges; negative light becomes 0. */
+    for (size_t i = 0; job->is_light && i < job->edge * row_floats; i++)
+        out[i] = fmaxf(out[i], 0.0f);
 }
 
 static void resize_cells(void *context, size_t begin, size_t end, uint32_t worker)
@@ -168,13 +172,14 @@ static bool check_division(uint32_t width, uint32_t height, const struct kiln_ce
                           source->path, width, height, source->columns, source->rows);
 }
 
-/* Resizes all cells of an image and adds them to cells, which are zero at first. */
+/* Resizes all cells of an image into `cells`, which the caller has filled with zeros. */
 static bool resize_image(const struct kiln_asset_image *image,
                          const struct kiln_cells_source *source, bool motion, float *cells,
                          struct kiln_threads *threads, struct kiln_error *error)
 {
     struct resize job = {.image = image,
                          .read = motion ? read_motion : read_light,
+                         .is_light = !motion,
                          .columns = source->columns,
                          .cell_width = image->width / source->columns,
                          .cell_height = image->height / source->rows,
@@ -198,8 +203,8 @@ static bool resize_image(const struct kiln_asset_image *image,
 
 /* ---- videos ---------------------------------------------------------------------------------- */
 
-/* Reads the frames that become cells, and calls `take` with each. take NULL: only checks that the
- * frames exist. */
+/* Reads the frames that become cells, and calls `take` with each. With a `take` of NULL, it only
+ * checks that the frames can be decoded. */
 static bool read_frames(const struct kiln_cells_source *source,
                         bool (*take)(void *user, const struct kiln_asset_image *image,
                                      uint32_t number, struct kiln_error *error),
@@ -224,7 +229,7 @@ static bool read_frames(const struct kiln_cells_source *source,
 }
 
 struct frames {
-    struct kiln_cells_source frame; /* as source, with a single cell */
+    struct kiln_cells_source one; /* the source, with a frame as its only cell */
     float *cells;
     struct kiln_threads *threads;
 };
@@ -233,16 +238,16 @@ static bool resize_frame(void *user, const struct kiln_asset_image *image, uint3
                          struct kiln_error *error)
 {
     const struct frames *frames = user;
-    const size_t cell = (size_t)frames->frame.edge * frames->frame.edge * 4;
-    return resize_image(image, &frames->frame, false, frames->cells + number * cell,
-                        frames->threads, error);
+    const size_t cell = (size_t)frames->one.edge * frames->one.edge * 4;
+    return resize_image(image, &frames->one, false, frames->cells + number * cell, frames->threads,
+                        error);
 }
 
 static bool load_video(const struct kiln_cells_source *source, float *cells,
                        struct kiln_threads *threads, struct kiln_error *error)
 {
     struct frames frames = {*source, cells, threads};
-    frames.frame.columns = frames.frame.rows = 1;
+    frames.one.columns = frames.one.rows = 1;
     return read_frames(source, resize_frame, &frames, error);
 }
 
@@ -258,9 +263,6 @@ bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
     struct kiln_asset_image *image = kiln_asset_image_load(source->loader, source->path, error);
     bool ok = image && resize_image(image, source, false, cells, threads, error);
     kiln_asset_image_destroy(&image);
-    for (size_t i = 0; ok && i < floats; i++) /* the filter overshoots at hard edges, so values are
-                                               * clamped */
-        cells[i] = fmaxf(cells[i], 0.0f);
     return ok;
 }
 
@@ -281,7 +283,7 @@ bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motio
     return ok;
 }
 
-bool kiln_cells_check_division(const struct kiln_cells_source *source, struct kiln_error *error)
+bool kiln_cells_check_layout(const struct kiln_cells_source *source, struct kiln_error *error)
 {
     uint32_t size[2];
     if (source->columns * source->rows == 1)

@@ -27,9 +27,10 @@ bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
 bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motion,
                             struct kiln_threads *threads, struct kiln_error *error);
 
-/* Checks that an image divides into the cells, or that a video has so many frames, which are all
- * decoded for that. Else KILN_INVALID_INPUT with the sizes. */
-bool kiln_cells_check_division(const struct kiln_cells_source *source, struct kiln_error *error);
+/* Checks that an image divides into the cells, or that a video has a frame for each, for which it
+ * decodes these frames. A file with one cell always passes. Else KILN_INVALID_INPUT with the
+ * sizes. */
+bool kiln_cells_check_layout(const struct kiln_cells_source *source, struct kiln_error *error);
 
 /* Checks that kiln_cells_load can read a file, apart from the number of its cells: decodes an
  * image, or the first frame of a video. */
