@@ -144,14 +144,14 @@ bool kiln_read_file_asset(struct kiln_reader *reader, const struct kiln_node *no
 
 bool kiln_read_asset(struct kiln_reader *reader, const struct kiln_node *node, const char **asset)
 {
-    const char *name = kiln_builtin_of(node->text);
+    const char *name = kiln_builtin_name_of(node->text);
     if (!name)
         return kiln_read_file_asset(reader, node, kiln_cells_check, asset);
     if (kiln_builtin_exists(name))
         return kiln_reader_copy_text(reader, node->text, asset);
     const char *names[32];
     size_t count = 0;
-    while (count < 32 && (names[count] = kiln_builtin_name(count)))
+    while (count < 32 && (names[count] = kiln_builtin_name_at(count)))
         count++;
     char quoted[64], suggestion[512];
     kiln_node_quote(quoted, node->text);
@@ -174,7 +174,7 @@ bool kiln_asset_add_hash(const struct kiln_scene *scene, const char *asset, stru
 
 const char *kiln_asset_name(const struct kiln_scene *scene, const char *asset)
 {
-    if (kiln_builtin_of(asset))
+    if (kiln_builtin_name_of(asset))
         return asset;
     const char *relative = kiln_path_below(asset, scene->asset_root);
     return relative ? relative : asset;

@@ -45,8 +45,8 @@ static void print_assets(struct kiln_printer *printer, const struct kiln_option 
 
 static void describe_assets(const struct kiln_option *option, struct kiln_text *out)
 {
-    for (size_t i = 0; kiln_builtin_name(i); i++)
-        kiln_text_add(out, "\"builtin:%s\", ", kiln_builtin_name(i));
+    for (size_t i = 0; kiln_builtin_name_at(i); i++)
+        kiln_text_add(out, "\"builtin:%s\", ", kiln_builtin_name_at(i));
     kiln_text_add(out,
                   "or the path of an image or video file, from the scene's folder and inside it; "
                   "or a list of 1 to %zu of these",
@@ -57,8 +57,8 @@ static void schema_assets(const struct kiln_option *option, struct kiln_text *ou
 {
     struct kiln_text one = {0};
     kiln_text_add(&one, "{\"type\": \"string\", \"pattern\": \"^(builtin:(");
-    for (size_t i = 0; kiln_builtin_name(i); i++)
-        kiln_text_add(&one, "%s%s", i ? "|" : "", kiln_builtin_name(i));
+    for (size_t i = 0; kiln_builtin_name_at(i); i++)
+        kiln_text_add(&one, "%s%s", i ? "|" : "", kiln_builtin_name_at(i));
     kiln_text_add(&one, ")|(?!builtin:|/).+)$\"}");
     const char *item = one.data ? one.data : "";
     kiln_text_add(out,
@@ -72,8 +72,8 @@ static void schema_assets(const struct kiln_option *option, struct kiln_text *ou
 static void list_assets(const struct kiln_option *option, struct kiln_text *out)
 {
     (void)option;
-    for (size_t i = 0; kiln_builtin_name(i); i++)
-        kiln_text_add(out, "%sbuiltin:%s", i ? "|" : "", kiln_builtin_name(i));
+    for (size_t i = 0; kiln_builtin_name_at(i); i++)
+        kiln_text_add(out, "%sbuiltin:%s", i ? "|" : "", kiln_builtin_name_at(i));
 }
 
 const struct kiln_option_type kiln_type_assets = {
@@ -90,7 +90,7 @@ static bool read_motion(struct kiln_reader *reader, const struct kiln_option *op
                         const struct kiln_node *node, void *field)
 {
     const char **motion = field;
-    if (!kiln_reader_is_text(node) || kiln_builtin_of(node->text))
+    if (!kiln_reader_is_text(node) || kiln_builtin_name_of(node->text))
         return kiln_reader_mismatch(reader, option, node);
     for (const char *const *word = option->choices; *word; word++) {
         if (strcmp(node->text, *word) == 0) {

@@ -115,17 +115,17 @@ static void make_cells(struct fixture *f, int system, const char *name)
 {
     const size_t floats = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
     const size_t moves = (size_t)KILN_ATLAS_MOTION * KILN_ATLAS_MOTION * 2;
-    struct kiln_builtin_room *room = kiln_builtin_room();
+    struct kiln_builtin_scratch *scratch = kiln_builtin_scratch_create();
     struct kiln_builtin builtin;
-    assert_non_null(room);
+    assert_non_null(scratch);
     assert_true(kiln_builtin_open(&builtin, name, f->cell_count[system], KILN_SIMD_PLAIN));
     for (uint32_t i = 0; i < f->cell_count[system]; i++) {
-        kiln_builtin_cell(&builtin, i, KILN_ATLAS_CELL, room, f->cells[system] + i * floats);
+        kiln_builtin_cell(&builtin, i, KILN_ATLAS_CELL, scratch, f->cells[system] + i * floats);
         if (system == 1)
-            kiln_builtin_motion(&builtin, i, KILN_ATLAS_MOTION, room, f->motion + i * moves);
+            kiln_builtin_motion(&builtin, i, KILN_ATLAS_MOTION, scratch, f->motion + i * moves);
     }
     kiln_builtin_close(&builtin);
-    free(room);
+    free(scratch);
 }
 
 static int set_up_with(void **state, const char *const *overrides, size_t count)
@@ -164,7 +164,7 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
         size_t floats = (size_t)f->cell_count[i] * KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
         f->cells[i] = calloc(floats, sizeof(float));
         assert_non_null(f->cells[i]);
-        make_cells(f, i, kiln_builtin_of(sources[i]));
+        make_cells(f, i, kiln_builtin_name_of(sources[i]));
     }
     *state = f;
     return 0;

@@ -67,17 +67,18 @@ static struct book make_book_at(const char *name, uint32_t count, enum kiln_simd
 {
     struct book book = {count, calloc(count, CELL_FLOATS * sizeof(float)),
                         calloc(count, EDGE * EDGE * 2 * sizeof(float))};
-    struct kiln_builtin_room *room = kiln_builtin_room();
+    struct kiln_builtin_scratch *scratch = kiln_builtin_scratch_create();
     struct kiln_builtin builtin;
-    assert_true(room && book.cells && book.motion);
+    assert_true(scratch && book.cells && book.motion);
     assert_true(kiln_builtin_open(&builtin, name, count, simd));
     for (uint32_t i = 0; i < count; i++) {
-        kiln_builtin_cell(&builtin, i, EDGE, room, book.cells + (size_t)i * CELL_FLOATS);
+        kiln_builtin_cell(&builtin, i, EDGE, scratch, book.cells + (size_t)i * CELL_FLOATS);
         if (builtin.film)
-            kiln_builtin_motion(&builtin, i, EDGE, room, book.motion + (size_t)i * EDGE * EDGE * 2);
+            kiln_builtin_motion(&builtin, i, EDGE, scratch,
+                                book.motion + (size_t)i * EDGE * EDGE * 2);
     }
     kiln_builtin_close(&builtin);
-    free(room);
+    free(scratch);
     return book;
 }
 
@@ -108,8 +109,8 @@ static float mean_density(const struct book *book, uint32_t cell)
 static void cells_are_sound(void **state)
 {
     (void)state;
-    for (size_t n = 0; kiln_builtin_name(n); n++) {
-        struct book book = make_book(kiln_builtin_name(n), 16);
+    for (size_t n = 0; kiln_builtin_name_at(n); n++) {
+        struct book book = make_book(kiln_builtin_name_at(n), 16);
         float densest = 0.0f;
         for (size_t i = 0; i < (size_t)book.count * EDGE * EDGE; i++) {
             const float *p = book.cells + 4 * i;
@@ -170,8 +171,8 @@ static void flames_climb(void **state)
 static void cells_are_the_same_bytes_at_every_level(void **state)
 {
     (void)state;
-    for (size_t n = 0; kiln_builtin_name(n); n++) {
-        const char *name = kiln_builtin_name(n);
+    for (size_t n = 0; kiln_builtin_name_at(n); n++) {
+        const char *name = kiln_builtin_name_at(n);
         struct book plain = make_book_at(name, 3, KILN_SIMD_NARROWEST);
         for (enum kiln_simd simd = KILN_SIMD_NARROWEST + 1; simd < KILN_SIMD_COUNT; simd++) {
             if (!kiln_simd_has(simd))

@@ -85,7 +85,7 @@ static bool moves(const struct flipbook *book)
 {
     const char *motion = book->request->motion;
     return motion[0] == '/' ||
-           (book->name && strcmp(motion, "auto") == 0 && kiln_builtin_flows(book->name));
+           (book->name && strcmp(motion, "auto") == 0 && kiln_builtin_has_motion(book->name));
 }
 
 /* Stores motion relative to its largest part, rows from the top and y down as textures have it. */
@@ -116,8 +116,9 @@ static bool make_motion(struct kiln_atlas *atlas, const struct flipbook *book,
 {
     const size_t texels = (size_t)KILN_ATLAS_MOTION * KILN_ATLAS_MOTION;
     float *motion = malloc(book->range->cells * texels * 2 * sizeof *motion);
-    struct kiln_builtin_room *room = book->builtin.film ? kiln_builtin_room() : NULL;
-    bool ok = motion && (room || !book->builtin.film);
+    struct kiln_builtin_scratch *scratch =
+        book->builtin.film ? kiln_builtin_scratch_create() : NULL;
+    bool ok = motion && (scratch || !book->builtin.film);
     float scale = 1.0f;
     if (!ok)
         out_of_memory(error, book->source.path);
@@ -129,12 +130,12 @@ static bool make_motion(struct kiln_atlas *atlas, const struct flipbook *book,
         scale = book->request->motion_scale;
     } else if (ok) {
         for (uint32_t i = 0; i < book->range->cells; i++)
-            kiln_builtin_motion(&book->builtin, i, KILN_ATLAS_MOTION, room,
+            kiln_builtin_motion(&book->builtin, i, KILN_ATLAS_MOTION, scratch,
                                 motion + i * texels * 2);
     }
     if (ok)
         store_motion(atlas, book, motion, scale);
-    free(room);
+    free(scratch);
     free(motion);
     return ok;
 }
@@ -242,7 +243,7 @@ static void add_texture(struct flipbooks *all, struct kiln_atlas *atlas,
     struct flipbook book = {
         .source = {request->sources[texture], request->columns, request->rows, KILN_ATLAS_CELL,
                    request->loader},
-        .name = kiln_builtin_of(request->sources[texture]),
+        .name = kiln_builtin_name_of(request->sources[texture]),
         .request = request,
         .range = range,
         .texture = texture,
@@ -279,7 +280,7 @@ static void open_builtins(void *context, size_t begin, size_t end, uint32_t work
 /* Holds the memory of one thread. */
 struct maker {
     float *cell;
-    struct kiln_builtin_room *room;
+    struct kiln_builtin_scratch *scratch;
 };
 
 struct making {
@@ -301,7 +302,7 @@ static void make_layers(void *context, size_t begin, size_t end, uint32_t worker
         if (!book->name || book->is_made)
             continue;
         uint32_t cell = (uint32_t)layer - book->range->first_layer;
-        kiln_builtin_cell(&book->builtin, cell, KILN_ATLAS_CELL, maker->room, maker->cell);
+        kiln_builtin_cell(&book->builtin, cell, KILN_ATLAS_CELL, maker->scratch, maker->cell);
         code->store_cell(maker->cell, KILN_ATLAS_CELL, book->range->kind,
                          texels_of(job->atlas, book, cell));
     }
@@ -317,14 +318,15 @@ static bool make_builtins(struct kiln_atlas *atlas, struct flipbooks *all,
     for (uint32_t i = 0; i < all->count; i++)
         ok = ok && !all->books[i].failed;
     for (uint32_t i = 0; ok && i < count; i++) {
-        job.makers[i] = (struct maker){malloc(CELL_FLOATS * sizeof(float)), kiln_builtin_room()};
-        ok = job.makers[i].cell && job.makers[i].room;
+        job.makers[i] =
+            (struct maker){malloc(CELL_FLOATS * sizeof(float)), kiln_builtin_scratch_create()};
+        ok = job.makers[i].cell && job.makers[i].scratch;
     }
     if (ok)
         kiln_threads_for(threads, atlas->layers, 1, make_layers, &job);
     for (uint32_t i = 0; job.makers && i < count; i++) {
         free(job.makers[i].cell);
-        free(job.makers[i].room);
+        free(job.makers[i].scratch);
     }
     free(job.makers);
     return ok || out_of_memory(error, "built-in atlases");

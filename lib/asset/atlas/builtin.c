@@ -1,4 +1,9 @@
-/* This file finds the procedural flipbooks by their names and makes their cells and motion. */
+/* This file finds the procedural flipbooks by their names and makes their cells. For a flipbook of
+ * gas it also makes the motion, in each texel, from a cell to the next one. atlas.c calls it while
+ * a renderer is created, in several threads; the scene's reader looks up names.
+ *
+ * The flipbooks stand in two tables, gases and solids. Each width of vectors has a copy of both,
+ * with the same names in the same order, so a look-up of a name may use any of them. */
 #include "asset/atlas/builtin.h"
 
 #include <stdlib.h>
@@ -9,15 +14,13 @@
 
 static const struct builtin *at_index(size_t index, enum kiln_simd simd)
 {
-    const struct builtin *gas = KILN_SIMD_PICK(kiln_builtin_gases, simd)->builtins;
-    const struct builtin *solid = KILN_SIMD_PICK(kiln_builtin_solids, simd)->builtins;
-    for (; gas->name; gas++) {
-        if (index-- == 0)
-            return gas;
-    }
-    for (; solid->name; solid++) {
-        if (index-- == 0)
-            return solid;
+    const struct builtin *const tables[] = {KILN_SIMD_PICK(kiln_builtin_gases, simd)->builtins,
+                                            KILN_SIMD_PICK(kiln_builtin_solids, simd)->builtins};
+    for (size_t table = 0; table < 2; table++) {
+        for (const struct builtin *row = tables[table]; row->name; row++) {
+            if (index-- == 0)
+                return row;
+        }
     }
     return NULL;
 }
@@ -32,7 +35,7 @@ static const struct builtin *find(const char *name, enum kiln_simd simd)
     return NULL;
 }
 
-const char *kiln_builtin_of(const char *source)
+const char *kiln_builtin_name_of(const char *source)
 {
     static const char prefix[] = "builtin:";
     const size_t length = sizeof prefix - 1;
@@ -44,13 +47,13 @@ bool kiln_builtin_exists(const char *name)
     return find(name, KILN_SIMD_NARROWEST) != NULL;
 }
 
-bool kiln_builtin_flows(const char *name)
+bool kiln_builtin_has_motion(const char *name)
 {
     const struct builtin *found = find(name, KILN_SIMD_NARROWEST);
     return found && found->gas;
 }
 
-const char *kiln_builtin_name(size_t index)
+const char *kiln_builtin_name_at(size_t index)
 {
     const struct builtin *builtin = at_index(index, KILN_SIMD_NARROWEST);
     return builtin ? builtin->name : NULL;
@@ -72,49 +75,52 @@ void kiln_builtin_close(struct kiln_builtin *builtin)
     *builtin = (struct kiln_builtin){0};
 }
 
-struct kiln_builtin_room *kiln_builtin_room(void)
+struct kiln_builtin_scratch *kiln_builtin_scratch_create(void)
 {
-    return malloc(sizeof(struct kiln_builtin_room));
+    return malloc(sizeof(struct kiln_builtin_scratch));
 }
 
+/* Returns one of the spheres that smoke consists of. Its place is random, but the same in each run.
+ * Lengths are in half edges of the cell. The draws keep their numbers, of which 3 is not used,
+ * since others would change the pictures. */
 static struct texel_lobe lobe_at(uint32_t index)
 {
     uint stream = random_stream(0x10be5u, index);
     struct exact_angle angle = exact_sincos(EXACT_TWO_PI * random_unit(stream, 0));
     float away = 0.50f * exact_sqrt(random_unit(stream, 1));
-    if (index == 0) /* the sphere in the middle of the heap */
+    if (index == 0) /* the large sphere in the middle */
         return (struct texel_lobe){0.0f, 0.0f, 0.52f};
     return (struct texel_lobe){away * angle.cosine, away * angle.sine,
                                0.18f + 0.26f * random_unit(stream, 2) * random_unit(stream, 4)};
 }
 
 void kiln_builtin_cell(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
-                       struct kiln_builtin_room *room, float *pixels)
+                       struct kiln_builtin_scratch *scratch, float *pixels)
 {
     const uint32_t gaps = builtin->cell_count > 1 ? builtin->cell_count - 1 : 1;
-    const struct kiln_film_cell *gas = builtin->film ? &builtin->film->cells[cell] : NULL;
+    const struct kiln_film_cell *filmed = builtin->film ? &builtin->film->cells[cell] : NULL;
     struct texel_lobe lobes[TEXEL_LOBES];
     for (uint32_t i = 0; i < TEXEL_LOBES; i++)
         lobes[i] = lobe_at(i);
     const struct texel_job job = {
         .builtin = find(builtin->name, builtin->simd),
-        .gas = gas,
+        .gas = filmed,
         .lobes = lobes,
-        .time = gas ? gas->time : (float)cell / (float)gaps,
+        .time = filmed ? filmed->time : (float)cell / (float)gaps,
         .edge = edge,
     };
-    KILN_SIMD_PICK(kiln_texel, builtin->simd)->make_cell(&job, room, pixels);
+    KILN_SIMD_PICK(kiln_texel, builtin->simd)->make_cell(&job, scratch, pixels);
 }
 
 void kiln_builtin_motion(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
-                         struct kiln_builtin_room *room, float *motion)
+                         struct kiln_builtin_scratch *scratch, float *motion)
 {
-    const struct kiln_film_cell *gas = &builtin->film->cells[cell];
+    const struct kiln_film_cell *filmed = &builtin->film->cells[cell];
     const struct kiln_fluid_code *fluid = KILN_SIMD_PICK(kiln_fluid, builtin->simd);
-    fluid->sample(gas->motion_x, edge, &room->fluid, room->x);
-    fluid->sample(gas->motion_y, edge, &room->fluid, room->y);
-    for (uint32_t i = 0; i < edge * edge; i++) {
-        motion[2 * (size_t)i] = 0.5f * room->x[i];
-        motion[2 * (size_t)i + 1] = 0.5f * room->y[i];
+    fluid->sample(filmed->motion_x, edge, &scratch->fluid, scratch->x);
+    fluid->sample(filmed->motion_y, edge, &scratch->fluid, scratch->y);
+    for (uint32_t i = 0; i < edge * edge; i++) { /* half edges of the cell become edges */
+        motion[2 * (size_t)i] = 0.5f * scratch->x[i];
+        motion[2 * (size_t)i + 1] = 0.5f * scratch->y[i];
     }
 }

@@ -6,16 +6,16 @@
 #include "asset/atlas/film.h"
 
 /* Returns the name in "builtin:NAME", or NULL when the source of an atlas is a file. */
-const char *kiln_builtin_of(const char *source);
+const char *kiln_builtin_name_of(const char *source);
 
 /* Returns whether there is a built-in flipbook of a name such as "fire", "smoke" or "spark". */
 bool kiln_builtin_exists(const char *name);
 
 /* Returns whether the flipbook of a name shows gas, whose motion from cell to cell is known. */
-bool kiln_builtin_flows(const char *name);
+bool kiln_builtin_has_motion(const char *name);
 
 /* Returns the names by index, for messages; NULL behind the last. */
-const char *kiln_builtin_name(size_t index);
+const char *kiln_builtin_name_at(size_t index);
 
 /* Describes a flipbook of cell_count cells. */
 struct kiln_builtin {
@@ -34,18 +34,18 @@ void kiln_builtin_close(struct kiln_builtin *builtin);
 
 /* Allocates the memory in which a thread makes cells one after another. NULL when memory is short.
  * The caller frees it with free(). */
-struct kiln_builtin_room *kiln_builtin_room(void);
+struct kiln_builtin_scratch *kiln_builtin_scratch_create(void);
 
 /* Fills edge x edge RGBA floats: x and y of the surface normal (-1..1; up is +y), heat (0..1) and
  * density (0..1), rows from the top, +y of the billboard up. The first cell shows the particle at
  * birth, the last at death. edge: at most KILN_FLUID_FINEST. */
 void kiln_builtin_cell(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
-                       struct kiln_builtin_room *room, float *pixels);
+                       struct kiln_builtin_scratch *scratch, float *pixels);
 
 /* Fills edge x edge pairs with the motion from this cell to the next, in edges of the cell, x to
  * the right and y up. The motion at a place is that of the gas which is there halfway between the
  * two cells. Only for flipbooks of gas. */
 void kiln_builtin_motion(const struct kiln_builtin *builtin, uint32_t cell, uint32_t edge,
-                         struct kiln_builtin_room *room, float *motion);
+                         struct kiln_builtin_scratch *scratch, float *motion);
 
 #endif

@@ -49,8 +49,8 @@ static inline float kiln_fluid_at(uint32_t index)
 /* Makes all gas cold and at rest, with each sample's place its own. */
 void kiln_fluid_init(struct kiln_fluid *fluid);
 
-/* Memory for sampling a field. */
-struct kiln_fluid_room {
+/* Memory in which a field is sampled. */
+struct kiln_fluid_scratch {
     float columns[KILN_FLUID_EDGE][3][KILN_FLUID_FINEST];
 };
 
@@ -61,8 +61,8 @@ struct kiln_fluid_code {
     /* Samples a field by a quadratic B-spline, which is smooth; beyond the border it keeps the
      * border's values. Fills edge x edge values at the middles of texels, rows from the top; edge
      * is at most KILN_FLUID_FINEST. */
-    void (*sample)(const float field[KILN_FLUID_SIZE], uint32_t edge, struct kiln_fluid_room *room,
-                   float *out);
+    void (*sample)(const float field[KILN_FLUID_SIZE], uint32_t edge,
+                   struct kiln_fluid_scratch *scratch, float *out);
 };
 KILN_SIMD_DECLARE(const struct kiln_fluid_code, kiln_fluid);
 

@@ -215,7 +215,7 @@ static inline struct taps taps_at(float x)
 }
 
 /* Interpolates all rows of samples at the columns of the texels. */
-static void spread(const float *field, uint32_t edge, struct kiln_fluid_room *room,
+static void spread(const float *field, uint32_t edge, struct kiln_fluid_scratch *scratch,
                    float weights[3][KILN_FLUID_FINEST])
 {
     uint8_t at[3][KILN_FLUID_FINEST];
@@ -229,23 +229,24 @@ static void spread(const float *field, uint32_t edge, struct kiln_fluid_room *ro
     }
     for (size_t y = 0; y < EDGE; y++) {
         for (size_t i = 0; i < 3; i++) {
-            float *to = room->columns[y][i];
+            float *to = scratch->columns[y][i];
             for (uint32_t x = 0; x < edge; x++)
                 to[x] = field[y * EDGE + at[i][x]];
         }
     }
 }
 
-static void sample(const float *field, uint32_t edge, struct kiln_fluid_room *room, float *out)
+static void sample(const float *field, uint32_t edge, struct kiln_fluid_scratch *scratch,
+                   float *out)
 {
     const float texel_size = 2.0f / (float)edge;
     float weights[3][KILN_FLUID_FINEST];
-    spread(field, edge, room, weights);
+    spread(field, edge, scratch, weights);
     for (uint32_t y = 0; y < edge; y++, out += edge) {
         struct taps taps = taps_at(1.0f - ((float)y + 0.5f) * texel_size);
-        const float(*below)[KILN_FLUID_FINEST] = room->columns[held(taps.middle - 1)];
-        const float(*here)[KILN_FLUID_FINEST] = room->columns[taps.middle];
-        const float(*above)[KILN_FLUID_FINEST] = room->columns[held(taps.middle + 1)];
+        const float(*below)[KILN_FLUID_FINEST] = scratch->columns[held(taps.middle - 1)];
+        const float(*here)[KILN_FLUID_FINEST] = scratch->columns[taps.middle];
+        const float(*above)[KILN_FLUID_FINEST] = scratch->columns[held(taps.middle + 1)];
         const float *w = taps.weights;
         for (uint32_t x = 0; x < edge; x++) {
             const float a = weights[0][x], b = weights[1][x], c = weights[2][x];

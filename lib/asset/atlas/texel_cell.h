@@ -8,8 +8,8 @@
 
 enum { TEXEL_CELL = TEXEL_ROW * TEXEL_ROW };
 
-struct kiln_builtin_room {
-    struct kiln_fluid_room fluid;
+struct kiln_builtin_scratch {
+    struct kiln_fluid_scratch fluid;
     float heat[TEXEL_CELL], x[TEXEL_CELL], y[TEXEL_CELL], weight[TEXEL_CELL];
 };
 
@@ -23,7 +23,8 @@ struct texel_job {
 
 struct texel_code {
     /* Fills edge x edge RGBA floats. */
-    void (*make_cell)(const struct texel_job *job, struct kiln_builtin_room *room, float *pixels);
+    void (*make_cell)(const struct texel_job *job, struct kiln_builtin_scratch *scratch,
+                      float *pixels);
 };
 KILN_SIMD_DECLARE(const struct texel_code, kiln_texel);
 

@@ -5,34 +5,35 @@
 #include "asset/atlas/texel_cell.h"
 
 /* Samples the gas at every texel. */
-static void find_gas(const struct texel_job *job, struct kiln_builtin_room *room)
+static void find_gas(const struct texel_job *job, struct kiln_builtin_scratch *scratch)
 {
     const size_t texels = (size_t)job->edge * job->edge;
     if (!job->gas) {
-        memset(room->heat, 0, texels * sizeof(float));
-        memset(room->x, 0, texels * sizeof(float));
-        memset(room->y, 0, texels * sizeof(float));
+        memset(scratch->heat, 0, texels * sizeof(float));
+        memset(scratch->x, 0, texels * sizeof(float));
+        memset(scratch->y, 0, texels * sizeof(float));
         return;
     }
-    float *weight = room->weight;
+    float *weight = scratch->weight;
     const struct kiln_fluid_code *fluid = &KILN_SIMD_NAME(kiln_fluid);
-    fluid->sample(job->gas->heat, job->edge, &room->fluid, room->heat);
-    fluid->sample(job->gas->place_x, job->edge, &room->fluid, room->x);
-    fluid->sample(job->gas->place_y, job->edge, &room->fluid, room->y);
-    fluid->sample(job->gas->weight, job->edge, &room->fluid, weight);
+    fluid->sample(job->gas->heat, job->edge, &scratch->fluid, scratch->heat);
+    fluid->sample(job->gas->place_x, job->edge, &scratch->fluid, scratch->x);
+    fluid->sample(job->gas->place_y, job->edge, &scratch->fluid, scratch->y);
+    fluid->sample(job->gas->weight, job->edge, &scratch->fluid, weight);
     for (size_t i = 0; i < texels; i++) {
-        room->x[i] = room->x[i] / weight[i];
-        room->y[i] = room->y[i] / weight[i];
+        scratch->x[i] = scratch->x[i] / weight[i];
+        scratch->y[i] = scratch->y[i] / weight[i];
     }
 }
 
 /* Gathers the texels of a row that may be visible, and notes their columns in `from`. */
-static uint32_t gather(const struct texel_job *job, const struct kiln_builtin_room *room,
+static uint32_t gather(const struct texel_job *job, const struct kiln_builtin_scratch *scratch,
                        uint32_t row, struct texel_sites *sites, uint8_t from[TEXEL_ROW])
 {
     const struct builtin *builtin = job->builtin;
-    const float *heat = room->heat + (size_t)row * job->edge;
-    const float *x = room->x + (size_t)row * job->edge, *y = room->y + (size_t)row * job->edge;
+    const float *heat = scratch->heat + (size_t)row * job->edge;
+    const float *x = scratch->x + (size_t)row * job->edge,
+                *y = scratch->y + (size_t)row * job->edge;
     const float texel_size = 2.0f / (float)job->edge;
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->edge; i++) {
@@ -53,16 +54,16 @@ static uint32_t gather(const struct texel_job *job, const struct kiln_builtin_ro
 
 /* Runs the flipbook's function for every texel. It stores heights in x, heat in heat, density in
  * y. */
-static void make_texels(const struct texel_job *job, struct kiln_builtin_room *room)
+static void make_texels(const struct texel_job *job, struct kiln_builtin_scratch *scratch)
 {
     struct texel_sites sites = {.time = job->time, .lobes = job->lobes};
     struct texels texels;
     uint8_t from[TEXEL_ROW];
     for (uint32_t row = 0; row < job->edge; row++) {
-        const uint32_t count = gather(job, room, row, &sites, from);
-        float *height = room->x + (size_t)row * job->edge;
-        float *heat = room->heat + (size_t)row * job->edge;
-        float *density = room->y + (size_t)row * job->edge;
+        const uint32_t count = gather(job, scratch, row, &sites, from);
+        float *height = scratch->x + (size_t)row * job->edge;
+        float *heat = scratch->heat + (size_t)row * job->edge;
+        float *density = scratch->y + (size_t)row * job->edge;
         for (uint32_t i = 0; i < job->edge; i++)
             height[i] = heat[i] = density[i] = 0.0f;
         if (count > 0)
@@ -76,16 +77,17 @@ static void make_texels(const struct texel_job *job, struct kiln_builtin_room *r
 }
 
 /* Finds normals from the slopes of the height. */
-static void tilt(const struct texel_job *job, const struct kiln_builtin_room *room, float *pixels)
+static void tilt(const struct texel_job *job, const struct kiln_builtin_scratch *scratch,
+                 float *pixels)
 {
     const uint32_t edge = job->edge;
     const float scale = job->builtin->relief;
     for (uint32_t row = 0; row < edge; row++) {
-        const float *height = room->x + (size_t)row * edge;
+        const float *height = scratch->x + (size_t)row * edge;
         const float *above = height - (row > 0 ? edge : 0);
         const float *below = height + (row < edge - 1 ? edge : 0);
-        const float *heat = room->heat + (size_t)row * edge;
-        const float *density = room->y + (size_t)row * edge;
+        const float *heat = scratch->heat + (size_t)row * edge;
+        const float *density = scratch->y + (size_t)row * edge;
         float beside[TEXEL_ROW + 2];
         memcpy(beside + 1, height, edge * sizeof(float));
         beside[0] = height[0];
@@ -102,11 +104,12 @@ static void tilt(const struct texel_job *job, const struct kiln_builtin_room *ro
     }
 }
 
-static void make_cell(const struct texel_job *job, struct kiln_builtin_room *room, float *pixels)
+static void make_cell(const struct texel_job *job, struct kiln_builtin_scratch *scratch,
+                      float *pixels)
 {
-    find_gas(job, room);
-    make_texels(job, room);
-    tilt(job, room, pixels);
+    find_gas(job, scratch);
+    make_texels(job, scratch);
+    tilt(job, scratch, pixels);
 }
 
 const struct texel_code KILN_SIMD_NAME(kiln_texel) = {.make_cell = make_cell};
