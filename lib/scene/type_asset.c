@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "asset/atlas/builtin.h"
+#include "asset/image/image.h"
 #include "option/schema.h"
 #include "scene/asset_path.h"
 
@@ -98,7 +99,7 @@ static bool read_motion(struct kiln_reader *reader, const struct kiln_option *op
             return true;
         }
     }
-    return kiln_read_asset(reader, node, motion);
+    return kiln_read_file_asset(reader, node, kiln_asset_image_check, motion);
 }
 
 static void print_motion(struct kiln_printer *printer, const struct kiln_option *option,

@@ -193,6 +193,28 @@ static void assets_must_be_pictures(void **state)
     assert_int_equal(error.code, KILN_INVALID_INPUT);
 }
 
+/* Motion is read from images only, while an atlas may be a video. */
+static void motion_is_no_video(void **state)
+{
+    (void)state;
+    const struct kiln_frame_range range = {0, 0};
+    const struct kiln_output_params params = test_output_params("scenes/x.mp4", &range);
+    struct kiln_error error = {0};
+    assert_true(test_write_all(&params, &error));
+    static const char video[] = "kiln: 1\nsystems: {a: {look: {atlas: x.mp4, cells: [1, 1]}}}\n";
+    write_file("scenes/a.yaml", video, sizeof video - 1);
+    struct kiln_scene *scene = kiln_scene_load("scenes/a.yaml", NULL, &error);
+    assert_non_null(scene);
+    kiln_scene_destroy(&scene);
+    static const char text[] =
+        "kiln: 1\nsystems: {a: {look: {atlas: x.mp4, motion: x.mp4, cells: [1, 1]}}}\n";
+    write_file("scenes/a.yaml", text, sizeof text - 1);
+    expect_error(
+        "scenes/a.yaml", NULL,
+        "scenes/a.yaml:2:44: systems.a.look.motion: 'x.mp4': the file is not an image: it "
+        "starts with the bytes 00 00 00 20; allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files");
+}
+
 static void asset_root_may_be_given(void **state)
 {
     (void)state;
@@ -371,6 +393,7 @@ int main(void)
         IN_FOLDER(huge_files_are_refused_early),
         IN_FOLDER(assets_stay_below_the_scene),
         IN_FOLDER(assets_must_be_pictures),
+        IN_FOLDER(motion_is_no_video),
         IN_FOLDER(asset_root_may_be_given),
         IN_FOLDER(meshes_are_checked_and_hashed),
         IN_FOLDER(what_collides_must_be_closed),
