@@ -165,7 +165,7 @@ bool decode_confine(enum kiln_decode_kind kind, uint64_t most_memory, struct kil
                                                    .argument = 2,
                                                    .mask = PROT_EXEC,
                                                    .and_argument = 3,
-                                                   .and_mask = MAP_SHARED | MAP_GROWSDOWN};
+                                                   .and_none_of = MAP_SHARED | MAP_GROWSDOWN};
     /* abort() sends a signal to this process. No other process may get one. */
     calls[count++] = (struct kiln_system_call){
         .number = SCMP_SYS(tgkill), .mask = UINT32_MAX, .value = (uint64_t)getpid()};

@@ -166,8 +166,8 @@ static int add_calls(const struct seccomp *library, scmp_filter_ctx filter, bool
              .op = call->differs ? SCMP_CMP_NE : SCMP_CMP_MASKED_EQ,
              .datum_a = call->differs ? call->value : call->mask,
              .datum_b = call->differs ? 0 : call->value},
-            {.arg = call->and_argument, .op = SCMP_CMP_MASKED_EQ, .datum_a = call->and_mask}};
-        const unsigned first = call->mask != 0 || call->differs, second = call->and_mask != 0;
+            {.arg = call->and_argument, .op = SCMP_CMP_MASKED_EQ, .datum_a = call->and_none_of}};
+        const unsigned first = call->mask != 0 || call->differs, second = call->and_none_of != 0;
         const uint32_t refused = SCMP_ACT_ERRNO((uint32_t)(call->refusal ? call->refusal : EPERM));
         status = library->seccomp_rule_add_array(filter, only ? SCMP_ACT_ALLOW : refused,
                                                  call->number, first + second, conditions);
@@ -175,8 +175,8 @@ static int add_calls(const struct seccomp *library, scmp_filter_ctx filter, bool
     return status;
 }
 
-bool kiln_seccomp_confine(enum kiln_calls which, const struct kiln_system_call *calls, size_t count,
-                          struct kiln_error *error)
+bool kiln_seccomp_confine(enum kiln_call_list which, const struct kiln_system_call *calls,
+                          size_t count, struct kiln_error *error)
 {
     struct seccomp library;
     if (!kernel_has_seccomp())
