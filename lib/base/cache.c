@@ -1,6 +1,7 @@
-/* A file of the cache begins with a line that has a checksum of the bytes behind it. The checksum
- * finds accidental damage only: a user who may write into the folder can forge any file. SHA-256
- * took a sixth of the time of a small frame. */
+/* This file reads and writes the cache of flipbooks and of the distance fields of meshes. Each file
+ * of the cache is a line with a checksum, followed by the data. The checksum finds accidental
+ * damage only: a user who may write into the folder can forge any file. So it is Adler-32 and not
+ * SHA-256, which took a sixth of the time of a small frame. */
 #include "base/cache.h"
 
 #include <dirent.h>
@@ -28,7 +29,7 @@ bool kiln_cache_folder(char folder[KILN_PATH_SIZE])
         length = snprintf(folder, KILN_PATH_SIZE, "%s/kiln", cache);
     else if (home && home[0] == '/')
         length = snprintf(folder, KILN_PATH_SIZE, "%s/.cache/kiln", home);
-    return length > 0 && length < KILN_PATH_SIZE - 80; /* room for a file's name */
+    return length > 0 && length < KILN_PATH_SIZE - 80; /* 80: a slash and a file's name */
 }
 
 static void compose_header(char header[HEADER + 1], const void *bytes, size_t size)
@@ -41,31 +42,31 @@ static void compose_header(char header[HEADER + 1], const void *bytes, size_t si
 
 static bool read_bytes(FILE *in, void *bytes, size_t size)
 {
-    char found[HEADER], right[HEADER + 1];
+    char found[HEADER], expected[HEADER + 1];
     if (fread(found, sizeof found, 1, in) != 1 || fread(bytes, 1, size, in) != size ||
         fgetc(in) != EOF)
         return false;
-    compose_header(right, bytes, size);
-    return memcmp(found, right, sizeof found) == 0;
+    compose_header(expected, bytes, size);
+    return memcmp(found, expected, sizeof found) == 0;
 }
 
 bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, size_t size)
 {
     char path[KILN_PATH_SIZE];
     struct kiln_error ignored;
-    size_t there = 0;
+    size_t file_size = 0;
     const int file = kiln_path_join(path, folder, name, &ignored)
-                         ? kiln_file_open(path, "cache", "", &there, &ignored)
+                         ? kiln_file_open(path, "cache", "", &file_size, &ignored)
                          : -1;
-    FILE *in = file >= 0 && there == HEADER + size ? fdopen(file, "rb") : NULL;
+    FILE *in = file >= 0 && file_size == HEADER + size ? fdopen(file, "rb") : NULL;
     if (!in) {
         if (file >= 0)
             close(file);
         return false;
     }
-    const bool is_whole = read_bytes(in, bytes, size);
+    const bool is_undamaged = read_bytes(in, bytes, size);
     fclose(in);
-    return is_whole;
+    return is_undamaged;
 }
 
 void *kiln_cache_read(const char *folder, const char *name, size_t size)
@@ -82,7 +83,8 @@ void *kiln_cache_read(const char *folder, const char *name, size_t size)
 struct entry {
     char name[256];
     off_t size;
-    int64_t used_ns; /* when it was read or written */
+    int64_t used_ns; /* when it was last read or written; where the system keeps no times of
+                      * reading, when it was written */
 };
 
 static int64_t used_ns(const struct stat *status)
@@ -99,15 +101,16 @@ static int by_use(const void *a, const void *b)
     return (x->used_ns > y->used_ns) - (x->used_ns < y->used_ns);
 }
 
-/* Whether a file can be one of the cache: they are called by a hash. Others were put there by
- * people and are not touched. */
+/* Returns whether a file's name has the form of the cache's names, which begin with a SHA-256 hash
+ * and a dot. Files with other names are not the cache's and are not touched. */
 static bool is_ours(const char *name)
 {
     const size_t digits = strspn(name, "0123456789abcdef");
     return digits == 64 && name[digits] == '.';
 }
 
-/* All files but the one that is about to be written; NULL with a count of 0 when there are none. */
+/* Lists the files of the cache except `name`, which is about to be written. The caller frees the
+ * list. When memory is short or the folder cannot be read, it returns NULL with a count of 0. */
 static struct entry *list_others(int folder, const char *name, size_t *count)
 {
     struct dirent **found = NULL;
@@ -129,7 +132,8 @@ static struct entry *list_others(int folder, const char *name, size_t *count)
     return entries;
 }
 
-/* Removes what was used longest ago until a file of this size has its place. */
+/* Removes the least recently used files until one more of `size` bytes fits into KILN_CACHE_BYTES.
+ */
 static void make_room(const char *path, const char *name, size_t size)
 {
     const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);

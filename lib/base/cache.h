@@ -1,5 +1,5 @@
-/* Keeps files from one run to the next that can be made again. A damaged file is ignored, and a
- * file that cannot be written is no failure. */
+/* Keeps results that are slow to compute in files, from one run to the next. A damaged file is
+ * ignored, and a file that cannot be written is no failure. */
 #ifndef KILN_BASE_CACHE_H
 #define KILN_BASE_CACHE_H
 
@@ -10,7 +10,7 @@
 enum { KILN_CACHE_BYTES = 512 << 20 };
 
 /* Finds the folder of the cache: $XDG_CACHE_HOME/kiln, or $HOME/.cache/kiln. False: neither
- * variable is set. */
+ * variable has an absolute path, or the path is too long. */
 bool kiln_cache_folder(char folder[KILN_PATH_SIZE]);
 
 /* Reads the file of a name into `bytes` if it has this size. False: there is no such file, or it is

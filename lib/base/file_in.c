@@ -1,5 +1,6 @@
-/* Reads files that a user names into memory, whole. The path may lead to anything (a folder, a
- * FIFO, a device), so each file is checked after it is opened, and opening never waits. */
+/* This file opens regular files and reads them into memory as a whole. A path may come from a user
+ * and lead to anything (a folder, a FIFO, a device), so each file is checked after it is opened,
+ * and opening never waits. */
 #include "base/file_in.h"
 
 #include <errno.h>
@@ -60,8 +61,8 @@ bool kiln_file_check_size(const char *path, const char *what, size_t size, size_
                                            path, what, size, limit);
 }
 
-unsigned char *kiln_file_take(int file, const char *path, const char *what, size_t size,
-                              struct kiln_error *error)
+unsigned char *kiln_file_read_bytes(int file, const char *path, const char *what, size_t size,
+                                    struct kiln_error *error)
 {
     unsigned char *bytes = malloc(size + 1);
     if (!bytes) {
@@ -81,7 +82,7 @@ unsigned char *kiln_file_read(const char *path, const char *what, const char *al
     if (file < 0)
         return NULL;
     unsigned char *bytes = kiln_file_check_size(path, what, *size, limit, error)
-                               ? kiln_file_take(file, path, what, *size, error)
+                               ? kiln_file_read_bytes(file, path, what, *size, error)
                                : NULL;
     close(file);
     return bytes;

@@ -1,9 +1,10 @@
-/* Reads whole files that a user names into memory.
+/* Opens regular files and reads them into memory as a whole. The readers of a
+ * scene's assets (lib/asset/loader), of saved states, of parts of clips, of pictures and of the
+ * cache call it.
  *
- * Whatever reads a file as a whole calls it: assets of a scene by way of lib/asset/loader, saved
- * states, parts of clips, pictures of a report, caches. A file is checked after it is opened, not
- * before, since a path may lead elsewhere a moment later. Opening must not wait: a path may lead to
- * a FIFO that nobody writes. */
+ * A path may come from a user and lead to anything. A file is checked after it is opened, not
+ * before, since the file at a path may be replaced between the two. Opening must not wait: the path
+ * may lead to a FIFO that nobody writes. */
 #ifndef KILN_BASE_FILE_IN_H
 #define KILN_BASE_FILE_IN_H
 
@@ -11,8 +12,8 @@
 
 #include "kiln.h"
 
-/* The flags by which such a file is opened. O_NONBLOCK keeps open from waiting for a FIFO, and
- * O_NOCTTY keeps a terminal from becoming the process's own. */
+/* The flags by which files are opened for reading. O_NONBLOCK keeps open from waiting for a FIFO,
+ * and O_NOCTTY keeps a terminal from becoming the controlling terminal of the process. */
 enum { KILN_FILE_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
 
 /* Opens a regular file for reading. Returns its descriptor, which the caller closes, and its size.
@@ -27,15 +28,21 @@ int kiln_file_open(const char *path, const char *what, const char *allowed, size
 unsigned char *kiln_file_read(const char *path, const char *what, const char *allowed, size_t limit,
                               size_t *size, struct kiln_error *error);
 
-/* Do the steps of kiln_file_read, for a caller that opens a file in its own way and closes it, as
- * the loader does below an asset root. kiln_file_check checks that it is a regular file and finds
- * its size, kiln_file_check_size compares the size with a limit, and kiln_file_take reads the
- * bytes. */
+/* These are the steps of kiln_file_read, for a caller that opens the file in its own way and closes
+ * it. The loader is one: it opens files only below a given folder.
+ *
+ * kiln_file_check checks that a descriptor is of a regular file and finds its size. It returns
+ * false with KILN_IO or KILN_INVALID_INPUT. */
 bool kiln_file_check(int file, const char *path, const char *what, const char *allowed,
                      size_t *size, struct kiln_error *error);
+
+/* Returns false with KILN_INVALID_INPUT if the size is above the limit. */
 bool kiln_file_check_size(const char *path, const char *what, size_t size, size_t limit,
                           struct kiln_error *error);
-unsigned char *kiln_file_take(int file, const char *path, const char *what, size_t size,
-                              struct kiln_error *error);
+
+/* Reads `size` bytes, which the caller frees. Returns NULL with KILN_IO when they cannot be read or
+ * the file has become shorter, or with KILN_DEVICE_FAILED when memory is short. */
+unsigned char *kiln_file_read_bytes(int file, const char *path, const char *what, size_t size,
+                                    struct kiln_error *error);
 
 #endif

@@ -186,7 +186,7 @@ unsigned char *kiln_loader_read(struct kiln_loader *loader, const struct kiln_lo
     const int opened = kiln_loader_open(loader, file, size, error);
     if (opened < 0)
         return NULL;
-    unsigned char *bytes = kiln_file_take(opened, file->path, file->what, *size, error);
+    unsigned char *bytes = kiln_file_read_bytes(opened, file->path, file->what, *size, error);
     close(opened);
     return bytes;
 }
