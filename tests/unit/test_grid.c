@@ -57,7 +57,7 @@ static void what_is_no_grid_is_refused(void **state)
         float first;
         const char *message;
     } cases[] = {
-        {"", 0, 1, "w.grid:1: expected a line of text of a kiln-grid file"},
+        {"", 0, 1, "w.grid:1: expected a line of text of less than 128 bytes"},
         {"kiln-grid 2\n", 0, 1, "w.grid:1: expected 'kiln-grid 1', found 'kiln-grid 2'"},
         {"kiln-grid 1\nsize 2 2\n", 0, 1,
          "w.grid:2: expected 'size' and three whole numbers from 2 to 1024, found 'size 2 2'"},
@@ -79,9 +79,9 @@ static void what_is_no_grid_is_refused(void **state)
         {HEADER, SAMPLES * 12 - 1, 1, "w.grid: 143 bytes of data; 2 x 3 x 2 samples have 144"},
         {HEADER, SAMPLES * 12 + 4, 1, "w.grid: 148 bytes of data; 2 x 3 x 2 samples have 144"},
         {HEADER, SAMPLES * 12, 20000,
-         "w.grid: sample 0: found 20000; allowed are numbers from -10000 to 10000"},
+         "w.grid: sample 0, 0, 0: found x = 20000; allowed are numbers from -10000 to 10000"},
         {HEADER, SAMPLES * 12, NAN,
-         "w.grid: sample 0: found nan; allowed are numbers from -10000 to 10000"},
+         "w.grid: sample 0, 0, 0: found x = nan; allowed are numbers from -10000 to 10000"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kiln_error error;

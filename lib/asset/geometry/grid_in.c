@@ -1,4 +1,6 @@
-/* This file reads kiln-grid files: a few lines of text, then floats. */
+/* This file reads kiln-grid files, which hold vectors on a regular grid, such as wind: five lines
+ * of text, then three floats for each sample (grid_in.h describes the format). Checking a scene and
+ * preparing its simulation call kiln_grid_load. */
 #include "asset/geometry/grid_in.h"
 
 #include <math.h>
@@ -10,7 +12,7 @@
 
 enum { LINE_SIZE = 128, SAMPLE_BYTES = 12, HEADER_BYTES = 5 * LINE_SIZE };
 
-static const float MOST = 1e4f;
+static const float MAX_COMPONENT = 1e4f; /* of a sample, in either direction */
 
 struct cursor {
     const char *name;
@@ -19,7 +21,7 @@ struct cursor {
     struct kiln_error *error;
 };
 
-/* Reads a line without its end. */
+/* Reads a line and leaves out its newline. */
 static bool take_line(struct cursor *c, char line[LINE_SIZE])
 {
     const size_t left = (size_t)(c->end - c->at);
@@ -27,7 +29,8 @@ static bool take_line(struct cursor *c, char line[LINE_SIZE])
     c->line++;
     if (!newline || memchr(c->at, '\0', (size_t)(newline - c->at))) {
         kiln_error_set(c->error, KILN_INVALID_INPUT,
-                       "%s:%u: expected a line of text of a kiln-grid file", c->name, c->line);
+                       "%s:%u: expected a line of text of less than %d bytes", c->name, c->line,
+                       LINE_SIZE);
         return false;
     }
     const size_t length = (size_t)(newline - c->at);
@@ -38,17 +41,17 @@ static bool take_line(struct cursor *c, char line[LINE_SIZE])
 }
 
 /* Reads a line that must be exactly this text. */
-static bool take_word(struct cursor *c, const char *word)
+static bool take_exact_line(struct cursor *c, const char *expected)
 {
     char line[LINE_SIZE];
     if (!take_line(c, line))
         return false;
-    return strcmp(line, word) == 0 ||
+    return strcmp(line, expected) == 0 ||
            kiln_error_set(c->error, KILN_INVALID_INPUT, "%s:%u: expected '%s', found '%s'", c->name,
-                          c->line, word, line);
+                          c->line, expected, line);
 }
 
-/* Reads a line "word x y z", with each number from least to most. */
+/* Reads a line "word x y z", with each number from least to most, and nothing after z. */
 static bool take_numbers(struct cursor *c, const char *word, double least, double most, bool whole,
                          double numbers[3])
 {
@@ -73,10 +76,10 @@ static bool take_numbers(struct cursor *c, const char *word, double least, doubl
 static bool take_header(struct cursor *c, struct kiln_grid_file *grid)
 {
     double size[3], origin[3], spacing[3];
-    if (!take_word(c, "kiln-grid 1") ||
+    if (!take_exact_line(c, "kiln-grid 1") ||
         !take_numbers(c, "size", 2, KILN_MAX_GRID_EDGE, true, size) ||
         !take_numbers(c, "origin", -1e5, 1e5, false, origin) ||
-        !take_numbers(c, "spacing", 1e-3, 1e5, false, spacing) || !take_word(c, "data"))
+        !take_numbers(c, "spacing", 1e-3, 1e5, false, spacing) || !take_exact_line(c, "data"))
         return false;
     if (size[0] * size[1] * size[2] > KILN_MAX_GRID_SAMPLES)
         return kiln_error_set(c->error, KILN_INVALID_INPUT,
@@ -90,7 +93,7 @@ static bool take_header(struct cursor *c, struct kiln_grid_file *grid)
     return true;
 }
 
-static float little_end_first(const unsigned char *bytes)
+static float read_float_le(const unsigned char *bytes)
 {
     uint32_t bits = 0;
     for (uint32_t i = 0; i < 4; i++)
@@ -98,6 +101,18 @@ static float little_end_first(const unsigned char *bytes)
     float value;
     memcpy(&value, &bits, sizeof value);
     return value;
+}
+
+/* Sets the error for float i of the samples. */
+static bool refuse_sample(struct cursor *c, const struct kiln_grid_file *grid, size_t i,
+                          float value)
+{
+    const size_t sample = i / 3, columns = grid->size[0], rows = grid->size[1];
+    return kiln_error_set(
+        c->error, KILN_INVALID_INPUT,
+        "%s: sample %zu, %zu, %zu: found %c = %g; allowed are numbers from %g to %g", c->name,
+        sample % columns, sample / columns % rows, sample / (columns * rows), "xyz"[i % 3],
+        (double)value, -(double)MAX_COMPONENT, (double)MAX_COMPONENT);
 }
 
 static bool take_samples(struct cursor *c, struct kiln_grid_file *grid)
@@ -112,11 +127,9 @@ static bool take_samples(struct cursor *c, struct kiln_grid_file *grid)
     if (!grid->samples)
         return kiln_error_set(c->error, KILN_DEVICE_FAILED, "%s: out of memory", c->name);
     for (size_t i = 0; i < 3 * count; i++) {
-        const float value = little_end_first(c->at + 4 * i);
-        if (!(fabsf(value) <= MOST))
-            return kiln_error_set(c->error, KILN_INVALID_INPUT,
-                                  "%s: sample %zu: found %g; allowed are numbers from %g to %g",
-                                  c->name, i / 3, (double)value, -(double)MOST, (double)MOST);
+        const float value = read_float_le(c->at + 4 * i);
+        if (!(fabsf(value) <= MAX_COMPONENT))
+            return refuse_sample(c, grid, i, value);
         grid->samples[i / 3][i % 3] = value;
     }
     return true;
@@ -141,8 +154,12 @@ struct kiln_grid_file *kiln_grid_load(struct kiln_loader *loader, const char *pa
                                       struct kiln_error *error)
 {
     size_t size = 0;
-    const size_t most = HEADER_BYTES + (size_t)KILN_MAX_GRID_SAMPLES * SAMPLE_BYTES;
-    const struct kiln_loader_file file = {path, "grid", "kiln-grid", most};
+    const struct kiln_loader_file file = {
+        .path = path,
+        .what = "grid",
+        .allowed = "kiln-grid",
+        .most_bytes = HEADER_BYTES + (size_t)KILN_MAX_GRID_SAMPLES * SAMPLE_BYTES,
+    };
     unsigned char *bytes = kiln_loader_read(loader, &file, &size, error);
     if (!bytes)
         return NULL;

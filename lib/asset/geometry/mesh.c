@@ -1,5 +1,6 @@
-/* This file finds the bounds of meshes on the host, turns their faces outwards, copies and destroys
- * them. They are imported in mesh_in.c. */
+/* This file has the operations on meshes in the host's memory: it finds the bounding box, reverses
+ * all triangles of a mesh that is inside out, copies and destroys meshes. mesh_in.c imports meshes;
+ * mesh.h says who works on a copy. */
 #include "asset/geometry/mesh.h"
 
 #include <math.h>
@@ -8,7 +9,7 @@
 
 #include "asset/geometry/mesh_in.h"
 
-void kiln_mesh_bound(struct kiln_mesh *mesh)
+void kiln_mesh_find_bounds(struct kiln_mesh *mesh)
 {
     for (int c = 0; c < 3; c++)
         mesh->min[c] = mesh->max[c] = mesh->vertices[0][c];
@@ -20,10 +21,11 @@ void kiln_mesh_bound(struct kiln_mesh *mesh)
     }
 }
 
-/* Returns six times the volume of the tetrahedron of a place and a triangle, positive if the
- * triangle faces away from the place. */
-static double volume_below(const struct kiln_mesh *mesh, const uint32_t triangle[3],
-                           const float from[3])
+/* Returns six times the signed volume of the tetrahedron between a point and a triangle. It is
+ * positive if the triangle faces away from the point. The vertices of a triangle run
+ * counterclockwise where it is seen from the side that it faces. */
+static double six_volumes(const struct kiln_mesh *mesh, const uint32_t triangle[3],
+                          const float from[3])
 {
     double v[3][3];
     for (int k = 0; k < 3; k++) {
@@ -39,7 +41,7 @@ void kiln_mesh_face_outwards(struct kiln_mesh *mesh)
 {
     double volume = 0.0;
     for (uint32_t i = 0; i < mesh->triangle_count; i++)
-        volume += volume_below(mesh, mesh->triangles[i], mesh->min);
+        volume += six_volumes(mesh, mesh->triangles[i], mesh->min);
     for (uint32_t i = 0; volume < 0.0 && i < mesh->triangle_count; i++) {
         const uint32_t second = mesh->triangles[i][1];
         mesh->triangles[i][1] = mesh->triangles[i][2];

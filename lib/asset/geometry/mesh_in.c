@@ -166,7 +166,7 @@ static struct kiln_mesh *copy(const struct kiln_mesh_result *result, bool uvs)
         memcpy(mesh->uvs, result->uvs, mesh->vertex_count * sizeof *mesh->uvs);
     memcpy(mesh->vertices, result->vertices, mesh->vertex_count * sizeof *mesh->vertices);
     memcpy(mesh->triangles, result->triangles, mesh->triangle_count * sizeof *mesh->triangles);
-    kiln_mesh_bound(mesh);
+    kiln_mesh_find_bounds(mesh);
     return mesh;
 }
 

@@ -27,7 +27,7 @@ bool kiln_mesh_visit_arrays(struct kiln_mesh_result *result, bool uvs, bool movi
                             bool (*visit)(void *user, void *array, size_t bytes), void *user);
 
 /* Computes a mesh's bounding box, min and max, from the positions of its vertices (mesh.c). */
-void kiln_mesh_bound(struct kiln_mesh *mesh);
+void kiln_mesh_find_bounds(struct kiln_mesh *mesh);
 
 /* Checks the part `skin` of a result and makes a skin of it (skin.c). The mesh is made from the
  * rest of the same result, which mesh_in.c has checked. This takes ownership of the mesh, also on

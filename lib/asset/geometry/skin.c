@@ -199,7 +199,7 @@ void kiln_skin_pose_mesh(const struct kiln_skin *skin, uint32_t clip, float seco
                          struct kiln_mesh *mesh)
 {
     kiln_skin_pose(skin, clip, seconds, mesh->vertices);
-    kiln_mesh_bound(mesh);
+    kiln_mesh_find_bounds(mesh);
 }
 
 /* ---- checking what kiln-decode sent ---------------------------------------------------------- */
@@ -410,7 +410,7 @@ static struct kiln_skin *copy(const struct kiln_skin_result *r, struct kiln_mesh
     normalize(skin);
     turn_mirrored(skin);
     pose(skin, NULL, 0.0f, mesh->vertices);
-    kiln_mesh_bound(mesh);
+    kiln_mesh_find_bounds(mesh);
     return skin;
 }
 
