@@ -24,7 +24,8 @@
 
 static const struct kiln_option box[] = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
-    VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]", "Full edges."),
+    VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]",
+           "Lengths of the edges."),
     VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
            "[0, 0, 0]",
            "Angles about x, then y, then z. In a step, the box turns the shorter way."),
@@ -75,7 +76,7 @@ static const struct kiln_option plane[] = {
            "Direction away from the plane, of any length but 0."),
     REFLECTANCE,
     BOOLEAN(LOOK, "visible", visible, "true",
-            "false does not draw the plane; particles still collide with it."),
+            "`false` does not draw the plane; particles still collide with it."),
     COLLIDING,
     END,
 };
@@ -120,9 +121,10 @@ static const char *const gathers[] = {
 static const struct kiln_option paint[] = {
     INTEGER(MOTION, "size", paint.size, KILN_MIN_CHART, KILN_MAX_CHART, "512",
             "Texels along an edge of the painted texture, a power of two."),
-    CHOICE(LOOK, "gather", paint.gather, gathers, "near",
-           "near brings each splat to the texels that it may reach. all tests every splat at each "
-           "texel, as the paper does. Both paint the same."),
+    CHOICE(
+        LOOK, "gather", paint.gather, gathers, "near",
+        "`near` brings each splat to the texels that it may reach. `all` tests every splat at each "
+        "texel, as the paper does. Both paint the same."),
     INTEGER(MOTION, "per_step", paint.per_step, 0, KILN_MAX_PARTICLES, "0",
             "Most particles that paint in a step. They take turns. A particle that waits for its "
             "turn keeps its last splat alone. With 0, all paint in each step."),
@@ -145,12 +147,13 @@ static const struct kiln_option mesh[] = {
     BOOLEAN(MOTION, "collide", collide, "false",
             "Particles of systems that collide bounce off it."),
     RUBBING,
-    CHOICE(MOTION, "collider", collider, colliders, "field",
-           "How particles collide with the mesh. field is a grid of distances, made once, of a "
-           "closed mesh (UberFlow 2004, 4.6). volume is a grid whose cells, in each step, take up "
-           "the planes of any mesh and their motion (Drone 2007, 7.5.2). depth_maps are depth maps "
-           "of the mesh's fronts and backs from some directions; a hollow that no direction looks "
-           "into counts as filled (Heinz 2019, 2.5.1)."),
+    CHOICE(
+        MOTION, "collider", collider, colliders, "field",
+        "How particles collide with the mesh. `field` is a grid of distances, made once, of a "
+        "closed mesh (UberFlow 2004, 4.6). `volume` is a grid whose cells, in each step, take up "
+        "the planes of any mesh and their motion (Drone 2007, 7.5.2). `depth_maps` are depth maps "
+        "of the mesh's fronts and backs from some directions; a hollow that no direction looks "
+        "into counts as filled (Heinz 2019, 2.5.1)."),
     INTEGER(MOTION, "cells", cells, KILN_MIN_FIELD_CELLS, KILN_MAX_FIELD_CELLS, "48",
             "Cells of the field or the volume along the mesh's longest edge. Particles may miss "
             "parts that are thinner than a cell."),
@@ -158,10 +161,11 @@ static const struct kiln_option mesh[] = {
            "Direction in which most particles fly, for collider volume, of any length but 0. Of "
            "the planes that face this direction, a cell keeps the one that particles meet first "
            "(Drone 2007, 7.5.2.3)."),
-    CHOICE(MOTION, "sides", sides, sides, "one",
-           "Sides of the mesh that stop particles, for collider volume. one suits closed meshes: a "
-           "particle behind a plane is put in front of it. two suits sheets: a plane is met from "
-           "both sides."),
+    CHOICE(
+        MOTION, "sides", sides, sides, "one",
+        "Sides of the mesh that stop particles, for collider volume. `one` suits closed meshes: a "
+        "particle behind a plane is put in front of it. `two` suits sheets: a plane is met from "
+        "both sides."),
     GROUP(MOTION, "depth_maps", 0, depth_maps,
           "Settings of collider depth_maps. Nothing is too thin for depth maps, and the mesh need "
           "not be closed."),

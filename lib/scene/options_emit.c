@@ -1,10 +1,13 @@
-/* This file has the option tables of a system and of how its particles are born (Heinz
- * 2019, 2.1.2). */
+/* This file has the option tables of a particle system: how its particles are born (Heinz 2019,
+ * 2.1.2), collide, paint and die. Tables for its look, its forces and its interactions are in
+ * options_look.c, options_forces.c and options_interact.c. option/rows.h and scene/rows.h define
+ * the macros of the rows; AT(field) is the offset of a field in the struct that the next tables
+ * fill. */
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_emitter, field)
 
-/* Members of every shape; the default spread of the directions differs. */
+/* Options that every shape has. `spread` is the default of `angle`. */
 #define PLACE(spread)                                                                              \
     VECTOR(MOTION, "origin", origin, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",                    \
            "Centre of the shape. When it moves, births are spread along its way."),                \
@@ -17,7 +20,7 @@
     VALUE(MOTION, "turn", turn, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), TIME,       \
           "0 deg/s",                                                                               \
           "Angular speed at which the shape turns about its direction. Particles get the "         \
-          "velocity of the place where they are born.")
+          "velocity that the turning shape has where they are born.")
 
 static const struct kiln_option point[] = {
     PLACE("0 deg"),
@@ -36,7 +39,7 @@ static const struct kiln_option sphere[] = {
 
 static const struct kiln_option box[] = {
     PLACE("0 deg"),
-    VECTOR(MOTION, "size", size, KILN_METRES, 0, FAR, TIME, "[1, 1, 1]", "Full edges."),
+    VECTOR(MOTION, "size", size, KILN_METRES, 0, FAR, TIME, "[1, 1, 1]", "Lengths of the edges."),
     BOOLEAN(MOTION, "surface", surface, "false", "Particles are born on the six faces only."),
     TURN,
     END,
@@ -53,20 +56,23 @@ static const struct kiln_option disc[] = {
 
 static const struct kiln_option cone[] = {
     PLACE("15 deg"),
-    VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0 m",
-          "Radius of the disc at the apex. Particles leave along the lines of the cone."),
+    VALUE(
+        MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0 m",
+        "Radius of the cone's small end, a disc in which particles are born. They start along the "
+        "lines from the tip that the cone would have without this disc."),
     END,
 };
 
 static const struct kiln_option line[] = {
     PLACE("0 deg"),
-    VECTOR(MOTION, "span", size, KILN_METRES, -FAR, FAR, TIME, "[1, 0, 0]",
-           "Vector from the first end of the line to its last end. The origin is in the middle of "
-           "the line."),
+    VECTOR(
+        MOTION, "span", size, KILN_METRES, -FAR, FAR, TIME, "[1, 0, 0]",
+        "Vector from one end of the line to the other. The origin is in the middle of the line."),
     INTEGER(
         MOTION, "nozzles", nozzles, 0, 65536, "0",
-        "Number of nozzles at which particles are born in turn. Each nozzle is in the middle of "
-        "one of as many equal parts of the line. With 0, particles are born anywhere on the line."),
+        "Number of nozzles at which particles are born in turn. The line is divided into as many "
+        "equal parts, with a nozzle in the middle of each. With 0, particles are born anywhere on "
+        "the line."),
     TURN,
     END,
 };
@@ -79,7 +85,10 @@ static const struct kiln_option_kind shapes[] = {
      .members = box,
      .help = "A box whose edges lie along the axes."},
     {.name = "disc", .value = KILN_EMITTER_DISC, .members = disc, .help = "A flat disc."},
-    {.name = "cone", .value = KILN_EMITTER_CONE, .members = cone, .help = "A nozzle."},
+    {.name = "cone",
+     .value = KILN_EMITTER_CONE,
+     .members = cone,
+     .help = "A nozzle, whose jet widens."},
     {.name = "line",
      .value = KILN_EMITTER_LINE,
      .members = line,
@@ -94,14 +103,14 @@ static const char *const aligns[] = {
     NULL,
 };
 
-/* The limit of a count of children, at which a system of them still fits. */
+/* With 65536 children each, the children of 256 particles fit into KILN_MAX_PARTICLES slots. */
 #define COUNT                                                                                      \
     INTEGER(MOTION, "count", parent.count, 1, 65536, "10",                                         \
-            "Particles born of one particle of the parent.")
-#define ALIGN(words, which)                                                                        \
+            "Number of particles born at the event of one particle of the parent.")
+#define ALIGN(words, help_of_others)                                                               \
     CHOICE(MOTION, "align", parent.align, words, "world",                                          \
-           "Direction of the y axis of `from`. world points it up. " which)
-#define TO_VELOCITY "velocity turns it to the velocity of the parent's particle."
+           "Direction of the y axis of `from`. `world` points it up. " help_of_others)
+#define TO_VELOCITY "`velocity` turns it to the velocity of the parent's particle."
 
 static const char *const aligns_in_flight[] = {
     [KILN_ALIGN_WORLD] = "world",
@@ -113,8 +122,8 @@ static const struct kiln_option death[] = {COUNT, ALIGN(aligns_in_flight, TO_VEL
 
 static const struct kiln_option bounce[] = {
     COUNT,
-    ALIGN(aligns, "velocity turns it to the velocity of the parent's particle after the bounce. "
-                  "normal turns it away from the surface."),
+    ALIGN(aligns, "`velocity` turns it to the velocity of the parent's particle after the bounce. "
+                  "`normal` turns it away from the surface."),
     END,
 };
 
@@ -159,12 +168,12 @@ static const struct kiln_option parent[] = {
 
 static const struct kiln_option emit_options[] = {
     {ROW(MOTION, "parent", switch, 0, "none",
-         "The particles are born of another system's particles, in place of rate and bursts. The "
+         "The particles are born of another system's particles, not by `rate` and `bursts`. The "
          "shape `from` then lies around the parent's particle."),
      .members = parent, .count_offset = AT(parent.enabled)},
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME, "0", "Particles born a second."),
     {ROW(MOTION, "bursts", bursts, AT(bursts), "{}",
-         "Numbers of particles born at once, by clip time."),
+         "Particles that are born at once: a map of clip times, in seconds, to their numbers."),
      LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), .count_offset = AT(burst_count),
      .max_count = KILN_MAX_BURSTS},
     RANGE(MOTION, "life", life, KILN_SECONDS, 0.001, 10000, TIME, "1 s",
@@ -190,20 +199,23 @@ static const char *const collide_modes[] = {
 };
 
 static const struct kiln_option collide_options[] = {
-    CHOICE(MOTION, "mode", mode, collide_modes, "swept",
-           "swept finds the point of impact on the way of a particle. clamp moves a particle that "
-           "is inside an object to the nearest face."),
+    CHOICE(
+        MOTION, "mode", mode, collide_modes, "swept",
+        "`swept` finds the point of impact on the way of a particle. `clamp` moves a particle that "
+        "is inside an object to the nearest face."),
     VALUE(MOTION, "randomness", randomness, KILN_FRACTION, 0, 1, BOTH, "0",
           "0 reflects a particle like a mirror. 1 sends it into any direction away from the "
           "surface."),
-    VALUE(MOTION, "slowdown", slowdown, KILN_FRACTION, 0, 1, BOTH, "0.5",
-          "Factor on the speed at each impact, after restitution, friction and randomness."),
+    VALUE(
+        MOTION, "slowdown", slowdown, KILN_FRACTION, 0, 1, BOTH, "0.5",
+        "Factor on the speed at each impact, applied after restitution, friction and randomness. 1 "
+        "keeps the speed, 0 stops the particle."),
     VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, BOTH, "1",
-          "Part of the speed towards a surface that a particle keeps when it bounces. randomness "
-          "turns the reflected velocity."),
+          "Part of the speed towards a surface that a particle keeps when it bounces. It counts "
+          "before `randomness` turns the velocity."),
     VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, BOTH, "0",
-          "Coulomb's coefficient of friction: the part of the impulse along the normal that is "
-          "lost along the surface."),
+          "Coulomb's coefficient of friction. An impact reduces the speed along the surface by at "
+          "most this factor times the change of the speed towards the surface."),
     BOOLEAN(MOTION, "dies", dies, "false", "A particle ends at its first impact, like rain."),
     END,
 };
@@ -219,8 +231,8 @@ static const char *const paint_times[] = {
 
 static const struct kiln_option paint_options[] = {
     CHOICE(MOTION, "when", when, paint_times, "impact",
-           "impact paints in each step where a particle bounces or ends. near paints all surface "
-           "within the radius of a particle at the end of each step."),
+           "`impact` paints in each step where a particle bounces or ends. `near` paints all "
+           "surface within the radius of a particle at the end of each step."),
     RANGE(MOTION, "radius", radius, KILN_METRES, 0.0001, 1000, TIME, "3 cm",
           "Radius of the splat that a particle paints, drawn once for each particle."),
     VALUE(MOTION, "opacity", opacity, KILN_FRACTION, 0, 1, BOTH, "1",

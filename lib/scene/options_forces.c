@@ -26,10 +26,11 @@ static const char *const modes[] = {
 };
 
 #define MODE                                                                                       \
-    CHOICE(MOTION, "mode", mode, modes, "pull",                                                    \
-           "pull draws particles towards the velocity of the air. add adds the velocity of the "   \
-           "air in each step, regardless of `pull` (UberFlow 2004, 4.2, equation 1), so that "     \
-           "more steps accelerate more.")
+    CHOICE(                                                                                        \
+        MOTION, "mode", mode, modes, "pull",                                                       \
+        "`pull` draws particles towards the velocity of the air. `add` adds the velocity of the "  \
+        "air in each step, regardless of `pull` (UberFlow 2004, 4.2, equation 1), so that "        \
+        "more steps accelerate more.")
 
 static const struct kiln_option wind[] = {
     VECTOR(MOTION, "velocity", vector, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",

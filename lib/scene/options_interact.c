@@ -11,9 +11,10 @@ static const char *const contact_modes[] = {
 };
 
 static const struct kiln_option collide[] = {
-    CHOICE(MOTION, "mode", mode, contact_modes, "exact",
-           "exact misses no pair that touches. staggered tests 8 neighbours to each side in the "
-           "order of two grids, as the paper does."),
+    CHOICE(
+        MOTION, "mode", mode, contact_modes, "exact",
+        "`exact` misses no pair that touches. `staggered` tests 8 neighbours to each side in the "
+        "order of two grids, as the paper does."),
     VALUE(MOTION, "radius", radius, KILN_METRES, 0, 1000, BOTH, "5 cm",
           "Radius of each particle, which collides as a ball."),
     BOOLEAN(MOTION, "as_drawn", as_drawn, "false",
@@ -27,7 +28,8 @@ static const struct kiln_option collide[] = {
     {ROW(MOTION, "fastest", value, AT(fastest), "auto",
          "Speed of approach up to which a pair is found before it meets, for mode exact. Such a "
          "pair does not pass through each other, unless one of the two has another collision first "
-         "in the same step. auto takes the speed from the particles of each step, up to two widths "
+         "in the same step. `auto` takes the speed from the particles of each step, up to two "
+         "widths "
          "of a particle in a step. 0 looks for no pair ahead of time."),
      LIMITS(KILN_SPEED, 0, 10000), .clocks = TIME, .special_word = "auto"},
     INTEGER(MOTION, "rounds", rounds, 1, 64, "4",
@@ -58,9 +60,9 @@ static const struct kiln_option gravity[] = {
           "Softening length: the distance below which attraction fades, as if each particle were a "
           "cloud of this size."),
     {ROW(MOTION, "of", name, AT(of), "self",
-         "The system whose particles attract the particles of this system. self means that "
+         "The system whose particles attract the particles of this system. `self` means that "
          "particles of this system attract each other. A few heavy particles that attract many "
-         "light ones take little work. strength varies over the life of the particles that "
+         "light ones take little work. `strength` varies over the life of the particles that "
          "attract.")},
     END,
 };

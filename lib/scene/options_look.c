@@ -39,8 +39,8 @@ static const struct kiln_option line[] = {
     VALUE(LOOK, "width", line_width, KILN_PIXELS, 0, 1000, BOTH, "1.5 px",
           "Width of a line in pixels."),
     CHOICE(LOOK, "to", line_to, line_ends, "velocity",
-           "The far end of a line. velocity puts it behind the particle, along the velocity, by "
-           "the speed times `stretch`. previous puts it where the particle was a frame ago."),
+           "The far end of a line. `velocity` puts it behind the particle, along the velocity, by "
+           "the speed times `stretch`. `previous` puts it where the particle was a frame ago."),
     END,
 };
 
@@ -56,10 +56,11 @@ static const struct kiln_option mesh[] = {
          "An OBJ, glTF or GLB file of triangles, z ahead and y up. Its materials are left out. The "
          "longest edge of its bounding box is scaled to the size.")},
     CHOICE(LOOK, "orient", mesh.orient, orients, "velocity",
-           "velocity turns the z axis of the mesh to the direction of flight, without a roll. spin "
+           "`velocity` turns the z axis of the mesh to the direction of flight, without a roll. "
+           "`spin` "
            "turns the mesh as collisions with spin have turned the particle; without such "
            "collisions, `rotation` and `spin` turn it about an axis drawn for each particle. "
-           "upright turns it by `rotation` and `spin` about the world's y axis."),
+           "`upright` turns it by `rotation` and `spin` about the world's y axis."),
     END,
 };
 
@@ -71,11 +72,12 @@ static const char *const patterns[] = {
 };
 
 static const struct kiln_option sphere[] = {
-    CHOICE(LOOK, "pattern", sphere.pattern, patterns, "plain",
-           "plain has one colour. stripe draws look.color as a band about the equator. segments "
-           "alternates the two colours from pole to pole. Collisions with spin turn the pattern; "
-           "without such collisions, `rotation` and `spin` turn it about an axis drawn for each "
-           "particle."),
+    CHOICE(
+        LOOK, "pattern", sphere.pattern, patterns, "plain",
+        "`plain` has one colour. `stripe` draws look.color as a band about the equator. `segments` "
+        "alternates the two colours from pole to pole. Collisions with spin turn the pattern; "
+        "without such collisions, `rotation` and `spin` turn it about an axis drawn for each "
+        "particle."),
     INTEGER(LOOK, "segments", sphere.segments, 1, 8, "3", "Number of segments of each colour."),
     COLOR(LOOK, "color", sphere.color, 1000, BOTH, "1", "The other colour of the pattern."),
     END,
@@ -107,28 +109,29 @@ const struct kiln_option kiln_options_look[] = {
      LIMITS(KILN_PLAIN, 1, 64)},
     {ROW(LOOK, "motion", motion, AT(motion), "auto",
          "An image of the motion from each cell to the next, so that few cells play smoothly: red "
-         "is right, green is up, half is no motion. auto takes the motion that a built-in atlas "
-         "has. none cross-fades the cells."),
+         "is right, green is up, half is no motion. `auto` takes the motion that a built-in atlas "
+         "has. `none` cross-fades the cells."),
      .choices = motions},
     {ROW(LOOK, "motion_scale", number, AT(motion_scale), "1",
          "Motion that full red or green of a motion file stands for, in edges of a cell."),
      LIMITS(KILN_PLAIN, 0, 10)},
-    CHOICE(
-        LOOK, "blend", blend, blends, "alpha",
-        "alpha covers what is behind the particle, like smoke. add adds light to it, like fire."),
+    CHOICE(LOOK, "blend", blend, blends, "alpha",
+           "`alpha` covers what is behind the particle, like smoke. `add` adds light to it, like "
+           "fire."),
     VALUE(IF_CONTACTS_ARE_AS_DRAWN, "size", size, KILN_METRES, 0, 1000, BOTH, "0.5 m",
           "Edge length of the billboard."),
     RANGE(IF_CONTACTS_ARE_AS_DRAWN, "scale", scale, KILN_PLAIN, 0, 1000, TIME, "1",
           "Factor on size, drawn for each particle."),
-    CHOICE(LOOK, "shape", shape, shapes, "billboard",
-           "billboard draws the texture on a quad. point and line draw a plain colour without a "
-           "texture. sphere and mesh are opaque, lit like the backdrop, and scaled by opacity and "
-           "fade."),
+    CHOICE(
+        LOOK, "shape", shape, shapes, "billboard",
+        "`billboard` draws the texture on a quad. `point` and `line` draw a plain colour without a "
+        "texture. `sphere` and `mesh` are opaque, lit like the backdrop, and scaled by opacity and "
+        "fade."),
     CHOICE(LOOK, "facing", facing, facings, "screen",
            "How a billboard is turned. screen, viewplane and velocity are parallel to the picture: "
            "screen is upright in the picture, viewplane is upright in the world, velocity has its "
-           "upper edge towards the velocity. viewpoint is turned to the eye and upright in the "
-           "world. axial turns about `axis` alone, as far towards the eye as it can."),
+           "upper edge towards the velocity. `viewpoint` is turned to the eye and upright in the "
+           "world. `axial` turns about `axis` alone, as far towards the eye as it can."),
     VECTOR(LOOK, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Axis that axial billboards turn about, of any length but 0."),
     GROUP(LOOK, "point", 0, point, "How points look."),
@@ -159,9 +162,10 @@ const struct kiln_option kiln_options_look[] = {
     VALUE(LOOK, "soft", soft, KILN_PER_METRE, 0, 1000, BOTH, "2",
           "How fast a particle fades where it nears a surface. A larger value fades over a shorter "
           "distance. 0 gives a hard edge."),
-    CHOICE(LOOK, "soft_formula", soft_formula, soft_formulas, "clamped",
-           "clamped limits the fade to 0..1. literal follows equation 3.3 as the thesis prints it "
-           "(Heinz 2019), without a limit."),
+    CHOICE(
+        LOOK, "soft_formula", soft_formula, soft_formulas, "clamped",
+        "`clamped` limits the fade to 0..1. `literal` follows equation 3.3 as the thesis prints it "
+        "(Heinz 2019), without a limit."),
     VALUE(LOOK, "thickness", thickness, KILN_PLAIN, 0, 10, BOTH, "1",
           "Depth of a billboard as a multiple of its size, where post.compose is oit: 1 is as deep "
           "as wide, like a puff of smoke; 0 is flat."),

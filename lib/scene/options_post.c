@@ -77,11 +77,12 @@ static const struct kiln_option bloom[] = {
 };
 
 const struct kiln_option kiln_options_post[] = {
-    CHOICE(
-        LOOK, "compose", compose, composes, "merged",
-        "merged sorts fire and smoke together. separate draws fire over smoke. alpha works like "
-        "merged, and fire covers what is behind it. oit works like merged, and sorts the particles "
-        "of each pixel on its own, by the depths that the pixel sees (look.thickness)."),
+    CHOICE(LOOK, "compose", compose, composes, "merged",
+           "`merged` sorts fire and smoke together. `separate` draws fire over smoke. `alpha` "
+           "works like "
+           "`merged`, and fire covers what is behind it. `oit` works like `merged`, and sorts the "
+           "particles "
+           "of each pixel on its own, by the depths that the pixel sees (look.thickness)."),
     GROUP(LOOK, "particles", 0, particles, "How finely particles are drawn."),
     GROUP(LOOK, "bloom", 0, bloom, "The glow around bright things."),
     VALUE(LOOK, "exposure", exposure, KILN_STOPS, -20, 20, TIME, "0",

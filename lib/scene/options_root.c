@@ -53,18 +53,20 @@ static const char *const integrations[] = {
 
 static const struct kiln_option simulation[] = {
     {ROW(MOTION, "rate", rational, AT(rate), "auto",
-         "Simulation steps a second, a whole multiple of output.fps. auto takes the smallest rate "
+         "Simulation steps a second, a whole multiple of output.fps. `auto` takes the smallest "
+         "rate "
          "that is at least 60 and has a step for each moment of the shutter."),
      LIMITS(KILN_PLAIN, 1, 100000), .special_word = "auto"},
     {ROW(MOTION, "warmup", number, AT(warmup_s), "0 s",
          "Time that is simulated before the first frame, in whole steps. Clip time is negative "
          "during the warm-up."),
      LIMITS(KILN_SECONDS, 0, 100000)},
-    CHOICE(MOTION, "integration", integration, integrations, "semi_implicit",
-           "How a step integrates the motion. semi_implicit moves a particle by its new velocity, "
-           "position_first by its old velocity. trapezoid moves it by the mean of both, with an "
-           "error of second order in the step. rk4 evaluates the forces four times, with an error "
-           "of fourth order."),
+    CHOICE(
+        MOTION, "integration", integration, integrations, "semi_implicit",
+        "How a step integrates the motion. `semi_implicit` moves a particle by its new velocity, "
+        "`position_first` by its old velocity. `trapezoid` moves it by the mean of both, with an "
+        "error of second order in the step. rk4 evaluates the forces four times, with an error "
+        "of fourth order."),
     BOUNDS(MOTION, "bounds", bounds, "none",
            "Box outside of which particles die, for systems without bounds of their own."),
     END,
