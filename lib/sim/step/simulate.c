@@ -1,5 +1,7 @@
-/* This file runs the simulation stage. In each step it counts births on the host, gathers pushes,
- * has the chosen technique move the particles, and paints meshes. */
+/* This file runs the simulation stage; the loop over a clip (frame/loop.c) calls it once a step. A
+ * step makes the volumes of moving meshes, counts births on the host, computes the forces of
+ * particles on each other (pushes), moves the particles by the chosen technique, and lets particles
+ * paint the meshes that they hit. */
 #include "sim/step/simulate.h"
 
 #include <stdlib.h>
@@ -21,16 +23,17 @@ struct kiln_simulate {
     struct kiln_threads *threads;
     struct kiln_sim_params params;
     struct kiln_sim_grids grids;
-    /* traces of parents within a step, which are not part of the state */
+    /* struct kiln_trace: what particles did in the present step, for the births of their children
+     * and for paint. Each step rewrites it, so it is not part of the state. */
     struct kiln_buffer traces;
     struct kiln_interact interact;
     struct kiln_paint paint;
-    /* only for technique `cpu`: */
+    /* the loops for this processor's width of vectors; only for technique `cpu` */
     const struct kiln_slots_step *loops;
-    /* for all techniques in GL: */
+    /* the following two are for all techniques in GL */
     struct kiln_sim_blocks blocks;
     struct kiln_sim_hash hash;
-    /* for one technique each: */
+    /* each of the following is for the technique of its name */
     struct kiln_sim_programs inplace;
     struct kiln_pingpong pingpong;
     struct kiln_feedback feedback;
@@ -86,13 +89,14 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     simulate->scene = scene;
     simulate->technique = technique;
     simulate->threads = threads;
-    struct kiln_device *place = technique == KILN_SIMULATE_CPU ? NULL : device;
-    bool ok = kiln_sim_grids_init(&simulate->grids, place, scene, threads, error);
+    /* the side where the buffers lie; NULL: the host */
+    struct kiln_device *side = technique == KILN_SIMULATE_CPU ? NULL : device;
+    bool ok = kiln_sim_grids_init(&simulate->grids, side, scene, threads, error);
     kiln_sim_params_init(&simulate->params, scene, &simulate->grids);
-    kiln_buffer_init(&simulate->traces, place,
+    kiln_buffer_init(&simulate->traces, side,
                      (size_t)simulate->params.trace_count * sizeof(struct kiln_trace), "traces");
     ok = ok &&
-         kiln_interact_init(&simulate->interact, place, scene, &simulate->params, threads, error) &&
+         kiln_interact_init(&simulate->interact, side, scene, &simulate->params, threads, error) &&
          kiln_paint_init(&simulate->paint, scene, threads, error);
     ok = ok && (technique == KILN_SIMULATE_CPU ? choose_loops(simulate, error)
                                                : init_on_device(simulate, device, error));
@@ -106,7 +110,7 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
     struct kiln_simulate *s = *simulate;
     if (!s)
         return;
-    if (s->blocks.device) { /* without blocks, GL was never used */
+    if (s->blocks.device) { /* kiln_sim_blocks_init makes the first of these GL objects */
         kiln_texels_finish(&s->texels);
         kiln_feedback_finish(&s->feedback);
         kiln_pingpong_finish(&s->pingpong);
