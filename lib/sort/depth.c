@@ -1,19 +1,22 @@
-/* This file sorts the living particles by depth in threads. lib/sort/cpu.c (technique sort=cpu)
- * calls kiln_sort_depth_run for each list of particles that is drawn in the order of depth.
+/* This file sorts the living particles by depth, in several threads. lib/sort/cpu.c (technique
+ * sort=cpu) calls kiln_sort_depth_run for each list of particles that is drawn in the order of
+ * depth.
  *
- * It runs three loops. The first lists the living particles of each block as pairs of a key, which
- * is made from the depth, and a draw entry. The second moves the pairs into cells, which are
- * intervals of depth. In the third, one thread sorts each cell, within its caches. In three cases
- * pairs.c sorts all pairs at once instead: there are few slots, the depths span no useful interval,
- * or a cell would get more pairs than the scratch of a thread holds.
+ * It runs three loops. The first lists the living particles of each block, a range of slots of one
+ * system, as pairs of a key, which is made from the depth, and a draw entry. The second moves the
+ * pairs into cells, which are intervals of depth, the farthest first. In the third, one thread
+ * sorts each cell, within its caches. In three cases kiln_sort_pairs sorts all pairs at once
+ * instead: there are few slots, the depths of the sampled slots span no useful interval
+ * (choose_cells), or a cell would get more pairs than the scratch of a thread holds.
  *
  * Particles of equal depth stay in the order of their serials, or in its reverse if the nearest
  * comes first, however the work is divided. This holds because blocks come in the order of serials,
  * a cell keeps the order of its blocks, and both sorts are stable. The numbers in the enum below
  * change how long sorting takes, but not the order.
  *
- * Sorting holds the pairs twice, 16 bytes a particle. The sorted list of entries overwrites one of
- * the two copies, `scratch`, whose pairs are no longer needed by then. */
+ * Sorting holds the pairs twice, 16 bytes a particle. The first loop writes its pairs, `listed`,
+ * into the buffer that the caller gives for the entries. The sorted entries overwrite them, when
+ * they have been moved into cells. */
 #include "sort/depth.h"
 
 #include <stdlib.h>
@@ -29,14 +32,15 @@ enum {
     MOST_IN_CELL = 32768, /* 256 KiB of pairs and as much scratch fit a second-level cache */
     CELLS_AT_A_TIME = 4,  /* cells that a thread takes at a time */
     SAMPLES = 512,        /* slots whose depths determine the cells */
-    OUTLIERS = 2,         /* samples that are ignored at either end */
+    OUTLIERS = 2,         /* how many samples do not count at the near end, and at the far end */
 };
 
 /* Describes the pairs that were listed for a block. */
 struct block_pairs {
-    size_t place, count;        /* range of the block's pairs in scratch */
+    size_t first, count;        /* range of the block's pairs in `listed` */
     struct kiln_sort_span span; /* of the pairs' keys */
-    /* for each cell, how many of the pairs it gets; after sum_cells, the index of the next pair */
+    /* For each cell, how many of the pairs it gets, and behind the last cell the number of dead
+     * particles. After sum_cells: for each cell, where in `pairs` the block's next pair goes. */
     uint32_t *counts;
 };
 
@@ -57,30 +61,30 @@ struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
     enum kiln_simd simd;
     if (!kiln_simd_choose(&simd, error))
         return NULL;
-    struct kiln_sort_depth *depth = calloc(1, sizeof *depth);
-    if (!depth) {
+    struct kiln_sort_depth *sorter = calloc(1, sizeof *sorter);
+    if (!sorter) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
         return NULL;
     }
-    depth->threads = threads;
-    depth->loops = KILN_SIMD_PICK(kiln_sort_loops, simd);
-    depth->sort_cell = KILN_SIMD_PICK(kiln_sort_bucket, simd);
-    kiln_buffer_init(&depth->pairs, NULL, 0, "sort pairs");
-    kiln_buffer_init(&depth->block_pairs, NULL, 0, "blocks of pairs");
-    kiln_buffer_init(&depth->counts, NULL, 0, "counts of cells");
-    depth->cell_scratch =
-        malloc((size_t)kiln_threads_count(threads) * MOST_IN_CELL * sizeof *depth->cell_scratch);
-    depth->digit_counts = malloc(kiln_sort_count_words(threads) * sizeof *depth->digit_counts);
-    if (!depth->cell_scratch || !depth->digit_counts) {
+    sorter->threads = threads;
+    sorter->loops = KILN_SIMD_PICK(kiln_sort_loops, simd);
+    sorter->sort_cell = KILN_SIMD_PICK(kiln_sort_bucket, simd);
+    kiln_buffer_init(&sorter->pairs, NULL, 0, "sort pairs");
+    kiln_buffer_init(&sorter->block_pairs, NULL, 0, "blocks of pairs");
+    kiln_buffer_init(&sorter->counts, NULL, 0, "counts of cells");
+    sorter->cell_scratch =
+        malloc((size_t)kiln_threads_count(threads) * MOST_IN_CELL * sizeof *sorter->cell_scratch);
+    sorter->digit_counts = malloc(kiln_sort_count_words(threads) * sizeof *sorter->digit_counts);
+    if (!sorter->cell_scratch || !sorter->digit_counts) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
-        kiln_sort_depth_destroy(&depth);
+        kiln_sort_depth_destroy(&sorter);
     }
-    return depth;
+    return sorter;
 }
 
-void kiln_sort_depth_destroy(struct kiln_sort_depth **depth)
+void kiln_sort_depth_destroy(struct kiln_sort_depth **sorter)
 {
-    struct kiln_sort_depth *d = *depth;
+    struct kiln_sort_depth *d = *sorter;
     if (!d)
         return;
     kiln_buffer_finish(&d->pairs);
@@ -89,19 +93,19 @@ void kiln_sort_depth_destroy(struct kiln_sort_depth **depth)
     free(d->cell_scratch);
     free(d->digit_counts);
     free(d);
-    *depth = NULL;
+    *sorter = NULL;
 }
 
 struct work {
-    const struct kiln_sort_depth *depth;
+    const struct kiln_sort_depth *sorter;
     const struct kiln_particle *records;
     const struct kiln_sort_params *params;
     const struct kiln_sort_block *blocks;
     size_t block_count;
     struct kiln_sort_cells cells;
     struct block_pairs *block_pairs;
-    kiln_sort_pair *scratch, *pairs;
-    uint32_t *list; /* the result; the same memory as scratch */
+    kiln_sort_pair *listed, *pairs; /* ordered by block; ordered by cell */
+    uint32_t *list;                 /* the result; the same memory as listed */
     uint32_t count;
     uint32_t cell_starts[KILN_SORT_MOST_CELLS + 1]; /* where each cell begins in pairs */
 };
@@ -125,7 +129,7 @@ static void take_sample(struct extremes *range, float depth_m)
 }
 
 /* Returns the extreme depths of living particles in evenly spaced slots. */
-static struct extremes sample(const struct work *work, size_t slots)
+static struct extremes sample_depths(const struct work *work, size_t slots)
 {
     struct extremes range;
     for (int i = 0; i <= OUTLIERS; i++) {
@@ -147,16 +151,19 @@ static struct extremes sample(const struct work *work, size_t slots)
     return range;
 }
 
+/* Divides the range of the sampled depths, and a margin of 3 % before and behind it, into cells.
+ * Returns a single cell if there are few slots, if the range is shorter than 1e-6 m or longer than
+ * 1e6 m, or if fewer than six of the sampled slots hold a living particle. */
 static struct kiln_sort_cells choose_cells(const struct work *work, size_t slots)
 {
-    const struct kiln_sort_cells all = {.far_edge_m = 0.0f, .cells_per_m = 0.0f, .count = 1};
+    const struct kiln_sort_cells one = {.far_edge_m = 0.0f, .cells_per_m = 0.0f, .count = 1};
     if (slots < FEWEST_SLOTS)
-        return all;
-    const struct extremes range = sample(work, slots);
+        return one;
+    const struct extremes range = sample_depths(work, slots);
     const float near_m = range.least[OUTLIERS], far_m = range.greatest[OUTLIERS];
     const float across_m = (far_m - near_m) * 1.0625f;
     if (!(across_m > 1e-6f && across_m < 1e6f))
-        return all;
+        return one;
     struct kiln_sort_cells cells = {.far_edge_m = far_m + 0.03f * across_m, .count = 16};
     while (cells.count < KILN_SORT_MOST_CELLS && (size_t)cells.count * SLOTS_A_CELL < slots)
         cells.count *= 2;
@@ -164,8 +171,8 @@ static struct kiln_sort_cells choose_cells(const struct work *work, size_t slots
     return cells;
 }
 
-/* Replaces each count by the index of its first pair; pairs are ordered by cell, then by block.
- * Returns false if a cell has more than MOST_IN_CELL pairs. */
+/* Replaces each count by the index in `pairs` of the block's first pair in the cell; `pairs` is
+ * ordered by cell, then by block. Returns false if a cell has more than MOST_IN_CELL pairs. */
 static bool sum_cells(struct work *work)
 {
     uint32_t place = 0;
@@ -203,8 +210,8 @@ static void list_blocks(void *context, size_t begin, size_t end, uint32_t worker
         };
         block_pairs->span = (struct kiln_sort_span){UINT32_MAX, 0};
         block_pairs->count =
-            work->depth->loops->list(&slots, &work->cells, work->scratch + block_pairs->place,
-                                     block_pairs->counts, &block_pairs->span);
+            work->sorter->loops->list(&slots, &work->cells, work->listed + block_pairs->first,
+                                      block_pairs->counts, &block_pairs->span);
     }
 }
 
@@ -214,8 +221,8 @@ static void scatter_blocks(void *context, size_t begin, size_t end, uint32_t wor
     const struct work *work = context;
     for (size_t b = begin; b < end; b++) {
         const struct block_pairs *block_pairs = &work->block_pairs[b];
-        work->depth->loops->scatter(work->scratch + block_pairs->place, block_pairs->count,
-                                    &work->cells, block_pairs->counts, work->pairs);
+        work->sorter->loops->scatter(work->listed + block_pairs->first, block_pairs->count,
+                                     &work->cells, block_pairs->counts, work->pairs);
     }
 }
 
@@ -223,26 +230,26 @@ static void sort_cells(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct work *work = context;
     const bool reverse = work->params->order == KILN_SORT_FRONT_TO_BACK;
-    kiln_sort_pair *scratch = work->depth->cell_scratch + (size_t)worker * MOST_IN_CELL;
+    kiln_sort_pair *scratch = work->sorter->cell_scratch + (size_t)worker * MOST_IN_CELL;
     for (size_t cell = begin; cell < end; cell++) {
         const uint32_t first = work->cell_starts[cell], count = work->cell_starts[cell + 1] - first;
         if (count > 0)
-            work->depth->sort_cell(work->pairs + first, count, scratch,
-                                   work->list + (reverse ? work->count - 1 - first : first),
-                                   reverse ? -1 : 1);
+            work->sorter->sort_cell(work->pairs + first, count, scratch,
+                                    work->list + (reverse ? work->count - 1 - first : first),
+                                    reverse ? -1 : 1);
     }
 }
 
-/* Copies the pairs of each block from scratch to pairs, without the gaps between blocks. */
+/* Copies the pairs of each block from `listed` to `pairs`, without the gaps between blocks. */
 static void compact_blocks(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     const struct work *work = context;
     for (size_t b = begin; b < end; b++) {
-        size_t place = 0;
+        size_t first = 0;
         for (size_t before = 0; before < b; before++)
-            place += work->block_pairs[before].count;
-        memcpy(work->pairs + place, work->scratch + work->block_pairs[b].place,
+            first += work->block_pairs[before].count;
+        memcpy(work->pairs + first, work->listed + work->block_pairs[b].first,
                work->block_pairs[b].count * sizeof *work->pairs);
     }
 }
@@ -251,52 +258,52 @@ static void sort_at_once(struct work *work)
 {
     struct kiln_sort_span span = {UINT32_MAX, 0};
     for (size_t b = 0; b < work->block_count; b++) {
-        const struct kiln_sort_span *of = &work->block_pairs[b].span;
-        span.least = of->least < span.least ? of->least : span.least;
-        span.greatest = of->greatest > span.greatest ? of->greatest : span.greatest;
+        const struct kiln_sort_span *keys = &work->block_pairs[b].span;
+        span.least = keys->least < span.least ? keys->least : span.least;
+        span.greatest = keys->greatest > span.greatest ? keys->greatest : span.greatest;
     }
-    kiln_threads_for(work->depth->threads, work->block_count, 1, compact_blocks, work);
-    kiln_sort_pairs(work->depth->threads, work->pairs, work->count, span,
+    kiln_threads_for(work->sorter->threads, work->block_count, 1, compact_blocks, work);
+    kiln_sort_pairs(work->sorter->threads, work->pairs, work->count, span,
                     work->params->order == KILN_SORT_FRONT_TO_BACK, work->list,
-                    work->depth->digit_counts);
+                    work->sorter->digit_counts);
 }
 
 /* ---- run ------------------------------------------------------------------------------------- */
 
-/* Sets where each block's pairs begin in scratch, with room for all its slots. Returns the number
+/* Sets where each block's pairs begin in `listed`, with room for all its slots. Returns the number
  * of slots of all blocks. */
 static size_t assign_ranges(const struct work *work)
 {
     size_t slots = 0;
     for (size_t b = 0; b < work->block_count; b++) {
-        work->block_pairs[b] = (struct block_pairs){.place = slots};
+        work->block_pairs[b] = (struct block_pairs){.first = slots};
         slots += work->blocks[b].end - work->blocks[b].first;
     }
     return slots;
 }
 
-static bool reserve(struct kiln_sort_depth *depth, const struct kiln_pool *pool,
+static bool reserve(struct kiln_sort_depth *sorter, const struct kiln_pool *pool,
                     struct kiln_buffer *entries, struct work *work, struct kiln_error *error)
 {
     const size_t pairs = pool->slot_count * sizeof(kiln_sort_pair);
     kiln_buffer_reserve(entries, pairs);
-    kiln_buffer_reserve(&depth->pairs, pairs);
-    kiln_buffer_reserve(&depth->block_pairs, work->block_count * sizeof(struct block_pairs));
-    work->pairs = kiln_buffer_host(&depth->pairs, KILN_OVERWRITE, error);
+    kiln_buffer_reserve(&sorter->pairs, pairs);
+    kiln_buffer_reserve(&sorter->block_pairs, work->block_count * sizeof(struct block_pairs));
+    work->pairs = kiln_buffer_host(&sorter->pairs, KILN_OVERWRITE, error);
     work->block_pairs =
-        work->pairs ? kiln_buffer_host(&depth->block_pairs, KILN_OVERWRITE, error) : NULL;
-    work->scratch = work->block_pairs ? kiln_buffer_host(entries, KILN_OVERWRITE, error) : NULL;
-    work->list = (uint32_t *)(void *)work->scratch;
-    return work->scratch;
+        work->pairs ? kiln_buffer_host(&sorter->block_pairs, KILN_OVERWRITE, error) : NULL;
+    work->listed = work->block_pairs ? kiln_buffer_host(entries, KILN_OVERWRITE, error) : NULL;
+    work->list = (uint32_t *)(void *)work->listed;
+    return work->listed;
 }
 
 /* Reserves memory for the counts of each block. */
-static bool reserve_counts(struct kiln_sort_depth *depth, struct work *work,
+static bool reserve_counts(struct kiln_sort_depth *sorter, struct work *work,
                            struct kiln_error *error)
 {
     const size_t words = (size_t)work->cells.count + 1;
-    kiln_buffer_reserve(&depth->counts, work->block_count * words * sizeof(uint32_t));
-    uint32_t *counts = kiln_buffer_host(&depth->counts, KILN_OVERWRITE, error);
+    kiln_buffer_reserve(&sorter->counts, work->block_count * words * sizeof(uint32_t));
+    uint32_t *counts = kiln_buffer_host(&sorter->counts, KILN_OVERWRITE, error);
     if (!counts)
         return false;
     for (size_t b = 0; b < work->block_count; b++)
@@ -304,30 +311,30 @@ static bool reserve_counts(struct kiln_sort_depth *depth, struct work *work,
     return true;
 }
 
-bool kiln_sort_depth_run(struct kiln_sort_depth *depth, struct kiln_pool *pool,
+bool kiln_sort_depth_run(struct kiln_sort_depth *sorter, struct kiln_pool *pool,
                          const struct kiln_sort_params *params,
                          const struct kiln_sort_block *blocks, size_t block_count,
                          struct kiln_buffer *entries, uint32_t *count, struct kiln_error *error)
 {
     *count = 0;
     struct work work = {
-        .depth = depth,
+        .sorter = sorter,
         .params = params,
         .blocks = blocks,
         .block_count = block_count,
     };
     work.records = kiln_buffer_host(&pool->records, KILN_READ, error);
-    if (!work.records || !reserve(depth, pool, entries, &work, error))
+    if (!work.records || !reserve(sorter, pool, entries, &work, error))
         return false;
     work.cells = choose_cells(&work, assign_ranges(&work));
-    if (!reserve_counts(depth, &work, error))
+    if (!reserve_counts(sorter, &work, error))
         return false;
-    kiln_threads_for(depth->threads, block_count, 1, list_blocks, &work);
+    kiln_threads_for(sorter->threads, block_count, 1, list_blocks, &work);
     for (size_t b = 0; b < block_count; b++)
         work.count += (uint32_t)work.block_pairs[b].count;
     if (work.cells.count > 1 && sum_cells(&work)) {
-        kiln_threads_for(depth->threads, block_count, 1, scatter_blocks, &work);
-        kiln_threads_for(depth->threads, work.cells.count, CELLS_AT_A_TIME, sort_cells, &work);
+        kiln_threads_for(sorter->threads, block_count, 1, scatter_blocks, &work);
+        kiln_threads_for(sorter->threads, work.cells.count, CELLS_AT_A_TIME, sort_cells, &work);
     } else {
         sort_at_once(&work);
     }

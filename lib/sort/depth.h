@@ -1,5 +1,5 @@
-/* A kiln_sort_depth lists the living particles by depth in threads. It is the larger part of
- * technique `cpu`. */
+/* A kiln_sort_depth sorts the living particles by depth, in several threads. It is the larger part
+ * of technique `cpu`. */
 #ifndef KILN_SORT_DEPTH_H
 #define KILN_SORT_DEPTH_H
 
@@ -17,12 +17,12 @@ struct kiln_sort_depth;
 /* The threads are borrowed. Returns NULL with an error when memory is short. */
 struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
                                                struct kiln_error *error);
-void kiln_sort_depth_destroy(struct kiln_sort_depth **depth);
+void kiln_sort_depth_destroy(struct kiln_sort_depth **sorter);
 
 /* Fills entries with the draw entries of the living particles of the blocks, ordered by
  * params->order (not KILN_SORT_BY_SERIAL), and counts them. Enlarges entries to one pair for each
  * slot of the pool. The blocks cover the systems' slots in the order of serials. */
-bool kiln_sort_depth_run(struct kiln_sort_depth *depth, struct kiln_pool *pool,
+bool kiln_sort_depth_run(struct kiln_sort_depth *sorter, struct kiln_pool *pool,
                          const struct kiln_sort_params *params,
                          const struct kiln_sort_block *blocks, size_t block_count,
                          struct kiln_buffer *entries, uint32_t *count, struct kiln_error *error);
