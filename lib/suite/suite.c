@@ -16,7 +16,7 @@
 #include "suite/test_name.h"
 #include "suite/unused.h"
 
-enum { MAX_FULL_NAME = 255 }; /* the name goes into a summary's 256 bytes */
+enum { MAX_FULL_NAME = 255 }; /* struct kiln_test_summary has 256 bytes for a name and its end */
 
 struct entry {
     struct kiln_found found;
@@ -62,31 +62,31 @@ static bool read_files(struct loader *loader)
         entry->found = findings.items[loader->count];
         if (!kiln_test_file_read(arena, entry->found.path, &entry->file, loader->error))
             return false;
-        kiln_suite_check_root(loader->params, &entry->file.test);
+        kiln_suite_check_root(loader->params, &entry->file.test); /* may set its problem */
     }
     qsort(loader->entries, loader->count, sizeof *loader->entries, by_name);
     return true;
 }
 
-/* Drops scenes that were found in a folder and that a test file names, since they belong to its
- * test. A scene with the name of a faulty test file is dropped, too, since it probably belongs to
- * that test. */
+/* Drops each scene that was found in a folder and that a test file uses: the scene runs as the test
+ * of that file. A scene x.yaml beside a faulty test file x.test.yaml is dropped, too, since the
+ * file probably uses it. */
 static void drop_named_scenes(struct loader *loader)
 {
     for (size_t i = 0; i < loader->count; i++) {
-        const struct entry *test = &loader->entries[i];
+        const struct entry *test_file = &loader->entries[i];
         struct stat scene, other;
-        if (!kiln_test_file_is(test->found.path))
+        if (!kiln_test_file_is(test_file->found.path))
             continue;
-        bool known = stat(test->file.test.scene, &scene) == 0;
-        bool broken = test->file.test.problem.code != KILN_OK;
+        bool exists = stat(test_file->file.test.scene, &scene) == 0;
+        bool faulty = test_file->file.test.problem.code != KILN_OK;
         for (size_t j = 0; j < loader->count; j++) {
             struct entry *entry = &loader->entries[j];
             if (!entry->found.in_folder || kiln_test_file_is(entry->found.path))
                 continue;
-            bool same = known && stat(entry->found.path, &other) == 0 &&
+            bool same = exists && stat(entry->found.path, &other) == 0 &&
                         scene.st_dev == other.st_dev && scene.st_ino == other.st_ino;
-            if (same || (broken && strcmp(entry->found.name, test->found.name) == 0))
+            if (same || (faulty && strcmp(entry->found.name, test_file->found.name) == 0))
                 entry->dropped = true;
         }
     }
@@ -127,7 +127,7 @@ static bool check_names(struct loader *loader)
         if (strcmp(found->name, loader->entries[i - 1].found.name) == 0)
             return kiln_error_set(loader->error, KILN_USAGE,
                                   "%s and %s: both tests are named '%s'; an empty file .kiln-tests "
-                                  "marks the folder that names begin from",
+                                  "in a folder above both lets names begin there",
                                   loader->entries[i - 1].found.path, found->path, found->name);
     }
     return true;
@@ -135,7 +135,8 @@ static bool check_names(struct loader *loader)
 
 /* ---- tests ---------------------------------------------------------------------------------- */
 
-/* Adds one test of an entry. With a device of NULL, the test has the run's device. */
+/* Adds one test of an entry. If `device` is NULL, the test runs on the device that is chosen for
+ * the run. A test on a device that its file lists is skipped where the device is missing. */
 static bool add_test(struct loader *loader, const struct entry *entry, const char *device)
 {
     struct kiln_suite *suite = loader->suite;
@@ -268,9 +269,8 @@ static bool check_params(const struct kiln_suite_params *params, struct kiln_err
         return kiln_error_set(error, KILN_USAGE, "no tests, scenes or folders are given");
     bool all = params->shard == 0 && params->shards == 0;
     return all || (params->shard >= 1 && params->shard <= params->shards) ||
-           kiln_error_set(error, KILN_USAGE,
-                          "shard %u/%u: the first number goes from 1 to the second", params->shard,
-                          params->shards);
+           kiln_error_set(error, KILN_USAGE, "shard %u/%u: the first must be from 1 to the second",
+                          params->shard, params->shards);
 }
 
 /* Checks that results and goldens have different folders: in one folder, each picture would become
@@ -287,7 +287,8 @@ static bool check_folders(const struct kiln_suite_params *params, struct kiln_er
                                    params->results);
 }
 
-/* Tidies a folder's path for messages: "out/" is "out", and "" is ".". */
+/* Tidies a folder's path, which messages and the paths of files begin with: "out/" becomes "out",
+ * and "" becomes ".". */
 static char *tidy_folder(struct kiln_arena *arena, const char *folder)
 {
     size_t length = strlen(folder);
@@ -296,8 +297,8 @@ static char *tidy_folder(struct kiln_arena *arena, const char *folder)
     return length ? kiln_arena_text(arena, folder, length) : kiln_arena_text(arena, ".", 1);
 }
 
-/* Returns whether a run is of all tests in folders, perhaps in shards, so that unused goldens can
- * be told. */
+/* Returns whether the run covers all tests of the given folders, or one shard of them. Only then is
+ * a golden without a test known to be unused. */
 static bool is_whole(const struct kiln_suite_params *params)
 {
     struct stat status;

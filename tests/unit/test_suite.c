@@ -190,7 +190,7 @@ static void two_tests_of_one_name(void **state)
     expect_names(&params, "a/fire b/fire");
     params.golden = "/nowhere/goldens";
     expect_usage(&params, "a/fire.test.yaml and b/fire.yaml: both tests are named 'fire'; an empty "
-                          "file .kiln-tests marks the folder that names begin from");
+                          "file .kiln-tests in a folder above both lets names begin there");
 
     /* A scene beside its broken test file is not a second test. */
     test_write_file("c/fire.test.yaml", "kiln_test: 1\nscene: [\n");
@@ -242,7 +242,7 @@ static void odd_names_are_errors_of_their_tests(void **state)
     params = paths(alike, 2);
     expect_usage(&params,
                  "my fire.test.yaml and my,fire.test.yaml: both tests are named 'my_fire'; an "
-                 "empty file .kiln-tests marks the folder that names begin from");
+                 "empty file .kiln-tests in a folder above both lets names begin there");
 }
 
 static void letters_of_any_script_name_tests(void **state)
@@ -307,7 +307,7 @@ static void shards_share_the_tests(void **state)
         char message[128];
         params.shard = wrong[i][0];
         params.shards = wrong[i][1];
-        snprintf(message, sizeof message, "shard %u/%u: the first number goes from 1 to the second",
+        snprintf(message, sizeof message, "shard %u/%u: the first must be from 1 to the second",
                  params.shard, params.shards);
         expect_usage(&params, message);
     }
