@@ -40,7 +40,7 @@ static const char *const MIXED = "post.particles.mixed=true";
 static const char *const SEPARATE = "post.compose=separate";
 
 /* The host's particles, brought to the frame's size in GL. */
-static const struct kiln_techniques SPREAD_IN_GL = {
+static const struct kiln_techniques ENLARGED_IN_GL = {
     .raster = KILN_RASTER_CPU, .bloom = KILN_BLOOM_CPU, .composite = KILN_COMPOSITE_GL};
 
 static struct kiln_picture *draw(struct kiln_device *device, const struct frame_setting *setting)
@@ -56,11 +56,11 @@ static void techniques_agree(void **state)
         {{HALF, SEPARATE}, 2, FRAME_CPU, 0}, {{QUARTER, MIXED, SEPARATE}, 3, FRAME_CPU, 0},
     };
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
-        struct frame_setting spread = settings[i], all = settings[i];
-        spread.techniques = SPREAD_IN_GL;
+        struct frame_setting enlarged = settings[i], all = settings[i];
+        enlarged.techniques = ENLARGED_IN_GL;
         all.techniques = FRAME_GL;
         struct kiln_picture *want = draw(*state, &settings[i]);
-        struct kiln_picture *got[2] = {draw(*state, &spread), draw(*state, &all)};
+        struct kiln_picture *got[2] = {draw(*state, &enlarged), draw(*state, &all)};
         for (int layer = FRAME_BEAUTY; layer <= FRAME_BLOOM; layer++) {
             if (layer == FRAME_DEPTH)
                 continue;

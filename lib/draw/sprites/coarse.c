@@ -124,6 +124,6 @@ bool kiln_coarse_run(struct kiln_coarse_stage *stage, const struct kiln_particle
         .target = draw->framebuffer, .keep_bloom = draw->keep_bloom, .sum_alpha = draw->sum_alpha};
     return draw_coarse(stage, draw, error) &&
            (!stage->images.mixed || draw_fine(stage, draw, error)) &&
-           (stage->gl ? kiln_coarse_gl_spread(stage->gl, &blend, draw->depth, error)
-                      : kiln_coarse_cpu_spread(stage->cpu, &blend, draw->depth, error));
+           (stage->gl ? kiln_coarse_gl_enlarge(stage->gl, &blend, draw->depth, error)
+                      : kiln_coarse_cpu_enlarge(stage->cpu, &blend, draw->depth, error));
 }

@@ -148,7 +148,7 @@ bool kiln_coarse_cpu_measure(struct kiln_coarse_cpu *coarse, struct kiln_image *
     return rows.fine_depth && run(coarse, images->height, coarse->loops->mask, &rows, error);
 }
 
-/* Makes the pixels of the images that `spread` reads available on the host; returns false with an
+/* Makes the pixels of the images that `enlarge` reads available on the host; returns false with an
  * error. */
 static bool open_images(struct kiln_coarse_images *images, struct kiln_image *depth,
                         struct kiln_coarse_rows *rows, struct kiln_error *error)
@@ -167,8 +167,8 @@ static bool open_images(struct kiln_coarse_images *images, struct kiln_image *de
     return rows->fine_color && rows->fine_bloom;
 }
 
-bool kiln_coarse_cpu_spread(struct kiln_coarse_cpu *coarse, const struct kiln_coarse_blend *blend,
-                            struct kiln_image *depth, struct kiln_error *error)
+bool kiln_coarse_cpu_enlarge(struct kiln_coarse_cpu *coarse, const struct kiln_coarse_blend *blend,
+                             struct kiln_image *depth, struct kiln_error *error)
 {
     struct kiln_coarse_rows rows = begin(coarse);
     rows.keep_bloom = blend->keep_bloom;
@@ -182,5 +182,5 @@ bool kiln_coarse_cpu_spread(struct kiln_coarse_cpu *coarse, const struct kiln_co
                                      blend->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error);
     if (!rows.color || (blooms && !rows.bloom))
         return false;
-    return run(coarse, coarse->images->height, coarse->loops->spread, &rows, error);
+    return run(coarse, coarse->images->height, coarse->loops->enlarge, &rows, error);
 }

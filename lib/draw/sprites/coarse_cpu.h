@@ -19,7 +19,7 @@ bool kiln_coarse_cpu_measure(struct kiln_coarse_cpu *coarse, struct kiln_image *
 
 /* Writes the coarse pictures, enlarged, and near edges the fine pictures into the frame's. depth is
  * the image that was given to the last kiln_coarse_cpu_measure. */
-bool kiln_coarse_cpu_spread(struct kiln_coarse_cpu *coarse, const struct kiln_coarse_blend *blend,
-                            struct kiln_image *depth, struct kiln_error *error);
+bool kiln_coarse_cpu_enlarge(struct kiln_coarse_cpu *coarse, const struct kiln_coarse_blend *blend,
+                             struct kiln_image *depth, struct kiln_error *error);
 
 #endif

@@ -7,20 +7,20 @@
 #include "base/error.h"
 #include "gpu/program.h"
 
-enum program { DEPTH, EDGES, MASK, SPREAD, PROGRAM_COUNT };
+enum program { DEPTH, EDGES, MASK, ENLARGE, PROGRAM_COUNT };
 
 static const char *const FRAGMENTS[PROGRAM_COUNT] = {
     [DEPTH] = "draw/sprites/coarse_depth.frag",
     [EDGES] = "draw/sprites/coarse_edges.frag",
     [MASK] = "draw/sprites/coarse_mask.frag",
-    [SPREAD] = "draw/sprites/coarse_spread.frag",
+    [ENLARGE] = "draw/sprites/coarse_enlarge.frag",
 };
 
 struct kiln_coarse_gl {
     struct kiln_device *device;
     struct kiln_coarse_images *images;
     GLuint programs[PROGRAM_COUNT];
-    GLint has_fine; /* uniform of SPREAD */
+    GLint has_fine; /* uniform of ENLARGE */
     GLuint vertex_array;
     struct kiln_image
         nonplanar; /* 1 where depths in a coarse pixel do not lie on a plane; else 0 */
@@ -43,7 +43,7 @@ static bool create_programs(struct kiln_coarse_gl *coarse, struct kiln_error *er
         glUniform1f(glGetUniformLocation(program, "coarse_edge_px"), (float)images->factor);
         glUniform2f(glGetUniformLocation(program, "margin_px"), images->margin_x, images->margin_y);
     }
-    coarse->has_fine = glGetUniformLocation(coarse->programs[SPREAD], "has_fine");
+    coarse->has_fine = glGetUniformLocation(coarse->programs[ENLARGE], "has_fine");
     return true;
 }
 
@@ -124,20 +124,20 @@ bool kiln_coarse_gl_measure(struct kiln_coarse_gl *coarse, struct kiln_image *de
            (!images->mixed || run_pass(coarse, MASK, &coarse->mask_target, mask, 2, error));
 }
 
-bool kiln_coarse_gl_spread(struct kiln_coarse_gl *coarse, const struct kiln_coarse_blend *blend,
-                           struct kiln_image *depth, struct kiln_error *error)
+bool kiln_coarse_gl_enlarge(struct kiln_coarse_gl *coarse, const struct kiln_coarse_blend *blend,
+                            struct kiln_image *depth, struct kiln_error *error)
 {
     struct kiln_coarse_images *images = coarse->images;
     struct kiln_image *from[] = {
         depth,          &images->depth,      &images->edges,     &images->color,
         &images->bloom, &images->fine_color, &images->fine_bloom};
-    glUseProgram(coarse->programs[SPREAD]);
+    glUseProgram(coarse->programs[ENLARGE]);
     glUniform1i(coarse->has_fine, images->mixed);
     if (blend->keep_bloom) {
         glEnablei(GL_BLEND, 1);
         glBlendFunci(1, GL_ONE, blend->sum_alpha ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
     }
-    bool ok = run_pass(coarse, SPREAD, blend->target, from, images->mixed ? 7 : 5, error);
+    bool ok = run_pass(coarse, ENLARGE, blend->target, from, images->mixed ? 7 : 5, error);
     glDisable(GL_BLEND);
     return ok;
 }

@@ -15,7 +15,7 @@ void kiln_coarse_gl_destroy(struct kiln_coarse_gl **coarse);
 
 bool kiln_coarse_gl_measure(struct kiln_coarse_gl *coarse, struct kiln_image *depth,
                             struct kiln_error *error);
-bool kiln_coarse_gl_spread(struct kiln_coarse_gl *coarse, const struct kiln_coarse_blend *blend,
-                           struct kiln_image *depth, struct kiln_error *error);
+bool kiln_coarse_gl_enlarge(struct kiln_coarse_gl *coarse, const struct kiln_coarse_blend *blend,
+                            struct kiln_image *depth, struct kiln_error *error);
 
 #endif

@@ -56,7 +56,7 @@ typedef void kiln_coarse_loop(void *context, size_t begin, size_t end, uint32_t 
 struct kiln_coarse_loops {
     /* The first two loops run over rows of the coarse picture, the other two over the frame's. */
     kiln_coarse_loop *measure, *find_edges; /* write coarse_depth and nonplanar; edges */
-    kiln_coarse_loop *mask, *spread;        /* write fine_depth; color and bloom */
+    kiln_coarse_loop *mask, *enlarge;       /* write fine_depth; color and bloom */
 };
 KILN_SIMD_DECLARE(const struct kiln_coarse_loops, kiln_coarse_loops);
 

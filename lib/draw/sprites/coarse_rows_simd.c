@@ -184,9 +184,9 @@ static inline struct range mix_rows(const struct kiln_coarse_rows *s,
 
 /* Returns the mean of the coarse pixel in which a pixel lies and of the eight around it, weighted
  * by distance and by how similar their depth is to the pixel's. */
-static inline struct kiln_coarse_pixel choose(const struct kiln_coarse_rows *s,
-                                              const struct kiln_coarse_place *x,
-                                              const struct kiln_coarse_place *y, float depth)
+static inline struct kiln_coarse_pixel mean_of_nine(const struct kiln_coarse_rows *s,
+                                                    const struct kiln_coarse_place *x,
+                                                    const struct kiln_coarse_place *y, float depth)
 {
     const int32_t width = (int32_t)s->images->depth.width;
     const int32_t height = (int32_t)s->images->depth.height;
@@ -214,8 +214,8 @@ static inline struct kiln_coarse_pixel choose(const struct kiln_coarse_rows *s,
     return sum;
 }
 
-static inline void spread_pixel(const struct kiln_coarse_rows *s, uint32_t x, uint32_t y,
-                                const struct kiln_coarse_pixel *mixed)
+static inline void enlarge_pixel(const struct kiln_coarse_rows *s, uint32_t x, uint32_t y,
+                                 const struct kiln_coarse_pixel *mixed)
 {
     const struct kiln_coarse_place *column = &s->columns[x], *row = &s->rows[y];
     const size_t width = s->images->depth.width, at = (size_t)y * s->images->width + x;
@@ -227,7 +227,7 @@ static inline void spread_pixel(const struct kiln_coarse_rows *s, uint32_t x, ui
                                       interpolate(taps[0]->bloom, taps[1]->bloom, taps[2]->bloom,
                                                   taps[3]->bloom, column->weights)};
     if (s->edges[(size_t)row->containing * width + (size_t)column->containing] > 0.0f)
-        shown = choose(s, column, row, s->depth[at]);
+        shown = mean_of_nine(s, column, row, s->depth[at]);
     float fine = 0.0f;
     if (s->fine_color)
         fine = fine_weight(s->edges + (size_t)row->taps[1] * width,
@@ -245,7 +245,7 @@ static inline void spread_pixel(const struct kiln_coarse_rows *s, uint32_t x, ui
 }
 
 /* Clears pixels where the coarse picture is empty. */
-static void spread_nothing(const struct kiln_coarse_rows *s, uint32_t y, struct range pixels)
+static void clear_pixels(const struct kiln_coarse_rows *s, uint32_t y, struct range pixels)
 {
     const size_t at = (size_t)y * s->images->width + pixels.from;
     const size_t bytes = 4 * sizeof *s->color * (pixels.to - pixels.from);
@@ -254,8 +254,8 @@ static void spread_nothing(const struct kiln_coarse_rows *s, uint32_t y, struct 
         memset(s->bloom + 4 * at, 0, bytes);
 }
 
-static inline void spread_row(const struct kiln_coarse_rows *s, uint32_t y,
-                              struct kiln_coarse_pixel *mixed)
+static inline void enlarge_row(const struct kiln_coarse_rows *s, uint32_t y,
+                               struct kiln_coarse_pixel *mixed)
 {
     const uint32_t width = s->images->width;
     const struct range shown = mix_rows(s, &s->rows[y], mixed);
@@ -266,23 +266,23 @@ static inline void spread_row(const struct kiln_coarse_rows *s, uint32_t y,
         while (pixels.to > pixels.from && s->columns[pixels.to - 1].taps[0] >= (int64_t)shown.to)
             pixels.to--;
     }
-    spread_nothing(s, y, (struct range){0, pixels.from});
+    clear_pixels(s, y, (struct range){0, pixels.from});
     for (uint32_t x = pixels.from; x < pixels.to; x++)
-        spread_pixel(s, x, y, mixed);
-    spread_nothing(s, y, (struct range){pixels.to, width});
+        enlarge_pixel(s, x, y, mixed);
+    clear_pixels(s, y, (struct range){pixels.to, width});
 }
 
-static void spread_rows(void *context, size_t begin, size_t end, uint32_t worker)
+static void enlarge_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct kiln_coarse_rows *s = context;
     struct kiln_coarse_pixel *mixed = s->mixed + worker * (size_t)s->images->depth.width;
     for (size_t y = begin; y < end; y++)
-        spread_row(s, (uint32_t)y, mixed);
+        enlarge_row(s, (uint32_t)y, mixed);
 }
 
 const struct kiln_coarse_loops KILN_SIMD_NAME(kiln_coarse_loops) = {
     .measure = measure_rows,
     .find_edges = find_edges,
     .mask = mask_rows,
-    .spread = spread_rows,
+    .enlarge = enlarge_rows,
 };
