@@ -8,16 +8,16 @@ shared uint group_sums[GROUP_SIZE];
  * distances. Every invocation must call it. Afterwards group_total returns the sum of all. */
 uint group_sum_before(uint value)
 {
-    uint me = gl_LocalInvocationID.x;
-    group_sums[me] = value;
+    uint lane = gl_LocalInvocationID.x;
+    group_sums[lane] = value;
     barrier();
     for (uint distance = 1u; distance < GROUP_SIZE; distance *= 2u) {
-        uint other = me >= distance ? group_sums[me - distance] : 0u;
+        uint other = lane >= distance ? group_sums[lane - distance] : 0u;
         barrier();
-        group_sums[me] += other;
+        group_sums[lane] += other;
         barrier();
     }
-    return group_sums[me] - value;
+    return group_sums[lane] - value;
 }
 
 uint group_total()

@@ -175,14 +175,14 @@ float most_left(tiled_bin bin, float before, uint sprites_left)
 /* Returns the first pixel of this invocation. */
 uvec2 first_pixel()
 {
-    uvec2 me = gl_LocalInvocationID.xy;
+    uvec2 lane = gl_LocalInvocationID.xy;
 #if TILED_ROWS == TILED_EDGE
     /* 32 neighbouring invocations have a block of 8 x 4 pixels, which often take the same
      * branches. */
     uint i = gl_LocalInvocationIndex, block = i / 32u, blocks_a_row = uint(TILED_EDGE / 8);
-    me = uvec2(i % 8u + 8u * (block % blocks_a_row), i / 8u % 4u + 4u * (block / blocks_a_row));
+    lane = uvec2(i % 8u + 8u * (block % blocks_a_row), i / 8u % 4u + 4u * (block / blocks_a_row));
 #endif
-    return gl_WorkGroupID.xy * uint(TILED_EDGE) + me;
+    return gl_WorkGroupID.xy * uint(TILED_EDGE) + lane;
 }
 
 /* Writes the pixels: into the images after the last run, into `carry` otherwise. */

@@ -22,7 +22,7 @@ layout(std430, binding = TILED_BIND_LISTS) writeonly buffer list_block
     uint lists[];
 };
 
-layout(location = 0) uniform uint mask_words; /* of a bin's mask */
+layout(location = 0) uniform uint mask_words; /* 32-bit words in the mask of a bin */
 
 void main()
 {

@@ -30,7 +30,7 @@ layout(location = 0) uniform uint count;
 layout(location = 1) uniform uint first; /* index in `entries` of the nearest particle */
 layout(location = 2) uniform float additive_alpha;
 layout(location = 3) uniform uint bin_columns;
-layout(location = 4) uniform uint mask_words; /* of a bin's mask */
+layout(location = 4) uniform uint mask_words; /* 32-bit words in the mask of a bin */
 
 vec4 center, right, up;
 billboard particle;

@@ -133,7 +133,7 @@ void mark_tiles(uint i, uvec2 bin_corner)
 
 void main()
 {
-    uint me = gl_LocalInvocationID.x;
+    uint lane = gl_LocalInvocationID.x;
     uint piece = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     if (piece >= pieces)
         return;
@@ -141,16 +141,16 @@ void main()
     tiled_bin bin = bins[number];
     uint at = piece * uint(TILED_PIECE) - bin.first; /* in the bin's list */
     for (uint k = 0u; k < WORDS; k++)
-        marks[me * WORDS + k] = 0u;
-    if (me == 0u)
+        marks[lane * WORDS + k] = 0u;
+    if (lane == 0u)
         additive_count = covering_max = additive_max = 0u;
     barrier();
-    if (at + me < bin.count)
-        mark_tiles(lists[bin.first + at + me], uvec2(number % bin_columns, number / bin_columns));
+    if (at + lane < bin.count)
+        mark_tiles(lists[bin.first + at + lane], uvec2(number % bin_columns, number / bin_columns));
     barrier();
     for (uint k = 0u; k < WORDS; k++)
-        masks[mask_word(bin, me, at / 32u + k)] = marks[me * WORDS + k];
-    if (me == 0u) {
+        masks[mask_word(bin, lane, at / 32u + k)] = marks[lane * WORDS + k];
+    if (lane == 0u) {
         atomicAdd(bins[number].additive_count, additive_count);
         atomicMax(bins[number].covering_max, covering_max);
         atomicMax(bins[number].additive_max, additive_max);

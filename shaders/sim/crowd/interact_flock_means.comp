@@ -11,19 +11,19 @@ shared flock_all group_sums[INTERACT_SCAN_GROUP];
 
 void main()
 {
-    uint me = gl_LocalInvocationID.x;
+    uint lane = gl_LocalInvocationID.x;
     uint count = body_count();
     flock_all sum = flock_nobody();
-    for (uint i = me; i < count; i += uint(INTERACT_SCAN_GROUP))
+    for (uint i = lane; i < count; i += uint(INTERACT_SCAN_GROUP))
         sum = flock_all_add(sum, flock_all_of(bodies[i]));
-    group_sums[me] = sum;
+    group_sums[lane] = sum;
     barrier();
     for (uint half_way = uint(INTERACT_SCAN_GROUP) / 2u; half_way > 0u; half_way /= 2u) {
-        if (me < half_way)
-            group_sums[me] = flock_all_add(group_sums[me], group_sums[me + half_way]);
+        if (lane < half_way)
+            group_sums[lane] = flock_all_add(group_sums[lane], group_sums[lane + half_way]);
         barrier();
     }
-    if (me != 0u || count == 0u)
+    if (lane != 0u || count == 0u)
         return;
     EXACT flock_means means = flock_means_of(group_sums[0], count);
     entries[0] = uvec4(FLOAT_BITS(means.position.x), FLOAT_BITS(means.position.y),

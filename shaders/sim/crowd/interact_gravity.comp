@@ -35,14 +35,14 @@ void push(uint slot, bool alive, float3 acceleration)
 
 void main()
 {
-    uint me = gl_LocalInvocationID.x;
+    uint lane = gl_LocalInvocationID.x;
     uint slot = min(invocation(), interact_params.used - 1u);
     bool is_padding = slot != invocation();
     kiln_particle p = records[interact_params.base + slot];
     EXACT float3 place = particle_position(p);
     EXACT float3 sum = sum_before(slot);
     for (uint first = first_source; first < end_source; first += uint(SIM_GROUP_SIZE)) {
-        tile[me] = first + me < end_source ? entries[first + me] : uvec4(0u);
+        tile[lane] = first + lane < end_source ? entries[first + lane] : uvec4(0u);
         barrier();
         for (uint i = 0u; i < uint(SIM_GROUP_SIZE); i++) {
             uvec4 other = tile[i];
