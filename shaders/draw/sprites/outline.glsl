@@ -1,30 +1,34 @@
-/* Finds the outline of a particle in the picture (Heinz 2019, 3.2.3, equation 3.1): four corners,
- * and the rows by which place.glsl finds the place of a pixel on the particle. A point or a line is
- * a rectangle in the picture; a billboard lies in the plane that particle.glsl chose for it.
+/* Finds the quad that a particle covers in the picture (Heinz 2019, 3.2.3, equation 3.1). A result
+ * has the quad's corners and, in `rows`, linear functions that map a pixel to coordinates on the
+ * particle, which place.glsl evaluates. A point or a line is a rectangle in the picture; a
+ * billboard lies in the plane that particle.glsl chose for it.
  *
- * corner.glsl includes it, for quads that GL draws, and particles_tiled_make.comp, for sprites of
- * compute shaders. Both first declare the view and the variables center, right, up and particle,
- * which particle.glsl fills in. The rows must be the same for all techniques, so that they cover
- * the same pixels (shared/billboard_place.h). */
+ * corner.glsl includes this file, for quads that GL draws, and particles_tiled_make.comp, for
+ * sprites of compute shaders. Both first declare the view and the variables center, right, up and
+ * particle, which particle.glsl describes and fills in. All techniques, that on the CPU included,
+ * must compute the same rows, so that they cover the same pixels; shared/billboard_place.h has the
+ * formulas. The callers draw only particles whose center lies beyond the near plane. */
 #include "shared/billboard_place.h"
 
 #include "draw/sprites/place.glsl"
 
 struct outline {
     place rows;
-    vec2 corners[4];     /* px from the top left; without a meaning unless `in_front` */
-    float nearest_depth; /* the smallest of its depths, m */
-    bool in_front;       /* all corners are before the eye */
-    bool has_area;       /* it has an area */
+    vec2 corners[4];     /* px from the top left; undefined unless `in_front` */
+    float nearest_depth; /* the smallest depth of the corners, m */
+    bool in_front;       /* all corners lie in front of the eye */
+    bool has_area;       /* false: the billboard is seen edge-on and covers no pixel */
 };
 
-/* Returns corner i of a strip of two triangles, as -1 or 1 to the right and up. */
+/* Returns corner i, in the order of a strip of two triangles. x is 1 at the particle's right edge,
+ * y is 1 at its upper edge, and both are -1 at the opposite edges. */
 vec2 outline_corner(int i)
 {
     return vec2(i < 2 ? -1.0 : 1.0, (i & 1) == 0 ? 1.0 : -1.0);
 }
 
-/* Returns where a point of view space before the eye is in the picture, px from the top left. */
+/* Returns where a point in front of the eye, given in view space, is in the picture, px from the
+ * top left. */
 vec2 to_pixels(vec3 v)
 {
     picture_point at = picture_point_of(view.frustum, v);
@@ -55,6 +59,7 @@ outline find_outline()
     for (int i = 0; i < 4; i++) {
         vec2 corner = outline_corner(i);
         vec3 at = center.xyz + (right.xyz * corner.x + up.xyz * corner.y);
+        /* a corner nearer than a part of the center's depth would lie too far out in the picture */
         s.in_front = s.in_front && -at.z >= 1e-3 * -center.z;
         s.corners[i] = to_pixels(at);
         s.nearest_depth = min(s.nearest_depth, -at.z);
@@ -63,10 +68,11 @@ outline find_outline()
     return s;
 }
 
-/* Finds the outline of a line, or of a point, which is a line of no length. Half a pixel is added all
- * around for soft edges; fragment.glsl adds the same half pixel. It stores the half edges without
- * that in particle.cells.xy, for shade.glsl. */
-outline find_plain_outline()
+/* Finds the outline of a line, or of a point, which is a line of no length. The outline is half a
+ * pixel wider on all sides, for soft edges; fragment.glsl widens its copy of the half edges in the
+ * same way. This function also writes the half edges, without the half pixel, to particle.cells.xy,
+ * where shade.glsl reads them; points and lines have no cells. */
+outline find_stroke_outline()
 {
     vec3 head = center.xyz;
     vec3 tail = stroke_tail(head, head + up.xyz, max(view.eye.w, 1e-3));
@@ -113,7 +119,7 @@ outline find_any_outline()
 {
 #if SHAPES
     if (center.w > 0.0)
-        return find_plain_outline();
+        return find_stroke_outline();
 #endif
     return find_outline();
 }

@@ -1,9 +1,9 @@
 /* Decides whether a particle covers a pixel, and where on the particle the pixel is.
  *
  * outline.glsl computes the rows of a particle. fragment.glsl, for quads that GL draws, and
- * particles_tiled.comp call place_covers for each pixel. All techniques decide by the same formula, so
- * that they cover the same pixels, however thin the particle is; the corners of GL's quads would not
- * do, because GL may move them by a part of a pixel. */
+ * particles_tiled.comp call place_covers for each pixel. All techniques decide by the same formula,
+ * so that they cover the same pixels, however thin the particle is; the corners of GL's quads would
+ * not do, because GL may move them by a part of a pixel. */
 
 /* Linear functions of the pixel. x is the value at the anchor, which is a fixed place in the
  * picture; y and z are the change per pixel to the right and down. */
@@ -11,7 +11,7 @@ struct place {
     vec4 u, v; /* texture coordinates: of billboards 0..1, with SHAPES divided by the depth; of points
                 * and lines px from the middle, not divided; w: the anchor's x in u and y in v, px from
                 * the top left */
-    vec4 q;    /* 1 / depth, 1/m; has a meaning only with SHAPES; w: unused */
+    vec4 q;    /* 1 / depth, 1/m; undefined without SHAPES; w: unused */
     vec2 edge; /* half edges of a point or line with its soft rim, px; 0, 0 for billboards */
 };
 
@@ -23,11 +23,11 @@ bool place_covers(place p, vec2 pixel, inout float depth, out vec2 at)
     vec2 from_anchor = pixel - vec2(p.u.w, p.v.w);
     at = vec2(p.u.x + dot(p.u.yz, from_anchor), p.v.x + dot(p.v.yz, from_anchor));
 #if SHAPES
-    bool plain = p.edge.x > 0.0;
+    bool stroke = p.edge.x > 0.0; /* a point or a line */
     float near = p.q.x + dot(p.q.yz, from_anchor);
-    vec2 low = plain ? -p.edge : vec2(0.0), high = plain ? p.edge : vec2(1.0);
+    vec2 low = stroke ? -p.edge : vec2(0.0), high = stroke ? p.edge : vec2(1.0);
     depth = near > 0.0 ? 1.0 / near : 0.0;
-    at = near > 0.0 ? (plain ? at : at * depth) : high;
+    at = near > 0.0 ? (stroke ? at : at * depth) : high;
 #else
     vec2 low = vec2(0.0), high = vec2(1.0);
 #endif
