@@ -1,5 +1,5 @@
-/* This header declares solid particles for technique backdrop=cpu, which casts rays at them on
- * threads. */
+/* Declares how solid particles (opaque spheres and meshes) are drawn for backdrop=cpu: in threads,
+ * by casting rays. Only draw/solids/solids.c calls it; solids.h explains the parameters. */
 #ifndef KILN_DRAW_SOLIDS_SOLIDS_CPU_H
 #define KILN_DRAW_SOLIDS_SOLIDS_CPU_H
 

@@ -1,7 +1,7 @@
-/* Finds the meshes that the rays of backdrop.frag hit, and how much of sun and sky meshes hide from
- * a point. Meshes are rasterised beforehand (meshes.frag): one layer has the hits at the centres of
- * pixels, and each sample has a layer, too. Shadows are read from maps that show each mesh as the
- * sun sees it (meshes_shadow.frag). */
+/* Finds the meshes that the rays of backdrop.frag hit, and how much of the sun and of the sky
+ * meshes leave visible from a point. Meshes are rasterised beforehand (meshes.frag): one layer has
+ * the hits at the centres of pixels, and each sample has a layer, too. Shadows are read from maps
+ * that show each mesh as the sun sees it (meshes_shadow.frag). */
 #include "draw/backdrop/mesh_hit.glsl"
 #include "shared/shadow_map.h"
 
@@ -63,10 +63,11 @@ int mark_mesh_edge(int surface)
     return edge && surface >= KILN_SURFACE_MESHES ? surface + 1 + (pixel.x + pixel.y & 1) : surface;
 }
 
-/* Returns the part of the sun that a mesh covers. A texel of its map has the coverage and, weighted by
- * that, the depth of the mesh as the sun sees it. The first fetch looks for anything between that the
- * others could find; where there is nothing, or the surface is turned away, it is the only one. A
- * branch would not save the others on a processor, where both sides of it run; a loop does. */
+/* Returns the part of the sun that a mesh covers. A texel of its map has the coverage and, weighted
+ * by that, the depth of the mesh as the sun sees it. The first fetch looks for anything between
+ * that the others could find; where there is nothing, or the surface is turned away, it is the only
+ * one. A branch would not save the others on a processor, where both sides of it run; a loop does.
+ * */
 float mesh_sun_cover(int i, vec3 point, vec3 normal)
 {
     vec4 sun = backdrop.sun_direction;

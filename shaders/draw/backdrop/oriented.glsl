@@ -1,6 +1,6 @@
-/* Traces capsules, boxes of any direction and planes, and finds how much of sky and sun they hide
- * from a point. A plane hides the same part of the sun from all points above it, so the host dims
- * the sun's colour by planes. */
+/* Traces capsules, boxes of any direction and planes, and finds how much of the sky and of the sun
+ * they leave visible from a point. A plane hides the same part of the sun from all points above it,
+ * so the host dims the sun's colour by planes. */
 
 /* ---- capsules ---- */
 

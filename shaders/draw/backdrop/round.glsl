@@ -1,6 +1,9 @@
-/* Traces spheres and capped cylinders, and finds how much of sky and sun they hide from a point. */
+/* Traces spheres and capped cylinders, and finds how much of the sky and of the sun they leave
+ * visible from a point. surface.glsl includes it for scenes with such shapes (ROUND).
+ * shared/shape_rays.h, sun_cover.h and surface_light.h, where a sphere is called a ball, have the
+ * formulas. */
 
-/* Replaces `nearest` by the ray's hit on a sphere if that is nearer. */
+/* Replaces `nearest` by the ray's nearest hit on a sphere if that is nearer. */
 void trace_spheres(vec3 origin, vec3 direction, inout hit nearest)
 {
     int found = -1;
@@ -18,6 +21,7 @@ void trace_spheres(vec3 origin, vec3 direction, inout hit nearest)
     }
 }
 
+/* Replaces `nearest` by the ray's nearest hit on a cylinder if that is nearer. */
 void trace_cylinders(vec3 origin, vec3 direction, inout hit nearest)
 {
     int found = -1;
@@ -37,11 +41,13 @@ void trace_cylinders(vec3 origin, vec3 direction, inout hit nearest)
         float height = dot(from, axis);
         nearest.normal = on_end ? axis * sign(height) : normalize(from - axis * height);
         nearest.albedo = shapes.cylinder_color[found].rgb;
-        int part = on_end ? height > 0.0 ? 1 : 2 : 0;
+        int side = 0, upper_end = 1, lower_end = 2; /* parts of a cylinder, with a number each */
+        int part = !on_end ? side : height > 0.0 ? upper_end : lower_end;
         nearest.surface = KILN_SURFACE_CYLINDERS + 3 * found + part;
     }
 }
 
+/* Returns the part of the sky, 0 to 1, that these shapes leave visible from a surface's point. */
 float round_sky_visibility(vec3 point, vec3 normal)
 {
     float visible = 1.0;
@@ -59,10 +65,11 @@ float round_sky_visibility(vec3 point, vec3 normal)
 
 #ifdef SOFT_SUN
 
+/* Returns the part of the sun, 0 to 1, that these shapes leave visible from a point. */
 float round_sun_visibility(vec3 origin)
 {
     vec3 sun = backdrop.sun_direction.xyz;
-    float spread = shapes.sun_right.w;
+    float spread = shapes.sun_right.w; /* tangent of the sun's radius */
     float visible = 1.0;
     for (int i = 0; i < int(shapes.counts.x); i++)
         visible *= 1.0 - ball_cover(shapes.spheres[i].xyz - origin, shapes.spheres[i].w, sun,
@@ -76,6 +83,7 @@ float round_sun_visibility(vec3 origin)
 
 #else
 
+/* Returns 0 if one of these shapes hides the sun, which has no size here, from a point, else 1. */
 float round_sun_visibility(vec3 origin)
 {
     vec3 sun = backdrop.sun_direction.xyz;

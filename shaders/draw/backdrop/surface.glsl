@@ -1,18 +1,25 @@
-/* Finds the light that a point of a surface sends to the eye: from sky, sun with its shadow and
- * point lights, less the light that smoke absorbs, and with haze. The including shader declares the
- * blocks `view`, `backdrop` and `shapes`; the defines are those of backdrop.frag. */
+/* Finds the light that a point of a surface sends to the eye. The sky, the sun and the point lights
+ * light the surface; objects shade it from sky and sun, smoke dims these two, and haze covers what
+ * is far away. backdrop.frag includes this file for all surfaces of the backdrop, and the fragment
+ * shaders in shaders/draw/solids include it for solid particles.
+ *
+ * The including shader declares the blocks `view`, `backdrop` and `shapes`. Defines compile in the
+ * shadows of shapes that not every scene has: ROUND (spheres, cylinders), ORIENTED (capsules,
+ * oriented boxes, planes), MESHES, SOLIDS (solid particles). SKY_IMAGE takes the sky from an image,
+ * and SOFT_SUN gives the sun a size, so that shadows have penumbras. */
 #include "draw/light/smoke_shadow.glsl"
 #include "shared/lamp_cover.h"
 #include "shared/shape_rays.h"
 #include "shared/surface_light.h"
 
-const float FAR = 1e9;
+const float FAR = 1e9; /* the t of a ray that hits nothing, m */
 const float PI = SURFACE_PI;
 
+/* What a ray hits. */
 struct hit {
-    float t;
-    int surface;
-    vec3 normal;
+    float t;     /* the point is origin + t * direction */
+    int surface; /* KILN_SURFACE_* and its own number; 0: the floor; -1: nothing, so the sky */
+    vec3 normal; /* unit */
     vec3 albedo;
 };
 
@@ -22,30 +29,32 @@ vec3 view_to_world(vec3 v)
            view.world_to_view[2].xyz * v.z;
 }
 
-/* Returns the world-space direction of the ray through a position in the picture, px. Its
- * view-space z is -1, so the t of a point on the ray is the point's view-space depth. */
+/* Returns the world-space direction of the ray through a position in the picture, given in pixels.
+ * The direction has a view-space z of -1, so the t of a point on the ray is the point's view-space
+ * depth. */
 vec3 ray_direction(vec2 pixel)
 {
     vec2 ndc = pixel / view.frustum.zw * 2.0 - 1.0;
     return view_to_world(vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0));
 }
 
-/* Intersects a ray with the slabs of axis-aligned box i. inverse: ray_inverse3 of the ray's
+/* Intersects a ray with the slabs of axis-aligned box i. `inverse` is ray_inverse3 of the ray's
  * direction. */
 ray_slabs cross_box(int i, vec3 origin, vec3 inverse)
 {
     return ray_cross_slabs(backdrop.box_center[i].xyz - origin, backdrop.box_half[i], inverse);
 }
 
-/* Returns the part of the sun, 0 to 1, that a box leaves visible. slabs: of a ray towards the
- * sun. */
+/* Returns the part of the sun, 0 to 1, that a box leaves visible. `slabs` tells where a ray towards
+ * the sun crosses the slabs of the box. */
 float box_sun_visibility(ray_slabs slabs, sun_edges edges)
 {
 #ifdef SOFT_SUN
-    /* The margin, 1e-4 m, is more than rounding moves a ray aside, and less than rays start beside
-     * their surface. */
+    /* The margin exceeds the rounding error of a ray's position. It stays below the 1e-3 m by which
+     * rays start off their surface (sun_visibility). */
+    const float margin = 1e-4, lit_radius = 0.0; /* m; a point is lit, not a ball */
     box_hidden hidden =
-        box_cross(slabs, box_outline_all(edges), 1e-4, shapes.sun_right.w, 0.0);
+        box_cross(slabs, box_outline_all(edges), margin, shapes.sun_right.w, lit_radius);
     return hidden.exit_distance > 0.0 ? 1.0 - hidden.cover : 1.0;
 #else
     return ray_is_blocked(ray_slabs_interval(slabs)) ? 0.0 : 1.0;
@@ -76,7 +85,7 @@ bool take_caster(inout uint casters)
 #include "draw/backdrop/sky_image.glsl"
 #endif
 
-float boxes_sun_visibility(vec3 origin)
+float aligned_sun_visibility(vec3 origin)
 {
     float visible = 1.0;
     for (int i = 0; i < int(backdrop.counts.x); i++)
@@ -84,10 +93,11 @@ float boxes_sun_visibility(vec3 origin)
     return visible;
 }
 
+/* Returns the part of the sun, 0 to 1, that the objects leave visible from a point of a surface. */
 float sun_visibility(vec3 point, vec3 normal)
 {
     vec3 origin = point + normal * 1e-3;
-    float visible = boxes_sun_visibility(origin);
+    float visible = aligned_sun_visibility(origin);
 #ifdef ROUND
     visible *= round_sun_visibility(origin);
 #endif
@@ -103,6 +113,8 @@ float sun_visibility(vec3 point, vec3 normal)
     return visible;
 }
 
+/* Returns the part of the sky, 0 to 1, that the objects leave visible from a point of a surface.
+ * Solid particles do not count. */
 float sky_visibility(vec3 point, vec3 normal)
 {
     float visible = 1.0;
@@ -127,17 +139,19 @@ vec3 sky(vec3 direction)
 {
 #ifdef SKY_IMAGE
     return sky_picture(direction, 2.0 * view.frustum.y / view.frustum.w);
-#endif
+#else
     return sky_gradient(backdrop.sky_horizon, backdrop.sky_top, direction);
+#endif
 }
 
-/* Returns the colour that the floor fades into far away. */
+/* Returns the colour of the haze, into which surfaces fade far away. */
 vec3 horizon(vec3 direction)
 {
 #ifdef SKY_IMAGE
     return sky_picture(vec3(direction.x, 0.0, direction.z), 0.1);
-#endif
+#else
     return backdrop.sky_horizon.rgb;
+#endif
 }
 
 /* Returns the part of lamp i, 0 to 1, that a point sees past the backdrop's objects. */
@@ -201,8 +215,9 @@ vec3 irradiance_without_sun(hit h, vec3 point)
     return light.irradiance;
 }
 
-/* Returns the light that a surface sends along a ray, premultiplied, and its alpha. Lambert:
- * radiance = albedo / pi * irradiance. */
+/* Returns the light that a surface sends along a ray, premultiplied, and its alpha. `irradiance` is
+ * that of irradiance_without_sun. `sunlit` is the part of the sun, 0 to 1, that objects and smoke
+ * let through. The surface is diffuse: radiance = albedo / pi * irradiance. */
 vec4 radiance(hit h, vec3 direction, vec3 irradiance, float sunlit)
 {
     bool transparent = backdrop.counts.z != 0u;
