@@ -5,6 +5,7 @@
 #ifndef KILN_SHARED_SUN_COVER_H
 #define KILN_SHARED_SUN_COVER_H
 
+#include "shared/exact.h"
 #include "shared/shape_rays.h"
 #include "shared/sun_edges.h"
 
@@ -88,13 +89,13 @@ REAL_FN S(box_outline) box_outline_of(real3 way, real3 inverse)
     return o;
 }
 
-REAL_FN S(box_strip) box_strip_all(float4 packed)
+REAL_FN S(box_strip) box_strip_all(float4 shared_by_all)
 {
     S(box_strip) strip;
-    strip.first = real_all(packed.x);
-    strip.second = real_all(packed.y);
-    strip.inverse = real_all(packed.z);
-    strip.root = real_all(packed.w);
+    strip.first = real_all(shared_by_all.x);
+    strip.second = real_all(shared_by_all.y);
+    strip.inverse = real_all(shared_by_all.z);
+    strip.root = real_all(shared_by_all.w);
     return strip;
 }
 
@@ -220,14 +221,14 @@ REAL_FN S(cover_band) cover_band_of(float4 axis, real3 way, real3 aside)
     return band;
 }
 
-REAL_FN S(cover_band) cover_band_all(S(sun_band) packed)
+REAL_FN S(cover_band) cover_band_all(S(sun_band) shared_by_all)
 {
     S(cover_band) band;
-    band.right = real3_all(packed.right);
-    band.up = real3_all(packed.up);
-    band.climb = real_all(packed.lean.x);
-    band.slant = real_all(packed.lean.y);
-    band.side = real_all(packed.lean.z);
+    band.right = real3_all(shared_by_all.right);
+    band.up = real3_all(shared_by_all.up);
+    band.climb = real_all(shared_by_all.lean.x);
+    band.slant = real_all(shared_by_all.lean.y);
+    band.side = real_all(shared_by_all.lean.z);
     return band;
 }
 
