@@ -24,6 +24,7 @@
 #define KILN_UNIT_MESH_PAINT  11 /* a layer for each mesh with paint */
 #define KILN_UNIT_SOLID_TILES 13 /* for each entry of the list: its tile, if it is a mesh */
 #define KILN_UNIT_SILHOUETTES 14 /* the atlas of tiles */
+#define KILN_UNIT_LAMP_MAPS   15 /* six layers for each lamp that meshes may hide */
 
 /* Rays of a pixel at the edge of a surface. They are a rotated grid, in which no two share a row or
  * a column. KILN_EDGE_OFFSETS lists their places in the pixel; `pair` makes a value of two numbers.
@@ -51,6 +52,11 @@
 /* Edge of a mesh's shadow map, texels; a mesh fills all of them but a border. */
 #define KILN_SHADOW_EDGE   1024
 #define KILN_SHADOW_MARGIN 0.01f /* border, as a part of the half edge */
+
+/* Edge of the six shadow maps of a lamp, texels; and the tangent that a map shows to each side of
+ * its axis, of which 1 would be a face of a cube. */
+#define KILN_LAMP_EDGE  256
+#define KILN_LAMP_RANGE 1.25f
 
 /* Shadows of solid particles. The particles are listed in bins across the sun's direction. */
 #define KILN_SOLID_BINS 128  /* the most bins along an edge of their square */

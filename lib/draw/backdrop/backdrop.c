@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "draw/backdrop/backdrop_cpu.h"
 #include "draw/backdrop/backdrop_gl.h"
-#include "draw/light/lamps.h"
 #include "draw/light/lighting_gl.h"
 #include "draw/light/sun_cover.h"
 
@@ -29,41 +28,11 @@ static float4 with_w(float3 v, float w)
     return (float4){v.x, v.y, v.z, w};
 }
 
-static void fill_boxes(const struct kiln_scene *scene, float time_s,
-                       struct kiln_draw_backdrop *block)
-{
-    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
-        const struct kiln_object *box = &scene->backdrop.objects[i];
-        if (box->kind != KILN_OBJECT_BOX || kiln_object_is_oriented_box(box))
-            continue;
-        uint k = block->counts.x++;
-        float3 size = kiln_scene_value3(scene, &box->size, time_s);
-        block->box_center[k] = with_w(kiln_scene_value3(scene, &box->center, time_s), 0.0f);
-        block->box_half[k] = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
-        block->box_color[k] = with_w(kiln_scene_value3(scene, &box->color, time_s), 0.0f);
-    }
-}
-
-static void fill_lights(const struct kiln_scene *scene, float time_s,
-                        struct kiln_draw_backdrop *block)
-{
-    for (uint32_t i = 0; i < scene->backdrop.light_count; i++) {
-        const struct kiln_light *light = &scene->backdrop.lights[i];
-        float radius = kiln_scene_value(scene, &light->radius, time_s);
-        float3 position = kiln_scene_value3(scene, &light->position, time_s);
-        block->lights[i] = (struct kiln_draw_light){
-            .position_radius2 = with_w(position, radius * radius),
-            .color = with_w(kiln_scene_value3(scene, &light->color, time_s), radius),
-            .casters = {light->shadow ? 1 : 0, 0, 0, 0},
-        };
-    }
-}
-
-/* Adds to the block the light that particles shed and the shadows that they cast. */
+/* Adds the lamps and the light and shadows of particles to the block. */
 static void add_lighting(struct kiln_draw_backdrop *block, const struct kiln_lighting *lighting)
 {
-    for (uint32_t i = 0; i < lighting->fire_count; i++)
-        block->lights[block->counts.y++] = lighting->fire[i];
+    block->counts.y = lighting->light_count;
+    memcpy(block->lights, lighting->lights, lighting->light_count * sizeof *block->lights);
     block->counts.w = lighting->smoke ? 1u : 0u;
     block->sun_color.w = lighting->sunlit ? 1.0f : 0.0f;
     memcpy(block->sun_to_grid, lighting->sun_to_grid, sizeof block->sun_to_grid);
@@ -136,10 +105,10 @@ static struct kiln_draw_backdrop make_block(const struct kiln_moment *moment)
                          kiln_scene_value(scene, &b->haze, time_s), 0.0f},
         .sun_direction = with_w(moment->sun.towards, 0.0f),
         .sun_color = with_w(sun_color(moment), 0.0f),
-        .counts = {0, b->light_count, b->transparent ? 1u : 0u, 0},
+        .counts = {0, 0, b->transparent ? 1u : 0u, 0},
     };
-    fill_boxes(scene, time_s, &block);
-    fill_lights(scene, time_s, &block);
+    block.counts.x =
+        kiln_boxes_fill(scene, time_s, block.box_center, block.box_half, block.box_color);
     return block;
 }
 
@@ -215,7 +184,6 @@ static struct kiln_backdrop_inputs make_inputs(struct kiln_backdrop_stage *stage
     if (moment->meshes.painted)
         inputs.paint = kiln_painted_all_changes(moment->meshes.painted);
     add_lighting(&inputs.block, lighting);
-    kiln_lamps_find_casters(&inputs.shapes, &inputs.block);
     inputs.shapes.counts.w = lighting->solids.edge;
     memcpy(inputs.shapes.world_to_bin, lighting->solids.world_to_bin,
            sizeof inputs.shapes.world_to_bin);

@@ -110,6 +110,7 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
         .smoke_to_sky = lighting->smoke ? lighting->sky_depth : NULL,
         .solids = lighting->solids,
         .meshes = cpu->meshes ? kiln_meshes_cpu_view(cpu->meshes) : NULL,
+        .lamp_maps = lighting->lamp_maps,
         .floor_gloss = features.floor_gloss && inputs->block.floor_params.x > 0.0f,
         .soft_sun = features.soft_sun,
     };

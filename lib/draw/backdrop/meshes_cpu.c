@@ -1,6 +1,5 @@
 /* This file finds the triangles of the backdrop's meshes that rays hit, on the host, and updates
- * the shadow maps. Each triangle spans a pyramid whose apex is the eye and whose sides are planes
- * over the picture. The number of the nearest triangle is found band by band, at the centres of
+ * the shadow maps. The number of the nearest triangle is found band by band, at the centres of
  * pixels and at the samples of edges at once; ray_mesh.h takes depth and normal from that
  * triangle. */
 #include "draw/backdrop/meshes_cpu.h"
@@ -12,11 +11,10 @@
 #include "base/error.h"
 #include "base/matrix.h"
 #include "draw/light/mesh_shadow.h"
+#include "draw/vector/mesh_project.h"
 #include "shared/exact.h"
 
 enum { GRAIN = 512 };
-
-static const float NEAREST = 0.01f; /* m */
 
 static_assert((int)KILN_HIT_LAYERS == (int)KILN_MESH_LAYERS, "a layer for each ray of a pixel");
 
@@ -174,56 +172,6 @@ static void transform_vertices(void *context, size_t begin, size_t end, uint32_t
     }
 }
 
-/* Returns the normal of the pyramid's side through an edge. For the opposite direction of the edge
- * it is exactly the negative, since the ends are ordered first. */
-static float3 side_of(float3 a, float3 b)
-{
-    bool swap = a.x > b.x || (a.x == b.x && (a.y > b.y || (a.y == b.y && a.z > b.z)));
-    float3 from = swap ? b : a, to = swap ? a : b;
-    return float3_scale(float3_cross(from, float3_sub(to, from)), swap ? -1.0f : 1.0f);
-}
-
-/* Sets the plane whose value at (u, v) is the dot product of (u, v, -1) and the normal. */
-static void set_plane(float plane[3], float3 normal)
-{
-    plane[0] = normal.x;
-    plane[1] = normal.y;
-    plane[2] = -normal.z;
-}
-
-static struct kiln_row_range pixels_between(float low, float high, float size)
-{
-    return (struct kiln_row_range){(int16_t)exact_clamp(low - 1.0f, 0.0f, size),
-                                   (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
-}
-
-/* Bounds the pixels that a triangle may touch: all of them if part of it is behind the eye, none if
- * all of it is. */
-static void find_bounds(const struct kiln_view *view, const float3 p[3],
-                        struct kiln_projected_triangle *flat)
-{
-    const float width = view->frustum.z, height = view->frustum.w;
-    float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
-    int in_front = 0;
-    for (int k = 0; k < 3; k++) {
-        float depth = -p[k].z;
-        if (depth < NEAREST)
-            continue;
-        in_front++;
-        float x = (p[k].x / (depth * view->frustum.x) + 1.0f) * 0.5f * width;
-        float y = (1.0f - p[k].y / (depth * view->frustum.y)) * 0.5f * height;
-        low[0] = exact_min(low[0], x);
-        high[0] = exact_max(high[0], x);
-        low[1] = exact_min(low[1], y);
-        high[1] = exact_max(high[1], y);
-    }
-    if (in_front == 0)
-        return;
-    bool crosses_eye = in_front < 3;
-    flat->x = pixels_between(crosses_eye ? 0.0f : low[0], crosses_eye ? width : high[0], width);
-    flat->y = pixels_between(crosses_eye ? 0.0f : low[1], crosses_eye ? height : high[1], height);
-}
-
 static void project_uvs(const struct mesh_projection *p, size_t i, float volume)
 {
     struct kiln_mesh_uvs *uvs = &p->uvs[i];
@@ -243,20 +191,15 @@ static void project_triangle(const struct mesh_projection *p, size_t i)
     const uint32_t *corners = p->mesh->triangles[i];
     struct kiln_mesh_triangle *t = &p->triangles[i];
     struct kiln_projected_triangle *flat = &p->flat[i];
-    *flat = (struct kiln_projected_triangle){.y = {0, 0}};
     const float3 corner[3] = {p->view_positions[corners[0]], p->view_positions[corners[1]],
                               p->view_positions[corners[2]]};
-    float3 face = float3_cross(float3_sub(corner[1], corner[0]), float3_sub(corner[2], corner[0]));
-    float volume = float3_dot(corner[0], face), sign = volume < 0.0f ? -1.0f : 1.0f;
-    /* A triangle seen edge-on has no pixels and no depth. */
-    float size2 = float3_dot(face, face) * float3_dot(corner[0], corner[0]);
-    if (!(volume * volume > 1e-10f * size2))
+    float3 face;
+    float volume;
+    if (!kiln_mesh_project(corner, p->view->frustum, flat, &face, &volume))
         return;
-    set_plane(t->nearness, float3_scale(face, 1.0f / volume));
+    const float sign = volume < 0.0f ? -1.0f : 1.0f;
     memset(t->normal, 0, sizeof t->normal);
     for (int k = 0; k < 3; k++) {
-        float3 side = float3_scale(side_of(corner[(k + 1) % 3], corner[(k + 2) % 3]), sign);
-        set_plane(flat->edges[k], side);
         const float3 normal = p->world_normals[corners[k]];
         for (int c = 0; c < 3; c++) {
             float part = flat->edges[k][c] / exact_abs(volume);
@@ -267,13 +210,12 @@ static void project_triangle(const struct mesh_projection *p, size_t i)
     }
     if (p->uvs)
         project_uvs(p, i, exact_abs(volume));
-    memcpy(flat->nearness, t->nearness, sizeof flat->nearness);
+    memcpy(t->nearness, flat->nearness, sizeof t->nearness);
     const float4 *rows = p->view->world_to_view;
     t->face[0] = -sign * (rows[0].x * face.x + rows[1].x * face.y + rows[2].x * face.z);
     t->face[1] = -sign * (rows[0].y * face.x + rows[1].y * face.y + rows[2].y * face.z);
     t->face[2] = -sign * (rows[0].z * face.x + rows[1].z * face.y + rows[2].z * face.z);
     t->mesh = p->number;
-    find_bounds(p->view, corner, flat);
 }
 
 static void project_triangles(void *context, size_t begin, size_t end, uint32_t worker)
@@ -343,7 +285,7 @@ static void rasterise_band(const struct raster_job *f, uint32_t band, float *nea
         .v_step = -2.0f * frustum.y / frustum.w,
         .layers = KILN_HIT_LAYERS,
         .offsets = {{0.5f, 0.5f}, KILN_EDGE_OFFSETS(PAIR)},
-        .nearness_max = 1.0f / NEAREST,
+        .nearness_max = 1.0f / KILN_MESH_NEAREST,
         .nearness = nearness,
         .triangles = hits,
         .pitch = m->view.pitch,

@@ -18,6 +18,7 @@ struct kiln_ray_frame {
     const float *smoke_to_sun, *smoke_to_sky;           /* NULL: none */
     struct kiln_solid_bins solids;
     const struct kiln_mesh_view *meshes; /* NULL: none */
+    const uint32_t *lamp_maps;           /* of struct kiln_lighting */
     bool floor_gloss, soft_sun;
 };
 

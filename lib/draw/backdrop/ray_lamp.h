@@ -5,8 +5,10 @@
 #define KILN_DRAW_BACKDROP_RAY_LAMP_H
 
 #include "draw/backdrop/ray_oriented.h"
+#include "draw/light/ray_shadow.h"
 #include "draw/light/ray_smoke.h"
 #include "shared/lamp_cover.h"
+#include "shared/lamp_map.h"
 
 /* A point that sees a lamp, in the lanes where it is not yet hidden. */
 struct lamp_receiver {
@@ -83,6 +85,41 @@ SIMD void hide_lamp_by_oriented(const struct kiln_draw_shapes *shapes, uint32_t 
     }
 }
 
+/* ---- meshes ---------------------------------------------------------------------------------- */
+
+/* Returns the part of a lamp that meshes hide, in the lanes where the point still sees the lamp. */
+SIMD vf lamp_mesh_cover(const struct kiln_ray_frame *frame, const struct kiln_draw_light *lamp,
+                        const struct lamp_receiver *r, struct vf3 normal)
+{
+    const float radius = lamp->color.w, far = lamp->maps.x;
+    const struct lamp_place place = lamp_place_of(
+        vf3_scale(r->way.direction, -r->way.reach), normal, far);
+    vi near = r->active & (r->visible > 0.0f);
+    if (!any(near))
+        return vf_all(0.0f);
+
+    const struct shadow_map maps = {frame->lamp_maps, KILN_LAMP_EDGE, KILN_LAMP_LEVELS};
+    const vi face = vi_of(place.face) + (int32_t)(KILN_LAMP_FACES * (lamp->casters.y - 1));
+    const vi first = face * KILN_LAMP_TEXELS;
+    const vf level = lamp_level(lamp_widest(place, radius)) + 1.0f;
+    struct shadow_sample shadow = read_shadow(&maps, first, place.at.u, place.at.v, level);
+    near &= shadow.cover > 0.0f;
+    if (!any(near))
+        return vf_all(0.0f);
+    const vf width = lamp_width(place, radius, far, shadow.cover, shadow.distance);
+    const vf fine = lamp_level(width), stride = 0.5f * width;
+    const vf ramp = 1.0f / (place.at.slack + stride * (2.0f * KILN_LAMP_RANGE) * place.at.depth);
+    vf cover = vf_all(0.0f);
+    for (int k = 0; k < 4; k++) {
+        vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
+        shadow = read_shadow(&maps, first, place.at.u + aside_u, place.at.v + aside_v, fine);
+        cover += shadow_tap(place.at, aside_u, aside_v, shadow.cover, shadow.distance, ramp);
+    }
+    return vf_where(near, cover);
+}
+
+/* ---- lamps ----------------------------------------------------------------------------------- */
+
 /* Returns the next `count` bits, which belong to the objects of one kind, and removes them. */
 SIMD uint32_t take_bits(uint32_t *bits, uint32_t count)
 {
@@ -96,7 +133,7 @@ SIMD vf lamp_visibility(const struct kiln_ray_frame *frame, const struct kiln_dr
                         const struct ray_point *p, vi active)
 {
     uint32_t casters = lamp->casters.x;
-    if (!casters || !any(active))
+    if (!(casters | lamp->casters.y) || !any(active))
         return vf_all(1.0f);
     const struct kiln_draw_shapes *shapes = frame->shapes;
     struct lamp_receiver r = {.origin = vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)),
@@ -108,6 +145,8 @@ SIMD vf lamp_visibility(const struct kiln_ray_frame *frame, const struct kiln_dr
     hide_lamp_by_round(shapes, spheres, take_bits(&casters, shapes->counts.y), &r);
     const uint32_t capsules = take_bits(&casters, shapes->oriented_counts.x);
     hide_lamp_by_oriented(shapes, capsules, take_bits(&casters, shapes->oriented_counts.y), &r);
+    if (lamp->casters.y)
+        hide_lamp(&r, active, lamp_mesh_cover(frame, lamp, &r, p->normal));
     return r.visible;
 }
 

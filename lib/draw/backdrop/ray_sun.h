@@ -5,6 +5,7 @@
 #define KILN_DRAW_BACKDROP_RAY_SUN_H
 
 #include "draw/backdrop/ray_oriented.h"
+#include "draw/light/ray_shadow.h"
 #include "shared/shadow_map.h"
 #include "shared/sun_cover.h"
 
@@ -127,59 +128,12 @@ SIMD vf oriented_sun_visibility(const struct kiln_ray_frame *frame,
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
-/* Holds the part of a place in a shadow map that is covered, and that part times the mean
- * distance. */
-struct shadow_sample {
-    vf cover, distance;
-};
-
-/* Interpolates linearly between four texels of a level; texels beside the map are empty. */
-SIMD struct shadow_sample read_shadow_level(const uint32_t *map, vf u, vf v, vi level)
-{
-    static const int32_t first[KILN_SHADOW_LEVELS] = {0,       1048576, 1310720, 1376256,
-                                                      1392640, 1396736, 1397760, 1398016,
-                                                      1398080, 1398096, 1398100};
-    vi edge = vi_all(KILN_SHADOW_EDGE) >> level;
-    vf size = vf_of(edge);
-    vf x = vf_min(vf_max(u * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
-    vf y = vf_min(vf_max(v * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
-    vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
-    vi start = vi_gather(first, level);
-    struct shadow_sample sum = {{0}, {0}};
-    for (int i = 0; i < 4; i++) {
-        vi column = vi_of(left) + (i & 1), row = vi_of(top) + (i >> 1);
-        vi inside = (column >= 0) & (row >= 0) & (column < edge) & (row < edge);
-        vf weight = (i & 1 ? right : 1.0f - right) * (i >> 1 ? down : 1.0f - down);
-        weight = vf_where(inside, weight);
-        vi at = vi_select(inside, start + row * edge + column, vi_all(0));
-        vi texel = vi_gather((const int32_t *)map, at);
-        weight *= 1.0f / (float)KILN_SHADOW_ONE;
-        sum.cover += weight * vf_of(texel & 0xffff);
-        sum.distance += weight * vf_of(texel >> 16 & 0xffff);
-    }
-    return sum;
-}
-
-/* Reads a shadow map, interpolated between two levels. */
-SIMD struct shadow_sample read_shadow(const uint32_t *map, vf u, vf v, vf level)
-{
-    level = vf_clamp(level, 0.0f, (float)(KILN_SHADOW_LEVELS - 1));
-    vf fine = vf_floor(level), part = level - fine;
-    struct shadow_sample shadow = read_shadow_level(map, u, v, vi_of(fine));
-    if (any(part > 0.0f)) {
-        vf coarse = vf_min(fine + 1.0f, vf_all((float)(KILN_SHADOW_LEVELS - 1)));
-        struct shadow_sample coarser = read_shadow_level(map, u, v, vi_of(coarse));
-        shadow.cover += (coarser.cover - shadow.cover) * part;
-        shadow.distance += (coarser.distance - shadow.distance) * part;
-    }
-    return shadow;
-}
-
 /* Returns the part of the sun that a mesh covers. */
 SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
-    const uint32_t *map = frame->meshes->shadows[i];
+    const struct shadow_map map = {frame->meshes->shadows[i], KILN_SHADOW_EDGE, KILN_SHADOW_LEVELS};
+    const vi first = vi_all(0);
     const float spread = shapes->sun_right.w;
     const struct shadow_receiver at =
         shadow_receiver_of(shapes->meshes[i].center, receiver->origin, receiver->normal,
@@ -190,7 +144,7 @@ SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct sun_r
     if (!any(near))
         return vf_all(0.0f);
 
-    struct shadow_sample shadow = read_shadow(map, at.u, at.v, shadow_level(widest) + 1.0f);
+    struct shadow_sample shadow = read_shadow(&map, first, at.u, at.v, shadow_level(widest) + 1.0f);
     near &= shadow.cover > 0.0f;
     if (!any(near))
         return vf_all(0.0f);
@@ -199,7 +153,7 @@ SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct sun_r
     vf ramp = 1.0f / (at.slack + stride);
     for (int k = 0; k < 4; k++) {
         vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
-        shadow = read_shadow(map, at.u + aside_u, at.v + aside_v, level);
+        shadow = read_shadow(&map, first, at.u + aside_u, at.v + aside_v, level);
         cover += shadow_tap(at, aside_u, aside_v, shadow.cover, shadow.distance, ramp);
     }
     return vf_where(near, cover);

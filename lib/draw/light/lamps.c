@@ -1,5 +1,6 @@
-/* This file finds which objects may hide each lamp, a bit for each (struct kiln_draw_light), and
- * dims lamps by planes, which hide the same part of a lamp from all places above them. */
+/* This file evaluates the lamps of a scene. It finds which objects may hide each light, a bit for
+ * each (struct kiln_draw_light), and dims lights by planes, which hide the same part of a light
+ * from all places above them. */
 #include "draw/light/lamps.h"
 
 #include <math.h>
@@ -43,13 +44,19 @@ static bool oriented_box_contains(const struct kiln_draw_oriented_box *box, floa
     return box_contains(box->half_size, there);
 }
 
+/* Holds the boxes along the axes. */
+struct boxes {
+    uint32_t count;
+    float4 center[KILN_MAX_OBJECTS], half[KILN_MAX_OBJECTS];
+};
+
 /* Returns the bits of the objects that do not contain a point, in the order of the bits. */
-static uint32_t find_casters(const struct kiln_draw_shapes *shapes,
-                             const struct kiln_draw_backdrop *block, float3 at)
+static uint32_t find_casters(const struct kiln_draw_shapes *shapes, const struct boxes *boxes,
+                             float3 at)
 {
     uint32_t casters = 0, bit = 0;
-    for (uint32_t i = 0; i < block->counts.x; i++) {
-        const bool inside = box_contains(block->box_half[i], way_from(block->box_center[i], at));
+    for (uint32_t i = 0; i < boxes->count; i++) {
+        const bool inside = box_contains(boxes->half[i], way_from(boxes->center[i], at));
         casters |= inside ? 0 : 1u << bit;
         bit++;
     }
@@ -79,13 +86,17 @@ static uint32_t find_casters(const struct kiln_draw_shapes *shapes,
     return casters;
 }
 
-/* Returns the part of a lamp that planes and the floor leave. */
-static float part_above_planes(const struct kiln_draw_shapes *shapes,
-                               const struct kiln_draw_backdrop *block, float3 at, float radius)
+/* Returns the part of a light that planes and the floor leave. */
+static float part_above_planes(const struct kiln_moment *moment, float3 at, float radius)
 {
+    const struct kiln_backdrop *backdrop = &moment->scene->backdrop;
+    const struct kiln_draw_shapes *shapes = &moment->shapes;
     float part = 1.0f;
-    if (block->floor_params.x > 0.0f)
-        part *= 1.0f - lamp_plane_cover(at.y - block->floor_color.w, radius);
+    if (backdrop->floor_enabled) {
+        const float floor =
+            kiln_scene_value(moment->scene, &backdrop->floor_height, moment->view.clock.x);
+        part *= 1.0f - lamp_plane_cover(at.y - floor, radius);
+    }
     for (uint32_t i = 0; i < shapes->oriented_counts.z; i++) {
         const float4 plane = shapes->planes[i];
         part *= 1.0f - lamp_plane_cover(float3_dot(at, xyz(plane)) - plane.w, radius);
@@ -93,16 +104,37 @@ static float part_above_planes(const struct kiln_draw_shapes *shapes,
     return part;
 }
 
-void kiln_lamps_find_casters(const struct kiln_draw_shapes *shapes,
-                             struct kiln_draw_backdrop *block)
+uint32_t kiln_lamps_fill(const struct kiln_moment *moment, struct kiln_draw_light *lights)
 {
-    for (uint32_t i = 0; i < block->counts.y; i++) {
-        struct kiln_draw_light *light = &block->lights[i];
+    const struct kiln_scene *scene = moment->scene;
+    const float time_s = moment->view.clock.x;
+    for (uint32_t i = 0; i < scene->backdrop.light_count; i++) {
+        const struct kiln_light *light = &scene->backdrop.lights[i];
+        const float radius = kiln_scene_value(scene, &light->radius, time_s);
+        const float3 at = kiln_scene_value3(scene, &light->position, time_s);
+        const float3 color = kiln_scene_value3(scene, &light->color, time_s);
+        lights[i] = (struct kiln_draw_light){
+            .position_radius2 = {at.x, at.y, at.z, radius * radius},
+            .color = {color.x, color.y, color.z, radius},
+            .casters = {light->shadow ? 1 : 0, 0, 0, 0},
+        };
+    }
+    return scene->backdrop.light_count;
+}
+
+void kiln_lamps_find_casters(const struct kiln_moment *moment, struct kiln_draw_light *lights,
+                             uint32_t count)
+{
+    struct boxes boxes;
+    boxes.count = kiln_boxes_fill(moment->scene, moment->view.clock.x, boxes.center, boxes.half,
+                                  NULL);
+    for (uint32_t i = 0; i < count; i++) {
+        struct kiln_draw_light *light = &lights[i];
         if (!light->casters.x)
             continue;
         const float3 at = xyz(light->position_radius2);
-        const float part = part_above_planes(shapes, block, at, light->color.w);
-        light->casters.x = find_casters(shapes, block, at);
+        const float part = part_above_planes(moment, at, light->color.w);
+        light->casters.x = find_casters(&moment->shapes, &boxes, at);
         light->color.x *= part;
         light->color.y *= part;
         light->color.z *= part;

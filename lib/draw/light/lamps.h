@@ -1,15 +1,18 @@
-/* This header declares which objects of the backdrop may hide lamps and the light of fire. */
+/* This header declares the lamps of a scene at a moment, and which objects may hide lights. */
 #ifndef KILN_DRAW_LIGHT_LAMPS_H
 #define KILN_DRAW_LIGHT_LAMPS_H
 
-#include "draw/moment/shapes.h"
+#include "draw/moment/moment.h"
 #include "shared/draw_layout.h"
 
-/* Sets, for each light of the block whose `casters` is not 0, the objects that may hide it, and
+/* Fills in the scene's lamps, with a `casters` of 1 for those that objects hide and 0 for others.
+ * Returns how many there are. */
+uint32_t kiln_lamps_fill(const struct kiln_moment *moment, struct kiln_draw_light *lights);
+
+/* Sets, for each light whose `casters` is not 0, the objects that may hide it, meshes left out, and
  * takes from its colour the part that planes and the floor hide. An object that contains the
- * light's centre, such as the glass around a lamp or the hearth around a fire, hides none of it.
- * Boxes, floor and lights of the block must be set. */
-void kiln_lamps_find_casters(const struct kiln_draw_shapes *shapes,
-                             struct kiln_draw_backdrop *block);
+ * light's centre, such as the glass around a lamp or the hearth around a fire, hides none of it. */
+void kiln_lamps_find_casters(const struct kiln_moment *moment, struct kiln_draw_light *lights,
+                             uint32_t count);
 
 #endif

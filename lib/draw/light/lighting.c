@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "draw/light/firelight.h"
+#include "draw/light/lamps.h"
 #include "draw/light/lighting_gl.h"
 #include "shared/exact.h"
 
@@ -24,17 +25,19 @@ struct kiln_lighting_stage {
     float *depths;                    /* of both grids */
     struct kiln_solid_shadow *solids; /* NULL: not needed, here and below */
     struct kiln_sun_shade *shade;
+    struct kiln_lamp_maps *lamp_maps;
     struct kiln_lighting_gl *gl;
 };
 
-static bool any_light(const struct kiln_lighting_stage *stage)
+/* Returns whether particles make light or shade, or are in it. */
+static bool particles_count(const struct kiln_lighting_stage *stage)
 {
     return stage->fire || stage->smoke || stage->solids || stage->shade;
 }
 
 static bool allocate(struct kiln_lighting_stage *stage, struct kiln_device *device)
 {
-    if (!any_light(stage))
+    if (!particles_count(stage) && !stage->lamp_maps)
         return true;
     if (device)
         stage->gl = kiln_lighting_gl_create(device);
@@ -53,12 +56,12 @@ static bool sun_exists(const struct kiln_scene *scene)
            kiln_scene_value_max(scene, &color->z) > 0.0f;
 }
 
-static bool create_shadows(struct kiln_lighting_stage *stage, const struct kiln_instances *meshes,
+static bool create_shadows(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
                            struct kiln_error *error)
 {
     const struct kiln_scene *scene = stage->scene;
     if (kiln_shape_features(scene).solids) {
-        stage->solids = kiln_solid_shadow_create(scene, meshes, error);
+        stage->solids = kiln_solid_shadow_create(scene, &moment->instances, error);
         if (!stage->solids)
             return false;
     }
@@ -66,6 +69,10 @@ static bool create_shadows(struct kiln_lighting_stage *stage, const struct kiln_
         stage->shade = kiln_sun_shade_create(scene, error);
         if (!stage->shade)
             return false;
+    }
+    if (kiln_lamp_maps_exist(scene)) {
+        stage->lamp_maps = kiln_lamp_maps_create(moment, stage->threads, error);
+        return stage->lamp_maps != NULL;
     }
     return true;
 }
@@ -86,7 +93,7 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
                                           .fire = kiln_firelight_exists(scene),
                                           .smoke = kiln_smoke_exists(scene),
                                           .sun = sun_exists(scene)};
-    if (!create_shadows(stage, &moment->instances, error)) {
+    if (!create_shadows(stage, moment, error)) {
         kiln_lighting_destroy(&stage);
         return NULL;
     }
@@ -105,6 +112,7 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
     kiln_lighting_gl_destroy(&(*stage)->gl);
     kiln_solid_shadow_destroy(&(*stage)->solids);
     kiln_sun_shade_destroy(&(*stage)->shade);
+    kiln_lamp_maps_destroy(&(*stage)->lamp_maps);
     free((*stage)->depths);
     kiln_smoke_finish(&(*stage)->puffs);
     kiln_smoke_shadow_destroy(&(*stage)->shadow);
@@ -150,20 +158,37 @@ static bool cast_shadows(struct kiln_lighting_stage *stage, const struct kiln_mo
     return !stage->shade || lighting->sunlit;
 }
 
+/* Gathers the lamps and the light of fire, and draws their shadow maps. */
+static bool light_lamps(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
+                        struct kiln_lighting *lighting, struct kiln_error *error)
+{
+    uint32_t count = kiln_lamps_fill(moment, lighting->lights);
+    if (stage->fire)
+        count += kiln_firelight_gather(moment, stage->threads, lighting->lights + count);
+    lighting->light_count = count;
+    if (stage->lamp_maps) {
+        lighting->lamp_maps = kiln_lamp_maps_run(stage->lamp_maps, moment, lighting->lights, count,
+                                                 &lighting->lamp_map_count, error);
+        if (!lighting->lamp_maps)
+            return false;
+    }
+    kiln_lamps_find_casters(moment, lighting->lights, count);
+    return true;
+}
+
 bool kiln_lighting_reads_particles(const struct kiln_lighting_stage *stage)
 {
-    return any_light(stage);
+    return particles_count(stage);
 }
 
 bool kiln_lighting_run(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
                        struct kiln_lighting *lighting, struct kiln_error *error)
 {
     *lighting = (struct kiln_lighting){.run = ++stage->run, .gl = stage->gl};
-    if (!any_light(stage))
-        return true;
-    if (!cast_shadows(stage, moment, lighting, error))
+    if (!light_lamps(stage, moment, lighting, error))
         return false;
-    if (stage->fire)
-        lighting->fire_count = kiln_firelight_gather(moment, stage->threads, lighting->fire);
-    return !stage->smoke || shade(stage, moment, lighting, error);
+    if (!particles_count(stage))
+        return true;
+    return cast_shadows(stage, moment, lighting, error) &&
+           (!stage->smoke || shade(stage, moment, lighting, error));
 }

@@ -5,6 +5,7 @@
 #define KILN_DRAW_LIGHT_LIGHTING_H
 
 #include "base/thread.h"
+#include "draw/light/lamp_map.h"
 #include "draw/light/smoke_shadow.h"
 #include "draw/light/solid_shadow.h"
 #include "draw/light/sun_shade.h"
@@ -14,8 +15,10 @@
  * arrays, which are valid until its next run. */
 struct kiln_lighting {
     uint64_t run; /* number of the run, from 1 */
-    uint32_t fire_count;
-    struct kiln_draw_light fire[KILN_MAX_FIRE_LIGHTS];
+    uint32_t light_count; /* lamps, then the light of fire */
+    struct kiln_draw_light lights[KILN_LAMP_MAPS];
+    const uint32_t *lamp_maps; /* shadow maps of the first lamp_map_count of kiln_lamp_maps_run; */
+    uint32_t lamp_map_count;   /* NULL: there are none */
     bool smoke;                            /* there is smoke, and its grids are set */
     float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
     const float *sun_depth, *sky_depth; /* optical depth in the grids, KILN_SMOKE_GRID cubed, rows

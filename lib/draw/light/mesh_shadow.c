@@ -1,6 +1,5 @@
-/* This file draws the shadow map of a mesh on the host, and its coarser levels, which are means of
- * four texels. The mesh's bounding sphere fills the map except for a border, as in
- * shaders/draw/backdrop/meshes_shadow.vert. */
+/* This file draws the shadow map of a mesh on the host, and its coarser levels. The mesh's bounding
+ * sphere fills the map except for a border, as in shaders/draw/backdrop/meshes_shadow.vert. */
 #include "draw/light/mesh_shadow.h"
 
 #include <assert.h>
@@ -139,9 +138,8 @@ static void draw_band(const struct shadow_job *d, uint32_t band, float *nearness
         const float *from = nearness + row * canvas->pitch;
         uint32_t *to = d->shadow->texels + (size_t)(y + row) * EDGE;
         for (uint32_t x = 0; x < EDGE; x++) {
-            float distance = exact_clamp(1.0f - from[x], 0.0f, 1.0f) * (float)KILN_SHADOW_ONE;
-            uint32_t seen = (uint32_t)(distance + 0.5f) << 16 | KILN_SHADOW_ONE;
-            to[x] = from[x] > 0.0f ? seen : 0;
+            const float distance = exact_clamp(1.0f - from[x], 0.0f, 1.0f);
+            to[x] = from[x] > 0.0f ? kiln_shadow_texel(distance) : 0;
         }
     }
 }
@@ -153,31 +151,11 @@ static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
         draw_band(d, (uint32_t)band, d->canvas->nearness + worker * d->canvas->strip);
 }
 
-static size_t first_of(uint32_t level)
-{
-    size_t whole = (size_t)4 * EDGE * EDGE, rest = whole >> (2 * level);
-    return (whole - rest) / 3;
-}
-
 static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     const struct shadow_job *d = context;
-    size_t edge = EDGE >> d->level;
-    const uint32_t *from = d->shadow->texels + first_of(d->level - 1);
-    uint32_t *to = d->shadow->texels + first_of(d->level);
-    for (size_t y = begin; y < end; y++) {
-        for (size_t x = 0; x < edge; x++) {
-            const uint32_t *four = from + 4 * y * edge + 2 * x;
-            const uint32_t texels[4] = {four[0], four[1], four[2 * edge], four[2 * edge + 1]};
-            uint32_t cover = 2, distance = 2; /* so that the quotient is rounded */
-            for (int i = 0; i < 4; i++) {
-                cover += texels[i] & 0xffffu;
-                distance += texels[i] >> 16;
-            }
-            to[y * edge + x] = distance / 4 << 16 | cover / 4;
-        }
-    }
+    kiln_shadow_shrink(d->shadow->texels, EDGE, d->level, begin, end);
 }
 
 static bool is_up_to_date(const struct kiln_mesh_shadow *shadow,

@@ -5,20 +5,17 @@
 
 #include "asset/geometry/mesh.h"
 #include "base/thread.h"
+#include "draw/light/shadow_levels.h"
 #include "draw/moment/shapes.h"
 #include "draw/vector/mesh_rows.h"
 
 enum {
-    KILN_SHADOW_ONE = 65535,
     KILN_SHADOW_LEVELS = 11, /* each of half the edge of the one before, down to 1 texel */
     KILN_SHADOW_TEXELS = (4 * KILN_SHADOW_EDGE * KILN_SHADOW_EDGE - 1) / 3, /* of all levels */
 };
 
 struct kiln_mesh_shadow {
-    /* KILN_SHADOW_TEXELS texels, the finest level first. The lower 16 bits are the part of the
-     * texel that the mesh covers, the upper 16 bits that part times the mesh's mean distance, both
-     * in units of 1 / KILN_SHADOW_ONE. The distance is 0 nearest to the sun and 1 farthest from
-     * it. */
+    /* KILN_SHADOW_TEXELS texels (shadow_levels.h), the finest level first. */
     uint32_t *texels;
     struct kiln_draw_mesh placed; /* the mesh that the map shows, and the sun at that time */
     float4 right, up, sun;

@@ -223,6 +223,24 @@ static void fill_oriented(const struct kiln_scene *scene, const struct kiln_obje
     }
 }
 
+uint32_t kiln_boxes_fill(const struct kiln_scene *scene, float time_s, float4 *centers,
+                         float4 *halves, float4 *colors)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
+        const struct kiln_object *box = &scene->backdrop.objects[i];
+        if (box->kind != KILN_OBJECT_BOX || kiln_object_is_oriented_box(box))
+            continue;
+        const float3 size = kiln_scene_value3(scene, &box->size, time_s);
+        centers[count] = with_w(kiln_scene_value3(scene, &box->center, time_s), 0.0f);
+        halves[count] = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
+        if (colors)
+            colors[count] = with_w(kiln_scene_value3(scene, &box->color, time_s), 0.0f);
+        count++;
+    }
+    return count;
+}
+
 /* Fills in the outlines of boxes and cylinders as seen from the sun. */
 static void fill_sun(const struct kiln_sun_frame *sun, struct kiln_draw_shapes *shapes)
 {

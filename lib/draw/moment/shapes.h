@@ -42,4 +42,10 @@ void kiln_shapes_fill(const struct kiln_scene *scene, const struct kiln_mesh *co
                       const struct kiln_sun_frame *sun, float time_s,
                       struct kiln_draw_shapes *shapes);
 
+/* Fills in the boxes that lie along the axes, which struct kiln_draw_backdrop holds, in the scene's
+ * order: their centres, m, halves of their sizes, m, and colours (NULL: not wanted), each of
+ * KILN_MAX_OBJECTS. Returns how many there are. */
+uint32_t kiln_boxes_fill(const struct kiln_scene *scene, float time_s, float4 *centers,
+                         float4 *halves, float4 *colors);
+
 #endif

@@ -1,0 +1,37 @@
+/* A kiln_lamp_maps holds shadow maps of lamps on the host. They show the backdrop's meshes as lamps
+ * see them, six for each lamp, in the layout of shared/lamp_map.h. */
+#ifndef KILN_DRAW_LIGHT_LAMP_MAP_H
+#define KILN_DRAW_LIGHT_LAMP_MAP_H
+
+#include "base/thread.h"
+#include "draw/light/shadow_levels.h"
+#include "draw/moment/moment.h"
+#include "shared/draw_layout.h"
+
+enum {
+    KILN_LAMP_LEVELS = 9, /* down to 1 texel */
+    KILN_LAMP_FACES = 6,
+    KILN_LAMP_TEXELS = (4 * KILN_LAMP_EDGE * KILN_LAMP_EDGE - 1) / 3, /* of all levels of a face */
+    KILN_LAMP_MAPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS,          /* the most lamps with maps */
+};
+
+struct kiln_lamp_maps;
+
+/* Returns whether a scene may need maps: it has meshes, and lamps or fire that they hide. */
+bool kiln_lamp_maps_exist(const struct kiln_scene *scene);
+
+/* Creates the maps; NULL with an error. Moment and threads must outlive them. */
+struct kiln_lamp_maps *kiln_lamp_maps_create(const struct kiln_moment *moment,
+                                             struct kiln_threads *threads,
+                                             struct kiln_error *error);
+void kiln_lamp_maps_destroy(struct kiln_lamp_maps **maps);
+
+/* Draws the maps of the lights whose `casters` is not 0, and sets their numbers and reach. A map
+ * that already shows the same meshes from the same place is kept. Returns the texels: for each
+ * number its faces, for each face its levels, the finest first. *count becomes how many lamps have
+ * maps. NULL with an error when memory is short. */
+const uint32_t *kiln_lamp_maps_run(struct kiln_lamp_maps *maps, const struct kiln_moment *moment,
+                                   struct kiln_draw_light *lights, uint32_t light_count,
+                                   uint32_t *count, struct kiln_error *error);
+
+#endif

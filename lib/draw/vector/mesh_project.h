@@ -1,0 +1,20 @@
+/* This header declares the perspective projection of triangles for struct kiln_mesh_rows. */
+#ifndef KILN_DRAW_VECTOR_MESH_PROJECT_H
+#define KILN_DRAW_VECTOR_MESH_PROJECT_H
+
+#include <stdbool.h>
+
+#include "draw/vector/mesh_rows.h"
+#include "shared/platform.h"
+
+/* Nearest distance to the eye at which triangles are drawn, m. */
+#define KILN_MESH_NEAREST 0.01f
+
+/* Projects a triangle by planes over u and v of rays (u, v, -1) from an eye at the origin, in which
+ * it spans a pyramid. Nearness is 1 / depth, 1/m. corner: in view space, m; frustum: as in struct
+ * kiln_view. *volume becomes the dot product of a corner and the face's normal, *face, which is not
+ * unit. Returns false, with no pixels to draw, for a triangle that is seen edge-on. */
+bool kiln_mesh_project(const float3 corner[3], float4 frustum, struct kiln_projected_triangle *flat,
+                       float3 *face, float *volume);
+
+#endif

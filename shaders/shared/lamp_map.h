@@ -1,0 +1,89 @@
+/* Computes which texels of a lamp's shadow maps a point of a surface reads, and how much of the lamp
+ * they hide. A lamp has six maps, the faces of a cube around it, which show the backdrop's meshes
+ * (lib/draw/light/lamp_map.c). Each face shows more than its sixth of all directions, so that a
+ * blurred shadow does not end at an edge of the cube. GL samples the maps as a texture
+ * (draw/backdrop/mesh_trace.glsl); the device `cpu` gathers their texels (draw/backdrop/ray_lamp.h).
+ */
+#ifndef KILN_SHARED_LAMP_MAP_H
+#define KILN_SHARED_LAMP_MAP_H
+
+#include "shared/shadow_map.h"
+
+#define LAMP_TEXEL (1.0f / FLOAT(KILN_LAMP_EDGE))
+
+/* Widest blur of a shadow, in texture coordinates: the part of a face that lies beside its sixth. */
+#define LAMP_WIDEST ((KILN_LAMP_RANGE - 1.0f) / (2.0f * KILN_LAMP_RANGE))
+
+/* A point in the maps: its face, 0 to 5, and as in any shadow map its place there, for which depth
+ * is the distance along the face's axis, as a part of `far`. */
+struct lamp_place {
+    real face;
+    real distance; /* along the face's axis, m */
+    S(shadow_receiver) at;
+};
+
+/* from: from the lamp to the point, m; normal: of the surface there; far: distance that the maps
+ * reach, m. */
+REAL_FN S(lamp_place) lamp_place_of(real3 from, real3 normal, float far)
+{
+    real x = real_abs(from.x), y = real_abs(from.y), z = real_abs(from.z);
+    truth on_x = truth_and(x >= y, x >= z);
+    truth on_y = truth_and(truth_not(on_x), y >= z);
+    real ahead = real_select(on_x, from.x, real_select(on_y, from.y, from.z));
+    real aside = real_select(on_x, from.z, from.x), above = real_select(on_y, from.z, from.y);
+    real normal_ahead = real_select(on_x, normal.x, real_select(on_y, normal.y, normal.z));
+    real normal_aside = real_select(on_x, normal.z, normal.x);
+    real normal_above = real_select(on_y, normal.z, normal.y);
+    real sign = real_sign_one(ahead);
+
+    S(lamp_place) place;
+    place.distance = real_max(real_abs(ahead), real_all(1e-4f));
+    place.face = real_select(on_x, real_all(0.0f), real_select(on_y, real_all(2.0f), real_all(4.0f))) +
+                 real_where(ahead < 0.0f, real_all(1.0f));
+    real right = aside / place.distance, up = above / place.distance;
+    place.at.u = 0.5f + right * (0.5f / KILN_LAMP_RANGE);
+    place.at.v = 0.5f - up * (0.5f / KILN_LAMP_RANGE);
+    place.at.depth = place.distance * (1.0f / far);
+
+    /* The plane of the surface has the depth 1 / (normal * (right, up, sign)), times a constant. */
+    real facing = -(normal_aside * right + normal_above * up + normal_ahead * sign);
+    real inverse = 1.0f / real_max(facing, real_all(0.05f));
+    real wide = 2.0f * KILN_LAMP_RANGE * place.at.depth; /* of a face there, in units of depth */
+    real tilt_right = normal_aside * inverse, tilt_up = normal_above * inverse;
+    place.at.slope_u = tilt_right * wide;
+    place.at.slope_v = -(tilt_up * wide);
+    place.at.slack = 1.5f * LAMP_TEXEL * wide *
+                     (1.0f + 0.5f * (real_abs(tilt_right) + real_abs(tilt_up)));
+    return place;
+}
+
+/* Returns the width, in texture coordinates, of the penumbra that a blocker at a distance makes at
+ * a point. radius: of the lamp, m. */
+REAL_FN real lamp_penumbra(S(lamp_place) place, float radius, real blocker)
+{
+    real gap = real_max(place.distance - blocker, real_all(0.0f));
+    real tangent = radius * gap / (place.distance * real_max(blocker, real_all(1e-3f)));
+    return real_clamp(tangent * (0.5f / KILN_LAMP_RANGE), LAMP_TEXEL, LAMP_WIDEST);
+}
+
+/* Returns the width of the widest penumbra that a blocker outside of the lamp makes. A first fetch
+ * looks for any blocker over twice this width. */
+REAL_FN real lamp_widest(S(lamp_place) place, float radius)
+{
+    return lamp_penumbra(place, radius, real_all(exact_max(radius, 0.02f)));
+}
+
+/* Returns the width of the penumbra of the blocker that the first fetch found, as shadow_width. */
+REAL_FN real lamp_width(S(lamp_place) place, float radius, float far, real cover, real distance)
+{
+    return real_max(0.75f * lamp_penumbra(place, radius, far * shadow_depth(cover, distance)),
+                    real_all(LAMP_TEXEL));
+}
+
+/* Returns the mipmap level whose texels have this width, in texture coordinates. */
+REAL_FN real lamp_level(real width)
+{
+    return real_log2(width * FLOAT(KILN_LAMP_EDGE));
+}
+
+#endif
