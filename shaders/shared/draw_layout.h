@@ -57,7 +57,8 @@ struct kiln_draw_light {
     float4 position_radius2; /* m, m^2 */
     float4 color;            /* radiance at 1 m; w: radius, m */
     /* x: a bit for each object of the backdrop that may hide the light: boxes first, then spheres,
-     * cylinders, capsules and oriented boxes; y: 1 + number of its shadow maps of meshes; 0: none */
+     * cylinders, capsules and oriented boxes; y: 1 + number of its shadow maps of meshes; 0: none
+     */
     uint4 casters;
     float4 maps; /* x: distance that the shadow maps reach, m; unused */
 };

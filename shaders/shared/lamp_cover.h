@@ -55,8 +55,7 @@ REAL_FN real lamp_ball_cover(real3 towards, float radius, S(lamp_way) way)
 {
     S(cover_at) at = ball_cover(towards, radius, way.direction, way.spread);
     real disc = real_max(at.distance * way.spread, real_all(1e-5f));
-    return at.cover * real_min(radius / disc, real_all(1.0f)) *
-           lamp_part_beyond(way, at.distance);
+    return at.cover * real_min(radius / disc, real_all(1.0f)) * lamp_part_beyond(way, at.distance);
 }
 
 /* Returns the cover of a capsule. axis: unit; w: half of its height without the ends. */

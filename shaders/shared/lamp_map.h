@@ -1,8 +1,9 @@
-/* Computes which texels of a lamp's shadow maps a point of a surface reads, and how much of the lamp
- * they hide. A lamp has six maps, the faces of a cube around it, which show the backdrop's meshes
- * (lib/draw/light/lamp_map.c). Each face shows more than its sixth of all directions, so that a
- * blurred shadow does not end at an edge of the cube. GL samples the maps as a texture
- * (draw/backdrop/mesh_trace.glsl); the device `cpu` gathers their texels (draw/backdrop/ray_lamp.h).
+/* Computes which texels of a lamp's shadow maps a point of a surface reads, and how much of the
+ * lamp they hide. A lamp has six maps, the faces of a cube around it, which show the backdrop's
+ * meshes (lib/draw/light/lamp_map.c). Each face shows more than its sixth of all directions, so
+ * that a blurred shadow does not end at an edge of the cube. GL samples the maps as a texture
+ * (draw/backdrop/mesh_trace.glsl); the device `cpu` gathers their texels
+ * (draw/backdrop/ray_lamp.h).
  */
 #ifndef KILN_SHARED_LAMP_MAP_H
 #define KILN_SHARED_LAMP_MAP_H
@@ -11,7 +12,8 @@
 
 #define LAMP_TEXEL (1.0f / FLOAT(KILN_LAMP_EDGE))
 
-/* Widest blur of a shadow, in texture coordinates: the part of a face that lies beside its sixth. */
+/* Widest blur of a shadow, in texture coordinates: the part of a face that lies beside its sixth.
+ */
 #define LAMP_WIDEST ((KILN_LAMP_RANGE - 1.0f) / (2.0f * KILN_LAMP_RANGE))
 
 /* A point in the maps: its face, 0 to 5, and as in any shadow map its place there, for which depth
@@ -38,8 +40,9 @@ REAL_FN S(lamp_place) lamp_place_of(real3 from, real3 normal, float far)
 
     S(lamp_place) place;
     place.distance = real_max(real_abs(ahead), real_all(1e-4f));
-    place.face = real_select(on_x, real_all(0.0f), real_select(on_y, real_all(2.0f), real_all(4.0f))) +
-                 real_where(ahead < 0.0f, real_all(1.0f));
+    place.face =
+        real_select(on_x, real_all(0.0f), real_select(on_y, real_all(2.0f), real_all(4.0f))) +
+        real_where(ahead < 0.0f, real_all(1.0f));
     real right = aside / place.distance, up = above / place.distance;
     place.at.u = 0.5f + right * (0.5f / KILN_LAMP_RANGE);
     place.at.v = 0.5f - up * (0.5f / KILN_LAMP_RANGE);
@@ -52,8 +55,8 @@ REAL_FN S(lamp_place) lamp_place_of(real3 from, real3 normal, float far)
     real tilt_right = normal_aside * inverse, tilt_up = normal_above * inverse;
     place.at.slope_u = tilt_right * wide;
     place.at.slope_v = -(tilt_up * wide);
-    place.at.slack = 1.5f * LAMP_TEXEL * wide *
-                     (1.0f + 0.5f * (real_abs(tilt_right) + real_abs(tilt_up)));
+    place.at.slack =
+        1.5f * LAMP_TEXEL * wide * (1.0f + 0.5f * (real_abs(tilt_right) + real_abs(tilt_up)));
     return place;
 }
 

@@ -64,8 +64,7 @@ REAL_FN S(box_strip) box_strip_of(real inverse_a, real inverse_b)
 
 REAL_FN real box_likeness(real a, real b)
 {
-    real cosine =
-        a * b / real_sqrt(real_max((1.0f - a * a) * (1.0f - b * b), real_all(1e-12f)));
+    real cosine = a * b / real_sqrt(real_max((1.0f - a * a) * (1.0f - b * b), real_all(1e-12f)));
     real square = real_min(cosine * cosine, real_all(1.0f));
     return square * square * square * square;
 }
@@ -150,21 +149,17 @@ struct box_hidden {
 REAL_FN S(box_hidden) box_cross(S(ray_slabs) s, S(box_outline) o, float margin, real spread,
                                 float radius)
 {
-    S(box_crossed) xy =
-        box_cross_strip(o.xy, s.near.x, s.near.y, s.far.x, s.far.y, spread, radius);
-    S(box_crossed) yz =
-        box_cross_strip(o.yz, s.near.y, s.near.z, s.far.y, s.far.z, spread, radius);
-    S(box_crossed) xz =
-        box_cross_strip(o.xz, s.near.x, s.near.z, s.far.x, s.far.z, spread, radius);
+    S(box_crossed) xy = box_cross_strip(o.xy, s.near.x, s.near.y, s.far.x, s.far.y, spread, radius);
+    S(box_crossed) yz = box_cross_strip(o.yz, s.near.y, s.near.z, s.far.y, s.far.z, spread, radius);
+    S(box_crossed) xz = box_cross_strip(o.xz, s.near.x, s.near.z, s.far.x, s.far.z, spread, radius);
     real outside = real_max(real_max(xy.outside, real_all(0.0f)), real_max(yz.outside, xz.outside));
     real aside = outside + margin;
     real3 later = REAL3(aside * o.later.x, aside * o.later.y, aside * o.later.z);
     S(box_hidden) box;
     box.cover = both_strips(both_strips(yz.cover, xz.cover, o.alike_xy), xy.cover, o.alike_z);
-    box.enter_distance = real_max(real_max(s.near.x - later.x, s.near.y - later.y),
-                                  s.near.z - later.z);
-    box.exit_distance =
-        real_min(real_min(s.far.x + later.x, s.far.y + later.y), s.far.z + later.z);
+    box.enter_distance =
+        real_max(real_max(s.near.x - later.x, s.near.y - later.y), s.near.z - later.z);
+    box.exit_distance = real_min(real_min(s.far.x + later.x, s.far.y + later.y), s.far.z + later.z);
     return box;
 }
 

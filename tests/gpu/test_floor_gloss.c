@@ -30,10 +30,9 @@ struct picture {
 
 static void draw_at(struct picture *p, uint32_t step)
 {
-    static const struct kiln_lighting lighting; /* none */
     struct kiln_error error = {0};
     if (!kiln_moment_fill(&p->moment, NULL, step, false, &error) ||
-        !kiln_backdrop_draw(p->stage, &p->moment, &lighting, &error))
+        !backdrop_draw_by_lamps(p->stage, &p->moment, &error))
         fail_msg("%s", error.message);
     p->colors = kiln_image_host(&p->color, KILN_READ, &error);
     assert_non_null(p->colors);

@@ -157,7 +157,7 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
     assert_true(f->backdrop && f->particles);
     place_particles(f);
     assert_true(kiln_moment_fill(&f->moment, &f->pool, STEP, true, &error));
-    assert_true(kiln_backdrop_draw(f->backdrop, &f->moment, &f->lighting, &error));
+    assert_true(backdrop_draw_by_lamps(f->backdrop, &f->moment, &error));
 
     for (int i = 0; i < 2; i++) {
         f->cell_count[i] = requests[i].columns * requests[i].rows;

@@ -1,6 +1,8 @@
 /* Makes backdrops by the technique that a test has chosen. */
 #include "support/backdrops.h"
 
+#include "draw/light/lamps.h"
+
 const enum kiln_backdrop_technique BACKDROPS[2] = {KILN_BACKDROP_GL, KILN_BACKDROP_CPU};
 enum kiln_backdrop_technique backdrop_technique = KILN_BACKDROP_GL;
 
@@ -23,4 +25,13 @@ struct kiln_backdrop_stage *backdrop_create(struct kiln_device *device,
                                                 .color = color,
                                                 .depth = depth};
     return kiln_backdrop_create(device, moment, &params, error);
+}
+
+bool backdrop_draw_by_lamps(struct kiln_backdrop_stage *stage, const struct kiln_moment *moment,
+                            struct kiln_error *error)
+{
+    struct kiln_lighting lighting = {.light_count = 0};
+    lighting.light_count = kiln_lamps_fill(moment, lighting.lights);
+    kiln_lamps_find_casters(moment, lighting.lights, lighting.light_count);
+    return kiln_backdrop_draw(stage, moment, &lighting, error);
 }

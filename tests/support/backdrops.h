@@ -16,4 +16,9 @@ struct kiln_backdrop_stage *backdrop_create(struct kiln_device *device,
                                             struct kiln_image *color, struct kiln_image *depth,
                                             struct kiln_error *error);
 
+/* Draws with the scene's lamps as the only light besides sky and sun: no light or shade of
+ * particles, and no shadows of meshes under lamps. */
+bool backdrop_draw_by_lamps(struct kiln_backdrop_stage *stage, const struct kiln_moment *moment,
+                            struct kiln_error *error);
+
 #endif

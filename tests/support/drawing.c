@@ -136,8 +136,7 @@ void drawing_place(struct drawing *d, const struct kiln_particle *particles, uin
         entries[i] = KILN_ENTRY(0, i);
     if (!kiln_moment_fill(&d->moment, &d->pool, step, true, &error))
         fail_msg("%s", error.message);
-    const struct kiln_lighting none = {0};
-    assert_true(kiln_backdrop_draw(d->backdrop, &d->moment, &none, &error));
+    assert_true(backdrop_draw_by_lamps(d->backdrop, &d->moment, &error));
 }
 
 void drawing_run(struct drawing *d, uint32_t count, float depth_m)

@@ -186,10 +186,10 @@ struct vec pixel_ray(double px, double py)
     return along(d, up, (1 - 2 * py / HEIGHT) * tan_y);
 }
 
-/* Returns the part of the sun's disc that a point sees, by rays to places on rings of the disc.
- * radius: the angle of the sun's radius, rad. */
+/* Returns the part of the sun's disc that a point sees, by rays to places on rings of the disc, or
+ * of a lamp's. radius: the angle of the radius, rad; reach: how far the light is, m. */
 static double sun_seen(const struct shape *shapes, int count, struct vec point, struct vec sun,
-                       double radius)
+                       double radius, double reach)
 {
     struct vec right = unit(cross((struct vec){{0.3, 1, 0.2}}, sun)), up = cross(sun, right);
     int seen = 0, rays = 0;
@@ -200,7 +200,8 @@ static double sun_seen(const struct shape *shapes, int count, struct vec point, 
         for (int k = 0; k < around; k++, rays++) {
             double a = 2 * acos(-1.0) * k / around;
             struct vec d = along(along(sun, right, r * cos(a)), up, r * sin(a));
-            seen += !trace(shapes, count, point, d).any;
+            const struct found found = trace(shapes, count, point, d);
+            seen += !found.any || found.t > reach;
         }
     }
     return (double)seen / rays;
@@ -224,8 +225,11 @@ struct picture draw_below(void *device, const char *text, const char *asset_root
         !kiln_moment_fill(p.moment, NULL, 0, false, &error))
         fail_msg("%s", error.message);
     p.stage = backdrop_create(device, p.moment, &p.color, &p.depth, &error);
-    static const struct kiln_lighting lighting; /* no shadows or smoke */
-    if (!p.stage || !kiln_backdrop_draw(p.stage, p.moment, &lighting, &error))
+    p.threads = kiln_threads_create(2);
+    p.lights = p.threads ? kiln_lighting_create(device, p.moment, p.threads, &error) : NULL;
+    struct kiln_lighting lighting;
+    if (!p.stage || !p.lights || !kiln_lighting_run(p.lights, p.moment, &lighting, &error) ||
+        !kiln_backdrop_draw(p.stage, p.moment, &lighting, &error))
         fail_msg("%s", error.message);
     p.colors = kiln_image_host(&p.color, KILN_READ, &error);
     p.depths = kiln_image_host(&p.depth, KILN_READ, &error);
@@ -241,6 +245,8 @@ struct picture draw(void *device, const char *text)
 void finish(struct picture *p)
 {
     kiln_backdrop_destroy(&p->stage);
+    kiln_lighting_destroy(&p->lights);
+    kiln_threads_destroy(&p->threads);
     kiln_moment_finish(p->moment);
     free(p->moment);
     kiln_image_finish(&p->color);
@@ -256,10 +262,19 @@ double light(const struct expected *e, double px, double py, double *depth)
     if (!found.any)
         return 0;
     struct vec point = along(along(eye, d, found.t), found.normal, 1e-3);
-    double facing = fmax(dot(found.normal, e->sun), 0);
+    struct vec way = e->sun;
+    double angle = e->sun_radius, reach = 1e30, bright = 1;
+    if (e->lamp_color > 0) {
+        way = along(e->lamp, point, -1);
+        reach = sqrt(dot(way, way));
+        way = unit(way);
+        angle = atan(e->lamp_radius / reach);
+        bright = e->lamp_color / (reach * reach + e->lamp_radius * e->lamp_radius);
+    }
+    double facing = fmax(dot(found.normal, way), 0);
     if (facing > 0)
-        facing *= sun_seen(e->shapes, e->count, point, e->sun, e->sun_radius);
-    return facing * found.albedo.v[0];
+        facing *= sun_seen(e->shapes, e->count, point, way, angle, reach);
+    return bright * facing * found.albedo.v[0];
 }
 
 void compare(const struct picture *p, const struct expected *e, int step)

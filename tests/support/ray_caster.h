@@ -61,6 +61,8 @@ struct picture {
     struct kiln_scene *scene;
     struct kiln_image color, depth;
     struct kiln_moment *moment;
+    struct kiln_threads *threads;
+    struct kiln_lighting_stage *lights;
     struct kiln_backdrop_stage *stage;
     const float *colors, *depths;
 };
@@ -76,10 +78,13 @@ struct expected {
     struct vec sun;    /* unit, towards the sun */
     double sun_radius; /* rad */
     double tolerance;  /* of the colour, in parts of full sun */
+    /* A lamp in place of the sun: where it is, m; its radius, m; its colour, 0: none. */
+    struct vec lamp;
+    double lamp_radius, lamp_color;
 };
 
-/* Returns the red light along the ray of a pixel, for an irradiance of pi by the sun, and sets
- * *depth to the distance t along the ray, or 1e9 for the sky. */
+/* Returns the red light along the ray of a pixel, by the lamp or for an irradiance of pi by the sun,
+ * and sets *depth to the distance t along the ray, or 1e9 for the sky. */
 double light(const struct expected *e, double px, double py, double *depth);
 
 /* Compares every step-th pixel with the ray caster. Pixels over which the expected light or depth

@@ -87,8 +87,8 @@ SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, 
         const vi lit = facing_sun(frame, &point);
         const vf sunlit = sun_visibility(frame, point.at, point.normal, lit);
         const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
-        shaded->arrives = sunlit * smoke_lets_through(frame->smoke_to_sun,
-                                                      frame->backdrop->sun_to_grid, &sunny);
+        shaded->arrives =
+            sunlit * smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
         glossy = glossy && any(hit->surface == 0.0f);
         if (glossy)
             shaded->mirror = floor_reflection_along(frame, ray);
@@ -251,8 +251,8 @@ static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 
 /* ---- edges ----------------------------------------------------------------------------------- */
 
-/* The greatest difference of neighbouring pixels that is no edge. Light changes by this much a pixel
- * in a penumbra four pixels wide; numbers of surfaces differ by more. */
+/* The greatest difference of neighbouring pixels that is no edge. Light changes by this much a
+ * pixel in a penumbra four pixels wide; numbers of surfaces differ by more. */
 static const float EDGE_THRESHOLD = 0.25f;
 
 static inline int32_t within(int32_t x, uint32_t size)

@@ -78,8 +78,8 @@ SIMD struct ray_reflection floor_reflection_along(const struct kiln_ray_frame *f
     };
     if (b->counts.z == 0)
         mirror.part *= vf_exp(-b->floor_params.z * t * vf3_length(direction));
-    const vf lobe = floor_lobe(mirror.at.normal, mirror.at.to_eye, vf3_all(b->sun_direction),
-                               mirror.at.spread);
+    const vf lobe =
+        floor_lobe(mirror.at.normal, mirror.at.to_eye, vf3_all(b->sun_direction), mirror.at.spread);
     mirror.sun = vf3_scale(vf3_all(b->sun_color), mirror.part * lobe);
     return mirror;
 }

@@ -92,8 +92,8 @@ SIMD vf lamp_mesh_cover(const struct kiln_ray_frame *frame, const struct kiln_dr
                         const struct lamp_receiver *r, struct vf3 normal)
 {
     const float radius = lamp->color.w, far = lamp->maps.x;
-    const struct lamp_place place = lamp_place_of(
-        vf3_scale(r->way.direction, -r->way.reach), normal, far);
+    const struct lamp_place place =
+        lamp_place_of(vf3_scale(r->way.direction, -r->way.reach), normal, far);
     vi near = r->active & (r->visible > 0.0f);
     if (!any(near))
         return vf_all(0.0f);

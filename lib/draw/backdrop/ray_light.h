@@ -120,8 +120,8 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_li
     arrived->hidden += all * (1.0f - seen);
     arrived->irradiance = vf3_add_scaled(arrived->irradiance, vf3_all(lamp->color), part * seen);
     if (gloss) {
-        const vf mirrored = floor_reflects_lamp(towards, radius2, gloss->normal, gloss->to_eye,
-                                                gloss->spread);
+        const vf mirrored =
+            floor_reflects_lamp(towards, radius2, gloss->normal, gloss->to_eye, gloss->spread);
         arrived->reflected =
             vf3_add_scaled(arrived->reflected, vf3_all(lamp->color), mirrored * seen);
     }

@@ -41,6 +41,7 @@ struct kiln_lamp_maps {
     struct canvas *canvases; /* one for each thread */
     uint32_t *texels;
     uint32_t room; /* lamps that `texels` has room for */
+    uint64_t changes;
     struct shown shown[KILN_LAMP_MAPS];
     struct kiln_draw_mesh placed[KILN_MAX_MESHES]; /* the meshes that the maps show */
 };
@@ -90,8 +91,7 @@ static bool allocate(struct kiln_lamp_maps *maps)
 }
 
 struct kiln_lamp_maps *kiln_lamp_maps_create(const struct kiln_moment *moment,
-                                             struct kiln_threads *threads,
-                                             struct kiln_error *error)
+                                             struct kiln_threads *threads, struct kiln_error *error)
 {
     struct kiln_lamp_maps *maps = calloc(1, sizeof *maps);
     if (maps) {
@@ -172,13 +172,13 @@ static uint32_t project_face(const struct kiln_lamp_maps *maps, const struct sho
             float volume;
             for (int c = 0; c < 3; c++) {
                 const float3 at = positions[mesh->triangles[k][c]];
-                corner[c] = into_face(face, (float3){at.x - lamp->position.x,
-                                                     at.y - lamp->position.y,
-                                                     at.z - lamp->position.z});
+                corner[c] =
+                    into_face(face, (float3){at.x - lamp->position.x, at.y - lamp->position.y,
+                                             at.z - lamp->position.z});
             }
             if (!is_beside(corner))
-                count += kiln_mesh_project(corner, frustum, &canvas->triangles[count], &normal,
-                                           &volume);
+                count +=
+                    kiln_mesh_project(corner, frustum, &canvas->triangles[count], &normal, &volume);
         }
         positions += mesh->vertex_count;
     }
@@ -205,8 +205,7 @@ static void draw_face(const struct kiln_lamp_maps *maps, uint32_t number, uint32
         .pitch = PITCH,
     };
     maps->rows->draw(&strip, canvas->triangles, canvas->list, count);
-    uint32_t *texels =
-        maps->texels + ((size_t)number * KILN_LAMP_FACES + face) * KILN_LAMP_TEXELS;
+    uint32_t *texels = maps->texels + ((size_t)number * KILN_LAMP_FACES + face) * KILN_LAMP_TEXELS;
     const float inverse_far = 1.0f / lamp->far;
     for (size_t y = 0; y < EDGE; y++) {
         for (size_t x = 0; x < EDGE; x++) {
@@ -315,5 +314,11 @@ const uint32_t *kiln_lamp_maps_run(struct kiln_lamp_maps *maps, const struct kil
     if (!reserve(maps, *count ? *count : 1, error))
         return NULL;
     kiln_threads_for(maps->threads, (size_t)anew * KILN_LAMP_FACES, 1, draw_faces, &job);
+    maps->changes += anew;
     return maps->texels;
+}
+
+uint64_t kiln_lamp_maps_changes(const struct kiln_lamp_maps *maps)
+{
+    return maps->changes;
 }

@@ -34,4 +34,7 @@ const uint32_t *kiln_lamp_maps_run(struct kiln_lamp_maps *maps, const struct kil
                                    struct kiln_draw_light *lights, uint32_t light_count,
                                    uint32_t *count, struct kiln_error *error);
 
+/* Returns a number that grows when a map is drawn. */
+uint64_t kiln_lamp_maps_changes(const struct kiln_lamp_maps *maps);
+
 #endif

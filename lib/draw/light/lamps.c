@@ -126,8 +126,8 @@ void kiln_lamps_find_casters(const struct kiln_moment *moment, struct kiln_draw_
                              uint32_t count)
 {
     struct boxes boxes;
-    boxes.count = kiln_boxes_fill(moment->scene, moment->view.clock.x, boxes.center, boxes.half,
-                                  NULL);
+    boxes.count =
+        kiln_boxes_fill(moment->scene, moment->view.clock.x, boxes.center, boxes.half, NULL);
     for (uint32_t i = 0; i < count; i++) {
         struct kiln_draw_light *light = &lights[i];
         if (!light->casters.x)

@@ -171,6 +171,7 @@ static bool light_lamps(struct kiln_lighting_stage *stage, const struct kiln_mom
                                                  &lighting->lamp_map_count, error);
         if (!lighting->lamp_maps)
             return false;
+        lighting->lamp_map_changes = kiln_lamp_maps_changes(stage->lamp_maps);
     }
     kiln_lamps_find_casters(moment, lighting->lights, count);
     return true;

@@ -14,12 +14,13 @@
 /* Holds the light of one frame on the host; kiln_lighting_bind sends it to GL. The stage owns the
  * arrays, which are valid until its next run. */
 struct kiln_lighting {
-    uint64_t run; /* number of the run, from 1 */
+    uint64_t run;         /* number of the run, from 1 */
     uint32_t light_count; /* lamps, then the light of fire */
     struct kiln_draw_light lights[KILN_LAMP_MAPS];
     const uint32_t *lamp_maps; /* shadow maps of the first lamp_map_count of kiln_lamp_maps_run; */
     uint32_t lamp_map_count;   /* NULL: there are none */
-    bool smoke;                            /* there is smoke, and its grids are set */
+    uint64_t lamp_map_changes; /* a number that grows when a map changes */
+    bool smoke;                /* there is smoke, and its grids are set */
     float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
     const float *sun_depth, *sky_depth; /* optical depth in the grids, KILN_SMOKE_GRID cubed, rows
                                          * along x; sun_depth is NULL where there is no sun */

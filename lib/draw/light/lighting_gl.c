@@ -15,6 +15,7 @@ enum texture {
     SOLID_TILES,
     SILHOUETTES,
     SUN_SHADE,
+    LAMP_MAPS,
     TEXTURE_COUNT
 };
 
@@ -30,6 +31,7 @@ static const struct {
     [SOLID_TILES] = {GL_TEXTURE_2D, KILN_UNIT_SOLID_TILES, "solid tiles"},
     [SILHOUETTES] = {GL_TEXTURE_2D, KILN_UNIT_SILHOUETTES, "silhouettes"},
     [SUN_SHADE] = {GL_TEXTURE_2D, KILN_UNIT_SUN_SHADE, "sun on particles"},
+    [LAMP_MAPS] = {GL_TEXTURE_2D_ARRAY, KILN_UNIT_LAMP_MAPS, "shadows of lamps"},
 };
 
 struct kiln_lighting_gl {
@@ -37,6 +39,8 @@ struct kiln_lighting_gl {
     GLuint textures[TEXTURE_COUNT]; /* 0: not created yet */
     uint64_t run;                   /* of the light that the textures hold */
     size_t solid_rows, shade_rows;  /* of the textures */
+    uint32_t lamp_map_count;        /* lamps that the texture has room for */
+    uint64_t lamp_map_changes;      /* of the maps that the texture holds */
 };
 
 struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device)
@@ -162,6 +166,35 @@ static void send_shade(struct kiln_lighting_gl *gl, const struct kiln_lighting *
     gl->device->traffic.to_device += sizeof(float) * KILN_SUN_SHADE_ROW * rows;
 }
 
+/* Sends the levels of each face; the texels beside a face count as empty. */
+static void send_lamp_maps(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
+{
+    const GLenum target = GL_TEXTURE_2D_ARRAY;
+    const GLsizei layers = (GLsizei)(lighting->lamp_map_count * KILN_LAMP_FACES);
+    if (make(gl, LAMP_MAPS, GL_LINEAR)) {
+        glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+        glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+        glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, KILN_LAMP_LEVELS - 1);
+    }
+    const uint32_t *texels = lighting->lamp_maps;
+    for (GLint level = 0; level < KILN_LAMP_LEVELS; level++) {
+        const GLsizei edge = KILN_LAMP_EDGE >> level;
+        if (gl->lamp_map_count < lighting->lamp_map_count)
+            glTexImage3D(target, level, GL_RG16, edge, edge, layers, 0, GL_RG, GL_UNSIGNED_SHORT,
+                         NULL);
+        for (GLsizei layer = 0; layer < layers; layer++)
+            glTexSubImage3D(target, level, 0, 0, layer, edge, edge, 1, GL_RG, GL_UNSIGNED_SHORT,
+                            texels + (size_t)layer * KILN_LAMP_TEXELS);
+        gl->device->traffic.to_device +=
+            sizeof *texels * (size_t)edge * (size_t)edge * (size_t)layers;
+        texels += (size_t)edge * (size_t)edge;
+    }
+    if (gl->lamp_map_count < lighting->lamp_map_count)
+        gl->lamp_map_count = lighting->lamp_map_count;
+    gl->lamp_map_changes = lighting->lamp_map_changes;
+}
+
 bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error *error)
 {
     struct kiln_lighting_gl *gl = lighting->gl;
@@ -177,6 +210,8 @@ bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error 
             send_solids(gl, &lighting->solids);
         if (lighting->sunlit)
             send_shade(gl, lighting);
+        if (lighting->lamp_map_count > 0 && gl->lamp_map_changes != lighting->lamp_map_changes)
+            send_lamp_maps(gl, lighting);
     }
     for (int i = 0; i < TEXTURE_COUNT; i++) {
         if (gl->textures[i])

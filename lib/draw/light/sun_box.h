@@ -38,8 +38,8 @@ static inline float kiln_sun_box_cover(const struct kiln_sun_box *box, struct ki
     bool misses = kiln_sun_cover_is_zero(box->center, box->size, ball, sun);
     const struct ray_slabs slabs = ray_cross_slabs(float3_sub(box->center, ball.center),
                                                    box->half_size, real3_all(box->edges.inverse));
-    const struct box_hidden hidden = box_cross(slabs, box_outline_all(box->edges),
-                                               1e-3f * box->size, sun->spread, ball.radius);
+    const struct box_hidden hidden =
+        box_cross(slabs, box_outline_all(box->edges), 1e-3f * box->size, sun->spread, ball.radius);
     float seen = hidden.cover * kiln_sun_inside_factor(hidden.exit_distance, ball);
     return misses ? 0.0f : seen;
 }

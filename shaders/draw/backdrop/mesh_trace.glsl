@@ -1,12 +1,15 @@
 /* Finds the meshes that the rays of backdrop.frag hit, and how much of the sun and of the sky
  * meshes leave visible from a point. Meshes are rasterised beforehand (meshes.frag): one layer has
  * the hits at the centres of pixels, and each sample has a layer, too. Shadows are read from maps
- * that show each mesh as the sun sees it (meshes_shadow.frag). */
+ * that show each mesh as the sun sees it (meshes_shadow.frag), and all meshes as each lamp sees them
+ * (lib/draw/light/lamp_map.c). */
 #include "draw/backdrop/mesh_hit.glsl"
+#include "shared/lamp_map.h"
 #include "shared/shadow_map.h"
 
 layout(binding = KILN_UNIT_MESH_HITS) uniform usampler2DArray mesh_hits;
 layout(binding = KILN_UNIT_MESH_SHADOW) uniform sampler2DArray mesh_shadow;
+layout(binding = KILN_UNIT_LAMP_MAPS) uniform sampler2DArray lamp_maps;
 #ifdef PAINT
 layout(binding = KILN_UNIT_MESH_PAINT) uniform sampler2DArray mesh_paint;
 #endif
@@ -99,6 +102,34 @@ float mesh_sun_visibility(vec3 point, vec3 normal)
     for (int i = 0; i < int(shapes.counts.z); i++)
         visible *= 1.0 - mesh_sun_cover(i, point, normal);
     return visible;
+}
+
+/* Returns the part of lamp i that meshes cover, by fetches as in mesh_sun_cover. way: from the point
+ * to the lamp. */
+float mesh_lamp_cover(int i, vec3 normal, lamp_way way)
+{
+    float radius = backdrop.lights[i].color.w, far = backdrop.lights[i].maps.x;
+    lamp_place place = lamp_place_of(-way.direction * way.reach, normal, far);
+    float layer = place.face + 6.0 * float(int(backdrop.lights[i].casters.y) - 1);
+    int taps = backdrop.lights[i].casters.y != 0u ? 5 : 0;
+    float level = lamp_level(lamp_widest(place, radius)) + 1.0;
+    float stride = 0.0, cover = 0.0;
+    for (int k = 0; k < taps; k++) {
+        vec2 aside = vec2(k & 1, k >> 1 & 1) * 2.0 * stride - stride;
+        vec2 shadow = textureLod(lamp_maps, vec3(vec2(place.at.u, place.at.v) + aside, layer),
+                                 level).rg;
+        if (k == 0) {
+            taps = shadow.r > 0.0 ? taps : 1;
+            float width = lamp_width(place, radius, far, shadow.r, shadow.g);
+            level = lamp_level(width);
+            stride = 0.5 * width;
+        } else {
+            float wide = stride * 2.0 * KILN_LAMP_RANGE * place.at.depth;
+            cover += shadow_tap(place.at, aside.x, aside.y, shadow.r, shadow.g,
+                                1.0 / (place.at.slack + wide));
+        }
+    }
+    return cover;
 }
 
 float mesh_sky_visibility(vec3 point, vec3 normal)

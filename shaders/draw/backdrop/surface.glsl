@@ -174,6 +174,9 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
 #ifdef ORIENTED
     visible *= oriented_lamp_visibility(casters, origin, way);
 #endif
+#ifdef MESHES
+    visible *= 1.0 - mesh_lamp_cover(i, normal, way);
+#endif
     return visible;
 }
 

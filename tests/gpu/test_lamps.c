@@ -1,0 +1,197 @@
+/* Shadows of lamps, by both techniques of the backdrop, against a plain C ray caster in doubles
+ * that sends rays to all parts of the lamp. */
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "asset/geometry/mesh.h"
+#include "support/backdrops.h"
+#include "support/cmocka.h"
+#include "support/device.h"
+#include "support/ray_caster.h"
+
+#define LAMP(position, radius, more)                                                               \
+    "  sun: {color: 0}\n"                                                                          \
+    "  lights:\n"                                                                                  \
+    "    - point: {position: " position ", color: 4, radius: " radius " m" more "}\n"
+
+static const struct vec FLOOR_COLOR = {{0.6, 0.5, 0.4}};
+
+/* Compares a picture of a floor, a shape and a lamp with the ray caster. */
+static void check(void *device, const char *text, const struct shape *shape, struct vec lamp,
+                  double radius, double tolerance, int step)
+{
+    const struct shape shapes[] = {{.kind = FLOOR, .albedo = FLOOR_COLOR}, *shape};
+    const struct expected e = {.shapes = shapes,
+                               .count = 2,
+                               .lamp = lamp,
+                               .lamp_radius = radius,
+                               .lamp_color = 4,
+                               .tolerance = tolerance};
+    struct picture p = draw(device, text);
+    compare(&p, &e, step);
+    finish(&p);
+}
+
+static const struct vec ABOVE = {{1.2, 2.2, 0.8}};
+
+static void a_box_hides_a_lamp(void **state)
+{
+    const struct shape box = {
+        .kind = BOX, .center = {{0, 0.6, 0}}, .half_size = {{0.4, 0.3, 0.25}}, .albedo = {{0.8}}};
+    check(*state,
+          HEAD LAMP("[1.2, 2.2, 0.8]", "0.001",
+                    "") "  objects:\n"
+                        "    - box: {center: [0, 0.6, 0], size: [0.8, 0.6, 0.5], color: 0.8}\n",
+          &box, ABOVE, 0.001, 0.01, 3);
+    check(*state,
+          HEAD LAMP("[1.2, 2.2, 0.8]", "0.4",
+                    "") "  objects:\n"
+                        "    - box: {center: [0, 0.6, 0], size: [0.8, 0.6, 0.5], color: 0.8}\n",
+          &box, ABOVE, 0.4, 0.03, 3);
+}
+
+static void a_box_of_any_direction_hides_a_lamp(void **state)
+{
+    const double degree = acos(-1.0) / 180;
+    const struct shape box = {.kind = BOX,
+                              .center = {{0, 0.7, 0}},
+                              .half_size = {{0.4, 0.3, 0.25}},
+                              .angles = {{20 * degree, 35 * degree, -10 * degree}},
+                              .albedo = {{0.8}}};
+    check(*state,
+          HEAD LAMP("[1.2, 2.2, 0.8]", "0.3", "") "  objects:\n"
+                                                  "    - box: {center: [0, 0.7, 0], size: [0.8, "
+                                                  "0.6, 0.5], rotation: [20 deg, 35 deg, "
+                                                  "-10 deg], color: 0.8}\n",
+          &box, ABOVE, 0.3, 0.03, 3);
+}
+
+static void round_shapes_hide_a_lamp(void **state)
+{
+    const struct shape sphere = {
+        .kind = SPHERE, .center = {{0, 0.8, 0}}, .radius = 0.5, .albedo = {{0.8}}};
+    const struct shape cylinder = {.kind = CYLINDER,
+                                   .center = {{0, 0.8, 0}},
+                                   .axis = unit((struct vec){{1, 0.4, 0.2}}),
+                                   .radius = 0.25,
+                                   .half_height = 0.6,
+                                   .albedo = {{0.8}}};
+    struct shape capsule = cylinder;
+    capsule.kind = CAPSULE;
+    check(*state,
+          HEAD LAMP("[1.2, 2.2, 0.8]", "0.3",
+                    "") "  objects:\n"
+                        "    - sphere: {center: [0, 0.8, 0], radius: 0.5 m, color: 0.8}\n",
+          &sphere, ABOVE, 0.3, 0.03, 3);
+    check(*state,
+          HEAD LAMP("[1.2, 2.2, 0.8]", "0.2", "") "  objects:\n"
+                                                  "    - cylinder: {center: [0, 0.8, 0], axis: [1, "
+                                                  "0.4, 0.2], radius: 0.25 m, height: 1.2 m, "
+                                                  "color: 0.8}\n",
+          &cylinder, ABOVE, 0.2, 0.04, 3);
+    check(*state,
+          HEAD LAMP("[1.2, 2.2, 0.8]", "0.2", "") "  objects:\n"
+                                                  "    - capsule: {center: [0, 0.8, 0], axis: [1, "
+                                                  "0.4, 0.2], radius: 0.25 m, height: 1.2 m, "
+                                                  "color: 0.8}\n",
+          &capsule, ABOVE, 0.2, 0.04, 3);
+}
+
+/* The lamp stands between the shape and the floor: what is behind it hides nothing. */
+static void a_shape_behind_a_lamp_hides_nothing(void **state)
+{
+    const struct shape box = {
+        .kind = BOX, .center = {{0, 2.4, -0.6}}, .half_size = {{0.6, 0.1, 0.6}}, .albedo = {{0.8}}};
+    check(*state,
+          HEAD LAMP("[0, 1.2, -0.6]", "0.1",
+                    "") "  objects:\n"
+                        "    - box: {center: [0, 2.4, -0.6], size: [1.2, 0.2, 1.2], color: 0.8}\n",
+          &box, (struct vec){{0, 1.2, -0.6}}, 0.1, 0.01, 3);
+}
+
+/* Through maps, on itself and on the floor: the lamp beside the mesh, and above it. */
+static void a_mesh_hides_a_lamp(void **state)
+{
+    struct kiln_error error = {0};
+    struct kiln_mesh *mesh =
+        kiln_mesh_load(NULL, KILN_SOURCE_DIR "/scenes/meshes/cabin.obj", &error);
+    if (!mesh)
+        fail_msg("%s", error.message);
+    const struct shape cabin = {.kind = MESH,
+                                .center = {{-0.2, 0.3, 0.1}},
+                                .mesh = mesh,
+                                .angle = 30 * acos(-1.0) / 180,
+                                .scale = 0.4,
+                                .albedo = {{0.8}}};
+    check(*state,
+          HEAD LAMP("[1.2, 2.2, 0.8]", "0.02",
+                    "") "  objects:\n"
+                        "    - mesh: {file: meshes/cabin.obj, position: [-0.2, 0.3, 0.1], "
+                        "rotation: [0 deg, 30 deg, 0 deg], scale: 0.4, color: 0.8}\n",
+          &cabin, ABOVE, 0.02, 0.08, 3);
+    check(*state,
+          HEAD LAMP("[1.2, 2.2, 0.8]", "0.2",
+                    "") "  objects:\n"
+                        "    - mesh: {file: meshes/cabin.obj, position: [-0.2, 0.3, 0.1], "
+                        "rotation: [0 deg, 30 deg, 0 deg], scale: 0.4, color: 0.8}\n",
+          &cabin, ABOVE, 0.2, 0.12, 3);
+    kiln_mesh_destroy(&mesh);
+}
+
+/* Returns the sum of a picture's red light. */
+static double sum_of(void *device, const char *text)
+{
+    double sum = 0;
+    struct picture p = draw(device, text);
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        sum += (double)p.colors[4 * i];
+    finish(&p);
+    return sum;
+}
+
+#define GLOBE "    - sphere: {center: [0, 1.2, 0], radius: 0.3 m, color: 0}\n"
+#define LID   "    - box: {center: [0, 0.8, 0], size: [0.6, 0.05, 0.6], color: 0}\n"
+
+/* The globe around a lamp lets its light out, a lid below it does not, and a lamp without shadows
+ * shines through both. */
+static void what_contains_a_lamp_lets_its_light_out(void **state)
+{
+    const double globe = sum_of(*state, HEAD LAMP("[0, 1.2, 0]", "0.05", "") "  objects:\n" GLOBE);
+    const double lid =
+        sum_of(*state, HEAD LAMP("[0, 1.2, 0]", "0.05", "") "  objects:\n" GLOBE LID);
+    const double through = sum_of(
+        *state, HEAD LAMP("[0, 1.2, 0]", "0.05", ", shadow: false") "  objects:\n" GLOBE LID);
+    assert_true(globe > 100 && lid < 0.9 * globe && through > 1.05 * lid);
+}
+
+#define POST "  objects:\n    - box: {center: [0.8, 0.5, -0.5], size: [0.5, 1, 0.5]}\n"
+
+/* A lamp half below the floor sends half of its light above it, and one below it none. */
+static void the_floor_hides_lamps_below_it(void **state)
+{
+    const double half = sum_of(*state, HEAD LAMP("[0, 0, 0]", "0.5", "") POST);
+    const double whole = sum_of(*state, HEAD LAMP("[0, 0, 0]", "0.5", ", shadow: false") POST);
+    const double none = sum_of(*state, HEAD LAMP("[0, -0.6, 0]", "0.5", "") POST);
+    assert_true(fabs(half - 0.5 * whole) <= 1e-3 * whole && none == 0);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(a_box_hides_a_lamp),
+        test_on_device(a_box_of_any_direction_hides_a_lamp),
+        test_on_device(round_shapes_hide_a_lamp),
+        test_on_device(a_shape_behind_a_lamp_hides_nothing),
+        test_on_device(a_mesh_hides_a_lamp),
+        test_on_device(what_contains_a_lamp_lets_its_light_out),
+        test_on_device(the_floor_hides_lamps_below_it),
+    };
+    int failed = 0;
+    for (int i = 0; i < 2; i++) {
+        backdrop_technique = BACKDROPS[i];
+        failed += cmocka_run_group_tests_name("lamps", tests, test_device_open, test_device_close);
+    }
+    return failed;
+}
