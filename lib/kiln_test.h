@@ -255,8 +255,8 @@ void kiln_results_add_test(struct kiln_json *json, const struct kiln_results *re
                            size_t index);
 
 /* Returns the worse of two codes. From the worst on, the codes are: interrupted, a failed device,
- * input and output, no device, invalid input, usage, a picture that differs, a missing golden, ok.
- */
+ * over a limit, input and output, no device, invalid input, usage, a picture that differs, a
+ * missing golden, a reader that went away, ok. */
 enum kiln_code kiln_code_worse(enum kiln_code a, enum kiln_code b);
 
 struct kiln_results_output {

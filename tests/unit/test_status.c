@@ -22,9 +22,9 @@ static void of_two_codes_the_worse_counts(void **state)
 {
     (void)state;
     static const enum kiln_code best_first[] = {
-        KILN_OK,    KILN_GOLDEN_MISSING, KILN_FRAME_FAILED,
-        KILN_USAGE, KILN_INVALID_INPUT,  KILN_NO_DEVICE,
-        KILN_IO,    KILN_DEVICE_FAILED,  KILN_INTERRUPTED,
+        KILN_OK,         KILN_READER_GONE,   KILN_GOLDEN_MISSING, KILN_FRAME_FAILED,
+        KILN_USAGE,      KILN_INVALID_INPUT, KILN_NO_DEVICE,      KILN_IO,
+        KILN_OVER_LIMIT, KILN_DEVICE_FAILED, KILN_INTERRUPTED,
     };
     size_t count = sizeof best_first / sizeof *best_first;
     for (size_t i = 0; i < count; i++) {
