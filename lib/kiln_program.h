@@ -14,8 +14,8 @@ void kiln_claims_destroy(struct kiln_claims **claims);
 
 /* Declare a file that the call reads or writes. `what` names the file in messages: "a texture",
  * "--manifest". KILN_USAGE when the file was declared before and one of the two declarations is to
- * write it; KILN_DEVICE_FAILED when memory is short. A path to read that leads to no folder is
- * ignored. */
+ * write it, or when the absolute path of a file to write is KILN_PATH_SIZE or longer;
+ * KILN_DEVICE_FAILED when memory is short. A file to read whose path is that long is ignored. */
 bool kiln_claims_read(struct kiln_claims *claims, const char *path, const char *what,
                       struct kiln_error *error);
 bool kiln_claims_write(struct kiln_claims *claims, const char *path, const char *what,

@@ -1,6 +1,7 @@
-/* Finds out whether a call would write one file twice or write a file that it reads. Two paths lead
- * to the same file when they end in the same name in the same real folder, whether that file exists
- * or not. They do so, too, when both files exist and have the same device and inode (links). */
+/* Finds out whether a command or a call of the library would write one file twice, or write a file
+ * that it reads. Two paths lead to the same file when they end in the same name in the same real
+ * folder, whether that file exists or not. Two paths of existing files also lead to the same file
+ * when device and inode are the same (links). */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,25 +14,26 @@
 enum { FIRST_CAPACITY = 64 };
 
 struct claim {
-    const char *path; /* absolute, in its real folder */
-    const char *what; /* for messages */
-    bool written, exists;
+    const char *path; /* absolute; the folder is resolved, the last name is not */
+    const char *what; /* name of the file in messages: "a texture", "--output" */
+    bool written;     /* false: read */
+    bool exists;      /* as a regular file, with the device and inode below */
     dev_t device;
     ino_t inode;
 };
 
-/* A hash table with open addressing. Each claim is in one of them by its path and, if its file
- * exists, in the other by its device and inode. */
+/* A hash table with open addressing. */
 struct table {
-    struct claim **claims;
+    struct claim **slots;   /* NULL: free */
     size_t capacity, count; /* capacity: a power of two */
 };
 
 struct kiln_claims {
     struct kiln_arena *arena;
+    /* The first claim of each path, and of each device and inode. */
     struct table by_path, by_inode;
-    /* The last folder and its real path: the next path is often in the same folder. */
-    char folder[KILN_PATH_SIZE], real_folder[KILN_PATH_SIZE];
+    /* The last folder that was resolved: the next path is often in the same folder. */
+    char folder[KILN_PATH_SIZE], resolved_folder[KILN_PATH_SIZE];
 };
 
 struct kiln_claims *kiln_claims_create(void)
@@ -50,21 +52,22 @@ void kiln_claims_destroy(struct kiln_claims **claims)
     if (!*claims)
         return;
     struct kiln_arena *arena = (*claims)->arena;
-    free((*claims)->by_path.claims);
-    free((*claims)->by_inode.claims);
+    free((*claims)->by_path.slots);
+    free((*claims)->by_inode.slots);
     *claims = NULL;
     kiln_arena_destroy(&arena);
 }
 
 /* ---- Where a path leads --------------------------------------------------------------------- */
 
-/* Copies a text that is shorter than KILN_PATH_SIZE. */
+/* Copies a text, which must be shorter than KILN_PATH_SIZE. */
 static void copy_text(char *to, const char *text)
 {
     memcpy(to, text, strlen(text) + 1);
 }
 
-/* Appends "/NAME" to an absolute path whose "." and ".." are gone; "" is the root. */
+/* Appends a name to an absolute path without "." and ".."; "" is the root. The name "." changes
+ * nothing, and ".." removes the last name. False when the path becomes too long. */
 static bool append_name(char path[KILN_PATH_SIZE], const char *name, size_t length)
 {
     size_t end = strlen(path);
@@ -84,9 +87,15 @@ static bool append_name(char path[KILN_PATH_SIZE], const char *name, size_t leng
     return true;
 }
 
+enum resolution {
+    RESOLVED,
+    TOO_LONG,  /* the real path does not fit into KILN_PATH_SIZE */
+    NO_FOLDER, /* the working folder is gone */
+};
+
 /* Finds the real path of a folder that may not exist: the part that exists is resolved, the rest is
  * appended by its text. */
-static bool real_folder(const char *folder, char real[KILN_PATH_SIZE])
+static enum resolution resolve_folder(const char *folder, char real[KILN_PATH_SIZE])
 {
     char part[KILN_PATH_SIZE];
     size_t length = strlen(folder);
@@ -101,7 +110,7 @@ static bool real_folder(const char *folder, char real[KILN_PATH_SIZE])
         found = realpath(length > 0 ? part : ".", NULL);
     }
     if (!found)
-        return false;
+        return errno == ENAMETOOLONG ? TOO_LONG : NO_FOLDER;
     bool ok = strlen(found) < KILN_PATH_SIZE;
     if (ok)
         copy_text(real, strcmp(found, "/") == 0 ? "" : found);
@@ -112,30 +121,32 @@ static bool real_folder(const char *folder, char real[KILN_PATH_SIZE])
         ok = append_name(real, rest, name);
         rest += name + (rest[name] == '/');
     }
-    return ok;
+    return ok ? RESOLVED : TOO_LONG;
 }
 
-/* Finds the real path of a file. False when it is too long, or the working folder is gone. */
-static bool lead(struct kiln_claims *claims, const char *path, char real[KILN_PATH_SIZE])
+/* Finds the path of a file in its real folder. The file itself may be a link, which stays. */
+static enum resolution resolve(struct kiln_claims *claims, const char *path,
+                               char real[KILN_PATH_SIZE])
 {
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
     size_t length = (size_t)(name - path);
     char folder[KILN_PATH_SIZE];
     if (length >= sizeof folder)
-        return false;
+        return TOO_LONG;
     memcpy(folder, path, length);
     folder[length] = '\0';
     if (length == 0)
         copy_text(folder, ".");
     if (strcmp(folder, claims->folder) != 0) {
         claims->folder[0] = '\0';
-        if (!real_folder(folder, claims->real_folder))
-            return false;
+        const enum resolution resolution = resolve_folder(folder, claims->resolved_folder);
+        if (resolution != RESOLVED)
+            return resolution;
         copy_text(claims->folder, folder);
     }
-    copy_text(real, claims->real_folder);
-    return append_name(real, name, strlen(name));
+    copy_text(real, claims->resolved_folder);
+    return append_name(real, name, strlen(name)) ? RESOLVED : TOO_LONG;
 }
 
 /* ---- Tables --------------------------------------------------------------------------------- */
@@ -159,12 +170,12 @@ static size_t hash_inode(const struct claim *claim)
     return mix(hash, &claim->inode, sizeof claim->inode);
 }
 
-static bool is_path(const struct claim *a, const struct claim *b)
+static bool same_path(const struct claim *a, const struct claim *b)
 {
     return strcmp(a->path, b->path) == 0;
 }
 
-static bool is_inode(const struct claim *a, const struct claim *b)
+static bool same_inode(const struct claim *a, const struct claim *b)
 {
     return a->device == b->device && a->inode == b->inode;
 }
@@ -177,9 +188,9 @@ static struct claim **find(const struct table *table, const struct claim *claim,
                            equal_claims *equal)
 {
     size_t at = hash(claim) & (table->capacity - 1);
-    while (table->claims[at] && !equal(table->claims[at], claim))
+    while (table->slots[at] && !equal(table->slots[at], claim))
         at = (at + 1) & (table->capacity - 1);
-    return &table->claims[at];
+    return &table->slots[at];
 }
 
 /* Makes room for one more claim. */
@@ -189,14 +200,14 @@ static bool grow(struct table *table, hash_claim *hash, equal_claims *equal)
         return true;
     struct table larger = {.capacity = table->capacity ? 2 * table->capacity : FIRST_CAPACITY,
                            .count = table->count};
-    larger.claims = calloc(larger.capacity, sizeof *larger.claims);
-    if (!larger.claims)
+    larger.slots = calloc(larger.capacity, sizeof *larger.slots);
+    if (!larger.slots)
         return false;
     for (size_t i = 0; i < table->capacity; i++) {
-        if (table->claims[i])
-            *find(&larger, table->claims[i], hash, equal) = table->claims[i];
+        if (table->slots[i])
+            *find(&larger, table->slots[i], hash, equal) = table->slots[i];
     }
-    free(table->claims);
+    free(table->slots);
     *table = larger;
     return true;
 }
@@ -217,30 +228,30 @@ static bool check(const struct claim *earlier, const struct claim *now, const ch
                               earlier->what, now->what);
     if (!earlier->written && !now->written)
         return true;
-    const struct claim *reads = earlier->written ? now : earlier;
-    const struct claim *writes = earlier->written ? earlier : now;
+    const struct claim *reader = earlier->written ? now : earlier;
+    const struct claim *writer = earlier->written ? earlier : now;
     return kiln_error_set(error, KILN_USAGE, "%s: %s would replace %s, which this command reads",
-                          path, writes->what, reads->what);
+                          path, writer->what, reader->what);
 }
 
 static bool add(struct kiln_claims *claims, struct claim *claim, const char *path,
                 struct kiln_error *error)
 {
-    if (!grow(&claims->by_path, hash_path, is_path) ||
-        !grow(&claims->by_inode, hash_inode, is_inode))
+    if (!grow(&claims->by_path, hash_path, same_path) ||
+        !grow(&claims->by_inode, hash_inode, same_inode))
         return out_of_memory(path, error);
-    struct claim **place = find(&claims->by_path, claim, hash_path, is_path);
-    struct claim **of_inode =
-        claim->exists ? find(&claims->by_inode, claim, hash_inode, is_inode) : NULL;
-    if ((*place && !check(*place, claim, path, error)) ||
-        (of_inode && *of_inode && !check(*of_inode, claim, path, error)))
+    struct claim **path_place = find(&claims->by_path, claim, hash_path, same_path);
+    struct claim **inode_place =
+        claim->exists ? find(&claims->by_inode, claim, hash_inode, same_inode) : NULL;
+    if ((*path_place && !check(*path_place, claim, path, error)) ||
+        (inode_place && *inode_place && !check(*inode_place, claim, path, error)))
         return false;
-    if (!*place) {
-        *place = claim;
+    if (!*path_place) {
+        *path_place = claim;
         claims->by_path.count++;
     }
-    if (of_inode && !*of_inode) {
-        *of_inode = claim;
+    if (inode_place && !*inode_place) {
+        *inode_place = claim;
         claims->by_inode.count++;
     }
     return true;
@@ -250,12 +261,15 @@ static bool declare(struct kiln_claims *claims, const char *path, const char *wh
                     struct kiln_error *error)
 {
     char real[KILN_PATH_SIZE];
-    if (!lead(claims, path, real)) {
-        /* No file can be there. Opening it will fail with the reason; only a path to write that is
-         * too long is refused here. */
-        return !written || strlen(path) < KILN_PATH_SIZE ||
-               kiln_error_set(error, KILN_USAGE, "%.200s...: the path is longer than %d bytes",
-                              path, KILN_PATH_SIZE - 1);
+    const enum resolution resolution = resolve(claims, path, real);
+    if (resolution != RESOLVED) {
+        /* There is no path to compare. A file to read is left out: no file is written by a path
+         * that is too long, and if this one cannot be opened, that error says why. Nothing can be
+         * opened when the working folder is gone. */
+        return !written || resolution == NO_FOLDER ||
+               kiln_error_set(error, KILN_USAGE, "%.200s%s: the %spath is longer than %d bytes",
+                              path, strlen(path) > 200 ? "..." : "",
+                              strlen(path) < KILN_PATH_SIZE ? "absolute " : "", KILN_PATH_SIZE - 1);
     }
     struct claim *claim = kiln_arena_alloc(claims->arena, 1, sizeof *claim);
     if (!claim)
@@ -290,7 +304,7 @@ void kiln_claims_visit_read(const struct kiln_claims *claims,
                             void (*visit)(void *user, const char *path), void *user)
 {
     for (size_t i = 0; i < claims->by_path.capacity; i++) {
-        const struct claim *claim = claims->by_path.claims[i];
+        const struct claim *claim = claims->by_path.slots[i];
         if (claim && claim->exists && !claim->written)
             visit(user, claim->path);
     }

@@ -154,6 +154,28 @@ static void a_path_may_be_too_long(void **state)
     kiln_claims_destroy(&claims);
 }
 
+/* From a folder whose path is too long, short names still lead to files. */
+static void the_folder_may_be_too_deep(void **state)
+{
+    struct kiln_error error = {0};
+    char name[251];
+    memset(name, 'd', sizeof name);
+    name[sizeof name - 1] = '\0';
+    for (int i = 0; i * (int)sizeof name < KILN_PATH_SIZE; i++) {
+        assert_int_equal(mkdir(name, 0777), 0);
+        assert_int_equal(chdir(name), 0);
+    }
+    make_file("file");
+    struct kiln_claims *claims = kiln_claims_create();
+    assert_non_null(claims);
+    assert_true(kiln_claims_read(claims, "file", "the scene", &error));
+    assert_false(kiln_claims_write(claims, "file", "--output", &error));
+    assert_int_equal(error.code, KILN_USAGE);
+    assert_string_equal(error.message, "file: the absolute path is longer than 4095 bytes");
+    kiln_claims_destroy(&claims);
+    assert_int_equal(chdir(*state), 0);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -163,6 +185,7 @@ int main(void)
         cmocka_unit_test(reading_twice_is_no_conflict),
         cmocka_unit_test(thousands),
         cmocka_unit_test(a_path_may_be_too_long),
+        cmocka_unit_test(the_folder_may_be_too_deep),
     };
     return cmocka_run_group_tests_name("claims", tests, enter_folder, leave_folder);
 }
