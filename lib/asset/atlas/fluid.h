@@ -40,13 +40,13 @@ struct kiln_fluid {
     float drag;                     /* part of the vorticity that is lost in a unit of time */
 };
 
-/* Returns the coordinate of a column or row. */
-static inline float kiln_fluid_at(uint32_t index)
+/* Returns the coordinate, on [-1, 1], of the middle of a column or row. */
+static inline float kiln_fluid_coordinate(uint32_t index)
 {
     return ((float)index + 0.5f) * (2.0f / KILN_FLUID_EDGE) - 1.0f;
 }
 
-/* Makes all gas cold and at rest, with each sample's place its own. */
+/* Makes all gas cold and at rest; the start place of the gas at each sample is that sample. */
 void kiln_fluid_init(struct kiln_fluid *fluid);
 
 /* Memory in which a field is sampled. */

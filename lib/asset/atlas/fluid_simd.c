@@ -77,7 +77,7 @@ static void take_velocity(struct kiln_fluid *fluid)
     memcpy(stream[0], stream[1], sizeof stream[0]);
     memcpy(stream[EDGE + 1], stream[EDGE], sizeof stream[0]);
     for (int y = 0; y < EDGE; y++) {
-        const float higher = (fluid->swelling + fluid->strain) * kiln_fluid_at((uint32_t)y);
+        const float higher = (fluid->swelling + fluid->strain) * kiln_fluid_coordinate((uint32_t)y);
         for (int x = 0; x < EDGE; x++) {
             float up = stream[y + 2][x + 1] - stream[y][x + 1];
             float slope = stream[y + 1][x + 2] - stream[y + 1][x];

@@ -26,7 +26,8 @@ static void find_gas(const struct texel_job *job, struct kiln_builtin_scratch *s
     }
 }
 
-/* Gathers the texels of a row that may be visible, and notes their columns in `from`. */
+/* Gathers the texels of a row, except those that are surely empty, and notes their columns in
+ * `from`. */
 static uint32_t gather(const struct texel_job *job, const struct kiln_builtin_scratch *scratch,
                        uint32_t row, struct texel_sites *sites, uint8_t from[TEXEL_ROW])
 {
@@ -42,7 +43,8 @@ static uint32_t gather(const struct texel_job *job, const struct kiln_builtin_sc
         sites->place_y[count] = y[i];
         sites->heat[count] = heat[i];
         from[count] = (uint8_t)i;
-        bool near = builtin->reach2 == 0.0f || x[i] * x[i] + y[i] * y[i] <= builtin->reach2;
+        bool near =
+            builtin->reach_squared == 0.0f || x[i] * x[i] + y[i] * y[i] <= builtin->reach_squared;
         count += heat[i] >= builtin->least_heat && near;
     }
     sites->v = 1.0f - ((float)row + 0.5f) * texel_size;

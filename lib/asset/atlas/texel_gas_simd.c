@@ -20,7 +20,7 @@ static inline float inside(float u)
 static void coordinates(float at[EDGE])
 {
     for (uint32_t i = 0; i < EDGE; i++)
-        at[i] = kiln_fluid_at(i);
+        at[i] = kiln_fluid_coordinate(i);
 }
 
 /* Adds vorticity of two sizes: turbulence that the coarse fluid cannot make by itself. */
@@ -36,7 +36,7 @@ static void stir(struct kiln_fluid *fluid, float time, float amount, float frequ
     turbulence_grid_begin(&large, x, time, seed);
     turbulence_grid_begin(&small, finer_x, 1.4f * time, seed + 1);
     for (uint32_t row = 0; row < EDGE; row++) {
-        float coarse[EDGE], fine[EDGE], y = frequency * kiln_fluid_at(row);
+        float coarse[EDGE], fine[EDGE], y = frequency * kiln_fluid_coordinate(row);
         turbulence_grid_row(&large, y, coarse);
         turbulence_grid_row(&small, 2.3f * y, fine);
         float *vorticity = fluid->vorticity + (size_t)row * EDGE;
@@ -59,7 +59,7 @@ static void heat_ball(struct kiln_fluid *fluid, float outer, float inner, float 
     float x[EDGE], noise_x[EDGE], noise_y[EDGE], ragged[EDGE];
     coordinates(x);
     for (uint32_t row = 0; row < EDGE; row++) {
-        const float y = kiln_fluid_at(row);
+        const float y = kiln_fluid_coordinate(row);
         for (int i = 0; i < EDGE; i++) {
             noise_x[i] = frequency * x[i];
             noise_y[i] = frequency * y;
@@ -113,7 +113,7 @@ struct flame_feed {
 
 static void feed_row(struct kiln_fluid *fluid, uint32_t row, const struct flame_feed *feed)
 {
-    const float y = kiln_fluid_at(row), dy = (y - FLAME_FOOT) / 0.12f;
+    const float y = kiln_fluid_coordinate(row), dy = (y - FLAME_FOOT) / 0.12f;
     if (dy * dy >= 1.0f)
         return;
     float *heat = fluid->heat + (size_t)row * EDGE;
@@ -342,7 +342,8 @@ const struct builtin_list KILN_SIMD_NAME(kiln_builtin_gases) = {{
     {"fire", &FIRE_GAS, fire_texels, .least_heat = 0.02f},
     {"flame", &FLAME_GAS, flame_texels, .least_heat = 0.1f},
     {"tongue", &TONGUE_GAS, flame_texels, .least_heat = 0.1f},
-    {"smoke", &SMOKE_GAS, smoke_texels, .relief = 14.0f, .reach2 = SMOKE_REACH * SMOKE_REACH},
+    {"smoke", &SMOKE_GAS, smoke_texels, .relief = 14.0f,
+     .reach_squared = SMOKE_REACH * SMOKE_REACH},
     {"puff", &PUFF_GAS, puff_texels, .relief = 6.0f, .least_heat = 0.005f},
     {0},
 }};
