@@ -1,6 +1,8 @@
-/* Takes rights from the process for good: access to files by Landlock, system calls by seccomp.
- * Landlock is called by its system calls, since the C library has no functions for them. seccomp
- * goes through libseccomp, which knows the numbers of system calls on each kind of machine. */
+/* Takes rights from the process for good. Landlock limits the files that it opens, TCP, abstract
+ * Unix sockets and signals; seccomp limits system calls. This file reaches Landlock by raw system
+ * calls, since the C library has no functions for them, and seccomp through libseccomp, which knows
+ * the numbers of system calls on each kind of machine. decode/confine.c and job/sandbox.c use it
+ * when a process starts. */
 #include "base/confine.h"
 
 #include <errno.h>
@@ -17,17 +19,19 @@
 
 /* ---- Landlock -------------------------------------------------------------------------------- */
 
-/* Constants that <linux/landlock.h> of Debian 12 does not have yet (Linux,
- * Documentation/userspace-api), with the version of Landlock that they begin with. */
+/* Constants of the kernel that <linux/landlock.h> of Debian 12 does not have yet. The values are
+ * from Documentation/userspace-api/landlock.rst of Linux. */
 enum {
-    FS_TRUNCATE = 1 << 14,               /* version 3 */
-    FS_IOCTL_DEV = 1 << 15,              /* 5 */
-    NET_BIND_TCP = 1 << 0,               /* 4 */
-    NET_CONNECT_TCP = 1 << 1,            /* 4 */
-    SCOPE_ABSTRACT_UNIX_SOCKET = 1 << 0, /* 6 */
-    SCOPE_SIGNAL = 1 << 1,               /* 6 */
+    FS_TRUNCATE = 1 << 14,               /* since version 3 of Landlock */
+    FS_IOCTL_DEV = 1 << 15,              /* since version 5 */
+    NET_BIND_TCP = 1 << 0,               /* since version 4 */
+    NET_CONNECT_TCP = 1 << 1,            /* since version 4 */
+    SCOPE_ABSTRACT_UNIX_SOCKET = 1 << 0, /* since version 6 */
+    SCOPE_SIGNAL = 1 << 1,               /* since version 6 */
 };
 
+/* The kernel's struct landlock_ruleset_attr. The kernel reads it, so its members must not be moved.
+ * A right that is named here is refused everywhere, except at places that grant it. */
 struct ruleset {
     uint64_t files, network, scoped;
 };
@@ -37,12 +41,13 @@ static const uint64_t WRITING = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_
                                 LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_DIR |
                                 LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_SYM |
                                 LANDLOCK_ACCESS_FS_REFER | FS_TRUNCATE;
-static const uint64_t OTHERS = LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_SOCK |
-                               LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK |
-                               FS_IOCTL_DEV;
+/* The rights that no place grants, so that nobody has them. */
+static const uint64_t NEVER_GRANTED = LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_SOCK |
+                                      LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK |
+                                      FS_IOCTL_DEV;
 /* The rights that can be granted for a file that is no folder. */
-static const uint64_t OF_A_FILE = LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE |
-                                  LANDLOCK_ACCESS_FS_WRITE_FILE | FS_TRUNCATE | FS_IOCTL_DEV;
+static const uint64_t FILE_RIGHTS = LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE |
+                                    LANDLOCK_ACCESS_FS_WRITE_FILE | FS_TRUNCATE | FS_IOCTL_DEV;
 
 int kiln_landlock_version(void)
 {
@@ -52,10 +57,10 @@ int kiln_landlock_version(void)
     return version > 0 ? (int)version : 0;
 }
 
-/* Returns all rights that Landlock knows in this version. */
-static struct ruleset everything(int version)
+/* Returns all rights that a version of Landlock knows. The kernel refuses a ruleset with others. */
+static struct ruleset all_rights(int version)
 {
-    struct ruleset all = {.files = LANDLOCK_ACCESS_FS_EXECUTE | READING | WRITING | OTHERS};
+    struct ruleset all = {.files = LANDLOCK_ACCESS_FS_EXECUTE | READING | WRITING | NEVER_GRANTED};
     if (version < 2)
         all.files &= ~(uint64_t)LANDLOCK_ACCESS_FS_REFER;
     if (version < 3)
@@ -69,6 +74,7 @@ static struct ruleset everything(int version)
     return all;
 }
 
+/* Grants the rights of a place. True also where there is no such place. */
 static bool add_place(int ruleset, uint64_t known, const struct kiln_place *place)
 {
     struct landlock_path_beneath_attr rule = {
@@ -81,7 +87,7 @@ static bool add_place(int ruleset, uint64_t known, const struct kiln_place *plac
     rule.allowed_access &= known;
     bool ok = syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
     if (!ok && errno == EINVAL) { /* the place is a file, which cannot have a folder's rights */
-        rule.allowed_access &= OF_A_FILE;
+        rule.allowed_access &= FILE_RIGHTS;
         ok = syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
     }
     const int reason = errno;
@@ -95,21 +101,24 @@ bool kiln_landlock_confine(const struct kiln_place *places, size_t count, struct
     const int version = kiln_landlock_version();
     if (version == 0)
         return true;
-    const struct ruleset all = everything(version);
+    const struct ruleset all = all_rights(version);
     const size_t size = version >= 6   ? sizeof all
                         : version >= 4 ? offsetof(struct ruleset, scoped)
                                        : offsetof(struct ruleset, network);
     const int ruleset = (int)syscall(SYS_landlock_create_ruleset, &all, size, 0);
     if (ruleset < 0)
-        return kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "Landlock");
+        return kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno,
+                                    "cannot make a ruleset of Landlock");
     bool ok = true;
     for (size_t i = 0; ok && i < count; i++) {
         ok = add_place(ruleset, all.files, &places[i]) ||
-             kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "Landlock: %s", places[i].path);
+             kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "cannot allow %s by Landlock",
+                                  places[i].path);
     }
     if (ok && (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
                syscall(SYS_landlock_restrict_self, ruleset, 0) != 0))
-        ok = kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "Landlock");
+        ok = kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno,
+                                  "cannot confine the process by Landlock");
     close(ruleset);
     return ok;
 }
@@ -147,14 +156,16 @@ bool kiln_has_seccomp(void)
     return kernel_has_seccomp() && open_library(&library, &ignored);
 }
 
-/* Opens libseccomp once, before Landlock hides its file: an open library is found again without its
- * file. */
+/* Loads libseccomp while its file can still be read. The library stays loaded, so that
+ * kiln_seccomp_confine can open it after Landlock has hidden the file. */
 bool kiln_seccomp_open(struct kiln_error *error)
 {
     struct seccomp library;
     return !kernel_has_seccomp() || open_library(&library, error);
 }
 
+/* Adds a rule for each system call of a list. `only`: the calls are allowed; otherwise they are
+ * refused. Returns 0, or a negative errno. */
 static int add_calls(const struct seccomp *library, scmp_filter_ctx filter, bool only,
                      const struct kiln_system_call *calls, size_t count)
 {
@@ -191,6 +202,6 @@ bool kiln_seccomp_confine(enum kiln_call_list which, const struct kiln_system_ca
     if (status == 0)
         status = library.seccomp_load(filter);
     library.seccomp_release(filter);
-    return status == 0 ||
-           kiln_error_set_errno(error, KILN_DEVICE_FAILED, -status, "a seccomp filter");
+    return status == 0 || kiln_error_set_errno(error, KILN_DEVICE_FAILED, -status,
+                                               "cannot install a seccomp filter");
 }

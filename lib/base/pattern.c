@@ -1,5 +1,6 @@
-/* Reads and fills the pattern of an output's file name, such as "frame_####.png". The user's text
- * is read here piece by piece and is never handed to printf as a format. */
+/* Parses the pattern of an output's file name, such as "frame_####.png", and makes the name of each
+ * frame from it. The user's text is parsed piece by piece, and is never handed to printf as a
+ * format. Comments here call the place for a frame's number, such as "####", a number. */
 #include "base/pattern.h"
 
 #include <string.h>
@@ -8,7 +9,8 @@
 
 enum { DEFAULT_DIGITS = 4, MAX_DIGITS = 9, MAX_NAME = 255 };
 
-/* Returns the length of a "%d" or "%04d" at text, or 0. */
+/* Returns the length of a number such as "%d", "%4d" or "%04d" at text, or 0. A width of up to two
+ * characters gives the digits, which are filled up with zeros in any case. */
 static size_t percent_length(const char *text, uint32_t *digits)
 {
     size_t width = strspn(text + 1, "0123456789");
@@ -21,6 +23,8 @@ static size_t percent_length(const char *text, uint32_t *digits)
     return width + 2;
 }
 
+/* Returns whether the path before `name` has a number. Folders may be called "take #1", so a single
+ * '#' is none there. They have no escapes, either. */
 static bool folder_has_number(const char *path, const char *name)
 {
     uint32_t digits = 0;
@@ -31,45 +35,47 @@ static bool folder_has_number(const char *path, const char *name)
     return false;
 }
 
-struct reading {
+/* What is parsed, and where errors go. */
+struct parser {
     struct kiln_path_pattern *pattern;
     const char *path; /* the whole path, for messages */
     struct kiln_error *error;
 };
 
-/* Takes one number at c; returns its length, or 0 with the error. */
-static size_t read_number(const struct reading *reading, const char *c)
+/* Parses the number at c. Returns its length, or 0 with the error. */
+static size_t parse_number(const struct parser *parser, const char *c)
 {
-    struct kiln_path_pattern *pattern = reading->pattern;
+    struct kiln_path_pattern *pattern = parser->pattern;
     size_t length = *c == '#' ? strspn(c, "#") : percent_length(c, &pattern->digits);
-    if (*c == '#')
+    if (*c == '#') /* MAX_DIGITS + 1: too many, which is refused below */
         pattern->digits = (uint32_t)(length <= MAX_DIGITS ? length : MAX_DIGITS + 1);
     if (length == 0)
-        kiln_error_set(reading->error, KILN_USAGE,
-                       "%s: '%.3s' in the file name is not allowed; after a percent sign only d, a "
-                       "width and d (%%04d), a # or a second percent sign may follow",
-                       reading->path, c);
+        kiln_error_set(
+            parser->error, KILN_USAGE,
+            "%s: '%.3s' in the file name is not allowed; write %%d, %%04d or #### for the "
+            "number of the frame, %%%% for a percent sign, and %%# for a hash",
+            parser->path, c);
     else if (pattern->numbered)
-        kiln_error_set(reading->error, KILN_USAGE, "%s: the file name has two frame numbers",
-                       reading->path);
+        kiln_error_set(parser->error, KILN_USAGE, "%s: the file name has two frame numbers",
+                       parser->path);
     else if (pattern->digits > MAX_DIGITS)
-        kiln_error_set(reading->error, KILN_USAGE,
-                       "%s: the frame number is too wide; allowed are 1 to %d digits",
-                       reading->path, MAX_DIGITS);
+        kiln_error_set(parser->error, KILN_USAGE,
+                       "%s: the frame number is too wide; allowed are 1 to %d digits", parser->path,
+                       MAX_DIGITS);
     else
         return length;
     return 0;
 }
 
-static bool read_name(const struct reading *reading, const char *name)
+static bool parse_name(const struct parser *parser, const char *name)
 {
-    struct kiln_path_pattern *pattern = reading->pattern;
-    size_t before = (size_t)(name - reading->path), after = 0;
-    memcpy(pattern->before, reading->path, before);
+    struct kiln_path_pattern *pattern = parser->pattern;
+    size_t before = (size_t)(name - parser->path), after = 0;
+    memcpy(pattern->before, parser->path, before);
     for (const char *c = name; *c;) {
         bool escape = strncmp(c, "%%", 2) == 0 || strncmp(c, "%#", 2) == 0;
         if (!escape && (*c == '#' || *c == '%')) {
-            size_t length = read_number(reading, c);
+            size_t length = parse_number(parser, c);
             if (length == 0)
                 return false;
             pattern->numbered = true;
@@ -87,12 +93,13 @@ static bool read_name(const struct reading *reading, const char *name)
     return true;
 }
 
-/* Adds a number to a name without one: "beam.png" becomes "beam_", digits, ".png". */
+/* Adds a number to a name without one: "beam.png" becomes "beam_", digits, ".png". The name must
+ * have a suffix. */
 static void add_number(struct kiln_path_pattern *pattern)
 {
     char *dot = strrchr(pattern->before, '.');
     memcpy(pattern->after, dot, strlen(dot) + 1);
-    memcpy(dot, "_", 2);
+    memcpy(dot, "_", 2); /* and its zero byte */
     pattern->numbered = true;
     pattern->digits = DEFAULT_DIGITS;
 }
@@ -103,7 +110,7 @@ bool kiln_path_pattern_parse(struct kiln_path_pattern *pattern, const char *path
     *pattern = (struct kiln_path_pattern){0};
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
-    size_t reserve = DEFAULT_DIGITS + 1;
+    size_t reserve = DEFAULT_DIGITS + 1; /* room for what add_number adds */
     if (strlen(path) + reserve >= KILN_PATH_SIZE || strlen(name) + reserve > MAX_NAME)
         return kiln_error_set(error, KILN_USAGE,
                               "%.200s...: the path is too long; allowed are %d bytes, and %d for "
@@ -111,17 +118,17 @@ bool kiln_path_pattern_parse(struct kiln_path_pattern *pattern, const char *path
                               path, KILN_PATH_SIZE - DEFAULT_DIGITS - 2,
                               MAX_NAME - DEFAULT_DIGITS - 1);
     if (folder_has_number(path, name))
-        return kiln_error_set(
-            error, KILN_USAGE,
-            "%s: the name of a folder has a frame number; only the file name may have one", path);
-    struct reading reading = {pattern, path, error};
-    if (!read_name(&reading, name))
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: the name of a folder has a frame number (## or %%d); only the "
+                              "file name may have one",
+                              path);
+    struct parser parser = {pattern, path, error};
+    if (!parse_name(&parser, name))
         return false;
     if (pattern->numbered && numbering == KILN_NUMBER_NEVER)
         return kiln_error_set(
             error, KILN_USAGE,
-            "%s: the name of a video or flipbook has a frame number; it is one file and takes none",
-            path);
+            "%s: a video or flipbook is one file, so its name cannot have a frame number", path);
     if (!pattern->numbered && numbering == KILN_NUMBER_ALWAYS)
         add_number(pattern);
     return true;

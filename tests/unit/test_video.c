@@ -286,7 +286,7 @@ static void impossible_videos_are_refused(void **state)
     refuse(params, KILN_USAGE, "30/0 frames a second, which is not a frame rate");
     params = good;
     params.path = "x_%04d.mp4";
-    refuse(params, KILN_USAGE, "the name of a video or flipbook has a frame number");
+    refuse(params, KILN_USAGE, "its name cannot have a frame number");
     params = good;
     params.width = 40000;
     refuse(params, KILN_USAGE, "40000 x 36 pixels; H.264 allows at most 16384 a side");

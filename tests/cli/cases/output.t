@@ -21,7 +21,7 @@ $ kiln render scenes/tiny.yaml -q -o gap.mp4 --frames 0-3,8
 2|kiln: gap.mp4: a clip cannot leave out frames, but frames 4-7 would be missing; write images, or one range
 = 2
 $ kiln render scenes/tiny.yaml -q -o frame_%s.png
-2|kiln: frame_%s.png: '%s.' in the file name is not allowed; after a percent sign only d, a width and d (%04d), a # or a second percent sign may follow
+2|kiln: frame_%s.png: '%s.' in the file name is not allowed; write %d, %04d or #### for the number of the frame, %% for a percent sign, and %# for a hash
 = 2
 $ kiln render scenes/tiny.yaml -q -o frame_%d_%d.png
 2|kiln: frame_%d_%d.png: the file name has two frame numbers
@@ -76,7 +76,7 @@ $ kiln render scenes/tiny.yaml -q -o gap.webm --frames 0-3,8
 2|kiln: gap.webm: a clip cannot leave out frames, but frames 4-7 would be missing; write images, or one range
 = 2
 $ kiln render scenes/tiny.yaml -q -o clip_%d.mov
-2|kiln: clip_%d.mov: the name of a video or flipbook has a frame number; it is one file and takes none
+2|kiln: clip_%d.mov: a video or flipbook is one file, so its name cannot have a frame number
 = 2
 $ kiln render scenes/tiny.yaml -q -o clips/a.gif
 2|kiln: clips/a.gif: the file exists (--force replaces it)
@@ -158,7 +158,7 @@ $ kiln render scenes/tiny.yaml -q -o more.exr --flipbook 2x2
 2|kiln: more.exr: a flipbook is one .png file, not .exr
 = 2
 $ kiln render scenes/tiny.yaml -q -o more_%d.png --flipbook 2x2
-2|kiln: more_%d.png: the name of a video or flipbook has a frame number; it is one file and takes none
+2|kiln: more_%d.png: a video or flipbook is one file, so its name cannot have a frame number
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 4x4 --size 8192x64
 2|kiln: more.png: the flipbook would have 32768 x 256 pixels; allowed are 16384 a side: make the frames smaller (8192 x 64) or the cells fewer
