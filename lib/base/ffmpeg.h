@@ -1,7 +1,7 @@
-/* Declares FFmpeg's libraries, which are opened when a clip, a JPEG or Y4M is written, or
- * by kiln-decode. A function of FFmpeg is called as kiln_ff.av_frame_alloc(), after
- * kiln_ffmpeg_open.
- */
+/* Declares FFmpeg's functions as pointers, and a collector of its log messages. No program is
+ * linked with FFmpeg: kiln opens its libraries when it writes a clip, a JPEG or a Y4M stream, and
+ * kiln-decode opens them when it starts. After kiln_ffmpeg_open, a function is called as
+ * kiln_ff.av_frame_alloc(). */
 #ifndef KILN_BASE_FFMPEG_H
 #define KILN_BASE_FFMPEG_H
 
@@ -16,7 +16,7 @@
 
 #include "base/library.h"
 
-/* Every function that kiln calls, by library. */
+/* Every function of FFmpeg that kiln calls, by library. */
 #define KILN_AVUTIL_FUNCTIONS(F)                                                                   \
     F(av_asprintf)                                                                                 \
     F(av_dict_free)                                                                                \
@@ -116,26 +116,29 @@ struct kiln_ffmpeg {
     KILN_AVFORMAT_FUNCTIONS(KILN_LIBRARY_POINTER)
 };
 
-/* Set by kiln_ffmpeg_open and never again. */
+/* kiln_ffmpeg_open sets each pointer once, and it never changes afterwards. */
 extern struct kiln_ffmpeg kiln_ff;
 
-/* Which libraries to open: the ones that encode and decode pictures, or these and libavformat. */
-enum kiln_ffmpeg_part { KILN_FFMPEG_PICTURES, KILN_FFMPEG_CLIPS };
-
-/* Opens libraries that are not open yet. KILN_IO with the package of Debian that brings them when
- * one is missing. For any thread. */
-bool kiln_ffmpeg_open(enum kiln_ffmpeg_part part, struct kiln_error *error);
-
-/* Collects the messages of one stretch of FFmpeg calls. */
-struct kiln_avlog {
-    const struct kiln_log *log; /* gets warnings and errors as debug lines; NULL: none */
-    char first_error[192];      /* the first message of level error, "" if none came */
-    struct kiln_avlog *outer;   /* set by begin */
+/* Which libraries to open. */
+enum kiln_ffmpeg_part {
+    KILN_FFMPEG_PICTURES, /* libavutil, libavcodec and libswscale, which code pictures */
+    KILN_FFMPEG_CLIPS,    /* these three, and libavformat for containers */
 };
 
-/* Between begin and end, FFmpeg's messages from this thread go to avlog; those of other threads
- * and of the time outside go where they always went. Pairs may nest. The first begin installs
- * FFmpeg's log callback, of which a process has one. */
+/* Opens those libraries that are not open yet. Returns false with KILN_IO where one is missing; the
+ * message names its Debian package. Any thread may call it at any time. */
+bool kiln_ffmpeg_open(enum kiln_ffmpeg_part part, struct kiln_error *error);
+
+/* Collects the messages of the FFmpeg calls that one thread makes between begin and end. */
+struct kiln_avlog {
+    const struct kiln_log *log; /* gets warnings and errors as debug lines; NULL: nothing does */
+    char first_error[192];      /* the first message of level error or worse, "" if none came */
+    struct kiln_avlog *outer;   /* of the pair around this one; kiln_avlog_begin sets it */
+};
+
+/* Between begin and end, FFmpeg's messages from this thread go to avlog. All other messages go to
+ * FFmpeg's default callback, which prints them to stderr. Pairs may nest. kiln_avlog_begin installs
+ * the log callback of the process; since a process has only one, nobody else may set it. */
 void kiln_avlog_begin(struct kiln_avlog *avlog);
 void kiln_avlog_end(struct kiln_avlog *avlog);
 

@@ -1,14 +1,15 @@
-/* Declares the JSON writer that writes into a text in memory. The library calls it for JSON that it
- * builds as a whole before it stores it: manifests, lines of a journal, results of tests, layouts
- * of flipbooks. kiln_json.h has the writer into a file and the functions that add to either. */
+/* Makes a JSON writer that writes into memory, for JSON that must be complete before it is stored:
+ * manifests, lines of a journal, result.json of `kiln test`, layouts of flipbooks. kiln_json.h,
+ * which is part of kiln_program.h, declares the writer, its functions, and a way to write into a
+ * file instead. */
 #ifndef KILN_BASE_JSON_H
 #define KILN_BASE_JSON_H
 
 #include "base/text.h"
 #include "kiln_program.h"
 
-/* Returns a writer that adds to a text. The writer keeps the pointer, so the text must not be moved
- * before kiln_json_finish. The writer fails when memory for the text is short. */
+/* Returns a writer that adds to a text. The writer keeps the pointer, so the struct must stay where
+ * it is until kiln_json_finish, which returns false if memory was short. */
 struct kiln_json kiln_json_to_text(struct kiln_text *text);
 
 #endif
