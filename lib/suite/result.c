@@ -1,13 +1,14 @@
-/* Holds what all code that handles the result of a test shares: the names of what judged a frame,
- * the score, the worst frame, the tables of the members of result.json, and empty results.
+/* Has the functions that all code for the result of a test shares. They name the rule that judged a
+ * frame, compute the score of a test, find its worst frame, and make empty results. This file also
+ * has the tables of the members of result.json.
  *
- * The run of a test (run.c, summary.c) starts with an empty result. result_write.c and
+ * summary.c and run.c make an empty result and its frames when a test starts. result_write.c and
  * result_read.c go through the tables, and the reports (lib/report) use the tables and the score.
  *
  * A row of a table is a member of the struct and of result.json under the same name, and the order
- * of rows is the order in the file. result_read.c refuses a result that lacks a member or has
- * another one. So whoever adds, removes or renames a row must increase KILN_RESULT_VERSION, and
- * must look for the member in the scripts of the report page (lib/report/page). */
+ * of rows is the order in the file. result_read.c refuses a result that lacks a member or has an
+ * unknown one. So whoever adds, removes or renames a row must increase KILN_RESULT_VERSION, and
+ * must change every use of the member in the scripts of the report page (lib/report/page). */
 #include "suite/result.h"
 
 #include <math.h>
@@ -39,8 +40,8 @@ double kiln_result_score(const struct kiln_result *result)
     return score;
 }
 
-/* Returns how soon a person should see a frame among frames of the same status: by its score; a
- * frame without a score comes first, unless it passed. */
+/* Ranks frames of the same status: a person should first see the frame with the largest result. A
+ * higher score is worse; a frame that was not measured ranks highest, unless it passed. */
 static double urgency(const struct kiln_result_frame *frame)
 {
     if (frame->measured)
@@ -132,6 +133,7 @@ const struct kiln_member kiln_result_frame_members[] = {
     MEMBERS_END,
 };
 
+/* result.json has these members only of frames that are `measured`. */
 const struct kiln_member kiln_result_measured_members[] = {
     MEMBER(kiln_result_frame, DOUBLE, score),
     MEMBER(kiln_result_frame, UINT32, worst_x),

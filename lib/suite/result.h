@@ -38,7 +38,7 @@ struct kiln_result_frame {
     bool measured;                   /* the members below are valid */
     double values[KILN_MAX_COLUMNS]; /* in the order of the result's columns */
     bool beyond[KILN_MAX_COLUMNS];
-    double score;
+    double score; /* 1 at the limits of the metrics; higher is worse */
     uint32_t worst_x, worst_y;
     uint32_t window_x, window_y, window_width, window_height, window_differing;
 };
@@ -93,7 +93,7 @@ struct kiln_result {
 void kiln_result_init(struct kiln_result *result, const char *name);
 void kiln_result_frame_init(struct kiln_result_frame *frame, uint32_t number);
 
-/* Returns the highest score of the measured frames, or 0 without any. */
+/* Returns the highest, that is the worst, score of the measured frames, or 0 without any. */
 double kiln_result_score(const struct kiln_result *result);
 
 /* Returns the index of the frame that a person should see first: among the frames of the worst
