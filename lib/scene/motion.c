@@ -1,14 +1,20 @@
-/* This file hashes the parts of a scene that saved states depend on. A state serves every scene
- * that moves its particles alike, however they look. A part is printed as a scene, the contents of
- * its files and KILN_STATE_VERSION are added, and that text is hashed. tests/unit/test_motion.c
- * changes every row and checks whether the state changes. */
+/* This file hashes a part of a scene: the options that decide the motion of its particles, or those
+ * that decide the order that a spread sort keeps (scene/parts.h). job/states.c and job/plan.c
+ * compare the hashes, since a saved state fits every scene that moves particles alike, however they
+ * look.
+ *
+ * The text that is hashed consists of the part's options, printed as a scene, KILN_STATE_VERSION,
+ * the capacity of each system, and the hashes of wind files and of meshes and terrain that
+ * particles hit. tests/unit/test_motion.c changes every option, and checks that the hash changes
+ * where the particles' state does. */
 #include "scene/motion.h"
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "scene/asset_path.h"
 
-/* Adds the hashes of wind files and of the meshes and terrain that particles meet. */
+/* Adds the hashes of the wind files of field forces, and of the meshes and terrain that particles
+ * hit. Both parts have them. */
 static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
                       struct kiln_error *error)
 {
@@ -22,7 +28,7 @@ static bool add_files(struct kiln_text *text, const struct kiln_scene *scene,
     }
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {
         const struct kiln_object *object = &scene->backdrop.objects[i];
-        if (kiln_row_if_object_is_met(scene, object) == 0)
+        if (kiln_row_if_particles_hit_object(scene, object) == 0)
             continue;
         if (object->kind == KILN_OBJECT_MESH)
             kiln_text_add(text, "%s\n", object->shown->hash);
@@ -41,12 +47,12 @@ bool kiln_scene_part_hash(const struct kiln_scene *scene, enum kiln_scene_part p
     kiln_text_add(&text, "version %d\n", KILN_STATE_VERSION);
     for (uint32_t i = 0; i < scene->system_count; i++)
         kiln_text_add(&text, "slots %u\n", scene->systems[i].capacity);
-    const bool read = !ok || add_files(&text, scene, error);
+    const bool files_ok = !ok || add_files(&text, scene, error);
     ok = ok && !text.failed;
     if (ok)
         kiln_hash_sha256(text.data, text.length, hex);
     kiln_text_free(&text);
-    if (!read)
+    if (!files_ok)
         return false;
-    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a hash of a scene");
+    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while hashing a scene");
 }

@@ -1,4 +1,7 @@
-/* This file has the option tables of the backdrop: sky, floor, sun, objects and lights. */
+/* This file has the option tables of the backdrop: sky, floor, sun, objects and lights. The reader,
+ * the printer and the help of a scene's keys reach them from the table in options_root.c. The
+ * macros of rows are in option/rows.h. A MOTION row decides how particles move, and a LOOK row only
+ * how the picture looks (scene/parts.h); a row with TIME may vary over time. */
 #include "asset/geometry/chart.h"
 #include "asset/geometry/depth_maps.h"
 #include "asset/geometry/field.h"
@@ -6,8 +9,8 @@
 
 #define AT(field) offsetof(struct kiln_object, field)
 
-/* Factors of an object on the restitution and friction of particles. */
-#define RUBBING                                                                                    \
+/* The options of how particles bounce off an object and slide along it. */
+#define SURFACE_FACTORS                                                                            \
     VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",                      \
           "Factor on the restitution of particles that bounce off it."),                           \
         VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, TIME, "1",                         \
@@ -16,26 +19,29 @@
 #define COLLIDING                                                                                  \
     BOOLEAN(MOTION, "collide", collide, "true",                                                    \
             "Particles of systems that collide bounce off it."),                                   \
-        RUBBING
+        SURFACE_FACTORS
 
 #define REFLECTANCE                                                                                \
     COLOR(LOOK, "color", color, 1, TIME, "[0.35, 0.34, 0.33]",                                     \
-          "Part of the light that it reflects.")
+          "Fraction of the incoming light that it reflects.")
 
 static const struct kiln_option box[] = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
+           "Centre of the box."),
     VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]",
            "Lengths of the edges."),
     VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
            "[0, 0, 0]",
-           "Angles about x, then y, then z. In a step, the box turns the shorter way."),
+           "Angles about x, then y, then z. In each step, the box turns the shorter way "
+           "from its old angles to its new ones."),
     REFLECTANCE,
     COLLIDING,
     END,
 };
 
 static const struct kiln_option sphere[] = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
+           "Centre of the sphere."),
     VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
           "Radius of the sphere."),
     REFLECTANCE,
@@ -44,7 +50,8 @@ static const struct kiln_option sphere[] = {
 };
 
 static const struct kiln_option cylinder[] = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]", "Centre."),
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
+           "Centre of the cylinder."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Direction of the axis, of any length but 0."),
     VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
@@ -57,7 +64,8 @@ static const struct kiln_option cylinder[] = {
 };
 
 static const struct kiln_option capsule[] = {
-    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]", "Centre."),
+    VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]",
+           "Centre of the capsule."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Direction of the axis, of any length but 0."),
     VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
@@ -73,10 +81,10 @@ static const struct kiln_option plane[] = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "A point of the plane. The plane turns about this point."),
     VECTOR(MOTION, "normal", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
-           "Direction away from the plane, of any length but 0."),
+           "Normal of the plane, of any length but 0. It points away from the solid side."),
     REFLECTANCE,
     BOOLEAN(LOOK, "visible", visible, "true",
-            "`false` does not draw the plane; particles still collide with it."),
+            "Whether the plane is drawn. Particles collide with it in any case."),
     COLLIDING,
     END,
 };
@@ -103,8 +111,8 @@ static const struct kiln_option direction = {ROW(MOTION, "direction", vector, 0,
 
 static const struct kiln_option depth_maps[] = {
     {ROW(MOTION, "directions", list, AT(depth_directions), "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
-         "Directions of view in the frame of the mesh, of any length but 0. Each gives a depth map "
-         "of the front and one of the back."),
+         "Directions from which the mesh is seen, in its own frame; vectors of any length but 0. "
+         "Each gives a depth map of the front and, from the opposite direction, one of the back."),
      .item = &direction, .item_size = sizeof(struct kiln_value3),
      .count_offset = AT(depth_direction_count), .max_count = KILN_MAX_DEPTH_DIRECTIONS},
     INTEGER(MOTION, "resolution", depth_resolution, KILN_MIN_DEPTH_RESOLUTION,
@@ -123,11 +131,11 @@ static const struct kiln_option paint[] = {
             "Texels along an edge of the painted texture, a power of two."),
     CHOICE(
         LOOK, "gather", paint.gather, gathers, "near",
-        "`near` brings each splat to the texels that it may reach. `all` tests every splat at each "
-        "texel, as the paper does. Both paint the same."),
+        "How texels find their splats; the paint is the same. With `near`, each splat goes to the "
+        "texels that it may reach. With `all`, each texel tests every splat (Drone 2007, 7.6.1)."),
     INTEGER(MOTION, "per_step", paint.per_step, 0, KILN_MAX_PARTICLES, "0",
-            "Most particles that paint in a step. They take turns. A particle that waits for its "
-            "turn keeps its last splat alone. With 0, all paint in each step."),
+            "Most particles that paint in a step; 0 lets all paint in each step. Particles take "
+            "turns. At its turn, a particle paints only its last hit since the turn before."),
     END,
 };
 
@@ -139,39 +147,38 @@ static const struct kiln_option mesh[] = {
     VECTOR(MOTION, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
            "[0, 0, 0]", "Angles about x, then y, then z."),
     VALUE(MOTION, "scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1",
-          "Metres for a unit of the file."),
+          "Metres per unit of the file."),
     {ROW(MOTION, "animation", switch, 0, "none",
          "An animation of the glTF or GLB file: it moves nodes, and bones that vertices follow."),
      .members = animation, .count_offset = AT(animation.enabled)},
     REFLECTANCE,
     BOOLEAN(MOTION, "collide", collide, "false",
             "Particles of systems that collide bounce off it."),
-    RUBBING,
-    CHOICE(
-        MOTION, "collider", collider, colliders, "field",
-        "How particles collide with the mesh. `field` is a grid of distances, made once, of a "
-        "closed mesh (UberFlow 2004, 4.6). `volume` is a grid whose cells, in each step, take up "
-        "the planes of any mesh and their motion (Drone 2007, 7.5.2). `depth_maps` are depth maps "
-        "of the mesh's fronts and backs from some directions; a hollow that no direction looks "
-        "into counts as filled (Heinz 2019, 2.5.1)."),
+    SURFACE_FACTORS,
+    CHOICE(MOTION, "collider", collider, colliders, "field",
+           "How particles collide with the mesh. `field` is a grid of distances to a closed mesh, "
+           "made once (UberFlow 2004, 4.6). `volume` is a grid made anew in each step: its cells "
+           "have the planes of triangles and their motion, and the mesh may be open (Drone 2007, "
+           "7.5.2). `depth_maps` are depth maps of the mesh's fronts and backs from some "
+           "directions; a hollow that no direction looks into counts as filled (Heinz 2019, "
+           "2.5.1)."),
     INTEGER(MOTION, "cells", cells, KILN_MIN_FIELD_CELLS, KILN_MAX_FIELD_CELLS, "48",
             "Cells of the field or the volume along the mesh's longest edge. Particles may miss "
             "parts that are thinner than a cell."),
     VECTOR(MOTION, "heading", heading, KILN_PLAIN, -FAR, FAR, TIME, "[0, -1, 0]",
-           "Direction in which most particles fly, for collider volume, of any length but 0. Of "
-           "the planes that face this direction, a cell keeps the one that particles meet first "
-           "(Drone 2007, 7.5.2.3)."),
-    CHOICE(
-        MOTION, "sides", sides, sides, "one",
-        "Sides of the mesh that stop particles, for collider volume. `one` suits closed meshes: a "
-        "particle behind a plane is put in front of it. `two` suits sheets: a plane is met from "
-        "both sides."),
+           "For collider `volume`: direction in which most particles fly; a vector of any length "
+           "but 0. Of the planes that face this direction, a cell keeps the one that particles "
+           "meet first (Drone 2007, 7.5.2.3)."),
+    CHOICE(MOTION, "sides", sides, sides, "one",
+           "For collider `volume`: sides of the mesh that stop particles. `one` suits closed "
+           "meshes: a particle behind a plane is put in front of it. `two` suits sheets: particles "
+           "meet a plane from both sides."),
     GROUP(MOTION, "depth_maps", 0, depth_maps,
-          "Settings of collider depth_maps. Nothing is too thin for depth maps, and the mesh need "
+          "Settings of collider `depth_maps`. Depth maps do not miss thin parts, and the mesh need "
           "not be closed."),
     {ROW(MOTION, "paint", switch, 0, "none",
-         "The mesh takes paint of systems that paint (Drone 2007, 7.6.1). Its file has texture "
-         "coordinates, from 0 to 1, by which no two triangles overlap."),
+         "The mesh takes paint of systems that paint (Drone 2007, 7.6.1). Its file must have "
+         "texture coordinates from 0 to 1, in which no two triangles overlap."),
      .members = paint, .count_offset = AT(paint.enabled)},
     END,
 };
@@ -186,21 +193,22 @@ static const struct kiln_option terrain[] = {
            "Width, height and depth. The height is that from black to white or from the deepest "
            "valley to the highest peak."),
     {ROW(MOTION, "samples", pair, AT(samples), "[129, 129]",
-         "Numbers of points along x and z. Every four points carry two triangles."),
+         "Numbers of points along x and z. Two triangles lie between each four neighbours."),
      LIMITS(KILN_PLAIN, 2, KILN_MAX_TERRAIN_EDGE)},
     VALUE(MOTION, "hills", hills, KILN_METRES, 0.001, FAR, 0, "8 m", "Size of the largest hills."),
     INTEGER(MOTION, "octaves", octaves, 1, KILN_MAX_TERRAIN_OCTAVES, "6",
             "Number of layers of ever smaller hills."),
     VALUE(MOTION, "roughness", roughness, KILN_PLAIN, 0, 1, 0, "0.45",
-          "Height of a layer of hills as a part of the layer before it."),
+          "Height of a layer of hills as a fraction of the height of the layer before it."),
     VALUE(MOTION, "ridges", ridges, KILN_PLAIN, 0, 1, 0, "0",
           "Shape of the hills: 0 is round, 1 has crests above valleys."),
-    INTEGER(MOTION, "seed", seed, 0, 1000000, "1", "Another landscape."),
+    INTEGER(MOTION, "seed", seed, 0, 1000000, "1",
+            "Seed of the noise. Another seed gives another landscape."),
     REFLECTANCE,
     BOOLEAN(MOTION, "collide", collide, "true",
-            "Particles of systems that collide bounce off it, and off the sides of everything "
-            "below it."),
-    RUBBING,
+            "Particles of systems that collide bounce off it. It is solid downwards, with walls "
+            "below its edges."),
+    SURFACE_FACTORS,
     END,
 };
 
@@ -223,7 +231,7 @@ static const struct kiln_option_kind object_kinds[] = {
     {.name = "mesh",
      .value = KILN_OBJECT_MESH,
      .members = mesh,
-     .help = "A mesh from a file. A scene has at most 8 meshes, terrain among them."},
+     .help = "A mesh from a file. Meshes and terrains together may be at most 8."},
     {.name = "terrain",
      .value = KILN_OBJECT_TERRAIN,
      .members = terrain,
@@ -233,7 +241,7 @@ static const struct kiln_option_kind object_kinds[] = {
 
 static const struct kiln_option object = {.name = "object",
                                           .type = &kiln_type_kind,
-                                          .parts = IF_OBJECT_IS_MET,
+                                          .parts = IF_PARTICLES_HIT_OBJECT,
                                           .kinds = object_kinds,
                                           .kind_offset = AT(kind)};
 
@@ -244,17 +252,16 @@ static const struct kiln_option point[] = {
     VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]",
            "Position of the light."),
     COLOR(LOOK, "color", color, 1000000, TIME, "1", "Light that arrives 1 m away."),
-    VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",
-          "Radius of the light, which bounds the light nearby and softens shadows."),
+    VALUE(
+        LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",
+        "Radius of the light. Near the light, it keeps the brightness finite; it softens shadows."),
     BOOLEAN(LOOK, "shadow", shadow, "true",
-         "Objects of the backdrop hide it, except those that contain its centre."),
+            "Objects of the backdrop hide the light, except those that contain its centre."),
     END,
 };
 
 static const struct kiln_option_kind light_kinds[] = {
-    {.name = "point",
-     .members = point,
-     .help = "A light that shines to all sides."},
+    {.name = "point", .members = point, .help = "A light that shines to all sides."},
     {.name = NULL},
 };
 
@@ -269,7 +276,8 @@ static const struct kiln_option sky[] = {
     COLOR(LOOK, "horizon", sky_horizon, 1000, TIME, "[0.12, 0.13, 0.16]", "Colour at eye level."),
     {ROW(LOOK, "image", picture, AT(sky_image), "none",
          "The whole sphere around the scene as one picture, left to right and top to bottom, in "
-         "place of the gradient. Its middle lies towards -z. Its averages light the scene.")},
+         "place of the gradient. Its middle lies towards -z. Averages of its colours over parts of "
+         "the sky light the scene.")},
     VALUE(LOOK, "rotation", sky_rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), TIME,
           "0 deg", "Angle by which the image is turned about y."),
     VALUE(LOOK, "intensity", sky_intensity, KILN_PLAIN, 0, 1000000, TIME, "1",
@@ -279,17 +287,18 @@ static const struct kiln_option sky[] = {
 
 static const struct kiln_option floor_rows[] = {
     COLOR(LOOK, "color", floor_color, 1, TIME, "[0.35, 0.34, 0.33]",
-          "Part of the light that it reflects."),
+          "Fraction of the incoming light that it reflects."),
     VALUE(MOTION, "height", floor_height, KILN_METRES, -FAR, FAR, TIME, "0 m",
-          "Height of the floor. It may vary only while the floor does not collide."),
+          "Height of the floor. It may vary over time only if `collide` is false."),
     VALUE(LOOK, "checker", floor_checker, KILN_METRES, 0, FAR, TIME, "0 m",
           "Edge length of lighter and darker squares; 0 is a plain floor."),
     {ROW(LOOK, "image", picture, AT(floor_image), "none",
          "A picture that repeats, its top towards -z, in place of colour and squares.")},
     VALUE(LOOK, "tile", floor_tile, KILN_METRES, 0.001, FAR, TIME, "1 m", "Width of the picture."),
     VALUE(LOOK, "gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME, "0",
-          "Factor on a reflection as strong as water's. The floor mirrors sky, lights and objects "
-          "except meshes. It mirrors particles by the light that they shed (look.light)."),
+          "Strength of the floor's reflection; 1 reflects as water does. The floor mirrors sky, "
+          "lights and objects except meshes. Of particles it mirrors only the light that they shed "
+          "(look.light)."),
     VALUE(LOOK, "roughness", floor_roughness, KILN_PLAIN, 0, 1, TIME, "0.3",
           "How widely `gloss` spreads lights."),
     VALUE(LOOK, "wave_height", floor_wave_height, KILN_METRES, 0, 100, TIME, "0 m",
@@ -318,14 +327,14 @@ static const struct kiln_option sun[] = {
 
 const struct kiln_option kiln_options_backdrop[] = {
     BOOLEAN(LOOK, "transparent", transparent, "false",
-            "Pictures have alpha instead of a sky. The floor stays, unless it is none."),
+            "Pictures have alpha in place of the sky. The floor stays, unless it is `none`."),
     GROUP(LOOK, "sky", 0, sky, "The sky: a gradient or an image."),
-    {ROW(IF_FLOOR_IS_MET, "floor", switch, 0, "{}", "An endless plane."), .members = floor_rows,
-     .count_offset = AT(floor_enabled)},
+    {ROW(IF_PARTICLES_HIT_FLOOR, "floor", switch, 0, "{}", "An endless plane."),
+     .members = floor_rows, .count_offset = AT(floor_enabled)},
     GROUP(LOOK, "sun", 0, sun, "The sun, the one light with a shadow."),
     VALUE(LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
-          "How fast the floor fades into the horizon with the distance."),
-    {ROW(MOTION, "objects", list, AT(objects), "[]", "Objects on the floor."), .item = &object,
+          "How fast, per metre of distance, the floor fades into the horizon."),
+    {ROW(MOTION, "objects", list, AT(objects), "[]", "Objects of the scene."), .item = &object,
      .item_size = sizeof(struct kiln_object), .count_offset = AT(object_count),
      .max_count = KILN_MAX_OBJECTS},
     {ROW(LOOK, "lights", list, AT(lights), "[]", "Lights besides the sun."), .item = &light,

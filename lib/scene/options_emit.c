@@ -184,8 +184,8 @@ static const struct kiln_option emit_options[] = {
          "The shape in which particles are born, and the directions in which they start."),
      .kinds = shapes, .kind_offset = AT(shape)},
     VALUE(MOTION, "inherit", inherit, KILN_FRACTION, 0, 1, TIME, "0",
-          "Part of the velocity of the emitter, or of the parent's particle, that a particle gets "
-          "at its birth."),
+          "Fraction of the velocity of the emitter, or of the parent's particle, that a particle "
+          "gets at its birth."),
     END,
 };
 
@@ -210,9 +210,10 @@ static const struct kiln_option collide_options[] = {
         MOTION, "slowdown", slowdown, KILN_FRACTION, 0, 1, BOTH, "0.5",
         "Factor on the speed at each impact, applied after restitution, friction and randomness. 1 "
         "keeps the speed, 0 stops the particle."),
-    VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, BOTH, "1",
-          "Part of the speed towards a surface that a particle keeps when it bounces. It counts "
-          "before `randomness` turns the velocity."),
+    VALUE(
+        MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, BOTH, "1",
+        "Fraction of the speed towards a surface that a particle keeps when it bounces. It counts "
+        "before `randomness` turns the velocity."),
     VALUE(MOTION, "friction", friction, KILN_PLAIN, 0, 100, BOTH, "0",
           "Coulomb's coefficient of friction. An impact reduces the speed along the surface by at "
           "most this factor times the change of the speed towards the surface."),

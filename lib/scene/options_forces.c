@@ -12,10 +12,10 @@ static const struct kiln_option gravity[] = {
 
 static const struct kiln_option drag[] = {
     VALUE(MOTION, "strength", pull, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
-          "Part of the velocity that is lost in a second, for small values."),
+          "Fraction of the velocity that is lost in a second, for small values."),
     VALUE(MOTION, "quadratic", quadratic, KILN_PER_METRE, 0, 1000, BOTH, "0",
-          "Part of the velocity that is lost in a second for each m/s of speed. Air slows all but "
-          "the smallest and slowest particles this way."),
+          "Fraction of the velocity that is lost in a second for each m/s of speed. Air slows all "
+          "but the smallest and slowest particles this way."),
     END,
 };
 

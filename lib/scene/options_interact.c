@@ -21,10 +21,10 @@ static const struct kiln_option collide[] = {
             "Radii are half of look.size times look.scale instead of `radius`. Larger particles "
             "are heavier."),
     VALUE(MOTION, "restitution", restitution, KILN_FRACTION, 0, 1, TIME, "1",
-          "Part of the speed of approach that two particles keep when they bounce; 1 keeps all "
+          "Fraction of the speed of approach that two particles keep when they bounce; 1 keeps all "
           "energy."),
     VALUE(MOTION, "apart", apart, KILN_FRACTION, 0, 1, TIME, "0.5",
-          "Part of an overlap of two particles that is pushed apart in a round."),
+          "Fraction of an overlap of two particles that is pushed apart in a round."),
     {ROW(MOTION, "fastest", value, AT(fastest), "auto",
          "Speed of approach up to which a pair is found before it meets, for mode exact. Such a "
          "pair does not pass through each other, unless one of the two has another collision first "

@@ -93,9 +93,9 @@ static const char *const motions[] = {"auto", "none", NULL};
 
 static const struct kiln_option fade[] = {
     VALUE(LOOK, "in", fade_in, KILN_FRACTION, 0, 1, TIME, "0.1",
-          "Part of the life in which a particle fades in to its full opacity."),
+          "Fraction of the life in which a particle fades in to its full opacity."),
     VALUE(LOOK, "out", fade_out, KILN_FRACTION, 0, 1, TIME, "0.3",
-          "Part of the life in which a particle fades out before its death."),
+          "Fraction of the life in which a particle fades out before its death."),
     END,
 };
 
@@ -171,7 +171,7 @@ const struct kiln_option kiln_options_look[] = {
           "as wide, like a puff of smoke; 0 is flat."),
     VALUE(LOOK, "near_fade", near_fade, KILN_METRES, 0, 1000, BOTH, "0.2 m",
           "Distance behind the camera's near plane over which a particle fades in."),
-    COLOR(LOOK, "bloom", bloom, 100, BOTH, "0", "Part of the colour that goes to the bloom."),
+    COLOR(LOOK, "bloom", bloom, 100, BOTH, "0", "Fraction of the colour that goes to the bloom."),
     VALUE(LOOK, "lit", lit, KILN_FRACTION, 0, 1, BOTH, "0",
           "0 shows the particle's own colour. 1 lights the particle by sun, sky and lights."),
     VALUE(LOOK, "shadow", shadow, KILN_PLAIN, 0, 100, TIME, "1",

@@ -75,14 +75,14 @@ static bool any_paints(const struct kiln_scene *scene)
     return any;
 }
 
-unsigned kiln_row_if_object_is_met(const void *scene, const void *object)
+unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object)
 {
     const struct kiln_object *o = object;
-    const bool met = o->collide && any_collides(scene);
-    return met || (kiln_object_takes_paint(o) && any_paints(scene)) ? BOTH : NEITHER;
+    const bool bounces = o->collide && any_collides(scene);
+    return bounces || (kiln_object_takes_paint(o) && any_paints(scene)) ? BOTH : NEITHER;
 }
 
-unsigned kiln_row_if_floor_is_met(const void *scene, const void *backdrop)
+unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop)
 {
     return kiln_backdrop_floor_collides(backdrop) && any_collides(scene) ? BOTH : NEITHER;
 }

@@ -15,19 +15,20 @@ unsigned kiln_row_look(const void *scene, const void *base);
 unsigned kiln_row_order(const void *scene, const void *base);
 unsigned kiln_row_motion(const void *scene, const void *base);
 
-/* Return KILN_PART_MOTION only under a condition; base is a struct kiln_look, kiln_object or
- * kiln_backdrop. */
+/* Return the bits of all parts under a condition, and otherwise 0; base is a struct kiln_look,
+ * kiln_object or kiln_backdrop. Particles hit an object or the floor when they collide with it or
+ * paint it. */
 unsigned kiln_row_if_contacts_are_as_drawn(const void *scene, const void *look);
 unsigned kiln_row_if_it_paints(const void *scene, const void *look);
-unsigned kiln_row_if_object_is_met(const void *scene, const void *object);
-unsigned kiln_row_if_floor_is_met(const void *scene, const void *backdrop);
+unsigned kiln_row_if_particles_hit_object(const void *scene, const void *object);
+unsigned kiln_row_if_particles_hit_floor(const void *scene, const void *backdrop);
 
 #define LOOK                     kiln_row_look
 #define ORDER                    kiln_row_order
 #define MOTION                   kiln_row_motion
 #define IF_CONTACTS_ARE_AS_DRAWN kiln_row_if_contacts_are_as_drawn
 #define IF_IT_PAINTS             kiln_row_if_it_paints
-#define IF_OBJECT_IS_MET         kiln_row_if_object_is_met
-#define IF_FLOOR_IS_MET          kiln_row_if_floor_is_met
+#define IF_PARTICLES_HIT_OBJECT  kiln_row_if_particles_hit_object
+#define IF_PARTICLES_HIT_FLOOR   kiln_row_if_particles_hit_floor
 
 #endif

@@ -77,7 +77,7 @@ $ kiln complete -- check --set 'systems.*.collide.'
 1|part	systems.*.collide.mode=	`swept` finds the point of impact on the way of a particle. `clamp` moves a particle that is inside an object to the nearest face.
 1|part	systems.*.collide.randomness=	0 reflects a particle like a mirror. 1 sends it into any direction away from the surface.
 1|part	systems.*.collide.slowdown=	Factor on the speed at each impact, applied after restitution, friction and randomness. 1 keeps the speed, 0 stops the particle.
-1|part	systems.*.collide.restitution=	Part of the speed towards a surface that a particle keeps when it bounces. It counts before `randomness` turns the velocity.
+1|part	systems.*.collide.restitution=	Fraction of the speed towards a surface that a particle keeps when it bounces. It counts before `randomness` turns the velocity.
 1|part	systems.*.collide.friction=	Coulomb's coefficient of friction. An impact reduces the speed along the surface by at most this factor times the change of the speed towards the surface.
 1|part	systems.*.collide.dies=	A particle ends at its first impact, like rain.
 $ kiln complete -- check --set 'systems.*.forces.'
