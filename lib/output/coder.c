@@ -74,7 +74,7 @@ static int open_frame(struct kiln_coder *coder)
  * already have. */
 static int open_filter(struct kiln_coder *coder)
 {
-    int status = kiln_ff.av_bsf_list_parse_str(coder->settings->later_packets, &coder->filter);
+    int status = kiln_ff.av_bsf_list_parse_str(coder->settings->later_parts_filter, &coder->filter);
     if (status >= 0)
         status = kiln_ff.avcodec_parameters_from_context(coder->filter->par_in, coder->codec);
     if (status < 0)
@@ -92,7 +92,7 @@ int kiln_coder_open(struct kiln_coder *coder, const struct kiln_output_params *p
     if (status >= 0 && coder->frame->format != AV_PIX_FMT_PAL8)
         status = kiln_scaler_open(&coder->scaler, params->width, params->height,
                                   kiln_video_needs(params).bits, coder->frame->format);
-    if (status >= 0 && !first && coder->settings->later_packets)
+    if (status >= 0 && !first && coder->settings->later_parts_filter)
         status = open_filter(coder);
     return status;
 }

@@ -12,15 +12,16 @@ struct kiln_video_settings {
     const char *codec;    /* the codec's common name: "H.264" */
     const char *kind;     /* name of the kind of file, with its article: "an MP4 video" */
     const char *packages; /* Debian packages that have the encoder */
-    uint32_t bits;        /* bits of the display pixels that it takes; 0: as params.png_bits says */
-    /* Pixel formats by (has alpha, has more than 8 bits); AV_PIX_FMT_NONE where there is none. */
+    /* bits of a channel of the pixels that the encoder is given; 0: as params.png_bits says */
+    uint32_t bits;
+    /* FFmpeg's pixel formats by [has alpha][bits > 8]; AV_PIX_FMT_NONE where there is none. */
     enum AVPixelFormat pixels[2][2];
     bool even_sizes;
     uint32_t max_edge;
     bool intra; /* every frame is a key frame */
     bool parts; /* a clip is encoded part by part; else at once */
-    /* FFmpeg's bit stream filters for the packets of all parts but the first; NULL: none */
-    const char *later_packets;
+    /* FFmpeg's bit stream filters for all packets of the parts after the first; NULL: none */
+    const char *later_parts_filter;
     const char *muxer_options; /* "key=value:key=value", or NULL */
     /* Sets options of the encoder; false when memory is short. NULL: there are none to set. */
     bool (*tune)(AVCodecContext *codec, const struct kiln_output_params *params);

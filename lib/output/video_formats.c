@@ -1,6 +1,8 @@
-/* Lists the settings of FFmpeg's formats, one row each. All settings that decide about the bytes
- * are set here, the same on every machine, except for the numbers of threads, which are in coder.c.
- */
+/* Has the formats that FFmpeg writes: for each, a row of the table in formats.c, and the settings
+ * of its encoder and muxer for video.c. coder.c calls the `tune` functions on each new encoder. The
+ * same frames must give the same bytes on every machine. So every setting that changes the bytes is
+ * fixed: the settings of single formats here, and the number of threads and the distance of key
+ * frames in coder.c. A part is a run of frames that one encoder encodes (part.h). */
 #include "base/log.h"
 #include "output/video.h"
 
@@ -12,7 +14,7 @@ enum { MAX_EDGE = 16384, MAX_WEBP_EDGE = 16383, MAX_APNG_DELAY = 65535 };
     .close = kiln_video_close
 
 /* Sets an option of the encoder. False when memory is short. An option that this FFmpeg does not
- * have is ignored. */
+ * have is ignored, since the file is right without it; its bytes may then be others. */
 static bool set_option(AVCodecContext *codec, const char *key, const char *value)
 {
     return kiln_ff.av_opt_set(codec->priv_data, key, value, 0) != AVERROR(ENOMEM);
@@ -20,15 +22,15 @@ static bool set_option(AVCodecContext *codec, const char *key, const char *value
 
 /* ---- MP4 ---------------------------------------------------------------------------------- */
 
-/* Sets the rate factor: quality 100 is 10, beyond what eyes can see; 80 is 18, 50 is 30, 0 is
- * 50. */
+/* Sets the CRF (constant rate factor): quality 100 is 10, at which no eye sees a loss; 80 is 18, 50
+ * is 30, 0 is 50. */
 static bool tune_h264(AVCodecContext *codec, const struct kiln_output_params *params)
 {
     kiln_ff.av_opt_set_double(codec->priv_data, "crf", 50.0 - 0.4 * params->quality, 0);
-    /* "faster" is within 0.1 dB of "medium" at the same rate factor, in 60 % of the time and less
-     * memory. aq-mode=3 gives more bits to dark gradients, such as night and smoke. The last option
-     * makes the stream independent of the width of vectors, and makes only the first frame of a
-     * part a key frame. */
+    /* The PSNR of "faster" is within 0.1 dB of that of "medium" at the same CRF, in 60 % of the
+     * time and less memory. aq-mode=3 gives more bits to dark gradients, such as night and smoke.
+     * cpu-independent makes the bytes independent of the CPU's SIMD instructions. scenecut=0 makes
+     * no key frames at changes of scene, so a part has only that at its start. */
     return set_option(codec, "preset", "faster") && set_option(codec, "aq-mode", "3") &&
            set_option(codec, "x264-params", "cpu-independent=1:scenecut=0");
 }
@@ -44,8 +46,8 @@ static const struct kiln_video_settings mp4 = {
     .even_sizes = true,
     .max_edge = MAX_EDGE,
     .parts = true,
-    /* removes SEI with x264's version and options */
-    .later_packets = "filter_units=remove_types=6",
+    /* SEI messages have x264's version and options; those of the first part are enough */
+    .later_parts_filter = "filter_units=remove_types=6",
     .muxer_options = "movflags=+faststart",
     .tune = tune_h264,
 };
@@ -53,21 +55,22 @@ static const struct kiln_video_settings mp4 = {
 const struct kiln_format kiln_format_mp4 = {
     .suffix = ".mp4",
     .name = "H.264 video",
-    .help = "even sizes, no alpha; quality 0 to 100 (visually lossless)",
+    .help = "even sizes, no alpha; quality 0 to 100; 100 is visually lossless",
     .uses = KILN_USES_QUALITY,
     VIDEO_FORMAT(mp4),
 };
 
 /* ---- WebM --------------------------------------------------------------------------------- */
 
-/* Sets the level: quality 100 is 8, 80 is 19, 0 is 63. Tiles may be encoded in parallel without a
- * change of bytes; rows of macroblocks may not. */
+/* Sets the CRF: quality 100 is 8, 80 is 19, 0 is 63. Threads encode up to four columns of tiles
+ * (2^2) in parallel, which does not change the bytes. Encoding rows of blocks in parallel (row-mt)
+ * would. */
 static bool tune_vp9(AVCodecContext *codec, const struct kiln_output_params *params)
 {
     kiln_ff.av_opt_set_int(codec->priv_data, "crf", 63 - (55 * (int)params->quality + 50) / 100, 0);
-    codec->bit_rate = 0; /* the level alone decides the quality */
-    /* With alpha, hidden reference frames are turned off, so that the colour and the alpha stream
-     * have the same frames. */
+    codec->bit_rate = 0; /* no limit: the CRF alone decides the quality */
+    /* With alpha, hidden reference frames (alt-ref frames) are turned off, so that the colour and
+     * the alpha stream have the same frames. */
     return set_option(codec, "deadline", "good") && set_option(codec, "cpu-used", "4") &&
            set_option(codec, "row-mt", "0") && set_option(codec, "tile-columns", "2") &&
            (!params->alpha || set_option(codec, "auto-alt-ref", "0"));
@@ -89,7 +92,7 @@ static const struct kiln_video_settings webm = {
 const struct kiln_format kiln_format_webm = {
     .suffix = ".webm",
     .name = "VP9 video",
-    .help = "for the web, with alpha; quality 0 to 100; times in whole ms",
+    .help = "for the web, with alpha; quality 0 to 100; frame times in whole ms",
     .uses = KILN_USES_QUALITY,
     VIDEO_FORMAT(webm),
 };
@@ -120,7 +123,7 @@ static const struct kiln_video_settings mkv = {
 const struct kiln_format kiln_format_mkv = {
     .suffix = ".mkv",
     .name = "FFV1 video",
-    .help = "lossless, 8 or 16 bits (--png-bits), with alpha; times in whole ms",
+    .help = "lossless, 8 or 16 bits (--png-bits), with alpha; frame times in whole ms",
     .uses = KILN_USES_PNG_BITS,
     VIDEO_FORMAT(mkv),
 };
@@ -166,12 +169,13 @@ static bool tune_apng(AVCodecContext *codec, const struct kiln_output_params *pa
 {
     (void)params;
     codec->compression_level = 3;
-    /* without it, the encoder writes an aspect ratio of 0 */
+    /* If this were not set, the encoder would write an aspect ratio of 0. */
     codec->sample_aspect_ratio = (AVRational){1, 1};
     return set_option(codec, "pred", "sub"); /* the same as in the single images of png.c */
 }
 
-/* Sets the delay between frames, which APNG stores as a fraction of 16-bit numbers. */
+/* Sets the delay after the last frame, since the muxer knows only those between frames. APNG stores
+ * delays as fractions of 16-bit numbers; the muxer rounds the others in the same way. */
 static int prepare_apng(const struct kiln_output_params *params, AVDictionary **options)
 {
     AVRational delay;
@@ -210,9 +214,9 @@ const struct kiln_format kiln_format_apng = {
 
 static bool tune_webp(AVCodecContext *codec, const struct kiln_output_params *params)
 {
+    /* libwebp takes "quality" as the effort where it encodes without loss. */
     kiln_ff.av_opt_set_double(codec->priv_data, "quality",
-                              params->quality == 100 ? 50 : params->quality,
-                              0); /* of lossless files: the effort */
+                              params->quality == 100 ? 50 : params->quality, 0);
     return set_option(codec, "lossless", params->quality == 100 ? "1" : "0");
 }
 
@@ -232,7 +236,7 @@ static const struct kiln_video_settings webp = {
 const struct kiln_format kiln_format_webp = {
     .suffix = ".webp",
     .name = "animated WebP",
-    .help = "with alpha; quality 0 to 100 (lossless); times in whole ms; plays forever",
+    .help = "with alpha; quality 0 to 100; 100 is lossless; frame times in whole ms; plays forever",
     .uses = KILN_USES_QUALITY,
     VIDEO_FORMAT(webp),
 };

@@ -495,13 +495,13 @@ $ kiln help outputs
 1|  .png   PNG images: 8 or 16 bits, sRGB; alpha with a transparent backdrop
 1|  .jpg   JPEG images: 8 bits, full chroma, no alpha; quality 0 to 100, from 91 on the best; .jpeg is the same
 1|  .exr   OpenEXR images: half or float, linear, premultiplied; named layers
-1|  .mp4   H.264 video: even sizes, no alpha; quality 0 to 100 (visually lossless)
-1|  .webm  VP9 video: for the web, with alpha; quality 0 to 100; times in whole ms
-1|  .mkv   FFV1 video: lossless, 8 or 16 bits (--png-bits), with alpha; times in whole ms
+1|  .mp4   H.264 video: even sizes, no alpha; quality 0 to 100; 100 is visually lossless
+1|  .webm  VP9 video: for the web, with alpha; quality 0 to 100; frame times in whole ms
+1|  .mkv   FFV1 video: lossless, 8 or 16 bits (--png-bits), with alpha; frame times in whole ms
 1|  .mov   ProRes 4444 video: for editing, 10 bits, with alpha; quality 0 to 100
 1|  .gif   GIF animation: 255 colours a clip, no alpha, at most 50 frames a second; plays forever
 1|  .apng  animated PNG: lossless, 8 or 16 bits (--png-bits), with alpha; plays forever
-1|  .webp  animated WebP: with alpha; quality 0 to 100 (lossless); times in whole ms; plays forever
+1|  .webp  animated WebP: with alpha; quality 0 to 100; 100 is lossless; frame times in whole ms; plays forever
 1|
 1|The names of images are numbered: frame_####.png and frame_%04d.png both give frame_0000.png.
 1|Where a name of several frames has no number, _0000 is added before the suffix. A percent
