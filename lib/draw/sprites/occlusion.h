@@ -12,7 +12,7 @@ struct kiln_occlusion *kiln_occlusion_create(struct kiln_device *device, struct 
 void kiln_occlusion_destroy(struct kiln_occlusion **occlusion);
 
 /* Rejects fragments behind the scene until kiln_occlusion_end; shaders must place fragments by
- * occlusion_place() of shaders/draw/sprites/occlusion.glsl. Does nothing where rejecting would cost
+ * occlusion_z() of shaders/draw/sprites/occlusion.glsl. Does nothing where rejecting would cost
  * more time than it saves. draw->framebuffer must be bound, and the bindings of
  * kiln_geometry_bind_draw must be in place. */
 bool kiln_occlusion_begin(struct kiln_occlusion *occlusion, const struct kiln_particles_draw *draw,

@@ -1,5 +1,5 @@
-/* Projects a mesh as the sun sees it into its shadow map. The sphere around the mesh fills the map
- * but for a border. */
+/* Projects a mesh, seen from the sun, into its own shadow map (meshes_shadow.frag). The sphere
+ * around the mesh fills the map except for a border. */
 #include "shared/draw_layout.h"
 #include "shared/shape_layout.h"
 

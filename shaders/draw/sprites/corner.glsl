@@ -42,7 +42,7 @@ void put_corner(int i, outline s)
 #if SHAPES
     place_q = s.rows.q;
 #endif
-    float at = occlusion_place(s.nearest_depth);
+    float at = occlusion_z(s.nearest_depth);
     vec2 scale = vec2(2.0, 2.0) / view.frustum.zw;
     gl_Position = vec4(outer_corner(s, i) * scale - 1.0, at, 1.0);
     if (s.in_front)

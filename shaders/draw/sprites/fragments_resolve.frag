@@ -1,10 +1,12 @@
-/* Blends the fragments in a pixel's list, farthest first, and sorts the list before that if it is
- * short. fragments_merge.comp has sorted long lists already.
+/* Sorts a pixel's list of fragments if it is short, and then blends it, farthest first.
+ * fragments_merge.comp has sorted long lists already.
  *
- * resolve of lib/draw/sprites/fragments_gl.c draws a triangle over the picture with it, after the
- * lists are written (post.compose: oit). Software GL limits the iterations of a shader's loops, so
- * there it draws once for each span of the lists; an assertion in fragments_gl.c counts the
- * iterations of the loops in this file. is_behind must tell any two fragments of a list apart, so
+ * The function resolve() of lib/draw/sprites/fragments_gl.c draws a triangle over the picture with
+ * this shader after the lists are written, for the scene option `post.compose: oit`, which sorts
+ * fragments pixel by pixel (order-independent transparency). Software GL limits the iterations of a
+ * shader's loops, so there resolve() draws several times, and each draw blends one span of every
+ * list. A static assertion in fragments_gl.c bounds the iterations of the loops in this file; who
+ * changes a loop must change that bound. is_behind must tell any two fragments of a list apart, so
  * that the picture does not depend on the order in which fragments arrived. */
 #include "draw/sprites/fragments.glsl"
 #include "draw/sprites/fragments_pixel.glsl"
@@ -12,13 +14,13 @@
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
 
-/* The fragments of each list to blend: from the first number until before the second. GL blends the
- * next span over this one. */
+/* The draw blends the fragments from span.x (included) to span.y (excluded) of each list. GL blends
+ * its result over those of earlier spans. */
 uniform uvec2 span;
 
 /* Sorts a list by Shell's sort, which is short code, and quick for a list that is almost in order.
- * The gaps are 121, 40, 13, 4 and 1: the next one of that sequence, 364, exceeds
- * KILN_FRAGMENT_SHORT. */
+ * The gaps are 121, 40, 13, 4 and 1. The next gap of that sequence, 364, would be longer than a
+ * short list (KILN_FRAGMENT_SHORT); a gap that is too small costs only time. */
 void sort_list(uint first, uint count)
 {
     for (uint gap = 121u; gap > 0u; gap /= 3u) {
@@ -37,13 +39,13 @@ void sort_list(uint first, uint count)
 void main()
 {
     uint pixel = pixel_number(), first = ranges[pixel].first, count = list_length(pixel);
-    /* An earlier span has sorted a short list, and fragments_merge.comp a long one. */
+    /* A short list is sorted by the draw of the first span, a long one by fragments_merge.comp. */
     bool sorted = span.x > 0u || counts[pixel] > KILN_FRAGMENT_SHORT;
     sort_list(first, sorted ? 0u : count);
     vec4 color = vec4(0.0);
     vec3 glow = vec3(0.0);
     for (uint i = span.x, end = min(count, span.y); i < end; i++) {
-        fragment f = fragments[list_keys[first + i].z];
+        fragment f = fragments[list_keys[first + i].z]; /* z: index of the fragment */
         color = f.color + color * (1.0 - f.color.a);
         glow = f.color.rgb * f.bloom.rgb + glow * (1.0 - f.color.a);
     }

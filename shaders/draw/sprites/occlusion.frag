@@ -10,5 +10,5 @@ const float SLACK = 0.002 / 64.0; /* slack for rounding, 0.002 octaves of depth 
 void main()
 {
     float scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
-    gl_FragDepth = 0.5 + 0.5 * (occlusion_place(scene) + SLACK);
+    gl_FragDepth = 0.5 + 0.5 * (occlusion_z(scene) + SLACK);
 }

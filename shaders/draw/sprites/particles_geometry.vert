@@ -1,7 +1,9 @@
-/* Computes one particle for the geometry shader, which makes a billboard of it.
- * lib/draw/sprites/particles_geometry.c draws with it for raster=geometry, and for raster=tiled
- * where pixels sort: one point for each entry of the drawing order. particles_instanced.vert does
- * the same without a geometry shader. The outputs must be the inputs of particles_geometry.geom. */
+/* Computes the data of one particle's billboard; the geometry shader then makes the quad.
+ * lib/draw/sprites/particles_geometry.c draws one point with this shader for each entry of the
+ * drawing order (draw/moment/record.glsl). It does so for raster=geometry, and for raster=tiled
+ * with `post.compose: oit`, where fragments are sorted pixel by pixel. particles_instanced.vert
+ * does the same without a geometry shader. The outputs must be the inputs of
+ * particles_geometry.geom. */
 // variant: SHAPES=0
 // variant: SHAPES=1
 // variant: SHAPES=1 SUN_SHADE=1
@@ -21,7 +23,8 @@ layout(location = 3) out billboard particle;
 void main()
 {
     make_particle(entries[gl_VertexID]);
-    /* The place in the drawing order. Fragments of equal depth keep this order on the lists of
-     * pixels (particles_list.frag). */
+    /* The light does not use this component, so it holds the place in the drawing order, by which
+     * particles_list.frag orders fragments of equal depth. A float holds it exactly, since there
+     * are at most 2^24 particles. */
     particle.light_y.a = float(gl_VertexID);
 }
