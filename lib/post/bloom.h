@@ -35,8 +35,8 @@ struct kiln_bloom_inputs {
 };
 
 /* Blurs the glow. The stage owns the result, which is valid until the next call. *scale becomes the
- * size of the result divided by that of the source: 1/2 or 1/6. Returns NULL with an error on
- * failure. */
+ * size of the result divided by that of the source, above 0 and at most 1. Returns NULL with an
+ * error on failure. */
 struct kiln_image *kiln_bloom_run(struct kiln_bloom_stage *stage,
                                   const struct kiln_bloom_inputs *inputs, float *scale,
                                   struct kiln_error *error);

@@ -4,6 +4,7 @@
 #define KILN_POST_BLOOM_BLUR_H
 
 #include "gpu/framebuffer.h"
+#include "post/bloom_plan.h"
 
 /* Holds an image with its framebuffer. A zero-initialised target may be finished. */
 struct kiln_bloom_target {
@@ -24,27 +25,27 @@ bool kiln_bloom_pass(struct kiln_framebuffer *target, struct kiln_image *first,
 GLuint kiln_bloom_program(struct kiln_device *device, const char *fragment,
                           struct kiln_error *error);
 
-/* Blurs sources of width x height with a Gaussian. Blurring does not change the sum of the
- * light. */
+/* Blurs sources with a Gaussian, that of the scene or that of the thesis. Blurring does not change
+ * the sum of the light. The plan must outlive the result. */
 struct kiln_bloom_gaussian;
-struct kiln_bloom_gaussian *kiln_bloom_gaussian_create(struct kiln_device *device, uint32_t width,
-                                                       uint32_t height, GLenum format,
-                                                       struct kiln_error *error);
+struct kiln_bloom_gaussian *kiln_bloom_gaussian_create(struct kiln_device *device,
+                                                       const struct kiln_bloom_plan *plan,
+                                                       GLenum format, struct kiln_error *error);
 void kiln_bloom_gaussian_destroy(struct kiln_bloom_gaussian **gaussian);
 
-/* Blurs the source; the result has a sixth of its size. */
+/* Blurs the source; the result has the size of the plan's last level. */
 struct kiln_image *kiln_bloom_gaussian_run(struct kiln_bloom_gaussian *gaussian,
                                            struct kiln_image *source, GLuint vertex_array,
                                            struct kiln_error *error);
 
 struct kiln_bloom_pyramid;
-struct kiln_bloom_pyramid *kiln_bloom_pyramid_create(struct kiln_device *device, uint32_t width,
-                                                     uint32_t height, GLenum format,
-                                                     struct kiln_error *error);
+struct kiln_bloom_pyramid *kiln_bloom_pyramid_create(struct kiln_device *device,
+                                                     const struct kiln_bloom_plan *plan,
+                                                     GLenum format, struct kiln_error *error);
 void kiln_bloom_pyramid_destroy(struct kiln_bloom_pyramid **pyramid);
 
-/* Blurs the source; the result has half its size. radius: 0 (a glow of a pixel or two) to 1 (a glow
- * over the whole picture). */
+/* Blurs the source; the result has the size of the plan's first level. radius: 0 (a glow of a pixel
+ * or two) to 1 (a glow over the whole picture). */
 struct kiln_image *kiln_bloom_pyramid_run(struct kiln_bloom_pyramid *pyramid,
                                           struct kiln_image *source, float radius,
                                           GLuint vertex_array, struct kiln_error *error);

@@ -1,69 +1,66 @@
-/* This file blurs the glow in GL for bloom_gl.c, as the thesis of Heinz (2019, 3.2.5) does. The
- * glow is shrunk to a third of its width and height and blurred by a Gaussian, horizontally and
- * then vertically. The result is shrunk to a sixth and blurred again, and that is what the caller
- * gets. bloom_cpu.c does the same on the host. Each reduction averages whole blocks of pixels; the
- * thesis samples bilinearly instead, which may miss a spark. */
+/* This file blurs the glow in GL by Gaussians. At each level of the plan (bloom_plan.h) it reduces
+ * the picture, then blurs it horizontally and vertically. The Gaussian of the thesis has two
+ * levels, a third and a sixth of the size (Heinz 2019, 3.2.5), and each reduction averages whole
+ * blocks of pixels; the thesis samples bilinearly instead, which may miss a spark. The other
+ * Gaussian has one level, which is reduced by tents. */
 #include <stdlib.h>
 
 #include "base/error.h"
 #include "post/bloom_blur.h"
-#include "post/bloom_kernels.h"
 
 struct level {
-    struct kiln_bloom_target result;  /* first the shrunk image, in the end the blurred one */
-    struct kiln_bloom_target between; /* the shrunk image, blurred horizontally */
+    struct kiln_bloom_target down, across; /* down: reduced, then blurred vertically; across:
+                                            * blurred horizontally */
 };
 
 struct kiln_bloom_gaussian {
-    GLuint shrink, blur;
-    GLint factor_location, direction_location; /* of uniforms */
-    struct level third_size, sixth_size;
+    const struct kiln_bloom_plan *plan;
+    GLuint reduce, blur;
+    GLint ratio, direction;
+    struct level levels[KILN_BLOOM_MAX_LEVELS];
 };
 
-static bool init_level(struct kiln_device *device, struct level *level, uint32_t width,
-                       uint32_t height, GLenum format, struct kiln_error *error)
+static bool init_levels(struct kiln_bloom_gaussian *gaussian, struct kiln_device *device,
+                        GLenum format, struct kiln_error *error)
 {
-    return kiln_bloom_target_init(&level->result, device, width, height, format, error) &&
-           kiln_bloom_target_init(&level->between, device, width, height, format, error);
+    for (uint32_t i = 0; i < gaussian->plan->level_count; i++) {
+        const struct kiln_bloom_level *size = &gaussian->plan->levels[i];
+        struct level *level = &gaussian->levels[i];
+        if (!kiln_bloom_target_init(&level->down, device, size->width, size->height, format,
+                                    error) ||
+            !kiln_bloom_target_init(&level->across, device, size->width, size->height, format,
+                                    error))
+            return false;
+    }
+    return true;
 }
 
-static void finish_level(struct level *level)
-{
-    kiln_bloom_target_finish(&level->result);
-    kiln_bloom_target_finish(&level->between);
-}
-
-static void set_weights(GLuint program)
-{
-    float weights[KILN_BLOOM_TAPS];
-    kiln_bloom_gaussian_weights(weights);
-    glUseProgram(program);
-    glUniform1fv(glGetUniformLocation(program, "weights"), KILN_BLOOM_TAPS, weights);
-}
-
-struct kiln_bloom_gaussian *kiln_bloom_gaussian_create(struct kiln_device *device, uint32_t width,
-                                                       uint32_t height, GLenum format,
-                                                       struct kiln_error *error)
+struct kiln_bloom_gaussian *kiln_bloom_gaussian_create(struct kiln_device *device,
+                                                       const struct kiln_bloom_plan *plan,
+                                                       GLenum format, struct kiln_error *error)
 {
     struct kiln_bloom_gaussian *gaussian = calloc(1, sizeof *gaussian);
     if (!gaussian) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
         return NULL;
     }
-    gaussian->shrink = kiln_bloom_program(device, "post/bloom_shrink.frag", error);
-    if (gaussian->shrink)
+    gaussian->plan = plan;
+    gaussian->reduce = kiln_bloom_program(
+        device,
+        plan->kind == KILN_BLOOM_THESIS ? "post/bloom_shrink.frag" : "post/bloom_reduce.frag",
+        error);
+    if (gaussian->reduce)
         gaussian->blur = kiln_bloom_program(device, "post/bloom_blur.frag", error);
-    if (!gaussian->blur ||
-        !init_level(device, &gaussian->third_size, (width + 2) / 3, (height + 2) / 3, format,
-                    error) ||
-        !init_level(device, &gaussian->sixth_size, (width + 5) / 6, (height + 5) / 6, format,
-                    error)) {
+    if (!gaussian->blur || !init_levels(gaussian, device, format, error)) {
         kiln_bloom_gaussian_destroy(&gaussian);
         return NULL;
     }
-    set_weights(gaussian->blur);
-    gaussian->factor_location = glGetUniformLocation(gaussian->shrink, "factor");
-    gaussian->direction_location = glGetUniformLocation(gaussian->blur, "direction");
+    glUseProgram(gaussian->blur);
+    glUniform1i(glGetUniformLocation(gaussian->blur, "taps"), (GLint)plan->taps);
+    glUniform1fv(glGetUniformLocation(gaussian->blur, "weights"), (GLsizei)plan->taps,
+                 plan->weights);
+    gaussian->ratio = glGetUniformLocation(gaussian->reduce, "ratio");
+    gaussian->direction = glGetUniformLocation(gaussian->blur, "direction");
     return gaussian;
 }
 
@@ -71,28 +68,30 @@ void kiln_bloom_gaussian_destroy(struct kiln_bloom_gaussian **gaussian)
 {
     if (!*gaussian)
         return;
-    finish_level(&(*gaussian)->third_size);
-    finish_level(&(*gaussian)->sixth_size);
-    glDeleteProgram((*gaussian)->shrink); /* GL ignores 0 */
+    for (uint32_t i = 0; i < KILN_BLOOM_MAX_LEVELS; i++) {
+        kiln_bloom_target_finish(&(*gaussian)->levels[i].down);
+        kiln_bloom_target_finish(&(*gaussian)->levels[i].across);
+    }
+    glDeleteProgram((*gaussian)->reduce); /* GL ignores 0 */
     glDeleteProgram((*gaussian)->blur);
     free(*gaussian);
     *gaussian = NULL;
 }
 
-static bool blur_level(struct kiln_bloom_gaussian *gaussian, struct kiln_image *source, int factor,
-                       struct level *level, GLuint vertex_array, struct kiln_error *error)
+static bool blur_level(struct kiln_bloom_gaussian *gaussian, struct kiln_image *source,
+                       uint32_t index, GLuint vertex_array, struct kiln_error *error)
 {
-    glUseProgram(gaussian->shrink);
-    glUniform1i(gaussian->factor_location, factor);
-    if (!kiln_bloom_pass(&level->result.framebuffer, source, NULL, vertex_array, error))
+    struct level *level = &gaussian->levels[index];
+    glUseProgram(gaussian->reduce);
+    glUniform1f(gaussian->ratio, gaussian->plan->levels[index].ratio);
+    if (!kiln_bloom_pass(&level->down.framebuffer, source, NULL, vertex_array, error))
         return false;
     glUseProgram(gaussian->blur);
-    glUniform2i(gaussian->direction_location, 1, 0);
-    if (!kiln_bloom_pass(&level->between.framebuffer, &level->result.image, NULL, vertex_array,
-                         error))
+    glUniform2i(gaussian->direction, 1, 0);
+    if (!kiln_bloom_pass(&level->across.framebuffer, &level->down.image, NULL, vertex_array, error))
         return false;
-    glUniform2i(gaussian->direction_location, 0, 1);
-    return kiln_bloom_pass(&level->result.framebuffer, &level->between.image, NULL, vertex_array,
+    glUniform2i(gaussian->direction, 0, 1);
+    return kiln_bloom_pass(&level->down.framebuffer, &level->across.image, NULL, vertex_array,
                            error);
 }
 
@@ -100,9 +99,11 @@ struct kiln_image *kiln_bloom_gaussian_run(struct kiln_bloom_gaussian *gaussian,
                                            struct kiln_image *source, GLuint vertex_array,
                                            struct kiln_error *error)
 {
-    if (!blur_level(gaussian, source, 3, &gaussian->third_size, vertex_array, error) ||
-        !blur_level(gaussian, &gaussian->third_size.result.image, 2, &gaussian->sixth_size,
-                    vertex_array, error))
-        return NULL;
-    return &gaussian->sixth_size.result.image;
+    struct kiln_image *blurred = source;
+    for (uint32_t i = 0; i < gaussian->plan->level_count; i++) {
+        if (!blur_level(gaussian, blurred, i, vertex_array, error))
+            return NULL;
+        blurred = &gaussian->levels[i].down.image;
+    }
+    return blurred;
 }

@@ -14,6 +14,7 @@ struct kiln_bloom_gl {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     struct kiln_image *source;
+    struct kiln_bloom_plan plan;
     struct kiln_bloom_gaussian *gaussian; /* exactly one of the two is not NULL */
     struct kiln_bloom_pyramid *pyramid;
     GLuint bright; /* program of the bright pass; 0 if the source is drawn with the particles */
@@ -85,11 +86,12 @@ static bool init_bright(struct kiln_bloom_gl *stage, struct kiln_error *error)
 
 static bool init_blur(struct kiln_bloom_gl *stage, GLenum format, struct kiln_error *error)
 {
-    uint32_t width = stage->source->width, height = stage->source->height;
-    if (stage->scene->post.bloom == KILN_BLOOM_PYRAMID)
-        stage->pyramid = kiln_bloom_pyramid_create(stage->device, width, height, format, error);
+    const struct kiln_bloom_plan *plan = &stage->plan;
+    kiln_bloom_plan_init(&stage->plan, stage->scene, stage->source->width, stage->source->height);
+    if (plan->kind == KILN_BLOOM_PYRAMID)
+        stage->pyramid = kiln_bloom_pyramid_create(stage->device, plan, format, error);
     else
-        stage->gaussian = kiln_bloom_gaussian_create(stage->device, width, height, format, error);
+        stage->gaussian = kiln_bloom_gaussian_create(stage->device, plan, format, error);
     return stage->pyramid || stage->gaussian;
 }
 
@@ -152,13 +154,12 @@ struct kiln_image *kiln_bloom_gl_run(struct kiln_bloom_gl *stage,
     if (stage->bright && !pass_bright(stage, inputs, error))
         return NULL;
     struct kiln_image *result;
+    *scale = stage->plan.scale;
     if (stage->pyramid) {
         float radius = kiln_scene_value(stage->scene, &post->bloom_radius, inputs->time_s);
-        *scale = 1.0f / 2.0f;
         result = kiln_bloom_pyramid_run(stage->pyramid, stage->source, radius, stage->vertex_array,
                                         error);
     } else {
-        *scale = 1.0f / 6.0f;
         result =
             kiln_bloom_gaussian_run(stage->gaussian, stage->source, stage->vertex_array, error);
     }

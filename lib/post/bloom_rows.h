@@ -3,10 +3,13 @@
 #define KILN_POST_BLOOM_ROWS_H
 
 #include "base/simd.h"
-#include "post/bloom_kernels.h"
+#include "post/bloom_plan.h"
 #include "post/compose.h"
 
-enum { KILN_BLOOM_EDGE = 5 }; /* the most pixels that a filter reads beyond the end of a row */
+enum {
+    /* the most pixels that a filter reads beyond the end of a row */
+    KILN_BLOOM_EDGE = KILN_BLOOM_MAX_TAPS - 1,
+};
 
 /* Describes a picture that a pass reads: RGBA, rows from the top. */
 struct kiln_bloom_view {
@@ -14,15 +17,24 @@ struct kiln_bloom_view {
     uint32_t width, height;
 };
 
+/* Says which pixels of a row make one pixel of the reduced row. */
+struct kiln_bloom_column {
+    uint32_t first, count;
+    const float *weights; /* `count` of them */
+};
+
 /* Holds the parameters of a pass, which loops over the rows of the picture that it writes. */
 struct kiln_bloom_pass {
     struct kiln_bloom_view from, level; /* level: the halved picture that `join` mixes with
                                          * `from` */
     float *to;
-    uint32_t to_width, factor;
-    float radius;
-    float weights[KILN_BLOOM_TAPS];
-    struct kiln_compose_light light; /* of the bright pass */
+    uint32_t to_width;
+    float ratio;                             /* of `shrink` and `reduce`: how many pixels of `from`
+                                              * are one pixel along an axis; whole for `shrink` */
+    const struct kiln_bloom_column *columns; /* of `reduce`, one for each pixel of a row */
+    float radius;                            /* of `join` */
+    const struct kiln_bloom_plan *plan;      /* has the taps of `across` and `down` */
+    struct kiln_compose_light light;         /* of the bright pass */
     float exposure, threshold;
     kiln_quad *rows; /* a row for each thread, as long as the longest that is read, with edges */
     size_t row_length;
@@ -34,8 +46,10 @@ typedef void kiln_bloom_rows_run(void *context, size_t begin, size_t end, uint32
 
 struct kiln_bloom_rows {
     kiln_bloom_rows_run *bright; /* post/bloom_bright.frag */
-    kiln_bloom_rows_run *shrink; /* post/bloom_shrink.frag, then post/bloom_blur.frag along rows */
-    kiln_bloom_rows_run *blur;   /* post/bloom_blur.frag down the columns */
+    kiln_bloom_rows_run *shrink; /* post/bloom_shrink.frag */
+    kiln_bloom_rows_run *reduce; /* post/bloom_reduce.frag */
+    kiln_bloom_rows_run *across; /* post/bloom_blur.frag along rows */
+    kiln_bloom_rows_run *down;   /* post/bloom_blur.frag down the columns */
     kiln_bloom_rows_run *halve;  /* post/bloom_down.frag */
     kiln_bloom_rows_run *join;   /* post/bloom_up.frag; `from` is the smaller picture */
 };

@@ -1,7 +1,11 @@
 /* This file computes rows of the bloom's passes on the host, as the shaders post/bloom_*.frag do in
  * GL. A filter in two directions first filters several rows into one row vertically, then that row
  * horizontally. */
+#include <math.h>
+#include <string.h>
+
 #include "post/bloom_rows.h"
+#include "shared/tent.h"
 
 static const float HALF_MAX = 65504.0f; /* the greatest 16-bit float; greater values are clamped to
                                          * it */
@@ -36,11 +40,11 @@ static inline void repeat_edges(kiln_quad *row, size_t width)
     }
 }
 
-static inline void shrink_row(const struct kiln_bloom_pass *p, size_t y, uint32_t worker)
+static inline void shrink_row(const struct kiln_bloom_pass *p, size_t y)
 {
-    kiln_quad *row = worker_row(p, worker);
-    const size_t factor = p->factor, last = p->from.width - 1;
+    const size_t factor = (size_t)p->ratio, last = p->from.width - 1;
     const float pixel_count = (float)(factor * factor);
+    float *to = p->to + y * p->to_width * 4;
     for (size_t x = 0; x < p->to_width; x++) {
         kiln_quad sum = {0};
         for (size_t dy = 0; dy < factor; dy++) {
@@ -50,33 +54,69 @@ static inline void shrink_row(const struct kiln_bloom_pass *p, size_t y, uint32_
                 sum += clamp_to_half(kiln_quad_load(from + 4 * (at < last ? at : last)));
             }
         }
-        row[x] = sum / pixel_count;
+        kiln_quad_store(to + 4 * x, sum / pixel_count);
     }
-    repeat_edges(row, p->to_width);
-    const float *weights = p->weights;
+}
+
+/* Adds a row times a weight to sums, channel by channel, which compilers vectorise. */
+static inline void add_row(float *sums, const float *from, float weight, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        sums[i] += (from[i] < HALF_MAX ? from[i] : HALF_MAX) * weight;
+}
+
+static inline void reduce_row(const struct kiln_bloom_pass *p, size_t y, uint32_t worker)
+{
+    const float center = tent_center((float)y, p->ratio), reach = p->ratio + 0.5f;
+    const int64_t first = (int64_t)floorf(center - reach) + 1;
+    const int64_t last = (int64_t)ceilf(center + reach) - 1;
+    const size_t count = 4 * (size_t)p->from.width;
+    float *sums = (float *)worker_row(p, worker);
+    memset(sums, 0, count * sizeof *sums);
+    for (int64_t from = first; from <= last; from++)
+        add_row(sums, row_at(&p->from, from), tent_weight((float)from - center, p->ratio), count);
     float *to = p->to + y * p->to_width * 4;
     for (size_t x = 0; x < p->to_width; x++) {
-        const kiln_quad *here = row + x;
-        kiln_quad sum = here[0] * weights[0];
-        for (int i = 1; i < KILN_BLOOM_TAPS; i++)
-            sum += (here[i] + here[-i]) * weights[i];
+        const struct kiln_bloom_column *column = &p->columns[x];
+        kiln_quad sum = {0};
+        for (uint32_t i = 0; i < column->count; i++)
+            sum += kiln_quad_load(sums + 4 * (column->first + (size_t)i)) * column->weights[i];
         kiln_quad_store(to + 4 * x, sum);
     }
 }
 
-static inline void blur_row(const struct kiln_bloom_pass *p, size_t y)
+static inline void blur_across(const struct kiln_bloom_pass *p, size_t y, uint32_t worker)
 {
-    const float *rows[2 * KILN_BLOOM_TAPS - 1];
-    for (int i = 0; i < 2 * KILN_BLOOM_TAPS - 1; i++)
-        rows[i] = row_at(&p->from, (int64_t)y + i - (KILN_BLOOM_TAPS - 1));
-    const float *weights = p->weights;
-    const int middle = KILN_BLOOM_TAPS - 1;
+    const float *weights = p->plan->weights, *from = row_at(&p->from, (int64_t)y);
+    const uint32_t taps = p->plan->taps;
+    kiln_quad *row = worker_row(p, worker);
+    for (size_t x = 0; x < p->to_width; x++)
+        row[x] = kiln_quad_load(from + 4 * x);
+    repeat_edges(row, p->to_width);
+    float *to = p->to + y * p->to_width * 4;
+    for (size_t x = 0; x < p->to_width; x++) {
+        const kiln_quad *here = row + x;
+        kiln_quad sum = here[0] * weights[0];
+        for (uint32_t i = 1; i < taps; i++)
+            sum += (here[i] + *(here - i)) * weights[i];
+        kiln_quad_store(to + 4 * x, sum);
+    }
+}
+
+static inline void blur_down(const struct kiln_bloom_pass *p, size_t y)
+{
+    const float *weights = p->plan->weights;
+    const uint32_t taps = p->plan->taps;
+    const float *above[KILN_BLOOM_MAX_TAPS], *below[KILN_BLOOM_MAX_TAPS];
+    for (uint32_t i = 0; i < taps; i++) {
+        above[i] = row_at(&p->from, (int64_t)y - i);
+        below[i] = row_at(&p->from, (int64_t)y + i);
+    }
     float *to = p->to + y * p->to_width * 4;
     for (size_t x = 0; x < 4 * (size_t)p->to_width; x += 4) {
-        kiln_quad sum = kiln_quad_load(rows[middle] + x) * weights[0];
-        for (int i = 1; i < KILN_BLOOM_TAPS; i++)
-            sum += (kiln_quad_load(rows[middle + i] + x) + kiln_quad_load(rows[middle - i] + x)) *
-                   weights[i];
+        kiln_quad sum = kiln_quad_load(above[0] + x) * weights[0];
+        for (uint32_t i = 1; i < taps; i++)
+            sum += (kiln_quad_load(below[i] + x) + kiln_quad_load(above[i] + x)) * weights[i];
         kiln_quad_store(to + x, sum);
     }
 }
@@ -140,15 +180,28 @@ static inline void bright_row(const struct kiln_bloom_pass *p, size_t y)
 
 static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
+    (void)worker;
     for (size_t y = begin; y < end; y++)
-        shrink_row(context, y, worker);
+        shrink_row(context, y);
 }
 
-static void blur_rows(void *context, size_t begin, size_t end, uint32_t worker)
+static void reduce_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    for (size_t y = begin; y < end; y++)
+        reduce_row(context, y, worker);
+}
+
+static void across_rows(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    for (size_t y = begin; y < end; y++)
+        blur_across(context, y, worker);
+}
+
+static void down_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
     (void)worker;
     for (size_t y = begin; y < end; y++)
-        blur_row(context, y);
+        blur_down(context, y);
 }
 
 static void halve_rows(void *context, size_t begin, size_t end, uint32_t worker)
@@ -173,7 +226,9 @@ static void bright_rows(void *context, size_t begin, size_t end, uint32_t worker
 const struct kiln_bloom_rows KILN_SIMD_NAME(kiln_bloom_rows) = {
     .bright = bright_rows,
     .shrink = shrink_rows,
-    .blur = blur_rows,
+    .reduce = reduce_rows,
+    .across = across_rows,
+    .down = down_rows,
     .halve = halve_rows,
     .join = join_rows,
 };

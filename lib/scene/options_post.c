@@ -25,6 +25,7 @@ static const char *const bloom_kinds[] = {
     [KILN_BLOOM_NONE] = "none",
     [KILN_BLOOM_GAUSSIAN] = "gaussian",
     [KILN_BLOOM_PYRAMID] = "pyramid",
+    [KILN_BLOOM_THESIS] = "thesis",
     NULL,
 };
 
@@ -63,8 +64,10 @@ static const struct kiln_option particles[] = {
 };
 
 static const struct kiln_option bloom[] = {
-    CHOICE(LOOK, "kind", bloom, bloom_kinds, "gaussian",
-           "How the glow is spread: gaussian by some 40 pixels, pyramid by parts of the picture."),
+    CHOICE(LOOK, "kind", bloom, bloom_kinds, "pyramid",
+           "How the glow is spread: gaussian evenly around, by `sigma`; pyramid into a bright core "
+           "and a wide skirt, by `radius`. Both look the same in pictures of all sizes. thesis is "
+           "the Gaussian of Heinz 2019, some 40 pixels wide in a picture of any size."),
     CHOICE(LOOK, "source", bloom_source, bloom_sources, "weights",
            "What glows: weights takes particles by look.bloom, bright takes all that is brighter "
            "than `threshold`."),
@@ -73,6 +76,9 @@ static const struct kiln_option bloom[] = {
           "Exposed light above which the source bright glows."),
     VALUE(LOOK, "radius", bloom_radius, KILN_FRACTION, 0, 1, TIME, "0.7",
           "How far the pyramid spreads the glow."),
+    VALUE(LOOK, "sigma", bloom_sigma, KILN_FRACTION, 0, 0.25, 0, "0.019",
+          "Standard deviation of the gaussian as a part of the picture's height. The glow is seen "
+          "about three times as far."),
     END,
 };
 

@@ -430,7 +430,12 @@ enum kiln_compose {
 /* Resolution of the pictures that particles are drawn into. */
 enum kiln_resolution { KILN_RESOLUTION_FULL, KILN_RESOLUTION_HALF, KILN_RESOLUTION_QUARTER };
 
-enum kiln_bloom_kind { KILN_BLOOM_NONE, KILN_BLOOM_GAUSSIAN, KILN_BLOOM_PYRAMID };
+enum kiln_bloom_kind {
+    KILN_BLOOM_NONE,
+    KILN_BLOOM_GAUSSIAN, /* a part of the picture's height wide */
+    KILN_BLOOM_PYRAMID,  /* halved pictures, joined: a bright core with a wide skirt */
+    KILN_BLOOM_THESIS,   /* the Gaussian of Heinz 2019, 3.2.5, which is counted in pixels */
+};
 
 /* Names the light that blooms. */
 enum kiln_bloom_source {
@@ -452,6 +457,8 @@ struct kiln_post {
     struct kiln_value bloom_strength;
     struct kiln_value bloom_threshold; /* threshold on light after exposure */
     struct kiln_value bloom_radius;    /* of the pyramid: 0 to 1, how far it spreads */
+    struct kiln_value bloom_sigma;     /* of the Gaussian: its standard deviation as a part of the
+                                        * picture's height; constant */
     struct kiln_value exposure;        /* exposure in stops */
     enum kiln_tonemap tonemap;
     bool dither;

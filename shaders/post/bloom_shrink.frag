@@ -2,12 +2,13 @@
  * in 16 bits that overflowed to infinity counts as the largest half float, so that it does not
  * spread. */
 layout(binding = 0) uniform sampler2D source;
-uniform int factor;
+uniform float ratio; /* whole: edge of a block */
 
 layout(location = 0) out vec4 out_color;
 
 void main()
 {
+    int factor = int(ratio);
     ivec2 first = ivec2(gl_FragCoord.xy) * factor;
     ivec2 last = textureSize(source, 0) - 1;
     vec4 sum = vec4(0.0);

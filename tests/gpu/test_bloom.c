@@ -78,6 +78,7 @@ struct fixture {
     struct kiln_image source;
     struct kiln_threads *threads;
     struct kiln_bloom_stage *stage;
+    double scale; /* of the last result */
 };
 
 static struct kiln_scene *parse(const char *post)
@@ -123,6 +124,7 @@ static const float *run(struct fixture *f, const struct kiln_bloom_inputs *input
     float scale = 0;
     struct kiln_image *result = kiln_bloom_run(f->stage, inputs, &scale, &error);
     assert_non_null(result);
+    f->scale = (double)scale;
     size[0] = result->width;
     size[1] = result->height;
     assert_true(fabs((double)result->width - (double)scale * f->source.width) < 1.0);
@@ -141,32 +143,35 @@ static void scatter_sparks(float *pixels, struct plane *expected)
 }
 
 static void assert_planes_equal(const float *got, const uint32_t size[2],
-                                const struct plane *expected)
+                                const struct plane *expected, double tolerance)
 {
     assert_int_equal(size[0], expected->width);
     assert_int_equal(size[1], expected->height);
-    for (int i = 0; i < expected->width * expected->height * 4; i++)
-        assert_true(fabs((double)got[i] - expected->pixels[i]) <=
-                    1e-5 * (1.0 + expected->pixels[i]));
+    for (int i = 0; i < expected->width * expected->height * 4; i++) {
+        double error = fabs((double)got[i] - expected->pixels[i]);
+        if (error > tolerance * (1.0 + expected->pixels[i]))
+            fail_msg("%d x %d: %g instead of %g", expected->width, expected->height, (double)got[i],
+                     expected->pixels[i]);
+    }
 }
 
 static const struct kiln_bloom_inputs NO_INPUTS = {0};
 
-static void gaussian_matches_c(void **state)
+static void thesis_matches_c(void **state)
 {
     static const int sizes[][2] = {{96, 54}, {97, 55}, {16, 16}, {5, 40}};
     srand(7);
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         struct fixture f;
-        float *pixels = fixture_init(&f, *state, "bloom: {kind: gaussian}", sizes[s][0],
-                                     sizes[s][1], GL_RGBA32F);
+        float *pixels =
+            fixture_init(&f, *state, "bloom: {kind: thesis}", sizes[s][0], sizes[s][1], GL_RGBA32F);
         struct plane expected = plane_create(sizes[s][0], sizes[s][1]);
         scatter_sparks(pixels, &expected);
         expected = blur(blur(shrink(expected, 3), 1, 0), 0, 1);
         expected = blur(blur(shrink(expected, 2), 1, 0), 0, 1);
         uint32_t size[2];
         const float *got = run(&f, &NO_INPUTS, size);
-        assert_planes_equal(got, size, &expected);
+        assert_planes_equal(got, size, &expected, 1e-5);
         free(expected.pixels);
         fixture_finish(&f);
     }
@@ -213,39 +218,186 @@ static void join(struct plane *level, const struct plane *below, double radius)
     }
 }
 
-/* From a level down: what comes out of the pyramid's upper end. */
-static struct plane pyramid(const struct plane *from, double radius)
+/* The area of a triangle of width 2 and height 1 left of x. */
+static double triangle_left_of(double x)
 {
-    struct plane level = halve(from);
-    if (level.width >= 16 && level.height >= 16) {
-        struct plane below = pyramid(&level, radius);
-        join(&level, &below, radius);
+    x = x < -1 ? -1 : x > 1 ? 1 : x;
+    return x < 0 ? (1 + x) * (1 + x) / 2 : 1 - (1 - x) * (1 - x) / 2;
+}
+
+/* Reduces by tents that are integrated over each pixel. */
+static struct plane reduce(const struct plane *from, double ratio)
+{
+    struct plane to =
+        plane_create((int)ceil(from->width / ratio - 1e-3), (int)ceil(from->height / ratio - 1e-3));
+    int reach = (int)ratio + 2;
+    for (int y = 0; y < to.height; y++) {
+        for (int x = 0; x < to.width; x++) {
+            double cx = (x + 0.5) * ratio - 0.5, cy = (y + 0.5) * ratio - 0.5;
+            for (int j = (int)cy - reach; j <= (int)cy + reach; j++) {
+                for (int i = (int)cx - reach; i <= (int)cx + reach; i++) {
+                    double weight = (triangle_left_of((i + 0.5 - cx) / ratio) -
+                                     triangle_left_of((i - 0.5 - cx) / ratio)) *
+                                    (triangle_left_of((j + 0.5 - cy) / ratio) -
+                                     triangle_left_of((j - 0.5 - cy) / ratio));
+                    const double *p = at(from, i, j);
+                    for (int c = 0; c < 4; c++)
+                        at(&to, x, y)[c] += weight * p[c];
+                }
+            }
+        }
+    }
+    return to;
+}
+
+/* From a level down: what comes out of the pyramid's upper end. missing: how many finer levels
+ * there are in larger pictures. */
+static struct plane pyramid(struct plane level, int missing, int levels, double radius)
+{
+    if (levels > 1) {
+        struct plane below = pyramid(halve(&level), 0, levels - 1, radius);
+        join(&level, &below, pow(radius, missing + 1));
         free(below.pixels);
     }
     return level;
 }
 
+/* Sizes above, below and between those of levels, and such as have few of them. */
 static void pyramid_matches_c(void **state)
 {
-    static const int sizes[][2] = {{96, 54}, {97, 129}, {16, 16}, {5, 40}, {1, 1}};
+    static const struct {
+        int width, height, missing;
+        double ratio;
+    } sizes[] = {{96, 54, 3, 54 / 45.0},
+                 {97, 129, 2, 129 / 90.0},
+                 {16, 16, 5, 16 / 11.25},
+                 {5, 40, 4, 40 / 22.5},
+                 {1, 1, 5, 1},
+                 {20, 720, 0, 2},
+                 {30, 1000, 0, 1000 / 360.0}};
     static const double radii[] = {0, 0.7, 1};
     srand(8);
-    for (size_t s = 0; s < 5; s++) {
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         for (size_t r = 0; r < 3; r++) {
             char post[64];
             snprintf(post, sizeof post, "bloom: {kind: pyramid, radius: %g}", radii[r]);
             struct fixture f;
-            float *pixels = fixture_init(&f, *state, post, sizes[s][0], sizes[s][1], GL_RGBA32F);
-            struct plane source = plane_create(sizes[s][0], sizes[s][1]);
+            float *pixels =
+                fixture_init(&f, *state, post, sizes[s].width, sizes[s].height, GL_RGBA32F);
+            struct plane source = plane_create(sizes[s].width, sizes[s].height);
             scatter_sparks(pixels, &source);
-            struct plane expected = pyramid(&source, radii[r]);
+            struct plane expected = pyramid(reduce(&source, sizes[s].ratio), sizes[s].missing,
+                                            6 - sizes[s].missing, radii[r]);
             uint32_t size[2];
             const float *got = run(&f, &NO_INPUTS, size);
-            assert_planes_equal(got, size, &expected);
+            assert_planes_equal(got, size, &expected, 2e-4);
             free(source.pixels);
             free(expected.pixels);
             fixture_finish(&f);
         }
+    }
+}
+
+/* The cubic B-spline by which the composite stage enlarges the glow, from its pieces. */
+static double cubic_spline(double x)
+{
+    x = fabs(x);
+    return x < 1 ? (4 - 6 * x * x + 3 * x * x * x) / 6 : x < 2 ? pow(2 - x, 3) / 6 : 0;
+}
+
+/* The red channel of the enlarged glow at a place, in pixels of the frame. */
+static double glow_at(const float *glow, const uint32_t size[2], double ratio, double x, double y)
+{
+    double cx = (x + 0.5) / ratio - 0.5, cy = (y + 0.5) / ratio - 0.5, sum = 0;
+    for (int j = (int)cy - 1; j <= (int)cy + 2; j++) {
+        for (int i = (int)cx - 1; i <= (int)cx + 2; i++)
+            sum += cubic_spline(i - cx) * cubic_spline(j - cy) *
+                   (double)glow[4 * (clamp(j, (int)size[1] - 1) * (int)size[0] +
+                                     clamp(i, (int)size[0] - 1))];
+    }
+    return sum;
+}
+
+enum { ROOM = 4 }; /* a picture is a ROOMth of its height wide on each side of its spot */
+
+/* The red channel of the glow of a square spot in the middle of a black picture: its values on a
+ * line from the spot's middle to the right, at some distances. `spot` pixels wide, of brightness 1
+ * for a thousandth of a square whose sides are the picture's height. */
+static void measure_spot(struct kiln_device *device, const char *post, int height, int spot,
+                         const double *distances, size_t count, double *values)
+{
+    struct fixture f;
+    int width = 2 * height / ROOM + spot, left = (width - spot) / 2, top = (height - spot) / 2;
+    float *pixels = fixture_init(&f, device, post, width, height, GL_RGBA32F);
+    memset(pixels, 0, sizeof(float) * (size_t)(width * height) * 4);
+    double light = (double)height * height / (double)(spot * spot) / 1000;
+    for (int y = top; y < top + spot; y++) {
+        for (int x = left; x < left + spot; x++)
+            pixels[4 * (y * width + x)] = (float)light;
+    }
+    uint32_t size[2];
+    const float *glow = run(&f, &NO_INPUTS, size);
+    for (size_t i = 0; i < count; i++)
+        values[i] =
+            glow_at(glow, size, 1 / f.scale, left + (spot - 1) / 2.0 + distances[i] * height,
+                    top + (spot - 1) / 2.0);
+    fixture_finish(&f);
+}
+
+/* One bright pixel becomes a Gaussian of the wanted standard deviation, in small pictures and in
+ * large ones, by narrow and by wide ones. */
+static void gaussian_is_as_wide_as_asked(void **state)
+{
+    static const struct {
+        int height;
+        double sigma;
+    } cases[] = {{90, 0.02},   {181, 0.019}, {270, 0.019}, {271, 0.05},
+                 {720, 0.003}, {720, 0.019}, {720, 0.08},  {1081, 0.019}};
+    static const double distances[] = {0, 0.25, 0.5, 1, 1.5, 2, 3};
+    enum { COUNT = sizeof distances / sizeof *distances };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char post[64];
+        snprintf(post, sizeof post, "bloom: {kind: gaussian, sigma: %g}", cases[k].sigma);
+        double places[COUNT], values[COUNT];
+        for (int i = 0; i < COUNT; i++)
+            places[i] = distances[i] * cases[k].sigma;
+        measure_spot(*state, post, cases[k].height, 1, places, COUNT, values);
+        double peak = 1e-3 / (2 * 3.14159265358979 * cases[k].sigma * cases[k].sigma);
+        for (int i = 0; i < COUNT; i++) {
+            double expected = exp(-0.5 * distances[i] * distances[i]);
+            double error = fabs(values[i] / peak - expected);
+            if (error > 0.02)
+                fail_msg("%d rows, sigma %g: %g instead of %g of the peak at %g sigma",
+                         cases[k].height, cases[k].sigma, values[i] / peak, expected, distances[i]);
+        }
+    }
+}
+
+/* The largest difference of the glow of a spot in a picture of `height` rows from that of 720, as a
+ * part of its peak there. The spot is a twentieth of the height. */
+static double size_error(struct kiln_device *device, const char *post, int height)
+{
+    static const double distances[] = {0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.2};
+    enum { COUNT = sizeof distances / sizeof *distances };
+    double values[COUNT], expected[COUNT], worst = 0;
+    measure_spot(device, post, 720, 36, distances, COUNT, expected);
+    measure_spot(device, post, height, height / 20, distances, COUNT, values);
+    for (int i = 0; i < COUNT; i++)
+        worst = fmax(worst, fabs(values[i] - expected[i]) / expected[0]);
+    return worst;
+}
+
+static void glow_is_the_same_part_of_any_picture(void **state)
+{
+    static const int heights[] = {180, 260, 360, 480, 1080};
+    for (size_t i = 0; i < sizeof heights / sizeof *heights; i++) {
+        double gaussian = size_error(*state, "bloom: {kind: gaussian}", heights[i]);
+        double pyramid = size_error(*state, "bloom: {kind: pyramid}", heights[i]);
+        double thesis = size_error(*state, "bloom: {kind: thesis}", heights[i]);
+        if (gaussian > 0.01 || pyramid > 0.05)
+            fail_msg("%d rows: gaussian differs by %g, pyramid by %g of the peak", heights[i],
+                     gaussian, pyramid);
+        assert_true(thesis > 0.05); /* counted in pixels: the measure shows it */
     }
 }
 
@@ -278,11 +430,12 @@ static void bright_pass_takes_what_is_bright(void **state)
     const struct kiln_bloom_inputs all = {&inputs[0], &inputs[1], &inputs[2], 0};
     uint32_t size[2];
     const float *got = run(&f, &all, size);
-    static const int places[3][2] = {{8, 8}, {8, 24}, {24, 24}}; /* of 32x32 */
+    static const uint32_t places[3][2] = {{1, 1}, {1, 3}, {3, 3}}; /* in quarters */
     static const float expected[3][3] = {
         {0.25f, 0.5f, 0}, {0, 0, 0}, {2.5f * 0.4f, 1.0f * 0.4f, 0}};
     for (int i = 0; i < 3; i++) {
-        const float *p = got + 4 * (places[i][1] * 32 + places[i][0]);
+        const float *p =
+            got + 4 * (places[i][1] * size[1] / 4 * size[0] + places[i][0] * size[0] / 4);
         for (int c = 0; c < 3; c++)
             assert_true(fabsf(p[c] - expected[i][c]) < 1e-5f);
     }
@@ -291,12 +444,12 @@ static void bright_pass_takes_what_is_bright(void **state)
     fixture_finish(&f);
 }
 
-enum { EDGE = 240, MOST = EDGE / 2 };
+enum { EDGE = 240, MOST = EDGE };
 
 /* The red channel, spread in a format, of a black square with one bright pixel near its middle;
- * returns the edge of the result. */
+ * returns the edge of the result. *scale: its size divided by that of the source. */
 static int spread_spark(struct kiln_device *device, const char *post, GLenum format,
-                        float brightness, float red[MOST * MOST])
+                        float brightness, float red[MOST * MOST], double *scale)
 {
     struct fixture f;
     float *pixels = fixture_init(&f, device, post, EDGE, EDGE, format);
@@ -306,24 +459,26 @@ static int spread_spark(struct kiln_device *device, const char *post, GLenum for
     const float *got = run(&f, &NO_INPUTS, size);
     for (uint32_t i = 0; i < size[0] * size[1]; i++)
         red[i] = got[4 * i];
+    *scale = f.scale;
     fixture_finish(&f);
     return (int)size[0];
 }
 
-static const char *const KINDS[] = {"bloom: {kind: gaussian}",
+static const char *const KINDS[] = {"bloom: {kind: gaussian}", "bloom: {kind: thesis}",
                                     "bloom: {kind: pyramid, radius: 0.5}"};
+enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
 /* Blurring moves light, it makes none: inside a large picture the sum stays. */
 static void bloom_keeps_the_light(void **state)
 {
     static float red[MOST * MOST];
-    for (int kind = 0; kind < 2; kind++) {
-        int edge = spread_spark(*state, KINDS[kind], GL_RGBA32F, 360.0f, red);
+    for (int kind = 0; kind < KIND_COUNT; kind++) {
+        double scale;
+        int edge = spread_spark(*state, KINDS[kind], GL_RGBA32F, 360.0f, red, &scale);
         double sum = 0;
         for (int i = 0; i < edge * edge; i++)
             sum += (double)red[i];
-        double share = (double)EDGE / edge;
-        assert_true(fabs(share * share * sum - 360.0) < 1e-2);
+        assert_true(fabs(sum / (scale * scale) - 360.0) < 1e-2);
     }
 }
 
@@ -331,9 +486,10 @@ static void bloom_keeps_the_light(void **state)
 static void infinity_does_not_spread(void **state)
 {
     static float red[MOST * MOST], bright[MOST * MOST];
-    for (int kind = 0; kind < 2; kind++) {
-        int edge = spread_spark(*state, KINDS[kind], GL_RGBA16F, INFINITY, red);
-        spread_spark(*state, KINDS[kind], GL_RGBA16F, 65504.0f, bright);
+    for (int kind = 0; kind < KIND_COUNT; kind++) {
+        double scale;
+        int edge = spread_spark(*state, KINDS[kind], GL_RGBA16F, INFINITY, red, &scale);
+        spread_spark(*state, KINDS[kind], GL_RGBA16F, 65504.0f, bright, &scale);
         assert_true(bright[edge / 2 * edge + edge / 2] > 10.0f);
         assert_memory_equal(red, bright, sizeof(float) * (size_t)(edge * edge));
     }
@@ -342,7 +498,9 @@ static void infinity_does_not_spread(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        test_on_device(gaussian_matches_c),
+        test_on_device(thesis_matches_c),
+        test_on_device(gaussian_is_as_wide_as_asked),
+        test_on_device(glow_is_the_same_part_of_any_picture),
         test_on_device(pyramid_matches_c),
         test_on_device(bright_pass_takes_what_is_bright),
         test_on_device(bloom_keeps_the_light),

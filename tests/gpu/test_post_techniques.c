@@ -243,7 +243,9 @@ static void check_bloom(void *device, const char *post, const struct variant *v)
 static void blooms_are_alike(void **state)
 {
     static const char *const posts[] = {
+        "bloom: {kind: thesis}",
         "bloom: {kind: gaussian}",
+        "bloom: {kind: gaussian, sigma: 0.1}",
         "bloom: {kind: gaussian, source: bright, threshold: 0.8}, exposure: 1.5",
         "bloom: {kind: pyramid, radius: 0.7}",
         "bloom: {kind: pyramid, source: bright, threshold: 2}",

@@ -223,6 +223,7 @@ static void the_composite_is_the_same_bytes(void **state)
 static void the_bloom_is_the_same_bytes(void **state)
 {
     check_all_levels(*state, "bloom: {kind: gaussian}", 8, spread);
+    check_all_levels(*state, "bloom: {kind: thesis}", 8, spread);
     check_all_levels(*state, "bloom: {kind: pyramid, radius: 0.7}", 8, spread);
     check_all_levels(*state, "bloom: {kind: gaussian, source: bright}", 8, spread);
 }
