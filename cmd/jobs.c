@@ -224,13 +224,16 @@ static int choose_frames(struct job *job, const struct arguments *arguments)
     return code;
 }
 
+enum { FLIPBOOK_FADE = 10 }; /* percent; the default of --flipbook-fade */
+
 static int read_flipbook(struct job_list *list, const struct arguments *arguments)
 {
     const struct option_use *grid = arguments_last(arguments, "flipbook");
     const struct option_use *alpha = arguments_last(arguments, "flipbook-alpha");
     const struct option_use *motion = arguments_last(arguments, "flipbook-motion");
     const struct option_use *padding = arguments_last(arguments, "flipbook-padding");
-    const struct option_use *part = alpha ? alpha : motion ? motion : padding;
+    const struct option_use *fade = arguments_last(arguments, "flipbook-fade");
+    const struct option_use *part = alpha ? alpha : motion ? motion : padding ? padding : fade;
     if (!grid)
         return part ? report(KILN_USAGE, "render: --%s: needs --flipbook", part->option->name) : 0;
     list->flipbook = (struct kiln_flipbook){
@@ -240,6 +243,7 @@ static int read_flipbook(struct job_list *list, const struct arguments *argument
         .padding = padding ? (uint32_t)padding->integer[0] : 0,
         .premultiplied = alpha && alpha->choice == 1,
         .motion = motion != NULL,
+        .fade = fade ? (uint64_t)fade->integer[0] : FLIPBOOK_FADE,
     };
     return 0;
 }

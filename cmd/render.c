@@ -79,6 +79,14 @@ static const struct option options[] = {
      .placeholder = "straight|premultiplied",
      .help = "Whether the colours of a flipbook are straight, or premultiplied by alpha.",
      .fallback = "straight"},
+    {.name = "flipbook-fade",
+     .kind = OPTION_INTEGER,
+     .placeholder = "N",
+     .help = "How far from its border a cell of a flipbook with alpha fades out, in percent of its "
+             "shorter side, so that no glow and no smoke shows a cut there. 0 leaves the cell as "
+             "it was drawn.",
+     .fallback = "10",
+     .max = 50},
     {.name = "flipbook-motion",
      .kind = OPTION_FLAG,
      .help = "Also write the motion of pixels from cell to cell, as FILE_motion.png."},

@@ -47,6 +47,7 @@ void kiln_journal_head_write(struct kiln_json *json, const struct kiln_journal_h
     kiln_json_uint(json, "flipbook_padding", flipbook->padding);
     kiln_json_uint(json, "flipbook_premultiplied", flipbook->premultiplied);
     kiln_json_uint(json, "flipbook_motion", flipbook->motion);
+    kiln_json_uint(json, "flipbook_fade", flipbook->fade);
     kiln_json_string(json, "manifest", head->scene);
 }
 
@@ -157,6 +158,8 @@ static void take_settings(struct members *m, struct kiln_output_params *output)
     output->flipbook.padding = take_number(m, "flipbook_padding");
     output->flipbook.premultiplied = take_number(m, "flipbook_premultiplied") != 0;
     output->flipbook.motion = take_number(m, "flipbook_motion") != 0;
+    if (kiln_node_entry(m->line, "flipbook_fade")) /* absent in journals of earlier versions */
+        output->flipbook.fade = take_number(m, "flipbook_fade");
 }
 
 bool kiln_journal_head_read(struct kiln_journal_head *head, const char *journal, const char *path,

@@ -1,7 +1,10 @@
 /* Writes a flipbook: an atlas of cells in rows from the top, and on request a motion atlas beside
  * it. Each cell is a frame with its padding inside, since engines divide the texture by columns and
  * rows and know nothing of gaps. Motion is estimated on smaller pictures: it is smooth, and an
- * engine filters it anyway. The files get their names together, the layout's last. */
+ * engine filters it anyway. The files get their names together, the layout's last.
+ *
+ * A glow or smoke that leaves the frame ends at its border, and a billboard with such a cell shows
+ * a square. So cells with alpha fade out towards the border. */
 #include "output/flipbook.h"
 
 #include <inttypes.h>
@@ -20,11 +23,14 @@
 enum {
     MAX_CELLS_A_SIDE = 64,
     MAX_PADDING = 256,
+    MAX_FADE = 50,         /* percent */
     MAX_EDGE = 16384,      /* edge of the atlas; GPUs accept no more */
     MAX_MOTION_EDGE = 128, /* edge of a cell of the motion atlas */
     /* channels that flow is estimated from: brightness over black, and alpha */
     FEATURES = 2,
 };
+
+static const uint64_t FADE_ONE = 1 << 16; /* stands for 1 in the factors of a fade */
 
 struct flipbook_encoder {
     const struct kiln_output_params *params;
@@ -33,6 +39,7 @@ struct flipbook_encoder {
     struct kiln_picture *atlas;
     uint32_t cells;                   /* number of cells that are filled */
     uint32_t cell_width, cell_height; /* size of a cell with padding */
+    uint32_t margin;                  /* pixels from a frame's border over which it fades out */
 
     uint32_t motion_width, motion_height; /* size of a cell of the motion atlas */
     float *features[2];                   /* features of this cell and of the one before */
@@ -109,6 +116,11 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
                               "to %d cells, and 0 to %d pixels",
                               params->path, flipbook->columns, flipbook->rows, flipbook->padding,
                               MAX_CELLS_A_SIDE, MAX_PADDING);
+    if (flipbook->fade > MAX_FADE)
+        return kiln_error_set(error, KILN_USAGE,
+                              "%s: found a flipbook whose cells fade out over %" PRIu64
+                              " percent; allowed are 0 to %d",
+                              params->path, flipbook->fade, MAX_FADE);
     uint64_t width =
         flipbook->columns * ((uint64_t)params->width + 2 * (uint64_t)flipbook->padding);
     uint64_t height = flipbook->rows * ((uint64_t)params->height + 2 * (uint64_t)flipbook->padding);
@@ -186,6 +198,14 @@ static bool create_motion(struct flipbook_encoder *encoder, struct kiln_error *e
                           encoder->params->path);
 }
 
+/* Returns over how many pixels frames fade out: at least one, unless they do not. */
+static uint32_t fade_margin(const struct kiln_output_params *params)
+{
+    const uint64_t shorter = params->width < params->height ? params->width : params->height;
+    const uint64_t margin = shorter * params->flipbook.fade / 100;
+    return params->flipbook.fade == 0 || !params->alpha ? 0 : margin == 0 ? 1 : (uint32_t)margin;
+}
+
 static void *open_encoder(const struct kiln_output_params *params, struct kiln_temporary *file,
                           struct kiln_error *error)
 {
@@ -199,6 +219,7 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
     encoder->file = file;
     encoder->cell_width = params->width + 2 * flipbook->padding;
     encoder->cell_height = params->height + 2 * flipbook->padding;
+    encoder->margin = fade_margin(params);
     encoder->atlas = kiln_picture_create(encoder->cell_width * flipbook->columns,
                                          encoder->cell_height * flipbook->rows, params->png_bits,
                                          NULL, NULL, 0, error);
@@ -236,6 +257,17 @@ static uint32_t clamp(uint32_t position, uint32_t padding, uint32_t size)
     return inside < size ? inside : size - 1;
 }
 
+/* Returns the factor of a fade at a position of a frame along an axis, in 1 / FADE_ONE: 0 at the
+ * border, FADE_ONE from `margin` pixels inwards, and a smoothstep between. */
+static uint64_t fade_at(uint32_t position, uint32_t size, uint64_t margin)
+{
+    const uint32_t opposite = size - 1 - position;
+    const uint64_t d = position < opposite ? position : opposite;
+    if (d >= margin)
+        return FADE_ONE;
+    return FADE_ONE * d * d * (3 * margin - 2 * d) / (margin * margin * margin);
+}
+
 /* Copies one pixel of a cell. Padding repeats the colour of the edge, with alpha 0 where there is
  * alpha, so that a texture filter does not mix in the neighbouring cell. Premultiplied, alpha 0 is
  * black. */
@@ -248,7 +280,11 @@ static void copy_pixel(const struct flipbook_encoder *encoder, const struct kiln
     size_t in = 4 * ((size_t)py * picture->width + px);
     const uint32_t full = (1u << picture->bits) - 1;
     bool inside = px + flipbook->padding == x && py + flipbook->padding == y;
+    uint64_t fade = fade_at(px, picture->width, encoder->margin) *
+                    fade_at(py, picture->height, encoder->margin);
     uint32_t alpha = inside || !picture->has_alpha ? read_sample(picture, in + 3) : 0;
+    if (picture->has_alpha)
+        alpha = (uint32_t)((alpha * fade + FADE_ONE * FADE_ONE / 2) / (FADE_ONE * FADE_ONE));
     for (size_t c = 0; c < 3; c++) {
         uint32_t value = read_sample(picture, in + c);
         if (flipbook->premultiplied && picture->has_alpha)
@@ -443,6 +479,7 @@ static void add_layout(struct kiln_json *json, const struct flipbook_encoder *en
     kiln_json_string(json, "order", "rows from the top, each from the left");
     begin_size(json, "cell", encoder->cell_width, encoder->cell_height);
     kiln_json_uint(json, "padding", flipbook->padding);
+    kiln_json_uint(json, "fade", encoder->margin);
     kiln_json_end(json);
     kiln_json_string(json, "alpha",
                      !params->alpha            ? "none"

@@ -29,6 +29,8 @@ bool kiln_clip_hash(const struct kiln_output_params *params, char hash[65])
                   params->quality);
     kiln_text_add(&text, "%ux%u %u %d %d\n", flipbook->columns, flipbook->rows, flipbook->padding,
                   flipbook->premultiplied, flipbook->motion);
+    if (flipbook->fade > 0)
+        kiln_text_add(&text, "fade %u\n", (unsigned)flipbook->fade);
     for (size_t i = 0; i < params->clip_count; i++)
         kiln_text_add(&text, "%u-%u\n", params->clip[i].first, params->clip[i].last);
     const bool ok = !text.failed;

@@ -58,11 +58,18 @@ static inline void shrink_row(const struct kiln_bloom_pass *p, size_t y)
     }
 }
 
-/* Adds a row times a weight to sums, channel by channel, which compilers vectorise. */
-static inline void add_row(float *sums, const float *from, float weight, size_t count)
+static inline float clamp_channel(float light)
 {
+    return light < HALF_MAX ? light : HALF_MAX;
+}
+
+/* Adds two rows times their weights to sums, channel by channel, which compilers vectorise. */
+static inline void add_rows(float *sums, const float *rows[2], const float weights[2], size_t count)
+{
+    const float *first = rows[0], *second = rows[1];
+    const float w0 = weights[0], w1 = weights[1];
     for (size_t i = 0; i < count; i++)
-        sums[i] += (from[i] < HALF_MAX ? from[i] : HALF_MAX) * weight;
+        sums[i] += clamp_channel(first[i]) * w0 + clamp_channel(second[i]) * w1;
 }
 
 static inline void reduce_row(const struct kiln_bloom_pass *p, size_t y, uint32_t worker)
@@ -73,8 +80,12 @@ static inline void reduce_row(const struct kiln_bloom_pass *p, size_t y, uint32_
     const size_t count = 4 * (size_t)p->from.width;
     float *sums = (float *)worker_row(p, worker);
     memset(sums, 0, count * sizeof *sums);
-    for (int64_t from = first; from <= last; from++)
-        add_row(sums, row_at(&p->from, from), tent_weight((float)from - center, p->ratio), count);
+    for (int64_t from = first; from <= last; from += 2) {
+        const float *rows[2] = {row_at(&p->from, from), row_at(&p->from, from + 1)};
+        const float weights[2] = {tent_weight((float)from - center, p->ratio),
+                                  tent_weight((float)(from + 1) - center, p->ratio)};
+        add_rows(sums, rows, weights, count);
+    }
     float *to = p->to + y * p->to_width * 4;
     for (size_t x = 0; x < p->to_width; x++) {
         const struct kiln_bloom_column *column = &p->columns[x];

@@ -81,6 +81,18 @@ static struct kiln_asset_image *load(const char *ending)
     return image;
 }
 
+static char *read_text(const char *ending)
+{
+    static char text[8192];
+    char name[64];
+    snprintf(name, sizeof name, "%s/book%s", folder, ending);
+    FILE *file = fopen(name, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    return text;
+}
+
 static uint32_t sample(const struct kiln_asset_image *image, uint32_t x, uint32_t y, int channel)
 {
     size_t at = 4 * ((size_t)y * image->width + x) + (size_t)channel;
@@ -140,6 +152,49 @@ static void cells_are_the_frames(void **state)
     }
 }
 
+/* A frame that is opaque up to its border fades out over a tenth of its shorter side: it is
+ * transparent at the border, whole further inside, and never grows inwards. */
+static void cells_fade_out_at_their_borders(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < 8; i++) {
+        struct kiln_output_params params = test_output_params(path, NULL);
+        const struct kiln_frame_range range = {0, 0};
+        params.ranges = &range;
+        params.width = 96;
+        params.height = 60;
+        params.alpha = true;
+        params.png_bits = i & 1 ? 16 : 8;
+        params.overwrite = i > 0;
+        const uint32_t padding = i & 2 ? 2 : 0, margin = 6, full = i & 1 ? 65535 : 255;
+        params.flipbook = (struct kiln_flipbook){
+            .columns = 1, .rows = 1, .padding = padding, .premultiplied = i & 4, .fade = 10};
+        struct kiln_error error = {0};
+        struct kiln_output *output = kiln_output_open(&params, &error);
+        assert_string_equal(error.message, "");
+        struct kiln_picture *picture = test_picture(output, &params, 0);
+        memset(picture->display, 0xff, (size_t)4 * params.width * params.height * (i & 1 ? 2 : 1));
+        assert_true(kiln_output_write(output, picture, &error));
+        assert_true(kiln_output_finish(output, &error));
+        kiln_output_close(&output);
+        struct kiln_asset_image *image = load(".png");
+        for (uint32_t y = 0; y < params.height; y++) {
+            for (uint32_t x = 0; x < params.width; x++) {
+                uint32_t dx = x < 48 ? x : 95 - x, dy = y < 30 ? y : 59 - y;
+                uint32_t alpha = sample(image, x + padding, y + padding, 3);
+                assert_true(dx == 0 || dy == 0 ? alpha == 0 : alpha > 0);
+                assert_true(dx >= margin && dy >= margin ? alpha == full : alpha < full);
+                if (dy >= margin && dx == margin / 2)
+                    assert_true(abs((int)alpha - (int)full / 2) <= 1);
+                assert_int_equal(sample(image, x + padding, y + padding, 0),
+                                 params.flipbook.premultiplied ? alpha : full);
+            }
+        }
+        assert_non_null(strstr(read_text(".json"), "\"fade\": 6}"));
+        kiln_asset_image_destroy(&image);
+    }
+}
+
 /* A pixel that nobody sees gets the colour of those beside it, not black. */
 static void hidden_pixels_take_colors(void **state)
 {
@@ -172,18 +227,6 @@ static void hidden_pixels_take_colors(void **state)
     assert_int_equal(sample(image, 4, 11, 3), 0);
     assert_true(sample(image, 30, 2, 0) > 0);
     kiln_asset_image_destroy(&image);
-}
-
-static char *read_text(const char *ending)
-{
-    static char text[8192];
-    char name[64];
-    snprintf(name, sizeof name, "%s/book%s", folder, ending);
-    FILE *file = fopen(name, "r");
-    assert_non_null(file);
-    text[fread(text, 1, sizeof text - 1, file)] = '\0';
-    fclose(file);
-    return text;
 }
 
 /* A puff that moves by (3, -2) pixels a cell. */
@@ -302,6 +345,9 @@ static void impossible_ones_are_refused(void **state)
     params.flipbook.padding = 257;
     refuse(params, KILN_USAGE, "padded by 257; allowed are 1 to 64 cells, and 0 to 256 pixels");
     params = good;
+    params.flipbook.fade = 51;
+    refuse(params, KILN_USAGE, "cells fade out over 51 percent; allowed are 0 to 50");
+    params = good;
     params.width = 8193;
     refuse(params, KILN_USAGE,
            "the flipbook would have 16386 x 72 pixels; allowed are 16384 a side");
@@ -370,6 +416,7 @@ int main(void)
         cmocka_unit_test(frames_are_spread_evenly),
         TEST(cells_are_the_frames),
         TEST(hidden_pixels_take_colors),
+        TEST(cells_fade_out_at_their_borders),
         TEST(motion_points_to_the_next_cell),
         TEST(doubtful_ones_are_warned_of),
         TEST(impossible_ones_are_refused),
