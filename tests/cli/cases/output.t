@@ -99,7 +99,7 @@ $ grep -v scene_hash book.json
 1|  "rows": 4,
 1|  "cells": 12,
 1|  "order": "rows from the top, each from the left",
-1|  "cell": {"width": 68, "height": 40, "padding": 2},
+1|  "cell": {"width": 68, "height": 40, "padding": 2, "fade": 3},
 1|  "alpha": "straight",
 1|  "color_space": "srgb",
 1|  "frames": [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11],
@@ -153,6 +153,12 @@ $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --flipbook-alpha no
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --flipbook-padding 300
 2|kiln: render: --flipbook-padding: found '300', expected a whole number from 0 to 256
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --flipbook-fade 51
+2|kiln: render: --flipbook-fade: found '51', expected a whole number from 0 to 50
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook-fade 5
+2|kiln: render: --flipbook-fade: needs --flipbook
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.exr --flipbook 2x2
 2|kiln: more.exr: a flipbook is one .png file, not .exr

@@ -203,6 +203,10 @@ $ kiln help render
 1|      --flipbook-alpha straight|premultiplied
 1|                              Whether the colours of a flipbook are straight, or
 1|                              premultiplied by alpha. Default: straight.
+1|      --flipbook-fade N       How far from its border a cell of a flipbook with
+1|                              alpha fades out, in percent of its shorter side,
+1|                              so that no glow and no smoke shows a cut there. 0
+1|                              leaves the cell as it was drawn. Default: 10.
 1|      --flipbook-motion       Also write the motion of pixels from cell to cell,
 1|                              as FILE_motion.png.
 1|      --flipbook-padding N    Number of pixels to add on each side of a cell, so
@@ -529,7 +533,9 @@ $ kiln help outputs
 1|padding is added inside the cell. FILE.json beside FILE.png has the grid, the frames, the
 1|cells a second and the kind of alpha. With straight alpha, pixels of alpha 0 have the
 1|colours of their neighbours. With premultiplied alpha, colours are those over black, for
-1|additive or premultiplied blending.
+1|additive or premultiplied blending. A cell with alpha fades out towards its border
+1|(--flipbook-fade), where it is transparent, so a billboard shows no square where a glow
+1|or smoke leaves the frame.
 1|
 1|--flipbook-motion adds FILE_motion.png, which is linear, not sRGB. Red and green say how
 1|far right and down a pixel moves until the next cell: (value * 2 - 1) * scale cells, with
