@@ -231,9 +231,12 @@ static int read_flipbook(struct job_list *list, const struct arguments *argument
     const struct option_use *grid = arguments_last(arguments, "flipbook");
     const struct option_use *alpha = arguments_last(arguments, "flipbook-alpha");
     const struct option_use *motion = arguments_last(arguments, "flipbook-motion");
+    const struct option_use *green = arguments_last(arguments, "flipbook-green");
     const struct option_use *padding = arguments_last(arguments, "flipbook-padding");
     const struct option_use *fade = arguments_last(arguments, "flipbook-fade");
     const struct option_use *part = alpha ? alpha : motion ? motion : padding ? padding : fade;
+    if (green && !motion)
+        return report(KILN_USAGE, "render: --flipbook-green: needs --flipbook-motion");
     if (!grid)
         return part ? report(KILN_USAGE, "render: --%s: needs --flipbook", part->option->name) : 0;
     list->flipbook = (struct kiln_flipbook){
@@ -244,6 +247,7 @@ static int read_flipbook(struct job_list *list, const struct arguments *argument
         .premultiplied = alpha && alpha->choice == 1,
         .motion = motion != NULL,
         .fade = fade ? (uint64_t)fade->integer[0] : FLIPBOOK_FADE,
+        .green_down = green && green->choice == 1,
     };
     return 0;
 }

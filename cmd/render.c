@@ -90,6 +90,12 @@ static const struct option options[] = {
     {.name = "flipbook-motion",
      .kind = OPTION_FLAG,
      .help = "Also write the motion of pixels from cell to cell, as FILE_motion.png."},
+    {.name = "flipbook-green",
+     .kind = OPTION_CHOICE,
+     .placeholder = "up|down",
+     .help = "Where green of FILE_motion.png points: up as in Houdini, Unity and kiln, or down as "
+             "in Unreal.",
+     .fallback = "up"},
     {.name = "flipbook-padding",
      .kind = OPTION_INTEGER,
      .placeholder = "N",

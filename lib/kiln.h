@@ -285,7 +285,7 @@ KILN_EMPTY(kiln_progress, kiln_progress_empty)
 
 /* An atlas for game engines: one PNG whose cells are frames, in rows from the top, each row from
  * the left. Beside FILE.png, its layout is written as FILE.json and, with `motion`, the motion
- * vectors from each cell to the next as FILE_motion.png. */
+ * vectors from each cell to the next as FILE_motion.png, red to the right and green up. */
 struct kiln_flipbook {
     size_t size;
     bool motion;
@@ -296,6 +296,7 @@ struct kiln_flipbook {
     uint64_t fade;          /* how far from its border a cell with alpha fades out, in percent of
                                the frame's shorter side, 0 to 50; the pixels at the border become
                                transparent. 0: no fade, which may show the border as a cut */
+    bool green_down;        /* green of the motion points down, for engines whose v does */
 };
 KILN_EMPTY(kiln_flipbook, kiln_flipbook_empty)
 

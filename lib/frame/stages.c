@@ -80,13 +80,14 @@ static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
     struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
     for (uint32_t i = 0; i < s->scene->system_count; i++) {
         const struct kiln_look *look = &s->scene->systems[i].look;
-        requests[i] = (struct kiln_atlas_request){.sources = look->atlas,
-                                                  .count = look->atlas_count,
-                                                  .columns = look->columns,
-                                                  .rows = look->rows,
-                                                  .motion = look->motion,
-                                                  .motion_scale = (float)look->motion_scale,
-                                                  .loader = s->scene->loader};
+        requests[i] =
+            (struct kiln_atlas_request){.sources = look->atlas,
+                                        .count = look->atlas_count,
+                                        .columns = look->columns,
+                                        .rows = look->rows,
+                                        .motion = look->motion,
+                                        .motion_full = {look->motion_full[0], look->motion_full[1]},
+                                        .loader = s->scene->loader};
         if (look->shape != KILN_SHAPE_BILLBOARD) /* such particles show no texture and get the
                                                   * smallest one */
             requests[i] = (struct kiln_atlas_request){

@@ -46,7 +46,7 @@ void kiln_journal_head_write(struct kiln_json *json, const struct kiln_journal_h
     kiln_json_pair(json, "flipbook", flipbook->columns, flipbook->rows);
     kiln_json_uint(json, "flipbook_padding", flipbook->padding);
     kiln_json_uint(json, "flipbook_premultiplied", flipbook->premultiplied);
-    kiln_json_uint(json, "flipbook_motion", flipbook->motion);
+    kiln_json_uint(json, "flipbook_motion", kiln_flipbook_motion_number(flipbook));
     kiln_json_uint(json, "flipbook_fade", flipbook->fade);
     kiln_json_string(json, "manifest", head->scene);
 }
@@ -157,7 +157,9 @@ static void take_settings(struct members *m, struct kiln_output_params *output)
     take_pair(m, "flipbook", &output->flipbook.columns, &output->flipbook.rows);
     output->flipbook.padding = take_number(m, "flipbook_padding");
     output->flipbook.premultiplied = take_number(m, "flipbook_premultiplied") != 0;
-    output->flipbook.motion = take_number(m, "flipbook_motion") != 0;
+    const uint32_t motion = take_number(m, "flipbook_motion");
+    output->flipbook.motion = motion > 0;
+    output->flipbook.green_down = motion == 2;
     if (kiln_node_entry(m->line, "flipbook_fade")) /* absent in journals of earlier versions */
         output->flipbook.fade = take_number(m, "flipbook_fade");
 }

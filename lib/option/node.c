@@ -137,10 +137,11 @@ static bool place_node(struct builder *builder, struct kiln_node *node)
     }
     struct kiln_node *parent = builder->open[builder->depth - 1];
     struct kiln_node **key = &builder->key[builder->depth - 1];
-    if (parent->count == KILN_NODE_MAX_ENTRIES)
-        return kiln_node_error(node, error,
-                               "more than %d entries in one list or mapping; no more are allowed",
-                               KILN_NODE_MAX_ENTRIES);
+    const uint32_t most = builder->origin->most_entries ? builder->origin->most_entries
+                                                        : (uint32_t)KILN_NODE_MAX_ENTRIES;
+    if (parent->count == most)
+        return kiln_node_error(
+            node, error, "more than %u entries in one list or mapping; no more are allowed", most);
     if (parent->kind == KILN_NODE_LIST || *key) {
         node->key = *key;
         if (*key && node->line == 0) { /* "key:" without a value */

@@ -23,6 +23,7 @@ struct kiln_origin {
     const char *kind;      /* for messages: "a scene" */
     const char *version;   /* the first line of such a file, for messages: "kiln: 1"; or NULL */
     const char *syntax;    /* for messages: "JSON" for a text of one line; NULL: "YAML" */
+    uint32_t most_entries; /* of one list or mapping; 0: KILN_NODE_MAX_ENTRIES */
 };
 
 enum kiln_node_kind { KILN_NODE_SCALAR, KILN_NODE_LIST, KILN_NODE_MAP };

@@ -1,7 +1,9 @@
 /* Writes a flipbook: an atlas of cells in rows from the top, and on request a motion atlas beside
  * it. Each cell is a frame with its padding inside, since engines divide the texture by columns and
  * rows and know nothing of gaps. Motion is estimated on smaller pictures: it is smooth, and an
- * engine filters it anyway. The files get their names together, the layout's last.
+ * engine filters it anyway. Green points up, as in Houdini and Unity and as `look.motion` reads it,
+ * unless the caller asks for down, as Unreal has it. The files get their names together, the
+ * layout's last.
  *
  * A glow or smoke that leaves the frame ends at its border, and a billboard with such a cell shows
  * a square. So cells with alpha fade out towards the border. */
@@ -19,6 +21,7 @@
 #include "base/sized.h"
 #include "output/bleed.h"
 #include "output/flow.h"
+#include "scene/motion_layout.h"
 
 enum {
     MAX_CELLS_A_SIDE = 64,
@@ -377,10 +380,10 @@ static float motion_scale(const struct flipbook_encoder *encoder)
     return scale;
 }
 
-/* Maps -1..1 to 0..255. */
+/* Maps -1..1 to 1..255. 128 is no motion exactly, and kiln_cells_load_motion reads it so. */
 static uint8_t encode_motion(float motion)
 {
-    return (uint8_t)floorf(127.5f + 127.5f * motion + 0.5f);
+    return (uint8_t)floorf(128.0f + 127.0f * motion + 0.5f);
 }
 
 static struct kiln_picture *draw_motion(const struct flipbook_encoder *encoder, float scale,
@@ -394,13 +397,14 @@ static struct kiln_picture *draw_motion(const struct flipbook_encoder *encoder, 
         return NULL;
     picture->is_data = true;
     const float *flow = encoder->flows;
+    const float green = flipbook->green_down ? 1.0f : -1.0f; /* rows of flow run downwards */
     for (uint32_t cell = 0; cell < cell_count(encoder->params); cell++) {
         for (uint32_t y = 0; y < height; y++) {
             uint8_t *out = (uint8_t *)picture->display + cell_origin(encoder, cell, width, height) +
                            (size_t)4 * y * picture->width;
             for (uint32_t x = 0; x < width; x++, out += 4, flow += 2) {
                 out[0] = encode_motion(flow[0] / (float)width / scale);
-                out[1] = encode_motion(flow[1] / (float)height / scale);
+                out[1] = encode_motion(green * flow[1] / (float)height / scale);
                 out[2] = 0;
                 out[3] = 255;
             }
@@ -454,11 +458,11 @@ static void add_motion_layout(struct kiln_json *json, const struct flipbook_enco
     add_name(json, &encoder->motion_file);
     begin_size(json, "cell", encoder->motion_width, encoder->motion_height);
     kiln_json_end(json);
-    kiln_json_string(json, "encoding", "(channel / 255 * 2 - 1) * scale");
+    kiln_json_string(json, "encoding", "(channel - 128) / 127 * scale");
     kiln_json_raw(json, "scale", number);
     kiln_json_string(json, "unit", "cell");
     kiln_json_string(json, "red", "right");
-    kiln_json_string(json, "green", "down");
+    kiln_json_string(json, "green", encoder->params->flipbook.green_down ? "down" : "up");
     kiln_json_string(json, "from", "this cell");
     kiln_json_string(json, "to", "the next cell");
     kiln_json_string(json, "color_space", "linear");
@@ -469,7 +473,7 @@ static void add_layout(struct kiln_json *json, const struct flipbook_encoder *en
 {
     const struct kiln_output_params *params = encoder->params;
     const struct kiln_flipbook *flipbook = &params->flipbook;
-    kiln_json_uint(json, "kiln_flipbook", 1);
+    kiln_json_uint(json, "kiln_flipbook", KILN_FLIPBOOK_VERSION);
     add_name(json, encoder->file);
     begin_size(json, "size", encoder->atlas->width, encoder->atlas->height);
     kiln_json_end(json);

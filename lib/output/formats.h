@@ -69,6 +69,13 @@ enum kiln_numbering kiln_output_numbering(const struct kiln_output_params *param
  * suffix. False when it does not fit. */
 bool kiln_format_beside(const char *path, const char *ending, char beside[KILN_PATH_SIZE]);
 
+/* Returns what hashes and journals have for the motion of a flipbook: 0 for none, 1 with green up,
+ * 2 with green down. */
+static inline uint32_t kiln_flipbook_motion_number(const struct kiln_flipbook *flipbook)
+{
+    return flipbook->motion ? 1 + (uint32_t)flipbook->green_down : 0;
+}
+
 /* Encodes a picture as PNG into the open file. Of params, only scene_hash, seed and flipbook are
  * used. Asks the caller (which may be NULL) meanwhile. */
 bool kiln_png_write(const struct kiln_output_params *params, const struct kiln_picture *picture,

@@ -27,8 +27,8 @@ bool kiln_clip_hash(const struct kiln_output_params *params, char hash[65])
                   params->scene_hash, params->seed, params->width, params->height, params->fps_num,
                   params->fps_den, params->alpha, params->png_bits, params->exr_bits,
                   params->quality);
-    kiln_text_add(&text, "%ux%u %u %d %d\n", flipbook->columns, flipbook->rows, flipbook->padding,
-                  flipbook->premultiplied, flipbook->motion);
+    kiln_text_add(&text, "%ux%u %u %d %u\n", flipbook->columns, flipbook->rows, flipbook->padding,
+                  flipbook->premultiplied, kiln_flipbook_motion_number(flipbook));
     if (flipbook->fade > 0)
         kiln_text_add(&text, "fade %u\n", (unsigned)flipbook->fade);
     for (size_t i = 0; i < params->clip_count; i++)

@@ -61,7 +61,9 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
         const struct kiln_look *look = &scene->systems[i].look;
         for (uint32_t k = 0; read && k < look->atlas_count; k++)
             read = kiln_asset_add_hash(scene, look->atlas[k], &text, error);
-        read = read && kiln_asset_add_hash(scene, look->motion, &text, error);
+        read =
+            read && kiln_asset_add_hash(scene, look->motion, &text, error) &&
+            (!look->motion_layout || kiln_asset_add_hash(scene, look->motion_layout, &text, error));
         if (look->shape == KILN_SHAPE_MESH)
             kiln_text_add(&text, "%s\n", look->mesh.shown->hash);
         for (uint32_t k = 0; read && k < scene->systems[i].force_count; k++)

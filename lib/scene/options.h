@@ -17,10 +17,12 @@ extern const struct kiln_option_kind kiln_interaction_kinds[];
 
 /* Types of options. Each comment gives an example of the value in a scene, then the field's type in
  * C. */
-extern const struct kiln_option_type kiln_type_assets;  /* builtin:name, a path, or a list; */
-                                                        /* const char *[], count */
-extern const struct kiln_option_type kiln_type_motion;  /* a word of `choices`, or a path; */
-                                                        /* const char * */
+extern const struct kiln_option_type kiln_type_assets;       /* builtin:name, a path, or a list; */
+                                                             /* const char *[], count */
+extern const struct kiln_option_type kiln_type_motion;       /* a word of `choices`, or a path; */
+                                                             /* const char * */
+extern const struct kiln_option_type kiln_type_motion_scale; /* auto, 0.5, [0.5, -0.5]; */
+                                                             /* struct kiln_motion_scale */
 extern const struct kiln_option_type kiln_type_picture; /* an image's path or none; const char * */
 extern const struct kiln_option_type kiln_type_mesh;    /* a mesh's path; const char * */
 extern const struct kiln_option_type kiln_type_grid;    /* a wind file's path; const char * */

@@ -91,6 +91,13 @@ static const char *const soft_formulas[] = {
 
 static const char *const motions[] = {"auto", "none", NULL};
 
+static const char *const greens[] = {
+    [KILN_GREEN_AUTO] = "auto",
+    [KILN_GREEN_UP] = "up",
+    [KILN_GREEN_DOWN] = "down",
+    NULL,
+};
+
 static const struct kiln_option fade[] = {
     VALUE(LOOK, "in", fade_in, KILN_FRACTION, 0, 1, TIME, "0.1",
           "Fraction of the life in which a particle fades in to its full opacity."),
@@ -109,12 +116,19 @@ const struct kiln_option kiln_options_look[] = {
      LIMITS(KILN_PLAIN, 1, 64)},
     {ROW(LOOK, "motion", motion, AT(motion), "auto",
          "An image of the motion from each cell to the next, so that few cells play smoothly: red "
-         "is right, green is up, half is no motion. `auto` takes the motion that a built-in atlas "
-         "has. `none` cross-fades the cells."),
+         "is right, green is as `motion_green` says, 128 of 255 is no motion. `auto` takes the "
+         "motion that a built-in atlas has. `none` cross-fades the cells."),
      .choices = motions},
-    {ROW(LOOK, "motion_scale", number, AT(motion_scale), "1",
-         "Motion that full red or green of a motion file stands for, in edges of a cell."),
-     LIMITS(KILN_PLAIN, 0, 10)},
+    CHOICE(LOOK, "motion_green", motion_green, greens, "auto",
+           "Where green of a motion file points: `up` as in Houdini and Unity, or `down` as in "
+           "Unreal. `auto` is what FILE.json says beside FILE_motion.png, where kiln wrote them; "
+           "without it, `up`."),
+    {ROW(LOOK, "motion_scale", motion_scale, AT(motion_scale), "auto",
+         "Motion that full red and full green of a motion file stand for, in edges of a cell. A "
+         "pair is for files whose axes have scales of their own, a negative number for vectors "
+         "that point back. `auto` is the scale of FILE.json beside FILE_motion.png, where kiln "
+         "wrote them; without it, 1."),
+     LIMITS(KILN_PLAIN, -10, 10)},
     CHOICE(LOOK, "blend", blend, blends, "alpha",
            "`alpha` covers what is behind the particle, like smoke. `add` adds light to it, like "
            "fire."),

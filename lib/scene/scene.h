@@ -228,12 +228,30 @@ enum kiln_soft_formula {
     KILN_SOFT_LITERAL, /* abs(scene - distance of the particle) * s, as printed (Heinz 2019, 3.3) */
 };
 
+enum kiln_motion_green {
+    KILN_GREEN_AUTO, /* as the layout of the flipbook says; up without one */
+    KILN_GREEN_UP,
+    KILN_GREEN_DOWN,
+};
+
+/* What full red and full green of a motion file stand for, in edges of a cell. */
+struct kiln_motion_scale {
+    bool given; /* false: as the layout of the flipbook says; 1 without one */
+    double right, up;
+};
+
 struct kiln_look {
     const char *atlas[KILN_MAX_TEXTURES]; /* "builtin:NAME" or absolute file paths, of which each */
     uint32_t atlas_count;                 /* particle gets one */
     uint32_t columns, rows;               /* cells of each atlas */
-    const char *motion;  /* "none", "auto" (of built-in atlases) or an absolute file path */
-    double motion_scale; /* motion, in edges of a cell, that the file's full value stands for */
+    const char *motion; /* "none", "auto" (of built-in atlases) or an absolute file path */
+    enum kiln_motion_green motion_green;
+    struct kiln_motion_scale motion_scale;
+    /* follow from the above and the layout: the motion to the right and up, in edges of a cell,
+     * that the file's full red and green stand for; the layout's absolute path, or NULL: none was
+     * read */
+    float motion_full[2];
+    const char *motion_layout;
     enum kiln_blend blend;
     struct kiln_value size;  /* m: edge of the billboard */
     struct kiln_range scale; /* factor on size, drawn for each particle */

@@ -1,5 +1,5 @@
 /* This file reads, prints and describes the types of options that name textures: assets (one, or a
- * list from which each particle gets one) and motion. */
+ * list from which each particle gets one), motion, and the scale of motion. */
 #include <string.h>
 
 #include "asset/atlas/builtin.h"
@@ -133,4 +133,65 @@ const struct kiln_option_type kiln_type_motion = {
     .print = print_motion,
     .describe = describe_motion,
     .schema = schema_motion,
+};
+
+/* ---- the scale of motion --------------------------------------------------------------------- */
+
+static bool read_motion_scale(struct kiln_reader *reader, const struct kiln_option *option,
+                              const struct kiln_node *node, void *field)
+{
+    struct kiln_motion_scale *scale = field;
+    *scale = (struct kiln_motion_scale){.given = !kiln_node_is(node, "auto")};
+    if (!scale->given)
+        return true;
+    if (node->kind == KILN_NODE_MAP || (node->kind == KILN_NODE_LIST && node->count != 2))
+        return kiln_reader_mismatch(reader, option, node);
+    const bool pair = node->kind == KILN_NODE_LIST;
+    return kiln_read_number(reader, option, pair ? node->first : node, &scale->right) &&
+           kiln_read_number(reader, option, pair ? node->last : node, &scale->up);
+}
+
+static void print_motion_scale(struct kiln_printer *printer, const struct kiln_option *option,
+                               const void *field)
+{
+    const struct kiln_motion_scale *scale = field;
+    char right[48], up[48];
+    kiln_unit_print_double(right, option->dimension, scale->right);
+    kiln_unit_print_double(up, option->dimension, scale->up);
+    if (!scale->given)
+        kiln_text_add(&printer->text, " auto\n");
+    else if (scale->right == scale->up)
+        kiln_text_add(&printer->text, " %s\n", right);
+    else
+        kiln_text_add(&printer->text, " [%s, %s]\n", right, up);
+}
+
+static void describe_motion_scale(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "auto, a number");
+    kiln_option_describe_limits(option, out);
+    kiln_text_add(out, ", or two of these, [right, up]");
+}
+
+static void schema_motion_scale(const struct kiln_option *option, struct kiln_text *out)
+{
+    kiln_text_add(out, "{\"anyOf\": [{\"const\": \"auto\"}, ");
+    kiln_schema_number(option, out);
+    kiln_text_add(out, ", {\"type\": \"array\", \"minItems\": 2, \"maxItems\": 2, \"items\": ");
+    kiln_schema_number(option, out);
+    kiln_text_add(out, "}]}");
+}
+
+static void list_motion_scale(const struct kiln_option *option, struct kiln_text *out)
+{
+    (void)option;
+    kiln_text_add(out, "auto");
+}
+
+const struct kiln_option_type kiln_type_motion_scale = {
+    .read = read_motion_scale,
+    .print = print_motion_scale,
+    .describe = describe_motion_scale,
+    .schema = schema_motion_scale,
+    .list_choices = list_motion_scale,
 };

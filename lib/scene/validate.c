@@ -12,6 +12,7 @@
 #include "asset/geometry/depth_maps.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
+#include "scene/motion_layout.h"
 #include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
 #include "scene/samples.h"
@@ -313,6 +314,7 @@ static bool check_systems(struct kiln_reader *reader, const struct kiln_node *ro
                                         "bounces or ends at a surface",
                                         system->name);
         if (!check_shape(reader, root, system) || !check_cells(reader, root, system) ||
+            !kiln_motion_layout_settle(reader, root, system) ||
             !check_interactions(reader, root, system) ||
             !kiln_particle_mesh_settle(reader, root, system))
             return false;

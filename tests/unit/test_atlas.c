@@ -192,9 +192,10 @@ static struct kiln_atlas make_atlas(uint32_t threads)
 {
     static const char *const sources[] = {"builtin:puff", "builtin:spark", "builtin:tongue",
                                           "builtin:puff"};
-    const struct kiln_atlas_request requests[] = {{sources, 2, 3, 2, "auto", 1.0f, NULL},
-                                                  {sources + 2, 2, 3, 2, "auto", 1.0f, NULL},
-                                                  {sources + 1, 1, 1, 1, "none", 1.0f, NULL}};
+    const struct kiln_atlas_request requests[] = {
+        {sources, 2, 3, 2, "auto", {1.0f, 1.0f}, NULL},
+        {sources + 2, 2, 3, 2, "auto", {1.0f, 1.0f}, NULL},
+        {sources + 1, 1, 1, 1, "none", {1.0f, 1.0f}, NULL}};
     struct kiln_threads *pool = kiln_threads_create(threads);
     struct kiln_error error = {0};
     struct kiln_atlas atlas = {0};

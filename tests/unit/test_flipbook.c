@@ -282,11 +282,11 @@ static void motion_points_to_the_next_cell(void **state)
     assert_int_equal(image->channels, 3);
     for (uint32_t cell = 0; cell < 8; cell++) {
         uint32_t x = cell % 4 * 80 + 20 + 3 * cell, y = cell / 4 * 64 + 40 - 2 * cell;
-        double right = (sample(image, x, y, 0) / 255.0 * 2 - 1) * scale * 80;
-        double down = (sample(image, x, y, 1) / 255.0 * 2 - 1) * scale * 64;
+        double right = (sample(image, x, y, 0) - 128.0) / 127 * scale * 80;
+        double up = (sample(image, x, y, 1) - 128.0) / 127 * scale * 64;
         bool last = cell == 7;
-        assert_true(fabs(right - (last ? 0 : 3)) < 0.3);
-        assert_true(fabs(down - (last ? 0 : -2)) < 0.3);
+        assert_true(last ? right == 0 : fabs(right - 3) < 0.3);
+        assert_true(last ? up == 0 : fabs(up - 2) < 0.3);
     }
     kiln_asset_image_destroy(&image);
 }

@@ -80,12 +80,12 @@ static void same_atlas(const struct kiln_atlas_request *request)
 }
 
 static const char *const puff[] = {"builtin:puff"};
-static const struct kiln_atlas_request moving = {puff, 1, 3, 2, "auto", 1.0f, NULL};
+static const struct kiln_atlas_request moving = {puff, 1, 3, 2, "auto", {1.0f, 1.0f}, NULL};
 
 static void builtins_are_kept(void **state)
 {
     (void)state;
-    const struct kiln_atlas_request still = {puff, 1, 3, 2, "none", 1.0f, NULL};
+    const struct kiln_atlas_request still = {puff, 1, 3, 2, "none", {1.0f, 1.0f}, NULL};
     same_atlas(&moving);
     assert_int_equal(count_files("cache"), 2);
     same_atlas(&still);
@@ -134,7 +134,7 @@ static void files_are_known_by_their_contents(void **state)
     assert_non_null(getcwd(folder, sizeof folder));
     snprintf(path, sizeof path, "%s/a.png", folder);
     const char *const sources[] = {path};
-    const struct kiln_atlas_request request = {sources, 1, 3, 2, "none", 1.0f, NULL};
+    const struct kiln_atlas_request request = {sources, 1, 3, 2, "none", {1.0f, 1.0f}, NULL};
     write_picture(path, 0);
     same_atlas(&request);
     assert_true(kiln_flipbook_name(first, &request, 0));
@@ -154,10 +154,11 @@ static void names_tell_what_differs(void **state)
     static const char *const others[] = {"builtin:smoke"};
     const struct kiln_atlas_request requests[] = {
         moving,
-        {puff, 1, 2, 3, "auto", 1.0f, NULL},
-        {puff, 1, 3, 2, "none", 1.0f, NULL},
-        {puff, 1, 3, 2, "auto", 2.0f, NULL},
-        {others, 1, 3, 2, "auto", 1.0f, NULL},
+        {puff, 1, 2, 3, "auto", {1.0f, 1.0f}, NULL},
+        {puff, 1, 3, 2, "none", {1.0f, 1.0f}, NULL},
+        {puff, 1, 3, 2, "auto", {2.0f, 1.0f}, NULL},
+        {puff, 1, 3, 2, "auto", {1.0f, 2.0f}, NULL},
+        {others, 1, 3, 2, "auto", {1.0f, 1.0f}, NULL},
     };
     enum { COUNT = sizeof requests / sizeof *requests };
     char names[COUNT][KILN_FLIPBOOK_NAME_SIZE];

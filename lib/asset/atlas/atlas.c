@@ -111,6 +111,16 @@ static void store_motion(struct kiln_atlas *atlas, const struct flipbook *book, 
     }
 }
 
+/* Makes the motion of a file, which is in full values of red and green, relative to the larger of
+ * the two scales, and returns that scale. */
+static float scale_axes(const float full[2], float *motion, size_t pixels)
+{
+    const float scale = fmaxf(fabsf(full[0]), fabsf(full[1]));
+    for (size_t i = 0; scale > 0.0f && i < 2 * pixels; i++)
+        motion[i] *= full[i % 2] / scale;
+    return scale;
+}
+
 static bool make_motion(struct kiln_atlas *atlas, const struct flipbook *book,
                         struct kiln_threads *threads, struct kiln_error *error)
 {
@@ -127,7 +137,8 @@ static bool make_motion(struct kiln_atlas *atlas, const struct flipbook *book,
         source.path = book->request->motion;
         source.edge = KILN_ATLAS_MOTION;
         ok = kiln_cells_load_motion(&source, motion, threads, error);
-        scale = book->request->motion_scale;
+        if (ok)
+            scale = scale_axes(book->request->motion_full, motion, book->range->cells * texels);
     } else if (ok) {
         for (uint32_t i = 0; i < book->range->cells; i++)
             kiln_builtin_motion(&book->builtin, i, KILN_ATLAS_MOTION, scratch,
@@ -222,7 +233,8 @@ static bool same_flipbook(const struct flipbook *a, const struct flipbook *b)
     return strcmp(a->source.path, b->source.path) == 0 && a->source.columns == b->source.columns &&
            a->source.rows == b->source.rows &&
            strcmp(a->request->motion, b->request->motion) == 0 &&
-           a->request->motion_scale == b->request->motion_scale;
+           a->request->motion_full[0] == b->request->motion_full[0] &&
+           a->request->motion_full[1] == b->request->motion_full[1];
 }
 
 struct flipbooks {

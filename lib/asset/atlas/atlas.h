@@ -51,8 +51,9 @@ struct kiln_atlas_request {
     uint32_t columns, rows; /* divide each source; a built-in flipbook has columns * rows cells */
     /* "none", "auto" (the motion that built-in flipbooks have) or an absolute path */
     const char *motion;
-    /* of a file: motion, in edges of the cell, that a full value stands for */
-    float motion_scale;
+    /* of a file: the motion to the right and up, in edges of the cell, that full red and full green
+     * stand for */
+    float motion_full[2];
     struct kiln_loader *loader; /* opens the files; may be NULL */
 };
 

@@ -21,8 +21,8 @@ struct kiln_cells_source {
 bool kiln_cells_load(const struct kiln_cells_source *source, float *cells,
                      struct kiln_threads *threads, struct kiln_error *error);
 
-/* Fills columns * rows cells of edge x edge pairs with the motion that an image stores in red (to
- * the right) and green (up). The full value is 1, and half of it (128 of 255) is 0, whatever
+/* Fills columns * rows cells of edge x edge pairs with the motion that an image stores in red and
+ * green. The full value is 1, and half of it (128 of 255) is 0, whatever
  * transfer function the image names. */
 bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motion,
                             struct kiln_threads *threads, struct kiln_error *error);

@@ -34,13 +34,14 @@ static bool add_source(struct kiln_text *text, const char *source, struct kiln_l
 bool kiln_flipbook_name(char name[KILN_FLIPBOOK_NAME_SIZE],
                         const struct kiln_atlas_request *request, uint32_t texture)
 {
-    char build[KILN_BUILD_ID_SIZE], hash[65], scale[32];
+    char build[KILN_BUILD_ID_SIZE], hash[65], right[32], up[32];
     struct kiln_text text = {0};
-    kiln_text_from_double(scale, (double)request->motion_scale);
+    kiln_text_from_double(right, (double)request->motion_full[0]);
+    kiln_text_from_double(up, (double)request->motion_full[1]);
     bool named = kiln_build_id(build);
     if (named)
-        kiln_text_add(&text, "%s\n%u x %u, motion by %s\n", build, request->columns, request->rows,
-                      scale);
+        kiln_text_add(&text, "%s\n%u x %u, motion by %s, %s\n", build, request->columns,
+                      request->rows, right, up);
     named = named && add_source(&text, request->sources[texture], request->loader) &&
             add_source(&text, request->motion, request->loader) && !text.failed;
     if (named) {

@@ -92,7 +92,7 @@ $ kiln render scenes/tiny.yaml -o book.png --flipbook 3x4 --flipbook-motion --fl
 1|book.png and 2 more: 12 frames in <s> s
 $ grep -v scene_hash book.json
 1|{
-1|  "kiln_flipbook": 1,
+1|  "kiln_flipbook": 2,
 1|  "image": "book.png",
 1|  "size": {"width": 204, "height": 160},
 1|  "columns": 3,
@@ -108,11 +108,11 @@ $ grep -v scene_hash book.json
 1|  "motion": {
 1|    "image": "book_motion.png",
 1|    "cell": {"width": 68, "height": 40},
-1|    "encoding": "(channel / 255 * 2 - 1) * scale",
+1|    "encoding": "(channel - 128) / 127 * scale",
 1|    "scale": 0.014705882,
 1|    "unit": "cell",
 1|    "red": "right",
-1|    "green": "down",
+1|    "green": "up",
 1|    "from": "this cell",
 1|    "to": "the next cell",
 1|    "color_space": "linear"
@@ -147,6 +147,12 @@ $ kiln render scenes/tiny.yaml -q -o more.png --flipbook eight
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook-motion
 2|kiln: render: --flipbook-motion: needs --flipbook
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --flipbook-green down
+2|kiln: render: --flipbook-green: needs --flipbook-motion
+= 2
+$ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --flipbook-motion --flipbook-green left
+2|kiln: render: --flipbook-green: found 'left', expected one of up|down
 = 2
 $ kiln render scenes/tiny.yaml -q -o more.png --flipbook 2x2 --flipbook-alpha none
 2|kiln: render: --flipbook-alpha: found 'none', expected one of straight|premultiplied

@@ -209,6 +209,10 @@ $ kiln help render
 1|                              leaves the cell as it was drawn. Default: 10.
 1|      --flipbook-motion       Also write the motion of pixels from cell to cell,
 1|                              as FILE_motion.png.
+1|      --flipbook-green up|down
+1|                              Where green of FILE_motion.png points: up as in
+1|                              Houdini, Unity and kiln, or down as in Unreal.
+1|                              Default: up.
 1|      --flipbook-padding N    Number of pixels to add on each side of a cell, so
 1|                              that texture filters do not read the neighbouring
 1|                              cells. Default: 0.
@@ -538,11 +542,16 @@ $ kiln help outputs
 1|or smoke leaves the frame.
 1|
 1|--flipbook-motion adds FILE_motion.png, which is linear, not sRGB. Red and green say how
-1|far right and down a pixel moves until the next cell: (value * 2 - 1) * scale cells, with
-1|scale from the JSON. An engine whose v points upwards negates green. At t between cells a
-1|and b, an engine mixes a at uv - t * motion and b at uv + (1 - t) * motion. The motion of
-1|the last cell is 0. One command must draw all cells; chunks of frames make no flipbook.
-1|The files appear together, the .json last. Where the .json is, all of them are whole.
+1|far right and up a pixel moves until the next cell: (channel - 128) / 127 * scale cells,
+1|with scale from the JSON. Houdini, Unity and look.motion of a scene have green up, too;
+1|--flipbook-green down is for engines whose v points downwards, such as Unreal. The JSON
+1|says which it is. At t between cells a and b, an engine mixes a at uv - t * motion and b
+1|at uv + (1 - t) * motion. The motion of the last cell is 0. One command must draw all
+1|cells; chunks of frames make no flipbook. The files appear together, the .json last.
+1|Where the .json is, all of them are whole.
+1|
+1|A scene plays such a flipbook by look.atlas and look.motion. It takes scale and green
+1|from the JSON if FILE.json is beside FILE_motion.png.
 1|
 1|-o - writes frames to standard output, in rows from the top, without a header. The
 1|default is Y4M (4:2:0, BT.709 in limited range, as in an MP4). --pipe rgb24 and rgba
