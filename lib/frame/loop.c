@@ -6,6 +6,7 @@
  * writes the pictures. */
 #include "frame/loop.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <stdlib.h>
 
@@ -13,6 +14,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "frame/stages.h"
+#include "scene/instant.h"
 #include "scene/work.h"
 #include "sim/step/simulate.h"
 
@@ -29,6 +31,8 @@ struct kiln_loop {
     struct kiln_stages stages;
 
     struct kiln_run run;
+    struct kiln_pool before; /* particles after before_step steps, for moments within a step */
+    uint32_t before_step;
     uint32_t
         next_frame; /* all frames before this one have updated the state that later frames need */
     uint64_t steps; /* simulation steps that this loop has run */
@@ -57,16 +61,32 @@ static bool step_to(struct kiln_loop *loop, uint32_t step, struct kiln_error *er
     return ok;
 }
 
+/* Steps to an instant, and keeps the particles before its last step if it lies within that step. An
+ * earlier moment of the frame may have stepped as far and kept them already. */
+static bool step_to_instant(struct kiln_loop *loop, struct kiln_instant instant,
+                            struct kiln_error *error)
+{
+    struct kiln_run *run = &loop->run;
+    if (instant.back > 0.0f && run->step < instant.step) {
+        if (!step_to(loop, instant.step - 1, error) ||
+            !kiln_pool_copy_particles(&loop->before, &run->pool, error))
+            return false;
+        loop->before_step = run->step;
+    }
+    return step_to(loop, instant.step, error);
+}
+
 /* Advances to frame `end` without drawing. If the sort keeps an order from frame to frame, the
  * skipped frames update it. */
 static bool skip_frames(struct kiln_loop *loop, uint32_t end, struct kiln_error *error)
 {
     const bool keeps_history = kiln_stages_keep_history(&loop->stages);
     for (; keeps_history && loop->next_frame < end; loop->next_frame++)
-        for (uint32_t sample = 0; sample < loop->scene->camera.shutter_samples; sample++) {
-            uint32_t step = kiln_scene_moment_step(loop->scene, loop->next_frame, sample);
-            if (!step_to(loop, step, error) ||
-                !kiln_stages_skip_moment(&loop->stages, &loop->run.pool, loop->run.step, error))
+        for (uint32_t moment = 0; moment < kiln_scene_moment_count(loop->scene); moment++) {
+            const struct kiln_instant instant =
+                kiln_scene_instant(loop->scene, loop->next_frame, moment);
+            if (!step_to(loop, instant.step, error) ||
+                !kiln_stages_skip_moment(&loop->stages, &loop->run.pool, instant, error))
                 return false;
         }
     loop->next_frame = end;
@@ -79,18 +99,20 @@ bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error
            step_to(loop, kiln_scene_frame_step(loop->scene, frame), error);
 }
 
-/* Draws all moments of a frame while the shutter is open: camera.shutter_samples, which is 1 by
- * default. */
+/* Draws all moments of a frame. */
 static bool draw_moments(struct kiln_loop *loop, uint32_t frame, struct kiln_drawn *drawn,
                          struct kiln_error *error)
 {
-    for (uint32_t sample = 0; sample < loop->scene->camera.shutter_samples; sample++) {
+    for (uint32_t moment = 0; moment < kiln_scene_moment_count(loop->scene); moment++) {
+        const struct kiln_instant instant = kiln_scene_instant(loop->scene, frame, moment);
         uint32_t count = 0;
-        if (!step_to(loop, kiln_scene_moment_step(loop->scene, frame, sample), error) ||
-            !kiln_stages_draw(&loop->stages, &loop->run.pool, loop->run.step, sample, &count,
-                              error))
+        if (!step_to_instant(loop, instant, error))
             return false;
-        if (sample == 0)
+        assert(instant.back == 0.0f || loop->before_step + 1 == instant.step);
+        if (!kiln_stages_draw(&loop->stages, &loop->before, &loop->run.pool, instant, moment,
+                              &count, error))
+            return false;
+        if (moment == 0)
             drawn->alive = count;
     }
     loop->next_frame = frame + 1;
@@ -206,13 +228,14 @@ struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln
     return loop;
 }
 
-static void init_pool(struct kiln_loop *loop)
+static void init_pools(struct kiln_loop *loop)
 {
     uint32_t capacities[KILN_MAX_SYSTEMS] = {0};
     for (uint32_t i = 0; i < loop->scene->system_count; i++)
         capacities[i] = loop->scene->systems[i].capacity;
-    kiln_pool_init(&loop->run.pool, kiln_device_gl(loop->device), capacities,
-                   loop->scene->system_count);
+    const uint32_t count = loop->scene->system_count;
+    kiln_pool_init(&loop->run.pool, kiln_device_gl(loop->device), capacities, count);
+    kiln_pool_init(&loop->before, kiln_device_gl(loop->device), capacities, count);
 }
 
 bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
@@ -220,7 +243,7 @@ bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
 {
     struct kiln_device *device = kiln_device_gl(loop->device);
     loop->needs = needs;
-    init_pool(loop);
+    init_pools(loop);
     loop->timer = kiln_timer_create(device);
     if (!loop->timer)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "timers: out of memory");
@@ -248,6 +271,7 @@ void kiln_loop_destroy(struct kiln_loop **loop)
     kiln_timer_destroy(&l->timer);
     l->device->work_group_size = 0;
     kiln_pool_finish(&l->run.pool);
+    kiln_pool_finish(&l->before);
     kiln_threads_destroy(&l->threads);
     free(l);
     *loop = NULL;
@@ -280,7 +304,9 @@ uint64_t kiln_loop_particle_bytes(const struct kiln_loop *loop)
     uint64_t spins = 0;
     for (uint32_t i = 0; i < loop->scene->system_count; i++)
         spins += kiln_scene_system_spins(loop->scene, i) ? loop->scene->systems[i].capacity : 0;
-    return (uint64_t)slots * kiln_simulate_slot_bytes(techniques->simulate) +
+    const size_t between =
+        kiln_scene_has_instants_between(loop->scene) ? 2 * sizeof(struct kiln_particle) : 0;
+    return (uint64_t)slots * (kiln_simulate_slot_bytes(techniques->simulate) + between) +
            spins * sizeof(struct kiln_spin) +
            kiln_sort_bytes(techniques->sort, techniques->sort_spread > 0, slots);
 }

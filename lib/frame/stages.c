@@ -168,7 +168,13 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
     s->on_host = techniques->raster == KILN_RASTER_CPU ||
                  kiln_lighting_reads_particles(s->lighting) ||
                  (s->solids && techniques->backdrop == KILN_BACKDROP_CPU);
-    if (s->scene->camera.shutter_samples > 1) {
+    if (kiln_scene_has_instants_between(s->scene)) {
+        const bool in_gl = techniques->simulate != KILN_SIMULATE_CPU;
+        s->between = kiln_between_create(device, &s->moment, in_gl, s->threads, error);
+        if (!s->between)
+            return false;
+    }
+    if (kiln_scene_moment_count(s->scene) > 1) {
         s->shutter =
             kiln_shutter_create(device,
                                 &(struct kiln_shutter_params){.technique = techniques->composite,
@@ -231,6 +237,7 @@ void kiln_stages_finish(struct kiln_stages *stages)
     kiln_backdrop_destroy(&stages->backdrop);
     kiln_lighting_destroy(&stages->lighting);
     kiln_sort_destroy(&stages->sort);
+    kiln_between_destroy(&stages->between);
     kiln_moment_finish(&stages->moment);
     kiln_framebuffer_finish(&stages->particle_framebuffer);
     kiln_framebuffer_finish(&stages->fire_framebuffer);
@@ -289,10 +296,10 @@ static bool end_pass(struct kiln_stages *s, bool ok)
     return ok;
 }
 
-bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                             struct kiln_error *error)
+bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *pool,
+                             struct kiln_instant instant, struct kiln_error *error)
 {
-    const struct kiln_view view = kiln_view_compute(stages->scene, step);
+    const struct kiln_view view = kiln_view_compute(stages->scene, instant);
     const struct kiln_sort_params params = sort_params(&view);
     return begin_pass(stages, KILN_PASS_sort, error) &&
            end_pass(stages, kiln_sort_advance(stages->sort, pool, &params, error));
@@ -414,10 +421,10 @@ static struct kiln_image *smoke_layer(struct kiln_stages *s)
 }
 
 /* Adds the images of the moment to the shutter's sums for its frame. */
-static bool add_moment(struct kiln_stages *s, uint32_t sample, struct kiln_error *error)
+static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error *error)
 {
-    float weight = 1.0f / (float)s->scene->camera.shutter_samples;
-    bool first = sample == 0;
+    float weight = 1.0f / (float)kiln_scene_moment_count(s->scene);
+    bool first = moment == 0;
     const struct kiln_composite_inputs inputs = moment_inputs(s);
     return kiln_shutter_add_composed(s->shutter, &inputs, weight, first, error) &&
            (!s->glow || kiln_shutter_add(s->shutter, KILN_SHUTTER_BLOOM, &s->bloom_color, weight,
@@ -428,11 +435,15 @@ static bool add_moment(struct kiln_stages *s, uint32_t sample, struct kiln_error
                                             first, error)));
 }
 
-static bool fill_moment(struct kiln_stages *s, struct kiln_pool *pool, uint32_t step,
-                        struct kiln_error *error)
+/* Fills the moment with the particles of an instant, and lights them. */
+static bool fill_moment(struct kiln_stages *s, struct kiln_pool *before, struct kiln_pool *pool,
+                        struct kiln_instant instant, struct kiln_error *error)
 {
-    return begin_pass(s, KILN_PASS_lighting, error) &&
-           end_pass(s, kiln_moment_fill(&s->moment, pool, step, s->on_host, error) &&
+    if (!begin_pass(s, KILN_PASS_lighting, error))
+        return false;
+    if (instant.back > 0.0f)
+        pool = kiln_between_run(s->between, before, pool, instant, error);
+    return end_pass(s, pool && kiln_moment_fill(&s->moment, pool, instant, s->on_host, error) &&
                            kiln_lighting_run(s->lighting, &s->moment, &s->light, error));
 }
 
@@ -449,20 +460,21 @@ static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_err
                           end_pass(s, kiln_coarse_prepare(s->coarse, &s->scene_depth, error)));
 }
 
-bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                      uint32_t sample, uint32_t *drawn, struct kiln_error *error)
+bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, struct kiln_pool *pool,
+                      struct kiln_instant instant, uint32_t moment, uint32_t *drawn,
+                      struct kiln_error *error)
 {
     struct kiln_stages *s = stages;
     const bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     uint32_t solids = 0;
-    if (!kiln_stages_skip_moment(s, pool, step, error) || !fill_moment(s, pool, step, error) ||
-        !draw_scenery(s, &solids, error))
+    if (!kiln_stages_skip_moment(s, pool, instant, error) ||
+        !fill_moment(s, before, pool, instant, error) || !draw_scenery(s, &solids, error))
         return false;
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))
         return false;
     *drawn += solids;
     return !s->shutter ||
-           (begin_pass(s, KILN_PASS_composite, error) && end_pass(s, add_moment(s, sample, error)));
+           (begin_pass(s, KILN_PASS_composite, error) && end_pass(s, add_moment(s, moment, error)));
 }
 
 bool kiln_stages_keep_history(const struct kiln_stages *stages)

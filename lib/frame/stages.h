@@ -5,6 +5,7 @@
 
 #include "asset/atlas/atlas.h"
 #include "draw/backdrop/backdrop.h"
+#include "draw/moment/between.h"
 #include "draw/solids/solids.h"
 #include "draw/sprites/coarse.h"
 #include "draw/sprites/particles.h"
@@ -28,7 +29,8 @@ struct kiln_stages {
     struct kiln_atlas atlas;
 
     struct kiln_sort *sort;
-    struct kiln_moment moment; /* the moment that is being drawn */
+    struct kiln_between *between; /* NULL if all moments are at the ends of steps */
+    struct kiln_moment moment;    /* the moment that is being drawn */
     struct kiln_lighting_stage *lighting;
     struct kiln_lighting light; /* of the moment */
     bool on_host;               /* a drawing stage reads particles on the host */
@@ -68,16 +70,18 @@ bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
                       struct kiln_error *error);
 void kiln_stages_finish(struct kiln_stages *stages);
 
-/* Runs every stage from sort to particles for the pool, whose state is that after `step` steps.
- * sample: which moment of the frame this is, from 0 to scene->camera.shutter_samples - 1. *drawn
+/* Runs every stage from sort to particles for a moment of a frame: 0 to
+ * kiln_scene_moment_count() - 1, in order. pool: the state after instant.step steps. before: the
+ * particles a step earlier; NULL is allowed if the instant does not lie within a step. *drawn
  * becomes the number of particles. */
-bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                      uint32_t sample, uint32_t *drawn, struct kiln_error *error);
+bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, struct kiln_pool *pool,
+                      struct kiln_instant instant, uint32_t moment, uint32_t *drawn,
+                      struct kiln_error *error);
 
 /* Updates the kept order for a moment that is not drawn, as kiln_stages_draw does. It must be
  * called if kiln_stages_keep_history returns true. */
-bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *pool, uint32_t step,
-                             struct kiln_error *error);
+bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *pool,
+                             struct kiln_instant instant, struct kiln_error *error);
 bool kiln_stages_keep_history(const struct kiln_stages *stages);
 
 /* Runs bloom and composite, which make the picture of a frame from the drawn moments. */

@@ -137,6 +137,25 @@ GLuint kiln_buffer_gl(struct kiln_buffer *buffer, enum kiln_access access, struc
     return buffer->gl;
 }
 
+bool kiln_buffer_copy(struct kiln_buffer *to, struct kiln_buffer *from, struct kiln_error *error)
+{
+    assert(to->size == from->size && to->device == from->device);
+    if (from->host_valid || !from->gl_valid) {
+        const void *source = kiln_buffer_host(from, KILN_READ, error);
+        void *target = source ? kiln_buffer_host(to, KILN_OVERWRITE, error) : NULL;
+        if (target)
+            memcpy(target, source, from->size);
+        return target != NULL;
+    }
+    if (!kiln_buffer_gl(to, KILN_OVERWRITE, error))
+        return false;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_COPY_READ_BUFFER, from->gl);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, to->gl);
+    glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, (GLsizeiptr)from->size);
+    return kiln_device_check(to->device, to->label, error);
+}
+
 void kiln_buffer_swap_gl(struct kiln_buffer *a, struct kiln_buffer *b)
 {
     assert(a->size == b->size && a->gl && b->gl && a->gl_valid && b->gl_valid);

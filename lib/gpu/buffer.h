@@ -43,6 +43,10 @@ void kiln_buffer_set_content(struct kiln_buffer *buffer, size_t bytes);
 GLuint kiln_buffer_gl(struct kiln_buffer *buffer, enum kiln_access access,
                       struct kiln_error *error);
 
+/* Copies all bytes to a buffer of the same size, on the host, or in GL if they are valid only
+ * there. Both buffers must have the same device. */
+bool kiln_buffer_copy(struct kiln_buffer *to, struct kiln_buffer *from, struct kiln_error *error);
+
 /* Exchanges the contents of two buffers of one device and size that were last written in GL,
  * without copying: each takes the other's buffer object. */
 void kiln_buffer_swap_gl(struct kiln_buffer *a, struct kiln_buffer *b);

@@ -8,6 +8,7 @@
 #include "job/shard.h"
 #include "job/states.h"
 #include "job/stop.h"
+#include "scene/instant.h"
 #include "scene/motion.h"
 
 struct planning {
@@ -102,8 +103,7 @@ static struct kiln_plan_task task_of(const struct planning *p, uint32_t index)
         const uint32_t start = kiln_scene_frame_step(scene, task.frames.first);
         task.has_state = kiln_states_find(p->states, start, &task.state_step);
     }
-    const uint32_t last_moment = scene->camera.shutter_samples - 1;
-    task.steps = kiln_scene_moment_step(scene, task.frames.last, last_moment) - task.state_step;
+    task.steps = kiln_scene_last_step(scene, task.frames.last) - task.state_step;
     task.cpu_s = plan->setup_cpu_s + plan->step_cpu_s * (double)task.steps +
                  plan->frame_cpu_s * (task.frames.last - task.frames.first + 1.0);
     return task;

@@ -110,9 +110,10 @@ static inline void kiln_lanes_values(const float4 *keys, struct kiln_value v, ui
         y[i] = all;
 }
 
-/* Computes particle_life_s, and particle_age at the end of a step. */
+/* Computes particle_life_s, and particle_age_before. */
 static inline void kiln_lanes_find_ages(struct kiln_lanes *lanes, const float4 *keys,
-                                        struct kiln_derived_params derived, uint32_t step)
+                                        struct kiln_derived_params derived, uint32_t step,
+                                        float back)
 {
     for (uint32_t i = 0; i < KILN_LANES; i++)
         lanes->born_s[i] = particle_birth_time(derived, kiln_lanes_record(lanes, i));
@@ -123,7 +124,7 @@ static inline void kiln_lanes_find_ages(struct kiln_lanes *lanes, const float4 *
         struct kiln_particle p = kiln_lanes_record(lanes, i);
         lanes->life_s[i] = random_between(particle_stream(derived, p), RANDOM_LIFE,
                                           lanes->life_min_s[i], lanes->life_max_s[i]);
-        lanes->age_s[i] = particle_age(p, step, derived.dt_s);
+        lanes->age_s[i] = particle_age_before(p, step, back, derived.dt_s);
     }
 }
 

@@ -60,14 +60,29 @@ static bool copy_buffer(struct kiln_buffer *to, struct kiln_buffer *from, struct
     return target != NULL;
 }
 
+/* Makes as many spins as the other pool has. */
+static void resize_spins(struct kiln_pool *pool, const struct kiln_pool *other)
+{
+    if (pool->spins.size == other->spins.size)
+        return;
+    kiln_buffer_finish(&pool->spins);
+    kiln_buffer_init(&pool->spins, pool->records.device, other->spins.size, "spins");
+}
+
+bool kiln_pool_copy_particles(struct kiln_pool *to, struct kiln_pool *from,
+                              struct kiln_error *error)
+{
+    assert(to->slot_count == from->slot_count && to->system_count == from->system_count);
+    resize_spins(to, from);
+    return kiln_buffer_copy(&to->records, &from->records, error) &&
+           (from->spins.size == 0 || kiln_buffer_copy(&to->spins, &from->spins, error));
+}
+
 bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error)
 {
     assert(to->slot_count == from->slot_count && to->system_count == from->system_count);
     memcpy(to->systems, from->systems, sizeof to->systems);
-    if (to->spins.size != from->spins.size) {
-        kiln_buffer_finish(&to->spins);
-        kiln_buffer_init(&to->spins, to->records.device, from->spins.size, "spins");
-    }
+    resize_spins(to, from);
     if (!copy_buffer(&to->records, &from->records, error) ||
         !copy_buffer(&to->spins, &from->spins, error))
         return false;

@@ -50,6 +50,11 @@ void kiln_pool_add_spins(struct kiln_pool *pool, const bool *systems);
 /* Copies particles, spins and paint to another pool of the same capacities, in host memory. */
 bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error);
 
+/* Copies records and spins to a pool of the same device and capacities, which need not have spins
+ * yet. Paint and counts of births are not copied, so no step can follow. */
+bool kiln_pool_copy_particles(struct kiln_pool *to, struct kiln_pool *from,
+                              struct kiln_error *error);
+
 /* Returns how many of a system's slots ever had a birth. These are the first slots; all others are
  * still zero. */
 uint32_t kiln_pool_used(const struct kiln_pool_system *system);

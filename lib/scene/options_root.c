@@ -5,8 +5,8 @@
 
 static const struct kiln_option shutter[] = {
     INTEGER(ORDER, "samples", shutter_samples, 1, 256, "1",
-            "Number of moments whose mean is a frame. Each moment takes a simulation step of its "
-            "own. 1 gives a sharp picture."),
+            "Number of moments whose mean is a frame. 1 gives a sharp picture. A moment that lies "
+            "within a simulation step is drawn between the states before and after that step."),
     {ROW(ORDER, "angle", number, AT(shutter_angle), "180 deg",
          "Shutter angle: 360 deg keeps the shutter open for the whole time of a frame."),
      LIMITS(KILN_ANGLE, KILN_DEG(1), KILN_DEG(360))},
@@ -54,8 +54,7 @@ static const char *const integrations[] = {
 static const struct kiln_option simulation[] = {
     {ROW(MOTION, "rate", rational, AT(rate), "auto",
          "Simulation steps a second, a whole multiple of output.fps. `auto` takes the smallest "
-         "rate "
-         "that is at least 60 and has a step for each moment of the shutter."),
+         "rate that is at least 60."),
      LIMITS(KILN_PLAIN, 1, 100000), .special_word = "auto"},
     {ROW(MOTION, "warmup", number, AT(warmup_s), "0 s",
          "Time that is simulated before the first frame, in whole steps. Clip time is negative "

@@ -12,7 +12,6 @@
 
 #include "asset/loader/loader.h"
 #include "base/matrix.h"
-#include "option/unit.h"
 #include "scene/work.h"
 #include "shared/exact.h"
 #include "shared/random.h"
@@ -28,15 +27,6 @@ float kiln_scene_time(const struct kiln_scene *scene, uint32_t step)
 uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame)
 {
     return scene->warmup_steps + frame * scene->steps_per_frame;
-}
-
-uint32_t kiln_scene_moment_step(const struct kiln_scene *scene, uint32_t frame, uint32_t moment)
-{
-    const struct kiln_camera *camera = &scene->camera;
-    double open_steps = scene->steps_per_frame * camera->shutter_angle / KILN_DEG(360);
-    /* The small addend keeps a whole number of steps from being rounded down to the one before. */
-    double after = moment * open_steps / camera->shutter_samples + 1e-6;
-    return kiln_scene_frame_step(scene, frame) + (uint32_t)after;
 }
 
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value, float time_s)

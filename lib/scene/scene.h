@@ -553,10 +553,6 @@ float kiln_scene_time(const struct kiln_scene *scene, uint32_t step);
 /* Returns the number of steps to run before frame `frame` is drawn. */
 uint32_t kiln_scene_frame_step(const struct kiln_scene *scene, uint32_t frame);
 
-/* Returns the number of steps to run before one of a frame's moments is drawn. The moments lie
- * evenly in the time that the shutter is open, which starts at the frame's own time. */
-uint32_t kiln_scene_moment_step(const struct kiln_scene *scene, uint32_t frame, uint32_t moment);
-
 /* Compute values on the host at a clip time, for values that are constant or vary over time. */
 float kiln_scene_value(const struct kiln_scene *scene, const struct kiln_value *value,
                        float time_s);

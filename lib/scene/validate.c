@@ -12,6 +12,7 @@
 #include "asset/geometry/depth_maps.h"
 #include "scene/asset_path.h"
 #include "scene/family.h"
+#include "scene/instant.h"
 #include "scene/motion_layout.h"
 #include "scene/object_mesh.h"
 #include "scene/particle_mesh.h"
@@ -44,23 +45,12 @@ static bool refuse_rate(struct kiln_reader *reader, const struct kiln_node *root
                                 lower, upper);
 }
 
-/* Returns the least number of steps a frame, since each moment of the shutter needs its own. */
-static uint32_t least_steps_a_frame(const struct kiln_scene *scene)
-{
-    const struct kiln_camera *camera = &scene->camera;
-    if (camera->shutter_samples == 1)
-        return 1;
-    return (uint32_t)ceil(camera->shutter_samples * KILN_DEG(360) / camera->shutter_angle - 1e-6);
-}
-
 static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *root)
 {
     struct kiln_scene *scene = kiln_reader_scene(reader);
     uint64_t fps_num = scene->fps.num, fps_den = scene->fps.den;
     if (scene->rate.num == 0) { /* auto */
         uint64_t multiple = (60 * fps_den + fps_num - 1) / fps_num;
-        uint64_t moments = least_steps_a_frame(scene);
-        multiple = multiple > moments ? multiple : moments;
         uint64_t num = fps_num * multiple, den = fps_den;
         kiln_unit_reduce(&num, &den);
         scene->rate = (struct kiln_rational){(uint32_t)num, (uint32_t)den};
@@ -72,18 +62,9 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
     scene->steps_per_frame = (uint32_t)(above / below);
     scene->dt_s = (float)((double)scene->rate.den / (double)scene->rate.num);
 
-    if (scene->steps_per_frame < least_steps_a_frame(scene)) {
-        char least[32];
-        print_multiple(least, scene->fps, least_steps_a_frame(scene));
-        return kiln_reader_error_at(
-            reader, root, "camera.shutter.samples",
-            "the %u moments of the shutter need a step each: simulation.rate must be at least %s",
-            scene->camera.shutter_samples, least);
-    }
-
     double warmup = scene->warmup_s * (double)scene->rate.num / (double)scene->rate.den;
     double steps = floor(warmup + 0.5) + (double)(scene->frames - 1) * scene->steps_per_frame +
-                   (scene->camera.shutter_samples > 1 ? scene->steps_per_frame - 1 : 0);
+                   (kiln_scene_moment_count(scene) > 1 ? scene->steps_per_frame : 0);
     if (steps > (double)KILN_MAX_STEPS)
         return kiln_reader_error_at(
             reader, root, "output.frames",
@@ -110,8 +91,7 @@ static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uin
     }
     struct kiln_scene_births births;
     kiln_scene_births_init(&births, scene, index);
-    const struct kiln_camera *camera = &scene->camera;
-    uint32_t steps = kiln_scene_moment_step(scene, scene->frames - 1, camera->shutter_samples - 1);
+    uint32_t steps = kiln_scene_last_step(scene, scene->frames - 1);
     return kiln_births_bound(&births.source, steps, kiln_family_lifespan(scene, index, steps));
 }
 

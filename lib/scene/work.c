@@ -9,6 +9,8 @@
 #include "asset/loader/loader.h"
 #include "base/budget.h"
 #include "base/sized.h"
+#include "scene/instant.h"
+#include "shared/particle.h"
 
 /* Bytes of the program, and bytes for one of each thing that a scene has many of. */
 enum {
@@ -29,7 +31,7 @@ enum {
 
 uint64_t kiln_work_steps(const struct kiln_scene *scene)
 {
-    return kiln_scene_moment_step(scene, scene->frames - 1, scene->camera.shutter_samples - 1);
+    return kiln_scene_last_step(scene, scene->frames - 1);
 }
 
 uint64_t kiln_work_particles(const struct kiln_scene *scene)
@@ -141,6 +143,13 @@ struct term {
 
 enum { TERMS = 9 };
 
+/* Returns the bytes of a slot. A picture within a step takes the records before it and its own. */
+static uint64_t slot_bytes(const struct kiln_scene *scene)
+{
+    return SLOT_BYTES +
+           (kiln_scene_has_instants_between(scene) ? 2 * sizeof(struct kiln_particle) : 0);
+}
+
 static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
 {
     const uint64_t triangles = count_triangles(scene);
@@ -150,7 +159,7 @@ static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
                                      count_pixels(scene, scene->backdrop.sky_image);
     const struct term all[TERMS] = {
         {PIXEL_BYTES * (uint64_t)scene->width * scene->height, "output.size", NULL},
-        {SLOT_BYTES * kiln_work_particles(scene), NULL, NULL},
+        {slot_bytes(scene) * kiln_work_particles(scene), NULL, NULL},
         {CELL_BYTES * count_cells(scene), "systems", NULL},
         {TRIANGLE_BYTES * triangles + (triangles > 0 ? ANY_MESH_BYTES : 0), "backdrop.objects",
          NULL},

@@ -50,6 +50,7 @@ struct kiln_view {
      * frame's */
     float4 clock;
     uint4 clock_step; /* number of steps; seed; unused; unused */
+    float4 within;    /* from the moment to the end of these steps, in steps; unused */
 };
 
 /* A lamp, or a part of the light of fire. */

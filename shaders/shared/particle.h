@@ -65,6 +65,17 @@ FN float particle_age(S(kiln_particle) p, uint step, float dt_s)
     return age;
 }
 
+/* Returns the age in seconds `back` steps before the end of step `step`; below 0 before the
+ * birth. */
+FN float particle_age_before(S(kiln_particle) p, uint step, float back, float dt_s)
+{
+    EXACT float steps = FLOAT(step - particle_birth_step(p)) + 1.0f;
+    EXACT float lived = steps - particle_birth_fraction(p);
+    EXACT float until = lived - back;
+    EXACT float age = until * dt_s;
+    return age;
+}
+
 FN float3 particle_position(S(kiln_particle) p)
 {
     EXACT float3 v = FLOAT3(BITS_FLOAT(p.position_serial.x), BITS_FLOAT(p.position_serial.y),

@@ -117,7 +117,7 @@ static void depth_matches_c(void **state)
     struct kiln_error error = {0};
     struct fixture f = fixture_create();
     fixture_start(&f, *state);
-    assert_true(kiln_moment_fill(&f.moment, NULL, 0, false, &error));
+    assert_true(kiln_moment_fill(&f.moment, NULL, kiln_instant_at_step(0), false, &error));
     assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
     const float *depth = kiln_image_host(&f.depth, KILN_READ, &error);
     assert_non_null(depth);
@@ -146,7 +146,7 @@ static void sky_floor_and_shadow_have_their_colors(void **state)
     struct kiln_error error = {0};
     struct fixture f = fixture_create();
     fixture_start(&f, *state);
-    assert_true(kiln_moment_fill(&f.moment, NULL, 0, false, &error));
+    assert_true(kiln_moment_fill(&f.moment, NULL, kiln_instant_at_step(0), false, &error));
     assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
     const float *color = kiln_image_host(&f.color, KILN_READ, &error);
     assert_non_null(color);
@@ -173,7 +173,7 @@ static void only_changes_are_drawn_again(void **state)
     struct kiln_error error = {0};
     struct fixture f = fixture_create();
     fixture_start(&f, *state);
-    assert_true(kiln_moment_fill(&f.moment, NULL, 0, false, &error));
+    assert_true(kiln_moment_fill(&f.moment, NULL, kiln_instant_at_step(0), false, &error));
     assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
     float *depth = kiln_image_host(&f.depth, KILN_READ_WRITE, &error);
     assert_non_null(depth);
@@ -183,7 +183,7 @@ static void only_changes_are_drawn_again(void **state)
     depth = kiln_image_host(&f.depth, KILN_READ_WRITE, &error);
     assert_true(depth[0] == -1.0f);
 
-    assert_true(kiln_moment_fill(&f.moment, NULL, 30, false, &error));
+    assert_true(kiln_moment_fill(&f.moment, NULL, kiln_instant_at_step(30), false, &error));
     assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
     depth = kiln_image_host(&f.depth, KILN_READ, &error);
     assert_true(depth[0] == before);

@@ -115,8 +115,10 @@ static struct picture *draw(struct moment *m, enum kiln_backdrop_technique techn
     uint32_t drawn = 0;
     assert_non_null(picture);
     stages_open(&stages, NULL, m->device, m->scene, &techniques, false, workers, &m->pool);
-    if ((m->before && !kiln_stages_draw(&stages, &m->pool, m->before, 0, &drawn, &error)) ||
-        !kiln_stages_draw(&stages, &m->pool, m->step, 0, &drawn, &error))
+    if ((m->before && !kiln_stages_draw(&stages, NULL, &m->pool, kiln_instant_at_step(m->before), 0,
+                                        &drawn, &error)) ||
+        !kiln_stages_draw(&stages, NULL, &m->pool, kiln_instant_at_step(m->step), 0, &drawn,
+                          &error))
         fail_msg("%s", error.message);
     take(&stages.scene_color, picture->color, COLORS);
     take(&stages.scene_depth, picture->depth, PIXELS);

@@ -31,7 +31,7 @@ struct picture {
 static void draw_at(struct picture *p, uint32_t step)
 {
     struct kiln_error error = {0};
-    if (!kiln_moment_fill(&p->moment, NULL, step, false, &error) ||
+    if (!kiln_moment_fill(&p->moment, NULL, kiln_instant_at_step(step), false, &error) ||
         !backdrop_draw_by_lamps(p->stage, &p->moment, &error))
         fail_msg("%s", error.message);
     p->colors = kiln_image_host(&p->color, KILN_READ, &error);

@@ -156,7 +156,7 @@ static int set_up_with(void **state, const char *const *overrides, size_t count)
         kiln_particles_create(f->device, f->scene, &f->atlas, technique, f->threads, &error);
     assert_true(f->backdrop && f->particles);
     place_particles(f);
-    assert_true(kiln_moment_fill(&f->moment, &f->pool, STEP, true, &error));
+    assert_true(kiln_moment_fill(&f->moment, &f->pool, kiln_instant_at_step(STEP), true, &error));
     assert_true(backdrop_draw_by_lamps(f->backdrop, &f->moment, &error));
 
     for (int i = 0; i < 2; i++) {

@@ -95,11 +95,12 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
 static void draw_subject(struct subject *s)
 {
     struct kiln_error error = {0};
-    uint32_t step = kiln_scene_moment_step(s->scene, s->scene->frames / 2, 0), drawn = 0;
+    uint32_t step = kiln_scene_frame_step(s->scene, s->scene->frames / 2), drawn = 0;
     step = step < MOST_STEPS ? step : MOST_STEPS;
     for (uint32_t i = 1; i <= step; i++)
         assert_true(kiln_simulate_step(s->simulate, &s->run.pool, i, &error));
-    if (!kiln_stages_draw(&s->stages, &s->run.pool, step, 0, &drawn, &error))
+    if (!kiln_stages_draw(&s->stages, NULL, &s->run.pool, kiln_instant_at_step(step), 0, &drawn,
+                          &error))
         fail_msg("%s", error.message);
     assert_true(drawn > 0);
 }

@@ -1,5 +1,6 @@
 /* Motion blur: a frame with a shutter is the mean, in linear light, of the pictures at the moments
- * while it is open, which a clip of a higher rate shows one by one. */
+ * while it is open, which a clip of a higher rate shows one by one. A moment within a step needs no
+ * step of its own. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -8,7 +9,7 @@
 #include <unistd.h>
 
 #include "asset/image/image.h"
-#include "scene/scene.h"
+#include "scene/instant.h"
 #include "scene/work.h"
 #include "support/cmocka.h"
 #include "support/device.h"
@@ -16,11 +17,11 @@
 
 enum { WIDTH = 48, HEIGHT = 32, MOMENTS = 4, FRAME = 12 };
 
-/* A moving camera, fire and smoke, and bloom; 240 steps a second. */
+/* A moving camera, fire and smoke, and bloom. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [48, 32], frames: 120, fps: %s}\n"
-    "simulation: {rate: 240}\n"
+    "simulation: {rate: %s}\n"
     "camera: {position: {keys: {0 s: [0, 1, 4], 1 s: [2, 1, 4]}}, target: [0, 1, 0], %s}\n"
     "backdrop: {objects: [{box: {}}]}\n"
     "systems:\n"
@@ -32,11 +33,12 @@ static const char SCENE[] =
 
 static const char *const LAYERS[] = {"beauty", "fire", "smoke", "bloom"};
 
-static void render(struct kiln_device *device, const char *fps, const char *camera,
-                   const char *post, const char *output, uint32_t first, uint32_t last)
+static void render(struct kiln_device *device, const char *fps, const char *rate,
+                   const char *camera, const char *post, const char *output, uint32_t first,
+                   uint32_t last)
 {
     char text[2048];
-    snprintf(text, sizeof text, SCENE, fps, camera, post);
+    snprintf(text, sizeof text, SCENE, fps, rate, camera, post);
     struct kiln_scene *scene = load_scene(text, NULL);
     struct kiln_error error = {0};
     struct kiln_render_params params = kiln_render_defaults();
@@ -69,9 +71,9 @@ static void check(void *device, const char *post)
     assert_non_null(mkdtemp(folder));
     /* Half a frame of 8 steps is 4 moments, one a step. */
     snprintf(path, sizeof path, "%s/blurred.exr", folder);
-    render(device, "30", "shutter: {samples: 4, angle: 180 deg}", post, path, FRAME, FRAME);
+    render(device, "30", "240", "shutter: {samples: 4, angle: 180 deg}", post, path, FRAME, FRAME);
     snprintf(path, sizeof path, "%s/moment_%%02d.exr", folder);
-    render(device, "240", "roll: 0 deg", post, path, 8 * FRAME, 8 * FRAME + MOMENTS - 1);
+    render(device, "240", "240", "roll: 0 deg", post, path, 8 * FRAME, 8 * FRAME + MOMENTS - 1);
 
     double difference = 0;
     for (size_t l = 0; l < sizeof LAYERS / sizeof *LAYERS; l++) {
@@ -118,38 +120,136 @@ static void a_frame_is_the_mean_of_its_moments(void **state)
     check(*state, "bloom: {kind: pyramid}, compose: alpha");
 }
 
-/* A frame by itself is the bytes of the full run, with a shutter, too; and so is the state. */
-static void a_shutter_has_its_steps(void **state)
+static void moments_lie_where_the_shutter_is_open(void **state)
 {
     (void)state;
     char text[2048];
-    snprintf(text, sizeof text, SCENE, "30", "shutter: {samples: 4, angle: 180 deg}", "");
+    snprintf(text, sizeof text, SCENE, "30", "240", "shutter: {samples: 4, angle: 180 deg}", "");
     struct kiln_scene *scene = load_scene(text, NULL);
-    for (uint32_t m = 0; m < MOMENTS; m++)
-        assert_int_equal(kiln_scene_moment_step(scene, 5, m), 40 + m);
+    for (uint32_t m = 0; m < MOMENTS; m++) {
+        const struct kiln_instant instant = kiln_scene_instant(scene, 5, m);
+        assert_int_equal(instant.step, 40 + m);
+        assert_true(instant.back == 0.0f);
+    }
+    assert_false(kiln_scene_has_instants_between(scene));
     kiln_scene_destroy(&scene);
 
-    static const char automatic[] = "kiln: 1\noutput: {fps: 30}\n"
-                                    "camera: {shutter: {samples: 5, angle: 120 deg}}\n";
-    scene = load_scene(automatic, NULL);
-    assert_int_equal(kiln_scene_facts(scene).steps_per_frame, 15);
-    for (uint32_t m = 0; m < 5; m++)
-        assert_int_equal(kiln_scene_moment_step(scene, 2, m), 30 + m);
+    /* A shutter does not change the rate. Here it is open for a step in each frame of two. */
+    scene = load_scene("kiln: 1\noutput: {fps: 30}\ncamera: {shutter: {samples: 16}}\n", NULL);
+    assert_int_equal(kiln_scene_facts(scene).steps_per_frame, 2);
+    assert_true(kiln_scene_has_instants_between(scene));
+    for (uint32_t m = 0; m < 16; m++) {
+        const struct kiln_instant instant = kiln_scene_instant(scene, 3, m);
+        assert_int_equal(instant.step, m == 0 ? 6 : 7);
+        assert_true(instant.back == (m == 0 ? 0.0f : 1.0f - (float)m / 16));
+        const double time_s = (6 + m / 16.0) / 60;
+        assert_true(fabs((double)kiln_scene_instant_time(scene, instant) - time_s) < 1e-7);
+    }
+    assert_int_equal(kiln_scene_last_step(scene, 3), 7);
     kiln_scene_destroy(&scene);
+}
 
-    static const char *const overrides[] = {"simulation.rate=120", NULL};
+/* Balls that spin and bounce, a fountain of sparks, smoke that is born and dies. */
+static const char BUSY[] =
+    "kiln: 1\n"
+    "output: {size: [48, 32], frames: 120, fps: 30}\n"
+    "simulation: {rate: 60}\n"
+    "camera: {position: [0, 1, 4], target: [0, 0.8, 0], shutter: {samples: 5, angle: 300 deg}}\n"
+    "backdrop: {floor: {color: 0.3}, sun: {color: 1}}\n"
+    "systems:\n"
+    "  balls: {emit: {rate: 20, life: 1 s, speed: 3, from: {cone: {angle: 20 deg}}},\n"
+    "          forces: [gravity: {}], collide: {friction: 0.5},\n"
+    "          interact: [collide: {as_drawn: true, spin: true, friction: 0.5}],\n"
+    "          look: {shape: sphere, size: 0.2 m, sphere: {pattern: stripe}}}\n"
+    "  smoke: {emit: {rate: 60, life: 0.3 s, speed: 2}, look: {size: 0.3 m}}\n"
+    "  sparks: {emit: {rate: 300, life: 0.4 s, speed: 5, from: {cone: {angle: 30 deg}}},\n"
+    "           forces: [gravity: {}], collide: {},\n"
+    "           look: {shape: line, stretch: 0.01, blend: add, size: 1 cm, intensity: 4}}\n";
+
+/* Reads a picture of BUSY, drawn from frame `first`, whose particles a technique moves. */
+static struct kiln_asset_image *draw_busy(struct kiln_device *device, const char *technique,
+                                          uint32_t first)
+{
+    char folder[] = "/tmp/kiln-shutter-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/%%04d.exr", folder);
+    struct kiln_scene *scene = load_scene(BUSY, NULL);
     struct kiln_error error = {0};
-    assert_null(try_scene(automatic, overrides, &error));
-    assert_string_equal(error.message,
-                        SCENE_NAME ":3:29: camera.shutter.samples: the 5 moments of the shutter "
-                                   "need a step each: simulation.rate must be at least 450");
+    struct kiln_render_params params = kiln_render_defaults();
+    const struct kiln_frame_range range = {first, FRAME};
+    params.output = path;
+    params.ranges = &range;
+    params.range_count = 1;
+    params.exr_bits = 32;
+    params.techniques = &technique;
+    params.technique_count = 1;
+    if (!kiln_render(device, scene, &params, NULL, &error))
+        fail_msg("%s", error.message);
+    kiln_scene_destroy(&scene);
+    struct kiln_asset_image *image = NULL;
+    for (uint32_t frame = first; frame <= FRAME; frame++) {
+        snprintf(path, sizeof path, "%s/%04u.exr", folder, frame);
+        if (frame == FRAME)
+            image = load_layer(path, "beauty");
+        unlink(path);
+    }
+    rmdir(folder);
+    return image;
+}
+
+/* A frame has the same bytes wherever particles within a step are computed, and in any chunk. */
+static void every_way_draws_the_same(void **state)
+{
+    struct kiln_asset_image *images[] = {draw_busy(*state, "simulate=cpu", FRAME),
+                                         draw_busy(*state, "simulate=cpu", FRAME - 2),
+                                         draw_busy(*state, "simulate=inplace", FRAME),
+                                         draw_busy(*state, "simulate=pingpong", FRAME - 1)};
+    for (size_t i = 1; i < sizeof images / sizeof *images; i++)
+        assert_memory_equal(images[0]->pixels, images[i]->pixels,
+                            WIDTH * HEIGHT * 4 * sizeof(float));
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        kiln_asset_image_destroy(&images[i]);
+}
+
+/* Few steps give the picture that many steps give: 4 moments within one step of 60 a second, and at
+ * the steps of 240 a second. The particles fly straight on; births are rounded to 64ths of a step.
+ */
+static void few_steps_are_enough(void **state)
+{
+    static const char *const RATES[] = {"240", "60"};
+    char folder[] = "/tmp/kiln-shutter-XXXXXX", path[2][64];
+    assert_non_null(mkdtemp(folder));
+    for (int i = 0; i < 2; i++) {
+        snprintf(path[i], sizeof path[i], "%s/%d.exr", folder, i);
+        render(*state, "30", RATES[i], "shutter: {samples: 4, angle: 180 deg}",
+               "bloom: {kind: none}", path[i], FRAME, FRAME);
+    }
+    for (int layer = 1; layer <= 2; layer++) { /* fire and smoke */
+        double sum = 0, off = 0;
+        struct kiln_asset_image *images[] = {load_layer(path[0], LAYERS[layer]),
+                                             load_layer(path[1], LAYERS[layer])};
+        for (int i = 0; i < WIDTH * HEIGHT * 4; i++) {
+            const double one = (double)((const float *)images[0]->pixels)[i];
+            sum += fabs(one);
+            off += fabs(one - (double)((const float *)images[1]->pixels)[i]);
+        }
+        if (!(off < 0.001 * sum))
+            fail_msg("%s: off by %g of %g", LAYERS[layer], off, sum);
+        kiln_asset_image_destroy(&images[0]);
+        kiln_asset_image_destroy(&images[1]);
+    }
+    unlink(path[0]);
+    unlink(path[1]);
+    rmdir(folder);
 }
 
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(a_frame_is_the_mean_of_its_moments),
-        test_on_device(a_shutter_has_its_steps),
+        test_on_device(moments_lie_where_the_shutter_is_open),
+        test_on_device(every_way_draws_the_same),
+        test_on_device(few_steps_are_enough),
     };
     return cmocka_run_group_tests_name("shutter", tests, test_device_open, test_device_close);
 }

@@ -271,7 +271,8 @@ static void place_turned(struct fixture *f, float4 pose)
     memset(spins, 0, f->drawing.pool.spins.size);
     spins[5].pose =
         (uint4){FLOAT_BITS(pose.x), FLOAT_BITS(pose.y), FLOAT_BITS(pose.z), FLOAT_BITS(pose.w)};
-    assert_true(kiln_moment_fill(&f->drawing.moment, &f->drawing.pool, STEP, true, &error));
+    assert_true(kiln_moment_fill(&f->drawing.moment, &f->drawing.pool, kiln_instant_at_step(STEP),
+                                 true, &error));
 }
 
 /* A pattern lies on the ball as collisions have turned it. */

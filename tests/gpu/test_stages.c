@@ -45,7 +45,8 @@ static void step_and_draw(struct frame *f, uint32_t steps)
     for (uint32_t step = f->run.step + 1; step <= steps; step++)
         assert_true(kiln_simulate_step(f->simulate, &f->run.pool, step, &error));
     f->run.step = steps;
-    if (!kiln_stages_draw(&f->stages, &f->run.pool, steps, 0, &f->drawn, &error) ||
+    if (!kiln_stages_draw(&f->stages, NULL, &f->run.pool, kiln_instant_at_step(steps), 0, &f->drawn,
+                          &error) ||
         !kiln_stages_compose(&f->stages, 3, &error))
         fail_msg("%s", error.message);
     kiln_picture_destroy(&f->picture);

@@ -134,7 +134,7 @@ void drawing_place(struct drawing *d, const struct kiln_particle *particles, uin
     memcpy(records, particles, count * sizeof *records);
     for (uint32_t i = 0; i < drawing_most; i++)
         entries[i] = KILN_ENTRY(0, i);
-    if (!kiln_moment_fill(&d->moment, &d->pool, step, true, &error))
+    if (!kiln_moment_fill(&d->moment, &d->pool, kiln_instant_at_step(step), true, &error))
         fail_msg("%s", error.message);
     assert_true(backdrop_draw_by_lamps(d->backdrop, &d->moment, &error));
 }

@@ -27,8 +27,9 @@ static bool frame_stage(struct kiln_device *device, const struct kiln_scene *sce
     stages_open(&stages, &simulate, device, scene, &setting->techniques, true, threads, &run.pool);
     for (uint32_t step = 1; step <= steps; step++)
         assert_true(kiln_simulate_step(simulate, &run.pool, step, error));
-    bool drew = kiln_stages_draw(&stages, &run.pool, steps, 0, &drawn, error) &&
-                kiln_stages_compose(&stages, 0, error) && kiln_stages_read(&stages, picture, error);
+    bool drew =
+        kiln_stages_draw(&stages, NULL, &run.pool, kiln_instant_at_step(steps), 0, &drawn, error) &&
+        kiln_stages_compose(&stages, 0, error) && kiln_stages_read(&stages, picture, error);
     stages_close(&stages, &simulate);
     kiln_pool_finish(&run.pool);
     return drew;

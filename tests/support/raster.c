@@ -39,7 +39,7 @@ void raster_open(struct raster *r, struct kiln_scene *scene, uint32_t columns, u
     if (!kiln_atlas_init(&r->atlas, NULL, requests, scene->system_count, NULL, r->threads, &error))
         fail_msg("%s", error.message);
     if (!kiln_moment_init(&r->moment, NULL, scene, &r->atlas, &error) ||
-        !kiln_moment_fill(&r->moment, NULL, step, false, &error))
+        !kiln_moment_fill(&r->moment, NULL, kiln_instant_at_step(step), false, &error))
         fail_msg("%s", error.message);
     r->light = (struct kiln_draw_backdrop){.sky_top = {0.2f, 0.3f, 0.5f, 0.0f},
                                            .sky_horizon = {0.3f, 0.3f, 0.3f, 0.0f}};

@@ -222,7 +222,7 @@ struct picture draw_below(void *device, const char *text, const char *asset_root
     p.moment = calloc(1, sizeof *p.moment); /* allocated, since the stage points to it */
     assert_non_null(p.moment);
     if (!kiln_moment_init(p.moment, device, p.scene, NULL, &error) ||
-        !kiln_moment_fill(p.moment, NULL, 0, false, &error))
+        !kiln_moment_fill(p.moment, NULL, kiln_instant_at_step(0), false, &error))
         fail_msg("%s", error.message);
     p.stage = backdrop_create(device, p.moment, &p.color, &p.depth, &error);
     p.threads = kiln_threads_create(2);

@@ -38,7 +38,7 @@ static void set_up(struct fixture *f, const char *text, const char *override)
     f->records = kiln_buffer_host(&f->pool.records, KILN_READ_WRITE, &error);
     assert_non_null(f->records);
     assert_true(kiln_moment_init(&f->moment, NULL, f->scene, NULL, &error));
-    assert_true(kiln_moment_fill(&f->moment, &f->pool, STEP, true, &error));
+    assert_true(kiln_moment_fill(&f->moment, &f->pool, kiln_instant_at_step(STEP), true, &error));
     f->threads = kiln_threads_create(2);
     assert_non_null(f->threads);
 }

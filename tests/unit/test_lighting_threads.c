@@ -59,7 +59,7 @@ static void set_up(struct fixture *f, const uint32_t counts[3])
     f->records = kiln_buffer_host(&f->pool.records, KILN_READ_WRITE, &error);
     assert_non_null(f->records);
     assert_true(kiln_moment_init(&f->moment, NULL, f->scene, NULL, &error));
-    assert_true(kiln_moment_fill(&f->moment, &f->pool, STEP, true, &error));
+    assert_true(kiln_moment_fill(&f->moment, &f->pool, kiln_instant_at_step(STEP), true, &error));
     for (uint32_t system = 0; system < 3; system++) {
         struct kiln_pool_system *slots = &f->pool.systems[system];
         slots->next_serial = counts[system];

@@ -19,7 +19,7 @@ static struct kiln_view view_of(const char *camera, uint32_t step)
     struct kiln_scene *scene = kiln_scene_parse(text, (size_t)length, "test", NULL, &error);
     if (!scene)
         fail_msg("%s", error.message);
-    struct kiln_view view = kiln_view_compute(scene, step);
+    struct kiln_view view = kiln_view_compute(scene, kiln_instant_at_step(step));
     kiln_scene_destroy(&scene);
     return view;
 }

@@ -38,6 +38,7 @@ struct kiln_appearance_system kiln_appearance_system(const struct kiln_moment *m
         .rows = moment->look_table + (size_t)index * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES,
         .used = kiln_pool_used(slots),
         .step = moment->view.clock_step.x,
+        .back = moment->view.within.x,
         .dt_s = moment->scene->dt_s,
         .spins = moment->spins && slots->spins ? moment->spins + slots->first_spin : NULL,
     };
@@ -49,7 +50,7 @@ bool kiln_appearance_at(const struct kiln_appearance_system *system, uint32_t sl
     const struct kiln_particle record = system->records[slot];
     if (!particle_is_alive(record))
         return false;
-    float age_s = particle_age(record, system->step, system->dt_s);
+    float age_s = particle_age_before(record, system->step, system->back, system->dt_s);
     float progress =
         particle_progress(age_s, particle_life_s(system->keys, system->derived, record));
     float4 shape = kiln_appearance_look(system, KILN_LOOK_SHAPE, progress);
@@ -70,7 +71,7 @@ static float spin_angle(const struct kiln_appearance_system *system, struct kiln
 {
     return instance_angle(stream, kiln_appearance_look(system, KILN_LOOK_TURN, progress),
                           kiln_appearance_look(system, KILN_LOOK_SPREAD, progress),
-                          particle_age(record, system->step, system->dt_s));
+                          particle_age_before(record, system->step, system->back, system->dt_s));
 }
 
 float4 kiln_appearance_pose(const struct kiln_appearance_system *system, uint32_t slot,

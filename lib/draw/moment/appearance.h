@@ -15,6 +15,7 @@ struct kiln_appearance_system {
     const float4 *rows;                  /* the system's rows of the look table */
     uint32_t used;                       /* only slots below this number may hold a particle */
     uint32_t step;                       /* number of steps so far */
+    float back;                          /* from the moment to the end of these steps, in steps */
     float dt_s;                          /* duration of a step, s */
     const struct kiln_spin *spins;       /* by slot; NULL: collisions do not turn the particles */
 };

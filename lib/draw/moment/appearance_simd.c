@@ -29,7 +29,7 @@ KILN_SIMD_NAME(kiln_appearance_find)(const struct kiln_appearance_system *system
                                      struct kiln_appearance_block *b)
 {
     load(b, system, first);
-    kiln_lanes_find_ages(&b->lanes, system->keys, system->derived, system->step);
+    kiln_lanes_find_ages(&b->lanes, system->keys, system->derived, system->step, system->back);
     const float *shape = &system->rows[(size_t)KILN_LOOK_SHAPE * KILN_LOOK_SAMPLES].x;
     const float *spread = &system->rows[(size_t)KILN_LOOK_SPREAD * KILN_LOOK_SAMPLES].x;
     const struct kiln_derived_params derived = system->derived;

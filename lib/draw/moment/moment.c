@@ -51,12 +51,12 @@ static bool read_particles(struct kiln_moment *moment, struct kiln_error *error)
     return moment->spins || pool->spins.size == 0;
 }
 
-bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool, uint32_t step,
-                      bool on_host, struct kiln_error *error)
+bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool,
+                      struct kiln_instant instant, bool on_host, struct kiln_error *error)
 {
     const struct kiln_scene *scene = moment->scene;
     moment->pool = pool;
-    moment->view = kiln_view_compute(scene, step);
+    moment->view = kiln_view_compute(scene, instant);
     const float time_s = moment->view.clock.x;
     moment->sun = kiln_sun_frame_at(scene, time_s);
     if (moment->look_changes == 0 || kiln_looks_vary(scene)) {

@@ -43,10 +43,11 @@ bool kiln_moment_init(struct kiln_moment *moment, struct kiln_device *device,
 /* Frees what the moment owns; does nothing for a moment of zeros. */
 void kiln_moment_finish(struct kiln_moment *moment);
 
-/* Fills the moment with the state after `step` steps. It borrows the pool until the next call; the
- * pool must not be stepped meanwhile, and may be NULL. on_host: records and spins are made
- * available on the host, which reads them back from a device that holds them. */
-bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool, uint32_t step,
-                      bool on_host, struct kiln_error *error);
+/* Fills the moment with the state at an instant. It borrows the pool, whose particles are those of
+ * the instant (kiln_between_run), until the next call; the pool must not be stepped meanwhile, and
+ * may be NULL. on_host: records and spins are made available on the host, which reads them back
+ * from a device that holds them. */
+bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool,
+                      struct kiln_instant instant, bool on_host, struct kiln_error *error);
 
 #endif

@@ -80,23 +80,29 @@ static void bind_look_table(const struct kiln_moment *moment)
     gl->uploaded_changes = moment->look_changes;
 }
 
-bool kiln_moment_bind(const struct kiln_moment *moment, struct kiln_buffer *entries,
-                      struct kiln_error *error)
+bool kiln_moment_bind_looks(const struct kiln_moment *moment, struct kiln_error *error)
 {
     struct kiln_moment_gl *gl = moment->gl;
-    struct kiln_pool *pool = moment->pool;
     if (!gl->look_table && !make(moment, error))
         return false;
-    GLuint records = kiln_buffer_gl(&pool->records, KILN_READ, error);
-    GLuint order = records ? kiln_buffer_gl(entries, KILN_READ, error) : 0;
-    GLuint looks = order ? kiln_buffer_gl(&gl->looks, KILN_READ, error) : 0;
+    GLuint looks = kiln_buffer_gl(&gl->looks, KILN_READ, error);
     GLuint keys = looks ? kiln_buffer_gl(&gl->keys, KILN_READ, error) : 0;
     if (!keys)
         return false;
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_RECORDS, records);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_ENTRIES, order);
     glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_LOOKS, looks);
     glBindBufferBase(GL_UNIFORM_BUFFER, KILN_BIND_KEYS, keys);
+    return true;
+}
+
+bool kiln_moment_bind(const struct kiln_moment *moment, struct kiln_buffer *entries,
+                      struct kiln_error *error)
+{
+    GLuint records = kiln_buffer_gl(&moment->pool->records, KILN_READ, error);
+    GLuint order = records ? kiln_buffer_gl(entries, KILN_READ, error) : 0;
+    if (!order || !kiln_moment_bind_looks(moment, error))
+        return false;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_RECORDS, records);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_ENTRIES, order);
     bind_look_table(moment);
     return true;
 }

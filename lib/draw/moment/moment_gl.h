@@ -10,6 +10,9 @@
 struct kiln_moment_gl *kiln_moment_gl_create(struct kiln_device *device);
 void kiln_moment_gl_destroy(struct kiln_moment_gl **gl);
 
+/* Binds the blocks of looks (KILN_BIND_LOOKS) and of the keys of values (KILN_BIND_KEYS). */
+bool kiln_moment_bind_looks(const struct kiln_moment *moment, struct kiln_error *error);
+
 /* Binds the data of particles that shaders read (shaders/draw/moment/record.glsl): the pool's
  * records, the draw entries, the looks and their table. It does not bind the blocks of view and
  * backdrop, which kiln_draw_blocks_bind does. The moment must have a device. */

@@ -46,10 +46,10 @@ static void set_world_to_view(float3 right, float3 forward, float3 eye, float4 r
     kiln_matrix_to_rows(m, rows);
 }
 
-struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step)
+struct kiln_view kiln_view_compute(const struct kiln_scene *scene, struct kiln_instant instant)
 {
     const struct kiln_camera *camera = &scene->camera;
-    float time_s = kiln_scene_time(scene, step);
+    float time_s = kiln_scene_instant_time(scene, instant);
     float3 position = kiln_scene_value3(scene, &camera->position, time_s);
     float3 target = kiln_scene_value3(scene, &camera->target, time_s);
     const struct exact_angle half_fov =
@@ -68,7 +68,8 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, uint32_t step
         .eye = {position.x, position.y, position.z,
                 kiln_scene_value(scene, &camera->near_plane, time_s)},
         .clock = {time_s, scene->dt_s, scene->dt_s * (float)scene->steps_per_frame, 1.0f},
-        .clock_step = {step, scene->seed, 0, 0},
+        .clock_step = {instant.step, scene->seed, 0, 0},
+        .within = {instant.back, 0.0f, 0.0f, 0.0f},
     };
     set_world_to_view(right, forward, position, view.world_to_view);
     float tan_y = half_fov.sine / half_fov.cosine;

@@ -123,7 +123,7 @@ static void read_particles(struct sprite_lanes *p)
     const struct kiln_view *view = pass->view;
     p->record = read_records(pass->records, p->slots);
     p->stream = vu_mix(p->record.serial + p->look->derived.random_key);
-    p->age_s = vf_age(p->record.birth, view->clock_step.x, view->clock.y);
+    p->age_s = vf_age(p->record.birth, view->clock_step.x, view->within.x, view->clock.y);
     p->progress = vf_progress(
         p->age_s, vf_life(pass->scene->keys, &p->look->derived, p->stream, p->record.birth));
     vf sample = p->progress * (float)(KILN_LOOK_SAMPLES - 1);

@@ -74,11 +74,11 @@ SIMD vf vf_birth_fraction(vu birth)
     return vf_of((vi)(birth >> KILN_BIRTH_FRACTION_SHIFT & KILN_BIRTH_FRACTION_MASK)) * 0.015625f;
 }
 
-/* Returns the age in seconds as particle_age does. */
-SIMD vf vf_age(vu birth, uint32_t step, float dt_s)
+/* Returns the age in seconds as particle_age_before does. */
+SIMD vf vf_age(vu birth, uint32_t step, float back, float dt_s)
 {
     vf steps = vf_of((vi)(step - (birth >> KILN_BIRTH_STEP_SHIFT))) + 1.0f;
-    return (steps - vf_birth_fraction(birth)) * dt_s;
+    return (steps - vf_birth_fraction(birth) - back) * dt_s;
 }
 
 /* Returns a scene value at each lane's time. Most values are constant, so others are evaluated lane

@@ -24,7 +24,7 @@ static inline void find_values3(const struct kiln_sim *sim, struct kiln_value3 v
 static inline void find_ages(const struct kiln_sim *sim, struct block *b)
 {
     const float dt_s = sim->step->derived.dt_s;
-    kiln_lanes_find_ages(&b->lanes, sim->value_keys, sim->step->derived, sim->step->step);
+    kiln_lanes_find_ages(&b->lanes, sim->value_keys, sim->step->derived, sim->step->step, 0.0f);
     for (uint32_t i = 0; i < KILN_LANES; i++)
         b->life[i] = particle_progress(b->lanes.age_s[i] - dt_s, b->lanes.life_s[i]);
 }

@@ -114,7 +114,7 @@ void make_particle(uint entry)
     uint system = entry >> 24;
     kiln_particle record = records[entry & 0xffffffu];
     uint stream = particle_stream(looks[system].derived, record);
-    float age = particle_age(record, view.clock_step.x, view.clock.y);
+    float age = particle_age_before(record, view.clock_step.x, view.within.x, view.clock.y);
     float life = particle_progress(age, particle_life_s(looks[system].derived, record));
     vec4 shape = look_at(system, KILN_LOOK_SHAPE, life);
     vec4 spread = look_at(system, KILN_LOOK_SPREAD, life);

@@ -1,0 +1,37 @@
+/* A frame is the mean of moments, one by default. This header says when each of them is. */
+#ifndef KILN_SCENE_INSTANT_H
+#define KILN_SCENE_INSTANT_H
+
+#include "scene/scene.h"
+
+/* The time of a drawn moment, which may lie within a step. */
+struct kiln_instant {
+    uint32_t step; /* steps to run before the moment is drawn: the moment is not after their end */
+    float back;    /* time from the moment to the end of these steps, in steps: 0 to below 1 */
+};
+
+/* Returns the instant at the end of a step. */
+static inline struct kiln_instant kiln_instant_at_step(uint32_t step)
+{
+    return (struct kiln_instant){.step = step};
+}
+
+/* Returns the number of moments whose mean is a frame. */
+uint32_t kiln_scene_moment_count(const struct kiln_scene *scene);
+
+/* Returns the time of one of a frame's moments: 0 to kiln_scene_moment_count() - 1. The moments lie
+ * evenly in the time that the shutter is open, which starts at the frame's own time. No moment is
+ * before the one with the number below it. */
+struct kiln_instant kiln_scene_instant(const struct kiln_scene *scene, uint32_t frame,
+                                       uint32_t moment);
+
+/* Returns the clip time of an instant, s. */
+float kiln_scene_instant_time(const struct kiln_scene *scene, struct kiln_instant instant);
+
+/* Returns whether any moment of a frame lies within a step, which is the same in all frames. */
+bool kiln_scene_has_instants_between(const struct kiln_scene *scene);
+
+/* Returns the number of steps to run before all moments of a frame are drawn. */
+uint32_t kiln_scene_last_step(const struct kiln_scene *scene, uint32_t frame);
+
+#endif
