@@ -435,10 +435,17 @@ static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error
                                             first, error)));
 }
 
-/* Fills the moment with the particles of an instant, and lights them. */
+/* Fills the moment with the particles of an instant, and lights them. Moments of a frame at the
+ * same time share both, since they differ only in the view. */
 static bool fill_moment(struct kiln_stages *s, struct kiln_pool *before, struct kiln_pool *pool,
-                        struct kiln_instant instant, struct kiln_error *error)
+                        struct kiln_instant instant, bool first, struct kiln_error *error)
 {
+    const bool shared = !first && kiln_instants_coincide(instant, s->instant);
+    s->instant = instant;
+    if (shared) {
+        kiln_moment_look_through(&s->moment, instant);
+        return true;
+    }
     if (!begin_pass(s, KILN_PASS_lighting, error))
         return false;
     if (instant.back > 0.0f)
@@ -468,7 +475,8 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, stru
     const bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     uint32_t solids = 0;
     if (!kiln_stages_skip_moment(s, pool, instant, error) ||
-        !fill_moment(s, before, pool, instant, error) || !draw_scenery(s, &solids, error))
+        !fill_moment(s, before, pool, instant, moment == 0, error) ||
+        !draw_scenery(s, &solids, error))
         return false;
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))
         return false;
@@ -532,7 +540,7 @@ static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
 {
     struct kiln_image *sources[] = {NULL, &s->scene_depth, &s->fire_color, smoke_layer(s),
                                     bloom_source(s)};
-    if (s->shutter) { /* depths have no mean, so the depth layer is that of the last moment */
+    if (s->shutter) { /* depths have no mean: those of the last moment are those of a pinhole */
         sources[2] = kiln_shutter_image(s->shutter, KILN_SHUTTER_FIRE);
         sources[3] = kiln_shutter_image(s->shutter, KILN_SHUTTER_SMOKE);
     }

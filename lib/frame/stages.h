@@ -31,6 +31,7 @@ struct kiln_stages {
     struct kiln_sort *sort;
     struct kiln_between *between; /* NULL if all moments are at the ends of steps */
     struct kiln_moment moment;    /* the moment that is being drawn */
+    struct kiln_instant instant;  /* of the moment */
     struct kiln_lighting_stage *lighting;
     struct kiln_lighting light; /* of the moment */
     bool on_host;               /* a drawing stage reads particles on the host */

@@ -24,6 +24,14 @@ static const struct kiln_option camera[] = {
           "Angle by which the camera is turned about its line of sight."),
     VALUE(LOOK, "near", near_plane, KILN_METRES, 0.001, 100, TIME, "0.05 m",
           "Distance of the near plane; nothing nearer than this is drawn."),
+    VALUE(ORDER, "aperture", aperture, KILN_METRES, 0, 10, TIME, "0 m",
+          "Diameter of the lens, which blurs what is out of focus: a point at distance d is a disc "
+          "of diameter aperture * |d - focus| / d in the plane of focus. 0 m is a pinhole, which "
+          "blurs nothing. It takes output.samples or camera.shutter.samples."),
+    {ROW(ORDER, "focus", value, AT(focus), "target",
+         "Distance along the line of sight at which the picture is sharp. target is the distance "
+         "of the point that the camera looks at."),
+     LIMITS(KILN_METRES, 0.001, 1000000), .clocks = TIME, .special_word = "target"},
     GROUP(ORDER, "shutter", 0, shutter, "Motion blur: a frame is the mean of several moments."),
     END,
 };
@@ -36,6 +44,10 @@ _Static_assert(AT(height) == AT(width) + sizeof(uint32_t), "size is read as a pa
 static const struct kiln_option output[] = {
     {ROW(LOOK, "size", pair, AT(width), "[1280, 720]", "Width and height of the pictures."),
      LIMITS(KILN_PIXELS, KILN_MIN_EDGE, KILN_MAX_EDGE)},
+    INTEGER(ORDER, "samples", pixel_samples, 1, 256, "1",
+            "Number of places in each pixel whose mean is its colour, by a filter that reaches a "
+            "pixel beyond its middle: 4 or 16 for a still with smooth edges. A frame is drawn once "
+            "for each of them; moments of the shutter count as such."),
     {ROW(ORDER, "fps", rational, AT(fps), "30",
          "Frames a second: 30, 30000/1001 or 29.97 (= 2997/100)."),
      LIMITS(KILN_PLAIN, 1, KILN_MAX_RATE)},

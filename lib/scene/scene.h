@@ -434,6 +434,8 @@ struct kiln_camera {
     struct kiln_value fov;               /* rad, vertical */
     struct kiln_value roll;              /* rad */
     struct kiln_value near_plane;        /* m */
+    struct kiln_value aperture;          /* m: diameter of the lens; 0: a pinhole */
+    struct kiln_value focus;             /* m; KILN_VALUE_BY_WORD: the target's distance */
     uint32_t shutter_samples;            /* moments of a frame that are averaged */
     double shutter_angle;                /* rad; with a full turn, the shutter is always open */
 };
@@ -507,6 +509,7 @@ struct kiln_scene {
     uint32_t format_version; /* always 1 */
     uint32_t seed;
     uint32_t width, height; /* px */
+    uint32_t pixel_samples; /* places in each pixel that are averaged */
     struct kiln_rational fps;
     uint32_t frames;
 

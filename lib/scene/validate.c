@@ -430,6 +430,11 @@ static bool check_camera(struct kiln_reader *reader, const struct kiln_node *roo
     if (!at_all_keys(scene, ends, 2, are_apart))
         return kiln_reader_error_at(reader, root, "camera.target",
                                     "must not be the position of the camera");
+    if (kiln_scene_value_max(scene, &scene->camera.aperture) > 0.0f &&
+        kiln_scene_moment_count(scene) == 1)
+        return kiln_reader_error_at(reader, root, "camera.aperture",
+                                    "a lens is drawn by moments: output.samples or "
+                                    "camera.shutter.samples must be at least 2");
     return true;
 }
 

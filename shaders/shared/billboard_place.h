@@ -3,7 +3,7 @@
  * rasteriser decides by these functions of the pixel which pixels a particle covers. The device
  * `cpu` reads them from lib/draw/sprites/sprite_place.h, GL from shaders/draw/sprites/outline.glsl.
  *
- * frustum: that of struct kiln_view. Positions and directions are in view space, m. */
+ * frustum, principal: those of struct kiln_view. Positions and directions are in view space, m. */
 #ifndef KILN_SHARED_BILLBOARD_PLACE_H
 #define KILN_SHARED_BILLBOARD_PLACE_H
 
@@ -29,12 +29,12 @@ struct billboard_place {
 };
 
 /* Returns where a position before the eye is in the picture. */
-REAL_FN S(picture_point) picture_point_of(float4 frustum, real3 position)
+REAL_FN S(picture_point) picture_point_of(float4 frustum, float4 principal, real3 position)
 {
     real near = -1.0f / position.z;
     S(picture_point) point;
-    point.x = 0.5f * frustum.z + position.x * near * (0.5f * frustum.z / frustum.x);
-    point.y = 0.5f * frustum.w - position.y * near * (0.5f * frustum.w / frustum.y);
+    point.x = principal.x + position.x * near * (0.5f * frustum.z / frustum.x);
+    point.y = principal.y - position.y * near * (0.5f * frustum.w / frustum.y);
     return point;
 }
 
@@ -58,9 +58,9 @@ struct billboard_flat {
 /* Places a billboard whose edges are parallel to the picture. right, up: directions of its edges;
  * half_width, half_length: half of their lengths; edge: the texture coordinate at the far edges. q
  * is 0. */
-REAL_FN S(billboard_flat) billboard_place_flat(float4 frustum, real3 center, real3 right,
-                                               real half_width, real3 up, real half_length,
-                                               real edge)
+REAL_FN S(billboard_flat) billboard_place_flat(float4 frustum, float4 principal, real3 center,
+                                               real3 right, real half_width, real3 up,
+                                               real half_length, real edge)
 {
     real near = -1.0f / center.z;
     real scale_x = near * (0.5f * frustum.z / frustum.x);
@@ -76,8 +76,8 @@ REAL_FN S(billboard_flat) billboard_place_flat(float4 frustum, real3 center, rea
     real middle = 0.5f * edge;
     placed.place.seen = real_abs(det) > 1e-12f;
     real half_edge = middle / real_select(placed.place.seen, det, real_all(1.0f));
-    placed.place.anchor.x = 0.5f * frustum.z + center.x * scale_x;
-    placed.place.anchor.y = 0.5f * frustum.w - center.y * scale_y;
+    placed.place.anchor.x = principal.x + center.x * scale_x;
+    placed.place.anchor.y = principal.y - center.y * scale_y;
     placed.place.u = picture_slope_of(middle, placed.up.y * half_edge, -placed.up.x * half_edge);
     placed.place.v = /* grows downwards */
         picture_slope_of(middle, placed.right.y * half_edge, -placed.right.x * half_edge);
@@ -89,10 +89,11 @@ REAL_FN S(billboard_flat) billboard_place_flat(float4 frustum, real3 center, rea
 
 /* Returns a linear function of the direction from the eye, given by a row, as one of the pixels
  * around the anchor. */
-REAL_FN S(picture_slope) picture_slope_along(float4 frustum, real3 row, S(picture_point) anchor)
+REAL_FN S(picture_slope) picture_slope_along(float4 frustum, float4 principal, real3 row,
+                                             S(picture_point) anchor)
 {
     real x = row.x * (2.0f * frustum.x / frustum.z), y = row.y * (-2.0f * frustum.y / frustum.w);
-    real at = x * (anchor.x - 0.5f * frustum.z) + y * (anchor.y - 0.5f * frustum.w) - row.z;
+    real at = x * (anchor.x - principal.x) + y * (anchor.y - principal.y) - row.z;
     return picture_slope_of(at, x, y);
 }
 
@@ -101,21 +102,23 @@ REAL_FN S(picture_slope) picture_slope_along(float4 frustum, real3 row, S(pictur
  * is depth * d = a * right + b * up + center. So (a, b, 1) / depth is the inverse of the matrix of
  * right, up and center, times d: it is linear in the pixel. Then u = edge (1 + a) / 2 and
  * v = edge (1 - b) / 2. */
-REAL_FN S(billboard_place) billboard_place_deep(float4 frustum, real3 center, real3 right, real3 up,
-                                                real edge)
+REAL_FN S(billboard_place) billboard_place_deep(float4 frustum, float4 principal, real3 center,
+                                                real3 right, real3 up, real edge)
 {
     real3 normal = real3_cross(right, up);
     real det = real3_dot(normal, center);
     S(billboard_place) place;
     place.seen = real_abs(det) > 1e-12f;
-    place.anchor = picture_point_of(frustum, center);
+    place.anchor = picture_point_of(frustum, principal, center);
     real scale = 1.0f / real_select(place.seen, det, real_all(1.0f)), half_edge = 0.5f * edge;
     real3 a = real3_scale(real3_cross(up, center), scale);
     real3 b = real3_scale(real3_cross(center, right), scale);
     real3 q = real3_scale(normal, scale);
-    place.u = picture_slope_along(frustum, real3_scale(real3_add(q, a), half_edge), place.anchor);
-    place.v = picture_slope_along(frustum, real3_scale(real3_sub(q, b), half_edge), place.anchor);
-    place.q = picture_slope_along(frustum, q, place.anchor);
+    place.u = picture_slope_along(frustum, principal, real3_scale(real3_add(q, a), half_edge),
+                                  place.anchor);
+    place.v = picture_slope_along(frustum, principal, real3_scale(real3_sub(q, b), half_edge),
+                                  place.anchor);
+    place.q = picture_slope_along(frustum, principal, q, place.anchor);
     return place;
 }
 
@@ -157,10 +160,11 @@ struct stroke_place {
 /* Places a line between two positions before the eye, or a point, whose head and tail are the same.
  * Its ends reach out by half of its width, px. 1 / depth changes evenly from one end of the
  * rectangle and its rim to the other. */
-REAL_FN S(stroke_place) stroke_place_of(float4 frustum, real3 head, real3 tail, real half_width)
+REAL_FN S(stroke_place) stroke_place_of(float4 frustum, float4 principal, real3 head, real3 tail,
+                                        real half_width)
 {
-    S(picture_point) to = picture_point_of(frustum, head);
-    S(picture_point) from = picture_point_of(frustum, tail);
+    S(picture_point) to = picture_point_of(frustum, principal, head);
+    S(picture_point) from = picture_point_of(frustum, principal, tail);
     real way_x = to.x - from.x, way_y = to.y - from.y;
     real way = real_sqrt(way_x * way_x + way_y * way_y);
     truth moves = way > 1e-3f;

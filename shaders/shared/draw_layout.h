@@ -51,6 +51,9 @@ struct kiln_view {
     float4 clock;
     uint4 clock_step; /* number of steps; seed; unused; unused */
     float4 within;    /* from the moment to the end of these steps, in steps; unused */
+    /* The principal point, where the line of sight meets the picture: px from the top left, and the
+     * tangents of its angles to the right of and above the picture's middle. */
+    float4 principal;
 };
 
 /* A lamp, or a part of the light of fire. */

@@ -122,7 +122,8 @@ static bool same_picture(const struct kiln_backdrop_inputs *a, const struct kiln
            memcmp(&a->shapes, &b->shapes, sizeof a->shapes) == 0 &&
            memcmp(a->view.world_to_view, b->view.world_to_view, sizeof a->view.world_to_view) ==
                0 &&
-           memcmp(&a->view.frustum, &b->view.frustum, sizeof a->view.frustum) == 0;
+           memcmp(&a->view.frustum, &b->view.frustum, sizeof a->view.frustum) == 0 &&
+           memcmp(&a->view.principal, &b->view.principal, sizeof a->view.principal) == 0;
 }
 
 struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,

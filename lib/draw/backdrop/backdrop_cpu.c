@@ -139,8 +139,8 @@ static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 cent
         if (-at[2] < near)
             continue;
         in_front++;
-        float x = (at[0] / (-at[2] * view->frustum.x) + 1.0f) * 0.5f * width;
-        float y = (1.0f - at[1] / (-at[2] * view->frustum.y)) * 0.5f * height;
+        float x = view->principal.x + at[0] / (-at[2] * view->frustum.x) * 0.5f * width;
+        float y = view->principal.y - at[1] / (-at[2] * view->frustum.y) * 0.5f * height;
         low[0] = exact_min(low[0], x);
         high[0] = exact_max(high[0], x);
         low[1] = exact_min(low[1], y);

@@ -28,11 +28,11 @@ SIMD struct eye_rays rays_at(const struct kiln_ray_frame *frame, const struct ra
 /* Returns the rays through the centres of pixels. */
 SIMD struct eye_rays rays_through_pixels(const struct kiln_ray_frame *frame, vi column, vi row)
 {
-    const float4 frustum = frame->view->frustum;
+    const float4 frustum = frame->view->frustum, principal = frame->view->principal;
     vf x = vf_of(column) + 0.5f, y = vf_of(row) + 0.5f;
     struct ray_place place = {
-        .u = (x * (2.0f / frustum.z) - 1.0f) * frustum.x,
-        .v = (1.0f - y * (2.0f / frustum.w)) * frustum.y,
+        .u = (x * (2.0f / frustum.z) - 1.0f) * frustum.x - principal.z,
+        .v = (1.0f - y * (2.0f / frustum.w)) * frustum.y - principal.w,
     };
     if (frame->meshes)
         place.hit = row * (int32_t)(KILN_HIT_LAYERS * frame->meshes->pitch) + column;

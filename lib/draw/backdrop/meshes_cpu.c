@@ -195,7 +195,7 @@ static void project_triangle(const struct mesh_projection *p, size_t i)
                               p->view_positions[corners[2]]};
     float3 face;
     float volume;
-    if (!kiln_mesh_project(corner, p->view->frustum, flat, &face, &volume))
+    if (!kiln_mesh_project(corner, p->view->frustum, p->view->principal, flat, &face, &volume))
         return;
     const float sign = volume < 0.0f ? -1.0f : 1.0f;
     memset(t->normal, 0, sizeof t->normal);
@@ -263,7 +263,7 @@ static void rasterise_band(const struct raster_job *f, uint32_t band, float *nea
         x, y                                                                                       \
     }
     struct kiln_meshes_cpu *m = f->m;
-    const float4 frustum = f->view->frustum;
+    const float4 frustum = f->view->frustum, principal = f->view->principal;
     const struct kiln_row_lists *lists = &m->canvas.lists;
     size_t count = lists->first[band + 1] - lists->first[band],
            row = KILN_HIT_LAYERS * m->view.pitch;
@@ -279,8 +279,8 @@ static void rasterise_band(const struct raster_job *f, uint32_t band, float *nea
         .width = m->width,
         .y = y,
         .rows = left < KILN_MESH_ROWS ? left : KILN_MESH_ROWS,
-        .u = -frustum.x,
-        .v = frustum.y,
+        .u = -frustum.x - principal.z,
+        .v = frustum.y - principal.w,
         .u_step = 2.0f * frustum.x / frustum.z,
         .v_step = -2.0f * frustum.y / frustum.w,
         .layers = KILN_HIT_LAYERS,

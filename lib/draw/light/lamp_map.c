@@ -163,6 +163,7 @@ static uint32_t project_face(const struct kiln_lamp_maps *maps, const struct sho
                              uint32_t face, const struct canvas *canvas)
 {
     const float4 frustum = {KILN_LAMP_RANGE, KILN_LAMP_RANGE, EDGE, EDGE};
+    const float4 principal = {0.5f * EDGE, 0.5f * EDGE, 0.0f, 0.0f};
     const float3 *positions = maps->positions;
     uint32_t count = 0;
     for (uint32_t i = 0; i < maps->meshes->count; i++) {
@@ -177,8 +178,8 @@ static uint32_t project_face(const struct kiln_lamp_maps *maps, const struct sho
                                              at.z - lamp->position.z});
             }
             if (!is_beside(corner))
-                count +=
-                    kiln_mesh_project(corner, frustum, &canvas->triangles[count], &normal, &volume);
+                count += kiln_mesh_project(corner, frustum, principal, &canvas->triangles[count],
+                                           &normal, &volume);
         }
         positions += mesh->vertex_count;
     }

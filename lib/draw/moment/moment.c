@@ -51,12 +51,17 @@ static bool read_particles(struct kiln_moment *moment, struct kiln_error *error)
     return moment->spins || pool->spins.size == 0;
 }
 
+void kiln_moment_look_through(struct kiln_moment *moment, struct kiln_instant instant)
+{
+    moment->view = kiln_view_compute(moment->scene, instant);
+}
+
 bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool,
                       struct kiln_instant instant, bool on_host, struct kiln_error *error)
 {
     const struct kiln_scene *scene = moment->scene;
     moment->pool = pool;
-    moment->view = kiln_view_compute(scene, instant);
+    kiln_moment_look_through(moment, instant);
     const float time_s = moment->view.clock.x;
     moment->sun = kiln_sun_frame_at(scene, time_s);
     if (moment->look_changes == 0 || kiln_looks_vary(scene)) {

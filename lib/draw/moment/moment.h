@@ -50,4 +50,7 @@ void kiln_moment_finish(struct kiln_moment *moment);
 bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool,
                       struct kiln_instant instant, bool on_host, struct kiln_error *error);
 
+/* Changes the view of a filled moment to that of another instant at the same time. */
+void kiln_moment_look_through(struct kiln_moment *moment, struct kiln_instant instant);
+
 #endif

@@ -46,6 +46,42 @@ static void set_world_to_view(float3 right, float3 forward, float3 eye, float4 r
     kiln_matrix_to_rows(m, rows);
 }
 
+/* Places the principal point right of and below the picture's middle, px. It is rounded to the grid
+ * on which GL places corners (GL_SUBPIXEL_BITS), so that GL and the host round corners alike. */
+static void set_principal(struct kiln_view *view, float right, float below)
+{
+    const float grid = 256.0f;
+    const float x = floorf(right * grid + 0.5f) / grid, y = floorf(below * grid + 0.5f) / grid;
+    const float4 frustum = view->frustum;
+    view->principal =
+        (float4){0.5f * frustum.z + x, 0.5f * frustum.w + y, x * (2.0f * frustum.x / frustum.z),
+                 -y * (2.0f * frustum.y / frustum.w)};
+}
+
+/* Returns the distance of the plane of focus along the line of sight, m. */
+static float focus_of(const struct kiln_scene *scene, float3 position, float3 target, float time_s)
+{
+    const float focus = kiln_scene_value(scene, &scene->camera.focus, time_s);
+    const float3 way = float3_sub(target, position);
+    return focus > 0.0f ? focus : exact_max(sqrtf(float3_dot(way, way)), 1e-3f);
+}
+
+/* Moves the eye to the instant's point of the lens, and the picture by what keeps the plane of
+ * focus in its place. Moves the picture by the instant's place in the pixels, too. */
+static void look_through(struct kiln_view *view, struct kiln_instant instant, float3 right,
+                         float3 forward, float radius, float focus)
+{
+    const float3 up = float3_cross(right, forward);
+    const float x = instant.lens_x * radius, y = instant.lens_y * radius;
+    const float4 frustum = view->frustum;
+    float3 eye = {view->eye.x, view->eye.y, view->eye.z};
+    eye = float3_add_scaled(float3_add_scaled(eye, right, x), up, y);
+    view->eye = (float4){eye.x, eye.y, eye.z, view->eye.w};
+    set_world_to_view(right, forward, eye, view->world_to_view);
+    set_principal(view, x / focus * (0.5f * frustum.z / frustum.x) - instant.pixel_x,
+                  -y / focus * (0.5f * frustum.w / frustum.y) - instant.pixel_y);
+}
+
 struct kiln_view kiln_view_compute(const struct kiln_scene *scene, struct kiln_instant instant)
 {
     const struct kiln_camera *camera = &scene->camera;
@@ -71,10 +107,12 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, struct kiln_i
         .clock_step = {instant.step, scene->seed, 0, 0},
         .within = {instant.back, 0.0f, 0.0f, 0.0f},
     };
-    set_world_to_view(right, forward, position, view.world_to_view);
     float tan_y = half_fov.sine / half_fov.cosine;
     float width = (float)scene->width, height = (float)scene->height;
     view.frustum = (float4){tan_y * width / height, tan_y, width, height};
+    look_through(&view, instant, right, forward,
+                 0.5f * kiln_scene_value(scene, &camera->aperture, time_s),
+                 focus_of(scene, position, target, time_s));
     return view;
 }
 
@@ -88,6 +126,10 @@ struct kiln_view kiln_view_coarse(const struct kiln_view *view, uint32_t factor)
                               view->frustum.y * ((float)height * part / view->frustum.w),
                               (float)width, (float)height};
     coarse.clock.w = view->clock.w / part;
+    const float x = (view->principal.x - 0.5f * view->frustum.z) / part;
+    const float y = (view->principal.y - 0.5f * view->frustum.w) / part;
+    coarse.principal = (float4){0.5f * coarse.frustum.z + x, 0.5f * coarse.frustum.w + y,
+                                view->principal.z, view->principal.w};
     return coarse;
 }
 

@@ -50,7 +50,7 @@ static inline struct kiln_row_range cast_range(float low, float high, float size
 
 /* Rounds a position to the subpixel grid on which GL places corners (GL_SUBPIXEL_BITS). Otherwise,
  * for objects a few pixels large, one sample in a hundred would be covered here and not in GL.
- * place: px from the middle of the picture, since floats are finest near 0. */
+ * place: px from the principal point, which is on that grid; floats are finest near 0. */
 static inline float cast_snap(float place)
 {
     return floorf(place * 256.0f + 0.5f) * (1.0f / 256.0f);
@@ -70,7 +70,7 @@ static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct
         float m_right = 2.0f * frustum.x * t->depth[k] / frustum.z; /* m a pixel */
         float m_up = 2.0f * frustum.y * t->depth[k] / frustum.w;
         float right = cast_snap(p[k].x / m_right), up = cast_snap(p[k].y / m_up);
-        float column = 0.5f * frustum.z + right, row = 0.5f * frustum.w - up;
+        float column = view->principal.x + right, row = view->principal.y - up;
         p[k].x = right * m_right;
         p[k].y = up * m_up;
         x[0] = exact_min(x[0], column);

@@ -15,9 +15,9 @@ static const float SAMPLE_OFFSETS[KILN_SOLID_SAMPLES][2] = {
  * the ray is the view depth. */
 SIMD struct vf3 view_ray(const struct kiln_ray_frame *frame, vf x, vf y)
 {
-    const float4 frustum = frame->view->frustum;
-    return (struct vf3){(x * (2.0f / frustum.z) - 1.0f) * frustum.x,
-                        (1.0f - y * (2.0f / frustum.w)) * frustum.y, vf_all(-1.0f)};
+    const float4 frustum = frame->view->frustum, principal = frame->view->principal;
+    return (struct vf3){(x * (2.0f / frustum.z) - 1.0f) * frustum.x - principal.z,
+                        (1.0f - y * (2.0f / frustum.w)) * frustum.y - principal.w, vf_all(-1.0f)};
 }
 
 SIMD struct vf3 gather3(const float *from, vi index)

@@ -105,15 +105,15 @@ struct convert_job {
 
 /* Returns the range of pixels between the two tangents from the eye to a circle, widened by 2 px.
  * It is computed in a plane through the eye along one axis of the picture. scale: px for a slope
- * of 1. */
+ * of 1; middle: px, the principal point. */
 static struct kiln_row_range between_tangents(float aside, float depth, float radius, float scale,
-                                              float size)
+                                              float middle, float size)
 {
     float t = sqrtf(exact_max(aside * aside + depth * depth - radius * radius, 0.0f));
     float low = (aside * t - depth * radius) / (depth * t + aside * radius);
     float high = (aside * t + depth * radius) / (depth * t - aside * radius);
-    low = low * scale + 0.5f * size - 2.0f;
-    high = high * scale + 0.5f * size + 3.0f;
+    low = low * scale + middle - 2.0f;
+    high = high * scale + middle + 3.0f;
     return (struct kiln_row_range){(int16_t)exact_clamp(low, 0.0f, size),
                                    (int16_t)exact_clamp(high, 0.0f, size)};
 }
@@ -123,15 +123,17 @@ static struct kiln_row_range between_tangents(float aside, float depth, float ra
 static void bound_ball(const struct kiln_view *view, const float center[3], float radius,
                        struct kiln_row_range *x, struct kiln_row_range *y)
 {
-    const float4 frustum = view->frustum;
+    const float4 frustum = view->frustum, principal = view->principal;
     float depth = -center[2];
     if (depth - radius <= view->eye.w) {
         *x = (struct kiln_row_range){0, (int16_t)frustum.z};
         *y = (struct kiln_row_range){0, (int16_t)frustum.w};
         return;
     }
-    *x = between_tangents(center[0], depth, radius, 0.5f * frustum.z / frustum.x, frustum.z);
-    *y = between_tangents(-center[1], depth, radius, 0.5f * frustum.w / frustum.y, frustum.w);
+    *x = between_tangents(center[0], depth, radius, 0.5f * frustum.z / frustum.x, principal.x,
+                          frustum.z);
+    *y = between_tangents(-center[1], depth, radius, 0.5f * frustum.w / frustum.y, principal.y,
+                          frustum.w);
 }
 
 /* Transforms a position from the world to view space. */

@@ -51,9 +51,9 @@ SIMD void put_place(struct sprite_lanes *p, const struct billboard_place *place)
 /* Places billboards that are parallel to the picture, and bounds the part of them that shows. */
 static void place_flat(struct sprite_lanes *p)
 {
-    const struct billboard_flat flat =
-        billboard_place_flat(p->pass->view->frustum, p->center, p->plane.right, p->half_size,
-                             p->plane.up, p->half_length, p->words[WORD_OF(edge_u)]);
+    const struct billboard_flat flat = billboard_place_flat(
+        p->pass->view->frustum, p->pass->view->principal, p->center, p->plane.right, p->half_size,
+        p->plane.up, p->half_length, p->words[WORD_OF(edge_u)]);
     const struct billboard_place *place = &flat.place;
     put_place(p, place);
     p->visible &=
@@ -85,7 +85,7 @@ SIMD void limit_corners(struct sprite_lanes *p, struct vf3 right, struct vf3 up)
         struct vf3 corner = vf3_add_scaled(p->center, right, 2.0f * across - 1.0f);
         corner = vf3_add_scaled(corner, up, 1.0f - 2.0f * down);
         behind |= -corner.z < 1e-3f * p->depth;
-        struct picture_point at = picture_point_of(view->frustum, corner);
+        struct picture_point at = picture_point_of(view->frustum, view->principal, corner);
         low = (struct picture_point){vf_min(low.x, at.x), vf_min(low.y, at.y)};
         high = (struct picture_point){vf_max(high.x, at.x), vf_max(high.y, at.y)};
     }
@@ -100,8 +100,9 @@ static void place_deep(struct sprite_lanes *p)
 {
     struct vf3 right = vf3_scale(p->plane.right, p->half_size);
     struct vf3 up = vf3_scale(p->plane.up, p->half_length);
-    const struct billboard_place place = billboard_place_deep(p->pass->view->frustum, p->center,
-                                                              right, up, p->words[WORD_OF(edge_u)]);
+    const struct billboard_place place =
+        billboard_place_deep(p->pass->view->frustum, p->pass->view->principal, p->center, right, up,
+                             p->words[WORD_OF(edge_u)]);
     put_place(p, &place);
     p->flags |= KILN_SPRITE_DEEP;
     limit_corners(p, right, up);
@@ -128,8 +129,9 @@ static void place_plain(struct sprite_lanes *p, vf diameter_px)
         p->flags |= KILN_SPRITE_DEEP;
     else if (p->look->form.z != 0)
         p->flags |= KILN_SPRITE_DISC;
-    const struct stroke_place stroke = stroke_place_of(
-        p->pass->view->frustum, p->center, is_line ? find_tail(p) : p->center, drawn.half_width);
+    const struct stroke_place stroke =
+        stroke_place_of(p->pass->view->frustum, p->pass->view->principal, p->center,
+                        is_line ? find_tail(p) : p->center, drawn.half_width);
     put_place(p, &stroke.place);
     p->words[WORD_OF(edge_u)] = stroke.edge_u;
     p->words[WORD_OF(edge_v)] = stroke.edge_v;

@@ -29,7 +29,8 @@ static struct kiln_row_range pixels_between(float low, float high, float size)
 
 /* Bounds the pixels that a triangle may touch: all of them if part of it is behind the eye, none if
  * all of it is. */
-static void find_bounds(float4 frustum, const float3 p[3], struct kiln_projected_triangle *flat)
+static void find_bounds(float4 frustum, float4 principal, const float3 p[3],
+                        struct kiln_projected_triangle *flat)
 {
     const float width = frustum.z, height = frustum.w;
     float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
@@ -39,8 +40,8 @@ static void find_bounds(float4 frustum, const float3 p[3], struct kiln_projected
         if (depth < KILN_MESH_NEAREST)
             continue;
         in_front++;
-        float x = (p[k].x / (depth * frustum.x) + 1.0f) * 0.5f * width;
-        float y = (1.0f - p[k].y / (depth * frustum.y)) * 0.5f * height;
+        float x = principal.x + p[k].x / (depth * frustum.x) * 0.5f * width;
+        float y = principal.y - p[k].y / (depth * frustum.y) * 0.5f * height;
         low[0] = exact_min(low[0], x);
         high[0] = exact_max(high[0], x);
         low[1] = exact_min(low[1], y);
@@ -53,8 +54,8 @@ static void find_bounds(float4 frustum, const float3 p[3], struct kiln_projected
     flat->y = pixels_between(crosses_eye ? 0.0f : low[1], crosses_eye ? height : high[1], height);
 }
 
-bool kiln_mesh_project(const float3 corner[3], float4 frustum, struct kiln_projected_triangle *flat,
-                       float3 *face, float *volume)
+bool kiln_mesh_project(const float3 corner[3], float4 frustum, float4 principal,
+                       struct kiln_projected_triangle *flat, float3 *face, float *volume)
 {
     *flat = (struct kiln_projected_triangle){.y = {0, 0}};
     *face = float3_cross(float3_sub(corner[1], corner[0]), float3_sub(corner[2], corner[0]));
@@ -68,6 +69,6 @@ bool kiln_mesh_project(const float3 corner[3], float4 frustum, struct kiln_proje
     for (int k = 0; k < 3; k++)
         set_plane(flat->edges[k],
                   float3_scale(side_of(corner[(k + 1) % 3], corner[(k + 2) % 3]), sign));
-    find_bounds(frustum, corner, flat);
+    find_bounds(frustum, principal, corner, flat);
     return true;
 }

@@ -11,10 +11,10 @@
 #define KILN_MESH_NEAREST 0.01f
 
 /* Projects a triangle by planes over u and v of rays (u, v, -1) from an eye at the origin, in which
- * it spans a pyramid. Nearness is 1 / depth, 1/m. corner: in view space, m; frustum: as in struct
- * kiln_view. *volume becomes the dot product of a corner and the face's normal, *face, which is not
- * unit. Returns false, with no pixels to draw, for a triangle that is seen edge-on. */
-bool kiln_mesh_project(const float3 corner[3], float4 frustum, struct kiln_projected_triangle *flat,
-                       float3 *face, float *volume);
+ * it spans a pyramid. Nearness is 1 / depth, 1/m. corner: in view space, m; frustum, principal:
+ * as in struct kiln_view. *volume becomes the dot product of a corner and the face's normal, *face,
+ * which is not unit. Returns false, with no pixels to draw, for a triangle that is seen edge-on. */
+bool kiln_mesh_project(const float3 corner[3], float4 frustum, float4 principal,
+                       struct kiln_projected_triangle *flat, float3 *face, float *volume);
 
 #endif

@@ -37,6 +37,7 @@ void main()
     vec3 seen = vec3(dot(view.world_to_view[0], world), dot(view.world_to_view[1], world),
                      dot(view.world_to_view[2], world));
     depth = -seen.z;
+    seen.xy += view.principal.zw * depth;
     vec2 place = vec2(seen.x, -seen.y) / view.frustum.xy + shift * 2.0 / view.frustum.zw * depth;
 #ifdef PAINT
     uv = place_in_paint;

@@ -35,7 +35,7 @@ vec3 view_to_world(vec3 v)
 vec3 ray_direction(vec2 pixel)
 {
     vec2 ndc = pixel / view.frustum.zw * 2.0 - 1.0;
-    return view_to_world(vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0));
+    return view_to_world(vec3(vec2(ndc.x, -ndc.y) * view.frustum.xy - view.principal.zw, -1.0));
 }
 
 /* Intersects a ray with the slabs of axis-aligned box i. `inverse` is ray_inverse3 of the ray's

@@ -32,7 +32,7 @@ layout(location = 1) out vec4 out_bloom;
 void main()
 {
     vec2 ndc = gl_FragCoord.xy / view.frustum.zw * 2.0 - 1.0;
-    vec3 ray = vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0);
+    vec3 ray = vec3(vec2(ndc.x, -ndc.y) * view.frustum.xy - view.principal.zw, -1.0);
     vec3 face = cross(b.xyz - a.xyz, c.xyz - a.xyz);
     face = dot(face, a.xyz) > 0.0 ? -face : face; /* turned towards the eye */
     float side = dot(cross(b.xyz - a.xyz, c.xyz - a.xyz), face) > 0.0 ? -1.0 : 1.0;

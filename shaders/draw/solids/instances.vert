@@ -95,6 +95,7 @@ void main()
     int k = gl_VertexID % 3;
     vec3 place = k == 0 ? a.xyz : k == 1 ? b.xyz : c.xyz;
     /* The near plane clips the triangle; the far plane is at infinity. */
+    place.xy -= view.principal.zw * place.z;
     gl_Position = vec4(place.x / view.frustum.x, -place.y / view.frustum.y,
                        -place.z - 2.0 * view.eye.w, -place.z);
     /* This position is before the near plane, so that nothing is drawn. */

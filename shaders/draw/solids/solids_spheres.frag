@@ -49,7 +49,7 @@ const vec2 SAMPLE_OFFSETS[4] =
 vec3 view_ray(vec2 pixel)
 {
     vec2 ndc = pixel / view.frustum.zw * 2.0 - 1.0;
-    return vec3(ndc.x * view.frustum.x, -ndc.y * view.frustum.y, -1.0);
+    return vec3(vec2(ndc.x, -ndc.y) * view.frustum.xy - view.principal.zw, -1.0);
 }
 
 /* Returns the t at which a ray is nearest to the sphere's centre, and the square of the radius

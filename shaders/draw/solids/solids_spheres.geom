@@ -43,8 +43,10 @@ void main()
     if (radius <= 0.0 || depth - radius <= view.eye.w)
         return;
     vec2 pixel = 2.0 / view.frustum.zw;
-    vec2 x = tangents(center[0].x, depth, radius) / view.frustum.x + vec2(-pixel.x, pixel.x);
-    vec2 y = tangents(-center[0].y, depth, radius) / view.frustum.y + vec2(-pixel.y, pixel.y);
+    vec2 x = tangents(center[0].x, depth, radius) + view.principal.z;
+    vec2 y = tangents(-center[0].y, depth, radius) - view.principal.w;
+    x = x / view.frustum.x + vec2(-pixel.x, pixel.x);
+    y = y / view.frustum.y + vec2(-pixel.y, pixel.y);
     for (int i = 0; i < 4; i++) {
         gl_Position = vec4(i < 2 ? x.x : x.y, (i & 1) == 0 ? y.x : y.y, 0.0, 1.0);
         sphere = center[0];

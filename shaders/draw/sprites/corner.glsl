@@ -49,5 +49,6 @@ void put_corner(int i, outline s)
         return;
     vec2 corner = outline_corner(i);
     vec3 v = center.xyz + (right.xyz * corner.x + up.xyz * corner.y);
+    v.xy -= view.principal.zw * v.z;
     gl_Position = vec4(v.x / view.frustum.x, -v.y / view.frustum.y, at * -v.z, -v.z);
 }

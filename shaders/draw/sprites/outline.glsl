@@ -31,7 +31,7 @@ vec2 outline_corner(int i)
  * top left. */
 vec2 to_pixels(vec3 v)
 {
-    picture_point at = picture_point_of(view.frustum, v);
+    picture_point at = picture_point_of(view.frustum, view.principal, v);
     return vec2(at.x, at.y);
 }
 
@@ -51,7 +51,7 @@ place rows_of(billboard_place p)
 /* Finds the outline of a billboard in any plane. */
 outline find_outline()
 {
-    billboard_place p = billboard_place_deep(view.frustum, center.xyz, right.xyz, up.xyz, 1.0);
+    billboard_place p = billboard_place_deep(view.frustum, view.principal, center.xyz, right.xyz, up.xyz, 1.0);
     outline s;
     s.rows = rows_of(p);
     s.nearest_depth = -center.z;
@@ -76,7 +76,7 @@ outline find_stroke_outline()
 {
     vec3 head = center.xyz;
     vec3 tail = stroke_tail(head, head + up.xyz, max(view.eye.w, 1e-3));
-    stroke_place p = stroke_place_of(view.frustum, head, tail, right.w);
+    stroke_place p = stroke_place_of(view.frustum, view.principal, head, tail, right.w);
     outline s;
     particle.cells.xy = vec2(p.edge_u, p.edge_v);
     s.rows = rows_of(p.place);
@@ -98,7 +98,7 @@ outline find_stroke_outline()
 /* Finds the outline of a billboard that is parallel to the picture. */
 outline find_outline()
 {
-    billboard_flat p = billboard_place_flat(view.frustum, center.xyz, right.xyz, 1.0, up.xyz, 1.0, 1.0);
+    billboard_flat p = billboard_place_flat(view.frustum, view.principal, center.xyz, right.xyz, 1.0, up.xyz, 1.0, 1.0);
     outline s;
     s.rows = rows_of(p.place);
     vec2 middle = vec2(p.place.anchor.x, p.place.anchor.y);

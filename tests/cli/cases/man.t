@@ -56,4 +56,4 @@ $ kiln help | sed -n '/^commands/,/^$/s/^  \(.*[a-z]\)  .*/\1/p' | sed 's/   *.*
 > done
 $ kiln help scene | grep -oE '^[a-z][A-Za-z_.]*( with.*)?$' >keys.txt
 $ kiln help man-scene | sed -n '/^\.SH KEYS/,$s/^\\fB\(.*\)\\fR/\1/p' | diff keys.txt - && wc -l <keys.txt
-1|355
+1|357

@@ -1,0 +1,186 @@
+/* Depth of field and filtered pixels in pictures: every technique draws the same, and what is out
+ * of focus is as wide as a thin lens makes it. */
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "asset/image/image.h"
+#include "support/cmocka.h"
+#include "support/device.h"
+#include "support/scenes.h"
+
+enum { WIDTH = 96, HEIGHT = 64, VALUES = WIDTH * HEIGHT * 4 };
+
+/* All that is drawn in a way of its own: a box, a mesh, a floor, spheres, meshes as particles,
+ * billboards in the picture's plane and in others, points and lines. */
+static const char ALL[] =
+    "kiln: 1\n"
+    "output: {size: [96, 64], frames: 30, fps: 30, samples: 8}\n"
+    "camera: {position: [0.3, 1.2, 4], target: [0, 0.8, 0], aperture: 12 cm, focus: 3.4 m,\n"
+    "         shutter: {samples: 4}}\n"
+    "backdrop:\n"
+    "  floor: {color: 0.3, checker: 0.5 m}\n"
+    "  sun: {direction: [1, 2, 1], color: 2}\n"
+    "  objects:\n"
+    "    - box: {center: [-1, 0.5, -1], rotation: [0, 30 deg, 0]}\n"
+    "    - mesh: {file: meshes/plinth.obj, scale: 0.5, position: [1, 0, -1]}\n"
+    "systems:\n"
+    "  balls: {emit: {rate: 20, speed: 2}, look: {shape: sphere, size: 0.2 m}}\n"
+    "  bodies: {emit: {rate: 10, speed: 3, from: {cone: {angle: 30 deg}}},\n"
+    "           look: {shape: mesh, mesh: {file: meshes/plinth.obj}, size: 0.2 m}}\n"
+    "  smoke: {emit: {rate: 60, speed: 3}, look: {size: 0.3 m}}\n"
+    "  leaves: {emit: {rate: 60, speed: 3, from: {cone: {angle: 40 deg}}},\n"
+    "           look: {facing: axial, size: 0.3 m}}\n"
+    "  sparks: {emit: {rate: 100, speed: 4, from: {cone: {angle: 40 deg}}},\n"
+    "           look: {shape: line, stretch: 0.02, blend: add, size: 2 cm, intensity: 2}}\n"
+    "  dots: {emit: {rate: 100, speed: 3, from: {cone: {angle: 40 deg}}},\n"
+    "         look: {shape: point, point: {size: 3 px}, blend: add, size: 2 cm}}\n";
+
+static struct kiln_asset_image *draw(struct kiln_device *device, const char *text,
+                                     const char *const *overrides, const char *const *techniques,
+                                     size_t technique_count)
+{
+    char folder[] = "/tmp/kiln-lens-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/frame.exr", folder);
+    struct kiln_error error = {0};
+    struct kiln_scene_params of_scene = kiln_scene_defaults();
+    of_scene.asset_root = KILN_SOURCE_DIR "/scenes";
+    of_scene.overrides = overrides;
+    while (overrides && overrides[of_scene.override_count])
+        of_scene.override_count++;
+    struct kiln_scene *scene = kiln_scene_parse(text, strlen(text), SCENE_NAME, &of_scene, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    struct kiln_render_params params = kiln_render_defaults();
+    const struct kiln_frame_range range = {15, 15};
+    params.output = path;
+    params.ranges = &range;
+    params.range_count = 1;
+    params.exr_bits = 32;
+    params.techniques = techniques;
+    params.technique_count = technique_count;
+    if (!kiln_render(device, scene, &params, NULL, &error))
+        fail_msg("%s", error.message);
+    kiln_scene_destroy(&scene);
+    struct kiln_asset_image *image = kiln_asset_image_load_layer(NULL, path, "beauty", &error);
+    if (!image)
+        fail_msg("%s", error.message);
+    unlink(path);
+    rmdir(folder);
+    assert_true(image && image->width == WIDTH && image->height == HEIGHT);
+    return image;
+}
+
+/* The sum of the differences, as a part of the sum of the values. */
+static double difference(const struct kiln_asset_image *a, const struct kiln_asset_image *b)
+{
+    double sum = 0, off = 0;
+    for (int i = 0; i < VALUES; i++) {
+        const double one = (double)((const float *)a->pixels)[i];
+        sum += fabs(one);
+        off += fabs(one - (double)((const float *)b->pixels)[i]);
+    }
+    return off / sum;
+}
+
+static void techniques_agree(void **state)
+{
+    static const char *const HOST[] = {"raster=cpu", "backdrop=cpu", "composite=cpu"};
+    static const char *const WAYS[][3] = {
+        {"raster=geometry", "backdrop=gl", "composite=gl"},
+        {"raster=instanced", "backdrop=gl", "composite=cpu"},
+        {"raster=tiled", "backdrop=cpu", "composite=gl"},
+    };
+    static const char *const SHARP[] = {"camera.aperture=0", "output.samples=1", NULL};
+    struct kiln_asset_image *host = draw(*state, ALL, NULL, HOST, 3);
+    for (size_t i = 0; i < sizeof WAYS / sizeof *WAYS; i++) {
+        struct kiln_asset_image *other = draw(*state, ALL, NULL, WAYS[i], 3);
+        const double off = difference(host, other);
+        if (!(off < 2e-3))
+            fail_msg("%s, %s: off by %g", WAYS[i][0], WAYS[i][1], off);
+        kiln_asset_image_destroy(&other);
+    }
+    struct kiln_asset_image *sharp = draw(*state, ALL, SHARP, HOST, 3);
+    const double blur = difference(host, sharp);
+    if (!(blur > 0.01)) /* the lens does something */
+        fail_msg("blurred by %g", blur);
+    kiln_asset_image_destroy(&sharp);
+    kiln_asset_image_destroy(&host);
+}
+
+/* A small disc, 2 m or 4 m ahead of a lens of 10 cm that is focused at 4 m. */
+static const char DISC[] =
+    "kiln: 1\n"
+    "output: {size: [96, 64], frames: 30, fps: 30, samples: 64}\n"
+    "camera: {position: [0, 0, 4], target: [0, 0, 0], aperture: 10 cm, fov: 40 deg}\n"
+    "backdrop: {sky: {top: 0, horizon: 0}, floor: none}\n"
+    "systems:\n"
+    "  disc: {emit: {bursts: {0 s: 1}, life: 100 s, speed: 0,\n"
+    "                from: {point: {origin: [0, 0, 0]}}},\n"
+    "         look: {shape: point, point: {size: 2 px}, blend: add, size: 2 cm, fade: {in: 0, out: "
+    "0}}}\n";
+
+/* The variance of where the light of a picture falls, px^2. */
+static double spread(const struct kiln_asset_image *image)
+{
+    double sum = 0, x = 0, y = 0, squares = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const double light = (double)((const float *)image->pixels)[4 * i + 1];
+        const double px = i % WIDTH + 0.5, py = (double)(i / WIDTH) + 0.5;
+        sum += light;
+        x += light * px;
+        y += light * py;
+        squares += light * (px * px + py * py);
+    }
+    assert_true(sum > 0);
+    return squares / sum - (x * x + y * y) / (sum * sum);
+}
+
+/* In focus, a disc is as wide as through a pinhole. At half the distance it is spread over the
+ * circle of confusion: its diameter in the plane of focus is aperture * |d - focus| / d. Evenly
+ * filled, a circle of radius r has the variance r^2 / 2. */
+static void the_circle_of_confusion_is_a_thin_lens_s(void **state)
+{
+    static const char *const WAYS[] = {"raster=cpu", "raster=geometry"};
+    static const char *const NEAR[] = {"systems.disc.emit.from.point.origin=[0, 0, 2]", NULL};
+    static const char *const PINHOLE[] = {"camera.aperture=0", NULL};
+    for (int i = 0; i < 2; i++) {
+        struct kiln_asset_image *sharp = draw(*state, DISC, PINHOLE, &WAYS[i], 1);
+        struct kiln_asset_image *in_focus = draw(*state, DISC, NULL, &WAYS[i], 1);
+        struct kiln_asset_image *near = draw(*state, DISC, NEAR, &WAYS[i], 1);
+        const double pixels_per_m = 0.5 * HEIGHT / tan(20 * 3.14159265358979 / 180) / 4;
+        const double radius = 0.5 * 0.1 * (4.0 - 2.0) / 2 * pixels_per_m; /* 1.1 px */
+        assert_true(fabs(spread(in_focus) - spread(sharp)) < 0.01);
+        const double wider = spread(near) - spread(sharp);
+        if (fabs(wider - 0.5 * radius * radius) > 0.03 * radius * radius)
+            fail_msg("%s: %g px^2 instead of %g", WAYS[i], wider, 0.5 * radius * radius);
+        kiln_asset_image_destroy(&sharp);
+        kiln_asset_image_destroy(&in_focus);
+        kiln_asset_image_destroy(&near);
+    }
+}
+
+static void a_lens_needs_moments(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    assert_null(try_scene("kiln: 1\ncamera: {aperture: 3 mm}\n", NULL, &error));
+    assert_string_equal(error.message,
+                        SCENE_NAME ":2:20: camera.aperture: a lens is drawn by moments: "
+                                   "output.samples or camera.shutter.samples must be at least 2");
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(techniques_agree),
+        test_on_device(the_circle_of_confusion_is_a_thin_lens_s),
+        test_on_device(a_lens_needs_moments),
+    };
+    return cmocka_run_group_tests_name("lens", tests, test_device_open, test_device_close);
+}
