@@ -14,8 +14,8 @@ static void set_beam(const struct kiln_bench_run *run, struct kiln_settings *set
                      double particles)
 {
     static const char *const texts[] = {"systems.sparks.enabled=false", "output.fps=60",
-                                        "output.frames=1000", "systems.*.emit.life=4 s",
-                                        "simulation.warmup=4 s", "post.bloom.kind=thesis"};
+                                        "output.frames=1000",           "systems.*.emit.life=4 s",
+                                        "simulation.warmup=4 s",        "post.bloom.kind=thesis"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         kiln_set(run, settings, texts[i]);
     kiln_set_number(run, settings, "systems.*.emit.rate", particles / 8.0);
