@@ -246,7 +246,7 @@ static int read_flipbook(struct job_list *list, const struct arguments *argument
         .padding = padding ? (uint32_t)padding->integer[0] : 0,
         .premultiplied = alpha && alpha->choice == 1,
         .motion = motion != NULL,
-        .fade = fade ? (uint64_t)fade->integer[0] : FLIPBOOK_FADE,
+        .fade = fade ? (uint32_t)fade->integer[0] : FLIPBOOK_FADE,
         .green_down = green && green->choice == 1,
     };
     return 0;

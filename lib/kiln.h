@@ -293,10 +293,10 @@ struct kiln_flipbook {
                                get colours of their neighbours */
     uint32_t columns, rows; /* 1 to 64 */
     uint32_t padding;       /* pixels added on each side of a cell, 0 to 256 */
-    uint64_t fade;          /* how far from its border a cell with alpha fades out, in percent of
+    uint32_t fade;          /* how far from its border a cell with alpha fades out, in percent of
                                the frame's shorter side, 0 to 50; the pixels at the border become
                                transparent. 0: no fade, which may show the border as a cut */
-    bool green_down;        /* green of the motion points down, for engines whose v does */
+    uint32_t green_down;    /* 1: green of the motion points down, for engines whose v does; 0: up */
 };
 KILN_EMPTY(kiln_flipbook, kiln_flipbook_empty)
 

@@ -121,8 +121,8 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
                               MAX_CELLS_A_SIDE, MAX_PADDING);
     if (flipbook->fade > MAX_FADE)
         return kiln_error_set(error, KILN_USAGE,
-                              "%s: found a flipbook whose cells fade out over %" PRIu64
-                              " percent; allowed are 0 to %d",
+                              "%s: found a flipbook whose cells fade out over %u percent; "
+                              "allowed are 0 to %d",
                               params->path, flipbook->fade, MAX_FADE);
     uint64_t width =
         flipbook->columns * ((uint64_t)params->width + 2 * (uint64_t)flipbook->padding);

@@ -73,7 +73,7 @@ bool kiln_format_beside(const char *path, const char *ending, char beside[KILN_P
  * 2 with green down. */
 static inline uint32_t kiln_flipbook_motion_number(const struct kiln_flipbook *flipbook)
 {
-    return flipbook->motion ? 1 + (uint32_t)flipbook->green_down : 0;
+    return flipbook->motion ? 1 + flipbook->green_down : 0;
 }
 
 /* Encodes a picture as PNG into the open file. Of params, only scene_hash, seed and flipbook are

@@ -30,7 +30,7 @@ bool kiln_clip_hash(const struct kiln_output_params *params, char hash[65])
     kiln_text_add(&text, "%ux%u %u %d %u\n", flipbook->columns, flipbook->rows, flipbook->padding,
                   flipbook->premultiplied, kiln_flipbook_motion_number(flipbook));
     if (flipbook->fade > 0)
-        kiln_text_add(&text, "fade %u\n", (unsigned)flipbook->fade);
+        kiln_text_add(&text, "fade %u\n", flipbook->fade);
     for (size_t i = 0; i < params->clip_count; i++)
         kiln_text_add(&text, "%u-%u\n", params->clip[i].first, params->clip[i].last);
     const bool ok = !text.failed;

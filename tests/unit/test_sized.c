@@ -32,7 +32,7 @@ static const struct params defaults = {sizeof defaults, 1, 2};
                    #name)
 ENDS_WITH(kiln_scene_params, budget);
 ENDS_WITH(kiln_device_params, log);
-ENDS_WITH(kiln_flipbook, fade);
+ENDS_WITH(kiln_flipbook, green_down);
 ENDS_WITH(kiln_frame_layer, pixels);
 ENDS_WITH(kiln_render_params, written);
 ENDS_WITH(kiln_compare_mask, picture);
