@@ -147,8 +147,8 @@ bool kiln_text_to_uint64(const char *text, uint64_t *value);
 /* Reads a whole text as a time: seconds, or a number with one of the units ms, s, min and h. */
 bool kiln_text_to_seconds(const char *text, double *seconds);
 
-/* Returns the candidate nearest to `name` by edit distance (a swap of neighbours counts once), or
- * NULL when none is near enough to be a misspelling. */
+/* Returns the candidate nearest to `name` by edit distance (a swap of adjacent characters counts
+ * once), or NULL when none is near enough to be a misspelling. */
 const char *kiln_text_nearest(const char *name, const char *const *candidates, size_t count);
 
 /* Writes a word, quoted if need be, so that a shell reads it as one word. Returns false when

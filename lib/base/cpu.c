@@ -1,12 +1,12 @@
-/* Reads the name of the processor from /proc/cpuinfo, or its architecture (uname) where that file
- * has no model name. */
+/* Finds the name of the processor: the first model name in /proc/cpuinfo. Where there is none, the
+ * name is the machine's architecture, as uname gives it. */
 #include "base/cpu.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <sys/utsname.h>
 
-static void take_line(char name[128], const char *value)
+static void take_value(char name[128], const char *value)
 {
     value += strspn(value, " \t:");
     snprintf(name, 128, "%.*s", (int)strcspn(value, "\n"), value);
@@ -20,7 +20,7 @@ void kiln_cpu_name(char name[128])
     FILE *file = fopen("/proc/cpuinfo", "re");
     while (file && !*name && fgets(line, sizeof line, file)) {
         if (strncmp(line, key, sizeof key - 1) == 0)
-            take_line(name, line + sizeof key - 1);
+            take_value(name, line + sizeof key - 1);
     }
     if (file)
         fclose(file);

@@ -1,23 +1,26 @@
-/* Finds files of the source tree that the build has put into the library or the program, so that
- * both need no folder of their own at run time. cmake/embedded.cmake chooses the files of each
+/* Declares tables of text files that the build compiles into the library or the program, so that
+ * neither needs a folder of its own at run time. cmake/embedded.cmake chooses the files of each
  * table and writes the tables; a new file that matches its patterns needs no change here. The
- * library has only the shaders. The other tables are in the program alone, so code of the library
- * must not use them. */
+ * library has only the table of shaders. The program has the others, so only code that belongs to
+ * the program, such as lib/report, lib/bench and lib/start, may use them. */
 #ifndef KILN_BASE_EMBEDDED_H
 #define KILN_BASE_EMBEDDED_H
 
 struct kiln_embedded_file {
-    const char *path; /* from the table's folder, "bench/cloud.yaml"; NULL ends the table */
+    const char *path; /* relative to the table's folder: "bench/cloud.yaml"; NULL ends the table */
     const char *text;
 };
 
-/* shaders/: the GL programs (gpu/source.c) */
+/* The files of shaders/, of which lib/gpu/source.c makes GL programs. */
 extern const struct kiln_embedded_file kiln_embedded_shaders[];
-/* scenes/: only the scenes that `kiln bench` measures (bench/suite.c, bench/jobs.c) */
+
+/* The files of scenes/ that `kiln bench` measures (lib/bench/suite.c, lib/bench/jobs.c). */
 extern const struct kiln_embedded_file kiln_embedded_scenes[];
-/* scenes/templates/: the scenes of `kiln new` (start/template.c) */
+
+/* The files of scenes/templates/, which `kiln new` copies (lib/start/template.c). */
 extern const struct kiln_embedded_file kiln_embedded_templates[];
-/* lib/report/page/: the parts of report.html of `kiln test` (report/html.c) */
+
+/* The files of lib/report/page/, of which lib/report/html.c makes report.html. */
 extern const struct kiln_embedded_file kiln_embedded_page[];
 
 /* Returns the text of the file with this path in a table, or NULL if the table has no such file. */

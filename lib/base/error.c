@@ -17,7 +17,7 @@ static void drop_cut_character(char *text)
     size_t length = strlen(text);
     for (int i = 0; i < 3 && length > 0 && ((unsigned char)text[length - 1] & 0xc0) == 0x80; i++)
         length--;
-    if (length > 0 && kiln_text_utf8_length(text + length - 1) == 0)
+    if (length > 0 && kiln_text_character_length(text + length - 1) == 0)
         text[length - 1] = '\0';
 }
 

@@ -88,10 +88,10 @@ static void put_string(struct kiln_json *json, const char *string)
     const char *plain = string; /* the text from here to c is not written yet */
     for (const char *c = string; *c;) {
         if (!escape(json, c, escaped)) {
-            c += kiln_text_utf8_length(c);
+            c += kiln_text_character_length(c);
             continue;
         }
-        const size_t length = kiln_text_utf8_length(c);
+        const size_t length = kiln_text_character_length(c);
         put_bytes(json, plain, (size_t)(c - plain));
         put(json, escaped);
         plain = c += length > 0 ? length : 1;

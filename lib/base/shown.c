@@ -11,7 +11,7 @@ size_t kiln_shown_character(const char *text, uint32_t *character)
 {
     static const uint8_t payload[] = {0, 0x7f, 0x1f, 0x0f, 0x07};
     const unsigned char *bytes = (const unsigned char *)text;
-    const size_t length = kiln_text_utf8_length(text);
+    const size_t length = kiln_text_character_length(text);
     *character = bytes[0];
     if (length == 0)
         return 0;

@@ -1,8 +1,9 @@
-/* Writes files under temporary names and renames them when they are complete. The table of
- * temporary names is the only state of the library at file scope: kiln_abandon_outputs must find
- * the names from a signal handler, which can take no lock and has no pointer to an owner. So the
- * table has a fixed size. A slot is claimed and released by an atomic, its path is written before
- * it is marked as armed, and a file exists only while its slot is armed. */
+/* Writes files under temporary names and renames them when they are complete.
+ *
+ * The table of temporary names has static storage and a fixed size: kiln_abandon_outputs must find
+ * the names from a signal handler, which can take no lock and has no pointer to an owner. A slot is
+ * claimed and released by an atomic, its path is written before it is marked as armed, and a file
+ * exists only while its slot is armed. */
 #include "base/temporary.h"
 
 #include <assert.h>
@@ -28,7 +29,7 @@ static struct slot {
     char path[KILN_PATH_SIZE];
 } slots[SLOT_COUNT];
 
-static atomic_bool abandoned; /* set when the process is about to end: then no new file is opened */
+static atomic_bool ending; /* set when the process is about to end: then no new file is opened */
 
 static int claim_slot(void)
 {
@@ -47,7 +48,7 @@ static void release_slot(int slot)
 
 void kiln_abandon_outputs(void)
 {
-    atomic_store(&abandoned, true);
+    atomic_store(&ending, true);
     for (int i = 0; i < SLOT_COUNT; i++) {
         if (atomic_load(&slots[i].state) == SLOT_ARMED)
             unlink(slots[i].path);
@@ -105,25 +106,27 @@ static bool write_temporary_name(char path[KILN_PATH_SIZE], const char *target, 
     return length < KILN_PATH_SIZE;
 }
 
-/* Opens a new file and locks it until it is closed. Returns -1 with errno on failure. */
+/* Creates a file and locks it until it is closed. Returns -1 with errno on failure. Between the
+ * creation and the lock, another process may take the file for a left-over one and lock or remove
+ * it; then errno is EEXIST. */
 static int open_locked(const char *path)
 {
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0)
         return -1;
     struct stat status;
-    bool taken = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    if (!taken && fstat(file, &status) == 0 && status.st_nlink > 0)
+    bool locked_by_other = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!locked_by_other && fstat(file, &status) == 0 && status.st_nlink > 0)
         return file;
-    close(file); /* another process took the new file for an abandoned one */
+    close(file);
     errno = EEXIST;
     return -1;
 }
 
-/* Removes a file whose writer was killed: no process locks it. If such files stayed, a job that is
- * killed and tried again under the same process number, as in a container, would run out of names.
- */
-static bool remove_abandoned(const char *path)
+/* Removes a left-over file: one that no process locks, since its writer was killed. If such files
+ * stayed, a job that is killed and tried again under the same process number, as in a container,
+ * would use up its MAX_ATTEMPTS names. */
+static bool remove_leftover(const char *path)
 {
     /* Without O_NONBLOCK, opening a pipe would wait for its reader. */
     int file = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
@@ -136,7 +139,7 @@ static bool remove_abandoned(const char *path)
     return removed;
 }
 
-/* Writes the folder of a target; false when its name is too long. */
+/* Writes the folder of a target. Returns false if its name is too long. */
 static bool folder_of(const char *target, char folder[KILN_PATH_SIZE])
 {
     const char *slash = strrchr(target, '/');
@@ -144,12 +147,13 @@ static bool folder_of(const char *target, char folder[KILN_PATH_SIZE])
     return snprintf(folder, KILN_PATH_SIZE, "%.*s", length, slash ? target : ".") < KILN_PATH_SIZE;
 }
 
-/* Whether a name is ".NAME.kiln-PID-N.tmp". */
+/* Returns whether a name is of the form ".NAME.kiln-PID-N.tmp". */
 static bool is_temporary_name(const char *name)
 {
     static const char mark[] = ".kiln-", suffix[] = ".tmp", digits[] = "0123456789";
-    const size_t length = strlen(name), end = sizeof suffix - 1;
-    if (name[0] != '.' || length <= end || strcmp(name + length - end, suffix) != 0)
+    const size_t length = strlen(name), suffix_length = sizeof suffix - 1;
+    if (name[0] != '.' || length <= suffix_length ||
+        strcmp(name + length - suffix_length, suffix) != 0)
         return false;
     const char *last = NULL;
     for (const char *at = name; (at = strstr(at, mark)); at++)
@@ -159,7 +163,7 @@ static bool is_temporary_name(const char *name)
         return false;
     const char *number = last + pid + 1;
     const size_t count = strspn(number, digits);
-    return count > 0 && number + count == name + length - end;
+    return count > 0 && number + count == name + length - suffix_length;
 }
 
 void kiln_temporary_sweep(const char *target)
@@ -173,7 +177,7 @@ void kiln_temporary_sweep(const char *target)
         const char *name = entries[i]->d_name;
         if (is_temporary_name(name) &&
             snprintf(path, sizeof path, "%s/%s", folder, name) < KILN_PATH_SIZE)
-            remove_abandoned(path);
+            remove_leftover(path);
         free(entries[i]);
     }
     free(entries);
@@ -189,18 +193,18 @@ static int create_file(int slot, const char *target)
             return -1;
         }
         atomic_store(&slots[slot].state, SLOT_ARMED);
-        int file = atomic_load(&abandoned) ? -1 : open_locked(slots[slot].path);
-        if (file >= 0 && atomic_load(&abandoned)) {
+        int file = atomic_load(&ending) ? -1 : open_locked(slots[slot].path);
+        if (file >= 0 && atomic_load(&ending)) {
             unlink(slots[slot].path);
             close(file);
             file = -1;
         }
-        if (atomic_load(&abandoned))
+        if (atomic_load(&ending))
             errno = ECANCELED;
         if (file >= 0 || errno != EEXIST)
             return file;
-        atomic_store(&slots[slot].state, SLOT_CLAIMED); /* another process has this file */
-        if (!remove_abandoned(slots[slot].path))
+        atomic_store(&slots[slot].state, SLOT_CLAIMED); /* the file with this name is not ours */
+        if (!remove_leftover(slots[slot].path))
             number += SLOT_COUNT;
     }
     return -1;
@@ -250,9 +254,10 @@ bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, s
     return temporary->failure == 0;
 }
 
-/* Says why a file failed. When the output is over its limit, that is the reason, whatever errno
- * says. */
-static bool fail(const struct kiln_temporary *temporary, int failure, struct kiln_error *error)
+/* Reports why a file cannot be written, and returns false. If the output is over its limit, that is
+ * the reason, whatever errno says: taking 0 bytes fails only then. */
+static bool report_failure(const struct kiln_temporary *temporary, int failure,
+                           struct kiln_error *error)
 {
     return kiln_budget_take(temporary->budget, KILN_LIMIT_output, 0, temporary->target, error) &&
            kiln_error_set_errno(error, KILN_IO, failure, "%s: the file cannot be written",
@@ -261,7 +266,7 @@ static bool fail(const struct kiln_temporary *temporary, int failure, struct kil
 
 bool kiln_temporary_fail(const struct kiln_temporary *temporary, struct kiln_error *error)
 {
-    return fail(temporary, temporary->failure, error);
+    return report_failure(temporary, temporary->failure, error);
 }
 
 bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset)
@@ -271,7 +276,7 @@ bool kiln_temporary_seek(struct kiln_temporary *temporary, int64_t offset)
     return temporary->failure == 0;
 }
 
-static void end(struct kiln_temporary *temporary)
+static void release(struct kiln_temporary *temporary)
 {
     release_slot(temporary->slot);
     free(temporary->target);
@@ -279,7 +284,7 @@ static void end(struct kiln_temporary *temporary)
 }
 
 /* Renames a file. Without overwrite, it fails where a file has appeared meanwhile. A file system
- * without RENAME_NOREPLACE gets a plain rename: the name was free when the job began. */
+ * without RENAME_NOREPLACE gets a plain rename: close_all has just found the name free. */
 static bool move_into_place(const char *path, const char *target, bool overwrite)
 {
     if (!overwrite) {
@@ -291,9 +296,9 @@ static bool move_into_place(const char *path, const char *target, bool overwrite
     return rename(path, target) == 0;
 }
 
-/* Closes a file, which keeps its temporary name. Returns the errno of the first failure since it
- * was opened, or 0. A second descriptor keeps its lock, so that no process takes the file for
- * abandoned before it is renamed. */
+/* Closes a file that still has its temporary name. Returns the errno of the first failure since it
+ * was opened, or 0. `lock` receives a second descriptor, which the caller closes after the rename.
+ * It keeps the file locked, so that no process takes the file for a left-over one. */
 static int close_file(struct kiln_temporary *temporary, int *lock)
 {
     *lock = fcntl(temporary->file, F_DUPFD_CLOEXEC, 0);
@@ -304,8 +309,8 @@ static int close_file(struct kiln_temporary *temporary, int *lock)
     return temporary->failure;
 }
 
-/* Synchronises a target's folder, so that the names in it outlast a crash. Failures are ignored:
- * then the file is as safe as without this call. */
+/* Synchronises a target's folder, so that the names in it outlast a crash. Failures are ignored,
+ * since the file is complete without this. */
 static void sync_folder(const char *target)
 {
     char folder[KILN_PATH_SIZE];
@@ -328,30 +333,31 @@ bool kiln_temporary_commit(struct kiln_temporary *temporary, bool overwrite,
 static bool close_all(struct kiln_temporary *const *files, size_t count, bool overwrite, int *locks,
                       struct kiln_error *error)
 {
-    bool good = true;
+    bool whole = true;
     for (size_t i = 0; i < count; i++) {
         int failure = close_file(files[i], &locks[i]);
-        if (good && failure != 0)
-            good = fail(files[i], failure, error);
+        if (whole && failure != 0)
+            whole = report_failure(files[i], failure, error);
     }
-    for (size_t i = 0; i < count && good; i++)
-        good = kiln_target_check(files[i]->target, overwrite, error);
-    return good;
+    for (size_t i = 0; i < count && whole; i++)
+        whole = kiln_target_check(files[i]->target, overwrite, error);
+    return whole;
 }
 
-/* Renames the files in their order. Returns how many got their names: all, unless there is an
- * error. */
+/* Renames the files in their order. Returns how many got their names, which is fewer than `count`
+ * only with an error. The last file marks a complete set, so an old one with its name is removed
+ * before the first rename. */
 static size_t rename_all(struct kiln_temporary *const *files, size_t count, bool overwrite,
                          struct kiln_error *error)
 {
     const char *last = files[count - 1]->target;
     if (overwrite && count > 1 && unlink(last) != 0 && errno != ENOENT) {
-        fail(files[count - 1], errno, error);
+        report_failure(files[count - 1], errno, error);
         return 0;
     }
     for (size_t i = 0; i < count; i++) {
         if (!move_into_place(slots[files[i]->slot].path, files[i]->target, overwrite)) {
-            fail(files[i], errno, error);
+            report_failure(files[i], errno, error);
             return i;
         }
     }
@@ -373,7 +379,7 @@ bool kiln_temporary_commit_all(struct kiln_temporary *const *files, size_t count
             sync_folder(files[i]->target);
         if (locks[i] >= 0)
             close(locks[i]);
-        end(files[i]);
+        release(files[i]);
     }
     return renamed == count;
 }
@@ -384,7 +390,7 @@ void kiln_temporary_discard(struct kiln_temporary *temporary)
         return;
     close(temporary->file);
     unlink(slots[temporary->slot].path);
-    end(temporary);
+    release(temporary);
 }
 
 bool kiln_temporary_write_file(const char *path, const void *bytes, size_t size,

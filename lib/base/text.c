@@ -1,6 +1,7 @@
-/* Reads and writes numbers, finds the nearest of several names, and holds texts that grow. Numbers
- * are read and written in the C locale, whatever locale the process has set, so that a scene means
- * the same everywhere. */
+/* Reads and writes numbers, suggests the name that a misspelt one may have meant, and adds to text
+ * buffers that grow: formatted text, JSON strings and words for a shell. Numbers are read and
+ * written in the C locale, whatever locale the process has set, so that a scene means the same
+ * everywhere. */
 #include "base/text.h"
 
 #include <errno.h>
@@ -47,10 +48,10 @@ bool kiln_text_to_uint64(const char *text, uint64_t *value)
 void kiln_text_from_rounded(char out[32], double value, int digits)
 {
     locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    locale_t before = c_locale ? uselocale(c_locale) : (locale_t)0;
+    locale_t old = c_locale ? uselocale(c_locale) : (locale_t)0;
     snprintf(out, 32, "%.*g", digits, value);
     if (c_locale) {
-        uselocale(before);
+        uselocale(old);
         freelocale(c_locale);
     }
 }
@@ -58,9 +59,9 @@ void kiln_text_from_rounded(char out[32], double value, int digits)
 void kiln_text_from_float(char out[32], float value)
 {
     for (int digits = 6; digits <= 9; digits++) {
-        double back = 0;
+        double read = 0;
         kiln_text_from_rounded(out, (double)value, digits);
-        if (kiln_text_to_double(out, &back) && (float)back == value)
+        if (kiln_text_to_double(out, &read) && (float)read == value)
             return;
     }
 }
@@ -68,34 +69,34 @@ void kiln_text_from_float(char out[32], float value)
 void kiln_text_from_double(char out[32], double value)
 {
     for (int digits = 6; digits <= 17; digits++) {
-        double back = 0;
+        double read = 0;
         kiln_text_from_rounded(out, value, digits);
-        if (kiln_text_to_double(out, &back) && back == value)
+        if (kiln_text_to_double(out, &read) && read == value)
             return;
     }
 }
 
 enum { MAX_NAME = 64 };
 
-/* Computes the optimal string alignment distance: insertions, deletions, replacements, and swaps of
- * neighbours. */
+/* Computes the optimal string alignment distance: the least number of edits that turn one name into
+ * the other, where an edit inserts, deletes or replaces a character or swaps two adjacent ones. */
 static size_t edit_distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
     size_t row[3][MAX_NAME + 1];
     for (size_t j = 0; j <= b_length; j++)
         row[0][j] = j;
     for (size_t i = 1; i <= a_length; i++) {
-        size_t *now = row[i % 3], *before = row[(i + 2) % 3], *two_before = row[(i + 1) % 3];
+        size_t *now = row[i % 3], *above = row[(i + 2) % 3], *two_above = row[(i + 1) % 3];
         now[0] = i;
         for (size_t j = 1; j <= b_length; j++) {
-            size_t best = before[j - 1] + (a[i - 1] != b[j - 1]);
-            if (before[j] + 1 < best)
-                best = before[j] + 1;
+            size_t best = above[j - 1] + (a[i - 1] != b[j - 1]);
+            if (above[j] + 1 < best)
+                best = above[j] + 1;
             if (now[j - 1] + 1 < best)
                 best = now[j - 1] + 1;
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
-                two_before[j - 2] + 1 < best)
-                best = two_before[j - 2] + 1;
+                two_above[j - 2] + 1 < best)
+                best = two_above[j - 2] + 1;
             now[j] = best;
         }
     }
@@ -114,9 +115,10 @@ const char *kiln_text_nearest(const char *name, const char *const *candidates, s
         if (candidate_length > MAX_NAME)
             continue;
         size_t distance = edit_distance(name, length, candidates[i], candidate_length);
+        /* As many edits as the candidate has characters make no misspelling of it. */
         if (distance <= limit && distance < candidate_length) {
             nearest = candidates[i];
-            limit = distance == 0 ? 0 : distance - 1;
+            limit = distance == 0 ? 0 : distance - 1; /* the next one must be nearer */
         }
     }
     return nearest;
@@ -155,7 +157,7 @@ void kiln_text_free(struct kiln_text *text)
     *text = (struct kiln_text){0};
 }
 
-size_t kiln_text_utf8_length(const char *text)
+size_t kiln_text_character_length(const char *text)
 {
     const unsigned char *s = (const unsigned char *)text;
     if (s[0] < 0x80)

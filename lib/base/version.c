@@ -1,4 +1,5 @@
-/* Returns the version of the library, for callers whose header may be of another version. */
+/* Returns the version of the library with which a program runs. The program may have been compiled
+ * with the kiln.h of another version. */
 #include "kiln.h"
 
 const char *kiln_version(void)

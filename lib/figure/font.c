@@ -101,7 +101,7 @@ uint32_t kiln_font_next(const char **text)
     const unsigned char *bytes = (const unsigned char *)*text;
     if (!*bytes)
         return 0;
-    size_t length = kiln_text_utf8_length(*text);
+    size_t length = kiln_text_character_length(*text);
     *text += length ? length : 1;
     switch (length) {
     case 1:

@@ -16,7 +16,7 @@ bool kiln_lettering_check(const char *text, const char *place, struct kiln_error
         return true;
     for (const char *c = text; c < found; count++)
         kiln_font_next(&c);
-    size_t length = kiln_text_utf8_length(found);
+    size_t length = kiln_text_character_length(found);
     if (length == 0)
         return kiln_error_set(error, KILN_USAGE,
                               "%s: character %u: found the byte %02x, which is not UTF-8", place,
@@ -41,7 +41,7 @@ static bool check_utf8(const char *text, struct kiln_error *error)
 {
     const char *c = text;
     for (size_t length; *c; c += length) {
-        length = kiln_text_utf8_length(c);
+        length = kiln_text_character_length(c);
         if (length == 0)
             return kiln_error_set(
                 error, KILN_USAGE,

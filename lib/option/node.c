@@ -67,7 +67,7 @@ void kiln_node_quote(char out[64], const char *text)
     enum { MAX_SHOWN_BYTES = 48 };
     size_t length = 0;
     while (*text) {
-        size_t bytes = kiln_text_utf8_length(text);
+        size_t bytes = kiln_text_character_length(text);
         if (length + (bytes ? bytes : 1) > MAX_SHOWN_BYTES) {
             memcpy(out + length, "...", 4);
             return;
@@ -342,7 +342,7 @@ static bool check_bytes(const char *text, size_t size, const struct kiln_origin 
     struct kiln_node position = {.origin = origin, .line = 1, .column = 1};
     size_t blank_lines = 0; /* consecutive blank lines and the newline before them */
     for (size_t i = 0; i < size;) {
-        size_t length = kiln_text_utf8_length(text + i);
+        size_t length = kiln_text_character_length(text + i);
         if (text[i] == '\0')
             return kiln_node_error(&position, error, "not a text: a zero byte");
         if (length == 0)

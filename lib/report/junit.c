@@ -43,7 +43,7 @@ static const char *entity_of(char c)
 static void write_xml(FILE *out, const char *text, bool attribute)
 {
     while (*text) {
-        size_t length = kiln_text_utf8_length(text);
+        size_t length = kiln_text_character_length(text);
         const char *entity =
             !attribute && (*text == '\n' || *text == '\t') ? NULL : entity_of(*text);
         if (length == 0)

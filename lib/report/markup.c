@@ -73,7 +73,7 @@ static bool is_foreign(const char *text)
 void kiln_markup_write_text(FILE *out, const char *text)
 {
     while (*text) {
-        size_t length = kiln_text_utf8_length(text);
+        size_t length = kiln_text_character_length(text);
         const char *entity = kiln_markup_entity(*text);
         if (length == 0 || is_foreign(text))
             fputs("\xef\xbf\xbd", out);

@@ -21,8 +21,8 @@ static const uint32_t no_letters[][2] = {
     {0xfeff, 0xfeff}, {0xfff0, 0xffff}, {0xe0000, 0x10ffff},
 };
 
-/* Returns the code of a character of 2 to 4 bytes. kiln_text_utf8_length has found its length, so
- * its bytes are valid UTF-8. */
+/* Returns the code of a character of 2 to 4 bytes. Its bytes are valid UTF-8, since
+ * kiln_text_character_length has found its length. */
 static uint32_t decode(const char *text, size_t length)
 {
     uint32_t code = (unsigned char)text[0] & (0x7fu >> length);
@@ -36,7 +36,7 @@ static size_t name_character(const char *text)
 {
     static const char ascii[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                 "0123456789._-/";
-    size_t length = kiln_text_utf8_length(text);
+    size_t length = kiln_text_character_length(text);
     if (length < 2)
         return length == 1 && *text && strchr(ascii, *text) ? 1 : 0;
     uint32_t code = decode(text, length);

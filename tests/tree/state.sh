@@ -8,7 +8,7 @@ library=$2
 allowed=(
     # Names of unfinished files: a signal handler has nobody to ask for them.
     "temporary.c.o slots"
-    "temporary.c.o abandoned"
+    "temporary.c.o ending"
     # FFmpeg's log callback gets no user pointer; one per thread says whose messages these are.
     "ffmpeg.c.o current"
     # A process has FFmpeg's libraries once, and their functions.
