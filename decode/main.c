@@ -200,7 +200,7 @@ static unsigned char *ask_for_file(void *user, const char *name, size_t *size)
     (void)user;
     struct kiln_decode_file answer;
     struct kiln_error error = {0};
-    send_text(KILN_DECODE_WANTS, name);
+    send_text(KILN_DECODE_NEEDS_FILE, name);
     const int file = receive(&answer, sizeof answer);
     unsigned char *bytes =
         answer.is_open && file >= 0 ? read_file(file, KILN_MAX_MESH_BYTES, size, &error) : NULL;
@@ -219,7 +219,7 @@ static bool send_array(void *user, void *array, size_t bytes)
 static void send_mesh(const struct kiln_decode_request *request, struct kiln_mesh_result *result)
 {
     const struct kiln_skin_result *skin = &result->skin;
-    const struct kiln_decode_answer answer = {.what = KILN_DECODE_MADE,
+    const struct kiln_decode_answer answer = {.what = KILN_DECODE_MESH_MADE,
                                               .vertices = result->vertex_count,
                                               .triangles = result->triangle_count,
                                               .has_normals = skin->has_normals,

@@ -26,7 +26,7 @@ bool kiln_particle_mesh_settle(struct kiln_reader *reader, const struct kiln_nod
         return true;
     const struct kiln_mesh_measure measure = kiln_mesh_measure(mesh);
     look->mesh.shown = mesh;
-    look->mesh.shade = measure.shade / measure.edge;
+    look->mesh.shade = measure.shadow_radius / measure.edge;
     if (mesh->triangle_count > KILN_MAX_PARTICLE_TRIANGLES)
         return kiln_reader_error_at(
             reader, root, path, "the mesh has %u triangles; the mesh of a particle has at most %d",

@@ -113,7 +113,7 @@ static uint64_t count_ground(const struct kiln_scene *scene)
 static uint64_t count_pixels(const struct kiln_scene *scene, const char *picture)
 {
     uint32_t size[2];
-    return picture && picture[0] == '/' && kiln_loader_knows(scene->loader, picture, size)
+    return picture && picture[0] == '/' && kiln_loader_knows_size(scene->loader, picture, size)
                ? (uint64_t)size[0] * size[1]
                : 0;
 }

@@ -192,7 +192,7 @@ static void send_mesh(uint32_t vertices, uint32_t triangles, const float *places
                       const uint32_t *corners)
 {
     send_answer((struct kiln_decode_answer){
-        .what = KILN_DECODE_MADE, .vertices = vertices, .triangles = triangles});
+        .what = KILN_DECODE_MESH_MADE, .vertices = vertices, .triangles = triangles});
     if (places)
         send_bytes(places, 6 * vertices * sizeof *places);
     if (corners)
@@ -234,7 +234,7 @@ static void do_endless_text(void)
 
 static void send_wish(const char *name)
 {
-    struct kiln_decode_answer answer = {.what = KILN_DECODE_WANTS};
+    struct kiln_decode_answer answer = {.what = KILN_DECODE_NEEDS_FILE};
     snprintf(answer.text, sizeof answer.text, "%s", name);
     send_answer(answer);
 }

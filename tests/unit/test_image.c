@@ -246,6 +246,9 @@ static void files_are_told_from_other_things(void **state)
     assert_false(kiln_asset_image_check(NULL, path, &error));
     assert_int_equal(error.code, KILN_INVALID_INPUT);
     assert_int_equal(unlink(path), 0);
+    assert_false(kiln_asset_image_check(NULL, "/proc/self/mem", &error)); /* nothing lies at 0 */
+    assert_int_equal(error.code, KILN_IO);
+    assert_non_null(strstr(error.message, "cannot be read"));
 
     write_file(path, "", 0);
     assert_false(kiln_asset_image_check(NULL, path, &error));

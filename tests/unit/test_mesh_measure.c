@@ -32,7 +32,7 @@ static void a_box(void **state)
                 "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
     assert_true(is_near(m.middle[0], 1) && is_near(m.middle[1], 0.5) && is_near(m.middle[2], 0.5));
     assert_true(is_near(m.edge, 2) && is_near(m.reach, sqrt(1.5)));
-    assert_true(is_near(m.shade, sqrt(10 / (4 * 3.14159265358979))));
+    assert_true(is_near(m.shadow_radius, sqrt(10 / (4 * 3.14159265358979))));
 }
 
 /* Of a sheet, seen from both sides, half of it; and the same with a triangle for each side. */
@@ -45,7 +45,7 @@ static void a_sheet(void **state)
     for (size_t i = 0; i < 2; i++) {
         const struct kiln_mesh_measure m = measure(sheets[i]);
         assert_true(is_near(m.edge, 3) && is_near(m.reach, sqrt(2.5)));
-        assert_true(is_near(m.shade, sqrt(0.75 / 3.14159265358979)));
+        assert_true(is_near(m.shadow_radius, sqrt(0.75 / 3.14159265358979)));
     }
 }
 

@@ -211,12 +211,12 @@ static void take_counts(const struct kiln_decode_answer *answer, struct kiln_mes
 static bool await(struct request *request, struct kiln_decode_answer *answer,
                   struct kiln_error *error)
 {
-    const unsigned expected = 1u << KILN_DECODE_WANTS | 1u << KILN_DECODE_MADE;
+    const unsigned expected = 1u << KILN_DECODE_NEEDS_FILE | 1u << KILN_DECODE_MESH_MADE;
     for (int wishes = 0; wishes < MAX_WISHES; wishes++) {
         if (!kiln_helper_answer(request->helper, kiln_loader_caller(request->loader), expected,
                                 answer, error))
             return false;
-        if (answer->what == KILN_DECODE_MADE)
+        if (answer->what == KILN_DECODE_MESH_MADE)
             return true;
         if (!hand_over(request, answer->text, error))
             return false;

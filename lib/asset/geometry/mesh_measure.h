@@ -1,4 +1,5 @@
-/* Measures how large a mesh is, for drawing it at a given size. */
+/* Measures how large a mesh is. lib/scene/particle_mesh.c and lib/draw/moment/instances.c use the
+ * sizes to draw particles as meshes and, in shadows, as spheres that stand for the meshes. */
 #ifndef KILN_ASSET_GEOMETRY_MESH_MEASURE_H
 #define KILN_ASSET_GEOMETRY_MESH_MEASURE_H
 
@@ -9,9 +10,9 @@ struct kiln_mesh_measure {
     float middle[3]; /* centre of the bounding box */
     float edge;      /* longest edge of the bounding box; above 0, since a triangle has an area */
     float reach;     /* distance from the middle to the farthest vertex */
-    /* radius of a sphere whose shadow has the mean area of the mesh's shadows from all directions;
-     * at most `reach` */
-    float shade;
+    /* radius of a sphere whose shadow has the area of the mesh's shadow, averaged over all
+     * directions of light; at most `reach` */
+    float shadow_radius;
 };
 
 struct kiln_mesh_measure kiln_mesh_measure(const struct kiln_mesh *mesh);

@@ -1,8 +1,8 @@
-/* This file loads pictures. The first bytes of a file tell its format, which chooses the
- * kiln-decode process that decodes it. The process's answer is checked before memory is taken for
- * it. */
+/* Loads pictures. The first bytes of a file tell its format, which chooses the kind of kiln-decode
+ * process that decodes it. The process's answer is checked before memory is taken for it. */
 #include "asset/image/image.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 
 #define ALLOWED "PNG, JPEG, WebP, TIFF, BMP or EXR"
 
-enum { HEAD_SIZE = 21 };
+enum { HEAD_SIZE = 21 }; /* bytes up to the flags of an extended WebP, the longest head */
 
 /* Signatures of the formats; '?' stands for any byte. */
 static const struct signature {
@@ -72,16 +72,16 @@ static bool is_animated_webp(const struct head *head)
            (head->bytes[20] & 2) != 0;
 }
 
-/* Returns whether a file is an OpenEXR file of one part in tiles. FFmpeg decodes these, and
- * OpenEXR's core decodes layers. After the signature come version and flags, of which bit 9 is for
- * tiles. */
+/* Returns whether an OpenEXR file has a single part, in tiles. FFmpeg decodes the layer "beauty" of
+ * such a file, since decode/exr.c reads only scan lines. Bytes 4 to 7 are a little-endian word of
+ * version and flags, whose bit 9, or bit 1 of byte 5, stands for tiles. */
 static bool is_tiled_exr(const struct head *head)
 {
     return head->size >= 8 && (head->bytes[5] & 0x02) != 0;
 }
 
-/* Chooses the kind of process that decodes a layer of a file, or the whole picture if `name` is
- * NULL. */
+/* Chooses the kind of process that decodes a layer of a file, or the picture if `layer` is NULL.
+ * name: the file's name, for messages. */
 static bool choose_kind(const struct head *head, const char *name, const char *layer,
                         enum kiln_decode_kind *kind, struct kiln_decode_request *request,
                         struct kiln_error *error)
@@ -110,7 +110,8 @@ static bool choose_kind(const struct head *head, const char *name, const char *l
 
 /* ---- decoding -------------------------------------------------------------------------------- */
 
-/* Decodes the picture in an open file; name stands for it in messages. */
+/* Decodes the picture in an open file. name: the file's name, for messages. A picture must have
+ * finite values; a layer need not. */
 static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, const char *name,
                                        const char *layer, struct kiln_error *error)
 {
@@ -119,7 +120,11 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
     struct head head;
     const ssize_t got = pread(file, head.bytes, sizeof head.bytes, 0);
     enum kiln_decode_kind kind = KILN_DECODE_PICTURE;
-    head.size = got > 0 ? (size_t)got : 0;
+    if (got < 0) {
+        kiln_error_set_errno(error, KILN_IO, errno, "%s: the image file cannot be read", name);
+        return NULL;
+    }
+    head.size = (size_t)got;
     if (!choose_kind(&head, name, layer, &kind, &request, error))
         return NULL;
     request.most_pixels = kiln_received_most_pixels(loader);
@@ -140,15 +145,15 @@ static struct kiln_asset_image *decode(struct kiln_loader *loader, int file, con
 static struct kiln_asset_image *load(struct kiln_loader *loader, const char *path,
                                      const char *layer, struct kiln_error *error)
 {
-    const struct kiln_loader_file named = {path, "image", ALLOWED, KILN_MAX_IMAGE_BYTES};
+    const struct kiln_loader_file wanted = {path, "image", ALLOWED, KILN_MAX_IMAGE_BYTES};
     size_t size = 0;
-    const int file = kiln_loader_open(loader, &named, &size, error);
+    const int file = kiln_loader_open(loader, &wanted, &size, error);
     if (file < 0)
         return NULL;
     struct kiln_asset_image *image = decode(loader, file, path, layer, error);
     close(file);
     uint32_t known[2];
-    if (image && kiln_loader_knows(loader, path, known) &&
+    if (image && kiln_loader_knows_size(loader, path, known) &&
         (image->width != known[0] || image->height != known[1])) {
         kiln_error_set(error, KILN_INVALID_INPUT,
                        "%s: the image changed while it was read: it has %u x %u pixels, and had %u "
@@ -201,14 +206,14 @@ bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct
 bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
                            struct kiln_error *error)
 {
-    if (kiln_loader_knows(loader, path, size))
+    if (kiln_loader_knows_size(loader, path, size))
         return true;
     struct kiln_asset_image *image = kiln_asset_image_load(loader, path, error);
     if (!image)
         return false;
     size[0] = image->width;
     size[1] = image->height;
-    kiln_loader_remember(loader, path, size);
+    kiln_loader_remember_size(loader, path, size);
     kiln_asset_image_destroy(&image);
     return true;
 }

@@ -58,8 +58,8 @@ struct kiln_asset_image *kiln_asset_image_parse(const void *bytes, size_t size, 
                                                 struct kiln_error *error);
 void kiln_asset_image_destroy(struct kiln_asset_image **image);
 
-/* Returns whether kiln_asset_image_load would succeed, and the size of the image. Decodes the whole
- * image, unless the loader knows its size from before. */
+/* Both return whether kiln_asset_image_load would succeed; kiln_asset_image_size also gives width
+ * and height. They decode the whole image, unless the loader knows its size from before. */
 bool kiln_asset_image_check(struct kiln_loader *loader, const char *path, struct kiln_error *error);
 bool kiln_asset_image_size(struct kiln_loader *loader, const char *path, uint32_t size[2],
                            struct kiln_error *error);

@@ -259,7 +259,7 @@ void kiln_loader_give_back(struct kiln_loader *loader, struct kiln_helper **help
 
 /* ---- sizes of pictures ----------------------------------------------------------------------- */
 
-bool kiln_loader_knows(struct kiln_loader *loader, const char *path, uint32_t size[2])
+bool kiln_loader_knows_size(struct kiln_loader *loader, const char *path, uint32_t size[2])
 {
     if (!loader)
         return false;
@@ -274,7 +274,7 @@ bool kiln_loader_knows(struct kiln_loader *loader, const char *path, uint32_t si
 }
 
 /* If memory is short, the size is not kept, and the picture will be decoded once more. */
-void kiln_loader_remember(struct kiln_loader *loader, const char *path, const uint32_t size[2])
+void kiln_loader_remember_size(struct kiln_loader *loader, const char *path, const uint32_t size[2])
 {
     const size_t length = strlen(path) + 1;
     struct known *one = loader ? malloc(sizeof *one + length) : NULL;

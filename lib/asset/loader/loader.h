@@ -65,9 +65,11 @@ struct kiln_helper *kiln_loader_take(struct kiln_loader *loader, enum kiln_decod
                                      struct kiln_error *error);
 void kiln_loader_give_back(struct kiln_loader *loader, struct kiln_helper **helper);
 
-/* kiln_loader_knows returns the size of a picture that was checked before, so that it need not be
- * decoded or counted again. False: it was not checked. */
-bool kiln_loader_knows(struct kiln_loader *loader, const char *path, uint32_t size[2]);
-void kiln_loader_remember(struct kiln_loader *loader, const char *path, const uint32_t size[2]);
+/* kiln_loader_knows_size gives width and height of a picture that was checked before, so that it
+ * need not be decoded or counted again. It returns false if the picture was not checked.
+ * kiln_loader_remember_size keeps the size of a picture that was checked. */
+bool kiln_loader_knows_size(struct kiln_loader *loader, const char *path, uint32_t size[2]);
+void kiln_loader_remember_size(struct kiln_loader *loader, const char *path,
+                               const uint32_t size[2]);
 
 #endif

@@ -1,13 +1,14 @@
-/* Declares the messages of kiln and kiln-decode, which go through a socket between two processes of
- * one machine: a request with a file's descriptor, answers, and the arrays that follow answers.
- * kiln checks every count and text of an answer before using it. */
+/* Declares the messages between kiln and kiln-decode, the program that decodes untrusted files.
+ * They go through a socket between two processes of one machine: a request with a file's
+ * descriptor, answers, and the arrays that follow answers. kiln checks every count and text of an
+ * answer before using it. */
 #ifndef KILN_ASSET_LOADER_PROTOCOL_H
 #define KILN_ASSET_LOADER_PROTOCOL_H
 
 #include "kiln.h"
 
-/* Lists the kinds of files that a process of kiln-decode can read. It opens the libraries of one
- * kind only. The second word is the process's argument. */
+/* Lists the kinds of kiln-decode processes, each with the word that is the process's argument. A
+ * process opens only the libraries that its kind needs. */
 #define KILN_DECODE_KINDS(X)                                                                       \
     X(PNG, "png")                                                                                  \
     X(PICTURE, "picture") /* JPEG, WebP, TIFF, BMP and EXR, by FFmpeg */                           \
@@ -23,8 +24,9 @@ enum kiln_decode_kind {
 };
 
 enum {
-    KILN_DECODE_SOCKET = 3,  /* number of the socket's descriptor in kiln-decode */
-    KILN_DECODE_SECONDS = 30 /* of processor time, for a picture, a frame of a video or a mesh */
+    KILN_DECODE_SOCKET = 3, /* kiln-decode has the socket as this descriptor */
+    /* the limit of processor time for a picture, a frame of a video or a mesh */
+    KILN_DECODE_SECONDS = 30
 };
 
 enum kiln_picture_format {
@@ -38,39 +40,51 @@ enum kiln_picture_format {
 
 enum kiln_mesh_format { KILN_MESH_OBJ, KILN_MESH_GLTF, KILN_MESH_GLB };
 
-/* Asks for a file to be decoded. The file's descriptor is sent with it. */
+/* Asks for a file to be decoded. The file's descriptor is sent with it. A video needs one request
+ * for all of its frames. */
 struct kiln_decode_request {
-    uint32_t format;     /* enum kiln_picture_format or kiln_mesh_format */
-    uint32_t uvs;        /* of a mesh: texture coordinates are wanted */
-    uint32_t moving;     /* of a mesh: nodes, bones and clips are wanted */
-    uint64_t most_bytes; /* size limit of the file in bytes */
-    uint64_t most_pixels;
-    char layer[64]; /* name of a layer of an EXR file */
+    uint32_t format;      /* enum kiln_picture_format or kiln_mesh_format; unused for a video */
+    uint32_t uvs;         /* of a mesh: texture coordinates are wanted */
+    uint32_t moving;      /* of a mesh: nodes, bones and clips are wanted */
+    uint64_t most_bytes;  /* size limit of the file in bytes */
+    uint64_t most_pixels; /* limit of a picture's width * height */
+    char layer[64];       /* name of a layer of an EXR file */
 };
 
+/* Kinds of answers. */
 enum kiln_decode_what {
-    KILN_DECODE_READY, /* is sent once, before the first request; the text is KILN_VERSION */
-    /* has the error's code, and its message as text. When a picture has more than most_pixels, the
-     * code is KILN_OVER_LIMIT and width and height are set */
+    /* The process waits for its first request, or has opened a video. The text is KILN_VERSION. */
+    KILN_DECODE_READY,
+
+    /* The request failed, with an error's code and its message as text. If a picture has more than
+     * most_pixels, the code is KILN_OVER_LIMIT, and width and height are set. */
     KILN_DECODE_FAILED,
-    KILN_DECODE_PIXELS, /* describes a picture; its pixels follow */
-    KILN_DECODE_END,    /* says that a video has no more frames */
-    /* asks for another file, whose name is the text; kiln sends a struct kiln_decode_file */
-    KILN_DECODE_WANTS,
-    KILN_DECODE_MADE, /* describes a mesh; its arrays follow */
+
+    /* Describes a picture or the next frame of a video. Its pixels follow. */
+    KILN_DECODE_PIXELS,
+
+    /* A video has no more frames. */
+    KILN_DECODE_END,
+
+    /* A mesh names another file; the text is that name. kiln sends a struct kiln_decode_file. */
+    KILN_DECODE_NEEDS_FILE,
+
+    /* Describes a mesh. Its arrays follow, as kiln_mesh_visit_arrays lists them. */
+    KILN_DECODE_MESH_MADE,
 };
 
 struct kiln_decode_answer {
-    uint32_t what;
-    int32_t code; /* one of enum kiln_code */
+    uint32_t what; /* enum kiln_decode_what */
+    int32_t code;  /* one of enum kiln_code */
     char text[KILN_MESSAGE_SIZE];
-    /* members of struct kiln_asset_image */
+    /* of a picture: the members of struct kiln_asset_image with these names */
     uint32_t width, height, channels, type, srgb, premultiplied;
-    uint32_t vertices, triangles; /* counts of a mesh */
-    uint32_t has_normals, nodes, bones, clips, channels_of_clips, keys;
+    uint32_t vertices, triangles;                          /* of a mesh: counts */
+    uint32_t has_normals;                                  /* of a mesh that moves */
+    uint32_t nodes, bones, clips, channels_of_clips, keys; /* counts of the same */
 };
 
-/* Answers KILN_DECODE_WANTS. The file's descriptor is sent with it if is_open. */
+/* Answers KILN_DECODE_NEEDS_FILE. The file's descriptor is sent with it if is_open. */
 struct kiln_decode_file {
     uint32_t is_open;
 };
