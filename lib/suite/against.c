@@ -1,6 +1,10 @@
-/* Draws a frame with another build of kiln, so that a report can show how the frame looked when it
- * was accepted. That needs a renderer whose pixels are the same everywhere, so a note says if the
- * hash of the drawn pixels is not the accepted one. */
+/* Draws a frame with another kiln program, which `kiln test --against PROGRAM` names, so that a
+ * report can show how the frame looked when it was accepted. lib/suite/judge.c asks for it when the
+ * pixels of the frame have changed. The picture shows the accepted frame only if the program draws
+ * the accepted pixels on this machine. Otherwise a note says that their hashes differ.
+ *
+ * The program may be an older kiln. If it refuses an option, a note says so, and the test goes
+ * on. */
 #include "suite/against.h"
 
 #include <errno.h>
@@ -22,6 +26,8 @@ struct arguments {
     size_t count, capacity;
 };
 
+/* Adds an argument. command_of makes room for all of them and for the NULL after the last, which is
+ * there already, since an arena gives zeroed memory. */
 static void add(struct arguments *arguments, const char *argument)
 {
     if (arguments->count + 1 < arguments->capacity)
@@ -34,7 +40,8 @@ static void add_option(struct arguments *arguments, const char *option, const ch
     add(arguments, value);
 }
 
-/* Adds the techniques of the result, "simulate=cpu sort=cpu", as options. */
+/* Adds an option for each technique of the result, which has them in one text such as
+ * "simulate=cpu sort=cpu". */
 static void add_techniques(struct arguments *arguments)
 {
     const char *rest = arguments->test_case->result->techniques;
@@ -61,7 +68,8 @@ static const char **command_of(struct kiln_test_case *test_case, uint32_t frame,
     if (!arguments.items)
         return NULL;
     add(&arguments, test_case->params->against);
-    add_option(&arguments, "render", test->scene);
+    add(&arguments, "render");
+    add(&arguments, test->scene);
     for (size_t i = 0; i < test->override_count; i++)
         add_option(&arguments, "--set", test->overrides[i]);
     add_option(&arguments, "--frames", kiln_test_case_text(test_case, "%u", frame));
@@ -78,7 +86,7 @@ static const char **command_of(struct kiln_test_case *test_case, uint32_t frame,
 }
 
 /* Runs a command, whose output goes to the file `log`. Returns its exit code, 128 plus the number
- * of the signal that ended it, or a value below 0, with errno, if it cannot be run. */
+ * of the signal that ended it. If it cannot be run, sets errno and returns a value below 0. */
 static int run(const char **command, const char *log)
 {
     posix_spawn_file_actions_t actions;
@@ -104,10 +112,10 @@ static int run(const char **command, const char *log)
 /* Returns the last line of a log, or "". */
 static const char *last_line(struct kiln_test_case *test_case, const char *log)
 {
-    enum { MOST = 1 << 20 };
+    enum { MAX_LOG_SIZE = 1 << 20 };
     struct kiln_error ignored = {0};
     size_t size = 0;
-    char *text = kiln_text_file_read(log, "a log", MOST, &size, &ignored);
+    char *text = kiln_text_file_read(log, "a log", MAX_LOG_SIZE, &size, &ignored);
     if (!text)
         return "";
     while (size > 0 && (text[size - 1] == '\n' || text[size - 1] == ' '))
@@ -123,6 +131,7 @@ bool kiln_test_case_draw_against(struct kiln_test_case *test_case, struct kiln_r
 {
     const char *program = test_case->params->against;
     char log[KILN_PATH_SIZE], hash[65];
+    const bool known = *frame->kiln_expected != '\0';
     struct kiln_error problem = {0};
     bool drawn = false;
     if (!kiln_test_case_path(test_case, "against.txt", log, error))
@@ -138,12 +147,12 @@ bool kiln_test_case_draw_against(struct kiln_test_case *test_case, struct kiln_r
         kiln_error_set_errno(&problem, KILN_USAGE, failure, "%s cannot be run", program);
         kiln_test_case_note(test_case, "%s", problem.message);
     } else if (code != 0) {
-        kiln_test_case_note(test_case, "%s does not draw frame %u, exit code %d%s%s", program,
+        kiln_test_case_note(test_case, "%s failed to draw frame %u, exit code %d%s%s", program,
                             frame->number, code, *line ? ": " : "", line);
     } else {
         drawn = kiln_pixel_hash(picture, hash, &problem);
         if (!drawn)
-            kiln_test_case_note(test_case, "%s does not draw frame %u: %s", program, frame->number,
+            kiln_test_case_note(test_case, "%s failed to draw frame %u: %s", program, frame->number,
                                 problem.message);
     }
     if (!drawn) {
@@ -153,8 +162,9 @@ bool kiln_test_case_draw_against(struct kiln_test_case *test_case, struct kiln_r
     if (*frame->pixels_expected && strcmp(hash, frame->pixels_expected) != 0)
         kiln_test_case_note(
             test_case,
-            "%s draws frame %u with other pixels than were accepted%s%s: its version "
-            "differs, or the scene has changed",
-            program, frame->number, *frame->kiln_expected ? " of kiln " : "", frame->kiln_expected);
+            "%s draws frame %u with other pixels than the accepted ones%s%s%s: the program, the "
+            "scene or the driver differs",
+            program, frame->number, known ? ", which kiln " : "", frame->kiln_expected,
+            known ? " drew" : "");
     return true;
 }

@@ -55,7 +55,7 @@ Another kiln draws what was accepted; one that draws something else, or nothing,
 $ printf '#!/bin/sh\nexec kiln "$@" --set post.exposure=0.3\n' >other; chmod +x other; cp -r right/. golden; sed -i '3a set: [post.exposure=0.4]' hash.test.yaml
 $ kiln test --filter hash --no-report --against ./other; ls out/test/hash
 1|fail    hash  1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; no picture is kept
-1|        ./other draws frame 6 with other pixels than were accepted of kiln 0.2.0: its version differs, or the scene has changed
+1|        ./other draws frame 6 with other pixels than the accepted ones, which kiln 0.2.0 drew: the program, the scene or the driver differs
 1|1 test in <s> s: 1 fail
 1|where the pictures are right, accept them: kiln test approve hash
 1|1 frame: 1 by pixels, 0 by metrics
@@ -66,10 +66,10 @@ $ kiln test --filter hash --no-report --against ./other; ls out/test/hash
 1|result.json
 $ sed -i '/^set/d' hash.test.yaml; sed -i 's/{hash: "..../{hash: "0000/' golden/hash/expect.yaml; kiln test --filter hash --no-report --against kiln | head -n 2
 1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; no picture is kept
-1|        kiln draws frame 6 with other pixels than were accepted of kiln 0.2.0: its version differs, or the scene has changed
+1|        kiln draws frame 6 with other pixels than the accepted ones, which kiln 0.2.0 drew: the program, the scene or the driver differs
 $ kiln test --filter hash --no-report --against false | head -n 2
 1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; no picture is kept
-1|        false does not draw frame 6, exit code 1
+1|        false failed to draw frame 6, exit code 1
 $ kiln test --filter hash --no-report --against ./nowhere
 1|fail    hash  1 frame in <s> s: frame 6: the renderer changed, from kiln 0.2.0 to kiln 0.2.0; no picture is kept
 1|        ./nowhere cannot be run: No such file or directory
@@ -147,7 +147,7 @@ $ sed -i '/state:/d' golden/hash/expect.yaml; kiln test --filter hash --no-repor
 1|1
 $ kiln test --filter hash -q --no-report --against true; sed -i 's/0.5/0.6/' hash.test.yaml; kiln test --filter hash --no-report --against true | head -n 2
 1|fail    hash  1 frame in <s> s: frame 6 has other pixels than the accepted ones on cpu; no picture is kept
-1|        true does not draw frame 6: out/test/hash/frame_0006_reference.png: the image cannot be opened: No such file or directory
+1|        true failed to draw frame 6: out/test/hash/frame_0006_reference.png: the image cannot be opened: No such file or directory
 
 Pixels of cpu must be known, strictly.
 
