@@ -106,7 +106,7 @@ struct kiln_option {
 
 /* Returns the field that counts the entries of an array. It lies in the struct that the row's table
  * describes, as the array does. */
-static inline uint32_t *kiln_option_count_of(const struct kiln_option *option, void *field)
+static inline uint32_t *kiln_option_count_field(const struct kiln_option *option, void *field)
 {
     return (uint32_t *)((char *)field - option->offset + option->count_offset);
 }

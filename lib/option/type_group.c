@@ -112,7 +112,7 @@ static uint32_t *begin_entries(struct kiln_reader *reader, const struct kiln_opt
                                const struct kiln_node *node, void *field)
 {
     if (node->count <= option->max_count)
-        return kiln_option_count_of(option, field);
+        return kiln_option_count_field(option, field);
     kiln_reader_error(reader, node, "found %u entries; at most %zu are allowed", node->count,
                       option->max_count);
     return NULL;

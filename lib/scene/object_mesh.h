@@ -5,8 +5,8 @@
 
 #include "scene/validate.h"
 
-/* Imports the mesh of an object, if it has one, and finds the clip of a mesh that moves. Fills the
- * members that scene.h marks with "follows". Refuses files that cannot be imported, or have no such
+/* Loads the mesh of an object, if it has one, and finds the clip of an animated mesh. Fills the
+ * members that scene.h marks with "follows". Refuses files that cannot be loaded, or have no such
  * clip. root: as of kiln_validate; i: the object's number. */
 bool kiln_object_mesh_settle(struct kiln_reader *reader, const struct kiln_node *root, uint32_t i);
 

@@ -1,5 +1,9 @@
-/* This file has the option tables of forces. Each kind of force has a row in kiln_force_kinds and a
- * table of members. */
+/* This file has the option tables of forces. Each kind of force has a table of members, and one row
+ * or two in kiln_force_kinds: `curl: {}` can also be written `wind: {field: curl}`. Kinds share the
+ * fields of struct kiln_force, so that a vortex has its axis in `drift`.
+ *
+ * MOTION marks options that decide the state of the particles (scene/parts.h). TIME lets a value
+ * vary over time, BOTH over time or over a particle's life (option/rows.h). */
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_force, field)
@@ -12,10 +16,10 @@ static const struct kiln_option gravity[] = {
 
 static const struct kiln_option drag[] = {
     VALUE(MOTION, "strength", pull, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
-          "Fraction of the velocity that is lost in a second, for small values."),
+          "Linear drag: the deceleration is `strength` times the speed."),
     VALUE(MOTION, "quadratic", quadratic, KILN_PER_METRE, 0, 1000, BOTH, "0",
-          "Fraction of the velocity that is lost in a second for each m/s of speed. Air slows all "
-          "but the smallest and slowest particles this way."),
+          "Quadratic drag: the deceleration is `quadratic` times the square of the speed. Air "
+          "slows all but the smallest and slowest particles this way."),
     END,
 };
 
@@ -30,13 +34,14 @@ static const char *const modes[] = {
         MOTION, "mode", mode, modes, "pull",                                                       \
         "`pull` draws particles towards the velocity of the air. `add` adds the velocity of the "  \
         "air in each step, regardless of `pull` (UberFlow 2004, 4.2, equation 1), so that "        \
-        "more steps accelerate more.")
+        "smaller steps accelerate particles more.")
 
 static const struct kiln_option wind[] = {
     VECTOR(MOTION, "velocity", vector, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
            "Velocity of the air."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
-          "How fast particles take up the velocity of the air."),
+          "How fast particles take up the velocity of the air: `pull` times the difference of "
+          "the velocities is their acceleration."),
     MODE,
     END,
 };
@@ -49,20 +54,22 @@ static const struct kiln_option curl[] = {
     VECTOR(MOTION, "drift", drift, KILN_SPEED, -10000, 10000, TIME, "[0, 0, 0]",
            "Velocity at which the whole pattern of eddies moves."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
-          "How fast particles take up the velocity of the air."),
+          "How fast particles take up the velocity of the air: `pull` times the difference of "
+          "the velocities is their acceleration."),
     INTEGER(MOTION, "octaves", octaves, 1, 4, "1", "Number of layers of ever smaller eddies."),
     MODE,
     END,
 };
 
-static const struct kiln_option field[] = {
+static const struct kiln_option grid[] = {
     {ROW(MOTION, "file", grid, AT(file), NULL,
          "A grid of air velocities. They are interpolated between the points of the grid. Outside "
          "of the grid, the air moves as at the nearest edge.")},
     VALUE(MOTION, "strength", strength, KILN_PLAIN, -1000, 1000, BOTH, "1",
           "Factor on the velocities."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
-          "How fast particles take up the velocity of the air."),
+          "How fast particles take up the velocity of the air: `pull` times the difference of "
+          "the velocities is their acceleration."),
     MODE,
     END,
 };
@@ -117,14 +124,15 @@ static const struct kiln_option vortex[] = {
           "Speed of the air along the axis, measured on the axis. Half of it is left at the edge "
           "of the core."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
-          "How fast particles take up the velocity of the air."),
+          "How fast particles take up the velocity of the air: `pull` times the difference of "
+          "the velocities is their acceleration."),
     MODE,
     END,
 };
 
 static const struct kiln_option limit[] = {
     VALUE(MOTION, "speed", strength, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
-          "Speed limit: a particle that is faster is slowed down to it in every step."),
+          "Highest speed. Each step slows faster particles down to it."),
     END,
 };
 
@@ -178,7 +186,7 @@ const struct kiln_option_kind kiln_force_kinds[] = {
     {.name = "wind",
      .variant = "grid",
      .value = KILN_FORCE_FIELD,
-     .members = field,
+     .members = grid,
      .help = "Air whose velocities come from a file (UberFlow 2004, 4.2)."},
     {.name = NULL},
 };

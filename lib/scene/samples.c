@@ -101,7 +101,7 @@ static bool count_field(struct kiln_reader *reader, const struct kiln_node *root
 {
     struct kiln_error error = {0};
     size_t samples = 0;
-    if (!kiln_field_check(mesh->met, mesh->file, mesh->cells,
+    if (!kiln_field_check(mesh->collision_mesh, mesh->file, mesh->cells,
                           kiln_scene_field_reach(kiln_reader_scene(reader), mesh), &samples,
                           &error))
         return kiln_asset_fail(reader, root, path, mesh->file, &error);

@@ -375,11 +375,11 @@ struct kiln_object {
     struct kiln_value3 rotation; /* rad: box, mesh: about x, then y, then z */
     struct kiln_value scale;     /* mesh: metres in one unit of the file */
     struct kiln_animation animation; /* mesh */
-    /* mesh, follows: what is drawn, unwrapped if it takes paint; if it moves, at rest */
+    /* mesh, follows: what is drawn; with texture coordinates for paint; at rest if animated */
     const struct kiln_mesh *shown;
-    const struct kiln_mesh *met;  /* mesh that collides, follows: the same mesh, not unwrapped */
-    const struct kiln_skin *skin; /* mesh that moves, follows */
-    uint32_t samples[2];          /* terrain, constant; also the members up to cells */
+    const struct kiln_mesh *collision_mesh; /* follows, if `collide`: without texture coordinates */
+    const struct kiln_skin *skin;           /* follows, if animated */
+    uint32_t samples[2];                    /* terrain, constant; also the members up to cells */
     struct kiln_value hills, roughness, ridges;
     uint32_t octaves, seed;
     uint32_t cells;                   /* mesh: cells of its collision grid along its longest edge */

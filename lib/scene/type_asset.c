@@ -13,7 +13,7 @@ static bool read_assets(struct kiln_reader *reader, const struct kiln_option *op
                         const struct kiln_node *node, void *field)
 {
     const char **assets = field;
-    uint32_t *count = kiln_option_count_of(option, field);
+    uint32_t *count = kiln_option_count_field(option, field);
     const struct kiln_node *item = node;
     *count = 1;
     if (node->kind == KILN_NODE_LIST) {

@@ -1,5 +1,6 @@
-/* This file reads, prints and describes the option type of bursts, births at one time: {1 s:
- * 100, 2.5 s: 40}. */
+/* Reads, prints and describes the option type of bursts. A burst is the birth of many particles at
+ * one time. The option maps times to numbers of particles: {1 s: 100, 2.5 s: 40}. The times
+ * increase. */
 #include "option/animated.h"
 #include "option/schema.h"
 #include "scene/options.h"
@@ -8,7 +9,7 @@ static bool read_bursts(struct kiln_reader *reader, const struct kiln_option *op
                         const struct kiln_node *node, void *field)
 {
     struct kiln_burst *bursts = field;
-    uint32_t *count = kiln_option_count_of(option, field);
+    uint32_t *count = kiln_option_count_field(option, field);
     if (node->kind != KILN_NODE_MAP)
         return kiln_reader_mismatch(reader, option, node);
     if (node->count > option->max_count)
@@ -47,7 +48,7 @@ static void print_bursts(struct kiln_printer *printer, const struct kiln_option 
 
 static void describe_bursts(const struct kiln_option *option, struct kiln_text *out)
 {
-    kiln_text_add(out, "{time: particles, ...}, each a whole number");
+    kiln_text_add(out, "{time: particles, ...}, each number of particles a whole number");
     kiln_option_describe_limits(option, out);
 }
 

@@ -322,8 +322,9 @@ static bool check_depth_maps(struct kiln_reader *reader, const struct kiln_node 
     struct kiln_error error = {0};
     float directions[KILN_MAX_DEPTH_DIRECTIONS][3];
     kiln_object_depth_directions(object, directions);
-    return kiln_depth_maps_check(object->met, object->file, (const float(*)[3])directions,
-                                 object->depth_direction_count, object->depth_resolution, &error) ||
+    return kiln_depth_maps_check(object->collision_mesh, object->file,
+                                 (const float(*)[3])directions, object->depth_direction_count,
+                                 object->depth_resolution, &error) ||
            kiln_asset_fail(reader, root, path, object->file, &error);
 }
 

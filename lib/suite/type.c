@@ -167,7 +167,7 @@ static int compare_numbers(const void *a, const void *b)
 static bool read_frames(struct kiln_reader *reader, const struct kiln_option *option,
                         const struct kiln_node *node, void *field)
 {
-    uint32_t *frames = field, *count = kiln_option_count_of(option, field), unique_count = 0;
+    uint32_t *frames = field, *count = kiln_option_count_field(option, field), unique_count = 0;
     *count = 0;
     if (is_keyword(node, "auto"))
         return true;
@@ -224,7 +224,7 @@ static bool read_limits(struct kiln_reader *reader, const struct kiln_option *op
                         const struct kiln_node *node, void *field)
 {
     struct kiln_expect_value *values = field;
-    uint32_t *count = kiln_option_count_of(option, field);
+    uint32_t *count = kiln_option_count_field(option, field);
     *count = 0;
     if (node->kind != KILN_NODE_MAP)
         return kiln_reader_mismatch(reader, option, node);

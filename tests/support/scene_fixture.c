@@ -153,8 +153,8 @@ struct kiln_object *fixture_add_mesh(struct scene_fixture *f, const char *file, 
         f->scene.meshes = kiln_mesh_library_create(NULL);
     mesh->kind = KILN_OBJECT_MESH;
     mesh->file = file;
-    mesh->shown = mesh->met = kiln_mesh_library_get(f->scene.meshes, file, &error);
-    if (!mesh->met)
+    mesh->shown = mesh->collision_mesh = kiln_mesh_library_get(f->scene.meshes, file, &error);
+    if (!mesh->collision_mesh)
         fail_msg("%s", error.message);
     mesh->scale = fixture_constant(1.0f);
     mesh->cells = 20;

@@ -90,8 +90,8 @@ static void a_scene_imports_each_once(void **state)
     if (!scene)
         fail_msg("%s", error.message);
     const struct kiln_object *objects = scene->backdrop.objects;
-    assert_ptr_equal(objects[0].met, objects[1].met);
-    assert_ptr_equal(objects[0].met, objects[2].met);
+    assert_ptr_equal(objects[0].collision_mesh, objects[1].collision_mesh);
+    assert_ptr_equal(objects[0].collision_mesh, objects[2].collision_mesh);
     assert_ptr_equal(objects[3].skin, objects[4].skin);
     assert_ptr_equal(scene->systems[0].look.mesh.shown, scene->systems[1].look.mesh.shown);
     kiln_scene_destroy(&scene);

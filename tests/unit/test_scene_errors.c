@@ -140,8 +140,8 @@ static const struct bad types[] = {
      ":2:24: systems.a.collide: expected a mapping of keys, or none, found 'true'"},
     {"kiln: 1\n"
      "systems: {a: {emit: {bursts: [1]}}}\n",
-     ":2:30: systems.a.emit.bursts: expected {time: particles, ...}, each a whole number from 0 to "
-     "16777216, found a list"},
+     ":2:30: systems.a.emit.bursts: expected {time: particles, ...}, each number of particles a "
+     "whole number from 0 to 16777216, found a list"},
     {"kiln: 1\n"
      "systems: {a: {bounds: {min: [0, 0, 0]}}}\n",
      ":2:23: systems.a.bounds: expected {min: [x, y, z], max: [x, y, z]}, each number from -100000 "

@@ -28,7 +28,7 @@ static const struct kiln_skin *move_by_clips(struct kiln_object *object)
     object->skin = kiln_mesh_library_get_skin(fixture.scene.meshes, object->file, &error);
     if (!object->skin)
         fail_msg("%s", error.message);
-    object->shown = object->met = kiln_skin_mesh(object->skin);
+    object->shown = object->collision_mesh = kiln_skin_mesh(object->skin);
     return object->skin;
 }
 

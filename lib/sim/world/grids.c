@@ -70,7 +70,7 @@ static bool make_mesh(struct sources *sources, uint32_t number, const struct kil
                       const struct kiln_object *object, struct kiln_threads *threads,
                       struct kiln_error *error)
 {
-    const struct kiln_mesh *mesh = object->met;
+    const struct kiln_mesh *mesh = object->collision_mesh;
     char cache[KILN_PATH_SIZE];
     const bool cached = kiln_cache_folder(cache);
     if (object->collider == KILN_COLLIDER_DEPTH_MAPS)

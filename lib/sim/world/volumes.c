@@ -68,10 +68,10 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
     volume->object = index;
     volume->two_sided = object->sides == KILN_SIDES_TWO;
     volume->skin = object->skin;
-    volume->mesh = kiln_mesh_copy(object->met);
+    volume->mesh = kiln_mesh_copy(object->collision_mesh);
     if (volume->mesh && !volume->two_sided)
         kiln_mesh_face_outwards(volume->mesh);
-    const size_t count = object->met->vertex_count;
+    const size_t count = object->collision_mesh->vertex_count;
     volume->before = calloc(count, sizeof *volume->before);
     volume->after = calloc(count, sizeof *volume->after);
     if (!volume->mesh || !volume->before || !volume->after) {
@@ -166,7 +166,7 @@ static void place(const struct kiln_scene *scene, struct kiln_volume *volume, fl
 static float spacing_of(const struct kiln_scene *scene, const struct kiln_volume *volume)
 {
     const struct kiln_object *object = &scene->backdrop.objects[volume->object];
-    const struct kiln_mesh *mesh = object->met;
+    const struct kiln_mesh *mesh = object->collision_mesh;
     float longest = 0.0f;
     for (int c = 0; c < 3; c++)
         longest = exact_max(longest, mesh->max[c] - mesh->min[c]);
