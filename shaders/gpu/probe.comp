@@ -1,5 +1,5 @@
-/* Runs the exactness probe in the compute stage: the shared arithmetic on vectors of bits.
- * lib/gpu/probe.c compares the results with C. */
+/* Runs the exactness probe, which tests whether a driver computes the same bits as C, in the
+ * compute stage, on test vectors of bits. lib/gpu/probe.c compares the results with those of C. */
 #include "shared/probe.h"
 
 layout(local_size_x = 64) in;

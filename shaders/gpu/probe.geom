@@ -1,5 +1,6 @@
-/* Runs the exactness probe in the geometry stage: transform feedback captures the results, and
- * lib/gpu/probe.c compares them with C. */
+/* Runs the exactness probe, which tests whether a driver computes the same bits as C, in the
+ * geometry stage. Transform feedback captures the results, and lib/gpu/probe.c compares them with
+ * those of C. */
 layout(points) in;
 layout(points, max_vertices = 1) out;
 

@@ -1,6 +1,7 @@
-/* Draws one opaque sphere particle for technique backdrop=gl. lib/draw/solids/solids_gl.c draws all
- * spheres with it into textures of four samples a pixel: solids_spheres.vert finds a sphere's place
- * and look, solids_spheres.geom makes the rectangle that it covers, and this shader casts rays.
+/* Draws one opaque sphere particle for the technique backdrop=gl. lib/draw/solids/solids_gl.c draws
+ * all spheres with it into textures of four samples a pixel: solids_spheres.vert finds a sphere's
+ * place and look, solids_spheres.geom makes the rectangle that it covers, and this shader casts
+ * rays.
  *
  * One ray through the middle of the pixel finds depth and light, so that lighting is computed once
  * a pixel. Four more rays find which of the pixel's samples the sphere covers, so that silhouettes
@@ -8,9 +9,9 @@
  * the mean of the samples over the backdrop. A sphere is lit by the functions that light the
  * backdrop.
  *
- * Where the middle misses the sphere but a sample hits it, depth and light are those of the point
- * of the middle ray that is nearest to the centre. lib/draw/solids/solid_simd.c draws the same
- * picture on the host, with samples at the same places. */
+ * If the middle ray misses the sphere but a sample's ray hits it, depth and light are computed at
+ * the point of the middle ray that is nearest to the sphere's centre. lib/draw/solids/solid_simd.c
+ * draws the same picture on the host, with samples at the same places. */
 // variant: SOLIDS=1
 // variant: SOLIDS=1 PATTERN=1
 // variant: SOLIDS=1 ROUND=1 ORIENTED=1 MESHES=1 SKY_IMAGE=1 SOFT_SUN=1
@@ -26,21 +27,21 @@ layout(binding = 2) uniform sampler2D scene_depth;
 #include "shared/ball_pattern.h"
 
 layout(location = 0) flat in vec4 sphere; /* in view space; w: radius */
-layout(location = 1) flat in vec4 albedo; /* a: 1 if lit, 0 if unlit, or between */
-layout(location = 2) flat in vec4 glow;
-layout(location = 3) flat in vec4 bloom;
+layout(location = 1) flat in vec4 albedo; /* a: from 0, unlit, to 1, lit */
+layout(location = 2) flat in vec4 glow;  /* light that the sphere emits */
+layout(location = 3) flat in vec4 bloom; /* weights of the colour in the bloom */
 #ifdef PATTERN
-layout(location = 4) flat in vec4 other; /* second albedo of the pattern; a: segments of each
-                                          * colour; 0: none, below 0: a stripe */
-layout(location = 5) flat in vec4 pose;
+layout(location = 4) flat in vec4 second_albedo; /* a: number of the pattern's segments of each
+                                                  * colour; 0: no pattern, below 0: a stripe */
+layout(location = 5) flat in vec4 pose; /* quaternion that turns the ball into the world */
 #endif
 
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_bloom;
 
 /* The positions of a pixel's samples, px from its middle, form a rotated grid, in which no two
- * samples share a row or a column. The driver may place its own samples elsewhere; only their
- * number must be four. */
+ * samples share a row or a column. The driver's own samples may lie elsewhere, since
+ * solids_resolve.frag takes the mean of all four. */
 const vec2 SAMPLE_OFFSETS[4] =
     vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
 
@@ -63,15 +64,15 @@ vec2 closest_approach(vec3 ray)
 
 #ifdef PATTERN
 
-/* Returns the albedo of the sphere's pattern where its normal is `normal`. pose turns the ball into
- * the world, so its conjugate turns the normal into the ball's own axes. */
+/* Returns the albedo of the sphere's pattern where its normal is `normal`. The conjugate of
+ * pose turns the normal into the ball's own axes. */
 vec3 pattern_albedo(vec3 normal, vec3 direction, float t)
 {
     vec3 twice = -2.0 * cross(pose.xyz, normal);
     vec3 n = normal + twice * pose.w - cross(pose.xyz, twice);
     float facing = max(-dot(direction, normal), 0.0) * inversesqrt(dot(direction, direction));
     float width = 2.0 * view.frustum.y * t / (view.frustum.w * sphere.w * max(facing, 0.1));
-    return mix(albedo.rgb, other.rgb, ball_other_part(n, other.a, width));
+    return mix(albedo.rgb, second_albedo.rgb, ball_other_part(n, second_albedo.a, width));
 }
 
 #endif
@@ -84,8 +85,8 @@ void main()
         mask |= closest_approach(ray).y >= 0.0 ? 1 << i : 0;
     }
     vec3 ray = view_ray(gl_FragCoord.xy);
-    vec2 near = closest_approach(ray);
-    float t = near.x - sqrt(max(near.y, 0.0) / dot(ray, ray));
+    vec2 approach = closest_approach(ray);
+    float t = approach.x - sqrt(max(approach.y, 0.0) / dot(ray, ray));
     if (mask == 0 || t > texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r)
         discard;
 
@@ -102,8 +103,8 @@ void main()
     vec3 rgb = glow.rgb + mix(reflected, lit, albedo.a);
 
     gl_SampleMask[0] = mask;
-    /* Near is 1 and far is 0, since floats are most precise near 0. solids_resolve.frag inverts
-     * it. */
+    /* The depth is 1 at the eye and 0 far away, since floats are most precise near 0.
+     * solids_resolve.frag computes t from it. */
     gl_FragDepth = 1.0 / (1.0 + t);
     out_color = vec4(rgb, 1.0);
     out_bloom = vec4(bloom.rgb * rgb, 1.0);

@@ -114,8 +114,8 @@ outline find_outline()
 
 #endif
 
-/* Finds the outline of a particle of any shape. */
-outline find_any_outline()
+/* Finds the outline of a particle, whichever shape it has. */
+outline find_particle_outline()
 {
 #if SHAPES
     if (center.w > 0.0)

@@ -1,7 +1,8 @@
-/* Turns a point into the quad of a particle, four corners around its outline, or into nothing if
- * the particle cannot be seen. It runs between particles_geometry.vert and the fragment shader, for
- * the technique raster=geometry (lib/draw/sprites/particles_geometry.c). corner.glsl decides where
- * the corners are, for raster=instanced, too; both must cover the same pixels. */
+/* Turns a point into the quad around a particle's outline, or into nothing if the particle cannot
+ * be seen. It runs between particles_geometry.vert and the fragment shader, for the technique
+ * raster=geometry (lib/draw/sprites/particles_geometry.c). corner.glsl places the corners for
+ * raster=geometry and for raster=instanced, since both techniques must cover the same pixels.
+ * particle.glsl says what SHAPES is. */
 // variant: SHAPES=0
 // variant: SHAPES=1
 #include "shared/draw_layout.h"
@@ -18,6 +19,7 @@ layout(location = 1) in vec4 point_right[];
 layout(location = 2) in vec4 point_up[];
 layout(location = 3) in billboard point_particle[];
 
+/* corner.glsl reads these variables, which particle.glsl describes. */
 vec4 center, right, up;
 billboard particle;
 
@@ -31,7 +33,7 @@ void main()
     particle = point_particle[0];
     if (!is_seen(center, particle))
         return;
-    outline s = find_any_outline();
+    outline s = find_particle_outline();
     if (!s.has_area)
         return;
     for (int i = 0; i < 4; i++) {

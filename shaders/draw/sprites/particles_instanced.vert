@@ -21,7 +21,7 @@ void main()
 {
     make_particle(entries[gl_InstanceID]);
     particle.light_y.a = float(gl_InstanceID);
-    outline s = find_any_outline();
+    outline s = find_particle_outline();
     if (is_seen(center, particle) && s.has_area)
         put_corner(gl_VertexID, s);
     else

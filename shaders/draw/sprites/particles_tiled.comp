@@ -140,7 +140,7 @@ void draw(uint i, vec2 first)
     place rows = place(u, v, vec4(0.0), vec2(0.0));
 #if SHAPES
     rows.q = texelFetch(sprites, row + SPRITE_Q);
-    rows.edge = texelFetch(sprites, row + SPRITE_MOST).xy;
+    rows.edge = texelFetch(sprites, row + SPRITE_BOUNDS).xy;
 #endif
     for (uint k = 0u; k < PIXELS; k++) {
         vec2 at;

@@ -62,7 +62,7 @@ uvec2 box_around(outline s)
 }
 
 /* Returns the most light that the particle can add to a channel of either target, as in
- * SPRITE_MOST: negative if the particle covers nothing. */
+ * SPRITE_BOUNDS: negative if the particle covers nothing. */
 float most_added()
 {
     vec3 light = particle.light_0.rgb + abs(particle.light_x.rgb) + abs(particle.light_y.rgb) +
@@ -79,7 +79,7 @@ void write(uint row, outline s)
     sprites[row + uint(SPRITE_U)] = s.rows.u;
     sprites[row + uint(SPRITE_V)] = s.rows.v;
     sprites[row + uint(SPRITE_Q)] = s.rows.q;
-    sprites[row + uint(SPRITE_MOST)] = vec4(s.rows.edge, nearest_depth, most_added());
+    sprites[row + uint(SPRITE_BOUNDS)] = vec4(s.rows.edge, nearest_depth, most_added());
     row += uint(SPRITE_QUAD);
     sprites[row] = particle.color;
     sprites[row + 1u] = particle.hot;
@@ -113,7 +113,7 @@ void main()
     make_particle(entries[first + i]);
     uvec2 box = uvec2(0u);
     if (-center.z > view.eye.w && particle.color.a > 0.0) {
-        outline s = find_any_outline();
+        outline s = find_particle_outline();
         box = box_around(s);
         write(i * uint(TILED_SPRITE_ROWS), s);
     }

@@ -1,15 +1,16 @@
-/* Marks in which tiles of its bin each sprite could be seen: in the tiles that it touches, unless
- * it is behind all of the scene there. Also gathers, for each bin, bounds of the light that its
- * sprites can add to a pixel.
+/* Marks, for each sprite, the tiles in which it could be seen: those that it touches, unless it is
+ * behind all of the scene there. Also gathers, for each bin, bounds of the light that its sprites
+ * can add to a pixel. A tile is a square of TILED_EDGE pixels. A bin is a square of tiles, with a
+ * list of the sprites that may touch it.
  *
- * lib/draw/sprites/particles_tiled.c runs it for raster=tiled, once a chunk, after
- * particles_tiled_list.comp has made the lists. particles_tiled.comp then draws the marked sprites,
- * and stops in a tile when the bounds say that nothing more could be seen. A work group takes
- * TILED_PIECE sprites of one list: an invocation marks one sprite, and clears and writes the marks
- * of one tile, so TILED_PIECE and TILED_TILES must be equal.
+ * lib/draw/sprites/particles_tiled.c runs it for raster=tiled, once for each chunk of sprites,
+ * after particles_tiled_list.comp has made the lists. particles_tiled.comp then draws the marked
+ * sprites, and stops in a tile when the bounds say that nothing more could be seen. A work group
+ * takes a piece, TILED_PIECE sprites of one list: an invocation marks one sprite, and clears and
+ * writes the marks of one tile, so TILED_PIECE and TILED_TILES must be equal.
  *
- * A mark too many only costs time. Without a mark that is needed, or with a bound that is too low,
- * a part of the picture is missing. */
+ * A mark that is not needed only costs time. Without a mark that is needed, or with a bound that is
+ * too low, a part of the picture is missing. */
 // variant: SHAPES=0 TILED_EDGE=16
 // variant: SHAPES=1 TILED_EDGE=8
 #include "shared/draw_layout.h"
@@ -30,7 +31,7 @@ layout(std430, binding = TILED_BIND_SPRITES) readonly buffer sprite_block
 
 layout(std430, binding = TILED_BIND_FARTHEST) readonly buffer farthest_block
 {
-    uint farthest[]; /* for each tile of the picture, the scene's greatest depth, m: bits of a float */
+    uint farthest[]; /* floats: for each tile of the picture, the scene's greatest depth, m */
 };
 
 layout(std430, binding = TILED_BIND_BINS) buffer bin_block
@@ -45,20 +46,22 @@ layout(std430, binding = TILED_BIND_LISTS) readonly buffer list_block
 
 layout(std430, binding = TILED_BIND_MASKS) writeonly buffer mask_block
 {
-    uint masks[]; /* the result; see mask_word */
+    uint masks[]; /* the marks, in the order that mask_word of tiled.glsl defines */
 };
 
-layout(location = 0) uniform uint pieces; /* pieces of all lists */
+layout(location = 0) uniform uint pieces; /* number of pieces of all lists */
 layout(location = 1) uniform uint bin_count;
 layout(location = 2) uniform uint bin_columns;  /* bins in a row of the picture */
 layout(location = 3) uniform uint tile_columns; /* tiles in a row of the picture */
 
 const uint WORDS = uint(TILED_PIECE / 32);
 shared uint marks[TILED_TILES * WORDS]; /* for each tile, a bit for each sprite of the piece */
-shared uint additive_count, covering_max, additive_max; /* of the piece, as in tiled_bin */
+/* What struct tiled_bin has for a bin, for the piece alone. */
+shared uint additive_count, covering_max, additive_max;
 
 /* Returns the bin in whose list an entry is: the last bin whose list starts at the entry or before
- * it. A bin without sprites starts where the next one does, so it is never the last. */
+ * it. A bin without sprites starts where the next one does, or at the end of all lists, so it is
+ * never the result. */
 uint bin_of(uint entry)
 {
     uint low = 0u, high = bin_count;
@@ -83,9 +86,10 @@ vec2 range_of(vec3 plane, vec2 from_anchor)
 }
 
 /* Returns whether a tile may touch a sprite: false only if all of the tile lies outside of one of
- * the sprite's four edges. u, v, q, most: rows of the sprite (tiled.glsl); corner: of the tile, px.
- * inner holds how far inside of each edge the tile reaches. */
-bool touches(vec4 u, vec4 v, vec4 q, vec4 most, vec2 corner)
+ * the sprite's four edges. u, v, q, bounds: the rows SPRITE_* of the sprite (tiled.glsl); corner:
+ * the upper left corner of the tile, px. inner holds how far inside of each edge the tile
+ * reaches. */
+bool touches(vec4 u, vec4 v, vec4 q, vec4 bounds, vec2 corner)
 {
     vec2 from_anchor = corner + 0.5 * float(TILED_EDGE) - vec2(u.w, v.w);
     vec2 us = range_of(u.xyz, from_anchor), vs = range_of(v.xyz, from_anchor);
@@ -95,21 +99,21 @@ bool touches(vec4 u, vec4 v, vec4 q, vec4 most, vec2 corner)
     inner.z = range_of(q.xyz - u.xyz, from_anchor).y;
     inner.w = range_of(q.xyz - v.xyz, from_anchor).y;
     slack *= range_of(abs(q.xyz), abs(from_anchor)).y;
-    if (most.x > 0.0) {
-        inner = vec4(most.xy + vec2(us.y, vs.y), most.xy - vec2(us.x, vs.x));
+    if (bounds.x > 0.0) { /* a point or a line, whose u and v are in pixels */
+        inner = vec4(bounds.xy + vec2(us.y, vs.y), bounds.xy - vec2(us.x, vs.x));
         slack = 1e-2;
     }
 #endif
     return all(greaterThanEqual(inner, vec4(-slack)));
 }
 
-/* Marks sprite i of the chunk in the tiles of a bin, and adds to the piece's bounds. The bits of
- * floats that are not negative are ordered as the floats, so atomicMax takes them. */
+/* Marks sprite i of the chunk in the tiles of a bin, and adds to the piece's bounds. atomicMax
+ * compares floats by their bits, which have the same order for floats that are not negative. */
 void mark_tiles(uint i, uvec2 bin_corner)
 {
     uint row = i * uint(TILED_SPRITE_ROWS);
     vec4 u = sprites[row + uint(SPRITE_U)], v = sprites[row + uint(SPRITE_V)];
-    vec4 q = sprites[row + uint(SPRITE_Q)], most = sprites[row + uint(SPRITE_MOST)];
+    vec4 q = sprites[row + uint(SPRITE_Q)], bounds = sprites[row + uint(SPRITE_BOUNDS)];
     uvec2 from = bin_corner * uint(TILED_BIN_TILES);
     uvec4 touched = squares_of(boxes[i], uint(TILED_EDGE));
     touched.xy = max(touched.xy, from);
@@ -119,15 +123,15 @@ void mark_tiles(uint i, uvec2 bin_corner)
         for (uint x = touched.x; x <= touched.z; x++) {
             float scene = uintBitsToFloat(farthest[y * tile_columns + x]);
             uint tile = (y - from.y) * uint(TILED_BIN_TILES) + x - from.x;
-            if (most.z <= scene && touches(u, v, q, most, vec2(x, y) * float(TILED_EDGE)))
+            if (bounds.z <= scene && touches(u, v, q, bounds, vec2(x, y) * float(TILED_EDGE)))
                 atomicOr(marks[tile * WORDS + word], bit);
         }
     }
-    if (most.w < 0.0) {
+    if (bounds.w < 0.0) {
         atomicAdd(additive_count, 1u);
-        atomicMax(additive_max, floatBitsToUint(-most.w));
+        atomicMax(additive_max, floatBitsToUint(-bounds.w));
     } else {
-        atomicMax(covering_max, floatBitsToUint(most.w));
+        atomicMax(covering_max, floatBitsToUint(bounds.w));
     }
 }
 

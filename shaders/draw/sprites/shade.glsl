@@ -1,12 +1,17 @@
-/* Shades a place on a billboard. Two adjacent cells of the atlas are mixed (Heinz 2019, 3.2.4,
- * equation 3.2), lit or emitting, and faded where the billboard comes near the scene (3.2.6,
- * equation 3.3). The bloom target gets the same light, weighted (3.2.5). Colours are
- * premultiplied. */
+/* Shades a place on a billboard. fragment.glsl includes this file for the fragment shaders of
+ * particles, as does particles_tiled.comp. lib/draw/sprites/tile_draw.h does the same on the CPU.
+ *
+ * Two adjacent cells of the atlas are mixed (Heinz 2019, 3.2.4, equation 3.2). The result is lit,
+ * the light that the particle emits is added, and the sum fades where the billboard comes near the
+ * scene (Heinz 2019, 3.2.6, equation 3.3). The bloom target gets the same colour times
+ * quad.bloom.rgb (Heinz 2019, 3.2.5). Colours are premultiplied. */
 layout(binding = 1) uniform sampler2DArray atlas;
 layout(binding = 3) uniform sampler2DArray atlas_motion;
 
-uniform float additive_alpha; /* 0: additive particles cover nothing; 1: they cover, or their alpha
-                               * is summed */
+/* The factor on the alpha of additive particles. It is 0 where they cover nothing, and 1 where they
+ * cover what is behind them (fire_covers) or their alpha is summed (sum_alpha of struct
+ * kiln_particles_draw). */
+uniform float additive_alpha;
 
 #if SHAPES
 
@@ -15,7 +20,8 @@ bool is_plain(billboard quad)
     return uint(quad.depth.y) >= KILN_CELL_PLAIN;
 }
 
-/* Returns the part of a pixel inside a disc or rectangle whose half edges are quad.cells.xy. */
+/* Returns the part of a pixel that a plain shape covers. uv and quad.cells are in pixels here: a
+ * disc has the radius quad.cells.x, a rectangle the half edges quad.cells.xy. */
 float coverage(billboard quad, vec2 uv)
 {
     if (uint(quad.depth.y) == KILN_CELL_DISC)
@@ -26,9 +32,10 @@ float coverage(billboard quad, vec2 uv)
 
 #endif
 
-/* Returns the factor of opacity near the scene: equation 3.3, clamped to a fade. If the look asks
- * for the equation as it is printed, it takes the particle's distance for its depth and has no
- * bound, so that far from the scene only the bound of alpha remains. */
+/* Returns the factor on opacity near the scene: equation 3.3, clamped to 0 to 1. If quad.depth.z is
+ * above 0, the scene file asks for the equation as it is printed (look.soft_formula: literal). That
+ * one takes the particle's distance from the eye for its depth and is not clamped; shade() then
+ * limits alpha to 1. */
 float soft_factor(billboard quad, float depth, float scene)
 {
     float visible = step(depth, scene);
@@ -45,11 +52,11 @@ float soft_factor(billboard quad, float depth, float scene)
  * fading over. */
 vec4 cell_between(billboard quad, vec2 uv)
 {
-    float part = quad.cells.z;
-    vec2 way = textureLod(atlas_motion, vec3(uv, quad.cells.x), 0.0).xy * quad.bloom.a;
-    vec4 from = textureLod(atlas, vec3(uv - part * way, quad.cells.x), quad.cells.w);
-    vec4 to = textureLod(atlas, vec3(uv + (1.0 - part) * way, quad.cells.y), quad.cells.w);
-    return mix(from, to, part);
+    float weight = quad.cells.z;
+    vec2 motion = textureLod(atlas_motion, vec3(uv, quad.cells.x), 0.0).xy * quad.bloom.a;
+    vec4 from = textureLod(atlas, vec3(uv - weight * motion, quad.cells.x), quad.cells.w);
+    vec4 to = textureLod(atlas, vec3(uv + (1.0 - weight) * motion, quad.cells.y), quad.cells.w);
+    return mix(from, to, weight);
 }
 
 /* Shades the billboard at uv. depth, scene: view depths of the billboard and of the scene there,
@@ -57,33 +64,33 @@ vec4 cell_between(billboard quad, vec2 uv)
 void shade(billboard quad, vec2 uv, float depth, float scene, out vec4 color, out vec4 bloom)
 {
     vec4 cell = cell_between(quad, uv);
-    bool masks = uint(quad.depth.y) != KILN_CELL_COLOR;
+    bool is_mask = uint(quad.depth.y) != KILN_CELL_COLOR;
 #if SHAPES
-    if (is_plain(quad))
+    if (is_plain(quad)) /* it has no cells: replaces what cell_between read */
         cell = vec4(0.5, 0.5, 1.0, coverage(quad, uv));
 #endif
     vec3 rgb;
     float alpha;
     vec2 slope = vec2(0.0);
-    if (masks) {
+    if (is_mask) {
         slope = cell.xy * 2.0 - 1.0;
         alpha = cell.a;
         rgb = mix(quad.cool.rgb, quad.hot.rgb, cell.z);
     } else {
-        cell *= cell; /* cells store square roots of colours, which spends 8 bits better */
+        cell *= cell; /* colour and alpha are stored as square roots, for precision where dark */
         alpha = cell.a;
         rgb = quad.hot.rgb;
     }
     float facing = sqrt(max(1.0 - dot(slope, slope), 0.0));
     vec3 light = quad.light_0.rgb + quad.light_x.rgb * slope.x + quad.light_y.rgb * slope.y +
                  quad.light_z.rgb * facing;
-    vec3 covering = quad.color.rgb * max(light, vec3(0.0));
-    if (masks)
-        rgb = (rgb + covering) * alpha;
+    vec3 reflected = quad.color.rgb * max(light, vec3(0.0));
+    if (is_mask)
+        rgb = (rgb + reflected) * alpha;
     else
-        rgb = cell.rgb * (rgb + covering);
+        rgb = cell.rgb * (rgb + reflected);
 
-    /* The bound keeps alpha at 1 or below. */
+    /* The second argument of min keeps alpha * fade at 1 or below. */
     float fade = min(quad.color.a * soft_factor(quad, depth, scene), 1.0 / max(alpha, 1e-6));
     alpha *= fade;
     rgb *= fade;

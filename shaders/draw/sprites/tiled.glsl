@@ -17,8 +17,8 @@
 #define SPRITE_U 0    /* `u`, `v` and `q` of struct place */
 #define SPRITE_V 1
 #define SPRITE_Q 2    /* undefined without SHAPES */
-#define SPRITE_MOST 3 /* x, y: `edge` of struct place; z: the least depth, m; w: the most light that */
-                      /* the sprite adds to a channel, negative if it covers nothing */
+#define SPRITE_BOUNDS 3 /* x, y: `edge` of struct place; z: the least depth, m; w: the most light */
+                        /* that the sprite adds to a channel, negative if it covers nothing */
 #define SPRITE_QUAD 4 /* the billboard, ten rows */
 
 /* Returns the squares of the picture, which are tiles or bins with an edge of so many pixels, that
