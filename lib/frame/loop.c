@@ -76,6 +76,23 @@ static bool step_to_instant(struct kiln_loop *loop, struct kiln_instant instant,
     return step_to(loop, instant.step, error);
 }
 
+/* Steps to a moment of a frame. At the clip's first instant it shows the particles of bursts at
+ * exactly 0 s, too, which the next step gives birth to. They are not part of the state:
+ * leave_moment removes them again. */
+static bool enter_moment(struct kiln_loop *loop, struct kiln_instant instant,
+                         struct kiln_error *error)
+{
+    const bool is_first = instant.back == 0.0f && instant.step == loop->scene->warmup_steps;
+    return step_to_instant(loop, instant, error) &&
+           (!is_first ||
+            kiln_simulate_show_births(loop->simulate, &loop->run.pool, loop->run.step, error));
+}
+
+static bool leave_moment(struct kiln_loop *loop, struct kiln_error *error)
+{
+    return kiln_simulate_hide_births(loop->simulate, &loop->run.pool, error);
+}
+
 /* Advances to frame `end` without drawing. If the sort keeps an order from frame to frame, the
  * skipped frames update it. */
 static bool skip_frames(struct kiln_loop *loop, uint32_t end, struct kiln_error *error)
@@ -85,8 +102,9 @@ static bool skip_frames(struct kiln_loop *loop, uint32_t end, struct kiln_error 
         for (uint32_t moment = 0; moment < kiln_scene_moment_count(loop->scene); moment++) {
             const struct kiln_instant instant =
                 kiln_scene_instant(loop->scene, loop->next_frame, moment);
-            if (!step_to(loop, instant.step, error) ||
-                !kiln_stages_skip_moment(&loop->stages, &loop->run.pool, instant, error))
+            if (!enter_moment(loop, instant, error) ||
+                !kiln_stages_skip_moment(&loop->stages, &loop->run.pool, instant, error) ||
+                !leave_moment(loop, error))
                 return false;
         }
     loop->next_frame = end;
@@ -99,18 +117,20 @@ bool kiln_loop_advance(struct kiln_loop *loop, uint32_t frame, struct kiln_error
            step_to(loop, kiln_scene_frame_step(loop->scene, frame), error);
 }
 
-/* Draws all moments of a frame. */
-static bool draw_moments(struct kiln_loop *loop, uint32_t frame, struct kiln_drawn *drawn,
-                         struct kiln_error *error)
+/* Draws all moments of a frame. hash: also compute the hash of the state at the first one. */
+static bool draw_moments(struct kiln_loop *loop, uint32_t frame, bool hash,
+                         struct kiln_drawn *drawn, struct kiln_error *error)
 {
     for (uint32_t moment = 0; moment < kiln_scene_moment_count(loop->scene); moment++) {
         const struct kiln_instant instant = kiln_scene_instant(loop->scene, frame, moment);
         uint32_t count = 0;
-        if (!step_to_instant(loop, instant, error))
+        if (!enter_moment(loop, instant, error) ||
+            (hash && moment == 0 && !kiln_loop_hash(loop, &drawn->state, &drawn->alive, error)))
             return false;
         assert(instant.back == 0.0f || loop->before_step + 1 == instant.step);
         if (!kiln_stages_draw(&loop->stages, &loop->before, &loop->run.pool, instant, moment,
-                              &count, error))
+                              &count, error) ||
+            !leave_moment(loop, error))
             return false;
         if (moment == 0)
             drawn->alive = count;
@@ -145,9 +165,7 @@ bool kiln_loop_draw(struct kiln_loop *loop, uint32_t frame, bool hash, struct ki
                     struct kiln_error *error)
 {
     *drawn = (struct kiln_drawn){.picture = NULL};
-    if (!kiln_loop_advance(loop, frame, error) ||
-        (hash && !kiln_loop_hash(loop, &drawn->state, &drawn->alive, error)) ||
-        !draw_moments(loop, frame, drawn, error) ||
+    if (!kiln_loop_advance(loop, frame, error) || !draw_moments(loop, frame, hash, drawn, error) ||
         !kiln_stages_compose(&loop->stages, frame, error) ||
         !read_picture(loop, frame, drawn, error))
         return false;

@@ -23,7 +23,7 @@ struct kiln_loop_params {
 struct kiln_drawn {
     struct kiln_picture *picture; /* owned by the caller */
     uint64_t alive;               /* particles drawn at the first moment of the frame */
-    struct kiln_state_hash state; /* set only if `hash` was true */
+    struct kiln_state_hash state; /* of these particles; set only if `hash` was true */
     double pass_ms[KILN_PASS_COUNT];
 };
 

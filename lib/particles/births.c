@@ -65,6 +65,7 @@ void kiln_births_step(const struct kiln_births_source *source, uint32_t step, ui
     births->count = 0;
     births->group_count = 0;
     add_rate(source, step, wait, births);
+    births->of_rate = births->count;
     add_bursts(source, step, births);
 }
 

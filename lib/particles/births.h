@@ -32,6 +32,7 @@ struct kiln_births_source {
  * of each burst. */
 struct kiln_births {
     uint32_t count;
+    uint32_t of_rate; /* births of the rate; if there are any, they are the first group */
     uint32_t group_count;
     struct kiln_birth_group groups[KILN_MAX_BIRTH_GROUPS];
 };

@@ -173,7 +173,9 @@ static const struct kiln_option emit_options[] = {
      .members = parent, .count_offset = AT(parent.enabled)},
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME, "0", "Particles born a second."),
     {ROW(MOTION, "bursts", bursts, AT(bursts), "{}",
-         "Particles that are born at once: a map of clip times, in seconds, to their numbers."),
+         "Particles that are born at once: a map of clip times, in seconds, to their numbers. The "
+         "frame at 0 s shows those of 0 s, at age 0; another frame shows the bursts before its "
+         "time."),
      LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), .count_offset = AT(burst_count),
      .max_count = KILN_MAX_BURSTS},
     RANGE(MOTION, "life", life, KILN_SECONDS, 0.001, 10000, TIME, "1 s",

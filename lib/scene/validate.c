@@ -92,6 +92,8 @@ static struct kiln_births_bound births_bound(const struct kiln_scene *scene, uin
     struct kiln_scene_births births;
     kiln_scene_births_init(&births, scene, index);
     uint32_t steps = kiln_scene_last_step(scene, scene->frames - 1);
+    if (steps == scene->warmup_steps) /* frame 0 shows bursts that happen in the step after it */
+        steps++;
     return kiln_births_bound(&births.source, steps, kiln_family_lifespan(scene, index, steps));
 }
 

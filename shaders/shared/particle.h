@@ -56,10 +56,10 @@ FN float particle_birth_fraction(S(kiln_particle) p)
 }
 
 /* Returns the age in seconds at the end of step `step`. Steps count from 1; a particle born in that
- * step has lived for the rest of it. */
+ * step has lived for the rest of it. One that is born at the start of the next step is 0 s old. */
 FN float particle_age(S(kiln_particle) p, uint step, float dt_s)
 {
-    EXACT float steps = FLOAT(step - particle_birth_step(p)) + 1.0f;
+    EXACT float steps = FLOAT(step + 1u - particle_birth_step(p));
     EXACT float lived = steps - particle_birth_fraction(p);
     EXACT float age = lived * dt_s;
     return age;

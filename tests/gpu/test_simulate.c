@@ -269,6 +269,66 @@ static void a_scene_from_a_file(void **state)
     kiln_scene_destroy(&scene);
 }
 
+static struct kiln_state_hash hash_shown(struct simulation *run, uint64_t *alive)
+{
+    struct kiln_error error = {0};
+    if (!kiln_simulate_show_births(run->simulate, &run->pool, run->step, &error))
+        fail_msg("%s", error.message);
+    const struct kiln_state_hash hash = simulation_hash(run, alive);
+    if (!kiln_simulate_hide_births(run->simulate, &run->pool, &error))
+        fail_msg("%s", error.message);
+    return hash;
+}
+
+/* Bursts at the time of a state can be shown in it, alike in all techniques, and leave the states
+ * of all steps as they are. */
+static void bursts_are_shown_at_their_time(void **state)
+{
+    static const char text[] =
+        "kiln: 1\n"
+        "output: {fps: 30, frames: 60}\n"
+        "simulation: {rate: 60, warmup: 0.1 s}\n"
+        "systems:\n"
+        "  sparks: {emit: {bursts: {-0.1 s: 70, 0 s: 300}, rate: 900, speed: [1, 3]}}\n"
+        "  balls:\n"
+        "    emit: {bursts: {0 s: 50}, from: {box: {size: [2, 1, 1]}}}\n"
+        "    interact: [{collide: {radius: 8 cm, spin: true, turning: [1 rad/s, 3 rad/s]}}]\n";
+    static const uint32_t at[] = {0, 6}; /* the start of the run, and 0 s */
+    static const uint64_t born[] = {70, 350};
+    struct kiln_error error = {0};
+    struct kiln_scene_params params = kiln_scene_defaults();
+    struct kiln_scene *scene = kiln_scene_parse(text, sizeof text - 1, "bursts", &params, &error);
+    if (!scene)
+        fail_msg("%s", error.message);
+    struct simulation plain, run;
+    struct kiln_state_hash shown[2], states[3];
+    uint64_t alive, before;
+    simulation_start(&plain, scene, NULL, 2); /* shows nothing */
+    for (size_t k = 0; k < 3; k++) {
+        simulation_run(&plain, k < 2 ? at[k] - plain.step : 5);
+        states[k] = simulation_hash(&plain, &alive);
+    }
+    for (size_t i = WAY_COUNT; i-- > 0;) { /* `cpu` first */
+        const bool host = WAYS[i].technique == KILN_SIMULATE_CPU;
+        simulation_start_with(&run, scene, host ? NULL : *state, WAYS[i].technique,
+                              WAYS[i].threads);
+        for (size_t k = 0; k < 3; k++) {
+            simulation_run(&run, k < 2 ? at[k] - run.step : 5);
+            struct kiln_state_hash hash = simulation_hash(&run, &before);
+            assert_memory_equal(&hash, &states[k], sizeof hash);
+            if (k == 2)
+                break;
+            hash = hash_shown(&run, &alive);
+            assert_int_equal(alive, before + born[k]);
+            shown[k] = i == WAY_COUNT - 1 ? hash : shown[k];
+            assert_memory_equal(&hash, &shown[k], sizeof hash);
+        }
+        simulation_end(&run);
+    }
+    simulation_end(&plain);
+    kiln_scene_destroy(&scene);
+}
+
 /* Runs `steps` steps of a run with another technique. */
 static void continue_with(struct simulation *run, struct kiln_device *device,
                           enum kiln_simulate_technique technique, uint32_t steps)
@@ -388,6 +448,7 @@ int main(int argc, char **argv)
         test_on_device(position_first),
         test_on_device(a_scene_from_a_file),
         test_on_device(a_run_can_change_its_technique),
+        test_on_device(bursts_are_shown_at_their_time),
     };
     struct test_list list = {.count = 0};
     test_list_add(&list, tests, sizeof tests / sizeof *tests);

@@ -14,6 +14,7 @@
 #include "sim/step/feedback.h"
 #include "sim/step/hash.h"
 #include "sim/step/inplace.h"
+#include "sim/step/newborn.h"
 #include "sim/step/pingpong.h"
 #include "sim/step/texels.h"
 
@@ -28,6 +29,7 @@ struct kiln_simulate {
     struct kiln_buffer traces;
     struct kiln_interact interact;
     struct kiln_paint paint;
+    struct kiln_newborn newborn;
     /* the loops for this processor's width of vectors; only for technique `cpu` */
     const struct kiln_slots_step *loops;
     /* the following two are for all techniques in GL */
@@ -118,6 +120,7 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate)
         kiln_sim_hash_finish(&s->hash);
         kiln_sim_blocks_finish(&s->blocks);
     }
+    kiln_newborn_finish(&s->newborn);
     kiln_paint_finish(&s->paint);
     kiln_interact_finish(&s->interact);
     kiln_buffer_finish(&s->traces);
@@ -161,6 +164,19 @@ bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, 
 {
     return move_particles(simulate, pool, step, error) &&
            kiln_paint_step(&simulate->paint, &simulate->params, pool, &simulate->traces, error);
+}
+
+bool kiln_simulate_show_births(struct kiln_simulate *simulate, struct kiln_pool *pool,
+                               uint32_t step, struct kiln_error *error)
+{
+    return kiln_newborn_show(&simulate->newborn, &simulate->params, simulate->scene, pool, step,
+                             error);
+}
+
+bool kiln_simulate_hide_births(struct kiln_simulate *simulate, struct kiln_pool *pool,
+                               struct kiln_error *error)
+{
+    return kiln_newborn_hide(&simulate->newborn, pool, error);
 }
 
 bool kiln_simulate_hash(struct kiln_simulate *simulate, struct kiln_pool *pool,

@@ -29,6 +29,15 @@ void kiln_simulate_destroy(struct kiln_simulate **simulate);
 bool kiln_simulate_step(struct kiln_simulate *simulate, struct kiln_pool *pool, uint32_t step,
                         struct kiln_error *error);
 
+/* kiln_simulate_show_births adds the particles of bursts at exactly the end of step `step`, the
+ * last one that was run, to the pool, at age 0. So a burst at the time of a frame can be drawn and
+ * hashed in that frame, although it happens in the next step. kiln_simulate_hide_births restores
+ * the pool, bit for bit; it must be called before the next step. */
+bool kiln_simulate_show_births(struct kiln_simulate *simulate, struct kiln_pool *pool,
+                               uint32_t step, struct kiln_error *error);
+bool kiln_simulate_hide_births(struct kiln_simulate *simulate, struct kiln_pool *pool,
+                               struct kiln_error *error);
+
 /* Returns a warning about the steps so far, once; NULL: none. The text lives as long as the
  * simulation. */
 const char *kiln_simulate_warning(struct kiln_simulate *simulate);

@@ -353,33 +353,45 @@ static bool count_births(struct kiln_step_params *params, const struct kiln_scen
     return true;
 }
 
-bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scene *scene,
-                          struct kiln_pool *pool, uint32_t step, struct kiln_error *error)
+bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_scene *scene,
+                            struct kiln_pool *pool, uint32_t step, struct kiln_error *error)
 {
     if (step == 0 || step > KILN_MAX_STEPS)
         return kiln_error_set(error, KILN_INVALID_INPUT, "%s: step %u; a run has at most %u steps",
                               scene->name, step, KILN_MAX_STEPS);
-    float start_s = kiln_scene_time(scene, step - 1);
-    float end_s = kiln_scene_time(scene, step);
-    const bool staged = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
-    float forces_s = staged ? 0.5f * (start_s + end_s) : start_s;
     for (uint32_t n = 0; n < params->system_count; n++) {
         uint32_t i = params->order[n];
-        const struct kiln_system *system = &scene->systems[i];
         struct kiln_step_params *p = &params->systems[i];
         p->step = step;
-        p->time_s = start_s;
-        if (system->emit.parent.enabled ? !count_children(p, scene, i, pool, error)
-                                        : !count_births(p, scene, i, &pool->systems[i], error))
+        p->time_s = kiln_scene_time(scene, step - 1);
+        if (scene->systems[i].emit.parent.enabled
+                ? !count_children(p, scene, i, pool, error)
+                : !count_births(p, scene, i, &pool->systems[i], error))
             return false;
         p->base = pool->systems[i].base;
         p->capacity = pool->systems[i].capacity;
         p->used = kiln_pool_used(&pool->systems[i]);
+        find_spin(p, scene, i, p->time_s);
+    }
+    return true;
+}
+
+bool kiln_sim_params_step(struct kiln_sim_params *params, const struct kiln_scene *scene,
+                          struct kiln_pool *pool, uint32_t step, struct kiln_error *error)
+{
+    if (!kiln_sim_params_births(params, scene, pool, step, error))
+        return false;
+    float start_s = kiln_scene_time(scene, step - 1);
+    float end_s = kiln_scene_time(scene, step);
+    const bool staged = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
+    float forces_s = staged ? 0.5f * (start_s + end_s) : start_s;
+    for (uint32_t i = 0; i < params->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        struct kiln_step_params *p = &params->systems[i];
         p->randomness = at_time(scene, system->collide.randomness, start_s);
         p->slowdown = at_time(scene, system->collide.slowdown, start_s);
         p->restitution = at_time(scene, system->collide.restitution, start_s);
         p->friction = at_time(scene, system->collide.friction, start_s);
-        find_spin(p, scene, i, start_s);
         for (uint32_t k = 0; k < system->force_count; k++)
             p->forces[k] = force_at_time(scene, params->grids, &system->forces[k], forces_s);
     }

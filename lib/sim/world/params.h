@@ -34,6 +34,11 @@ bool kiln_sim_needs_all_forces(const struct kiln_scene *scene);
 void kiln_sim_params_init(struct kiln_sim_params *params, const struct kiln_scene *scene,
                           struct kiln_sim_grids *grids);
 
+/* Counts the births of the step into the pool, and fills in what births depend on. False with
+ * KILN_INVALID_INPUT when serials or the slots of a system run out. */
+bool kiln_sim_params_births(struct kiln_sim_params *params, const struct kiln_scene *scene,
+                            struct kiln_pool *pool, uint32_t step, struct kiln_error *error);
+
 /* Counts the births of the step into the pool, and fills in the rest. Values over time become
  * constants, except the emitter's, which each birth evaluates at its own time. False with
  * KILN_INVALID_INPUT when serials or the slots of a system run out. */
