@@ -286,14 +286,14 @@ static bool place(struct kiln_field *field, const struct kiln_mesh *mesh, const 
 }
 
 bool kiln_field_check(const struct kiln_mesh *mesh, const char *name, uint32_t cells, float reach,
-                      size_t *samples, struct kiln_error *error)
+                      size_t *count, struct kiln_error *error)
 {
     struct kiln_field field = {.samples = NULL};
     if (!kiln_mesh_check_closed(mesh, name, error) ||
         !place(&field, mesh, name, cells, reach, error) ||
         !check_inside(&field, mesh, name, cells, error))
         return false;
-    *samples = sample_count(&field);
+    *count = sample_count(&field);
     return true;
 }
 
