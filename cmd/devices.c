@@ -105,10 +105,10 @@ static void print_json(FILE *out, const struct kiln_device_info *infos, size_t c
     if (!json_output_begin(&json, out))
         return;
     kiln_json_begin_array(&json, "devices");
-    kiln_json_lines(&json, 4);
+    kiln_json_indent_items(&json, 4);
     for (size_t i = 0; i < count; i++)
         add_device(&json, &infos[i]);
-    kiln_json_end_line(&json, 2);
+    kiln_json_end_indented(&json, 2);
     add_sandbox(&json);
     kiln_json_string(&json, "advice", advice);
     json_output_end(&json);

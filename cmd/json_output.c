@@ -74,7 +74,7 @@ bool json_output_begin(struct kiln_json *json, FILE *out)
     } else if (out) {
         *json = kiln_json_to_file(out);
         kiln_json_begin_object(json, NULL);
-        kiln_json_lines(json, 2);
+        kiln_json_indent_items(json, 2);
     }
     return out || events_are_wanted();
 }
@@ -84,7 +84,7 @@ void json_output_end(struct kiln_json *json)
     if (events_are_wanted()) {
         event_end(json);
     } else {
-        kiln_json_end_line(json, 0);
+        kiln_json_end_indented(json, 0);
         kiln_json_finish(json);
     }
 }

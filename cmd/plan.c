@@ -115,7 +115,7 @@ static void begin_json(struct planning *planning, const struct kiln_plan *plan)
     kiln_json_uint(json, "memory_bytes", plan->memory_bytes);
     kiln_json_end(json);
     kiln_json_begin_array(json, "tasks");
-    kiln_json_lines(json, 4);
+    kiln_json_indent_items(json, 4);
 }
 
 static void add_task(struct kiln_json *json, const struct kiln_plan_task *task)
@@ -140,7 +140,7 @@ static void add_task(struct kiln_json *json, const struct kiln_plan_task *task)
 static void end_json(struct planning *planning)
 {
     struct kiln_json *json = &planning->json;
-    kiln_json_end_line(json, 2);
+    kiln_json_end_indented(json, 2);
     kiln_json_rounded(json, "cpu_s", planning->cpu_s, 6);
     json_output_end(json);
 }

@@ -18,10 +18,11 @@
  * may be shared. Nothing is global.
  *
  * Structs that begin with `size` can grow at their end in later versions: fill one by the function
- * that is named after it, then change what you need. A program that was built against an older
- * version goes on with a newer library, which takes its own defaults for what the program does not
- * know. NULL for parameters stands for all defaults. Structs without `size` never change; those
- * that a caller fills have no padding at their end, where a later member would lie.
+ * that stands below it, such as kiln_render_defaults, then change what you need. A program that was
+ * built against an older version goes on with a newer library, which takes its own defaults for
+ * what the program does not know. NULL for parameters stands for all defaults. Structs without
+ * `size` never change; those that a caller fills have no padding at their end, where a later member
+ * would lie.
  */
 #ifndef KILN_H
 #define KILN_H

@@ -32,7 +32,7 @@ enum { KILN_JSON_MAX_DEPTH = 64 }; /* objects and arrays that may be open at a t
 struct kiln_json_level {
     char bracket; /* its closing bracket; 0: this is the document */
     bool filled;  /* it has an item, after which there must be a comma */
-    int spaces;   /* spaces before each item, which begins a line; -1: items go on in the line */
+    int spaces; /* indentation of items, each of which begins a line; -1: they go on in the line */
 };
 
 struct kiln_json {
@@ -43,7 +43,7 @@ struct kiln_json {
     bool failed;   /* the sink failed, memory was short, or the calls made no JSON */
     /* The members below are the writer's own. */
     bool has_key; /* the key of the next value is written */
-    int spaces;   /* spaces before the next item; -1: as the level says */
+    int spaces;   /* indentation of the next item, which begins a line; -1: as the level says */
     size_t depth; /* number of open levels besides the document */
     struct kiln_json_level levels[KILN_JSON_MAX_DEPTH + 1];
 };
@@ -65,15 +65,16 @@ void kiln_json_key(struct kiln_json *json, const char *key);
 void kiln_json_begin_object(struct kiln_json *json, const char *key);
 void kiln_json_begin_array(struct kiln_json *json, const char *key);
 
-/* Close the innermost object or array: kiln_json_end behind its last item, kiln_json_end_line on a
- * line of its own with `spaces` before the bracket. An empty one is closed where it was opened. */
+/* Close the innermost object or array: kiln_json_end behind its last item, kiln_json_end_indented
+ * on a line of its own with `spaces` before the bracket. An empty one is closed where it was
+ * opened. */
 void kiln_json_end(struct kiln_json *json);
-void kiln_json_end_line(struct kiln_json *json, int spaces);
+void kiln_json_end_indented(struct kiln_json *json, int spaces);
 
 /* Put items of the innermost object or array on lines of their own, with `spaces` before them:
- * kiln_json_lines all that follow, kiln_json_line the next item alone. */
-void kiln_json_lines(struct kiln_json *json, int spaces);
-void kiln_json_line(struct kiln_json *json, int spaces);
+ * kiln_json_indent_items all that follow, kiln_json_indent_next the next item alone. */
+void kiln_json_indent_items(struct kiln_json *json, int spaces);
+void kiln_json_indent_next(struct kiln_json *json, int spaces);
 
 /* Write values. A string that is NULL is written as null. */
 void kiln_json_string(struct kiln_json *json, const char *key, const char *value);

@@ -1,6 +1,6 @@
-/* Counts what a job takes (pixels, bytes, triangles, time, memory) and compares it with the job's
- * limits. An amount is added before it is compared, so a sum that is over its limit stays over it
- * for every later question. */
+/* This file counts what a job takes (pixels, bytes, triangles), measures its time and memory, and
+ * compares all of them with the job's limits. An amount that is refused stays in the sum, so every
+ * later amount is refused as well, until kiln_budget_reset. */
 #include "base/budget.h"
 
 #include <inttypes.h>
@@ -19,7 +19,7 @@ static const struct {
     const char *name;
     enum unit unit;
     const char *noun;
-} rows[] = {
+} limit_words[] = {
 #define ROW(name, unit, noun) [KILN_LIMIT_##name] = {#name, unit, noun},
     KILN_LIMITS(ROW)
 #undef ROW
@@ -28,6 +28,8 @@ static const struct {
 struct kiln_budget {
     struct kiln_limits limits;
     double started_s, started_cpu_s;
+    /* Sums of the counted amounts. The entry of `memory` is the peak; those of `time` and `cpu` are
+     * not used. */
     _Atomic uint64_t taken[KILN_LIMIT_COUNT];
 };
 
@@ -53,11 +55,11 @@ void kiln_budget_destroy(struct kiln_budget **budget)
     *budget = NULL;
 }
 
-/* ---- words ----------------------------------------------------------------------------------- */
+/* ---- messages -------------------------------------------------------------------------------- */
 
 const char *kiln_limit_name(enum kiln_limit limit)
 {
-    return rows[limit].name;
+    return limit_words[limit].name;
 }
 
 void kiln_limit_format(enum kiln_limit limit, uint64_t amount, char text[32])
@@ -65,9 +67,9 @@ void kiln_limit_format(enum kiln_limit limit, uint64_t amount, char text[32])
     static const char *const units[] = {"bytes", "KiB", "MiB", "GiB", "TiB"};
     double bytes = (double)amount;
     size_t unit = 0;
-    if (rows[limit].unit == COUNT) {
+    if (limit_words[limit].unit == COUNT) {
         snprintf(text, 32, "%" PRIu64, amount);
-    } else if (rows[limit].unit == TIME) {
+    } else if (limit_words[limit].unit == TIME) {
         snprintf(text, 32, "%.10g s", (double)amount / 1e3);
     } else {
         for (; bytes >= 1024.0 && unit + 1 < sizeof units / sizeof *units; unit++)
@@ -85,8 +87,12 @@ bool kiln_budget_allows(const struct kiln_budget *budget, enum kiln_limit limit,
     char found[32], allowed[32];
     kiln_limit_format(limit, amount, found);
     kiln_limit_format(limit, most, allowed);
-    snprintf(text, 160, "%s %s, and the limit `%s` is %s", found, rows[limit].noun,
-             rows[limit].name, allowed);
+    if (strcmp(found, allowed) == 0) { /* amounts of bytes that are rounded to the same text */
+        snprintf(found, sizeof found, "%" PRIu64 " bytes", amount);
+        snprintf(allowed, sizeof allowed, "%" PRIu64 " bytes", most);
+    }
+    snprintf(text, 160, "%s %s, and the limit `%s` is %s", found, limit_words[limit].noun,
+             limit_words[limit].name, allowed);
     return false;
 }
 
@@ -122,7 +128,8 @@ void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit)
         atomic_store(&budget->taken[limit], 0);
 }
 
-/* Bytes of this process that are in memory; 0 where the system does not say. */
+/* Returns the bytes of this process that are in memory. Where the system does not tell them, it
+ * returns 0, so the limit of memory has no effect there. */
 static uint64_t resident_bytes(void)
 {
     char text[64] = "";
@@ -130,7 +137,8 @@ static uint64_t resident_bytes(void)
     const bool found = file && fgets(text, sizeof text, file);
     if (file)
         fclose(file);
-    const char *second = found ? strchr(text, ' ') : NULL; /* in pages: all, then resident */
+    /* The first number is the size of the process, the second is its resident part, in pages. */
+    const char *second = found ? strchr(text, ' ') : NULL;
     return second ? strtoull(second, NULL, 10) * (uint64_t)sysconf(_SC_PAGESIZE) : 0;
 }
 
@@ -139,8 +147,8 @@ static uint64_t milliseconds(double seconds)
     return (uint64_t)(seconds * 1e3);
 }
 
-/* Returns the most memory that was seen so far: once one thread has found too much, all later
- * questions get the same answer. */
+/* Returns the most memory that any call has measured, so that once a check has failed, every later
+ * check fails, too. */
 static uint64_t peak_bytes(struct kiln_budget *budget)
 {
     const uint64_t now = resident_bytes();

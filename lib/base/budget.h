@@ -22,7 +22,7 @@ bool kiln_budget_allows(const struct kiln_budget *budget, enum kiln_limit limit,
  * NULL. */
 void kiln_budget_reset(struct kiln_budget *budget, enum kiln_limit limit);
 
-/* Writes an amount in its unit: "4 GiB", "1500 ms". */
+/* Writes an amount in its unit: "4 GiB", "1.5 s" (for 1500 ms). */
 void kiln_limit_format(enum kiln_limit limit, uint64_t amount, char text[32]);
 
 /* Returns a limit's name: "memory". */

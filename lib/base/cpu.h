@@ -1,7 +1,8 @@
 /* Declares the function that names the processor of this machine. `kiln bench` writes the name into
- * its results (lib/bench/result.c), and `kiln figure` into the record beside a figure
- * (lib/figure/panels.c). A check of a figure compares the name with the recorded one, so the same
- * processor must keep its name. */
+ * its results (lib/bench/result.c), and `kiln figure` into the record that it keeps in a file
+ * beside a picture for a document (lib/figure/panels.c). `kiln figure check` compares the name with
+ * the recorded one. Do not change how the name is written: records made before would then name
+ * another processor. */
 #ifndef KILN_BASE_CPU_H
 #define KILN_BASE_CPU_H
 

@@ -1,6 +1,6 @@
 /* This file opens regular files and reads them into memory as a whole. A path may come from a user
- * and lead to anything (a folder, a FIFO, a device), so each file is checked after it is opened,
- * and opening never waits. */
+ * and lead to anything (a folder, a FIFO, a device), so each file is checked after it is opened.
+ * KILN_FILE_FLAGS keep opening from waiting. */
 #include "base/file_in.h"
 
 #include <errno.h>
@@ -16,7 +16,7 @@ bool kiln_file_check(int file, const char *path, const char *what, const char *a
 {
     struct stat status;
     if (fstat(file, &status) != 0)
-        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be opened", path,
+        return kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be examined", path,
                                     what);
     *size = (size_t)status.st_size;
     return S_ISREG(status.st_mode) ||
@@ -45,7 +45,7 @@ static bool read_all(int file, unsigned char *bytes, size_t size)
         if (got < 0 && errno == EINTR)
             continue;
         if (got == 0)
-            errno = ENODATA; /* the file has become shorter meanwhile */
+            errno = ENODATA; /* the file has become shorter since its size was found */
         if (got <= 0)
             return false;
         done += (size_t)got;
@@ -64,7 +64,7 @@ bool kiln_file_check_size(const char *path, const char *what, size_t size, size_
 unsigned char *kiln_file_read_bytes(int file, const char *path, const char *what, size_t size,
                                     struct kiln_error *error)
 {
-    unsigned char *bytes = malloc(size + 1);
+    unsigned char *bytes = malloc(size + 1); /* not malloc(0), which may return NULL */
     if (!bytes) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading", path);
     } else if (!read_all(file, bytes, size)) {

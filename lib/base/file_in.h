@@ -22,9 +22,10 @@ enum { KILN_FILE_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
 int kiln_file_open(const char *path, const char *what, const char *allowed, size_t *size,
                    struct kiln_error *error);
 
-/* Returns the bytes of a regular file of at most `limit` bytes, which the caller frees. NULL with
- * the codes of kiln_file_open, with KILN_INVALID_INPUT when the file is larger, or with
- * KILN_DEVICE_FAILED when memory is short. */
+/* Returns the bytes of a regular file of at most `limit` bytes, which the caller frees. There is
+ * room for one byte more, such as a zero. A file that grows meanwhile is read up to the size that
+ * it had when it was opened. NULL with the codes of kiln_file_open, with KILN_INVALID_INPUT when
+ * the file is larger, or with KILN_DEVICE_FAILED when memory is short. */
 unsigned char *kiln_file_read(const char *path, const char *what, const char *allowed, size_t limit,
                               size_t *size, struct kiln_error *error);
 
@@ -40,8 +41,9 @@ bool kiln_file_check(int file, const char *path, const char *what, const char *a
 bool kiln_file_check_size(const char *path, const char *what, size_t size, size_t limit,
                           struct kiln_error *error);
 
-/* Reads `size` bytes, which the caller frees. Returns NULL with KILN_IO when they cannot be read or
- * the file has become shorter, or with KILN_DEVICE_FAILED when memory is short. */
+/* Reads `size` bytes, which the caller frees; there is room for one byte more. Returns NULL with
+ * KILN_IO when they cannot be read or the file has become shorter, or with KILN_DEVICE_FAILED when
+ * memory is short. */
 unsigned char *kiln_file_read_bytes(int file, const char *path, const char *what, size_t size,
                                     struct kiln_error *error);
 

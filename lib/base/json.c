@@ -1,6 +1,7 @@
-/* Writes JSON; no other file writes its punctuation. Each open level of brackets remembers whether
- * it has an item, for commas, and where its lines begin. All bytes go straight to the sink, so a
- * document is never held as a whole. */
+/* This file writes JSON: manifests, journals, results, reports, and the events and output of the
+ * program. No other file writes JSON's brackets, commas and quotes. Each open object or array
+ * remembers whether it has an item, so that a comma comes before the next one, and the indentation
+ * of its items. All bytes go straight to the sink, so a document is never held as a whole. */
 #include "base/json.h"
 
 #include <inttypes.h>
@@ -50,20 +51,22 @@ static void put(struct kiln_json *json, const char *text)
     put_bytes(json, text, strlen(text));
 }
 
+/* Returns whether an item or a bracket with this indentation begins a line; -1 is for none. */
 static bool begins_line(const struct kiln_json *json, int spaces)
 {
     return spaces >= 0 && !json->one_line;
 }
 
-static void put_line(struct kiln_json *json, int spaces)
+/* Begins a line, with spaces before what follows. */
+static void begin_line(struct kiln_json *json, int spaces)
 {
     put(json, "\n");
     for (int i = 0; i < spaces; i++)
         put(json, " ");
 }
 
-/* Writes the escape sequence that stands in a string for the character or invalid byte at c. False:
- * the character stands as it is. */
+/* Writes the escape sequence for the character, or the invalid byte, at c. Returns false if it
+ * needs none. */
 static bool escape(const struct kiln_json *json, const char *c, char out[8])
 {
     unsigned char byte = (unsigned char)*c;
@@ -74,7 +77,7 @@ static bool escape(const struct kiln_json *json, const char *c, char out[8])
         snprintf(out, 8, "\\ufffd");
     else if (byte == '"' || byte == '\\')
         snprintf(out, 8, "\\%c", byte);
-    else if (kiln_shown_acts(character) || markup)
+    else if (kiln_shown_needs_escape(character) || markup)
         snprintf(out, 8, "\\u%04x", character);
     else
         return false;
@@ -114,7 +117,7 @@ static void begin_item(struct kiln_json *json, const char *key)
     const int spaces = json->spaces >= 0 ? json->spaces : level->spaces;
     put(json, level->filled ? "," : "");
     if (begins_line(json, spaces))
-        put_line(json, spaces);
+        begin_line(json, spaces);
     else
         put(json, level->filled && json->style == KILN_JSON_SPACED ? " " : "");
     level->filled = true;
@@ -143,7 +146,7 @@ static void end_level(struct kiln_json *json, int spaces)
         return;
     }
     if (level->filled && begins_line(json, spaces))
-        put_line(json, spaces);
+        begin_line(json, spaces);
     put_bytes(json, &level->bracket, 1);
     json->spaces = -1;
     json->depth--;
@@ -170,17 +173,17 @@ void kiln_json_end(struct kiln_json *json)
     end_level(json, -1);
 }
 
-void kiln_json_end_line(struct kiln_json *json, int spaces)
+void kiln_json_end_indented(struct kiln_json *json, int spaces)
 {
     end_level(json, spaces);
 }
 
-void kiln_json_lines(struct kiln_json *json, int spaces)
+void kiln_json_indent_items(struct kiln_json *json, int spaces)
 {
     json->levels[json->depth].spaces = spaces;
 }
 
-void kiln_json_line(struct kiln_json *json, int spaces)
+void kiln_json_indent_next(struct kiln_json *json, int spaces)
 {
     json->spaces = spaces;
 }
@@ -189,7 +192,7 @@ bool kiln_json_finish(struct kiln_json *json)
 {
     put(json, "\n");
     json->failed |= json->depth > 0 || json->has_key;
-    json->levels[0].filled = false;
+    json->levels[0].filled = false; /* so that another document may follow */
     return !json->failed;
 }
 
@@ -250,6 +253,8 @@ void kiln_json_uint(struct kiln_json *json, const char *key, uint64_t value)
     kiln_json_raw(json, key, text);
 }
 
+/* JSON has no numbers for infinities and NaN: the style SPACED writes null for them, and SCRIPT a
+ * string. */
 static void put_not_finite(struct kiln_json *json, const char *key, double value)
 {
     if (json->style == KILN_JSON_SPACED)
@@ -282,12 +287,12 @@ void kiln_json_rounded(struct kiln_json *json, const char *key, double value, in
 
 void kiln_json_time(struct kiln_json *json, const char *key, double value)
 {
-    if (!(value < 1e15)) {
+    if (!(value < 1e15)) { /* NaN, or too large for whole thousandths */
         kiln_json_number(json, key, value);
         return;
     }
-    /* The seconds and their thousandths are printed as whole numbers, since printf's point belongs
-     * to the locale. */
+    /* The seconds and their thousandths are printed as whole numbers, since printf's decimal point
+     * depends on the locale. */
     uint64_t thousandths = value > 0 ? (uint64_t)(value * 1000.0 + 0.5) : 0;
     char text[32];
     snprintf(text, sizeof text, "%" PRIu64 ".%03u", thousandths / 1000,

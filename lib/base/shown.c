@@ -21,7 +21,7 @@ size_t kiln_shown_character(const char *text, uint32_t *character)
     return length;
 }
 
-bool kiln_shown_acts(uint32_t c)
+bool kiln_shown_needs_escape(uint32_t c)
 {
     return c < 0x20 || (c >= 0x7f && c <= 0x9f) || c == 0x61c || c == 0x200e || c == 0x200f ||
            (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
@@ -44,11 +44,11 @@ void kiln_shown(char *out, size_t room, const char *text)
         char escaped[12];
         uint32_t character;
         size_t length = kiln_shown_character(text, &character);
-        const bool acts = length == 0 || kiln_shown_acts(character);
-        if (acts)
+        const bool escapes = length == 0 || kiln_shown_needs_escape(character);
+        if (escapes)
             escape(character, length == 0, escaped);
-        const char *piece = acts ? escaped : text;
-        const size_t size = acts ? strlen(escaped) : length;
+        const char *piece = escapes ? escaped : text;
+        const size_t size = escapes ? strlen(escaped) : length;
         if (used + size >= room)
             break;
         memcpy(out + used, piece, size);

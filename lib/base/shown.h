@@ -1,17 +1,19 @@
-/* Declares how texts from untrusted files are made safe to show: kiln_shown of kiln_program.h uses
- * these functions on characters. */
+/* Declares two functions by which texts from untrusted files are made safe to show. kiln_shown
+ * (kiln_program.h) escapes a whole text with them for a terminal; the writers of JSON, XML, HTML
+ * and GitHub annotations, and the parser of scenes, call them as well. */
 #ifndef KILN_BASE_SHOWN_H
 #define KILN_BASE_SHOWN_H
 
 #include "kiln_program.h"
 
-/* Decodes the character at the start of a zero-terminated text and returns the number of its bytes;
- * 0 where it is not UTF-8. */
+/* Decodes the character at the start of a zero-terminated text and returns the number of its bytes.
+ * Returns 0 if the bytes there are not valid UTF-8; `character` is then the first byte. The empty
+ * text gives the character 0, of 1 byte. */
 size_t kiln_shown_character(const char *text, uint32_t *character);
 
-/* Returns whether a character has an effect other than its glyph: controls (C0 with line ends and
- * ESC, DEL, C1), line and paragraph separators, and marks and overrides of direction, which make
- * neighbouring text look different. */
-bool kiln_shown_acts(uint32_t character);
+/* Returns whether a character must be escaped, because it does more than show its glyph: controls
+ * (C0 with line ends and ESC, DEL, C1), line and paragraph separators, and bidirectional marks and
+ * overrides, which make neighbouring text look different. */
+bool kiln_shown_needs_escape(uint32_t character);
 
 #endif

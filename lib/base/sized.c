@@ -1,13 +1,13 @@
 /* Copies structs that begin with their own size between the library and a caller that may have been
  * built against another version. The first member of such a struct is a size_t with the bytes of
- * the whole struct. */
+ * the whole struct. A member that only one of the two versions has is not copied. */
 #include "base/sized.h"
 
 #include <string.h>
 
 #include "base/error.h"
 
-enum { MOST = 1 << 20 }; /* bytes; every struct is far smaller */
+enum { MOST_BYTES = 1 << 20 }; /* every struct is far smaller */
 
 static size_t size_of(const void *sized)
 {
@@ -16,13 +16,14 @@ static size_t size_of(const void *sized)
     return size;
 }
 
-bool kiln_sized_check(const void *out, const char *what, struct kiln_error *error)
+bool kiln_sized_check(const void *sized, const char *what, struct kiln_error *error)
 {
-    const size_t size = out ? size_of(out) : sizeof(size_t);
-    return (size >= sizeof(size_t) && size <= MOST) ||
+    const size_t size = sized ? size_of(sized) : sizeof(size_t);
+    return (size >= sizeof(size_t) && size <= MOST_BYTES) ||
            kiln_error_set(
                error, KILN_USAGE,
-               "struct %s: the size is %zu; fill the struct by the function that is named after it",
+               "struct %s: the size is %zu; fill the struct first by its function in the "
+               "header, as kiln_render_defaults() fills a kiln_render_params",
                what, size);
 }
 

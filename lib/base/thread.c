@@ -1,7 +1,7 @@
 /* Runs loops on a fixed pool of worker threads. Workers sleep on a condition until a loop is
  * posted, then take pieces of it from an atomic counter. The thread that posts a loop works on it,
- * too. Once no pieces are left, it waits only for workers that have begun one: on a busy machine a
- * worker may wake up late. */
+ * too. Once no pieces are left, it waits only for workers that have entered the loop, and not for
+ * one that has not woken up yet, as may happen on a busy machine. */
 #include "base/thread.h"
 
 #include <pthread.h>
@@ -17,8 +17,8 @@ enum {
     COPY_AT_A_TIME = 1 << 20, /* bytes */
 };
 
-/* Seconds between two calls of may_go_on: much less than a second, and much more than a call takes.
- */
+/* The least time in seconds between two calls of may_go_on. It is much less than a second, so that
+ * a job stops soon, and much more than a call takes. */
 #define ASK_EVERY_S 0.02
 
 struct worker {
@@ -30,10 +30,10 @@ struct worker {
 struct kiln_threads {
     pthread_mutex_t mutex;
     pthread_cond_t posted, finished;
-    uint32_t count;   /* workers, the caller included */
+    uint32_t count;   /* workers, the thread that posts loops included */
     uint32_t started; /* threads to join */
-    uint32_t running; /* workers inside the present loop */
-    uint64_t loop;    /* number of loops posted */
+    uint32_t running; /* threads of the pool that are in the present loop */
+    uint64_t posts;   /* number of loops posted so far */
     bool open;        /* whether the present loop may be entered */
     bool quit;
 
@@ -43,11 +43,11 @@ struct kiln_threads {
     atomic_size_t next;
 
     struct kiln_caller caller;
-    bool asks; /* whether the present loop asks the caller */
-    double asked_s;
-    bool stopped;
-    struct kiln_error reason; /* when stopped */
-    struct worker workers[];
+    bool asks;      /* whether the present loop calls caller.may_go_on */
+    double asked_s; /* when it was called last */
+    bool stopped;   /* it has returned false, with the error `reason`; this stays so */
+    struct kiln_error reason;
+    struct worker workers[]; /* worker 0, the thread that posts loops, has no element in use */
 };
 
 uint32_t kiln_threads_available(void)
@@ -60,8 +60,8 @@ uint32_t kiln_threads_available(void)
     return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (uint32_t)count;
 }
 
-/* Asks the caller, now and then, whether the loop goes on. Only the thread that posted the loop
- * calls this. */
+/* Returns whether the loop goes on. It calls may_go_on every ASK_EVERY_S and returns true in
+ * between. Only the thread that posted the loop calls this. */
 static bool go_on(struct kiln_threads *pool)
 {
     const double now_s = kiln_clock_seconds();
@@ -92,11 +92,11 @@ static void *worker_main(void *argument)
     uint64_t seen = 0;
     pthread_mutex_lock(&pool->mutex);
     for (;;) {
-        while ((!pool->open || pool->loop == seen) && !pool->quit)
+        while ((!pool->open || pool->posts == seen) && !pool->quit)
             pthread_cond_wait(&pool->posted, &pool->mutex);
         if (pool->quit)
             break;
-        seen = pool->loop;
+        seen = pool->posts;
         pool->running++;
         pthread_mutex_unlock(&pool->mutex);
         take_pieces(pool, self->index);
@@ -173,7 +173,7 @@ void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
         return;
     }
     pthread_mutex_lock(&pool->mutex);
-    pool->loop++;
+    pool->posts++;
     pool->open = true;
     pthread_cond_broadcast(&pool->posted);
     pthread_mutex_unlock(&pool->mutex);
@@ -187,7 +187,7 @@ void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
     pthread_mutex_unlock(&pool->mutex);
 }
 
-void kiln_threads_ask(struct kiln_threads *threads, const struct kiln_caller *caller)
+void kiln_threads_set_caller(struct kiln_threads *threads, const struct kiln_caller *caller)
 {
     threads->caller = *caller;
 }

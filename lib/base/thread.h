@@ -1,4 +1,5 @@
-/* Runs loops over ranges on worker threads. */
+/* Runs loops over ranges on worker threads. The passes that run on the host, and the loaders of
+ * assets, share their work among threads by these functions. */
 #ifndef KILN_BASE_THREAD_H
 #define KILN_BASE_THREAD_H
 
@@ -6,11 +7,12 @@
 
 struct kiln_threads;
 
-/* Processors that this process may run on, at most 256. */
+/* Returns the number of processors that this process may run on, at most 256. */
 uint32_t kiln_threads_available(void);
 
-/* A pool of count workers, the caller counted as one; 0 takes one for each processor that this
- * process may run on, more than 256 is taken as 256. NULL when the system refuses. */
+/* Returns a pool of `count` workers, of which the thread that runs a loop is one. 0 stands for one
+ * for each processor that this process may run on, and more than 256 for 256. NULL when the system
+ * refuses. */
 struct kiln_threads *kiln_threads_create(uint32_t count);
 void kiln_threads_destroy(struct kiln_threads **threads);
 uint32_t kiln_threads_count(const struct kiln_threads *threads);
@@ -23,9 +25,9 @@ void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
                       void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
                       void *context);
 
-/* Sets the caller that kiln_threads_try asks, on the thread that calls it, whether to go on. A new
- * pool asks none. */
-void kiln_threads_ask(struct kiln_threads *threads, const struct kiln_caller *caller);
+/* Sets the caller of the operation (base/caller.h), whom kiln_threads_try asks whether to go on, on
+ * the thread that calls kiln_threads_try. A new pool asks nobody. */
+void kiln_threads_set_caller(struct kiln_threads *threads, const struct kiln_caller *caller);
 
 /* Runs a loop as kiln_threads_for does, but gives it up when the caller wants no more. Then it
  * returns false with the caller's error, pieces are missing, and every later kiln_threads_try of

@@ -45,16 +45,16 @@ static void add_part(struct kiln_json *json, const struct kiln_bench_part *part)
     kiln_json_begin_object(json, NULL);
     kiln_json_string(json, "name", part->name);
     kiln_json_string(json, "suite", part->suite);
-    kiln_json_line(json, 3);
+    kiln_json_indent_next(json, 3);
     kiln_json_string(json, "title", part->title);
-    kiln_json_line(json, 3);
+    kiln_json_indent_next(json, 3);
     kiln_json_string(json, "sweep", part->sweep);
     kiln_json_string(json, "unit", part->unit);
     kiln_json_string(json, "reference", part->reference);
-    kiln_json_lines(json, 3);
+    kiln_json_indent_items(json, 3);
     kiln_json_strings(json, "notes", part->notes, part->note_count);
     kiln_json_begin_array(json, "rows");
-    kiln_json_lines(json, 4);
+    kiln_json_indent_items(json, 4);
     for (size_t i = 0; i < part->row_count; i++)
         add_row(json, &part->rows[i]);
     kiln_json_end(json);
@@ -75,18 +75,18 @@ void kiln_bench_write_json(const struct kiln_bench *bench, FILE *out)
     struct kiln_json json = kiln_json_to_file(out);
     kiln_json_begin_object(&json, NULL);
     kiln_json_string(&json, "version", KILN_VERSION);
-    kiln_json_line(&json, 1);
+    kiln_json_indent_next(&json, 1);
     add_device(&json, &bench->device);
-    kiln_json_line(&json, 1);
+    kiln_json_indent_next(&json, 1);
     kiln_json_string(&json, "processor", bench->processor);
     kiln_json_uint(&json, "cores", bench->cores);
-    kiln_json_line(&json, 1);
+    kiln_json_indent_next(&json, 1);
     kiln_json_uint(&json, "turns", bench->repetitions);
     kiln_json_bool(&json, "quick", bench->quick);
     kiln_json_number(&json, "total_s", bench->seconds);
-    kiln_json_line(&json, 1);
+    kiln_json_indent_next(&json, 1);
     kiln_json_begin_array(&json, "parts");
-    kiln_json_lines(&json, 2);
+    kiln_json_indent_items(&json, 2);
     for (size_t i = 0; i < bench->part_count; i++)
         add_part(&json, &bench->parts[i]);
     kiln_json_end(&json);

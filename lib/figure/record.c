@@ -19,7 +19,7 @@ static void add_panel(struct kiln_json *json, const struct kiln_panel *panel)
     kiln_json_string(json, "source", panel->source);
     if (panel->has_frame)
         kiln_json_uint(json, "frame", panel->frame);
-    kiln_json_lines(json, 3);
+    kiln_json_indent_items(json, 3);
     if (*panel->scene_hash)
         kiln_json_string(json, "scene_hash", panel->scene_hash);
     if (*panel->state)
@@ -33,7 +33,7 @@ bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
 {
     struct kiln_json json = kiln_json_to_text(text);
     kiln_json_begin_object(&json, NULL);
-    kiln_json_lines(&json, 0);
+    kiln_json_indent_items(&json, 0);
     kiln_json_uint(&json, "kiln_figure", VERSION);
     kiln_json_string(&json, "version", record->version);
     kiln_json_string(&json, "folder", record->folder);
@@ -47,11 +47,11 @@ bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
     kiln_json_string(&json, "pixels", record->pixels);
     kiln_json_string(&json, "file", record->file);
     kiln_json_begin_array(&json, "panels");
-    kiln_json_lines(&json, 2);
+    kiln_json_indent_items(&json, 2);
     for (size_t i = 0; i < record->panel_count; i++)
         add_panel(&json, &record->panels[i]);
-    kiln_json_end_line(&json, 0);
-    kiln_json_end_line(&json, 0);
+    kiln_json_end_indented(&json, 0);
+    kiln_json_end_indented(&json, 0);
     return kiln_json_finish(&json) ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the sidecar of a figure");
 }

@@ -242,7 +242,7 @@ struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln
     if (!loop->threads)
         kiln_loop_destroy(&loop);
     else
-        kiln_threads_ask(loop->threads, &loop->params.caller);
+        kiln_threads_set_caller(loop->threads, &loop->params.caller);
     return loop;
 }
 

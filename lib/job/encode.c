@@ -403,7 +403,7 @@ static bool run(struct encode *encode, double started_s, struct kiln_error *erro
     encode->threads = kiln_threads_create(encode->params->threads);
     if (!encode->threads)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "no threads can be started");
-    kiln_threads_ask(encode->threads, &encode->caller);
+    kiln_threads_set_caller(encode->threads, &encode->caller);
     if (!open_frames(encode, error) || !open_clip(encode, error) ||
         !write_frame(encode, encode->image, encode->number, error))
         return false;

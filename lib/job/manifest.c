@@ -78,7 +78,7 @@ char *kiln_manifest_scene(const struct kiln_scene *scene)
     kiln_json_uint(&json, "warmup_steps", info.warmup_steps);
     kiln_json_uint(&json, "systems", info.system_count);
     kiln_json_uint(&json, "particle_capacity", info.particle_capacity);
-    kiln_json_line(&json, 6);
+    kiln_json_indent_next(&json, 6);
     add_scene_text(&json, scene);
     kiln_json_end(&json);
     if (!json.failed && !text.failed)
@@ -165,21 +165,21 @@ static bool add_result(struct kiln_manifest *manifest, const struct kiln_records
     struct kiln_json *json = &manifest->json;
     uint32_t missing = 0;
     kiln_json_begin_object(json, "result");
-    kiln_json_lines(json, 4);
+    kiln_json_indent_items(json, 4);
     kiln_json_raw(json, "scene", manifest->params.scene);
     kiln_json_string(json, "output", manifest->params.output);
     kiln_json_begin_array(json, "frames");
-    kiln_json_lines(json, 6);
+    kiln_json_indent_items(json, 6);
     for (uint32_t i = 0; i < records->count; i++) {
         if (!is_there(manifest, &records->items[i], failure))
             missing++;
         else if (!add_frame(manifest, records, i, error))
             return false;
     }
-    kiln_json_end_line(json, 4);
+    kiln_json_end_indented(json, 4);
     kiln_json_uint(json, "missing", missing);
     kiln_json_begin_array(json, "files");
-    kiln_json_lines(json, 6);
+    kiln_json_indent_items(json, 6);
     for (uint32_t i = 0; i < records->file_count; i++) {
         kiln_json_begin_object(json, NULL);
         kiln_json_string(json, "file", records->files[i].path);
@@ -187,8 +187,8 @@ static bool add_result(struct kiln_manifest *manifest, const struct kiln_records
         kiln_json_string(json, "sha256", records->files[i].sha256);
         kiln_json_end(json);
     }
-    kiln_json_end_line(json, 4);
-    kiln_json_end_line(json, 2);
+    kiln_json_end_indented(json, 4);
+    kiln_json_end_indented(json, 2);
     return true;
 }
 
@@ -198,7 +198,7 @@ static bool add_times(struct kiln_manifest *manifest, const struct kiln_records 
 {
     struct kiln_json *json = &manifest->json;
     kiln_json_begin_array(json, "frames");
-    kiln_json_lines(json, 6);
+    kiln_json_indent_items(json, 6);
     for (uint32_t i = 0; i < records->count; i++) {
         const struct kiln_record *record = &records->items[i];
         double pass_ms[KILN_PASS_COUNT];
@@ -213,7 +213,7 @@ static bool add_times(struct kiln_manifest *manifest, const struct kiln_records 
         if (!flush(manifest, error))
             return false;
     }
-    kiln_json_end_line(json, 4);
+    kiln_json_end_indented(json, 4);
     return true;
 }
 
@@ -224,16 +224,16 @@ static bool add_runs(struct kiln_manifest *manifest, const struct kiln_records *
 {
     struct kiln_json *json = &manifest->json;
     kiln_json_begin_object(json, "run");
-    kiln_json_lines(json, 4);
+    kiln_json_indent_items(json, 4);
     kiln_attempt_describe(json, manifest->params.run, stats, failure);
     if (!add_times(manifest, records, error))
         return false;
-    kiln_json_end_line(json, 2);
+    kiln_json_end_indented(json, 2);
     kiln_json_begin_array(json, "runs_before");
-    kiln_json_lines(json, 4);
+    kiln_json_indent_items(json, 4);
     if (records->runs.length > 0)
         kiln_json_raw(json, NULL, records->runs.data);
-    kiln_json_end_line(json, 2);
+    kiln_json_end_indented(json, 2);
     return true;
 }
 
@@ -243,13 +243,13 @@ bool kiln_manifest_finish(struct kiln_manifest *manifest, const struct kiln_reco
 {
     struct kiln_json *json = &manifest->json;
     kiln_json_begin_object(json, NULL);
-    kiln_json_lines(json, 2);
+    kiln_json_indent_items(json, 2);
     kiln_json_string(json, "kiln", KILN_VERSION);
     kiln_json_bool(json, "failed", failure != NULL);
     bool ok = add_result(manifest, records, failure, error) &&
               add_runs(manifest, records, stats, failure, error);
     if (ok) {
-        kiln_json_end_line(json, 0);
+        kiln_json_end_indented(json, 0);
         kiln_json_finish(json);
         ok = flush(manifest, error);
     }

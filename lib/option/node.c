@@ -73,7 +73,7 @@ void kiln_node_quote(char out[64], const char *text)
             return;
         }
         uint32_t character;
-        if (kiln_shown_character(text, &character) == 0 || kiln_shown_acts(character))
+        if (kiln_shown_character(text, &character) == 0 || kiln_shown_needs_escape(character))
             out[length++] = '?';
         else
             for (size_t i = 0; i < bytes; i++)

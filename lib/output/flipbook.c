@@ -454,7 +454,7 @@ static void add_motion_layout(struct kiln_json *json, const struct flipbook_enco
     char number[32];
     kiln_text_from_float(number, scale);
     kiln_json_begin_object(json, "motion");
-    kiln_json_lines(json, 4);
+    kiln_json_indent_items(json, 4);
     add_name(json, &encoder->motion_file);
     begin_size(json, "cell", encoder->motion_width, encoder->motion_height);
     kiln_json_end(json);
@@ -466,7 +466,7 @@ static void add_motion_layout(struct kiln_json *json, const struct flipbook_enco
     kiln_json_string(json, "from", "this cell");
     kiln_json_string(json, "to", "the next cell");
     kiln_json_string(json, "color_space", "linear");
-    kiln_json_end_line(json, 2);
+    kiln_json_end_indented(json, 2);
 }
 
 static void add_layout(struct kiln_json *json, const struct flipbook_encoder *encoder, float scale)
@@ -504,9 +504,9 @@ static bool write_layout(struct flipbook_encoder *encoder, float scale, struct k
     struct kiln_text text = {0};
     struct kiln_json json = kiln_json_to_text(&text);
     kiln_json_begin_object(&json, NULL);
-    kiln_json_lines(&json, 2);
+    kiln_json_indent_items(&json, 2);
     add_layout(&json, encoder, scale);
-    kiln_json_end_line(&json, 0);
+    kiln_json_end_indented(&json, 0);
     bool good = kiln_json_finish(&json);
     if (good) /* without a commit the file is not kept, and the commit reports failures */
         kiln_temporary_write(&encoder->layout_file, text.data, text.length);

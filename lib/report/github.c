@@ -20,7 +20,8 @@ static void write_escaped(FILE *out, const char *text, const char *special)
     uint32_t character;
     for (; *text; text++) {
         const size_t length = kiln_shown_character(text, &character);
-        if (length > 1 && kiln_shown_acts(character)) { /* such as an override of direction */
+        if (length > 1 &&
+            kiln_shown_needs_escape(character)) { /* such as an override of direction */
             fprintf(out, "\\u%04x", (unsigned)character);
             text += length - 1;
             continue;

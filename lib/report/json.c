@@ -33,17 +33,17 @@ static bool write_json(const struct kiln_results *results, const struct kiln_res
     (void)error;
     struct kiln_json json = kiln_json_to_file(out);
     kiln_json_begin_object(&json, NULL);
-    kiln_json_lines(&json, 0);
+    kiln_json_indent_items(&json, 0);
     kiln_results_add_head(&json, results);
     kiln_json_begin_array(&json, "tests");
     for (size_t i = 0; i < results->count; i++) {
         kiln_json_begin_object(&json, NULL);
-        kiln_json_lines(&json, 2);
+        kiln_json_indent_items(&json, 2);
         kiln_results_add_test(&json, results, i);
-        kiln_json_end_line(&json, 0);
+        kiln_json_end_indented(&json, 0);
     }
     kiln_json_end(&json);
-    kiln_json_end_line(&json, 0);
+    kiln_json_end_indented(&json, 0);
     kiln_json_finish(&json); /* the caller checks the stream for failures */
     return true;
 }

@@ -64,7 +64,7 @@ static bool is_foreign(const char *text)
 {
     unsigned char c = (unsigned char)*text;
     uint32_t character;
-    if (kiln_shown_character(text, &character) > 1 && kiln_shown_acts(character))
+    if (kiln_shown_character(text, &character) > 1 && kiln_shown_needs_escape(character))
         return true;
     return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f ||
            strncmp(text, "\xef\xbf\xbe", 3) == 0 || strncmp(text, "\xef\xbf\xbf", 3) == 0;

@@ -32,7 +32,7 @@ static void add_tests(struct kiln_json *json, const struct kiln_suite *suite)
             if (i > 0)
                 kiln_json_end(json);
             kiln_json_begin_array(json, NULL);
-            kiln_json_lines(json, 4);
+            kiln_json_indent_items(json, 4);
         }
         kiln_json_begin_object(json, NULL);
         kiln_json_string(json, "name", suite->tests[i].full_name);
@@ -52,7 +52,7 @@ bool kiln_suite_write_run(const struct kiln_suite *suite, double total_s, struct
     struct kiln_text text = {0};
     struct kiln_json json = kiln_json_to_text(&text);
     kiln_json_begin_object(&json, NULL);
-    kiln_json_lines(&json, 2);
+    kiln_json_indent_items(&json, 2);
     kiln_json_uint(&json, "kiln_run", RUN_VERSION);
     kiln_json_string(&json, "version", KILN_VERSION);
     kiln_json_number(&json, "total_s", total_s);
@@ -62,7 +62,7 @@ bool kiln_suite_write_run(const struct kiln_suite *suite, double total_s, struct
         kiln_json_uint(&json, "all_tests", suite->all_count);
     }
     add_tests(&json, suite);
-    kiln_json_end_line(&json, 0);
+    kiln_json_end_indented(&json, 0);
     bool written = kiln_json_finish(&json)
                        ? kiln_temporary_write_file(path, text.data, text.length, error)
                        : out_of_memory(error);

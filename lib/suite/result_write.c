@@ -61,7 +61,7 @@ static void add_object(struct kiln_json *json, const struct kiln_member *members
 static void begin_list(struct kiln_json *json, const char *key)
 {
     kiln_json_begin_array(json, key);
-    kiln_json_lines(json, 4);
+    kiln_json_indent_items(json, 4);
 }
 
 static void add_measurement(struct kiln_json *json, const struct kiln_result *result,
@@ -140,10 +140,10 @@ bool kiln_result_print(const struct kiln_result *result, struct kiln_text *text)
 {
     struct kiln_json json = kiln_json_to_text(text);
     kiln_json_begin_object(&json, NULL);
-    kiln_json_lines(&json, 2);
+    kiln_json_indent_items(&json, 2);
     kiln_json_uint(&json, "kiln_result", KILN_RESULT_VERSION);
     kiln_result_add_json(&json, result);
-    kiln_json_end_line(&json, 0);
+    kiln_json_end_indented(&json, 0);
     return kiln_json_finish(&json);
 }
 

@@ -126,7 +126,7 @@ static void loops_stop_when_the_caller_wants_no_more(void **state)
         struct kiln_error error = {0};
         struct kiln_threads *threads = kiln_threads_create(count);
         assert_true(kiln_threads_try(threads, 20, 1, count_piece, seen, &error));
-        kiln_threads_ask(threads, &(struct kiln_caller){says_no_the_third_time, &asked});
+        kiln_threads_set_caller(threads, &(struct kiln_caller){says_no_the_third_time, &asked});
         memset(seen, 0, sizeof seen);
         assert_false(kiln_threads_try(threads, sizeof seen, 1, count_slowly, seen, &error));
         assert_int_equal(error.code, KILN_INTERRUPTED);

@@ -79,13 +79,13 @@ static void lines_begin_where_the_caller_says(void **state)
     struct page *page = *state;
     struct kiln_json *json = &page->json;
     kiln_json_begin_object(json, NULL);
-    kiln_json_lines(json, 2);
+    kiln_json_indent_items(json, 2);
     kiln_json_string(json, "name", "campfire");
     kiln_json_begin_array(json, "frames");
     kiln_json_uint(json, NULL, 7);
     kiln_json_uint(json, NULL, 9);
     kiln_json_end(json);
-    kiln_json_end_line(json, 0);
+    kiln_json_end_indented(json, 0);
     check_document(page, "{\n  \"name\": \"campfire\",\n  \"frames\": [7, 9]\n}\n");
 }
 
@@ -94,23 +94,23 @@ static void each_level_has_its_own_lines(void **state)
     struct page *page = *state;
     struct kiln_json *json = &page->json;
     kiln_json_begin_object(json, NULL);
-    kiln_json_lines(json, 0);
+    kiln_json_indent_items(json, 0);
     kiln_json_begin_array(json, "hanging");
-    kiln_json_lines(json, 3);
+    kiln_json_indent_items(json, 3);
     kiln_json_begin_object(json, NULL);
     kiln_json_int(json, "a", 1);
-    kiln_json_line(json, 5);
+    kiln_json_indent_next(json, 5);
     kiln_json_int(json, "b", 2);
     kiln_json_int(json, "c", 3);
     kiln_json_end(json);
     kiln_json_int(json, NULL, 4);
     kiln_json_end(json);
     kiln_json_begin_array(json, "empty");
-    kiln_json_lines(json, 3);
-    kiln_json_line(json, 7);
-    kiln_json_end_line(json, 1);
+    kiln_json_indent_items(json, 3);
+    kiln_json_indent_next(json, 7);
+    kiln_json_end_indented(json, 1);
     kiln_json_int(json, "d", 5);
-    kiln_json_end_line(json, 0);
+    kiln_json_end_indented(json, 0);
     check_document(page, "{\n\"hanging\": [\n   {\"a\": 1,\n     \"b\": 2, \"c\": 3},\n   4],\n"
                          "\"empty\": [],\n\"d\": 5\n}\n");
 }

@@ -68,6 +68,21 @@ static void nonsense_is_refused(void **state)
     }
 }
 
+static void amounts_that_round_alike_are_told_in_bytes(void **state)
+{
+    (void)state;
+    char text[160];
+    struct kiln_limits limits = kiln_limits_empty();
+    limits.most[KILN_LIMIT_memory] = (uint64_t)4 << 30;
+    struct kiln_budget *budget = kiln_budget_create(&limits);
+    assert_false(kiln_budget_allows(budget, KILN_LIMIT_memory, ((uint64_t)4 << 30) + 4096, text));
+    assert_string_equal(text,
+                        "4294971392 bytes of memory, and the limit `memory` is 4294967296 bytes");
+    assert_false(kiln_budget_allows(budget, KILN_LIMIT_memory, (uint64_t)5 << 30, text));
+    assert_string_equal(text, "5 GiB of memory, and the limit `memory` is 4 GiB");
+    kiln_budget_destroy(&budget);
+}
+
 static void sums_stay_over_their_limit(void **state)
 {
     (void)state;
@@ -120,6 +135,7 @@ int main(void)
         cmocka_unit_test(amounts_have_units),
         cmocka_unit_test(what_comes_later_counts),
         cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(amounts_that_round_alike_are_told_in_bytes),
         cmocka_unit_test(sums_stay_over_their_limit),
         cmocka_unit_test(time_and_memory_are_those_of_the_process),
     };
