@@ -8,9 +8,10 @@
 #include "draw/vector/row_lists.h"
 
 enum {
-    KILN_SOLID_ROWS = 8,    /* rows of a strip */
-    KILN_SOLID_SAMPLES = 4, /* samples of a pixel */
-    KILN_SOLID_PAD = 16,    /* pixels that vectors may reach beyond the right edge */
+    KILN_SOLID_ROWS = 8,          /* rows of a strip */
+    KILN_SOLID_SAMPLES = 4,       /* samples of a pixel */
+    KILN_SOLID_PAD = 16,          /* pixels that vectors may reach beyond the right edge */
+    KILN_SOLID_VISIBLE_WORDS = 3, /* words of a particle that is visible in a pixel */
 };
 
 struct kiln_drawn_sphere {
@@ -40,7 +41,7 @@ struct kiln_solid_strip {
     const struct kiln_drawn_sphere *spheres;
     const struct kiln_drawn_instance *instances; /* indexed like spheres; NULL: no meshes */
     const float4 (*corners)[2];                  /* corners of the meshes: position, normal */
-    const struct kiln_row_range *rows;           /* rows that each particle may touch */
+    const struct kiln_row_range *ranges;         /* rows that each particle may touch */
     const uint32_t *list;                        /* numbers of the particles in the strip */
     size_t count;
     bool patterned; /* true: some spheres have patterns */
@@ -50,7 +51,8 @@ struct kiln_solid_strip {
     float *samples;                         /* scratch: the least depth in each sample, m */
     int32_t *nearest;                       /* scratch: the particle at that depth; -1: none */
     int32_t *triangles;                     /* scratch: its triangle, if it is a mesh */
-    uint32_t *entries;                      /* scratch: 3 words for each sample of a row */
+    /* scratch: the particles visible in a row, KILN_SOLID_VISIBLE_WORDS for each of its samples */
+    uint32_t *visible;
     size_t pitch;
 };
 

@@ -59,7 +59,7 @@ SIMD void sample_pixels(const struct kiln_solid_strip *s, const struct kiln_draw
 static void sample_sphere(const struct kiln_solid_strip *s, uint32_t number)
 {
     const struct kiln_drawn_sphere *sphere = &s->spheres[number];
-    const struct kiln_row_range rows = s->rows[number];
+    const struct kiln_row_range rows = s->ranges[number];
     int32_t y = rows.from > (int32_t)s->y ? rows.from : (int32_t)s->y;
     int32_t y_to = rows.to < (int32_t)s->y_to ? rows.to : (int32_t)s->y_to;
     for (; y < y_to; y++) {
@@ -185,14 +185,14 @@ struct row_entries {
 };
 
 static void list_particle(const struct kiln_solid_strip *s, struct row_entries *entries,
-                          const uint32_t entry[3])
+                          const uint32_t entry[KILN_SOLID_VISIBLE_WORDS])
 {
     uint32_t **to = is_instance(s, entry[1] >> 2) ? &entries->triangles : &entries->spheres;
     if (to == &entries->triangles)
-        *to -= 3;
-    memcpy(*to, entry, 3 * sizeof *entry);
+        *to -= KILN_SOLID_VISIBLE_WORDS;
+    memcpy(*to, entry, KILN_SOLID_VISIBLE_WORDS * sizeof *entry);
     if (to == &entries->spheres)
-        *to += 3;
+        *to += KILN_SOLID_VISIBLE_WORDS;
 }
 
 /* Lists the particles in the samples of pixel x, each once, and writes the pixel's depth. first:
@@ -245,7 +245,7 @@ static void load_particles(const struct kiln_solid_strip *s, const uint32_t *ent
 {
     const int32_t stride = (int32_t)(size / sizeof(float));
     *visible = (struct visible_particles){{0}, {0}, {0}, {0}};
-    for (uint32_t lane = 0; lane < lanes; lane++, entries += 3) {
+    for (uint32_t lane = 0; lane < lanes; lane++, entries += KILN_SOLID_VISIBLE_WORDS) {
         uint32_t number = entries[1] >> 2;
         visible->column[lane] = (int32_t)entries[0];
         visible->particle[lane] = (int32_t)number * stride;
@@ -266,28 +266,30 @@ static void resolve_row(const struct kiln_solid_strip *s, uint32_t row)
     memcpy(s->depth + pixel, s->scene_depth + pixel, width * sizeof *s->depth);
     memset(s->color + 4 * pixel, 0, 4 * width * sizeof *s->color);
     memset(s->bloom + 4 * pixel, 0, 4 * width * sizeof *s->bloom);
-    uint32_t *const room_end = s->entries + (size_t)3 * SAMPLES * s->pitch;
-    struct row_entries entries = {s->entries, room_end};
+    uint32_t *const room_end = s->visible + (size_t)KILN_SOLID_VISIBLE_WORDS * SAMPLES * s->pitch;
+    struct row_entries entries = {s->visible, room_end};
     for (uint32_t x = 0; x < width; x++) {
         const int32_t *nearest = s->nearest + first + x;
         if ((nearest[0] & nearest[s->pitch] & nearest[2 * s->pitch] & nearest[3 * s->pitch]) != -1)
             list_pixel(s, first, x, &entries, &s->depth[pixel + x]);
     }
-    const size_t spheres = (size_t)(entries.spheres - s->entries) / 3;
+    const size_t spheres = (size_t)(entries.spheres - s->visible) / KILN_SOLID_VISIBLE_WORDS;
     for (size_t i = 0; i < spheres; i += LANES) {
         struct visible_particles visible;
         struct ray_color light;
         uint32_t lanes = spheres - i < LANES ? (uint32_t)(spheres - i) : LANES;
-        load_particles(s, s->entries + 3 * i, lanes, sizeof *s->spheres, &visible);
+        load_particles(s, s->visible + KILN_SOLID_VISIBLE_WORDS * i, lanes, sizeof *s->spheres,
+                       &visible);
         light_spheres(s, &visible, y, &light);
         add_particles(s, &visible, lanes, y, s->spheres->bloom, &light);
     }
-    const size_t triangles = (size_t)(room_end - entries.triangles) / 3;
+    const size_t triangles = (size_t)(room_end - entries.triangles) / KILN_SOLID_VISIBLE_WORDS;
     for (size_t i = 0; i < triangles; i += LANES) {
         struct visible_particles visible;
         struct ray_color light;
         uint32_t lanes = triangles - i < LANES ? (uint32_t)(triangles - i) : LANES;
-        load_particles(s, entries.triangles + 3 * i, lanes, sizeof *s->instances, &visible);
+        load_particles(s, entries.triangles + KILN_SOLID_VISIBLE_WORDS * i, lanes,
+                       sizeof *s->instances, &visible);
         light_triangles(s, &visible, y, &light);
         add_particles(s, &visible, lanes, y, s->instances->bloom, &light);
     }

@@ -1,6 +1,6 @@
-/* This file draws solid particles on the host: it transforms each into a sphere or a mesh in view
- * space, and draws each band of rows with the particles that touch it. Visibility in the samples is
- * resolved before any light is computed. */
+/* This file draws solid particles on the host, for solids.c: it transforms each into a sphere or a
+ * mesh in view space, and draws each band of KILN_SOLID_ROWS rows with the particles that touch it.
+ * Visibility in the samples is resolved before any light is computed. */
 #include "draw/solids/solids_cpu.h"
 
 #include <stdlib.h>
@@ -18,7 +18,7 @@ struct kiln_solids_cpu {
     const struct kiln_backdrop_stage *backdrop;
     struct kiln_threads *threads;
     struct kiln_solids_targets targets;
-    const struct kiln_solid_rows *rows;
+    const struct kiln_solid_rows *code; /* for the width of vectors in use */
     const struct kiln_instances *meshes;
     struct kiln_drawn_sphere *spheres;
     struct kiln_drawn_instance *instances; /* NULL where there are no meshes */
@@ -26,10 +26,11 @@ struct kiln_solids_cpu {
     uint32_t capacity;                     /* elements of spheres, instances and ranges */
     struct kiln_row_lists lists;
     size_t pitch; /* elements of a row of samples */
-    /* The next four are scratch memory of struct kiln_solid_strip, a part for each thread. */
+    /* `samples`, `nearest`, `triangles` and `visible` are the scratch memory of struct
+     * kiln_solid_strip. Each thread has a part of each. */
     float *samples;
     int32_t *nearest, *triangles;
-    uint32_t *entries;
+    uint32_t *visible;
 };
 
 /* Returns the number of samples that a thread has. */
@@ -38,10 +39,10 @@ static size_t samples_of(const struct kiln_solids_cpu *stage)
     return (size_t)KILN_SOLID_ROWS * KILN_SOLID_SAMPLES * stage->pitch;
 }
 
-/* Returns the number of words that a thread has for entries. */
-static size_t entries_of(const struct kiln_solids_cpu *stage)
+/* Returns the number of words that a thread has for visible particles. */
+static size_t visible_words_of(const struct kiln_solids_cpu *stage)
 {
-    return (size_t)3 * KILN_SOLID_SAMPLES * stage->pitch;
+    return (size_t)KILN_SOLID_VISIBLE_WORDS * KILN_SOLID_SAMPLES * stage->pitch;
 }
 
 static bool allocate(struct kiln_solids_cpu *stage)
@@ -50,11 +51,11 @@ static bool allocate(struct kiln_solids_cpu *stage)
     stage->pitch = stage->scene->width + KILN_SOLID_PAD;
     stage->samples = malloc(threads * samples_of(stage) * sizeof *stage->samples);
     stage->nearest = malloc(threads * samples_of(stage) * sizeof *stage->nearest);
-    stage->entries = malloc(threads * entries_of(stage) * sizeof *stage->entries);
+    stage->visible = malloc(threads * visible_words_of(stage) * sizeof *stage->visible);
     bool meshes = stage->meshes->corners != NULL;
     if (meshes)
         stage->triangles = malloc(threads * samples_of(stage) * sizeof *stage->triangles);
-    return stage->samples && stage->nearest && stage->entries && (stage->triangles || !meshes);
+    return stage->samples && stage->nearest && stage->visible && (stage->triangles || !meshes);
 }
 
 struct kiln_solids_cpu *kiln_solids_cpu_create(const struct kiln_moment *moment,
@@ -68,7 +69,7 @@ struct kiln_solids_cpu *kiln_solids_cpu_create(const struct kiln_moment *moment,
                                           .backdrop = params->backdrop,
                                           .threads = params->threads,
                                           .targets = params->targets,
-                                          .rows = KILN_SIMD_PICK(kiln_solid_rows, moment->simd)};
+                                          .code = KILN_SIMD_PICK(kiln_solid_rows, moment->simd)};
     if (!stage || !allocate(stage)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "solids: out of memory");
         kiln_solids_cpu_destroy(&stage);
@@ -87,7 +88,7 @@ void kiln_solids_cpu_destroy(struct kiln_solids_cpu **stage)
     free((*stage)->ranges);
     free((*stage)->samples);
     free((*stage)->nearest);
-    free((*stage)->entries);
+    free((*stage)->visible);
     free(*stage);
     *stage = NULL;
 }
@@ -98,14 +99,16 @@ struct convert_job {
     struct kiln_solids_cpu *stage;
     const struct kiln_pool *pool;
     const struct kiln_view *view;
-    const uint32_t *entries;
-    uint32_t patterns[KILN_MAX_SYSTEMS]; /* LOOK_* */
+    const uint32_t *entries;             /* the particles: system and slot, as in record.glsl */
+    uint32_t patterns[KILN_MAX_SYSTEMS]; /* LOOK_PLAIN, LOOK_STRIPE or LOOK_SEGMENTS + number */
     struct kiln_appearance_system systems[KILN_MAX_SYSTEMS];
 };
 
-/* Returns the range of pixels between the two tangents from the eye to a circle, widened by 2 px.
- * It is computed in a plane through the eye along one axis of the picture. scale: px for a slope
- * of 1; middle: px, the principal point. */
+/* Returns the range of columns or rows between the two tangents from the eye to a circle, and 2 px
+ * on either side; its end is not part of it. The circle lies in the plane of the depth axis and one
+ * axis of the picture. aside: the circle's place along that axis, m, from the view's axis; scale:
+ * pixels for a slope of 1; middle: the principal point, px; size: pixels of the picture along that
+ * axis. */
 static struct kiln_row_range between_tangents(float aside, float depth, float radius, float scale,
                                               float middle, float size)
 {
@@ -118,8 +121,8 @@ static struct kiln_row_range between_tangents(float aside, float depth, float ra
                                    (int16_t)exact_clamp(high, 0.0f, size)};
 }
 
-/* Bounds the columns and rows that a sphere may touch; a sphere that reaches the near plane may
- * touch all of them. */
+/* Bounds the columns and rows that a particle may touch by those of its bounding sphere. Where the
+ * bounding sphere of a mesh reaches the near plane, the bounds are the whole picture. */
 static void bound_ball(const struct kiln_view *view, const float center[3], float radius,
                        struct kiln_row_range *x, struct kiln_row_range *y)
 {
@@ -144,8 +147,8 @@ static void find_center(const struct kiln_view *view, float3 at, vec3 center)
     glm_mat4_mulv3(world_to_view, (vec3){at.x, at.y, at.z}, 1.0f, center);
 }
 
-/* Returns half the edge of a pixel at a depth, m; a sphere with a smaller radius would flicker
- * between the samples. */
+/* Returns half the edge of a pixel in metres, at a depth in metres. A sphere with a smaller radius
+ * would flicker between the samples. */
 static float least_radius(const struct kiln_view *view, float depth)
 {
     float pixel_m = 2.0f * view->frustum.y * exact_max(depth, 1e-3f) / view->frustum.w;
@@ -159,6 +162,8 @@ static void set3(float to[3], float4 from)
     to[2] = from.z;
 }
 
+/* Writes the second colour and the pose of a system with a pattern into the sphere, for all its
+ * particles. They have no effect where the sphere is not drawn. */
 static void make_pattern(const struct convert_job *m, uint32_t number, uint32_t slot,
                          float progress, struct kiln_drawn_sphere *s)
 {
@@ -195,7 +200,7 @@ static void make_sphere(const struct convert_job *m, const struct kiln_appearanc
     bound_ball(view, s->center, s->radius, &s->x, rows);
 }
 
-/* Writes the mesh's axes in view space, each as long as a unit of the mesh is in metres. */
+/* Writes the axes of the mesh in view space. scale: metres for each unit of the mesh. */
 static void place_axes(const struct kiln_view *view, const struct instance_axes *axes, float scale,
                        struct kiln_drawn_instance *d)
 {
@@ -317,10 +322,10 @@ static void draw_bands(void *context, size_t begin, size_t end, uint32_t worker)
         strip.count = lists->first[band + 1] - lists->first[band];
         strip.samples = stage->samples + worker * samples_of(stage);
         strip.nearest = stage->nearest + worker * samples_of(stage);
-        strip.entries = stage->entries + worker * entries_of(stage);
+        strip.visible = stage->visible + worker * visible_words_of(stage);
         if (stage->triangles)
             strip.triangles = stage->triangles + worker * samples_of(stage);
-        stage->rows->draw(&strip);
+        stage->code->draw(&strip);
     }
 }
 
@@ -351,7 +356,7 @@ bool kiln_solids_cpu_draw(struct kiln_solids_cpu *stage, const struct kiln_momen
                             .spheres = stage->spheres,
                             .instances = stage->instances,
                             .corners = (const float4(*)[2])stage->meshes->corners,
-                            .rows = stage->ranges,
+                            .ranges = stage->ranges,
                             .patterned = kiln_looks_patterned(stage->scene),
                             .width = stage->scene->width,
                             .pitch = stage->pitch}};

@@ -17,8 +17,8 @@ struct kiln_coarse_cpu {
     struct kiln_threads *threads;
     const struct kiln_coarse_loops *loops;
     struct kiln_coarse_place *columns, *rows; /* by column and by row of the frame */
-    uint8_t *nonplanar;                       /* this and the next as in struct kiln_coarse_rows */
-    struct kiln_coarse_pixel *mixed;
+    uint8_t *nonplanar; /* this and the two below: as in struct kiln_coarse_rows */
+    struct kiln_coarse_pixel *interpolated;
     struct kiln_coarse_columns *measured;
 };
 
@@ -62,9 +62,9 @@ static bool make_scratch(struct kiln_coarse_cpu *coarse)
     const struct kiln_coarse_images *images = coarse->images;
     const size_t width = images->depth.width, threads = kiln_threads_count(coarse->threads);
     coarse->nonplanar = calloc(width * images->depth.height, sizeof *coarse->nonplanar);
-    coarse->mixed = aligned_alloc(16, width * threads * sizeof *coarse->mixed);
+    coarse->interpolated = aligned_alloc(16, width * threads * sizeof *coarse->interpolated);
     coarse->measured = calloc(threads, sizeof *coarse->measured);
-    bool ok = coarse->nonplanar && coarse->mixed && coarse->measured;
+    bool ok = coarse->nonplanar && coarse->interpolated && coarse->measured;
     for (size_t i = 0; ok && i < threads; i++) {
         struct kiln_coarse_columns *measured = &coarse->measured[i];
         measured->farthest = malloc(images->width * sizeof *measured->farthest);
@@ -100,7 +100,7 @@ void kiln_coarse_cpu_destroy(struct kiln_coarse_cpu **coarse)
     free(c->columns);
     free(c->rows);
     free(c->nonplanar);
-    free(c->mixed);
+    free(c->interpolated);
     for (size_t i = 0; c->measured && i < kiln_threads_count(c->threads); i++) {
         free(c->measured[i].farthest);
         free(c->measured[i].nonplanar);
@@ -116,7 +116,7 @@ static struct kiln_coarse_rows begin(const struct kiln_coarse_cpu *coarse)
                                      .columns = coarse->columns,
                                      .rows = coarse->rows,
                                      .nonplanar = coarse->nonplanar,
-                                     .mixed = coarse->mixed,
+                                     .interpolated = coarse->interpolated,
                                      .measured = coarse->measured};
 }
 

@@ -275,7 +275,7 @@ static inline void enlarge_row(const struct kiln_coarse_rows *s, uint32_t y,
 static void enlarge_rows(void *context, size_t begin, size_t end, uint32_t worker)
 {
     const struct kiln_coarse_rows *s = context;
-    struct kiln_coarse_pixel *mixed = s->mixed + worker * (size_t)s->images->depth.width;
+    struct kiln_coarse_pixel *mixed = s->interpolated + worker * (size_t)s->images->depth.width;
     for (size_t y = begin; y < end; y++)
         enlarge_row(s, (uint32_t)y, mixed);
 }
