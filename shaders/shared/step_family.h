@@ -1,18 +1,23 @@
 /* Runs one step of one slot for systems whose particles have children, are children, paint meshes,
- * or die of an impact. It does more than step.h: it computes births from the parents' traces, makes
- * traces, and ends a particle's step where its life ends. Other systems use step.h alone, since
- * this would slow them down.
+ * or die of an impact. A family is a parent system and the systems of its children (family.h). This
+ * header does more than step.h: it computes births from the parents' traces, makes traces
+ * (trace.h), and lets a particle's motion end when its life ends within the step. Other systems use
+ * step.h alone, since this would slow them down.
  *
- * Kernels of all GPU techniques call step_family_slot by way of shaders/sim/step/slot.glsl, and the
- * host does in lib/sim/step/slots_simd.c, for parents before their children. Host and GPU must get
- * the same bits, so every float is EXACT and the order of operations must stay as it is
- * (docs/determinism.md). */
+ * The kernels of all GPU techniques call step_family_slot through shaders/sim/step/slot.glsl; the
+ * host calls it in lib/sim/step/slots_simd.c. Both run the slots of a parent system before those of
+ * its children. Host and GPU must get the same bits (docs/determinism.md). So every local that
+ * holds floats is EXACT (platform.h); a kiln_particle holds their bits as integers. The order of
+ * operations must stay as it is. SIM, SIM_PARAM, STEP and AROUND give access to the parameters of
+ * the step and to the surroundings (layout.h). */
 #ifndef KILN_SHARED_STEP_FAMILY_H
 #define KILN_SHARED_STEP_FAMILY_H
 
 #include "shared/step.h"
 
-/* Holds a slot after a step. */
+#define STEP_SIXTY_FOURTH 0.015625f
+
+/* Holds the content of a slot after a step, and its trace. */
 struct step_result {
     S(kiln_particle) particle;
     S(kiln_trace) trace;
@@ -26,18 +31,19 @@ FN S(step_result) step_result_dead(void)
     return r;
 }
 
-/* Returns the part of the step that has passed when a particle's life ends, for a life that ends in
- * this step. It is a whole number of 64ths, as the times of births are, so that a child that is
- * born of this event begins where its parent ended. It is not before the particle's own birth. */
+/* Returns when in this step a particle's life ends, as a fraction of the step; the life must end in
+ * this step. The fraction is a whole number of 64ths, as the times of births are, so that a child
+ * that is born of this event begins where its parent ended. If the particle is born in this step,
+ * its life does not end before its birth. */
 FN float step_end_of_life(SIM_PARAM S(kiln_particle) p, float age_s, float life_s)
 {
-    EXACT float over_s = age_s - life_s;
-    EXACT float over = over_s * AROUND(steps_per_s);
-    EXACT float until = 1.0f - over;
+    EXACT float after_s = age_s - life_s;
+    EXACT float after = after_s * AROUND(steps_per_s);
+    EXACT float until = 1.0f - after;
     bool born = particle_birth_step(p) == STEP(step);
     EXACT float born_at = particle_birth_fraction(p) * 64.0f;
     uint least = born ? UINT(born_at) : 0u;
-    EXACT float y = FLOAT(family_sixty_fourths(until, least)) * 0.015625f;
+    EXACT float y = FLOAT(family_sixty_fourths(until, least)) * STEP_SIXTY_FOURTH;
     return y;
 }
 
@@ -67,8 +73,9 @@ FN S(kiln_trace) step_trace(SIM_PARAM S(kiln_particle) p, S(step_way) way, uint 
     return t;
 }
 
-/* Returns a particle, which may be new, at the end of this step, as step_particle of step.h does,
- * and its trace. */
+/* Returns a particle at the end of this step, and its trace. The particle may have been born in
+ * this step. It is dead afterwards if its life ends in this step or if it is lost (step.h). A
+ * particle that is lost leaves no trace. */
 FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push) push)
 {
     EXACT S(step_result) r = step_result_dead();
@@ -101,19 +108,19 @@ FN S(step_result) step_family_particle(SIM_PARAM S(kiln_particle) p, S(step_push
         return r;
     uint events = TRACE_ALIVE;
     if (way.first.happened) {
-        bool again = (p.velocity_birth.w & KILN_PARTICLE_BOUNCED) != 0u;
-        events |= again ? TRACE_TURN : TRACE_TURN | TRACE_BOUNCE;
+        bool hit_before = (p.velocity_birth.w & KILN_PARTICLE_BOUNCED) != 0u;
+        events |= hit_before ? TRACE_TURN : TRACE_TURN | TRACE_BOUNCE;
         if (!ends && !stopped)
             r.particle.velocity_birth.w |= KILN_PARTICLE_BOUNCED;
     }
-    if (ends && !stopped)
+    if (ends && !stopped) /* a particle that dies of an impact has only TRACE_BOUNCE */
         events |= TRACE_DEATH;
     r.trace = step_trace(SIM p, way, events, life_s, progress);
     return r;
 }
 
-/* Returns the child for which a slot is reserved if the event of its birth happens in the parent's
- * step. Otherwise returns the slot's content before the step. */
+/* If the event from which this slot's child is born happens in the parent's step, returns the new
+ * child. Otherwise returns `old`, the slot's content before the step. */
 FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln_trace) parent)
 {
     uint j = slot % STEP(family.slots);
@@ -122,7 +129,7 @@ FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln
         return old;
     EXACT float start_at = parent.start.w * 64.0f;
     uint sixty_fourths = family_sixty_fourths(event.since, UINT(start_at));
-    EXACT float since = FLOAT(sixty_fourths) * 0.015625f;
+    EXACT float since = FLOAT(sixty_fourths) * STEP_SIXTY_FOURTH;
     S(kiln_particle) p = step_dead();
     p.position_serial.w = parent.serial_event.x * STEP(family.slots) + j;
     p.velocity_birth.w = (STEP(step) << KILN_BIRTH_STEP_SHIFT) |
@@ -135,9 +142,10 @@ FN S(kiln_particle) step_child(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln
     return step_with_motion(p, born.position, born.velocity);
 }
 
-/* Returns the content of a slot after this step, as step_slot of step.h does, and the slot's trace,
- * which the caller stores if the system is traced. `old` is the content before the step. `parent`
- * is the trace at family_parent_trace; a system without a parent ignores it. */
+/* Returns the content of a slot after this step, and the slot's trace, which the caller stores if
+ * the system has children or paint (family.traced). `old` is the content before the step. `parent`
+ * is the trace of the parent's slot, at the index family_parent_trace; a system without a parent
+ * ignores it. */
 FN S(step_result) step_family_slot(SIM_PARAM uint slot, S(kiln_particle) old, S(kiln_trace) parent)
 {
     S(kiln_particle) p = old;

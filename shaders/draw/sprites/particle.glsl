@@ -1,21 +1,29 @@
-/* Makes one particle: make_particle computes all that its billboard needs from the particle's record,
- * the look of its system and the clock.
+/* Makes the billboard of one particle: make_billboard computes it from the particle's record, the
+ * look of its system and the clock.
  *
- * Shaders that turn particles into billboards include it: particles_geometry.vert and
- * particles_instanced.vert for quads that GL draws, and particles_tiled_make.comp for sprites of the
- * technique `tiled`. They first include draw/moment/record.glsl and billboard.glsl, and declare the
- * variables that make_particle fills in:
- *     vec4 center;        the particle's place in view space; w: LOOK_* shape
- *     vec4 right;         half an edge of the billboard in view space; w: half the width of a point or
- *                         line, px
- *     vec4 up;            half of the other edge; of a line, the whole way from its head to its tail
- *     billboard particle; what the shading reads
+ * Shaders that turn particles into billboards include this file: particles_geometry.vert and
+ * particles_instanced.vert for quads that GL draws, and particles_tiled_make.comp for the technique
+ * `tiled`, which draws with compute shaders. They first include draw/moment/record.glsl and
+ * billboard.glsl, and declare the variables that make_billboard fills in:
  *
- * The host defines SHAPES as 1 for a scene with points, lines or billboards that are not parallel to
- * the picture, and SUN_SHADE for one whose backdrop shades particles (kiln_geometry_defines in
- * lib/draw/sprites/particles_geometry.c); other scenes get a faster shader without that code.
+ *    vec4 center;        the particle's place in view space, m; w: LOOK_POINT, LOOK_LINE, or 0 for
+ *                        a billboard
+ *    vec4 right;         half an edge of the billboard in view space, m; w: half the width of a
+ *                        point or line, px
+ *    vec4 up;            half of the other edge, m; for a line, the whole vector from its head to
+ *                        its tail
+ *    billboard particle; what the shading reads (billboard.glsl)
  *
- * tests/support/true_sprite.h is the definition that tests compare every technique with. */
+ * shared/look_layout.h describes the rows of a look and the members of `looks`, and
+ * shared/draw_layout.h the members of `view`.
+ *
+ * The host defines SHAPES as 1 for a scene with points, lines or billboards that are not parallel
+ * to the picture, else as 0. It defines SUN_SHADE only for a scene whose backdrop
+ * shades particles (kiln_geometry_defines in lib/draw/sprites/particles_geometry.c). Other scenes
+ * get a faster shader without that code.
+ *
+ * tests/support/true_sprite.h is the reference implementation: tests compare every technique with
+ * it. */
 #include "shared/billboard.h"
 #include "shared/billboard_light.h"
 #include "shared/billboard_place.h"
@@ -45,8 +53,8 @@ float sunlight_past_backdrop(uint slot)
     return 1.0;
 }
 
-/* Computes the light on a particle: the part `lit` is that of the sky, the sun and the lights of the
- * backdrop; the rest is light of strength 1 from all sides. */
+/* Computes the light on a particle. `lit` mixes two lights: with 0, light of strength 1 comes from
+ * all sides; with 1, the particle is lit by the sky, the sun and the lamps of the backdrop. */
 void light_particle(float lit, uint slot, vec3 position, billboard_plane plane)
 {
     particle.light_0 = vec4(1.0 - lit);
@@ -76,8 +84,8 @@ uint4 choose_texture(uint system, uint stream)
 }
 
 /* Chooses two adjacent cells of the atlas and the mix between them (Heinz 2019, equation 3.2).
- * `cell_cycles` is how often the particle has gone through its cells until now. The last number is
- * the level of detail. */
+ * `cell_cycles` is how often the particle has gone through its cells until now, and need not be
+ * whole. The result is both layers of the atlas, the mix, and the level of detail. */
 vec4 choose_cells(uint4 atlas, float cell_cycles, bool random_start, uint stream, float diameter_px)
 {
     float cells = float(atlas.y);
@@ -107,9 +115,9 @@ void make_plain(uint4 form, vec2 widths_px, float size_px, vec3 moving, float st
 
 #endif
 
-/* Makes the particle of a draw entry: the system in its highest 8 bits, the slot in the other
- * 24. */
-void make_particle(uint entry)
+/* Makes the billboard, point or line of a draw entry: the system in its highest 8 bits, the slot in
+ * the other 24. */
+void make_billboard(uint entry)
 {
     uint system = entry >> 24;
     kiln_particle record = records[entry & 0xffffffu];
@@ -149,7 +157,7 @@ void make_particle(uint entry)
     float pixels_per_m = view.frustum.w / (2.0 * view.frustum.y * max(depth, 1e-3));
     float opacity = shape.z;
     billboard_size size = billboard_size(half_size, edge.half_length, 1.0);
-    if (view.clock.w < 1.0 && form.x == 0u)
+    if (view.clock.w < 1.0 && form.x == 0u) /* a billboard in a picture smaller than the frame */
         size = billboard_widened(size.half_width, size.half_length, pixels_per_m);
     plane = billboard_rotated(plane, edge, side);
     right = vec4(plane.right * size.half_width, 0.0);
@@ -170,7 +178,7 @@ void make_particle(uint entry)
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
     light_particle(cover.w, entry & 0xffffffu, position, plane);
-    particle.light_x.a = half_size * bloom.a;
+    particle.light_x.a = half_size * bloom.a; /* half the thickness, m */
 #if SHAPES
     if (form.x != 0u)
         make_plain(form, turn.zw * scale * view.clock.w, 2.0 * half_size * pixels_per_m, moving, shape.y);

@@ -22,7 +22,7 @@ layout(location = 3) out billboard particle;
 
 void main()
 {
-    make_particle(entries[gl_VertexID]);
+    make_billboard(entries[gl_VertexID]);
     /* The light does not use this component, so it holds the place in the drawing order, by which
      * particles_list.frag orders fragments of equal depth. A float holds it exactly, since there
      * are at most 2^24 particles. */

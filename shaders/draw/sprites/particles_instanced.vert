@@ -19,7 +19,7 @@ billboard particle;
 
 void main()
 {
-    make_particle(entries[gl_InstanceID]);
+    make_billboard(entries[gl_InstanceID]);
     particle.light_y.a = float(gl_InstanceID);
     outline s = find_particle_outline();
     if (is_seen(center, particle) && s.has_area)

@@ -40,9 +40,9 @@ void main()
     if (is_plain(quad))
         bulge = 0.0;
 #endif
-    float scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
+    float depth_of_scene = texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r;
     vec4 color, bloom;
-    shade(quad, at, depth, scene, color, bloom);
+    shade(quad, at, depth, depth_of_scene, color, bloom);
     if (color == vec4(0.0))
         return;
     /* A round billboard becomes two sheets, one before and one behind its plane, so that an object

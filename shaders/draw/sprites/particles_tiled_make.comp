@@ -110,7 +110,7 @@ void main()
              gl_LocalInvocationID.x;
     if (i >= count)
         return;
-    make_particle(entries[first + i]);
+    make_billboard(entries[first + i]);
     uvec2 box = uvec2(0u);
     if (-center.z > view.eye.w && particle.color.a > 0.0) {
         outline s = find_particle_outline();
