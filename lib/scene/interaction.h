@@ -52,7 +52,7 @@ struct kiln_interaction {
     bool spins;
     struct kiln_value friction; /* collide: friction between particles that spin */
     struct kiln_range turning;  /* collide: rad/s, angular speed at birth */
-    struct kiln_value3 axis;    /* collide: axis of that rotation; 0: drawn for each particle */
+    struct kiln_value3 axis;    /* collide: axis of that rotation; 0: random for each particle */
     struct kiln_value rolling;  /* collide: lever arm of rolling resistance, in radii */
     struct kiln_value strength; /* gravity: acceleration at 1 m, m/s^2; below 0 it repels */
     /* m: gravity softening; within it the attraction does not grow; above 0 */

@@ -42,10 +42,11 @@ static const struct kiln_option collide[] = {
           "Coefficient of friction between two particles that spin: the impulse along the contact "
           "as a part of the impulse between their centres, limited to what stops the slip."),
     RANGE(MOTION, "turning", turning, KILN_ANGULAR_SPEED, KILN_DEG(-36000), KILN_DEG(36000), TIME,
-          "0 deg/s", "Angular speed at birth of particles that spin, drawn for each particle."),
+          "0 deg/s",
+          "Angular speed at birth of particles that spin, chosen at random for each particle."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -1000, 1000, TIME, "[0, 0, 0]",
-           "Axis about which a particle turns at birth, of any length. [0, 0, 0] draws an axis for "
-           "each particle."),
+           "Axis about which a particle turns at birth, of any length. [0, 0, 0] stands for an "
+           "axis chosen at random for each particle."),
     VALUE(MOTION, "rolling", rolling, KILN_FRACTION, 0, 1, TIME, "0",
           "Rolling resistance on surfaces of particles that spin: the surface pushes as if it "
           "touched the ball off its middle by this part of the radius."),

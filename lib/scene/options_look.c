@@ -1,9 +1,14 @@
-/* This file has the option tables of what the particles of a system look like. */
+/* This file has the tables of the options `look` of a system in a scene: how its particles look.
+ * options_emit.c includes them in the table of a system; the parser of scenes, `kiln help scene`
+ * and the schema read them. Each row says whether the option changes pixels alone (LOOK) or, under
+ * a condition, the motion as well (IF_..., see parts.h), and whether a value may vary over the TIME
+ * of the clip or over BOTH that and a particle's life. */
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_look, field)
 
-_Static_assert(AT(rows) == AT(columns) + sizeof(uint32_t), "cells are read as a pair");
+_Static_assert(AT(rows) == AT(columns) + sizeof(uint32_t),
+               "the option `cells` writes columns and rows as an array of two");
 
 static const char *const blends[] = {
     [KILN_BLEND_ALPHA] = "alpha",
@@ -30,7 +35,7 @@ static const char *const line_ends[] = {
 
 static const struct kiln_option point[] = {
     VALUE(LOOK, "size", point_size, KILN_PIXELS, 0, 10000, BOTH, "0 px",
-          "Diameter of a point in pixels; 0 takes the size in metres."),
+          "Diameter of a point in pixels; 0 uses look.size, in metres."),
     BOOLEAN(LOOK, "round", point_round, "true", "true draws a disc, false a square."),
     END,
 };
@@ -40,7 +45,7 @@ static const struct kiln_option line[] = {
           "Width of a line in pixels."),
     CHOICE(LOOK, "to", line_to, line_ends, "velocity",
            "The far end of a line. `velocity` puts it behind the particle, along the velocity, by "
-           "the speed times `stretch`. `previous` puts it where the particle was a frame ago."),
+           "the speed times look.stretch. `previous` puts it where the particle was a frame ago."),
     END,
 };
 
@@ -57,10 +62,10 @@ static const struct kiln_option mesh[] = {
          "longest edge of its bounding box is scaled to the size.")},
     CHOICE(LOOK, "orient", mesh.orient, orients, "velocity",
            "`velocity` turns the z axis of the mesh to the direction of flight, without a roll. "
-           "`spin` "
-           "turns the mesh as collisions with spin have turned the particle; without such "
-           "collisions, `rotation` and `spin` turn it about an axis drawn for each particle. "
-           "`upright` turns it by `rotation` and `spin` about the world's y axis."),
+           "`spin` turns the mesh as collisions have turned the particle, where they do "
+           "(collide.spin of an interaction); elsewhere look.rotation and look.spin turn it about "
+           "an axis chosen at random for each particle. `upright` turns it by look.rotation and "
+           "look.spin about the world's y axis."),
     END,
 };
 
@@ -75,11 +80,12 @@ static const struct kiln_option sphere[] = {
     CHOICE(
         LOOK, "pattern", sphere.pattern, patterns, "plain",
         "`plain` has one colour. `stripe` draws look.color as a band about the equator. `segments` "
-        "alternates the two colours from pole to pole. Collisions with spin turn the pattern; "
-        "without such collisions, `rotation` and `spin` turn it about an axis drawn for each "
-        "particle."),
+        "alternates the two colours from pole to pole. Collisions turn the pattern where they turn "
+        "particles (collide.spin of an interaction); elsewhere look.rotation and look.spin turn it "
+        "about an axis chosen at random for each particle."),
     INTEGER(LOOK, "segments", sphere.segments, 1, 8, "3", "Number of segments of each colour."),
-    COLOR(LOOK, "color", sphere.color, 1000, BOTH, "1", "The other colour of the pattern."),
+    COLOR(LOOK, "color", sphere.color, 1000, BOTH, "1",
+          "The second colour of the pattern; the first is look.color."),
     END,
 };
 
@@ -111,8 +117,8 @@ const struct kiln_option kiln_options_look[] = {
          "The texture, whose cells play in order. Of several textures, each particle gets one."),
      .count_offset = AT(atlas_count), .max_count = KILN_MAX_TEXTURES},
     {ROW(LOOK, "cells", pair, AT(columns), "[8, 8]",
-         "Columns and rows of cells in an atlas file. A built-in atlas and a video have as many "
-         "cells."),
+         "Columns and rows of cells in an atlas file. Their product is the number of cells: a "
+         "built-in atlas is made with that many, and a video gives its first frames."),
      LIMITS(KILN_PLAIN, 1, 64)},
     {ROW(LOOK, "motion", motion, AT(motion), "auto",
          "An image of the motion from each cell to the next, so that few cells play smoothly: red "
@@ -133,19 +139,21 @@ const struct kiln_option kiln_options_look[] = {
            "`alpha` covers what is behind the particle, like smoke. `add` adds light to it, like "
            "fire."),
     VALUE(IF_CONTACTS_ARE_AS_DRAWN, "size", size, KILN_METRES, 0, 1000, BOTH, "0.5 m",
-          "Edge length of the billboard."),
+          "Edge length of a billboard, diameter of a sphere, longest edge of a mesh."),
     RANGE(IF_CONTACTS_ARE_AS_DRAWN, "scale", scale, KILN_PLAIN, 0, 1000, TIME, "1",
-          "Factor on size, drawn for each particle."),
+          "Factor on size, chosen at random for each particle."),
     CHOICE(
         LOOK, "shape", shape, shapes, "billboard",
         "`billboard` draws the texture on a quad. `point` and `line` draw a plain colour without a "
-        "texture. `sphere` and `mesh` are opaque, lit like the backdrop, and scaled by opacity and "
-        "fade."),
-    CHOICE(LOOK, "facing", facing, facings, "screen",
-           "How a billboard is turned. screen, viewplane and velocity are parallel to the picture: "
-           "screen is upright in the picture, viewplane is upright in the world, velocity has its "
-           "upper edge towards the velocity. `viewpoint` is turned to the eye and upright in the "
-           "world. `axial` turns about `axis` alone, as far towards the eye as it can."),
+        "texture. `sphere` and `mesh` are opaque, lit like the backdrop, and become smaller where "
+        "opacity and fade would make them transparent."),
+    CHOICE(
+        LOOK, "facing", facing, facings, "screen",
+        "How a billboard is turned. `screen`, `viewplane` and `velocity` are parallel to the "
+        "picture. `screen` is upright in the picture, `viewplane` is upright in the world, and "
+        "`velocity` has its upper edge towards the velocity. `viewpoint` is turned to the eye "
+        "and upright in the world. `axial` turns about `axis` alone, as far towards the eye as it "
+        "can."),
     VECTOR(LOOK, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Axis that axial billboards turn about, of any length but 0."),
     GROUP(LOOK, "point", 0, point, "How points look."),
@@ -157,9 +165,11 @@ const struct kiln_option kiln_options_look[] = {
           "The billboard is longer along the velocity by the speed times this. 0 keeps it square."),
     RANGE(LOOK, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), BOTH,
           "[0 deg, 360 deg]",
-          "Angle by which a particle is turned, drawn for each particle. `spin` adds to it."),
-    RANGE(LOOK, "spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), BOTH, "0 deg/s",
-          "Angular speed of a particle, drawn for each particle, to either side."),
+          "Angle by which a particle is turned, chosen at random for each particle. `spin` adds to "
+          "it."),
+    RANGE(
+        LOOK, "spin", spin, KILN_ANGULAR_SPEED, 0, KILN_DEG(36000), BOTH, "0 deg/s",
+        "Angular speed of a particle. Speed and direction are chosen at random for each particle."),
     VALUE(LOOK, "cycles", cycles, KILN_PLAIN, 0, 1000, TIME, "1",
           "How many times the atlas plays in a life."),
     BOOLEAN(LOOK, "random_start", random_start, "false",
@@ -178,26 +188,27 @@ const struct kiln_option kiln_options_look[] = {
           "distance. 0 gives a hard edge."),
     CHOICE(
         LOOK, "soft_formula", soft_formula, soft_formulas, "clamped",
-        "`clamped` limits the fade to 0..1. `literal` follows equation 3.3 as the thesis prints it "
-        "(Heinz 2019), without a limit."),
+        "`clamped` limits the fade to 0..1. `literal` is equation 3.3 of Heinz's thesis (2019) as "
+        "printed: it has no limit, and takes the particle's distance from the eye for its depth."),
     VALUE(LOOK, "thickness", thickness, KILN_PLAIN, 0, 10, BOTH, "1",
           "Depth of a billboard as a multiple of its size, where post.compose is oit: 1 is as deep "
           "as wide, like a puff of smoke; 0 is flat."),
     VALUE(LOOK, "near_fade", near_fade, KILN_METRES, 0, 1000, BOTH, "0.2 m",
-          "Distance behind the camera's near plane over which a particle fades in."),
-    COLOR(LOOK, "bloom", bloom, 100, BOTH, "0", "Fraction of the colour that goes to the bloom."),
+          "Distance beyond the camera's near plane over which a particle fades in."),
+    COLOR(LOOK, "bloom", bloom, 100, BOTH, "0", "Factor on the colour that goes to the bloom."),
     VALUE(LOOK, "lit", lit, KILN_FRACTION, 0, 1, BOTH, "0",
           "0 shows the particle's own colour. 1 lights the particle by sun, sky and lights."),
     VALUE(LOOK, "shadow", shadow, KILN_PLAIN, 0, 100, TIME, "1",
-          "Factor on the light that a particle of blend alpha takes from itself and from "
-          "everything behind it."),
+          "How strongly a particle of blend alpha shadows itself and what lies behind it as seen "
+          "from a light: a factor on the light that it absorbs."),
     COLOR(LOOK, "light", light, 1000000, TIME, "0",
           "Factor on the light that a glowing particle sheds on backdrop and smoke. 1 is as much "
           "light as the particle emits."),
     INTEGER(LOOK, "lights", light_count, 1, KILN_MAX_FIRE_LIGHTS, "4",
             "Number of moving lights that shed the light of the system, grouped by the ages of its "
-            "particles. A scene has up to 16 in all."),
+            "particles. All systems of a scene have up to 16 together."),
     BOOLEAN(LOOK, "light_shadow", light_shadow, "true",
-            "Objects of the backdrop hide that light, except those that contain a light's centre."),
+            "Objects of the backdrop hide the light of look.light, except those that contain a "
+            "light's centre."),
     END,
 };

@@ -255,7 +255,7 @@ struct kiln_look {
     const char *motion_layout;
     enum kiln_blend blend;
     struct kiln_value size;  /* m: edge of the billboard */
-    struct kiln_range scale; /* factor on size, drawn for each particle */
+    struct kiln_range scale; /* factor on size, random for each particle */
     enum kiln_shape shape;
     enum kiln_facing facing;      /* of a billboard: how it faces the camera */
     struct kiln_value3 axis;      /* axis of an axial billboard; need not be normalised, not zero */
@@ -268,7 +268,7 @@ struct kiln_look {
     /* s: a billboard is longer along the velocity by speed * stretch; 0: square */
     struct kiln_value stretch;
     struct kiln_range rotation;          /* rad at birth */
-    struct kiln_range spin;              /* rad/s; the sign is drawn for each particle */
+    struct kiln_range spin;              /* rad/s; the sign is random for each particle */
     struct kiln_value cycles;            /* passes through the atlas in one life */
     bool random_start;                   /* each particle starts at a cell of its own */
     struct kiln_value3 color;            /* linear; multiplies the atlas or the blackbody colour */

@@ -50,7 +50,7 @@ struct kiln_interact_params {
     uint adds;              /* 1: gravity or a flock adds to pushes that exist already */
     S(kiln_value) radius;   /* m */
     S(kiln_value) size;     /* m: of the look, twice the radius */
-    S(kiln_range) scale;    /* factor on size, drawn for each particle */
+    S(kiln_range) scale;    /* factor on size, random for each particle */
     S(kiln_value) strength; /* of gravity: m/s^2 at 1 m */
     S(kiln_flock_params) flock;
     float ahead_s;        /* s: how far ahead collisions are searched */

@@ -154,7 +154,7 @@ struct kiln_step_params {
     uint first_spin;           /* spin of its first slot */
     float spin_low, spin_high; /* rad/s at birth */
     float rolling;             /* lever arm of rolling resistance, in radii */
-    /* axis of the spin at birth, of any length; 0: drawn for each particle */
+    /* axis of the spin at birth, of any length; 0: random for each particle */
     float4 spin_axis;
     float4 bounds_min, bounds_max;
     float4 demitter_min[KILN_MAX_DEMITTERS];

@@ -137,7 +137,7 @@ FN float4 spin_any_pose(uint stream)
     return unit;
 }
 
-/* Returns the spin at birth, rad/s, about `axis`, or about an axis drawn for each particle where
+/* Returns the spin at birth, rad/s, about `axis`, or about a random axis for each particle where
  * `axis` is zero. */
 FN float3 spin_at_birth(uint stream, float low, float high, float3 axis)
 {

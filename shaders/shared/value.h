@@ -27,7 +27,7 @@ struct kiln_value3 {
     S(kiln_value) x, y, z;
 };
 
-/* A number drawn for each particle, uniformly between two animated ends. */
+/* A number chosen at random for each particle, uniformly between two animated ends. */
 struct kiln_range {
     S(kiln_value) min, max;
 };
