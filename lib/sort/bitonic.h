@@ -1,4 +1,5 @@
-/* Technique `bitonic` lists the living particles and sorts them in compute by bitonic merges. */
+/* Technique `bitonic` lists the living particles and sorts them with compute shaders by
+ * bitonic merges. */
 #ifndef KILN_SORT_BITONIC_H
 #define KILN_SORT_BITONIC_H
 
