@@ -1,6 +1,6 @@
-/* Finds, hashes, locks and accepts the golden pictures of tests. A golden is found by the names in
- * its folder, never by trying to open what may be there: a golden that cannot be read must not look
- * as if it were missing. */
+/* Finds, hashes, locks and accepts the golden pictures of tests (golden.h has the form of their
+ * names). Goldens are found in the list of their folder's files. Opening a file to see whether it
+ * exists would not do, since a golden that cannot be read would then look as if it were missing. */
 #include "suite/golden.h"
 
 #include <dirent.h>
@@ -42,10 +42,10 @@ void kiln_device_name(const char *renderer, char name[KILN_DEVICE_NAME_SIZE])
 
 /* ---- names ---------------------------------------------------------------------------------- */
 
-/* The parts of a golden's name. A golden of number 1 has no "~1" in its name. */
+/* Holds the parts of a golden's name. */
 struct golden_name {
-    char device[KILN_DEVICE_NAME_SIZE]; /* "" without one */
-    unsigned number;
+    char device[KILN_DEVICE_NAME_SIZE]; /* "": the golden is for all devices */
+    unsigned number;                    /* the number after '~'; 1 if there is none */
 };
 
 const char *kiln_test_suffix(const struct kiln_test *test)
@@ -71,20 +71,20 @@ enum match { OTHER_FILE, GOLDEN, MALFORMED };
 static enum match parse_middle(const char *middle, size_t length, struct golden_name *name)
 {
     const char *tilde = memchr(middle, '~', length);
-    size_t device = tilde ? (size_t)(tilde - middle) : length;
+    size_t device_length = tilde ? (size_t)(tilde - middle) : length; /* '@' included */
     *name = (struct golden_name){.number = 1};
-    if (device > 0) {
+    if (device_length > 0) {
         char clean[KILN_DEVICE_NAME_SIZE];
-        if (device > sizeof name->device)
+        if (device_length > sizeof name->device)
             return MALFORMED;
-        memcpy(name->device, middle + 1, device - 1);
+        memcpy(name->device, middle + 1, device_length - 1);
         kiln_device_name(name->device, clean);
         if (!*clean || strcmp(clean, name->device) != 0)
             return MALFORMED;
     }
     if (!tilde)
         return GOLDEN;
-    size_t digits = length - device - 1;
+    size_t digits = length - device_length - 1;
     if (digits < 1 || digits > 3 || tilde[1] == '0' || strspn(tilde + 1, "0123456789") != digits)
         return MALFORMED;
     name->number = 0;
@@ -98,17 +98,20 @@ static enum match parse_name(const char *text, const struct kiln_test *test, uin
 {
     char start[32];
     const char *suffix = kiln_test_suffix(test);
-    size_t length = strlen(text), end = strlen(suffix);
-    size_t begin = (size_t)snprintf(start, sizeof start, "frame_%04u", frame);
-    if (strncmp(text, start, begin) != 0 || length < begin + end ||
-        strcmp(text + length - end, suffix) != 0)
+    size_t length = strlen(text), suffix_length = strlen(suffix);
+    size_t start_length = (size_t)snprintf(start, sizeof start, "frame_%04u", frame);
+    if (strncmp(text, start, start_length) != 0 || length < start_length + suffix_length ||
+        strcmp(text + length - suffix_length, suffix) != 0)
         return OTHER_FILE;
-    const char *middle = text + begin;
-    if (middle + end < text + length && *middle != '@' && *middle != '~')
+    const char *middle = text + start_length;
+    size_t middle_length = length - start_length - suffix_length;
+    if (middle_length > 0 && *middle != '@' && *middle != '~')
         return OTHER_FILE;
-    return parse_middle(middle, length - begin - end, name);
+    return parse_middle(middle, middle_length, name);
 }
 
+/* Returns whether goldens with `device` in their names are for the device: its name begins with
+ * `device` and goes on with '-' or ends there. Goldens without a device are for all. */
 static bool is_for(const char *device, const char *device_name)
 {
     size_t length = strlen(device);
@@ -134,8 +137,9 @@ static bool add_number(struct numbers *numbers, unsigned number)
     return true;
 }
 
-/* Adds an entry of the folder if it is a golden of the frame. Goldens of a more specific device
- * replace those found before. */
+/* Adds an entry of the folder if it is a golden of the frame for the device. A golden with a longer
+ * device in its name than those found before replaces them, and one with a shorter is passed over.
+ */
 static bool take_entry(const char *entry, const struct kiln_test *test, uint32_t frame,
                        const char *device_name, char device[KILN_DEVICE_NAME_SIZE],
                        struct numbers *numbers, struct kiln_error *error)
@@ -145,8 +149,8 @@ static bool take_entry(const char *entry, const struct kiln_test *test, uint32_t
     if (match == MALFORMED)
         return kiln_error_set(
             error, KILN_INVALID_INPUT,
-            "%s/%.200s: not the name of a golden; a name is frame_%04u%s, and may have before the "
-            "suffix @ with a device's name in lower case, ~ with a number from 2, or both",
+            "%s/%.200s: not the name of a golden; names are frame_%04u[@DEVICE][~NUMBER]%s with a "
+            "device in lower case and a number from 2 to 999, each of which may be left out",
             test->golden, entry, frame, kiln_test_suffix(test));
     if (match == OTHER_FILE || !is_for(name.device, device_name))
         return true;
@@ -170,7 +174,8 @@ static bool read_folder(const struct kiln_test *test, uint32_t frame, const char
     struct dirent **entries = NULL;
     int count = scandir(test->golden, &entries, NULL, NULL);
     if (count < 0) {
-        int reason = errno; /* a broken link is an error, a missing folder is not */
+        int reason = errno;
+        /* A missing folder is no error: there are no goldens yet. A broken link is one. */
         if (reason == ENOENT && lstat(test->golden, &status) != 0 && errno == ENOENT)
             return true;
         return kiln_error_set_errno(error, KILN_IO, reason, "%s: the folder cannot be read",
@@ -278,7 +283,7 @@ static bool copy_bytes(int from, const char *name, struct kiln_temporary *to,
         if (count < 0 && errno != EINTR)
             return kiln_error_set_errno(error, KILN_IO, errno, "%s", name);
         if (count > 0 && !kiln_temporary_write(to, buffer, (size_t)count))
-            return true; /* the commit will report the failure */
+            return true; /* kiln_temporary_commit returns false and reports the failure */
     }
 }
 
@@ -326,11 +331,11 @@ bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error)
 /* ---- accepting ------------------------------------------------------------------------------ */
 
 static bool put_picture(const struct kiln_acceptance *acceptance, const char *path,
-                        const char *pixels, struct kiln_error *error)
+                        const char *pixel_hash, struct kiln_error *error)
 {
     char existing_hash[65];
     struct kiln_error ignored = {0}; /* a file that is missing or broken is replaced */
-    if (kiln_pixel_hash(path, existing_hash, &ignored) && strcmp(existing_hash, pixels) == 0)
+    if (kiln_pixel_hash(path, existing_hash, &ignored) && strcmp(existing_hash, pixel_hash) == 0)
         return true;
     return kiln_file_copy(acceptance->picture, path, error);
 }
@@ -343,10 +348,12 @@ bool kiln_goldens_write_scene(const struct kiln_test *test, const char *text,
            kiln_temporary_write_file(path, text, strlen(text), error);
 }
 
-/* Chooses the path of the accepted picture. If an alternative has the pixels of a golden of the
- * frame, that golden's path is chosen. */
-static bool choose_place(const struct kiln_test *test, const struct kiln_acceptance *acceptance,
-                         const char *pixels, char path[KILN_PATH_SIZE], struct kiln_error *error)
+/* Chooses the path of the accepted picture as kiln_goldens_place does, with two exceptions. A
+ * picture that replaces a given golden takes that golden's path. A picture that is accepted as an
+ * alternative takes the path of a golden of the frame that has the same pixels, if there is one, so
+ * that no golden is there twice. */
+static bool choose_path(const struct kiln_test *test, const struct kiln_acceptance *acceptance,
+                        const char *pixel_hash, char path[KILN_PATH_SIZE], struct kiln_error *error)
 {
     const char *device = acceptance->device_name, *place = NULL;
     struct kiln_goldens goldens = {0};
@@ -359,7 +366,7 @@ static bool choose_place(const struct kiln_test *test, const struct kiln_accepta
         char existing_hash[65];
         struct kiln_error ignored = {0};
         if (kiln_pixel_hash(goldens.paths[i], existing_hash, &ignored) &&
-            strcmp(existing_hash, pixels) == 0)
+            strcmp(existing_hash, pixel_hash) == 0)
             place = goldens.paths[i];
     }
     if (!place)
@@ -372,17 +379,17 @@ bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
                          struct kiln_expect *expect, const struct kiln_acceptance *acceptance,
                          char path[KILN_PATH_SIZE], struct kiln_error *error)
 {
-    char pixels[65];
-    const bool hash = test->golden_form == KILN_GOLDEN_HASH;
-    if (!kiln_pixel_hash(acceptance->picture, pixels, error))
+    char pixel_hash[65];
+    const bool hashes_only = test->golden_form == KILN_GOLDEN_HASH;
+    if (!kiln_pixel_hash(acceptance->picture, pixel_hash, error))
         return false;
-    if (hash ? !kiln_path_join(path, test->golden, "expect.yaml", error)
-             : !choose_place(test, acceptance, pixels, path, error) ||
-                   !put_picture(acceptance, path, pixels, error))
+    if (hashes_only ? !kiln_path_join(path, test->golden, "expect.yaml", error)
+                    : !choose_path(test, acceptance, pixel_hash, path, error) ||
+                          !put_picture(acceptance, path, pixel_hash, error))
         return false;
     const struct kiln_expect_pixels accepted = {.device = acceptance->device_name,
-                                                .hash = pixels,
-                                                .golden = hash ? NULL : pixels,
+                                                .hash = pixel_hash,
+                                                .golden = hashes_only ? NULL : pixel_hash,
                                                 .kiln = acceptance->build};
     return kiln_expect_accept(arena, expect, acceptance->frame, acceptance->state, &accepted) ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while accepting pictures");

@@ -59,10 +59,10 @@ bool kiln_file_copy(const char *from, const char *to, struct kiln_error *error);
 bool kiln_pixel_hash(const char *path, char hex[65], struct kiln_error *error);
 
 /* Accepts one picture. It is copied to its place, which path receives, unless a picture with the
- * same pixels is there or the test keeps hashes alone. An alternative is not copied if any golden
- * of the frame has its pixels. The state and the hash of the pixels go into expect. The caller
- * holds the lock, and writes expect and the scene afterwards. KILN_INVALID_INPUT when the picture
- * cannot be decoded, KILN_IO, KILN_DEVICE_FAILED. */
+ * same pixels is there or the test keeps hashes alone; path is then that of expect.yaml. An
+ * alternative is not copied if any golden of the frame has its pixels. The state and the hash of
+ * the pixels go into expect. The caller holds the lock, and writes expect and the scene afterwards.
+ * KILN_INVALID_INPUT when the picture cannot be decoded, KILN_IO, KILN_DEVICE_FAILED. */
 struct kiln_acceptance {
     uint32_t frame;
     const char *picture; /* path of its file */

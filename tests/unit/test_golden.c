@@ -128,9 +128,8 @@ static void strange_files_are_none_or_errors(void **state)
         put(wrong[i]);
         snprintf(path, sizeof path, "golden/fire/frame_0024%s", wrong[i]);
         snprintf(message, sizeof message,
-                 "%s: not the name of a golden; a name is frame_0024.png, and may have before the "
-                 "suffix @ with a "
-                 "device's name in lower case, ~ with a number from 2, or both",
+                 "%s: not the name of a golden; names are frame_0024[@DEVICE][~NUMBER].png with a "
+                 "device in lower case and a number from 2 to 999, each of which may be left out",
                  path);
         expect_not_found(message, KILN_INVALID_INPUT);
         assert_int_equal(unlink(path), 0);
