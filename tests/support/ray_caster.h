@@ -83,8 +83,8 @@ struct expected {
     double lamp_radius, lamp_color;
 };
 
-/* Returns the red light along the ray of a pixel, by the lamp or for an irradiance of pi by the sun,
- * and sets *depth to the distance t along the ray, or 1e9 for the sky. */
+/* Returns the red light along the ray of a pixel, by the lamp or for an irradiance of pi by the
+ * sun, and sets *depth to the distance t along the ray, or 1e9 for the sky. */
 double light(const struct expected *e, double px, double py, double *depth);
 
 /* Compares every step-th pixel with the ray caster. Pixels over which the expected light or depth
