@@ -12,6 +12,10 @@ endif()
 set(kiln_test_times
     "gpu.simulate 30 5"
     "gpu.shadows 15 2"
+    "gpu.lamps 25"
+    "gpu.lens 10"
+    "gpu.bloom 10"
+    "gpu.shutter 10"
     "gpu.backdrops 30 2"
     "gpu.rasters 20 2"
     "gpu.sort 20"
