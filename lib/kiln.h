@@ -297,7 +297,7 @@ struct kiln_flipbook {
     uint32_t fade;          /* how far from its border a cell with alpha fades out, in percent of
                                the frame's shorter side, 0 to 50; the pixels at the border become
                                transparent. 0: no fade, which may show the border as a cut */
-    uint32_t green_down;    /* 1: green of the motion points down, for engines whose v does; 0: up */
+    uint32_t green_down;    /* 1: green of the motion points down, as in engines whose v does */
 };
 KILN_EMPTY(kiln_flipbook, kiln_flipbook_empty)
 

@@ -27,10 +27,10 @@ static void defaults_follow_the_device(void **state)
                         "simulate=cpu sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu");
     assert_true(choose(false, true, NULL, text, &error));
     assert_string_equal(
-        text, "simulate=inplace sort=cpu backdrop=gl raster=geometry bloom=gl composite=gl");
+        text, "simulate=inplace sort=bitonic backdrop=gl raster=tiled bloom=gl composite=gl");
     assert_true(choose(false, false, NULL, text, &error));
     assert_string_equal(text,
-                        "simulate=cpu sort=cpu backdrop=gl raster=geometry bloom=gl composite=gl");
+                        "simulate=cpu sort=cpu backdrop=gl raster=tiled bloom=gl composite=gl");
 }
 
 static void auto_is_the_default(void **state)
@@ -118,7 +118,7 @@ static void flags_force_a_technique(void **state)
     assert_true(choose(true, true, "sort=radix", text, &error));
     assert_string_equal(text,
                         "simulate=cpu sort=radix backdrop=cpu raster=cpu bloom=cpu composite=cpu");
-    assert_true(choose(false, true, "sort=bitonic", text, &error));
+    assert_true(choose(false, true, "raster=geometry", text, &error));
     assert_string_equal(
         text, "simulate=inplace sort=bitonic backdrop=gl raster=geometry bloom=gl composite=gl");
 

@@ -75,8 +75,8 @@ $ kiln render scenes/tiny.yaml -q -o huge.png --frames 0 --device cpu --threads 
 1|kiln: the job has taken <s> since it began, and the limit `time` is 0.5 s
 $ kiln check scenes/tiny.yaml -q --timeout 0.001 2>&1 | sed 's/taken .* since/taken <s> since/'
 1|loading scenes/tiny.yaml: the job has taken <s> since it began, and the limit `time` is 0.001 s
-$ kiln render scenes/tiny.yaml scenes/empty.yaml -q -o '{scene}.png' --limits cpu=1ms 2>&1 | sed 's/taken .* of/taken <s> of/'
-1|loading scenes/tiny.yaml: the job has taken <s> of processor time, and the limit `cpu` is 0.001 s
+$ { cat scenes/tiny.yaml; seq 50000 | sed 's/^/# /'; } >scenes/slow.yaml; kiln render scenes/slow.yaml scenes/empty.yaml -q -o '{scene}.png' --limits cpu=1ms 2>&1 | sed 's/taken .* of/taken <s> of/'
+1|loading scenes/slow.yaml: the job has taken <s> of processor time, and the limit `cpu` is 0.001 s
 1|loading scenes/empty.yaml: the job has taken <s> of processor time, and the limit `cpu` is 0.001 s
 $ kiln check - -q --timeout 0.1 < <(sleep 2) 2>&1 | sed 's/taken .* since/taken <s> since/'
 1|kiln: loading standard input: the job has taken <s> since it began, and the limit `time` is 0.1 s; unfinished files are discarded

@@ -38,7 +38,7 @@ $ kiln help man | grep '^\.SH\|^\.SS'
 1|.SH EXAMPLES
 1|.SH SEE ALSO
 $ kiln help man | grep -c '^\.TP'
-1|325
+1|326
 $ kiln help man-scene | grep '^\.SH'
 1|.SH NAME
 1|.SH DESCRIPTION
@@ -56,4 +56,4 @@ $ kiln help | sed -n '/^commands/,/^$/s/^  \(.*[a-z]\)  .*/\1/p' | sed 's/   *.*
 > done
 $ kiln help scene | grep -oE '^[a-z][A-Za-z_.]*( with.*)?$' >keys.txt
 $ kiln help man-scene | sed -n '/^\.SH KEYS/,$s/^\\fB\(.*\)\\fR/\1/p' | diff keys.txt - && wc -l <keys.txt
-1|357
+1|361
