@@ -13,6 +13,7 @@
 #include "kiln_program.h"
 #include "option/values.h"
 #include "particles/births.h"
+#include "scene/force.h"
 #include "scene/interaction.h"
 #include "scene/pattern.h"
 #include "scene/post.h"
@@ -85,58 +86,6 @@ struct kiln_emitter {
     uint32_t nozzles;             /* line: places that births take in turn; 0: anywhere on it */
     struct kiln_value turn;       /* rad/s: of the shape about its direction */
     struct kiln_value inherit;    /* part of the velocity of emitter or parent */
-};
-
-/* ---- forces: each kind also has a row in shared/forces.h and an option list ------------------ */
-
-enum kiln_force_kind {
-    KILN_FORCE_GRAVITY, /* vector: acceleration, m/s^2 */
-    KILN_FORCE_DRAG,    /* drag towards rest */
-    KILN_FORCE_WIND,    /* vector: air velocity, m/s, which particles are pulled towards */
-    KILN_FORCE_CURL,    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift,
-                         * pull 1/s towards the air, octaves */
-    KILN_FORCE_LIMIT,   /* strength: m/s, limit of the speed */
-    KILN_FORCE_FIELD,   /* file: air velocities, m/s; strength: factor; pull 1/s */
-    KILN_FORCE_ATTRACT, /* vector: a point, m; strength: m/s^2 at 1 m from it, negative to flee;
-                         * scale: m, radius within which it is softened; falloff */
-    KILN_FORCE_VORTEX,  /* vector: a point of the axis, m; drift: its direction; strength: m/s at
-                         * the core's edge; scale: m, radius of the core; inward, lift: m/s; pull
-                         * 1/s towards the air; profile */
-};
-
-enum kiln_falloff {
-    KILN_FALLOFF_INVERSE_SQUARE,
-    KILN_FALLOFF_INVERSE,
-    KILN_FALLOFF_CONSTANT,
-    KILN_FALLOFF_LINEAR,
-};
-
-enum kiln_vortex_profile {
-    KILN_VORTEX_RANKINE,
-    KILN_VORTEX_LAMB_OSEEN,
-};
-
-/* How moving air acts on particles. */
-enum kiln_wind_mode {
-    KILN_WIND_PULL, /* (air - velocity) * pull, as an acceleration */
-    KILN_WIND_ADD,  /* the air's velocity is added in each step (UberFlow 2004, 4.2); no pull */
-};
-
-struct kiln_force {
-    enum kiln_force_kind kind;
-    struct kiln_value3 vector;
-    struct kiln_value strength;
-    struct kiln_value pull;      /* 1/s */
-    struct kiln_value quadratic; /* 1/m: drag by the square of the speed */
-    struct kiln_value scale;     /* m */
-    struct kiln_value3 drift;    /* m/s: drift of the noise field */
-    struct kiln_value inward;    /* m/s; inward and lift vary over time alone */
-    struct kiln_value lift;      /* m/s */
-    uint32_t octaves;            /* 1..4 */
-    enum kiln_falloff falloff;
-    enum kiln_vortex_profile profile;
-    enum kiln_wind_mode mode; /* how moving air acts */
-    const char *file;         /* field: an absolute path (asset/geometry/grid_in.h) */
 };
 
 enum kiln_integration {
