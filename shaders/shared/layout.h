@@ -74,7 +74,7 @@ struct kiln_force_params {
     uint kind;
     uint octaves;
     uint grid;    /* number of the grid of a field */
-    uint profile; /* FALLOFF_* or VORTEX_* */
+    uint profile; /* a word of the kind: FALLOFF_* or VORTEX_* */
     S(kiln_value3) vector;
     S(kiln_value3) drift;
     S(kiln_value) strength;

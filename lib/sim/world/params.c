@@ -41,26 +41,11 @@ static_assert(EMIT_POINT == (uint)KILN_EMITTER_POINT && EMIT_SPHERE == (uint)KIL
                   EMIT_BOX == (uint)KILN_EMITTER_BOX && EMIT_DISC == (uint)KILN_EMITTER_DISC &&
                   EMIT_CONE == (uint)KILN_EMITTER_CONE && EMIT_LINE == (uint)KILN_EMITTER_LINE,
               "the shaders' names of enum kiln_emitter_shape");
-static_assert(FORCE_GRAVITY == (uint)KILN_FORCE_GRAVITY && FORCE_DRAG == (uint)KILN_FORCE_DRAG &&
-                  FORCE_WIND == (uint)KILN_FORCE_WIND && FORCE_CURL == (uint)KILN_FORCE_CURL &&
-                  FORCE_LIMIT == (uint)KILN_FORCE_LIMIT && FORCE_FIELD == (uint)KILN_FORCE_FIELD &&
-                  FORCE_ATTRACT == (uint)KILN_FORCE_ATTRACT &&
-                  FORCE_VORTEX == (uint)KILN_FORCE_VORTEX,
-              "the shaders' names of enum kiln_force_kind");
 static_assert(INTEGRATE_SEMI_IMPLICIT == (uint)KILN_INTEGRATE_SEMI_IMPLICIT &&
                   INTEGRATE_POSITION_FIRST == (uint)KILN_INTEGRATE_POSITION_FIRST &&
                   INTEGRATE_TRAPEZOID == (uint)KILN_INTEGRATE_TRAPEZOID &&
                   INTEGRATE_RK4 == (uint)KILN_INTEGRATE_RK4,
               "the shaders' names of enum kiln_integration");
-static_assert(FALLOFF_INVERSE_SQUARE == (uint)KILN_FALLOFF_INVERSE_SQUARE &&
-                  FALLOFF_INVERSE == (uint)KILN_FALLOFF_INVERSE &&
-                  FALLOFF_CONSTANT == (uint)KILN_FALLOFF_CONSTANT &&
-                  FALLOFF_LINEAR == (uint)KILN_FALLOFF_LINEAR,
-              "the shaders' names of enum kiln_falloff");
-static_assert(VORTEX_RANKINE == (uint)KILN_VORTEX_RANKINE &&
-                  VORTEX_LAMB_OSEEN == (uint)KILN_VORTEX_LAMB_OSEEN,
-              "the shaders' names of enum kiln_vortex_profile");
-
 static_assert(BORN_OF_DEATH == 1 + (uint)KILN_EVENT_DEATH &&
                   BORN_OF_BOUNCE == 1 + (uint)KILN_EVENT_BOUNCE &&
                   BORN_OF_TRAIL == 1 + (uint)KILN_EVENT_TRAIL,
@@ -278,11 +263,10 @@ static struct kiln_force_params force_at_time(const struct kiln_scene *scene,
                                               const struct kiln_sim_grids *grids,
                                               const struct kiln_force *force, float time_s)
 {
-    const bool attracts = force->kind == KILN_FORCE_ATTRACT;
     struct kiln_force_params params = {
         .kind = (uint)force->kind,
         .octaves = force->octaves,
-        .profile = attracts ? (uint)force->falloff : (uint)force->profile,
+        .profile = (uint)force->profile,
         .grid = force->kind == KILN_FORCE_FIELD ? kiln_sim_grids_find(grids, force->file) : 0,
         .vector = at_time3(scene, force->vector, time_s),
         .drift = at_time3(scene, force->drift, time_s),
