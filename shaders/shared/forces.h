@@ -1,6 +1,8 @@
 /* Sums up the forces of a system and integrates them. A new force is a file force_NAME.h with one
- * function, and a row here; a limit is not summed and has no row. Forces that look up grids have
- * separate rows, since shaders of scenes without grids are compiled without them. */
+ * function, and a row in FORCES_MORE: kernels have it only in scenes that use one of these forces,
+ * since fewer forces compile faster. FORCES has those that every kernel has. Forces that look up
+ * grids have separate rows, since kernels of scenes without grids are compiled without them. A
+ * limit is not summed and has no row. */
 #ifndef KILN_SHARED_FORCES_H
 #define KILN_SHARED_FORCES_H
 

@@ -29,12 +29,12 @@ static inline void find_ages(const struct kiln_sim *sim, struct block *b)
         b->life[i] = particle_progress(b->lanes.age_s[i] - dt_s, b->lanes.life_s[i]);
 }
 
-static inline struct force_input force_input_at(const struct block *b, uint32_t i,
-                                                const struct kiln_force_params *force, float time_s)
+static inline struct force_input force_input_at(const struct kiln_sim *sim, const struct block *b,
+                                                uint32_t i, const struct kiln_force_params *force)
 {
     return (struct force_input){
         .position = kiln_get3(&b->at, i),
-        .time_s = time_s,
+        .time_s = forces_time_s(sim, sim->step->time_s),
         .vector = kiln_get3(&b->vector, i),
         .strength = b->strength[i],
         .drift = kiln_get3(&b->drift, i),
@@ -44,8 +44,10 @@ static inline struct force_input force_input_at(const struct block *b, uint32_t 
         .inward = force->inward,
         .lift = force->lift,
         .added = force->added,
+        .octaves = force->octaves,
         .grid = force->grid,
         .profile = force->profile,
+        .seed = sim->step->noise_seed,
     };
 }
 
@@ -66,10 +68,9 @@ static inline void add_effect(struct block *b, uint32_t i, struct force_effect e
 static inline void add_curl(const struct kiln_sim *sim, struct block *b,
                             const struct kiln_force_params *force)
 {
-    const float time_s = forces_time_s(sim, sim->step->time_s);
     const uint32_t seed = sim->step->noise_seed, octaves = force->octaves;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
-        kiln_set3(&b->place, i, force_curl_place(force_input_at(b, i, force, time_s)));
+        kiln_set3(&b->place, i, force_curl_place(force_input_at(sim, b, i, force)));
         kiln_set3(&b->curl, i, (float3){0.0f, 0.0f, 0.0f});
     }
     for (uint32_t octave = 0; octave < octaves && octave < NOISE_OCTAVES; octave++) {
@@ -79,7 +80,7 @@ static inline void add_curl(const struct kiln_sim *sim, struct block *b,
                 noise_curl_add(kiln_get3(&b->curl, i), kiln_get3(&b->place, i), seed, octave));
     }
     for (uint32_t i = 0; i < KILN_LANES; i++)
-        add_effect(b, i, force_air(force_input_at(b, i, force, time_s), kiln_get3(&b->curl, i)));
+        add_effect(b, i, force_air(force_input_at(sim, b, i, force), kiln_get3(&b->curl, i)));
 }
 
 /* Adds the effect of one force to each lane. */
@@ -90,35 +91,34 @@ static inline void add_curl(const struct kiln_sim *sim, struct block *b,
 static inline void add_force(const struct kiln_sim *sim, struct block *b,
                              const struct kiln_force_params *force)
 {
-    const float time_s = forces_time_s(sim, sim->step->time_s);
     find_values3(sim, force->vector, b, &b->vector);
     find_values(sim, force->strength, b, b->strength);
     find_values3(sim, force->drift, b, &b->drift);
     find_values(sim, force->pull, b, b->pulling);
+    find_values(sim, force->quadratic, b, b->braking);
     find_values(sim, force->scale, b, b->scale);
     switch (force->kind) {
     case FORCE_GRAVITY:
-        ADD_EFFECT(force_gravity(force_input_at(b, i, force, time_s)));
+        ADD_EFFECT(force_gravity(force_input_at(sim, b, i, force)));
         break;
     case FORCE_DRAG:
-        find_values(sim, force->quadratic, b, b->braking);
-        ADD_EFFECT(force_drag(force_input_at(b, i, force, time_s)));
+        ADD_EFFECT(force_drag(force_input_at(sim, b, i, force)));
         break;
     case FORCE_WIND:
-        ADD_EFFECT(force_wind(force_input_at(b, i, force, time_s)));
+        ADD_EFFECT(force_wind(force_input_at(sim, b, i, force)));
         break;
     case FORCE_CURL:
         add_curl(sim, b, force);
         break;
     case FORCE_FIELD:
-        ADD_EFFECT(force_field(sim, force_input_at(b, i, force, time_s)));
+        ADD_EFFECT(force_field(sim, force_input_at(sim, b, i, force)));
         break;
-    case FORCE_ATTRACT:
-        ADD_EFFECT(force_attract(force_input_at(b, i, force, time_s)));
+#define FORCES_ROW(id, function)                                                                   \
+    case id:                                                                                       \
+        ADD_EFFECT(function(force_input_at(sim, b, i, force)));                                    \
         break;
-    case FORCE_VORTEX:
-        ADD_EFFECT(force_vortex(force_input_at(b, i, force, time_s)));
-        break;
+        FORCES_MORE(FORCES_ROW)
+#undef FORCES_ROW
     default:
         break;
     }
@@ -130,7 +130,6 @@ static inline void add_forces(const struct kiln_sim *sim, struct block *b)
         kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
         b->pull[i] = 0.0f;
         b->quadratic[i] = 0.0f;
-        b->braking[i] = 0.0f;
     }
     for (uint32_t k = 0; k < sim->step->force_count; k++)
         add_force(sim, b, &sim->step->forces[k]);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "shared/exact.h"
+#include "shared/forces.h"
 #include "shared/random.h"
 #include "shared/trace.h"
 #include "sim/world/colliders.h"
@@ -115,6 +116,16 @@ static uint what_force_does(const struct kiln_force *force)
     return force->kind == KILN_FORCE_DRAG && !none ? FORCES_SLOW : 0;
 }
 
+/* Returns whether kernels have a kind of force only if they are compiled with FORCES_ALL. */
+static bool is_of_all_forces(enum kiln_force_kind kind)
+{
+    bool found = false;
+#define FORCES_ROW(id, function) found = found || (uint)kind == (id);
+    FORCES_MORE(FORCES_ROW)
+#undef FORCES_ROW
+    return found;
+}
+
 bool kiln_sim_needs_all_forces(const struct kiln_scene *scene)
 {
     bool any = scene->integration >= KILN_INTEGRATE_TRAPEZOID;
@@ -122,8 +133,7 @@ bool kiln_sim_needs_all_forces(const struct kiln_scene *scene)
         const struct kiln_system *system = &scene->systems[i];
         for (uint32_t k = 0; k < system->force_count; k++) {
             const struct kiln_force *force = &system->forces[k];
-            any = any || force->kind == KILN_FORCE_ATTRACT || force->kind == KILN_FORCE_VORTEX ||
-                  what_force_does(force) == FORCES_SLOW;
+            any = any || is_of_all_forces(force->kind) || what_force_does(force) == FORCES_SLOW;
         }
     }
     return any;
