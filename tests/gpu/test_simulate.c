@@ -206,6 +206,17 @@ static void whirls_agree(void **state)
     }
 }
 
+/* Each kind of force in a scene of its own, whose kernels might lack it. */
+static void each_force_alone_agrees(void **state)
+{
+    enum kiln_force_kind kinds[FIXTURE_MAX_FORCE_KINDS];
+    const uint32_t count = fixture_force_kinds(kinds);
+    for (uint32_t i = 0; i < count; i++) {
+        fixture_alone(&fixture, kinds[i], 20);
+        some_agree(*state, &fixture.scene, 20, 1);
+    }
+}
+
 static void families_agree(void **state)
 {
     fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
@@ -438,6 +449,7 @@ int main(int argc, char **argv)
         test_on_device(births_are_split_among_emitters),
         test_on_device(volumes_agree),
         test_on_device(whirls_agree),
+        test_on_device(each_force_alone_agrees),
         test_on_device(colliders_out_of_grids_agree),
         test_on_device(depth_maps_agree),
         test_on_device(work_groups_may_have_any_size),

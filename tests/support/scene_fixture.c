@@ -5,6 +5,7 @@
 
 #include "particles/births.h"
 #include "scene/family.h"
+#include "scene/options.h"
 #include "support/cmocka.h"
 
 void fixture_init(struct scene_fixture *f)
@@ -489,6 +490,44 @@ void fixture_zoo(struct scene_fixture *f, enum kiln_integration integration, uin
     fixture_zoo_cone(f);
     fixture_zoo_clamped(f);
     fixture_zoo_rest(f);
+    fixture_finish(f, steps);
+}
+
+uint32_t fixture_force_kinds(enum kiln_force_kind kinds[FIXTURE_MAX_FORCE_KINDS])
+{
+    uint32_t count = 0;
+    for (const struct kiln_option_kind *row = kiln_force_kinds; row->name; row++) {
+        bool known = false;
+        for (uint32_t i = 0; i < count; i++)
+            known = known || (int)kinds[i] == row->value;
+        if (known)
+            continue; /* another way to write it */
+        assert_true(count < FIXTURE_MAX_FORCE_KINDS);
+        kinds[count++] = (enum kiln_force_kind)row->value;
+    }
+    return count;
+}
+
+void fixture_alone(struct scene_fixture *f, enum kiln_force_kind kind, uint32_t steps)
+{
+    fixture_init(f);
+    struct kiln_system *s = fixture_add_system(f, "alone", 0.0f);
+    s->emit.bursts[0] = (struct kiln_burst){0.0, 1500};
+    s->emit.burst_count = 1;
+    s->emit.shape = KILN_EMITTER_BOX;
+    s->emit.size = fixture_constant3(1.0f, 1.0f, 1.0f);
+    s->emit.angle = fixture_constant(3.0f);
+    struct kiln_force *force = fixture_add_force(s, kind);
+    force->vector = fixture_constant3(0.3f, -0.6f, 0.2f);
+    force->drift = fixture_constant3(0.1f, 0.9f, -0.2f);
+    force->strength = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.5f, 1.0f, 1.5f);
+    force->pull = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 1.0f, 1.0f, 9.0f);
+    force->quadratic = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.2f, 1.0f, 2.0f);
+    force->scale = fixture_constant(0.7f);
+    force->inward = fixture_constant(0.4f);
+    force->lift = fixture_constant(0.6f);
+    force->octaves = 2;
+    force->file = KILN_SOURCE_DIR "/tests/support/whirl.grid";
     fixture_finish(f, steps);
 }
 

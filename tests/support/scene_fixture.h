@@ -101,6 +101,15 @@ struct kiln_flock *fixture_add_flock(struct kiln_system *system, float radius);
  */
 void fixture_zoo(struct scene_fixture *f, enum kiln_integration integration, uint32_t steps);
 
+enum { FIXTURE_MAX_FORCE_KINDS = 64 };
+
+/* Writes every kind of force that a scene may have, each once, and returns how many there are. */
+uint32_t fixture_force_kinds(enum kiln_force_kind kinds[FIXTURE_MAX_FORCE_KINDS]);
+
+/* Makes a scene of 1500 particles under one force of a kind. No option of the force is 0, so that
+ * each counts that the kind has; words are the first of their lists. */
+void fixture_alone(struct scene_fixture *f, enum kiln_force_kind kind, uint32_t steps);
+
 /* Adds two systems: one with points that attract and repel by every falloff, with quadratic drag;
  * and one with vortices of each profile, one of which adds its velocity. Call fixture_finish after
  * it. */

@@ -251,6 +251,17 @@ static void whirls(void **state)
     }
 }
 
+static void each_force_alone(void **state)
+{
+    (void)state;
+    enum kiln_force_kind kinds[FIXTURE_MAX_FORCE_KINDS];
+    const uint32_t count = fixture_force_kinds(kinds);
+    for (uint32_t i = 0; i < count; i++) {
+        fixture_alone(&fixture, kinds[i], STEPS);
+        run_levels();
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -264,6 +275,7 @@ int main(void)
         cmocka_unit_test(pushed_among_colliders),
         cmocka_unit_test(clamped_among_turning_colliders),
         cmocka_unit_test(whirls),
+        cmocka_unit_test(each_force_alone),
     };
     return cmocka_run_group_tests_name("slots", tests, NULL, NULL);
 }
