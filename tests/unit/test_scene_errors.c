@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/scene.h"
+#include "base/text.h"
+#include "scene/options.h"
 #include "support/bad_scenes.h"
 #include "support/cmocka.h"
 #include "support/scenes.h"
@@ -131,10 +132,6 @@ static const struct bad types[] = {
     {"kiln: 1\n"
      "systems: [a]\n",
      ":2:10: systems: expected a mapping of up to 16 names to mappings of keys, found a list"},
-    {"kiln: 1\n"
-     "systems: {a: {forces: {drag: 1}}}\n",
-     ":2:23: systems.a.forces: expected a list of up to 16: {gravity, drag, curl, attract, vortex, "
-     "limit or wind: {...}}, found a mapping"},
     {"kiln: 1\n"
      "systems: {a: {collide: true}}\n",
      ":2:24: systems.a.collide: expected a mapping of keys, or none, found 'true'"},
@@ -339,14 +336,6 @@ static const struct bad kinds[] = {
      "systems: {a: {forces: [{gravty: [0, 1, 0]}]}}\n",
      ":2:25: systems.a.forces.0.gravty: unknown kind (did you mean 'gravity'?)"},
     {"kiln: 1\n"
-     "systems: {a: {forces: [gravity]}}\n",
-     ":2:24: systems.a.forces.0: expected {gravity, drag, curl, attract, vortex, limit or wind: "
-     "{...}}, found 'gravity'"},
-    {"kiln: 1\n"
-     "systems: {a: {forces: [{}]}}\n",
-     ":2:24: systems.a.forces.0: expected {gravity, drag, curl, attract, vortex, limit or wind: "
-     "{...}}, found a mapping"},
-    {"kiln: 1\n"
      "systems: {a: {forces: [{gravity: [0, 1, 0], drag: 1}]}}\n",
      ":2:45: systems.a.forces.0: expected one kind, found 'gravity' and 'drag'"},
     {"kiln: 1\n"
@@ -497,6 +486,43 @@ static void bad_growth(void **state)
     free(row);
 }
 
+/* Appends the names of all kinds of force, as a message lists them: "gravity, drag or wind". */
+static void add_force_names(struct kiln_text *text)
+{
+    const char *before = NULL; /* the name that is not in the text yet */
+    for (const struct kiln_option_kind *kind = kiln_force_kinds; kind->name; kind++) {
+        if (before && strcmp(kind->name, before) == 0)
+            continue; /* another variant of the same name */
+        if (before)
+            kiln_text_add(text, "%s%s", text->length ? ", " : "", before);
+        before = kind->name;
+    }
+    kiln_text_add(text, " or %s", before);
+}
+
+/* The messages that list the kinds of force. */
+static void bad_forces(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *forces, *where, *found;
+    } cases[] = {
+        {"{drag: 1}", ":2:23: systems.a.forces: expected a list of up to 16: ", "a mapping"},
+        {"[gravity]", ":2:24: systems.a.forces.0: expected ", "'gravity'"},
+        {"[{}]", ":2:24: systems.a.forces.0: expected ", "a mapping"},
+    };
+    struct kiln_text names = {0};
+    add_force_names(&names);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[64], message[KILN_MESSAGE_SIZE];
+        snprintf(text, sizeof text, "kiln: 1\nsystems: {a: {forces: %s}}\n", cases[i].forces);
+        snprintf(message, sizeof message, "%s{%s: {...}}, found %s", cases[i].where, names.data,
+                 cases[i].found);
+        expect_generated(strdup(text), message);
+    }
+    kiln_text_free(&names);
+}
+
 /* Every key of all scenes lies in one table. */
 static void bad_key_count(void **state)
 {
@@ -524,6 +550,7 @@ int main(void)
         cmocka_unit_test(bad_units),  cmocka_unit_test(bad_curves),
         cmocka_unit_test(bad_kinds),  cmocka_unit_test(bad_agreement),
         cmocka_unit_test(bad_growth), cmocka_unit_test(bad_key_count),
+        cmocka_unit_test(bad_forces),
     };
     return cmocka_run_group_tests_name("scene_errors", tests, NULL, NULL);
 }
