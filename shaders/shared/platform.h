@@ -1,17 +1,17 @@
 /* Defines the subset of C and GLSL in which shaders/shared is written. Its files compile as both,
  * so that each rule of the simulation is written once and gives the same bits on a CPU and on a
- * GPU.
- *
- * The subset: structs by value, scalar arithmetic, function-style vector operations; no swizzles,
- * no operators on vectors, no built-in mathematics (drivers disagree in the last bits).
- *   FN         before every function
- *   EXACT      before every local that holds floats. GLSL does not allow it for parameters and
- *              return types: so pass, return and compare names, never expressions, so that every
- *              operation ends in an EXACT local
- *   S(name)    a struct type
+ * GPU. A kernel is a program in GLSL that a GPU runs once for each particle or pixel. The subset
+ * has structs by value, scalar arithmetic and functions on vectors; no swizzles, no operators on
+ * vectors, no built-in mathematics (drivers disagree in the last bits). Words of its own:
+ *   FN         stands before every function: `static inline` in C, nothing in GLSL
+ *   EXACT      stands before every local that holds floats: GLSL's `precise`, which keeps compilers
+ *              from fusing or reordering operations. GLSL does not allow it for parameters and
+ *              return types: so pass, return and compare names of such locals, never expressions
+ *   S(name)    the type of a struct: `struct name` in C, `name` in GLSL
  *   UINT(x)    a conversion; the value must be in range
  *   1.0f       every literal carries its f: in C, 1.0 would compute in double
- */
+ *
+ * An operation thus always ends in an EXACT local. */
 #ifndef KILN_SHARED_PLATFORM_H
 #define KILN_SHARED_PLATFORM_H
 
