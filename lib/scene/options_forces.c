@@ -2,8 +2,7 @@
  * or two in kiln_force_kinds: `curl: {}` can also be written `wind: {field: curl}`. Kinds share the
  * fields of struct kiln_force, so that a vortex has its axis in `drift`.
  *
- * MOTION marks options that decide the state of the particles (scene/parts.h). TIME lets a value
- * vary over time, BOTH over time or over a particle's life (option/rows.h). */
+ * scene/rows.h defines MOTION, TIME, BOTH and FAR. */
 #include "scene/rows.h"
 
 #define AT(field) offsetof(struct kiln_force, field)
