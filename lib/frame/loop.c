@@ -103,7 +103,8 @@ static bool skip_frames(struct kiln_loop *loop, uint32_t end, struct kiln_error 
             const struct kiln_instant instant =
                 kiln_scene_instant(loop->scene, loop->next_frame, moment);
             if (!enter_moment(loop, instant, error) ||
-                !kiln_stages_skip_moment(&loop->stages, &loop->run.pool, instant, error) ||
+                !kiln_stages_skip_moment(&loop->stages, &loop->before, &loop->run.pool, instant,
+                                         error) ||
                 !leave_moment(loop, error))
                 return false;
         }

@@ -296,13 +296,30 @@ static bool end_pass(struct kiln_stages *s, bool ok)
     return ok;
 }
 
-bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *pool,
-                             struct kiln_instant instant, struct kiln_error *error)
+/* Returns the pool with the particles at an instant, or NULL with an error. */
+static struct kiln_pool *pool_at(struct kiln_stages *s, struct kiln_pool *before,
+                                 struct kiln_pool *pool, struct kiln_instant instant,
+                                 struct kiln_error *error)
 {
-    const struct kiln_view view = kiln_view_compute(stages->scene, instant);
+    return instant.back > 0.0f ? kiln_between_run(s->between, before, pool, instant, error) : pool;
+}
+
+/* Updates the order that the sort keeps, if it does. */
+static bool advance_sort(struct kiln_stages *s, struct kiln_pool *pool, struct kiln_instant instant,
+                         struct kiln_error *error)
+{
+    const struct kiln_view view = kiln_view_compute(s->scene, instant);
     const struct kiln_sort_params params = sort_params(&view);
-    return begin_pass(stages, KILN_PASS_sort, error) &&
-           end_pass(stages, kiln_sort_advance(stages->sort, pool, &params, error));
+    return begin_pass(s, KILN_PASS_sort, error) &&
+           end_pass(s, kiln_sort_advance(s->sort, pool, &params, error));
+}
+
+bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *before,
+                             struct kiln_pool *pool, struct kiln_instant instant,
+                             struct kiln_error *error)
+{
+    pool = pool_at(stages, before, pool, instant, error);
+    return pool && advance_sort(stages, pool, instant, error);
 }
 
 static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_depth, uint32_t *count,
@@ -444,13 +461,13 @@ static bool fill_moment(struct kiln_stages *s, struct kiln_pool *before, struct 
     s->instant = instant;
     if (shared) {
         kiln_moment_look_through(&s->moment, instant);
-        return true;
+        return advance_sort(s, s->moment.pool, instant, error);
     }
-    if (!begin_pass(s, KILN_PASS_lighting, error))
+    pool = pool_at(s, before, pool, instant, error);
+    if (!pool || !advance_sort(s, pool, instant, error) ||
+        !begin_pass(s, KILN_PASS_lighting, error))
         return false;
-    if (instant.back > 0.0f)
-        pool = kiln_between_run(s->between, before, pool, instant, error);
-    return end_pass(s, pool && kiln_moment_fill(&s->moment, pool, instant, s->on_host, error) &&
+    return end_pass(s, kiln_moment_fill(&s->moment, pool, instant, s->on_host, error) &&
                            kiln_lighting_run(s->lighting, &s->moment, &s->light, error));
 }
 
@@ -474,8 +491,7 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, stru
     struct kiln_stages *s = stages;
     const bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
     uint32_t solids = 0;
-    if (!kiln_stages_skip_moment(s, pool, instant, error) ||
-        !fill_moment(s, before, pool, instant, moment == 0, error) ||
+    if (!fill_moment(s, before, pool, instant, moment == 0, error) ||
         !draw_scenery(s, &solids, error))
         return false;
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))

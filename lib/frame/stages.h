@@ -81,8 +81,9 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, stru
 
 /* Updates the kept order for a moment that is not drawn, as kiln_stages_draw does. It must be
  * called if kiln_stages_keep_history returns true. */
-bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *pool,
-                             struct kiln_instant instant, struct kiln_error *error);
+bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *before,
+                             struct kiln_pool *pool, struct kiln_instant instant,
+                             struct kiln_error *error);
 bool kiln_stages_keep_history(const struct kiln_stages *stages);
 
 /* Runs bloom and composite, which make the picture of a frame from the drawn moments. */

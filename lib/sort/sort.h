@@ -44,8 +44,8 @@ void kiln_sort_destroy(struct kiln_sort **sort);
 bool kiln_sort_keeps_history(const struct kiln_sort *sort);
 
 /* Runs the next part of sorting the kept order; kiln_sort_run then lists particles in this order.
- * Every call must pass the same pool. Has no effect on a sort that keeps no history. Ignores
- * params->systems and params->order. */
+ * Every call must pass a pool with the same slots. Has no effect on a sort that keeps no history.
+ * Ignores params->systems and params->order. */
 bool kiln_sort_advance(struct kiln_sort *sort, struct kiln_pool *pool,
                        const struct kiln_sort_params *params, struct kiln_error *error);
 
