@@ -49,6 +49,6 @@ printf '#include "base/sum.h"\n\nint kiln_sum(int a, int b)\n{\n    int unused;\
 said "a warning of clang" 1 "clang-diagnostic-unused-variable"
 rm -r build/release
 printf '\n/* More. */\n' >>lib/base/sum.h
-said "a tree that is not configured" 1 "cmake --preset release"
+said "a tree that cannot be configured" 1 "build/release cannot be configured"
 said "no commit" 2 "'nothing' is not a commit" nothing
 echo "tools/check refuses what it should"
