@@ -35,7 +35,7 @@ static bool folder_has_number(const char *path, const char *name)
     return false;
 }
 
-/* What is parsed, and where errors go. */
+/* Holds the pattern that is parsed, and where errors go. */
 struct parser {
     struct kiln_path_pattern *pattern;
     const char *path; /* the whole path, for messages */

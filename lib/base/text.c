@@ -115,7 +115,7 @@ const char *kiln_text_nearest(const char *name, const char *const *candidates, s
         if (candidate_length > MAX_NAME)
             continue;
         size_t distance = edit_distance(name, length, candidates[i], candidate_length);
-        /* As many edits as the candidate has characters make no misspelling of it. */
+        /* A text that takes as many edits as the candidate has characters is no misspelling. */
         if (distance <= limit && distance < candidate_length) {
             nearest = candidates[i];
             limit = distance == 0 ? 0 : distance - 1; /* the next one must be nearer */

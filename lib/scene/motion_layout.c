@@ -20,7 +20,7 @@ enum {
 
 static const double MOST_SCALE = 10; /* edges of a cell */
 
-/* What a layout says. */
+/* Holds what a layout says of motion. */
 struct layout {
     bool down;
     double scale;

@@ -184,7 +184,7 @@ enum kiln_motion_green {
     KILN_GREEN_DOWN,
 };
 
-/* What full red and full green of a motion file stand for, in edges of a cell. */
+/* Holds the motion that full red and full green of a motion file stand for, in edges of a cell. */
 struct kiln_motion_scale {
     bool given; /* false: as the layout of the flipbook says; 1 without one */
     double right, up;

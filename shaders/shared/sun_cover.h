@@ -165,7 +165,7 @@ REAL_FN S(box_hidden) box_cross(S(ray_slabs) s, S(box_outline) o, float margin, 
 
 /* ---- round shapes ---------------------------------------------------------------------------- */
 
-/* What a shape hides of a light, and how far from the point it does, m. */
+/* Holds the part of a light that a shape hides, and how far from the point it does, m. */
 struct cover_at {
     real cover, distance;
 };

@@ -33,7 +33,7 @@ struct texel_sites {
     uint32_t count;                 /* number of texels, a multiple of TEXEL_BLOCK */
 };
 
-/* What a flipbook's function computes for each texel. */
+/* Holds what a flipbook's function computes for a texel. */
 struct texels {
     /* height of the lit surface, in half edges of the cell; its slopes give the normal */
     float height[TEXEL_ROW];

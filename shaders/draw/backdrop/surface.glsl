@@ -15,7 +15,7 @@
 const float FAR = 1e9; /* the t of a ray that hits nothing, m */
 const float PI = SURFACE_PI;
 
-/* What a ray hits. */
+/* Describes the point that a ray hits. */
 struct hit {
     float t;     /* the point is origin + t * direction */
     int surface; /* KILN_SURFACE_* and its own number; 0: the floor; -1: nothing, so the sky */

@@ -56,7 +56,7 @@ layout(location = 3) uniform uint tile_columns; /* tiles in a row of the picture
 
 const uint WORDS = uint(TILED_PIECE / 32);
 shared uint marks[TILED_TILES * WORDS]; /* for each tile, a bit for each sprite of the piece */
-/* What struct tiled_bin has for a bin, for the piece alone. */
+/* Hold the members of a bin's struct tiled_bin, for the piece alone. */
 shared uint additive_count, covering_max, additive_max;
 
 /* Returns the bin in whose list an entry is: the last bin whose list starts at the entry or before
