@@ -256,7 +256,8 @@ static const struct kiln_option point[] = {
         LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",
         "Radius of the light. Near the light, it keeps the brightness finite; it softens shadows."),
     BOOLEAN(LOOK, "shadow", shadow, "true",
-            "Objects of the backdrop hide the light, except those that contain its centre."),
+            "Smoke dims the light, and objects of the backdrop hide it, except those that contain "
+            "its centre."),
     END,
 };
 

@@ -208,7 +208,7 @@ const struct kiln_option kiln_options_look[] = {
             "Number of moving lights that shed the light of the system, grouped by the ages of its "
             "particles. All systems of a scene have up to 16 together."),
     BOOLEAN(LOOK, "light_shadow", light_shadow, "true",
-            "Objects of the backdrop hide the light of look.light, except those that contain a "
-            "light's centre."),
+            "Smoke dims the light of look.light, and objects of the backdrop hide it, except those "
+            "that contain a light's centre."),
     END,
 };

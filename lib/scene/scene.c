@@ -79,6 +79,23 @@ float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_val
     return least;
 }
 
+uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->backdrop.light_count; i++)
+        count += scene->backdrop.lights[i].shadow;
+    for (uint32_t i = 0; i < scene->system_count; i++) {
+        const struct kiln_system *system = &scene->systems[i];
+        const struct kiln_value3 *light = &system->look.light;
+        if (system->enabled && system->look.light_shadow &&
+            (kiln_scene_value_max(scene, &light->x) > 0.0f ||
+             kiln_scene_value_max(scene, &light->y) > 0.0f ||
+             kiln_scene_value_max(scene, &light->z) > 0.0f))
+            count += system->look.light_count;
+    }
+    return count;
+}
+
 void kiln_scene_rotation(float3 angles, float columns[3][3])
 {
     const struct exact_angle x = exact_sincos(angles.x), y = exact_sincos(angles.y);

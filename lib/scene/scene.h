@@ -477,6 +477,9 @@ bool kiln_object_is_oriented_box(const struct kiln_object *object);
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
 float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
 
+/* Returns how many lamps, and lights of fire, may be hidden by what is in their way. */
+uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene);
+
 /* Computes the columns of the rotation about x, then y, then z, by angles in radians: a mat3 of
  * base/matrix.h. */
 void kiln_scene_rotation(float3 angles, float columns[3][3]);

@@ -20,11 +20,13 @@ enum {
     SLOT_BYTES = 100,
     CELL_BYTES = 150000, /* a cell of an atlas, including what is needed while it is made */
     TRIANGLE_BYTES = 350,
-    TEXEL_BYTES = 80,    /* a texel of paint */
-    GROUND_BYTES = 330,  /* a sample of terrain, which has two triangles */
-    SAMPLE_BYTES = 32,   /* a sample of a grid that moves particles */
-    BACKDROP_BYTES = 15, /* a pixel of a picture of floor or sky: half floats, with mip levels */
-    ATLAS_BYTES = 6,     /* a pixel of an atlas's picture; pictures are loaded one at a time */
+    TEXEL_BYTES = 80,     /* a texel of paint */
+    GROUND_BYTES = 330,   /* a sample of terrain, which has two triangles */
+    SAMPLE_BYTES = 32,    /* a sample of a grid that moves particles */
+    BACKDROP_BYTES = 15,  /* a pixel of a picture of floor or sky: half floats, with mip levels */
+    ATLAS_BYTES = 6,      /* a pixel of an atlas's picture; pictures are loaded one at a time */
+    LIGHT_BYTES = 147456, /* a light that casts shadows: its map of smoke */
+    LIGHT_MAP_BYTES = 2097144, /* its maps of meshes */
 };
 
 /* ---- counts ---------------------------------------------------------------------------------- */
@@ -141,13 +143,20 @@ struct term {
     const char *system; /* system that the path is in, or NULL */
 };
 
-enum { TERMS = 9 };
+enum { TERMS = 10 };
 
-/* Returns the bytes of a slot. A picture within a step takes the records before it and its own. */
+/* Returns the bytes of a slot. A picture within a step takes the records before it and its own; the
+ * shade of lamps takes a byte for each. */
 static uint64_t slot_bytes(const struct kiln_scene *scene)
 {
-    return SLOT_BYTES +
+    return SLOT_BYTES + kiln_scene_shadow_lights(scene) +
            (kiln_scene_has_instants_between(scene) ? 2 * sizeof(struct kiln_particle) : 0);
+}
+
+/* Returns the bytes of a light that casts shadows. */
+static uint64_t light_bytes(bool meshes)
+{
+    return LIGHT_BYTES + (meshes ? (uint64_t)LIGHT_MAP_BYTES : 0);
 }
 
 static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
@@ -168,6 +177,7 @@ static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
         {SAMPLE_BYTES * scene->samples, "backdrop.objects", NULL},
         {BACKDROP_BYTES * backdrop_pixels, "backdrop", NULL},
         {ATLAS_BYTES * atlas_pixels, "look.atlas", atlas_system},
+        {light_bytes(triangles > 0) * kiln_scene_shadow_lights(scene), "backdrop.lights", NULL},
     };
     memcpy(terms, all, sizeof all);
 }

@@ -6,6 +6,7 @@
 #define KILN_SHARED_BILLBOARD_LIGHT_H
 
 #include "shared/billboard.h"
+#include "shared/smoke_grid.h"
 
 /* The light of one colour: from all sides, and how it changes along the axes of the world or of a
  * billboard. */
@@ -34,55 +35,78 @@ REAL_FN S(light_channel) light_channel_add(S(light_channel) channel, float radia
     return channel;
 }
 
-/* Adds a light. factor: half of the part of the light that arrives; towards: the direction to the
- * light, times the factor. */
-REAL_FN S(light_sum) light_sum_add(S(light_sum) sum, float4 radiance, real factor, real3 towards)
+/* The parts of a light that reach a particle through smoke: from all sides, since smoke scatters
+ * it, and straight from the light. */
+struct light_parts {
+    real all, straight;
+};
+
+/* Returns the parts that cross smoke of an optical depth. diffusion: smoke_diffusion; scale: of
+ * both parts. */
+REAL_FN S(light_parts) light_parts_through(real optical_depth, real diffusion, real scale)
 {
-    sum.red = light_channel_add(sum.red, radiance.x, factor, towards);
-    sum.green = light_channel_add(sum.green, radiance.y, factor, towards);
-    sum.blue = light_channel_add(sum.blue, radiance.z, factor, towards);
+    S(light_parts) parts;
+    parts.all = scale * smoke_transmittance(diffusion * optical_depth);
+    parts.straight = scale * smoke_transmittance(optical_depth);
+    return parts;
+}
+
+/* Adds a light. all: half of the part of the light that arrives from all sides; towards: the
+ * direction to the light, times half of the part that arrives straight. */
+REAL_FN S(light_sum) light_sum_add(S(light_sum) sum, float4 radiance, real all, real3 towards)
+{
+    sum.red = light_channel_add(sum.red, radiance.x, all, towards);
+    sum.green = light_channel_add(sum.green, radiance.y, all, towards);
+    sum.blue = light_channel_add(sum.blue, radiance.z, all, towards);
     return sum;
 }
 
-/* Adds a light that is far away in a direction. part: the part of the light that arrives. */
-REAL_FN S(light_sum) light_sum_add_far(S(light_sum) sum, float4 radiance, real part,
+/* Adds a light that is far away in a direction. */
+REAL_FN S(light_sum) light_sum_add_far(S(light_sum) sum, float4 radiance, S(light_parts) parts,
                                        float4 direction)
 {
-    real factor = 0.5f * part;
-    return light_sum_add(sum, radiance, factor,
-                         REAL3(factor * direction.x, factor * direction.y, factor * direction.z));
+    real straight = 0.5f * parts.straight;
+    return light_sum_add(
+        sum, radiance, 0.5f * parts.all,
+        REAL3(straight * direction.x, straight * direction.y, straight * direction.z));
 }
 
 /* Returns the light of the sky. The horizon's light comes from all sides; the top's light comes
- * from above and crosses more smoke. lit: the part of the light that the particle reflects;
- * through: the part of the light from above that smoke lets through. */
-REAL_FN S(light_sum) light_sum_of_sky(float4 horizon, float4 top, real lit, real through)
+ * from above and crosses more smoke. lit: the part of the light that the particle reflects; above:
+ * the optical depth of the smoke above; diffusion: smoke_diffusion. */
+REAL_FN S(light_sum) light_sum_of_sky(float4 horizon, float4 top, real lit, real above,
+                                      real diffusion)
 {
-    real around = lit * real_sqrt(through);
+    real around = lit * smoke_transmittance(real_min(diffusion, real_all(0.5f)) * above);
     S(light_sum) sum;
     sum.red = light_channel_of(horizon.x * around);
     sum.green = light_channel_of(horizon.y * around);
     sum.blue = light_channel_of(horizon.z * around);
-    return light_sum_add_far(sum, top, lit * through, FLOAT4(0.0f, 1.0f, 0.0f, 0.0f));
+    return light_sum_add_far(sum, top, light_parts_through(above, diffusion, lit),
+                             FLOAT4(0.0f, 1.0f, 0.0f, 0.0f));
 }
 
-/* Adds the sun. irradiance: of a surface that faces it. */
+/* Adds the sun. irradiance: of a surface that faces it; parts: of it, without `lit`. */
 REAL_FN S(light_sum) light_sum_add_sun(S(light_sum) sum, float4 irradiance, float4 direction,
-                                       real lit, real through)
+                                       real lit, S(light_parts) parts)
 {
-    return light_sum_add_far(sum, irradiance, lit * through * (1.0f / 3.14159265f), direction);
+    real scale = lit * (1.0f / 3.14159265f);
+    parts.all = parts.all * scale;
+    parts.straight = parts.straight * scale;
+    return light_sum_add_far(sum, irradiance, parts, direction);
 }
 
 /* Adds a lamp, whose light falls off by the square of the distance, and stays finite inside of the
- * lamp. position: the particle's, m. */
+ * lamp. position: the particle's, m; parts: of the lamp, without `lit`. */
 REAL_FN S(light_sum) light_sum_add_lamp(S(light_sum) sum, S(kiln_draw_light) lamp, real lit,
-                                        real3 position)
+                                        real3 position, S(light_parts) parts)
 {
     real3 towards = real3_towards(lamp.position_radius2, position);
     real d2 = real3_dot(towards, towards);
     real factor = 0.5f * lit / (d2 + (lamp.position_radius2.w + 1e-12f));
-    real factor_a_metre = factor * real_rsqrt(d2 + 1e-9f);
-    return light_sum_add(sum, lamp.color, factor, real3_scale(towards, factor_a_metre));
+    real straight_a_metre = factor * parts.straight * real_rsqrt(d2 + 1e-9f);
+    return light_sum_add(sum, lamp.color, factor * parts.all,
+                         real3_scale(towards, straight_a_metre));
 }
 
 REAL_FN S(light_channel) light_channel_along_plane(S(light_channel) channel, real base, float4 x,

@@ -40,6 +40,18 @@
 #define KILN_UNIT_SUN_SHADE 10
 #define KILN_SUN_SHADE_ROW  1024
 
+/* The parts of the lamps that each particle sees past the backdrop
+ * (lib/draw/light/lamp_shade.h), in rows as for the sun: a texture unit. */
+#define KILN_UNIT_LAMP_SHADE 17
+
+/* Maps of the smoke around lamps (shared/lamp_smoke.h): a texture unit; texels along an edge of a
+ * face; texels of a layer, which has six faces in two rows; layers of a map. */
+#define KILN_UNIT_LAMP_SMOKE   16
+#define KILN_LAMP_SMOKE_FACE   16
+#define KILN_LAMP_SMOKE_WIDTH  (3 * KILN_LAMP_SMOKE_FACE)
+#define KILN_LAMP_SMOKE_HEIGHT (2 * KILN_LAMP_SMOKE_FACE)
+#define KILN_LAMP_SMOKE_LAYERS 24
+
 /* The camera of a frame. World axes: metres, y up, right-handed; a view looks along its -z. Pixels
  * count from the top left corner, so y points down in clip space. */
 struct kiln_view {
@@ -61,10 +73,14 @@ struct kiln_draw_light {
     float4 position_radius2; /* m, m^2 */
     float4 color;            /* radiance at 1 m; w: radius, m */
     /* x: a bit for each object of the backdrop that may hide the light: boxes first, then spheres,
-     * cylinders, capsules and oriented boxes; y: 1 + number of its shadow maps of meshes; 0: none
-     */
+     * cylinders, capsules and oriented boxes; y: 1 + number of its shadow maps of meshes; z: 1 +
+     * number of its map of smoke; 0: none, for both; w: 1 if anything may hide the light, or 0 */
     uint4 casters;
-    float4 maps; /* x: distance that the shadow maps reach, m; unused */
+    /* Distance that the shadow maps reach, m; distance of the first layer of the map of smoke, m;
+     * layers of it that double the distance; unused. */
+    float4 maps;
+    float4 smoke_ahead,
+        smoke_right; /* of the map of smoke (lamp_smoke_in_picture); w 0: six faces */
 };
 
 /* Sky, floor, boxes, sun and lights: all that lies behind the particles and lights them. */

@@ -12,22 +12,26 @@
 #define LAMP_START    1e-3f
 #define LAMP_BOX_EDGE 1e-4f
 
-/* The way from a point to a lamp. */
+/* The way from a point, or from a ball, to a lamp. Light fills a cone between the two. */
 struct lamp_way {
     real3 direction; /* unit */
     real reach;      /* distance of the lamp's centre, m */
-    real spread;     /* radius of the lamp / reach */
+    real radius;     /* of the lamp, m */
+    real lit;        /* radius of the ball that is lit, m; 0 for a point */
+    real spread;     /* how much the cone's radius grows for each metre; may be below 0 */
 };
 
-/* towards: from the point to the lamp's centre, m; radius: of the lamp, m. */
-REAL_FN S(lamp_way) lamp_way_of(real3 towards, float radius)
+/* towards: from the point to the lamp's centre, m; radius: of the lamp, m; lit: of the ball, m. */
+REAL_FN S(lamp_way) lamp_way_of(real3 towards, float radius, real lit)
 {
     real square = real_max(real3_dot(towards, towards), real_all(1e-12f));
     real inverse = real_rsqrt(square);
     S(lamp_way) way;
     way.direction = real3_scale(towards, inverse);
     way.reach = square * inverse;
-    way.spread = radius * inverse;
+    way.radius = real_all(radius);
+    way.lit = lit;
+    way.spread = (radius - lit) * inverse;
     return way;
 }
 
@@ -35,7 +39,7 @@ REAL_FN S(lamp_way) lamp_way_of(real3 towards, float radius)
  * no more than this part. */
 REAL_FN real lamp_part_beyond(S(lamp_way) way, real distance)
 {
-    real radius = real_max(way.reach * way.spread, real_all(1e-4f));
+    real radius = real_max(way.radius, real_all(1e-4f));
     return real_clamp01(0.5f + 0.5f * (way.reach - distance) / radius);
 }
 
@@ -45,16 +49,17 @@ REAL_FN truth lamp_meets(real3 towards, float size, S(lamp_way) way)
 {
     real t = real3_dot(towards, way.direction);
     real3 across = real3_add_scaled(towards, way.direction, -t);
-    real wide = size + real_min(t + size, way.reach) * way.spread + 1e-3f;
-    return truth_and(truth_and(t > -size, t < way.reach * (1.0f + way.spread) + size),
+    real along = real_clamp01((t + size) / way.reach);
+    real wide = size + real_mix(way.lit, way.radius, along) + 1e-3f;
+    return truth_and(truth_and(t > -size - way.lit, t < way.reach + way.radius + size),
                      real3_dot(across, across) < wide * wide);
 }
 
 /* Returns the cover of a ball. A ball smaller than the lamp's disc hides no more than its share. */
 REAL_FN real lamp_ball_cover(real3 towards, float radius, S(lamp_way) way)
 {
-    S(cover_at) at = ball_cover(towards, radius, way.direction, way.spread);
-    real disc = real_max(at.distance * way.spread, real_all(1e-5f));
+    S(cover_at) at = ball_cover(towards, radius, way.direction, way.spread, way.lit);
+    real disc = real_max(at.distance * way.spread + way.lit, real_all(1e-5f));
     return at.cover * real_min(radius / disc, real_all(1.0f)) * lamp_part_beyond(way, at.distance);
 }
 
@@ -77,7 +82,8 @@ FN float3 lamp_across(float4 axis)
 REAL_FN real lamp_cylinder_cover(real3 towards, float radius, float4 axis, S(lamp_way) way)
 {
     S(cover_band) band = cover_band_of(axis, way.direction, real3_all(lamp_across(axis)));
-    S(cover_at) at = cylinder_cover(towards, radius, axis, way.direction, band, way.spread);
+    S(cover_at) at =
+        cylinder_cover(towards, radius, axis, way.direction, band, way.spread, way.lit);
     return at.cover * lamp_part_beyond(way, at.distance);
 }
 
@@ -94,8 +100,8 @@ REAL_FN real lamp_box_cover(real3 towards, float4 halves, real3 direction, S(lam
     real3 inverse = ray_inverse3(direction);
     S(box_hidden) hidden =
         box_cross(ray_cross_slabs(towards, halves, inverse), box_outline_of(direction, inverse),
-                  LAMP_BOX_EDGE, way.spread, 0.0f);
-    return real_where(hidden.exit_distance > 0.0f, hidden.cover) *
+                  LAMP_BOX_EDGE, way.spread, way.lit);
+    return hidden.cover * cover_side(hidden.exit_distance, way.lit) *
            lamp_part_beyond(way, hidden.enter_distance);
 }
 

@@ -60,26 +60,28 @@ REAL_FN S(lamp_place) lamp_place_of(real3 from, real3 normal, float far)
     return place;
 }
 
-/* Returns the width, in texture coordinates, of the penumbra that a blocker at a distance makes at
- * a point. radius: of the lamp, m. */
-REAL_FN real lamp_penumbra(S(lamp_place) place, float radius, real blocker)
+/* Returns the width, in texture coordinates, of the penumbra that a blocker at a distance makes.
+ * radius: of the lamp, m; lit: of the ball that is lit, m; 0 for a point. */
+REAL_FN real lamp_penumbra(S(lamp_place) place, float radius, real lit, real blocker)
 {
     real gap = real_max(place.distance - blocker, real_all(0.0f));
-    real tangent = radius * gap / (place.distance * real_max(blocker, real_all(1e-3f)));
+    real near = real_max(blocker, real_all(1e-3f));
+    real tangent = (radius * gap + lit * near) / (place.distance * near);
     return real_clamp(tangent * (0.5f / KILN_LAMP_RANGE), LAMP_TEXEL, LAMP_WIDEST);
 }
 
 /* Returns the width of the widest penumbra that a blocker outside of the lamp makes. A first fetch
  * looks for any blocker over twice this width. */
-REAL_FN real lamp_widest(S(lamp_place) place, float radius)
+REAL_FN real lamp_widest(S(lamp_place) place, float radius, real lit)
 {
-    return lamp_penumbra(place, radius, real_all(exact_max(radius, 0.02f)));
+    return lamp_penumbra(place, radius, lit, real_all(exact_max(radius, 0.02f)));
 }
 
 /* Returns the width of the penumbra of the blocker that the first fetch found, as shadow_width. */
-REAL_FN real lamp_width(S(lamp_place) place, float radius, float far, real cover, real distance)
+REAL_FN real lamp_width(S(lamp_place) place, float radius, real lit, float far, real cover,
+                        real distance)
 {
-    return real_max(0.75f * lamp_penumbra(place, radius, far * shadow_depth(cover, distance)),
+    return real_max(0.75f * lamp_penumbra(place, radius, lit, far * shadow_depth(cover, distance)),
                     real_all(LAMP_TEXEL));
 }
 

@@ -31,4 +31,22 @@ REAL_FN real smoke_transmittance(real optical_depth)
     return real_exp(-optical_depth);
 }
 
+/* Returns how fast light that smoke scatters falls off, as a part of how fast straight light does,
+ * at most 1. White smoke glows from inside; black smoke does not. reflected: the part of the light
+ * that thick smoke reflects, 0 to 1, which is what its colour shows.
+ *
+ * Smoke that scatters the part a of the light that meets it, forward with the mean cosine g, is
+ * like smoke that scatters to all sides with s^2 = (1 - a) / (1 - a g). Thick smoke of that kind
+ * reflects about (1 - s) / (1 + 1.3 s) (van de Hulst 1980, "Multiple Light Scattering", within
+ * 0.02), which solved for s is the line below. Light inside of it falls off as exp(-k depth) with
+ * k = sqrt(3 (1 - a) (1 - a g)) (diffusion approximation: Stam 1995, "Multiple scattering as a
+ * diffusion process"). Here g is 0.4. */
+REAL_FN real smoke_diffusion(real reflected)
+{
+    const float g = 0.4f;
+    real part = real_clamp01(reflected);
+    real s = (1.0f - part) / (1.0f + 1.3f * part);
+    return real_min(1.7320508f * s * (1.0f - g) / (1.0f - g * s * s), real_all(1.0f));
+}
+
 #endif

@@ -26,11 +26,18 @@ REAL_FN real strip_cover(real one, real other, real radius)
     return real_max(disc_cover(one * scale) + disc_cover(other * scale) - 1.0f, real_all(0.0f));
 }
 
-/* Returns the radius of the disc at a distance along the ray, m. spread: the tangent of the angle
- * of the light's radius; radius: of the ball that is lit, m. */
-REAL_FN real sun_penumbra(real along, real spread, float radius)
+/* Returns the radius of the disc at a distance along the ray, m. spread: how much it grows for each
+ * metre; radius: of the ball that is lit, m, where the disc begins; 0 for a point. */
+REAL_FN real sun_penumbra(real along, real spread, real radius)
 {
-    return real_max(along * spread + radius, real_all(exact_max(radius, 1e-5f)));
+    return real_max(real_max(along, real_all(0.0f)) * spread + radius, real_all(1e-5f));
+}
+
+/* Returns the part of a ball, 0 to 1, that lies on the positive side of a plane. distance: of the
+ * ball's centre from the plane, m; radius: 0 for a point. */
+REAL_FN real cover_side(real distance, real radius)
+{
+    return real_clamp01(0.5f + 0.5f * distance / real_max(radius, real_all(1e-6f)));
 }
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
@@ -118,7 +125,7 @@ struct box_crossed {
 
 /* near_a to far_b: the t at which light enters and leaves the slabs of the strip's two axes. */
 REAL_FN S(box_crossed) box_cross_strip(S(box_strip) strip, real near_a, real near_b, real far_a,
-                                       real far_b, real spread, float radius)
+                                       real far_b, real spread, real radius)
 {
     real one = (far_b - near_a) * strip.root, other = (far_a - near_b) * strip.root;
     real one_at = (near_a * strip.second + far_b * strip.first) * strip.inverse;
@@ -147,7 +154,7 @@ struct box_hidden {
  * beside the outline, the way is that of a ray through the outline's edge and `margin` metres
  * further inside, which leaves the slabs later by at most `later` for each metre. */
 REAL_FN S(box_hidden) box_cross(S(ray_slabs) s, S(box_outline) o, float margin, real spread,
-                                float radius)
+                                real radius)
 {
     S(box_crossed) xy = box_cross_strip(o.xy, s.near.x, s.near.y, s.far.x, s.far.y, spread, radius);
     S(box_crossed) yz = box_cross_strip(o.yz, s.near.y, s.near.z, s.far.y, s.far.z, spread, radius);
@@ -170,14 +177,14 @@ struct cover_at {
     real cover, distance;
 };
 
-/* Returns the cover of a ball. towards: the way to its centre; way: unit, to the light; spread: as
- * for sun_penumbra. */
-REAL_FN S(cover_at) ball_cover(real3 towards, float radius, real3 way, real spread)
+/* Returns the cover of a ball. towards: the way to its centre; way: unit, to the light; spread,
+ * lit: as `spread` and `radius` for sun_penumbra. */
+REAL_FN S(cover_at) ball_cover(real3 towards, float radius, real3 way, real spread, real lit)
 {
     real t = real3_dot(towards, way);
     real across = real3_length(real3_add_scaled(towards, way, -t));
     S(cover_at) at;
-    at.cover = real_where(t >= 0.0f, strip_cover(radius - across, radius + across, t * spread));
+    at.cover = strip_cover(radius - across, radius + across, t * spread + lit) * cover_side(t, lit);
     at.distance = t;
     return at;
 }
@@ -228,25 +235,27 @@ REAL_FN S(cover_band) cover_band_all(S(sun_band) shared_by_all)
 }
 
 /* Returns the cover of a capped cylinder. towards: the way to its middle; axis: w: half of its
- * height; way: unit, to the light. */
+ * height; way: unit, to the light; spread, lit: as for ball_cover. */
 REAL_FN S(cover_at) cylinder_cover(real3 towards, float radius, float4 axis, real3 way,
-                                   S(cover_band) band, real spread)
+                                   S(cover_band) band, real spread, real lit)
 {
     real x = real3_dot(towards, band.right), y = real3_dot(towards, band.up);
     real along = real_clamp(-y * (1.0f / (band.slant * band.side)), -axis.w, axis.w);
     real t = real_max(real3_dot(towards, way) + along * band.climb, real_all(0.0f));
     real inside = real_sqrt(real_max(radius * radius - x * x, real_all(0.0f)));
     real end = axis.w * band.slant + real_abs(band.climb) * inside;
-    real sides = strip_cover(radius - real_abs(x), radius + real_abs(x), t * spread);
-    real ends = strip_cover(end - real_abs(y), end + real_abs(y), t * spread);
+    real disc = t * spread + lit;
+    real sides = strip_cover(radius - real_abs(x), radius + real_abs(x), disc);
+    real ends = strip_cover(end - real_abs(y), end + real_abs(y), disc);
     /* Light that starts beside the cylinder or beyond an end may only lead away from it. */
     real height = -real3_dot_all(towards, axis);
     real3 aside = real3_add_scaled(towards, real3_all(axis), height);
-    truth beyond = truth_and(real_abs(height) >= axis.w, height * band.climb > 0.0f);
-    truth beside =
-        truth_and(real3_dot(aside, aside) >= radius * radius, real3_dot(aside, way) < 0.0f);
+    real beyond =
+        real_where(height * band.climb > 0.0f, cover_side(real_abs(height) - axis.w, lit));
+    real beside =
+        cover_side(real3_length(aside) - radius, lit) * cover_side(-real3_dot(aside, way), lit);
     S(cover_at) at;
-    at.cover = real_where(truth_not(truth_or(beyond, beside)), sides * ends);
+    at.cover = sides * ends * (1.0f - beyond) * (1.0f - beside);
     at.distance = t;
     return at;
 }

@@ -6,6 +6,7 @@
 
 #include "draw/light/smoke_shadow.h"
 #include "shared/derived.h"
+#include "support/cmocka.h"
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
@@ -34,55 +35,120 @@ static double true_grid(const float *depth, const double at[3])
     return sum;
 }
 
+/* Returns the optical depth of the smoke that the light of sun or sky crosses. */
 static double true_smoke(const float *depth, const float4 to_grid[3], dvec p)
 {
     if (!depth)
-        return 1;
+        return 0;
     double at[3];
     for (int i = 0; i < 3; i++)
         at[i] = dvec_row(to_grid[i], p);
     if (at[0] < 0 || at[1] < 0 || at[0] > 1 || at[1] > 1 || at[2] > 1)
-        return 1;
-    return exp(-true_grid(depth, at));
+        return 0;
+    return true_grid(depth, at);
 }
 
+/* Returns the optical depth of the smoke that a lamp's light crosses: its map, interpolated between
+ * the texels of the face that the place lies in (shared/lamp_smoke.h). */
+static double true_lamp_smoke(const struct kiln_lighting *l, const struct kiln_draw_light *lamp,
+                              dvec from)
+{
+    enum { EDGE = KILN_LAMP_SMOKE_FACE, LAYERS = KILN_LAMP_SMOKE_LAYERS };
+    if (!l->lamp_smoke || lamp->casters.z == 0)
+        return 0;
+    if (lamp->smoke_ahead.w > 0)
+        fail_msg("lamps far from the smoke have no reference here");
+    const double v[3] = {from.x, from.y, from.z};
+    int axis = fabs(v[0]) >= fabs(v[1]) && fabs(v[0]) >= fabs(v[2]) ? 0
+               : fabs(v[1]) >= fabs(v[2])                           ? 1
+                                                                    : 2;
+    const double ahead = fmax(fabs(v[axis]), 1e-6);
+    const double across[2] = {v[axis == 0 ? 2 : 0] / ahead, v[axis == 1 ? 2 : 1] / ahead};
+    const double distance = sqrt(dvec_dot(from, from)) / (double)lamp->maps.y;
+    const double at[3] = {
+        (across[0] + 1) * 0.5 * (EDGE - 1), (across[1] + 1) * 0.5 * (EDGE - 1),
+        distance < 1 ? distance : fmin(1 + (double)lamp->maps.z * log2(distance), LAYERS - 1)};
+    const float *map = l->lamp_smoke + (size_t)(lamp->casters.z - 1) * KILN_LAMP_SMOKE_MAP;
+    const int first_x = axis * EDGE, first_y = v[axis] < 0 ? EDGE : 0;
+    double sum = 0;
+    for (int k = 0; k < 8; k++) {
+        double weight = 1;
+        int cell[3];
+        for (int i = 0; i < 3; i++) {
+            const int last = (i == 2 ? LAYERS : EDGE) - 1;
+            const int first = (int)fmin(floor(at[i]), last - 1);
+            const double part = at[i] - first;
+            cell[i] = first + (k >> i & 1);
+            weight *= k >> i & 1 ? part : 1 - part;
+        }
+        sum +=
+            weight * (double)map[cell[2] * KILN_LAMP_SMOKE_LAYER +
+                                 (first_y + cell[1]) * KILN_LAMP_SMOKE_WIDTH + first_x + cell[0]];
+    }
+    return sum;
+}
+
+/* Returns the part of light i that a particle sees past the backdrop. */
+static double true_lamp_part(const struct kiln_lighting *l, uint32_t i, uint32_t slot)
+{
+    if (!l->lamplit)
+        return 1;
+    const size_t plane = kiln_lamp_shade_plane(l->slot_count);
+    return (l->lamplit[i / 4 * plane + slot] >> (8 * (i % 4)) & 255) / 255.0;
+}
+
+/* Returns how fast scattered light falls off in smoke that reflects this part of the light
+ * (smoke_diffusion). */
+static double true_diffusion(double reflected)
+{
+    const double g = 0.4, part = fmin(fmax(reflected, 0), 1);
+    const double s = (1 - part) / (1 + 1.3 * part);
+    const double albedo = (1 - s * s) / (1 - g * s * s);
+    return fmin(sqrt(3 * (1 - albedo) * (1 - albedo * g)), 1);
+}
+
+/* Adds a light that arrives from all sides as `all`, and straight as `straight`. */
 static void true_add_light(const struct true_scene *t, struct true_sprite *s, float4 color,
-                           double factor, dvec direction, const dvec axes[3])
+                           double all, double straight, dvec direction, const dvec axes[3])
 {
     const double rgb[3] = {(double)color.x, (double)color.y, (double)color.z};
     dvec v = dvec_turn(t->view, direction);
     for (int c = 0; c < 3; c++) {
-        double radiance = 0.5 * rgb[c] * factor;
-        s->light[0][c] += radiance;
+        s->light[0][c] += 0.5 * rgb[c] * all;
         for (int i = 0; i < 3; i++)
-            s->light[1 + i][c] += radiance * dvec_dot(v, axes[i]);
+            s->light[1 + i][c] += 0.5 * rgb[c] * straight * dvec_dot(v, axes[i]);
     }
 }
 
-static void true_light(const struct true_scene *t, struct true_sprite *s, double lit, uint32_t slot,
-                       dvec position, const dvec axes[3])
+static void true_light(const struct true_scene *t, struct true_sprite *s, const double cover[4],
+                       uint32_t slot, dvec position, const dvec axes[3])
 {
     const struct kiln_draw_backdrop *b = t->backdrop;
     const struct kiln_lighting *l = t->lighting;
+    const double lit = cover[3];
     for (int c = 0; c < 3; c++)
         s->light[0][c] = 1 - lit;
     if (lit <= 0)
         return;
-    double sky = true_smoke(l->smoke ? l->sky_depth : NULL, l->sky_to_grid, position);
-    double sun = true_smoke(l->smoke ? l->sun_depth : NULL, l->sun_to_grid, position);
-    if (l->sunlit)
-        sun *= (double)l->sunlit[slot];
+    const double spread = true_diffusion((cover[0] + cover[1] + cover[2]) / 3);
+    const double sky = true_smoke(l->smoke ? l->sky_depth : NULL, l->sky_to_grid, position);
+    const double sun = true_smoke(l->smoke ? l->sun_depth : NULL, l->sun_to_grid, position);
+    const double past = l->sunlit ? (double)l->sunlit[slot] : 1;
     const double horizon[3] = {(double)b->sky_horizon.x, (double)b->sky_horizon.y,
                                (double)b->sky_horizon.z};
     for (int c = 0; c < 3; c++)
-        s->light[0][c] += horizon[c] * lit * sqrt(sky);
-    true_add_light(t, s, b->sky_top, lit * sky, (dvec){0, 1, 0}, axes);
-    true_add_light(t, s, b->sun_color, lit * sun / M_PI, dvec_of(b->sun_direction), axes);
+        s->light[0][c] += horizon[c] * lit * exp(-fmin(spread, 0.5) * sky);
+    true_add_light(t, s, b->sky_top, lit * exp(-spread * sky), lit * exp(-sky), (dvec){0, 1, 0},
+                   axes);
+    true_add_light(t, s, b->sun_color, lit * past * exp(-spread * sun) / M_PI,
+                   lit * past * exp(-sun) / M_PI, dvec_of(b->sun_direction), axes);
     for (uint32_t i = 0; i < b->counts.y; i++) {
         dvec towards = dvec_add(dvec_of(b->lights[i].position_radius2), position, -1);
         double d2 = dvec_dot(towards, towards);
-        double falloff = 1 / (d2 + (double)b->lights[i].position_radius2.w);
-        true_add_light(t, s, b->lights[i].color, lit * falloff,
+        double part =
+            lit * true_lamp_part(l, i, slot) / (d2 + (double)b->lights[i].position_radius2.w);
+        double smoke = true_lamp_smoke(l, &b->lights[i], dvec_scale(towards, -1));
+        true_add_light(t, s, b->lights[i].color, part * exp(-spread * smoke), part * exp(-smoke),
                        dvec_scale(towards, 1 / sqrt(fmax(d2, 1e-9))), axes);
     }
 }
@@ -306,7 +372,7 @@ bool true_sprite_make(const struct true_scene *t, uint32_t entry,
     s->distance = sqrt(dvec_dot(s->center, s->center));
     true_choose_cells(t, s, p.look, p.stream, p.life * (float)p.row[KILN_LOOK_COOL][3],
                       p.diameter_px);
-    true_light(t, s, p.row[KILN_LOOK_COVER][3], KILN_ENTRY_SLOT(entry), p.position, p.axes);
+    true_light(t, s, p.row[KILN_LOOK_COVER], KILN_ENTRY_SLOT(entry), p.position, p.axes);
     if (p.look->form.x != 0) {
         bool line = p.look->form.x == LOOK_LINE;
         double width = p.row[KILN_LOOK_TURN][line ? 3 : 2] * p.scale * (double)view->clock.w;

@@ -9,59 +9,11 @@
 #include "draw/light/smoke_shadow.h"
 #include "draw/moment/appearance_blocks.h"
 #include "draw/moment/looks.h"
-#include "draw/moment/view.h"
 #include "support/cmocka.h"
+#include "support/placed.h"
 #include "support/scenes.h"
 
-enum { GRID = KILN_SMOKE_GRID, MOST = 4096 };
-
-/* A scene's pool on the host, whose particles the test places, at the end of step 30. */
-struct fixture {
-    struct kiln_scene *scene;
-    struct kiln_pool pool;
-    struct kiln_particle *records;
-    struct kiln_moment moment;
-    struct kiln_threads *threads;
-};
-
-enum { STEP = 30 };
-
-static void set_up(struct fixture *f, const char *text, const char *override)
-{
-    struct kiln_error error = {0};
-    const char *const overrides[] = {override, NULL};
-    f->scene = load_scene(text, overrides);
-    uint32_t capacities[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < f->scene->system_count; i++)
-        capacities[i] = MOST;
-    kiln_pool_init(&f->pool, NULL, capacities, f->scene->system_count);
-    f->records = kiln_buffer_host(&f->pool.records, KILN_READ_WRITE, &error);
-    assert_non_null(f->records);
-    assert_true(kiln_moment_init(&f->moment, NULL, f->scene, NULL, &error));
-    assert_true(kiln_moment_fill(&f->moment, &f->pool, kiln_instant_at_step(STEP), true, &error));
-    f->threads = kiln_threads_create(2);
-    assert_non_null(f->threads);
-}
-
-static void tear_down(struct fixture *f)
-{
-    kiln_moment_finish(&f->moment);
-    kiln_threads_destroy(&f->threads);
-    kiln_pool_finish(&f->pool);
-    kiln_scene_destroy(&f->scene);
-}
-
-/* A particle of a system, born in a step: its age is known by that. */
-static void place(struct fixture *f, uint32_t system, float3 position, uint32_t birth_step)
-{
-    struct kiln_pool_system *slots = &f->pool.systems[system];
-    uint32_t serial = (uint32_t)slots->next_serial++;
-    assert_true(serial < MOST);
-    f->records[slots->base + serial] = (struct kiln_particle){
-        .position_serial = {FLOAT_BITS(position.x), FLOAT_BITS(position.y), FLOAT_BITS(position.z),
-                            serial},
-        .velocity_birth = {0, 0, 0, birth_step << KILN_BIRTH_STEP_SHIFT | KILN_PARTICLE_ALIVE}};
-}
+enum { GRID = KILN_SMOKE_GRID };
 
 static void assert_near(double found, double expected, double tolerance)
 {
@@ -69,7 +21,7 @@ static void assert_near(double found, double expected, double tolerance)
         fail_msg("%.9g instead of %.9g", found, expected);
 }
 
-static uint32_t gather_fire(const struct fixture *f, struct kiln_draw_light *lights)
+static uint32_t gather_fire(const struct placed *f, struct kiln_draw_light *lights)
 {
     return kiln_firelight_gather(&f->moment, f->threads, lights);
 }
@@ -88,13 +40,13 @@ static const char FIRE[] =
 static void a_particle_sheds_what_it_emits(void **state)
 {
     (void)state;
-    struct fixture f = {0};
-    set_up(&f, FIRE, NULL);
+    struct placed f = {0};
+    placed_set_up(&f, FIRE, NULL);
     struct kiln_draw_light lights[KILN_MAX_FIRE_LIGHTS];
     assert_true(kiln_firelight_exists(f.scene));
     assert_int_equal(gather_fire(&f, lights), 0);
 
-    place(&f, 0, (float3){1, 2, 3}, 1); /* half of its life has passed: the middle light */
+    placed_add(&f, 0, (float3){1, 2, 3}, 1); /* half of its life has passed: the middle light */
     assert_int_equal(gather_fire(&f, lights), 1);
     const double area = 0.4 * 0.4, pi = acos(-1.0), factor = 0.25 * area * 0.5 / pi;
     assert_near((double)lights[0].color.x, 3 * factor, 1e-6);
@@ -104,7 +56,7 @@ static void a_particle_sheds_what_it_emits(void **state)
     assert_near((double)lights[0].position_radius2.y, 2, 1e-6);
     assert_near((double)lights[0].position_radius2.z, 3, 1e-6);
     assert_near((double)lights[0].position_radius2.w, 0.2 * 0.2, 1e-6);
-    tear_down(&f);
+    placed_tear_down(&f);
 }
 
 /* A particle belongs to the two lights next to its age: as it grows older the light of each changes
@@ -112,11 +64,11 @@ static void a_particle_sheds_what_it_emits(void **state)
 static void light_moves_without_jumps(void **state)
 {
     (void)state;
-    struct fixture f = {0};
-    set_up(&f, FIRE, NULL);
+    struct placed f = {0};
+    placed_set_up(&f, FIRE, NULL);
     struct kiln_draw_light lights[KILN_MAX_FIRE_LIGHTS];
     const double whole = 3 * 0.25 * 0.16 * 0.5 / acos(-1.0);
-    place(&f, 0, (float3){0, 0, 0}, 1);
+    placed_add(&f, 0, (float3){0, 0, 0}, 1);
     for (uint32_t step = 1; step < 60; step++) {
         f.moment.view.clock_step.x = step;
         uint32_t count = gather_fire(&f, lights);
@@ -129,22 +81,22 @@ static void light_moves_without_jumps(void **state)
         double first = whole * (1 - (progress - floor(progress)));
         assert_near((double)lights[0].color.x, first, 1e-5);
     }
-    tear_down(&f);
+    placed_tear_down(&f);
 }
 
 /* Two particles of an age: one light between them, as wide as they are apart. */
 static void a_light_is_as_wide_as_its_particles(void **state)
 {
     (void)state;
-    struct fixture f = {0};
-    set_up(&f, FIRE, NULL);
+    struct placed f = {0};
+    placed_set_up(&f, FIRE, NULL);
     struct kiln_draw_light lights[KILN_MAX_FIRE_LIGHTS];
-    place(&f, 0, (float3){-2, 1, 0}, 1);
-    place(&f, 0, (float3){4, 1, 0}, 1);
+    placed_add(&f, 0, (float3){-2, 1, 0}, 1);
+    placed_add(&f, 0, (float3){4, 1, 0}, 1);
     assert_int_equal(gather_fire(&f, lights), 1);
     assert_near((double)lights[0].position_radius2.x, 1, 1e-6);
     assert_near((double)lights[0].position_radius2.w, 9 + 0.04, 1e-5);
-    tear_down(&f);
+    placed_tear_down(&f);
 }
 
 static const char SMOKE[] = "kiln: 1\n"
@@ -168,7 +120,7 @@ static float depth_at(const struct kiln_smoke_grid *grid, float3 position)
     return grid->depth[((size_t)cell[2] * GRID + (size_t)cell[1]) * GRID + (size_t)cell[0]];
 }
 
-static bool fill(struct fixture *f, float3 direction, struct kiln_smoke_grid *grid)
+static bool fill(struct placed *f, float3 direction, struct kiln_smoke_grid *grid)
 {
     static float depth[GRID * GRID * GRID];
     struct kiln_error error = {0};
@@ -193,8 +145,8 @@ static void a_slab_dims_by_its_optical_depth(void **state)
     const double pi = acos(-1.0);
     const double puff = -log(1 - 0.6 * 0.5) * 15 / 16 * 0.25 * 0.25 * 32 * pi / 105;
     for (size_t d = 0; d < sizeof directions / sizeof *directions; d++) {
-        struct fixture f = {0};
-        set_up(&f, SMOKE, NULL);
+        struct placed f = {0};
+        placed_set_up(&f, SMOKE, NULL);
         float3 n = directions[d];
         float3 a = fabsf(n.y) < 0.9f ? (float3){-n.z, 0, n.x} : (float3){1, 0, 0};
         float length = sqrtf(a.x * a.x + a.y * a.y + a.z * a.z);
@@ -204,10 +156,10 @@ static void a_slab_dims_by_its_optical_depth(void **state)
             float u = -2 + 4 * ((float)(i % 20) + 0.5f) / 20;
             float v = -2 + 4 * ((float)(i / 20 % 20) + 0.5f) / 20;
             float w = -0.5f + ((float)(i / 400) + 0.5f) / 5;
-            place(&f, 0,
-                  (float3){u * a.x + v * b.x + w * n.x, u * a.y + v * b.y + w * n.y,
-                           u * a.z + v * b.z + w * n.z},
-                  1);
+            placed_add(&f, 0,
+                       (float3){u * a.x + v * b.x + w * n.x, u * a.y + v * b.y + w * n.y,
+                                u * a.z + v * b.z + w * n.z},
+                       1);
         }
         struct kiln_smoke_grid grid;
         assert_true(fill(&f, n, &grid));
@@ -217,7 +169,7 @@ static void a_slab_dims_by_its_optical_depth(void **state)
         assert_near((double)depth_at(&grid, (float3){0, 0, 0}), 0.5 * whole, 0.08 * whole);
         assert_near((double)depth_at(&grid, (float3){-0.9f * n.x, -0.9f * n.y, -0.9f * n.z}), whole,
                     0.05 * whole);
-        tear_down(&f);
+        placed_tear_down(&f);
     }
 }
 
@@ -231,10 +183,10 @@ static void puffs_of_any_size_keep_their_sum(void **state)
     for (size_t s = 0; s < 4; s++) {
         char override[64];
         snprintf(override, sizeof override, "systems.smoke.look.size=%s", sizes[s]);
-        struct fixture f = {0};
-        set_up(&f, SMOKE, override);
-        place(&f, 0, (float3){-2, 0, 0}, 1); /* the corners of the grid, */
-        place(&f, 0, (float3){2, 0.1f, 0.3f}, 1);
+        struct placed f = {0};
+        placed_set_up(&f, SMOKE, override);
+        placed_add(&f, 0, (float3){-2, 0, 0}, 1); /* the corners of the grid, */
+        placed_add(&f, 0, (float3){2, 0.1f, 0.3f}, 1);
         struct kiln_smoke_grid grid;
         assert_true(fill(&f, (float3){0, 1, 0}, &grid));
         /* The lowest layer has the depth of all: its sum times the area is the whole. */
@@ -248,7 +200,7 @@ static void puffs_of_any_size_keep_their_sum(void **state)
         double radius = strtod(sizes[s], NULL) / 2;
         double expected = 2 * -log(1 - 0.3) * 15 / 16 * radius * radius * 32 * pi / 105;
         assert_near(sum, expected, 0.02 * expected);
-        tear_down(&f);
+        placed_tear_down(&f);
     }
 }
 
@@ -258,20 +210,20 @@ static void only_what_covers_throws_shadows(void **state)
     static const char *const overrides[] = {"systems.smoke.look.blend=add",
                                             "systems.smoke.look.shadow=0",
                                             "systems.smoke.enabled=false"};
-    struct fixture f = {0};
+    struct placed f = {0};
     struct kiln_smoke_grid grid;
-    set_up(&f, SMOKE, NULL);
+    placed_set_up(&f, SMOKE, NULL);
     assert_true(kiln_smoke_exists(f.scene));
     assert_false(kiln_firelight_exists(f.scene));
     assert_false(fill(&f, (float3){0, 1, 0}, &grid)); /* no particles yet */
-    tear_down(&f);
+    placed_tear_down(&f);
     for (size_t i = 0; i < 3; i++) {
-        set_up(&f, SMOKE, overrides[i]);
+        placed_set_up(&f, SMOKE, overrides[i]);
         assert_false(kiln_smoke_exists(f.scene));
-        place(&f, 0, (float3){0, 0, 0}, 1);
+        placed_add(&f, 0, (float3){0, 0, 0}, 1);
         assert_false(fill(&f, (float3){0, 1, 0}, &grid));
-        tear_down(&f);
-        f = (struct fixture){0};
+        placed_tear_down(&f);
+        f = (struct placed){0};
     }
 }
 

@@ -13,7 +13,13 @@
 #include "support/raster.h"
 #include "support/scenes.h"
 
-enum { COUNT = 1511, STEP = 90, GRID = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };
+enum {
+    COUNT = 1511,
+    STEP = 90,
+    GRID = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID,
+    LAMPS = 5,
+    PLANE = (COUNT + KILN_SUN_SHADE_ROW - 1) / KILN_SUN_SHADE_ROW * KILN_SUN_SHADE_ROW,
+};
 
 /* Any bits: numbers of all sizes, and what is none. */
 static uint32_t random_bits32(void)
@@ -104,6 +110,8 @@ struct fixture {
     struct kiln_cells *cells;
     struct kiln_lighting lighting;
     float depth[GRID], sunlit[COUNT];
+    float lamp_smoke[LAMPS * KILN_LAMP_SMOKE_MAP];
+    uint32_t lamplit[2 * PLANE]; /* four lamps a plane */
     struct kiln_particle records[COUNT];
     uint32_t entries[COUNT];
     struct kiln_sprite_pass pass;
@@ -126,17 +134,28 @@ static void place_particles(struct fixture *f)
     }
     for (uint32_t i = 0; i < GRID; i++)
         f->depth[i] = raster_random(0.0f, 2.0f);
+    for (uint32_t i = 0; i < LAMPS * KILN_LAMP_SMOKE_MAP; i++)
+        f->lamp_smoke[i] = raster_random(0.0f, 2.0f);
+    for (uint32_t i = 0; i < 2 * PLANE; i++)
+        f->lamplit[i] = random_bits32();
 }
 
 static void light_particles(struct fixture *f)
 {
     static const float4 to_grid[3] = {
         {0.1f, 0.0f, 0.0f, 0.4f}, {0.0f, 0.2f, 0.1f, 0.2f}, {0.0f, 0.0f, 0.1f, 0.5f}};
-    raster_add_lamps(&f->raster, 5);
+    raster_add_lamps(&f->raster, LAMPS);
+    for (uint32_t i = 0; i < LAMPS; i++) {
+        struct kiln_draw_light *lamp = &f->raster.light.lights[i];
+        lamp->casters.z = i % 3; /* maps 1 and 2; 0: none */
+        lamp->maps = (float4){0.0f, 0.3f, 5.0f, 0.0f};
+    }
     f->lighting = (struct kiln_lighting){.smoke = true,
                                          .sky_depth = f->depth,
                                          .sun_depth = f->depth,
                                          .sunlit = f->sunlit,
+                                         .lamp_smoke = f->lamp_smoke,
+                                         .lamplit = f->lamplit,
                                          .slot_count = COUNT};
     memcpy(f->lighting.sky_to_grid, to_grid, sizeof to_grid);
     memcpy(f->lighting.sun_to_grid, to_grid, sizeof to_grid);

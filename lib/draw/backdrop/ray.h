@@ -6,6 +6,7 @@
 
 #include "asset/image/pyramid.h"
 #include "draw/backdrop/mesh_view.h"
+#include "draw/light/lamps.h"
 #include "draw/light/lighting.h"
 #include "draw/light/smoke_shadow.h"
 #include "draw/moment/shapes.h"
@@ -18,7 +19,8 @@ struct kiln_ray_frame {
     const float *smoke_to_sun, *smoke_to_sky;           /* NULL: none */
     struct kiln_solid_bins solids;
     const struct kiln_mesh_view *meshes; /* NULL: none */
-    const uint32_t *lamp_maps;           /* of struct kiln_lighting */
+    struct kiln_lamp_objects lamp_objects;
+    const float *lamp_smoke; /* of struct kiln_lighting */
     bool floor_gloss, soft_sun;
 };
 

@@ -3,9 +3,10 @@
 #ifndef KILN_DRAW_BACKDROP_RAY_LIGHT_H
 #define KILN_DRAW_BACKDROP_RAY_LIGHT_H
 
-#include "draw/backdrop/ray_lamp.h"
+#include "draw/backdrop/ray_oriented.h"
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_sun.h"
+#include "draw/light/ray_lamp.h"
 #include "draw/light/ray_smoke.h"
 #include "shared/floor.h"
 #include "shared/surface_light.h"
@@ -113,7 +114,12 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_li
     vi faces = p->active & (vf3_dot(p->normal, towards) > 0.0f);
     if (!any(faces) && !gloss)
         return;
-    const vf seen = lamp_visibility(frame, lamp, p, faces);
+    const struct ray_point lit = {p->at, p->normal, faces};
+    vf seen = smoke_transmittance(lamp_smoke_depth(frame->lamp_smoke, lamp, &lit));
+    if (lamp->casters.x | lamp->casters.y && any(faces))
+        seen *= lamp_visibility(&frame->lamp_objects, lamp,
+                                vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)), p->normal,
+                                vf_all(0.0f), faces);
     const vf part = vf_where(faces, lamp_irradiance(towards, p->normal, radius2));
     const vf all = (lamp->color.x + lamp->color.y + lamp->color.z) * part;
     arrived->all += all;

@@ -3,6 +3,7 @@
 #define KILN_DRAW_BACKDROP_RAY_ORIENTED_H
 
 #include "draw/backdrop/ray_shapes.h"
+#include "draw/light/ray_lamp.h"
 
 /* ---- capsules -------------------------------------------------------------------------------- */
 
@@ -27,13 +28,7 @@ SIMD void trace_capsules(const struct kiln_ray_frame *frame, uint32_t capsules,
 
 /* ---- oriented boxes ------------------------------------------------------------------------- */
 
-/* into_box rotates a direction from the world to the frame of a box, out_of_box back. */
-SIMD struct vf3 into_box(const struct kiln_draw_oriented_box *box, struct vf3 v)
-{
-    return (struct vf3){vf3_dot_all(v, box->rows[0]), vf3_dot_all(v, box->rows[1]),
-                        vf3_dot_all(v, box->rows[2])};
-}
-
+/* Rotates a direction from the frame of a box to the world, against into_box. */
 SIMD struct vf3 out_of_box(const struct kiln_draw_oriented_box *box, struct vf3 v)
 {
     const float4 *rows = box->rows;

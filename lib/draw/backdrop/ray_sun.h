@@ -23,7 +23,7 @@ struct sun_receiver {
 SIMD vf box_cover(const struct ray_slabs *s, const struct sun_edges *edges, float spread)
 {
     const struct box_hidden hidden =
-        box_cross(*s, box_outline_all(*edges), BOX_EDGE, vf_all(spread), 0.0f);
+        box_cross(*s, box_outline_all(*edges), BOX_EDGE, vf_all(spread), vf_all(0.0f));
     return vf_where(hidden.exit_distance > 0.0f, hidden.cover);
 }
 
@@ -56,7 +56,7 @@ SIMD vf cylinder_of_sun(const struct kiln_ray_frame *frame, int i, struct vf3 or
     const float4 cylinder = shapes->cylinders[i];
     return cylinder_cover(vf3_towards(cylinder, origin), cylinder.w, shapes->cylinder_axis[i],
                           vf3_all(frame->backdrop->sun_direction), cover_band_all(shapes->bands[i]),
-                          vf_all(shapes->sun_right.w))
+                          vf_all(shapes->sun_right.w), vf_all(0.0f))
         .cover;
 }
 
@@ -69,7 +69,8 @@ SIMD vf round_sun_visibility(const struct kiln_ray_frame *frame,
     for (int i = 0; i < (int)shapes->counts.x; i++) {
         if (frame->soft_sun)
             visible *= 1.0f - ball_cover(vf3_towards(shapes->spheres[i], receiver->origin),
-                                         shapes->spheres[i].w, way, vf_all(shapes->sun_right.w))
+                                         shapes->spheres[i].w, way, vf_all(shapes->sun_right.w),
+                                         vf_all(0.0f))
                                   .cover;
         else
             visible =
@@ -96,7 +97,8 @@ SIMD vf capsule_cover(const struct kiln_ray_frame *frame, int i, struct vf3 orig
     const float4 capsule = frame->shapes->capsules[i];
     const struct vf3 towards =
         capsule_nearest(vf3_towards(capsule, origin), frame->shapes->capsule_axis[i], way);
-    return ball_cover(towards, capsule.w, way, vf_all(frame->shapes->sun_right.w)).cover;
+    const vf spread = vf_all(frame->shapes->sun_right.w);
+    return ball_cover(towards, capsule.w, way, spread, vf_all(0.0f)).cover;
 }
 
 SIMD vf oriented_sun_visibility(const struct kiln_ray_frame *frame,

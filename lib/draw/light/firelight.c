@@ -100,7 +100,7 @@ static struct kiln_draw_light make_light(const struct kiln_light_sums *light, fl
         .color = {strength.x * (float)(light->color[0] / PI),
                   strength.y * (float)(light->color[1] / PI),
                   strength.z * (float)(light->color[2] / PI), sqrtf(radius2)},
-        .casters = {shadow ? 1 : 0, 0, 0, 0},
+        .casters = {shadow ? 1 : 0, 0, 0, shadow ? 1 : 0},
     };
 }
 

@@ -48,20 +48,10 @@ struct kiln_lamp_maps {
 
 bool kiln_lamp_maps_exist(const struct kiln_scene *scene)
 {
-    bool meshes = false, lights = false;
+    bool meshes = false;
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
         meshes |= kiln_object_is_mesh(&scene->backdrop.objects[i]);
-    for (uint32_t i = 0; i < scene->backdrop.light_count; i++)
-        lights |= scene->backdrop.lights[i].shadow;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        const struct kiln_system *system = &scene->systems[i];
-        const struct kiln_value3 *light = &system->look.light;
-        lights |= system->enabled && system->look.light_shadow &&
-                  (kiln_scene_value_max(scene, &light->x) > 0.0f ||
-                   kiln_scene_value_max(scene, &light->y) > 0.0f ||
-                   kiln_scene_value_max(scene, &light->z) > 0.0f);
-    }
-    return meshes && lights;
+    return meshes && kiln_scene_shadow_lights(scene) > 0;
 }
 
 static bool allocate(struct kiln_lamp_maps *maps)

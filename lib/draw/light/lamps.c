@@ -116,7 +116,7 @@ uint32_t kiln_lamps_fill(const struct kiln_moment *moment, struct kiln_draw_ligh
         lights[i] = (struct kiln_draw_light){
             .position_radius2 = {at.x, at.y, at.z, radius * radius},
             .color = {color.x, color.y, color.z, radius},
-            .casters = {light->shadow ? 1 : 0, 0, 0, 0},
+            .casters = {light->shadow ? 1 : 0, 0, 0, light->shadow ? 1 : 0},
         };
     }
     return scene->backdrop.light_count;

@@ -5,8 +5,8 @@
 #include "draw/moment/moment.h"
 #include "shared/draw_layout.h"
 
-/* Fills in the scene's lamps, with a `casters` of 1 for those that objects hide and 0 for others.
- * Returns how many there are. */
+/* Fills in the scene's lamps, whose `casters.x` and `.w` are 1 for those that objects and smoke
+ * hide, and 0 for others. Returns how many there are. */
 uint32_t kiln_lamps_fill(const struct kiln_moment *moment, struct kiln_draw_light *lights);
 
 /* Sets, for each light whose `casters` is not 0, the objects that may hide it, meshes left out, and
@@ -14,5 +14,13 @@ uint32_t kiln_lamps_fill(const struct kiln_moment *moment, struct kiln_draw_ligh
  * light's centre, such as the glass around a lamp or the hearth around a fire, hides none of it. */
 void kiln_lamps_find_casters(const struct kiln_moment *moment, struct kiln_draw_light *lights,
                              uint32_t count);
+
+/* Holds the objects of the backdrop that may hide lights. */
+struct kiln_lamp_objects {
+    uint32_t box_count; /* boxes along the axes */
+    const float4 *box_center, *box_half;
+    const struct kiln_draw_shapes *shapes;
+    const uint32_t *maps; /* of kiln_lamp_maps_run */
+};
 
 #endif

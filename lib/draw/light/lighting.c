@@ -12,7 +12,11 @@
 #include "draw/light/lighting_gl.h"
 #include "shared/exact.h"
 
-enum { GRIDS = 2, CELLS = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID };
+enum {
+    GRIDS = 2,
+    CELLS = KILN_SMOKE_GRID * KILN_SMOKE_GRID * KILN_SMOKE_GRID,
+    COARSE = KILN_SMOKE_COARSE * KILN_SMOKE_COARSE * KILN_SMOKE_COARSE,
+};
 
 struct kiln_lighting_stage {
     const struct kiln_scene *scene;
@@ -22,9 +26,11 @@ struct kiln_lighting_stage {
     bool sun;         /* whether the sun ever shines */
     struct kiln_smoke puffs;
     struct kiln_smoke_shadow *shadow;
-    float *depths;                    /* of both grids */
-    struct kiln_solid_shadow *solids; /* NULL: not needed, here and below */
+    float *depths;                      /* of both grids; then the extinction */
+    struct kiln_lamp_smoke *lamp_smoke; /* NULL: not needed, here and below */
+    struct kiln_solid_shadow *solids;
     struct kiln_sun_shade *shade;
+    struct kiln_lamp_shade *lamp_shade;
     struct kiln_lamp_maps *lamp_maps;
     struct kiln_lighting_gl *gl;
 };
@@ -32,10 +38,11 @@ struct kiln_lighting_stage {
 /* Returns whether particles make light or shade, or are in it. */
 static bool particles_count(const struct kiln_lighting_stage *stage)
 {
-    return stage->fire || stage->smoke || stage->solids || stage->shade;
+    return stage->fire || stage->smoke || stage->solids || stage->shade || stage->lamp_shade;
 }
 
-static bool allocate(struct kiln_lighting_stage *stage, struct kiln_device *device)
+static bool allocate(struct kiln_lighting_stage *stage, struct kiln_device *device,
+                     enum kiln_simd simd)
 {
     if (!particles_count(stage) && !stage->lamp_maps)
         return true;
@@ -43,9 +50,11 @@ static bool allocate(struct kiln_lighting_stage *stage, struct kiln_device *devi
         stage->gl = kiln_lighting_gl_create(device);
     if (stage->smoke) {
         stage->shadow = kiln_smoke_shadow_create();
-        stage->depths = malloc((size_t)GRIDS * CELLS * sizeof *stage->depths);
+        stage->depths = malloc(((size_t)GRIDS * CELLS + COARSE) * sizeof *stage->depths);
+        stage->lamp_smoke = kiln_lamp_smoke_create(simd);
     }
-    return (stage->gl || !device) && ((stage->shadow && stage->depths) || !stage->smoke);
+    return (stage->gl || !device) &&
+           ((stage->shadow && stage->depths && stage->lamp_smoke) || !stage->smoke);
 }
 
 static bool sun_exists(const struct kiln_scene *scene)
@@ -68,6 +77,11 @@ static bool create_shadows(struct kiln_lighting_stage *stage, const struct kiln_
     if (kiln_sun_shade_exists(scene)) {
         stage->shade = kiln_sun_shade_create(scene, error);
         if (!stage->shade)
+            return false;
+    }
+    if (kiln_lamp_shade_exists(scene)) {
+        stage->lamp_shade = kiln_lamp_shade_create(scene, error);
+        if (!stage->lamp_shade)
             return false;
     }
     if (kiln_lamp_maps_exist(scene)) {
@@ -97,7 +111,7 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
         kiln_lighting_destroy(&stage);
         return NULL;
     }
-    if (!allocate(stage, device)) {
+    if (!allocate(stage, device, moment->simd)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
         kiln_lighting_destroy(&stage);
         return NULL;
@@ -112,21 +126,25 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
     kiln_lighting_gl_destroy(&(*stage)->gl);
     kiln_solid_shadow_destroy(&(*stage)->solids);
     kiln_sun_shade_destroy(&(*stage)->shade);
+    kiln_lamp_shade_destroy(&(*stage)->lamp_shade);
     kiln_lamp_maps_destroy(&(*stage)->lamp_maps);
     free((*stage)->depths);
     kiln_smoke_finish(&(*stage)->puffs);
     kiln_smoke_shadow_destroy(&(*stage)->shadow);
+    kiln_lamp_smoke_destroy(&(*stage)->lamp_smoke);
     free(*stage);
     *stage = NULL;
 }
 
-/* Fills the grids of smoke. Where there is no sun, every position is mapped outside of the sun's
- * grid. */
+/* Fills the grids of smoke, and the maps of smoke around lamps. Where there is no sun, every
+ * position is mapped outside of the sun's grid. */
 static bool shade(struct kiln_lighting_stage *stage, const struct kiln_moment *moment,
                   struct kiln_lighting *lighting, struct kiln_error *error)
 {
     struct kiln_smoke_grid grids[GRIDS] = {
-        {.direction = {0.0f, 1.0f, 0.0f}, .depth = stage->depths},
+        {.direction = {0.0f, 1.0f, 0.0f},
+         .depth = stage->depths,
+         .extinction = lighting->light_count ? stage->depths + GRIDS * CELLS : NULL},
         {.direction = moment->sun.towards, .depth = stage->depths + CELLS},
     };
     if (!kiln_smoke_gather(&stage->puffs, moment, stage->threads, error))
@@ -139,6 +157,11 @@ static bool shade(struct kiln_lighting_stage *stage, const struct kiln_moment *m
         lighting->sun_to_grid[i] = (float4){0.0f, 0.0f, 0.0f, -1.0f};
     lighting->sky_depth = grids[0].depth;
     memcpy(lighting->sky_to_grid, grids[0].world_to_grid, sizeof lighting->sky_to_grid);
+    lighting->lamp_smoke =
+        kiln_lamp_smoke_run(stage->lamp_smoke, &grids[0], stage->threads, lighting->lights,
+                            lighting->light_count, &lighting->lamp_smoke_count, error);
+    if (!lighting->lamp_smoke)
+        return false;
     if (!stage->sun)
         return true;
     lighting->sun_depth = grids[1].depth;
@@ -155,7 +178,11 @@ static bool cast_shadows(struct kiln_lighting_stage *stage, const struct kiln_mo
     lighting->slot_count = moment->pool->slot_count;
     if (stage->shade)
         lighting->sunlit = kiln_sun_shade_run(stage->shade, moment, stage->threads, error);
-    return !stage->shade || lighting->sunlit;
+    if (stage->lamp_shade)
+        lighting->lamplit =
+            kiln_lamp_shade_run(stage->lamp_shade, moment, stage->threads, lighting->lights,
+                                lighting->light_count, lighting->lamp_maps, error);
+    return (!stage->shade || lighting->sunlit) && (!stage->lamp_shade || lighting->lamplit);
 }
 
 /* Gathers the lamps and the light of fire, and draws their shadow maps. */

@@ -6,6 +6,8 @@
 
 #include "base/thread.h"
 #include "draw/light/lamp_map.h"
+#include "draw/light/lamp_shade.h"
+#include "draw/light/lamp_smoke.h"
 #include "draw/light/smoke_shadow.h"
 #include "draw/light/solid_shadow.h"
 #include "draw/light/sun_shade.h"
@@ -24,9 +26,14 @@ struct kiln_lighting {
     float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
     const float *sun_depth, *sky_depth; /* optical depth in the grids, KILN_SMOKE_GRID cubed, rows
                                          * along x; sun_depth is NULL where there is no sun */
-    struct kiln_solid_bins solids;      /* lists of opaque particles */
+    const float *lamp_smoke; /* maps of the first lamp_smoke_count of kiln_lamp_smoke_run; NULL:
+                              * there are none */
+    uint32_t lamp_smoke_count;
+    struct kiln_solid_bins solids; /* lists of opaque particles */
     const float *sunlit; /* by slot: the part of the sun that a lit particle sees past the backdrop,
                           * smoke left out. NULL: the whole sun */
+    const uint32_t *lamplit; /* planes of kiln_lamp_shade_run, the parts of lights that lit
+                              * particles see; NULL: the whole lights */
     uint32_t slot_count;
     struct kiln_lighting_gl *gl; /* textures of this light (lighting_gl.h); NULL: not needed */
 };

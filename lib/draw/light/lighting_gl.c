@@ -16,6 +16,8 @@ enum texture {
     SILHOUETTES,
     SUN_SHADE,
     LAMP_MAPS,
+    LAMP_SMOKE,
+    LAMP_SHADE,
     TEXTURE_COUNT
 };
 
@@ -32,6 +34,8 @@ static const struct {
     [SILHOUETTES] = {GL_TEXTURE_2D, KILN_UNIT_SILHOUETTES, "silhouettes"},
     [SUN_SHADE] = {GL_TEXTURE_2D, KILN_UNIT_SUN_SHADE, "sun on particles"},
     [LAMP_MAPS] = {GL_TEXTURE_2D_ARRAY, KILN_UNIT_LAMP_MAPS, "shadows of lamps"},
+    [LAMP_SMOKE] = {GL_TEXTURE_2D_ARRAY, KILN_UNIT_LAMP_SMOKE, "smoke around lamps"},
+    [LAMP_SHADE] = {GL_TEXTURE_2D_ARRAY, KILN_UNIT_LAMP_SHADE, "lamps on particles"},
 };
 
 struct kiln_lighting_gl {
@@ -41,6 +45,8 @@ struct kiln_lighting_gl {
     size_t solid_rows, shade_rows;  /* of the textures */
     uint32_t lamp_map_count;        /* lamps that the texture has room for */
     uint64_t lamp_map_changes;      /* of the maps that the texture holds */
+    uint32_t lamp_smoke_count;      /* lamps that their texture has room for */
+    size_t lamp_shade_words;        /* of the texture */
 };
 
 struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device)
@@ -195,6 +201,41 @@ static void send_lamp_maps(struct kiln_lighting_gl *gl, const struct kiln_lighti
     gl->lamp_map_changes = lighting->lamp_map_changes;
 }
 
+static void send_lamp_smoke(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
+{
+    const GLenum target = GL_TEXTURE_2D_ARRAY;
+    const uint32_t count = lighting->lamp_smoke_count;
+    const GLsizei layers = (GLsizei)(count * KILN_LAMP_SMOKE_LAYERS);
+    make(gl, LAMP_SMOKE, GL_LINEAR);
+    if (gl->lamp_smoke_count < count) {
+        glTexImage3D(target, 0, GL_R32F, KILN_LAMP_SMOKE_WIDTH, KILN_LAMP_SMOKE_HEIGHT, layers, 0,
+                     GL_RED, GL_FLOAT, NULL);
+        gl->lamp_smoke_count = count;
+    }
+    glTexSubImage3D(target, 0, 0, 0, 0, KILN_LAMP_SMOKE_WIDTH, KILN_LAMP_SMOKE_HEIGHT, layers,
+                    GL_RED, GL_FLOAT, lighting->lamp_smoke);
+    gl->device->traffic.to_device += sizeof(float) * KILN_LAMP_SMOKE_MAP * count;
+}
+
+/* Sends the parts of lights that particles see, a layer for each plane of words. */
+static void send_lamp_shade(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
+{
+    const GLenum target = GL_TEXTURE_2D_ARRAY;
+    const size_t plane = kiln_lamp_shade_plane(lighting->slot_count);
+    const GLsizei rows = (GLsizei)(plane / KILN_SUN_SHADE_ROW);
+    const GLsizei planes = (GLsizei)((lighting->light_count + 3) / 4);
+    const size_t words = plane * (size_t)planes;
+    make(gl, LAMP_SHADE, GL_NEAREST);
+    if (gl->lamp_shade_words < words) {
+        glTexImage3D(target, 0, GL_R32UI, KILN_SUN_SHADE_ROW, rows, planes, 0, GL_RED_INTEGER,
+                     GL_UNSIGNED_INT, NULL);
+        gl->lamp_shade_words = words;
+    }
+    glTexSubImage3D(target, 0, 0, 0, 0, KILN_SUN_SHADE_ROW, rows, planes, GL_RED_INTEGER,
+                    GL_UNSIGNED_INT, lighting->lamplit);
+    gl->device->traffic.to_device += sizeof(uint32_t) * words;
+}
+
 bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error *error)
 {
     struct kiln_lighting_gl *gl = lighting->gl;
@@ -206,6 +247,10 @@ bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error 
             send_grid(gl, SMOKE_SKY, lighting->sky_depth);
         if (lighting->smoke && lighting->sun_depth)
             send_grid(gl, SMOKE_SUN, lighting->sun_depth);
+        if (lighting->lamp_smoke_count > 0)
+            send_lamp_smoke(gl, lighting);
+        if (lighting->lamplit && lighting->light_count > 0)
+            send_lamp_shade(gl, lighting);
         if (lighting->solids.edge > 0)
             send_solids(gl, &lighting->solids);
         if (lighting->sunlit)

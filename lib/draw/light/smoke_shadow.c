@@ -451,6 +451,18 @@ static inline void advance(const float *restrict extinction, float cell, float *
     }
 }
 
+/* Adds a row of extinction to the row of the coarse grid that contains it. */
+static inline void add_to_coarse(const float *restrict extinction, int y, int z,
+                                 float *restrict coarse)
+{
+    const bool first = (y & 1) == 0 && (z & 1) == 1; /* slices come from the last to the first */
+    float *row = coarse + (size_t)(z / 2 * KILN_SMOKE_COARSE + y / 2) * KILN_SMOKE_COARSE;
+    for (int x = 0; x < KILN_SMOKE_COARSE; x++) {
+        const float pair = 0.125f * (extinction[2 * x] + extinction[2 * x + 1]);
+        row[x] = first ? pair : row[x] + pair;
+    }
+}
+
 /* Sums BAND rows of every slice of a grid along the light. Work item grid * (EDGE / BAND) + band is
  * one band of rows in one grid. */
 KILN_WIDE_VECTORS
@@ -466,6 +478,8 @@ static void sum_towards_light(void *context, size_t begin, size_t end, uint32_t 
             for (int y = first; y < first + BAND; y++) {
                 float extinction[EDGE] = {0};
                 add_row(shadow, box, y, z, extinction);
+                if (box->grid->extinction)
+                    add_to_coarse(extinction, y, z, box->grid->extinction);
                 advance(extinction, box->cell, above[y - first],
                         box->grid->depth + (size_t)(z * EDGE + y) * EDGE);
             }

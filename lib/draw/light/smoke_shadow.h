@@ -7,8 +7,9 @@
 #include "draw/light/smoke.h"
 
 enum {
-    KILN_SMOKE_GRID = 64,     /* cells along each edge */
-    KILN_MAX_SMOKE_GRIDS = 2, /* grids of one call */
+    KILN_SMOKE_GRID = 64,                    /* cells along each edge */
+    KILN_SMOKE_COARSE = KILN_SMOKE_GRID / 2, /* cells along each edge of the extinction's grid */
+    KILN_MAX_SMOKE_GRIDS = 2,                /* grids of one call */
 };
 
 /* Holds the optical depth in a box of cells, rows along the box's first axis; the third axis points
@@ -17,6 +18,8 @@ struct kiln_smoke_grid {
     float3 direction;        /* towards the light, of length 1 */
     float4 world_to_grid[3]; /* rows: a world position to 0..1 in each axis */
     float *depth;            /* the caller's: KILN_SMOKE_GRID cubed values, at the cells' centres */
+    /* Extinction, 1/m: means of 2 x 2 x 2 cells, KILN_SMOKE_COARSE cubed; the caller's, or NULL. */
+    float *extinction;
 };
 
 /* Holds memory for filling grids. */

@@ -29,7 +29,7 @@ struct kiln_sun_shade {
     float *visible;                                 /* by slot, whole rows of KILN_SUN_SHADE_ROW */
 };
 
-static bool is_shaded(const struct kiln_scene *scene, uint32_t system)
+bool kiln_sun_shade_concerns(const struct kiln_scene *scene, uint32_t system)
 {
     const struct kiln_system *s = &scene->systems[system];
     return s->enabled && !kiln_look_is_opaque(&s->look) &&
@@ -39,7 +39,7 @@ static bool is_shaded(const struct kiln_scene *scene, uint32_t system)
 bool kiln_sun_shade_exists(const struct kiln_scene *scene)
 {
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (is_shaded(scene, i))
+        if (kiln_sun_shade_concerns(scene, i))
             return scene->backdrop.object_count > 0;
     }
     return false;
@@ -214,7 +214,7 @@ const float *kiln_sun_shade_run(struct kiln_sun_shade *shade, const struct kiln_
         struct shade_job job = {.shade = shade,
                                 .find = KILN_SIMD_PICK(kiln_appearance_find, moment->simd),
                                 .loops = KILN_SIMD_PICK(kiln_light_loops, moment->simd)};
-        if (!is_shaded(shade->scene, i))
+        if (!kiln_sun_shade_concerns(shade->scene, i))
             continue;
         job.system = kiln_appearance_system(moment, i);
         job.visible = shade->visible + moment->pool->systems[i].base;

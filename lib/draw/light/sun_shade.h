@@ -9,6 +9,9 @@
 
 struct kiln_sun_shade;
 
+/* Returns whether a system's particles are lit by the scene's lights, which objects may hide. */
+bool kiln_sun_shade_concerns(const struct kiln_scene *scene, uint32_t system);
+
 /* Returns whether the scene has lit particles and objects that could shade them. */
 bool kiln_sun_shade_exists(const struct kiln_scene *scene);
 

@@ -44,8 +44,9 @@ static bool needs_shapes(const struct kiln_scene *scene)
 
 void kiln_geometry_defines(const struct kiln_scene *scene, char *out, size_t size)
 {
-    snprintf(out, size, "#define SHAPES %d\n%s", needs_shapes(scene) ? 1 : 0,
-             kiln_sun_shade_exists(scene) ? "#define SUN_SHADE 1\n" : "");
+    snprintf(out, size, "#define SHAPES %d\n%s%s", needs_shapes(scene) ? 1 : 0,
+             kiln_sun_shade_exists(scene) ? "#define SUN_SHADE 1\n" : "",
+             kiln_lamp_shade_exists(scene) ? "#define LAMP_SHADE 1\n" : "");
 }
 
 static bool create_program(struct kiln_geometry *stage, struct kiln_error *error)

@@ -112,7 +112,7 @@ float mesh_lamp_cover(int i, vec3 normal, lamp_way way)
     lamp_place place = lamp_place_of(-way.direction * way.reach, normal, far);
     float layer = place.face + 6.0 * float(int(backdrop.lights[i].casters.y) - 1);
     int taps = backdrop.lights[i].casters.y != 0u ? 5 : 0;
-    float level = lamp_level(lamp_widest(place, radius)) + 1.0;
+    float level = lamp_level(lamp_widest(place, radius, 0.0)) + 1.0;
     float stride = 0.0, cover = 0.0;
     for (int k = 0; k < taps; k++) {
         vec2 aside = vec2(k & 1, k >> 1 & 1) * 2.0 * stride - stride;
@@ -120,7 +120,7 @@ float mesh_lamp_cover(int i, vec3 normal, lamp_way way)
                                  level).rg;
         if (k == 0) {
             taps = shadow.r > 0.0 ? taps : 1;
-            float width = lamp_width(place, radius, far, shadow.r, shadow.g);
+            float width = lamp_width(place, radius, 0.0, far, shadow.r, shadow.g);
             level = lamp_level(width);
             stride = 0.5 * width;
         } else {

@@ -108,7 +108,7 @@ float oriented_sun_visibility(vec3 origin)
 #ifdef SOFT_SUN
         vec3 towards =
             capsule_nearest(shapes.capsules[i].xyz - origin, shapes.capsule_axis[i], sun);
-        visible *= 1.0 - ball_cover(towards, shapes.capsules[i].w, sun, shapes.sun_right.w).cover;
+        visible *= 1.0 - ball_cover(towards, shapes.capsules[i].w, sun, shapes.sun_right.w, 0.0).cover;
 #else
         if (ray_is_blocked(ray_cross_capsule(shapes.capsules[i], shapes.capsule_axis[i], origin,
                                              sun)))

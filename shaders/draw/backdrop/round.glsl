@@ -73,11 +73,11 @@ float round_sun_visibility(vec3 origin)
     float visible = 1.0;
     for (int i = 0; i < int(shapes.counts.x); i++)
         visible *= 1.0 - ball_cover(shapes.spheres[i].xyz - origin, shapes.spheres[i].w, sun,
-                                    spread).cover;
+                                    spread, 0.0).cover;
     for (int i = 0; i < int(shapes.counts.y); i++)
         visible *= 1.0 - cylinder_cover(shapes.cylinders[i].xyz - origin, shapes.cylinders[i].w,
                                         shapes.cylinder_axis[i], sun, cover_band_all(shapes.bands[i]),
-                                        spread).cover;
+                                        spread, 0.0).cover;
     return visible;
 }
 

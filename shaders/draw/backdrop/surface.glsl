@@ -160,7 +160,7 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
     uint casters = backdrop.lights[i].casters.x;
     vec3 origin = point + normal * LAMP_START;
     lamp_way way = lamp_way_of(backdrop.lights[i].position_radius2.xyz - origin,
-                               backdrop.lights[i].color.w);
+                               backdrop.lights[i].color.w, 0.0);
     float visible = 1.0;
     int boxes = casters == 0u ? 0 : int(backdrop.counts.x);
     for (int k = 0; k < boxes; k++) {
@@ -201,7 +201,10 @@ float add_lamp(int i, hit h, vec3 point, inout arrived light)
     vec3 towards = backdrop.lights[i].position_radius2.xyz - point;
     vec3 color = backdrop.lights[i].color.rgb;
     float part = lamp_irradiance(towards, h.normal, backdrop.lights[i].position_radius2.w);
-    float seen = dot(towards, h.normal) > 0.0 ? lamp_visibility(i, point, h.normal) : 1.0;
+    float seen = 1.0;
+    if (dot(towards, h.normal) > 0.0)
+        seen = lamp_visibility(i, point, h.normal) *
+               smoke_transmittance(smoke_depth_to_lamp(i, point));
     float all = dot(color, vec3(part));
     light.irradiance += color * (part * seen);
     light.all += all;

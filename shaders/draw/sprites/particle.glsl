@@ -18,9 +18,9 @@
  * shared/draw_layout.h the members of `view`.
  *
  * The host defines SHAPES as 1 for a scene with points, lines or billboards that are not parallel
- * to the picture, else as 0. It defines SUN_SHADE only for a scene whose backdrop
- * shades particles (kiln_geometry_defines in lib/draw/sprites/particles_geometry.c). Other scenes
- * get a faster shader without that code.
+ * to the picture, else as 0. It defines SUN_SHADE and LAMP_SHADE only for a scene whose backdrop
+ * shades particles from the sun, or from lamps (kiln_geometry_defines in
+ * lib/draw/sprites/particles_geometry.c). Other scenes get a faster shader without that code.
  *
  * tests/support/true_sprite.h is the reference implementation: tests compare every technique with
  * it. */
@@ -34,6 +34,10 @@ layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_
 
 #ifdef SUN_SHADE
 layout(binding = KILN_UNIT_SUN_SHADE) uniform sampler2D sun_shade;
+#endif
+
+#ifdef LAMP_SHADE
+layout(binding = KILN_UNIT_LAMP_SHADE) uniform usampler2DArray lamp_shade;
 #endif
 
 vec3 world_to_view_vector(vec3 v)
@@ -53,20 +57,37 @@ float sunlight_past_backdrop(uint slot)
     return 1.0;
 }
 
+/* Returns the part of lamp i, 0 to 1, that objects of the backdrop do not hide from a particle. */
+float lamplight_past_backdrop(int i, uint slot)
+{
+#ifdef LAMP_SHADE
+    ivec3 at = ivec3(slot % uint(KILN_SUN_SHADE_ROW), slot / uint(KILN_SUN_SHADE_ROW), i / 4);
+    uint parts = texelFetch(lamp_shade, at, 0).r;
+    return float(bitfieldExtract(parts, 8 * (i % 4), 8)) / 255.0;
+#endif
+    return 1.0;
+}
+
 /* Computes the light on a particle. `lit` mixes two lights: with 0, light of strength 1 comes from
- * all sides; with 1, the particle is lit by the sky, the sun and the lamps of the backdrop. */
-void light_particle(float lit, uint slot, vec3 position, billboard_plane plane)
+ * all sides; with 1, the particle is lit by the sky, the sun and the lamps of the backdrop. color:
+ * what thick smoke of such particles reflects. */
+void light_particle(float lit, vec3 color, uint slot, vec3 position, billboard_plane plane)
 {
     particle.light_0 = vec4(1.0 - lit);
     particle.light_x = particle.light_y = particle.light_z = vec4(0.0);
     if (lit <= 0.0)
         return;
-    float sky = skylight_through_smoke(position);
-    float sun = sunlight_through_smoke(position) * sunlight_past_backdrop(slot);
-    light_sum sum = light_sum_of_sky(backdrop.sky_horizon, backdrop.sky_top, lit, sky);
+    float diffusion = smoke_diffusion(dot(color, vec3(1.0 / 3.0)));
+    light_sum sum = light_sum_of_sky(backdrop.sky_horizon, backdrop.sky_top, lit,
+                                     smoke_depth_to_sky(position), diffusion);
+    light_parts sun = light_parts_through(smoke_depth_to_sun(position), diffusion,
+                                          sunlight_past_backdrop(slot));
     sum = light_sum_add_sun(sum, backdrop.sun_color, backdrop.sun_direction, lit, sun);
-    for (int i = 0; i < int(backdrop.counts.y); i++)
-        sum = light_sum_add_lamp(sum, backdrop.lights[i], lit, position);
+    for (int i = 0; i < int(backdrop.counts.y); i++) {
+        light_parts parts = light_parts_through(smoke_depth_to_lamp(i, position), diffusion,
+                                                lamplight_past_backdrop(i, slot));
+        sum = light_sum_add_lamp(sum, backdrop.lights[i], lit, position, parts);
+    }
     sum = light_sum_along_plane(sum, 1.0 - lit, view.world_to_view[0], view.world_to_view[1],
                                 view.world_to_view[2], plane);
     particle.light_0.rgb = vec3(sum.red.all, sum.green.all, sum.blue.all);
@@ -177,7 +198,7 @@ void make_billboard(uint entry)
                                   stream, 2.0 * half_size * pixels_per_m);
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
-    light_particle(cover.w, entry & 0xffffffu, position, plane);
+    light_particle(cover.w, cover.rgb, entry & 0xffffffu, position, plane);
     particle.light_x.a = half_size * bloom.a; /* half the thickness, m */
 #if SHAPES
     if (form.x != 0u)

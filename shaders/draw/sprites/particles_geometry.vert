@@ -6,7 +6,7 @@
  * particles_geometry.geom. */
 // variant: SHAPES=0
 // variant: SHAPES=1
-// variant: SHAPES=1 SUN_SHADE=1
+// variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"

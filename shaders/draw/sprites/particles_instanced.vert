@@ -3,7 +3,7 @@
  * 2019, 2.2.4; Terpstra 2023, figure 2.2). */
 // variant: SHAPES=0
 // variant: SHAPES=1
-// variant: SHAPES=1 SUN_SHADE=1
+// variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"

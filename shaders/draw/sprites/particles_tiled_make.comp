@@ -3,7 +3,7 @@
  * runs for a chunk; tiled.glsl says what a sprite is. */
 // variant: SHAPES=0 TILED_EDGE=16
 // variant: SHAPES=1 TILED_EDGE=16
-// variant: SHAPES=1 SUN_SHADE=1 TILED_EDGE=16
+// variant: SHAPES=1 SUN_SHADE=1 LAMP_SHADE=1 TILED_EDGE=16
 #include "shared/draw_layout.h"
 
 #include "draw/moment/record.glsl"

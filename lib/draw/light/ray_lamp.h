@@ -1,22 +1,30 @@
-/* This header computes the part of each lamp that vectors of points see past the backdrop's
- * objects (shared/lamp_cover.h). An object that hides nothing from a lane multiplies the lane's
- * light by exactly 1, so that it does not matter which lanes share a vector. */
-#ifndef KILN_DRAW_BACKDROP_RAY_LAMP_H
-#define KILN_DRAW_BACKDROP_RAY_LAMP_H
+/* This header computes the part of each lamp that vectors of points, or of balls, see past the
+ * backdrop's objects (shared/lamp_cover.h). An object that hides nothing from a lane multiplies the
+ * lane's light by exactly 1, so that it does not matter which lanes share a vector. */
+#ifndef KILN_DRAW_LIGHT_RAY_LAMP_H
+#define KILN_DRAW_LIGHT_RAY_LAMP_H
 
-#include "draw/backdrop/ray_oriented.h"
+#include "draw/light/lamp_map.h"
+#include "draw/light/lamps.h"
 #include "draw/light/ray_shadow.h"
-#include "draw/light/ray_smoke.h"
+#include "draw/vector/real.h"
 #include "shared/lamp_cover.h"
 #include "shared/lamp_map.h"
 
-/* A point that sees a lamp, in the lanes where it is not yet hidden. */
+/* Points or balls that see a lamp, in the lanes where it is not yet hidden. */
 struct lamp_receiver {
     struct vf3 origin;
     struct lamp_way way;
     vi active;
     vf visible; /* part of the lamp, so far */
 };
+
+/* Rotates a direction from the world to the frame of a box. */
+SIMD struct vf3 into_box(const struct kiln_draw_oriented_box *box, struct vf3 v)
+{
+    return (struct vf3){vf3_dot_all(v, box->rows[0]), vf3_dot_all(v, box->rows[1]),
+                        vf3_dot_all(v, box->rows[2])};
+}
 
 /* Returns the lanes where a shape with such a bounding sphere may hide a part of the lamp. */
 SIMD vi lamp_may_be_hidden(const struct lamp_receiver *r, struct vf3 towards, float size)
@@ -29,13 +37,13 @@ SIMD void hide_lamp(struct lamp_receiver *r, vi near, vf cover)
     r->visible *= 1.0f - vf_where(near, cover);
 }
 
-SIMD void hide_lamp_by_boxes(const struct kiln_draw_backdrop *b, uint32_t boxes,
+SIMD void hide_lamp_by_boxes(const struct kiln_lamp_objects *objects, uint32_t boxes,
                              struct lamp_receiver *r)
 {
     for (; boxes; boxes &= boxes - 1) {
         const int i = __builtin_ctz(boxes);
-        const float4 half = b->box_half[i];
-        const struct vf3 towards = vf3_towards(b->box_center[i], r->origin);
+        const float4 half = objects->box_half[i];
+        const struct vf3 towards = vf3_towards(objects->box_center[i], r->origin);
         const vi near = lamp_may_be_hidden(r, towards, lamp_box_size(half));
         if (any(near))
             hide_lamp(r, near, lamp_box_cover(towards, half, r->way.direction, r->way));
@@ -87,8 +95,8 @@ SIMD void hide_lamp_by_oriented(const struct kiln_draw_shapes *shapes, uint32_t 
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
-/* Returns the part of a lamp that meshes hide, in the lanes where the point still sees the lamp. */
-SIMD vf lamp_mesh_cover(const struct kiln_ray_frame *frame, const struct kiln_draw_light *lamp,
+/* Returns the part of a lamp that meshes hide, in the lanes where the receiver still sees it. */
+SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct kiln_draw_light *lamp,
                         const struct lamp_receiver *r, struct vf3 normal)
 {
     const float radius = lamp->color.w, far = lamp->maps.x;
@@ -98,15 +106,15 @@ SIMD vf lamp_mesh_cover(const struct kiln_ray_frame *frame, const struct kiln_dr
     if (!any(near))
         return vf_all(0.0f);
 
-    const struct shadow_map maps = {frame->lamp_maps, KILN_LAMP_EDGE, KILN_LAMP_LEVELS};
+    const struct shadow_map maps = {objects->maps, KILN_LAMP_EDGE, KILN_LAMP_LEVELS};
     const vi face = vi_of(place.face) + (int32_t)(KILN_LAMP_FACES * (lamp->casters.y - 1));
     const vi first = face * KILN_LAMP_TEXELS;
-    const vf level = lamp_level(lamp_widest(place, radius)) + 1.0f;
+    const vf level = lamp_level(lamp_widest(place, radius, r->way.lit)) + 1.0f;
     struct shadow_sample shadow = read_shadow(&maps, first, place.at.u, place.at.v, level);
     near &= shadow.cover > 0.0f;
     if (!any(near))
         return vf_all(0.0f);
-    const vf width = lamp_width(place, radius, far, shadow.cover, shadow.distance);
+    const vf width = lamp_width(place, radius, r->way.lit, far, shadow.cover, shadow.distance);
     const vf fine = lamp_level(width), stride = 0.5f * width;
     const vf ramp = 1.0f / (place.at.slack + stride * (2.0f * KILN_LAMP_RANGE) * place.at.depth);
     vf cover = vf_all(0.0f);
@@ -128,25 +136,22 @@ SIMD uint32_t take_bits(uint32_t *bits, uint32_t count)
     return taken;
 }
 
-/* Returns the part of a lamp, 0 to 1, that points of surfaces see. */
-SIMD vf lamp_visibility(const struct kiln_ray_frame *frame, const struct kiln_draw_light *lamp,
-                        const struct ray_point *p, vi active)
+/* Returns the part of a lamp, 0 to 1, that points or balls see. normal: of the surface, unit; lit:
+ * radius of the balls, m; 0 for points. */
+SIMD vf lamp_visibility(const struct kiln_lamp_objects *objects, const struct kiln_draw_light *lamp,
+                        struct vf3 origin, struct vf3 normal, vf lit, vi active)
 {
     uint32_t casters = lamp->casters.x;
-    if (!(casters | lamp->casters.y) || !any(active))
-        return vf_all(1.0f);
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    struct lamp_receiver r = {.origin = vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)),
-                              .active = active,
-                              .visible = vf_all(1.0f)};
-    r.way = lamp_way_of(vf3_towards(lamp->position_radius2, r.origin), lamp->color.w);
-    hide_lamp_by_boxes(frame->backdrop, take_bits(&casters, frame->backdrop->counts.x), &r);
+    const struct kiln_draw_shapes *shapes = objects->shapes;
+    struct lamp_receiver r = {.origin = origin, .active = active, .visible = vf_all(1.0f)};
+    r.way = lamp_way_of(vf3_towards(lamp->position_radius2, origin), lamp->color.w, lit);
+    hide_lamp_by_boxes(objects, take_bits(&casters, objects->box_count), &r);
     const uint32_t spheres = take_bits(&casters, shapes->counts.x);
     hide_lamp_by_round(shapes, spheres, take_bits(&casters, shapes->counts.y), &r);
     const uint32_t capsules = take_bits(&casters, shapes->oriented_counts.x);
     hide_lamp_by_oriented(shapes, capsules, take_bits(&casters, shapes->oriented_counts.y), &r);
     if (lamp->casters.y)
-        hide_lamp(&r, active, lamp_mesh_cover(frame, lamp, &r, p->normal));
+        hide_lamp(&r, active, lamp_mesh_cover(objects, lamp, &r, normal));
     return r.visible;
 }
 
