@@ -6,6 +6,7 @@
 #define KILN_SHARED_BILLBOARD_LIGHT_H
 
 #include "shared/billboard.h"
+#include "shared/lamp.h"
 #include "shared/smoke_grid.h"
 
 /* The light of one colour: from all sides, and how it changes along the axes of the world or of a
@@ -97,13 +98,16 @@ REAL_FN S(light_sum) light_sum_add_sun(S(light_sum) sum, float4 irradiance, floa
 }
 
 /* Adds a lamp, whose light falls off by the square of the distance, and stays finite inside of the
- * lamp. position: the particle's, m; parts: of the lamp, without `lit`. */
+ * lamp. A rectangle counts as a disc of its area. position: the particle's, m; parts: of the lamp,
+ * without `lit`. */
 REAL_FN S(light_sum) light_sum_add_lamp(S(light_sum) sum, S(kiln_draw_light) lamp, real lit,
                                         real3 position, S(light_parts) parts)
 {
     real3 towards = real3_towards(lamp.position_radius2, position);
     real d2 = real3_dot(towards, towards);
     real factor = 0.5f * lit / (d2 + (lamp.position_radius2.w + 1e-12f));
+    if (lamp.facing.w != KILN_LAMP_POINT)
+        factor = factor * lamp_share(lamp, towards);
     real straight_a_metre = factor * parts.straight * real_rsqrt(d2 + 1e-9f);
     return light_sum_add(sum, lamp.color, factor * parts.all,
                          real3_scale(towards, straight_a_metre));

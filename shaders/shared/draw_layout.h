@@ -68,10 +68,15 @@ struct kiln_view {
     float4 principal;
 };
 
-/* A lamp, or a part of the light of fire. */
+/* Kinds of lamps (shared/lamp.h). */
+#define KILN_LAMP_POINT     0.0f
+#define KILN_LAMP_SPOT      1.0f
+#define KILN_LAMP_RECTANGLE 2.0f
+
+/* A lamp, or a part of the light of fire. A rectangle has the radius of a disc of its area. */
 struct kiln_draw_light {
     float4 position_radius2; /* m, m^2 */
-    float4 color;            /* radiance at 1 m; w: radius, m */
+    float4 color; /* radiance of a white surface 1 m in front, far from the lamp; w: radius, m */
     /* x: a bit for each object of the backdrop that may hide the light: boxes first, then spheres,
      * cylinders, capsules and oriented boxes; y: 1 + number of its shadow maps of meshes; z: 1 +
      * number of its map of smoke; 0: none, for both; w: 1 if anything may hide the light, or 0 */
@@ -79,8 +84,10 @@ struct kiln_draw_light {
     /* Distance that the shadow maps reach, m; distance of the first layer of the map of smoke, m;
      * layers of it that double the distance; unused. */
     float4 maps;
-    float4 smoke_ahead,
-        smoke_right; /* of the map of smoke (lamp_smoke_in_picture); w 0: six faces */
+    float4 smoke_ahead, smoke_right; /* of the map of smoke (shared/lamp_smoke.h) */
+    float4 facing;                   /* unit, where a spot or a rectangle shines; w: KILN_LAMP_* */
+    float4 right; /* from a rectangle's centre to its side, m; w: cosine of a spot's outer cone */
+    float4 up;    /* to its upper edge, m; w: 1 / (cosine of the inner cone - of the outer) */
 };
 
 /* Sky, floor, boxes, sun and lights: all that lies behind the particles and lights them. */

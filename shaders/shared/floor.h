@@ -104,8 +104,9 @@ REAL_FN real floor_lobe(real3 normal, real3 to_eye, real3 to_light, real spread)
            real_max(shadowing, real_all(1e-6f));
 }
 
-/* Returns what reaches the eye for each unit of a lamp's colour. towards, radius2: as for
- * lamp_irradiance; a large lamp has a wide streak. */
+/* Returns what reaches the eye for each unit of a lamp's colour where the lamp faces the floor.
+ * towards: to the lamp's centre; radius2: the square of its radius. A large lamp has a wide streak.
+ */
 REAL_FN real floor_reflects_lamp(real3 towards, float radius2, real3 normal, real3 to_eye,
                                  real spread)
 {

@@ -5,6 +5,7 @@
 #ifndef KILN_SHARED_LAMP_COVER_H
 #define KILN_SHARED_LAMP_COVER_H
 
+#include "shared/draw_layout.h"
 #include "shared/sun_cover.h"
 
 /* How far rays to lamps start off their surface, m; and how far inside of a box's outline a ray
@@ -16,9 +17,10 @@
 struct lamp_way {
     real3 direction; /* unit */
     real reach;      /* distance of the lamp's centre, m */
-    real radius;     /* of the lamp, m */
     real lit;        /* radius of the ball that is lit, m; 0 for a point */
+    real radius;     /* of the lamp, m */
     real spread;     /* how much the cone's radius grows for each metre; may be below 0 */
+    real depth;      /* half of the lamp's extent along the way, m */
 };
 
 /* towards: from the point to the lamp's centre, m; radius: of the lamp, m; lit: of the ball, m. */
@@ -29,18 +31,35 @@ REAL_FN S(lamp_way) lamp_way_of(real3 towards, float radius, real lit)
     S(lamp_way) way;
     way.direction = real3_scale(towards, inverse);
     way.reach = square * inverse;
-    way.radius = real_all(radius);
     way.lit = lit;
+    way.radius = real_all(radius);
     way.spread = (radius - lit) * inverse;
+    way.depth = way.radius;
     return way;
 }
 
-/* Returns the part of the lamp's ball that is farther away than `distance`, m: a shape there hides
- * no more than this part. */
+/* Returns the way from a point of a surface, or from a ball, to a lamp. lit: radius of the ball, m;
+ * 0 for a point. A rectangle hides as a disc of its area does. Where a part of the disc is below
+ * the surface's horizon, the whole disc is lifted above it, since the surface gets light only from
+ * the part of the rectangle above (rectangle_irradiance). */
+REAL_FN S(lamp_way) lamp_way_to(S(kiln_draw_light) lamp, real3 origin, real3 normal, real lit)
+{
+    real3 towards = real3_towards(lamp.position_radius2, origin);
+    if (lamp.facing.w != KILN_LAMP_RECTANGLE)
+        return lamp_way_of(towards, lamp.color.w, lit);
+    real lift = real_max(lamp.color.w - real3_dot(normal, towards), real_all(0.0f));
+    S(lamp_way) way = lamp_way_of(real3_add_scaled(towards, normal, lift), lamp.color.w, lit);
+    way.depth = real_abs(real3_dot_all(way.direction, lamp.right)) +
+                real_abs(real3_dot_all(way.direction, lamp.up));
+    return way;
+}
+
+/* Returns the part of the lamp's extent that is farther away than `distance`, m: a shape there
+ * hides no more than this part. */
 REAL_FN real lamp_part_beyond(S(lamp_way) way, real distance)
 {
-    real radius = real_max(way.radius, real_all(1e-4f));
-    return real_clamp01(0.5f + 0.5f * (way.reach - distance) / radius);
+    real depth = real_max(way.depth, real_all(1e-4f));
+    return real_clamp01(0.5f + 0.5f * (way.reach - distance) / depth);
 }
 
 /* Returns where a shape may hide a part of the lamp. towards: the way to the centre of the shape's

@@ -1,6 +1,6 @@
-/* Computes the light that arrives at a surface from the sky and from lamps, and the sky's colour.
- * Each object darkens the sky for surfaces near it. The darkening does not follow the exact solid
- * angle; it makes objects look as if they stood on the floor. */
+/* Computes the light that arrives at a surface from the sky, and the sky's colour. Each object
+ * darkens the sky for surfaces near it. The darkening does not follow the exact solid angle; it
+ * makes objects look as if they stood on the floor. */
 #ifndef KILN_SHARED_SURFACE_LIGHT_H
 #define KILN_SHARED_SURFACE_LIGHT_H
 
@@ -107,15 +107,6 @@ REAL_FN real3 sky_gradient(float4 horizon, float4 top, real3 direction)
 REAL_FN real3 sky_ambient(float4 horizon, float4 top, real3 normal)
 {
     return real3_mix_all(horizon, top, 0.5f + 0.5f * normal.y);
-}
-
-/* Returns the irradiance for each unit of a lamp's colour. towards: the way to it; radius2: the
- * square of its radius, so that near light stays finite. */
-REAL_FN real lamp_irradiance(real3 towards, real3 normal, float radius2)
-{
-    real along = real3_dot(normal, towards), d2 = real3_dot(towards, towards);
-    real part = along * real_rsqrt(real_max(d2, real_all(1e-9f))) * SURFACE_PI / (d2 + radius2);
-    return real_where(along > 0.0f, part);
 }
 
 #endif

@@ -9,6 +9,7 @@
 #include "draw/light/ray_lamp.h"
 #include "draw/light/ray_smoke.h"
 #include "shared/floor.h"
+#include "shared/lamp.h"
 #include "shared/surface_light.h"
 
 struct ray_color {
@@ -101,7 +102,9 @@ SIMD vf meshes_sky_visibility(const struct kiln_ray_frame *frame, const struct r
 struct arrived {
     struct vf3 irradiance;
     struct vf3 reflected; /* light of the lamps that a glossy floor reflects to the eye */
-    vf all, hidden; /* brightness of the irradiance without shadows of lamps; of what they take */
+    /* The brightness of the irradiance without shadows and cones of lamps; that of what they take.
+     */
+    vf all, hidden;
 };
 
 /* Adds the light of a lamp. gloss: how a glossy floor reflects it, or NULL. */
@@ -111,23 +114,26 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_li
 {
     const struct vf3 towards = vf3_towards(lamp->position_radius2, p->at);
     const float radius2 = lamp->position_radius2.w;
-    vi faces = p->active & (vf3_dot(p->normal, towards) > 0.0f);
+    const vf part = vf_where(p->active, lamp_irradiance(*lamp, towards, p->normal));
+    const vi faces = part > 0.0f;
     if (!any(faces) && !gloss)
         return;
-    const struct ray_point lit = {p->at, p->normal, faces};
-    vf seen = smoke_transmittance(lamp_smoke_depth(frame->lamp_smoke, lamp, &lit));
-    if (lamp->casters.x | lamp->casters.y && any(faces))
+    const vf cone = lamp_cone(*lamp, towards);
+    const struct ray_point lit = {p->at, p->normal, faces & (cone > 0.0f)};
+    vf seen = cone * smoke_transmittance(lamp_smoke_depth(frame->lamp_smoke, lamp, &lit));
+    if (lamp->casters.x | lamp->casters.y && any(lit.active))
         seen *= lamp_visibility(&frame->lamp_objects, lamp,
                                 vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)), p->normal,
-                                vf_all(0.0f), faces);
-    const vf part = vf_where(faces, lamp_irradiance(towards, p->normal, radius2));
+                                vf_all(0.0f), lit.active);
     const vf all = (lamp->color.x + lamp->color.y + lamp->color.z) * part;
     arrived->all += all;
     arrived->hidden += all * (1.0f - seen);
     arrived->irradiance = vf3_add_scaled(arrived->irradiance, vf3_all(lamp->color), part * seen);
     if (gloss) {
-        const vf mirrored =
+        vf mirrored =
             floor_reflects_lamp(towards, radius2, gloss->normal, gloss->to_eye, gloss->spread);
+        if (lamp->facing.w == KILN_LAMP_RECTANGLE)
+            mirrored *= lamp_share(*lamp, towards);
         arrived->reflected =
             vf3_add_scaled(arrived->reflected, vf3_all(lamp->color), mirrored * seen);
     }

@@ -144,14 +144,16 @@ SIMD vf lamp_visibility(const struct kiln_lamp_objects *objects, const struct ki
     uint32_t casters = lamp->casters.x;
     const struct kiln_draw_shapes *shapes = objects->shapes;
     struct lamp_receiver r = {.origin = origin, .active = active, .visible = vf_all(1.0f)};
-    r.way = lamp_way_of(vf3_towards(lamp->position_radius2, origin), lamp->color.w, lit);
+    r.way = lamp_way_to(*lamp, origin, normal, lit);
     hide_lamp_by_boxes(objects, take_bits(&casters, objects->box_count), &r);
     const uint32_t spheres = take_bits(&casters, shapes->counts.x);
     hide_lamp_by_round(shapes, spheres, take_bits(&casters, shapes->counts.y), &r);
     const uint32_t capsules = take_bits(&casters, shapes->oriented_counts.x);
     hide_lamp_by_oriented(shapes, capsules, take_bits(&casters, shapes->oriented_counts.y), &r);
-    if (lamp->casters.y)
+    if (lamp->casters.y) {
+        r.way = lamp_way_of(vf3_towards(lamp->position_radius2, origin), lamp->color.w, lit);
         hide_lamp(&r, active, lamp_mesh_cover(objects, lamp, &r, normal));
+    }
     return r.visible;
 }
 

@@ -21,8 +21,12 @@ struct reflection {
 vec3 reflected_lamp(int i, vec3 point, reflection m)
 {
     vec4 lamp = backdrop.lights[i].position_radius2;
+    vec3 towards = lamp.xyz - point;
+    float share = 1.0;
+    if (backdrop.lights[i].facing.w == KILN_LAMP_RECTANGLE)
+        share = lamp_share(backdrop.lights[i], towards);
     return backdrop.lights[i].color.rgb *
-           floor_reflects_lamp(lamp.xyz - point, lamp.w, m.at.normal, m.at.to_eye, m.at.spread);
+           (share * floor_reflects_lamp(towards, lamp.w, m.at.normal, m.at.to_eye, m.at.spread));
 }
 
 /* Returns the reflections where a ray from the eye meets the floor, even if an object hides the

@@ -8,6 +8,7 @@
  * oriented boxes, planes), MESHES, SOLIDS (solid particles). SKY_IMAGE takes the sky from an image,
  * and SOFT_SUN gives the sun a size, so that shadows have penumbras. */
 #include "draw/light/smoke_shadow.glsl"
+#include "shared/lamp.h"
 #include "shared/lamp_cover.h"
 #include "shared/shape_rays.h"
 #include "shared/surface_light.h"
@@ -159,8 +160,7 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
 {
     uint casters = backdrop.lights[i].casters.x;
     vec3 origin = point + normal * LAMP_START;
-    lamp_way way = lamp_way_of(backdrop.lights[i].position_radius2.xyz - origin,
-                               backdrop.lights[i].color.w, 0.0);
+    lamp_way way = lamp_way_to(backdrop.lights[i], origin, normal, 0.0);
     float visible = 1.0;
     int boxes = casters == 0u ? 0 : int(backdrop.counts.x);
     for (int k = 0; k < boxes; k++) {
@@ -175,6 +175,7 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
     visible *= oriented_lamp_visibility(casters, origin, way);
 #endif
 #ifdef MESHES
+    way = lamp_way_of(backdrop.lights[i].position_radius2.xyz - origin, backdrop.lights[i].color.w);
     visible *= 1.0 - mesh_lamp_cover(i, normal, way);
 #endif
     return visible;
@@ -183,7 +184,8 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
 /* Holds the light of sky and lamps that arrives at a point. */
 struct arrived {
     vec3 irradiance;
-    float all, hidden; /* brightness of it without shadows of lamps; of what they take */
+    /* The brightness of it without shadows and cones of lamps; that of what they take. */
+    float all, hidden;
 };
 
 /* Returns the light of the sky. */
@@ -195,16 +197,17 @@ arrived skylight(hit h, vec3 point)
     return arrived(irradiance, dot(irradiance, vec3(1.0)), 0.0);
 }
 
-/* Adds the light of lamp i. Returns the part of the lamp that the point sees. */
+/* Adds the light of lamp i. Returns the part of the lamp that the point sees past objects and
+ * within the lamp's cone. */
 float add_lamp(int i, hit h, vec3 point, inout arrived light)
 {
     vec3 towards = backdrop.lights[i].position_radius2.xyz - point;
     vec3 color = backdrop.lights[i].color.rgb;
-    float part = lamp_irradiance(towards, h.normal, backdrop.lights[i].position_radius2.w);
-    float seen = 1.0;
-    if (dot(towards, h.normal) > 0.0)
-        seen = lamp_visibility(i, point, h.normal) *
-               smoke_transmittance(smoke_depth_to_lamp(i, point));
+    float part = lamp_irradiance(backdrop.lights[i], towards, h.normal);
+    float seen = lamp_cone(backdrop.lights[i], towards);
+    if (part * seen > 0.0)
+        seen *= lamp_visibility(i, point, h.normal) *
+                smoke_transmittance(smoke_depth_to_lamp(i, point));
     float all = dot(color, vec3(part));
     light.irradiance += color * (part * seen);
     light.all += all;
