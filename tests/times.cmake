@@ -13,6 +13,7 @@ set(kiln_test_times
     "gpu.simulate 30 5"
     "gpu.shadows 15 2"
     "gpu.lamps 25"
+    "gpu.lamp_kinds 10"
     "gpu.lens 10"
     "gpu.bloom 10"
     "gpu.shutter 10"

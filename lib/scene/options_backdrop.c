@@ -248,26 +248,78 @@ static const struct kiln_option object = {.name = "object",
 #undef AT
 #define AT(field) offsetof(struct kiln_light, field)
 
+/* The options that a point light and a spot share. */
+#define SMALL_LIGHT                                                                                \
+    VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]",                  \
+           "Position of the light."),                                                              \
+        COLOR(LOOK, "color", color, 1000000, TIME, "1", "Light that arrives 1 m away."),           \
+        VALUE(LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",                      \
+              "Radius of the light. Near the light, it keeps the brightness finite; it softens "   \
+              "shadows."),                                                                         \
+        BOOLEAN(LOOK, "shadow", shadow, "true",                                                    \
+                "Smoke dims the light, and objects of the backdrop hide it, except those that "    \
+                "contain its centre.")
+
+#define LIGHT_DIRECTION                                                                            \
+    VECTOR(LOOK, "direction", direction, KILN_PLAIN, -FAR, FAR, TIME, "[0, -1, 0]",                \
+           "Direction in which the light shines, of any length but 0.")
+
 static const struct kiln_option point[] = {
-    VECTOR(LOOK, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]",
-           "Position of the light."),
-    COLOR(LOOK, "color", color, 1000000, TIME, "1", "Light that arrives 1 m away."),
-    VALUE(
-        LOOK, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.2 m",
-        "Radius of the light. Near the light, it keeps the brightness finite; it softens shadows."),
+    SMALL_LIGHT,
+    END,
+};
+
+static const struct kiln_option spot[] = {
+    SMALL_LIGHT,
+    LIGHT_DIRECTION,
+    VALUE(LOOK, "angle", angle, KILN_ANGLE, KILN_DEG(1), KILN_DEG(180), TIME, "30 deg",
+          "Angle between the light's direction and the edge of its cone: half of the opening."),
+    VALUE(LOOK, "softness", softness, KILN_FRACTION, 0, 1, TIME, "0.2",
+          "Part of the angle, inwards from the edge of the cone, in which the light fades."),
+    END,
+};
+
+static const struct kiln_option rectangle[] = {
+    VECTOR(LOOK, "center", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]",
+           "Centre of the rectangle."),
+    VALUE(LOOK, "width", width, KILN_METRES, 0.01, 1000, TIME, "1 m",
+          "Length of the edges across `up`."),
+    VALUE(LOOK, "height", height, KILN_METRES, 0.01, 1000, TIME, "1 m",
+          "Length of the edges along `up`."),
+    LIGHT_DIRECTION,
+    VECTOR(LOOK, "up", up, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+           "Direction of the upper edge, as seen from the centre. The part of it along `direction` "
+           "does not count. If nothing else is left, the upper edge is towards -z, or towards y if "
+           "`direction` is along z."),
+    COLOR(LOOK, "color", color, 1000000, TIME, "1",
+          "Radiance of the rectangle's front. From afar and from in front, it gives as much light "
+          "as a point light of this colour times the area in m^2, divided by pi."),
     BOOLEAN(LOOK, "shadow", shadow, "true",
             "Smoke dims the light, and objects of the backdrop hide it, except those that contain "
-            "its centre."),
+            "its centre or are wholly behind it. Edges of shadows are as soft as those of a ball "
+            "whose outline has the area of the rectangle."),
     END,
 };
 
 static const struct kiln_option_kind light_kinds[] = {
-    {.name = "point", .members = point, .help = "A light that shines to all sides."},
+    {.name = "point",
+     .value = KILN_LIGHT_POINT,
+     .members = point,
+     .help = "A light that shines to all sides."},
+    {.name = "spot",
+     .value = KILN_LIGHT_SPOT,
+     .members = spot,
+     .help = "A light that shines into a cone."},
+    {.name = "rectangle",
+     .value = KILN_LIGHT_RECTANGLE,
+     .members = rectangle,
+     .help = "A panel that shines from its front, such as a window or a lamp at a ceiling. It is "
+             "not drawn itself."},
     {.name = NULL},
 };
 
 static const struct kiln_option light = {
-    .name = "light", .type = &kiln_type_kind, .kinds = light_kinds, .kind_offset = KILN_KIND_NONE};
+    .name = "light", .type = &kiln_type_kind, .kinds = light_kinds, .kind_offset = AT(kind)};
 
 #undef AT
 #define AT(field) offsetof(struct kiln_backdrop, field)

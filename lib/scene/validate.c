@@ -411,6 +411,21 @@ static bool check_objects(struct kiln_reader *reader, const struct kiln_node *ro
     return true;
 }
 
+static bool check_lights(struct kiln_reader *reader, const struct kiln_node *root)
+{
+    const struct kiln_scene *scene = kiln_reader_scene(reader);
+    for (uint32_t i = 0; i < scene->backdrop.light_count; i++) {
+        const struct kiln_light *light = &scene->backdrop.lights[i];
+        const struct kiln_value3 *direction = &light->direction;
+        char path[64];
+        snprintf(path, sizeof path, "backdrop.lights.%u.%s.direction", i,
+                 light->kind == KILN_LIGHT_SPOT ? "spot" : "rectangle");
+        if (light->kind != KILN_LIGHT_POINT && !at_all_keys(scene, &direction, 1, is_not_zero))
+            return kiln_reader_error_at(reader, root, path, "must not be [0, 0, 0]");
+    }
+    return true;
+}
+
 static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *root)
 {
     const struct kiln_scene *scene = kiln_reader_scene(reader);
@@ -423,7 +438,7 @@ static bool check_backdrop(struct kiln_reader *reader, const struct kiln_node *r
         return kiln_reader_error_at(
             reader, root, "backdrop.floor.height",
             "cannot vary while the floor collides; set backdrop.floor.collide to false");
-    return check_objects(reader, root);
+    return check_lights(reader, root) && check_objects(reader, root);
 }
 
 static bool check_camera(struct kiln_reader *reader, const struct kiln_node *root)

@@ -254,6 +254,40 @@ void finish(struct picture *p)
     kiln_scene_destroy(&p->scene);
 }
 
+/* Returns the part of its light that a spot sends in a direction from it. */
+static double cone_part(const struct expected *e, struct vec from)
+{
+    if (e->lamp_outer <= 0)
+        return 1;
+    const double outer = cos(e->lamp_outer), inner = cos(e->lamp_inner);
+    const double t = (dot(unit(from), e->lamp_facing) - outer) / (inner - outer);
+    const double part = fmin(fmax(t, 0), 1);
+    return part * part * (3 - 2 * part);
+}
+
+/* Returns the irradiance / pi of a point by a rectangle of radiance 1: the sum over small parts of
+ * it, each with a ray of its own. */
+static double by_rectangle(const struct expected *e, struct vec point, struct vec normal)
+{
+    enum { PARTS = 14 };
+    const struct vec across = cross(e->lamp_right, e->lamp_up);
+    const double area = 4 * sqrt(dot(across, across)) / (PARTS * PARTS);
+    double sum = 0;
+    for (int i = 0; i < PARTS * PARTS; i++) {
+        const double u = (2 * (i % PARTS) + 1.0) / PARTS - 1,
+                     v = (2 * (i / PARTS) + 1.0) / PARTS - 1;
+        const struct vec at = along(along(e->lamp, e->lamp_right, u), e->lamp_up, v);
+        const struct vec way = along(at, point, -1);
+        const double reach2 = dot(way, way), cosines = dot(way, normal) * -dot(way, e->lamp_facing);
+        if (dot(way, normal) <= 0 || dot(way, e->lamp_facing) >= 0)
+            continue;
+        const struct found found = trace(e->shapes, e->count, point, way);
+        if (!found.any || found.t > 1)
+            sum += area * cosines / (reach2 * reach2);
+    }
+    return sum / acos(-1.0);
+}
+
 double light(const struct expected *e, double px, double py, double *depth)
 {
     struct vec d = pixel_ray(px, py);
@@ -262,6 +296,8 @@ double light(const struct expected *e, double px, double py, double *depth)
     if (!found.any)
         return 0;
     struct vec point = along(along(eye, d, found.t), found.normal, 1e-3);
+    if (dot(e->lamp_right, e->lamp_right) > 0)
+        return e->lamp_color * found.albedo.v[0] * by_rectangle(e, point, found.normal);
     struct vec way = e->sun;
     double angle = e->sun_radius, reach = 1e30, bright = 1;
     if (e->lamp_color > 0) {
@@ -270,6 +306,7 @@ double light(const struct expected *e, double px, double py, double *depth)
         way = unit(way);
         angle = atan(e->lamp_radius / reach);
         bright = e->lamp_color / (reach * reach + e->lamp_radius * e->lamp_radius);
+        bright *= cone_part(e, along((struct vec){{0}}, way, -1));
     }
     double facing = fmax(dot(found.normal, way), 0);
     if (facing > 0)

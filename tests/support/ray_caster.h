@@ -81,6 +81,9 @@ struct expected {
     /* A lamp in place of the sun: where it is, m; its radius, m; its colour, 0: none. */
     struct vec lamp;
     double lamp_radius, lamp_color;
+    struct vec lamp_facing;         /* unit, where a spot or a rectangle shines */
+    double lamp_inner, lamp_outer;  /* angles of a spot's cones, rad; outer 0: no spot */
+    struct vec lamp_right, lamp_up; /* from a rectangle's centre to its edges, m; 0: no rectangle */
 };
 
 /* Returns the red light along the ray of a pixel, by the lamp or for an irradiance of pi by the

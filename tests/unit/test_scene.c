@@ -93,8 +93,17 @@ static void every_key_of_the_backdrop_arrives(void **state)
     assert_true(backdrop->objects[3].axis.y.count == 2 &&
                 backdrop->objects[3].friction.constant == 1);
     assert_true(!backdrop->objects[4].visible && backdrop->objects[4].axis.x.constant == 0.1f);
-    assert_int_equal(backdrop->light_count, 1);
-    assert_true(backdrop->lights[0].radius.constant == 0.05f);
+    assert_int_equal(backdrop->light_count, 3);
+    const struct kiln_light *spot = &backdrop->lights[1], *rectangle = &backdrop->lights[2];
+    assert_int_equal(backdrop->lights[0].kind, KILN_LIGHT_POINT);
+    assert_true(backdrop->lights[0].radius.constant == 0.05f && spot->shadow);
+    assert_int_equal(spot->kind, KILN_LIGHT_SPOT);
+    assert_true(spot->direction.x.count == 2 && spot->angle.constant == 0.5f);
+    assert_true(spot->softness.constant == 0.5f && spot->radius.constant == 0.2f);
+    assert_int_equal(rectangle->kind, KILN_LIGHT_RECTANGLE);
+    assert_true(rectangle->position.y.constant == 3 && rectangle->width.constant == 0.5f);
+    assert_true(rectangle->height.count == 2 && rectangle->up.x.constant == 1);
+    assert_true(rectangle->direction.y.constant == -1 && !rectangle->shadow);
 
     assert_int_equal(scene->post.compose, KILN_COMPOSE_SEPARATE);
     assert_int_equal(scene->post.bloom, KILN_BLOOM_NONE);

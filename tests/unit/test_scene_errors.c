@@ -416,6 +416,12 @@ static const struct bad agreement[] = {
      "backdrop: {sun: {direction: [0, 0, 0]}}\n",
      ":2:29: backdrop.sun.direction: must not be [0, 0, 0]"},
     {"kiln: 1\n"
+     "backdrop: {lights: [point: {}, spot: {direction: [0, 0, 0]}]}\n",
+     ":2:50: backdrop.lights.1.spot.direction: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
+     "backdrop: {lights: [rectangle: {direction: {keys: {0 s: [1, 0, 0], 1 s: [0, 0, 0]}}}]}\n",
+     ":2:44: backdrop.lights.0.rectangle.direction: must not be [0, 0, 0]"},
+    {"kiln: 1\n"
      "systems: {a: {emit: {from: {cone: {direction: [0, 0, 0]}}}}}\n",
      ":2:47: systems.a.emit.from.cone.direction: must not be [0, 0, 0]"},
     {"kiln: 1\n"
