@@ -72,9 +72,9 @@ REAL_FN S(light_sum) light_sum_add_far(S(light_sum) sum, float4 radiance, S(ligh
         REAL3(straight * direction.x, straight * direction.y, straight * direction.z));
 }
 
-/* Returns the light of the sky. The horizon's light comes from all sides; the top's light comes
- * from above and crosses more smoke. lit: the part of the light that the particle reflects; above:
- * the optical depth of the smoke above; diffusion: smoke_diffusion. */
+/* Returns the light of the sky. The top's light comes from above. The horizon's comes from all
+ * sides, and so crosses half as much smoke at most. lit: the part of the light that the particle
+ * reflects; above: optical depth of the smoke above; diffusion: smoke_diffusion. */
 REAL_FN S(light_sum) light_sum_of_sky(float4 horizon, float4 top, real lit, real above,
                                       real diffusion)
 {
