@@ -375,6 +375,14 @@ static const struct kiln_option sun[] = {
           "Light of the sun; 0 is no sun."),
     VALUE(LOOK, "size", sun_size, KILN_ANGLE, 0, KILN_DEG(30), TIME, "0 deg",
           "Angular diameter of the sun. A larger sun gives softer edges of shadows."),
+    VALUE(LOOK, "disc", sun_disc, KILN_PLAIN, 0, 1000000, TIME, "0",
+          "Brightness of the sun's disc in the sky, as a factor on `color`; 0 draws no disc. The "
+          "disc is as wide as `size`. A glossy floor mirrors the sun in any case."),
+    VALUE(LOOK, "glow", sun_glow, KILN_PLAIN, 0, 1000000, TIME, "0",
+          "Brightness of the sky at the sun's middle beside that of the disc, as a factor on "
+          "`color`. This glow gets weaker away from the sun, and colours the haze as well."),
+    VALUE(LOOK, "glow_size", sun_glow_size, KILN_ANGLE, KILN_DEG(0.01), KILN_DEG(90), TIME, "6 deg",
+          "Angle away from the sun at which a third of the glow is left."),
     END,
 };
 

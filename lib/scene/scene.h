@@ -381,7 +381,10 @@ struct kiln_backdrop {
     struct kiln_value3 sun_direction;                       /* direction towards the sun */
     struct kiln_value3 sun_color;                           /* irradiance; 0 0 0: none */
     struct kiln_value sun_size;                             /* rad: diameter; 0: hard shadows */
-    struct kiln_value haze;                                 /* 1/m: density */
+    struct kiln_value sun_disc;      /* radiance of the disc, in parts of color */
+    struct kiln_value sun_glow;      /* that of the sky beside it */
+    struct kiln_value sun_glow_size; /* rad: a third of the glow is left there */
+    struct kiln_value haze;          /* 1/m: density */
     struct kiln_object objects[KILN_MAX_OBJECTS];
     uint32_t object_count;
     struct kiln_light lights[KILN_MAX_LIGHTS];

@@ -92,11 +92,11 @@ struct kiln_draw_light {
 
 /* Sky, floor, boxes, sun and lights: all that lies behind the particles and lights them. */
 struct kiln_draw_backdrop {
-    float4 sky_top;
-    float4 sky_horizon;
+    float4 sky_top;       /* w: brightness of the sun's disc, in parts of its colour */
+    float4 sky_horizon;   /* w: that of the glow around the sun */
     float4 floor_color;   /* w: height, m */
-    float4 floor_params;  /* 1 if there is a floor; edge of its squares, m; haze, 1/m; unused */
-    float4 sun_direction; /* unit, towards the sun */
+    float4 floor_params;  /* 1 if there is a floor; edge of its squares, m; haze, 1/m; sky_glow */
+    float4 sun_direction; /* unit, towards the sun; w: radius of its disc: sky_disc */
     float4 sun_color;     /* irradiance; w: 1 if each particle has a value of shade, or 0 */
     /* boxes; lights; 1 if the background is transparent; 1 if there is smoke in the grids */
     uint4 counts;

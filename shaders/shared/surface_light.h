@@ -103,6 +103,23 @@ REAL_FN real3 sky_gradient(float4 horizon, float4 top, real3 direction)
     return real3_mix_all(horizon, top, 1.0f - real_exp(-4.0f * up));
 }
 
+/* Returns how bright the sky glows along a ray, in parts of the glow at the sun's middle. sun: the
+ * unit vector towards it; width: the distance between unit vectors at which a third is left. */
+REAL_FN real sky_glow(real3 direction, float4 sun, float width)
+{
+    real3 away = real3_sub(real3_normalize(direction), real3_all(sun));
+    real near = 1.0f / (1.0f + real3_dot(away, away) * (1.0f / (width * width)));
+    return near * real_sqrt(near);
+}
+
+/* Returns the part of a pixel that the sun's disc fills, 0 to 1. sun: the unit vector towards it,
+ * and its radius in w; pixel: the size of a pixel; both as distances between unit vectors. */
+REAL_FN real sky_disc(real3 direction, float4 sun, float pixel)
+{
+    real3 away = real3_sub(real3_normalize(direction), real3_all(sun));
+    return 1.0f - real_smoothstep(sun.w - 0.5f * pixel, sun.w + 0.5f * pixel, real3_length(away));
+}
+
 /* Returns the radiance of the whole sky above a surface, averaged. */
 REAL_FN real3 sky_ambient(float4 horizon, float4 top, real3 normal)
 {

@@ -235,6 +235,32 @@ static void skies_lie_where_they_should(void **state)
     test_remove_folder(folder);
 }
 
+/* The sky is black, so that a pixel shows the disc and the glow alone. Pixels of the disc's edge
+ * are left out. */
+static void sun_has_a_disc_and_a_glow(void **state)
+{
+    const double degree = acos(-1.0) / 180, radius = 5 * degree, third = 2 * sin(4 * degree);
+    const struct vec sun = unit((struct vec){{0.1, -0.3, -1}});
+    struct picture p =
+        draw(*state, PICTURE DOWN "  floor: none\n  sky: {top: 0, horizon: 0}\n"
+                                  "  sun: {direction: [0.1, -0.3, -1], color: [1, 0.5, 0.2], "
+                                  "size: 10 deg, disc: 2, glow: 0.6, glow_size: 8 deg}\n");
+    int inside = 0, outside = 0;
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            const struct vec d = unit(pixel_ray(x + 0.5, y + 0.5));
+            const double away = acos(fmin(dot(d, sun), 1)), far = 2 * sin(away / 2) / third;
+            if (fabs(away - radius) < 0.6 * degree)
+                continue;
+            *(away < radius ? &inside : &outside) += 1;
+            const double glow = (away < radius ? 2 : 0) + 0.6 * pow(1 / (1 + far * far), 1.5);
+            assert_color(p.colors + 4 * (y * WIDTH + x), glow, 0.5 * glow, 0.2 * glow);
+        }
+    }
+    assert_true(inside > 150 && outside > 5000);
+    finish(&p);
+}
+
 /* Near by, the picture itself, in its size; far away, where thousands of tiles share a pixel, its
  * mean without a pattern. */
 static void floors_repeat_without_aliasing(void **state)
@@ -285,6 +311,7 @@ int main(void)
         test_on_device(meshes_match_c),
         test_on_device(mesh_shadows_soften),
         test_on_device(skies_lie_where_they_should),
+        test_on_device(sun_has_a_disc_and_a_glow),
         test_on_device(floors_repeat_without_aliasing),
     };
     int failed = 0;

@@ -244,6 +244,12 @@ static struct fixture {
     {"checkers, haze", HEAD CAMERA
      "backdrop:\n  haze: 0.15\n  floor: {checker: 0.4 m, height: -0.2 m}\n" SHAPES LAMPS},
     {"soft sun", HEAD CAMERA "backdrop:\n  sun: {direction: [-1, 1.2, 0.7], size: 8 deg}\n" SHAPES},
+    {"the sun's disc, water", HEAD CAMERA
+     "backdrop:\n  haze: 0.1\n  floor: {gloss: 1}\n  sun: {direction: [0.2, 0.1, -1], size: 5 deg, "
+     "disc: 4, glow: 1, glow_size: 12 deg}\n" SHAPES},
+    {"the sun's disc in a picture", HEAD CAMERA
+     "backdrop:\n  haze: 0.1\n  sky: {image: textures/concrete.jpg}\n  sun: {direction: "
+     "[0.2, 0.1, -1], size: 5 deg, disc: 4, glow: 1, glow_size: 12 deg}\n" SHAPES},
     {"low sun, transparent", HEAD CAMERA
      "backdrop:\n  transparent: true\n  sun: {direction: [1, 0.1, 0], color: 3}\n" SHAPES},
     {"pictures", HEAD CAMERA

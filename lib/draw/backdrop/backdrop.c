@@ -12,6 +12,7 @@
 #include "draw/backdrop/backdrop_gl.h"
 #include "draw/light/lighting_gl.h"
 #include "draw/light/sun_cover.h"
+#include "shared/exact.h"
 
 struct kiln_backdrop_stage {
     const struct kiln_scene *scene;
@@ -44,9 +45,10 @@ static void light_by_image(const struct kiln_backdrop_stage *stage, float intens
                            struct kiln_draw_backdrop *block)
 {
     const float *up = stage->sky_light.up, *horizon = stage->sky_light.horizon;
-    block->sky_top = (float4){up[0] * intensity, up[1] * intensity, up[2] * intensity, 0.0f};
-    block->sky_horizon =
-        (float4){horizon[0] * intensity, horizon[1] * intensity, horizon[2] * intensity, 0.0f};
+    block->sky_top =
+        (float4){up[0] * intensity, up[1] * intensity, up[2] * intensity, block->sky_top.w};
+    block->sky_horizon = (float4){horizon[0] * intensity, horizon[1] * intensity,
+                                  horizon[2] * intensity, block->sky_horizon.w};
 }
 
 /* Holds the sizes of the floor's and the sky's pictures; width 0: no picture. */
@@ -90,20 +92,30 @@ static float3 sun_color(const struct kiln_moment *moment)
     return color;
 }
 
+/* Returns the distance between two unit vectors that are an angle apart. */
+static float chord(float angle)
+{
+    return 2.0f * exact_sincos(0.5f * angle).sine;
+}
+
 static struct kiln_draw_backdrop make_block(const struct kiln_moment *moment)
 {
     const struct kiln_scene *scene = moment->scene;
     const float time_s = moment->view.clock.x;
     const struct kiln_backdrop *b = &scene->backdrop;
     struct kiln_draw_backdrop block = {
-        .sky_top = with_w(kiln_scene_value3(scene, &b->sky_top, time_s), 0.0f),
-        .sky_horizon = with_w(kiln_scene_value3(scene, &b->sky_horizon, time_s), 0.0f),
+        .sky_top = with_w(kiln_scene_value3(scene, &b->sky_top, time_s),
+                          kiln_scene_value(scene, &b->sun_disc, time_s)),
+        .sky_horizon = with_w(kiln_scene_value3(scene, &b->sky_horizon, time_s),
+                              kiln_scene_value(scene, &b->sun_glow, time_s)),
         .floor_color = with_w(kiln_scene_value3(scene, &b->floor_color, time_s),
                               kiln_scene_value(scene, &b->floor_height, time_s)),
         .floor_params = {b->floor_enabled ? 1.0f : 0.0f,
                          kiln_scene_value(scene, &b->floor_checker, time_s),
-                         kiln_scene_value(scene, &b->haze, time_s), 0.0f},
-        .sun_direction = with_w(moment->sun.towards, 0.0f),
+                         kiln_scene_value(scene, &b->haze, time_s),
+                         chord(kiln_scene_value(scene, &b->sun_glow_size, time_s))},
+        .sun_direction = with_w(moment->sun.towards,
+                                chord(0.5f * kiln_scene_value(scene, &b->sun_size, time_s))),
         .sun_color = with_w(sun_color(moment), 0.0f),
         .counts = {0, 0, b->transparent ? 1u : 0u, 0},
     };

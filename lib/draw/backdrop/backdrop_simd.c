@@ -150,6 +150,8 @@ SIMD struct shaded_rays shade_eye_rays(const struct kiln_ray_frame *frame,
 {
     struct shaded_rays shaded = shade_rays(frame, objects, &eye->ray, find_floor(frame, &eye->ray),
                                            &eye->place, frame->floor_gloss);
+    shaded.color.rgb =
+        add_sun_disc(frame, shaded.color.rgb, eye->ray.direction, shaded.first.surface < 0.0f);
     if (frame->floor_gloss)
         add_reflection(frame, &eye->ray, &shaded);
     return shaded;

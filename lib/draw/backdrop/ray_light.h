@@ -168,22 +168,54 @@ SIMD vi facing_sun(const struct kiln_ray_frame *frame, const struct ray_point *p
 
 /* ---- light that goes to the eye -------------------------------------------------------------- */
 
+/* Returns the angle of a pixel in the middle of the picture. */
+SIMD float pixel_angle(const struct kiln_ray_frame *frame)
+{
+    const float4 frustum = frame->view->frustum;
+    return 2.0f * frustum.y / frustum.w;
+}
+
+/* Adds the glow around the sun to a colour of the sky. */
+SIMD struct vf3 add_sun_glow(const struct kiln_draw_backdrop *b, struct vf3 sky,
+                             struct vf3 direction)
+{
+    const float strength = b->sky_horizon.w;
+    if (strength <= 0.0f)
+        return sky;
+    const vf glow = sky_glow(direction, b->sun_direction, b->floor_params.w);
+    return vf3_add_scaled(sky, vf3_all(b->sun_color), strength * glow);
+}
+
+/* Returns the colour of the sky without the sun's disc. */
 SIMD struct vf3 sky_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi active)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
-    const float4 frustum = frame->view->frustum;
-    if (frame->sky_image)
-        return sky_picture(frame, direction, 2.0f * frustum.y / frustum.w, active);
-    return sky_gradient(b->sky_horizon, b->sky_top, direction);
+    const struct vf3 sky = frame->sky_image
+                               ? sky_picture(frame, direction, pixel_angle(frame), active)
+                               : sky_gradient(b->sky_horizon, b->sky_top, direction);
+    return add_sun_glow(b, sky, direction);
+}
+
+/* Adds the sun's disc to rays from the eye that hit nothing. Reflected rays do not meet the disc:
+ * the floor's lobe of the sun stands for its reflection. */
+SIMD struct vf3 add_sun_disc(const struct kiln_ray_frame *frame, struct vf3 color,
+                             struct vf3 direction, vi sky)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    if (b->sky_top.w <= 0.0f || b->counts.z != 0 || !any(sky))
+        return color;
+    const vf disc = vf_where(sky, sky_disc(direction, b->sun_direction, pixel_angle(frame)));
+    return vf3_add_scaled(color, vf3_all(b->sun_color), b->sky_top.w * disc);
 }
 
 /* Returns the colour that surfaces fade into far away: that of the sky at the horizon. */
 SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi active)
 {
-    if (!frame->sky_image)
-        return vf3_all(frame->backdrop->sky_horizon);
+    const struct kiln_draw_backdrop *b = frame->backdrop;
     direction.y = vf_all(0.0f);
-    return sky_picture(frame, direction, 0.1f, active);
+    const struct vf3 sky =
+        frame->sky_image ? sky_picture(frame, direction, 0.1f, active) : vf3_all(b->sky_horizon);
+    return add_sun_glow(b, sky, direction);
 }
 
 /* Returns the radiance of a Lambertian surface: albedo / pi * irradiance, with haze. sunlight: the

@@ -151,6 +151,8 @@ shaded_ray shade_eye_ray(vec3 direction, int layer)
         vec4 color = radiance(h, direction, light.irradiance, arriving);
         if (first)
             shaded = shaded_ray(color, h, sunlit, light.hidden / max(light.all, 1e-6));
+        if (first && h.surface < 0)
+            shaded.color.rgb += sun_disc(direction);
 #ifdef FLOOR_GLOSS
         if (!first)
             shaded.color.rgb += m.part * m.at.reflectance * color.rgb;

@@ -136,22 +136,44 @@ float sky_visibility(vec3 point, vec3 normal)
     return visible;
 }
 
+/* Returns the glow around the sun. */
+vec3 sun_glow(vec3 direction)
+{
+    if (backdrop.sky_horizon.w <= 0.0)
+        return vec3(0.0);
+    float glow = sky_glow(direction, backdrop.sun_direction, backdrop.floor_params.w);
+    return backdrop.sun_color.rgb * (backdrop.sky_horizon.w * glow);
+}
+
+/* Returns the sun's disc, for a ray from the eye that hits nothing. */
+vec3 sun_disc(vec3 direction)
+{
+    if (backdrop.sky_top.w <= 0.0 || backdrop.counts.z != 0u)
+        return vec3(0.0);
+    float pixel = 2.0 * view.frustum.y / view.frustum.w;
+    return backdrop.sun_color.rgb *
+           (backdrop.sky_top.w * sky_disc(direction, backdrop.sun_direction, pixel));
+}
+
+/* Returns the sky without the sun's disc. */
 vec3 sky(vec3 direction)
 {
 #ifdef SKY_IMAGE
-    return sky_picture(direction, 2.0 * view.frustum.y / view.frustum.w);
+    vec3 color = sky_picture(direction, 2.0 * view.frustum.y / view.frustum.w);
 #else
-    return sky_gradient(backdrop.sky_horizon, backdrop.sky_top, direction);
+    vec3 color = sky_gradient(backdrop.sky_horizon, backdrop.sky_top, direction);
 #endif
+    return color + sun_glow(direction);
 }
 
 /* Returns the colour of the haze, into which surfaces fade far away. */
 vec3 horizon(vec3 direction)
 {
+    vec3 level = vec3(direction.x, 0.0, direction.z);
 #ifdef SKY_IMAGE
-    return sky_picture(vec3(direction.x, 0.0, direction.z), 0.1);
+    return sky_picture(level, 0.1) + sun_glow(level);
 #else
-    return backdrop.sky_horizon.rgb;
+    return backdrop.sky_horizon.rgb + sun_glow(level);
 #endif
 }
 
