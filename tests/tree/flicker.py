@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""Tests tools/flicker with frames that are made up here: flicker.py SOURCE.
+
+What moves (an edge, a field of drops, one fast drop) must not count as flicker. A pixel that blinks, a light
+that is on for one frame, and noise must.
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy
+from PIL import Image
+
+WIDTH, HEIGHT, FRAMES = 320, 180, 12
+PIXELS = WIDTH * HEIGHT * (FRAMES - 2)
+
+
+def still():
+    return numpy.full((FRAMES, HEIGHT, WIDTH), 60.0)
+
+
+def edge():
+    frames = still()
+    for t in range(FRAMES):
+        frames[t, :, :100 + 7 * t] = 180
+    return frames
+
+
+def drops(count, speed):
+    """Returns streaks of 2x6 pixels that fall by `speed` pixels a frame, and then start at the top again."""
+    frames = still()
+    chance = numpy.random.default_rng(3)
+    columns, starts = chance.integers(0, WIDTH // 6, count) * 6, chance.integers(0, HEIGHT, count)
+    for column, start in zip(columns, starts):
+        for t in range(FRAMES):
+            rows = (start + speed * t + numpy.arange(6)) % HEIGHT
+            frames[t, rows, column:column + 2] = 160
+    return frames
+
+
+def blinking(count):
+    """Returns `count` pixels that are on in every third frame, which is four of the ten that are judged."""
+    frames = still()
+    chance = numpy.random.default_rng(4)
+    rows, columns = chance.integers(0, HEIGHT // 16, count) * 16, chance.choice(WIDTH // 4, count, False) * 4
+    frames[1:-1:3, rows, columns] = 150
+    return frames
+
+
+def flash():
+    frames = still()
+    frames[6] += 100
+    return frames
+
+
+def noise():
+    return numpy.random.default_rng(5).uniform(0, 255, (FRAMES, HEIGHT // 2, WIDTH // 2))
+
+
+def measure(source, frames, *options):
+    """Returns spikes, moving and flicker, as shares."""
+    with tempfile.TemporaryDirectory() as folder:
+        for t, frame in enumerate(frames):
+            Image.fromarray(frame.astype(numpy.uint8)).convert("RGB").save(f"{folder}/{t:03d}.png")
+        said = subprocess.run([source / "tools/flicker", folder, *options], check=True, capture_output=True,
+                              text=True).stdout.splitlines()
+    return [float(cell.strip(" %")) / 100 for cell in said[-1].split("|")[4:7]]
+
+
+def main():
+    source = pathlib.Path(sys.argv[1])
+    failed = False
+
+    def expect(name, measured, valid):
+        nonlocal failed
+        if not valid:
+            print(f"{name}: spikes {measured[0]:.5f}, moving {measured[1]:.5f}, flicker {measured[2]:.5f}")
+            failed = True
+
+    for name, frames in (("still", still()), ("edge", edge())):
+        measured = measure(source, frames)
+        expect(name, measured, measured == [0, 0, 0])
+    for name, frames in (("one drop", drops(1, 9)), ("200 drops", drops(200, 9))):
+        measured = measure(source, frames)
+        expect(name, measured, measured[0] > 0 and measured[2] < 0.1 * measured[0])
+    measured = measure(source, blinking(60))
+    share = 60 * 4 / PIXELS
+    expect("blinking", measured, abs(measured[0] - share) < 1e-5 and measured[2] > 0.95 * share)
+    measured = measure(source, blinking(60), "--threshold", "100")
+    expect("blinking, below the threshold", measured, measured == [0, 0, 0])
+    measured = measure(source, flash())
+    expect("flash", measured, abs(measured[0] - 0.1) < 1e-5 and measured[2] > 0.099)
+    measured = measure(source, noise())
+    expect("noise", measured, measured[0] > 0.3 and measured[2] > 0.95 * measured[0])
+    return failed
+
+
+sys.exit(main())
