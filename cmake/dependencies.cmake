@@ -2,7 +2,7 @@
 # installs it.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
-set(kiln_linked_packages epoxy libpng zlib libfyaml libzstd nettle)
+set(kiln_linked_packages epoxy libpng zlib libdeflate libfyaml libzstd nettle)
 pkg_check_modules(KILN_DEPS IMPORTED_TARGET ${kiln_linked_packages})
 # Headers only: libepoxy loads EGL at the first call, so a machine without EGL gets an error from kiln
 # and not from the dynamic linker.

@@ -14,7 +14,12 @@
  * them. */
 struct kiln_video_settings;
 /* Parameters that only some formats use. */
-enum { KILN_USES_PNG_BITS = 1, KILN_USES_EXR_BITS = 2, KILN_USES_QUALITY = 4 };
+enum {
+    KILN_USES_PNG_BITS = 1,
+    KILN_USES_EXR_BITS = 2,
+    KILN_USES_QUALITY = 4,
+    KILN_USES_PNG_EFFORT = 8
+};
 struct kiln_format {
     const char *suffix; /* with the dot, in lower case */
     const char *also;   /* another suffix of the format, or NULL */
@@ -76,8 +81,8 @@ static inline uint32_t kiln_flipbook_motion_number(const struct kiln_flipbook *f
     return flipbook->motion ? 1 + flipbook->green_down : 0;
 }
 
-/* Encodes a picture as PNG into the open file. Of params, only scene_hash, seed and flipbook are
- * used. Asks the caller (which may be NULL) meanwhile. */
+/* Encodes a picture as PNG into the open file. Of params, only scene_hash, seed, flipbook,
+ * threads and png_effort are used. Asks the caller (which may be NULL) meanwhile. */
 bool kiln_png_write(const struct kiln_output_params *params, const struct kiln_picture *picture,
                     struct kiln_temporary *file, const struct kiln_caller *caller,
                     struct kiln_error *error);

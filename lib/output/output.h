@@ -74,6 +74,9 @@ struct kiln_file_listener {
     void *user;
 };
 
+/* How PNG files are compressed: small ones take some hundred times as long. */
+enum kiln_png_effort { KILN_PNG_FAST, KILN_PNG_SMALL };
+
 struct kiln_format;
 
 struct kiln_output_params {
@@ -101,6 +104,7 @@ struct kiln_output_params {
     uint32_t threads; /* number of encoder threads; at least 1 */
     bool overwrite;
     uint32_t png_bits, exr_bits, quality;
+    enum kiln_png_effort png_effort;
     struct kiln_flipbook flipbook; /* columns 0: no flipbook */
     /* 64 hex digits, written into each file with seed, frame and version; "": a clip without a
      * scene; NULL: an encoder alone, without a scene */
