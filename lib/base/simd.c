@@ -18,6 +18,14 @@ const char *kiln_simd_name(enum kiln_simd simd)
     return names[simd];
 }
 
+#ifdef __x86_64__
+/* Returns whether there are BMI and BMI2, which came with AVX2. */
+static bool has_bit_instructions(void)
+{
+    return __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+}
+#endif
+
 bool kiln_simd_has(enum kiln_simd simd)
 {
     if (!(KILN_SIMD_LEVELS & 1U << simd))
@@ -27,10 +35,11 @@ bool kiln_simd_has(enum kiln_simd simd)
     case KILN_SIMD_SSE41:
         return __builtin_cpu_supports("sse4.1");
     case KILN_SIMD_AVX2:
-        return __builtin_cpu_supports("avx2");
+        return __builtin_cpu_supports("avx2") && has_bit_instructions();
     case KILN_SIMD_AVX512:
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+        return has_bit_instructions() && __builtin_cpu_supports("avx512f") &&
+               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512vl");
     default:
         return simd == KILN_SIMD_PLAIN;
     }

@@ -27,8 +27,8 @@
 enum kiln_simd {
     KILN_SIMD_PLAIN,  /* any machine: what the compiler makes of vectors; SSE2 on x86-64 */
     KILN_SIMD_SSE41,  /* SSE4.1 */
-    KILN_SIMD_AVX2,   /* AVX2 */
-    KILN_SIMD_AVX512, /* AVX-512 F, BW, DQ and VL */
+    KILN_SIMD_AVX2,   /* AVX2, BMI and BMI2 */
+    KILN_SIMD_AVX512, /* AVX-512 F, BW, DQ and VL, BMI and BMI2 */
     KILN_SIMD_NEON,   /* Advanced SIMD, which every arm64 has */
     KILN_SIMD_COUNT
 };

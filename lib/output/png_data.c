@@ -21,7 +21,7 @@
 
 enum {
     BAND_BYTES = 256 << 10, /* what a band has at most, if its rows are not larger than that */
-    TOGETHER = 8,           /* rows that share a filter */
+    TOGETHER = 16,          /* rows that share a filter */
     HEAD = 2,               /* bytes of a zlib stream before its data */
     TAIL = 4,               /* bytes behind it */
     BANDS_A_THREAD = 4,     /* of a round, so that a slow thread delays the round less */
@@ -46,6 +46,8 @@ struct kiln_png_data {
     const struct kiln_picture *picture;
     enum kiln_png_effort effort;
     size_t row_bytes;
+    kiln_png_filter *filter_rows;
+    kiln_deflate_run *deflate;
     /* small data: all of it, NULL before the first call */
     uint8_t *small;
     size_t small_size, small_taken;
@@ -131,9 +133,14 @@ struct kiln_png_data *kiln_png_data_create(const struct kiln_picture *picture,
                                            enum kiln_png_effort effort, uint32_t threads,
                                            struct kiln_error *error)
 {
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return NULL;
     struct kiln_png_data *data = calloc(1, sizeof *data);
     bool ok = data != NULL;
     if (ok) {
+        data->filter_rows = KILN_SIMD_PICK(kiln_png_filter_rows, simd);
+        data->deflate = KILN_SIMD_PICK(kiln_deflate, simd);
         data->picture = picture;
         data->effort = effort;
         data->row_bytes = kiln_png_row_bytes(picture);
@@ -163,11 +170,11 @@ static void compress_bands(void *context, size_t begin, size_t end, uint32_t wor
         const uint32_t number = data->round + (uint32_t)i, rows = rows_of(data, number);
         const size_t size = rows * data->row_bytes;
         struct band *band = &data->bands[i];
-        kiln_png_filter_rows(data->picture, number * data->band_rows, rows, TOGETHER, worker->rows,
-                             worker->scratch);
+        data->filter_rows(data->picture, number * data->band_rows, rows, TOGETHER, worker->rows,
+                          worker->scratch);
         band->start = HEAD;
-        band->size = kiln_deflate(worker->rows, size, number + 1 == data->band_count,
-                                  band->bytes + HEAD, worker->deflate);
+        band->size = data->deflate(worker->rows, size, number + 1 == data->band_count,
+                                   band->bytes + HEAD, worker->deflate);
         band->adler = libdeflate_adler32(1, worker->rows, size);
     }
 }
@@ -233,7 +240,7 @@ static bool compress_small(struct kiln_png_data *data)
     if (rows && scratch && compressor) {
         const size_t room = libdeflate_zlib_compress_bound(compressor, size);
         data->small = malloc(room);
-        kiln_png_filter_rows(picture, 0, picture->height, TOGETHER, rows, scratch);
+        data->filter_rows(picture, 0, picture->height, TOGETHER, rows, scratch);
         if (data->small)
             data->small_size = libdeflate_zlib_compress(compressor, rows, size, data->small, room);
     }

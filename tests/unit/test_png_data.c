@@ -228,6 +228,9 @@ static void runs_of_every_length_come_back(void **state)
     (void)state;
     enum { MOST = 1100 };
     static struct kiln_deflate_scratch scratch;
+    struct kiln_error error = {0};
+    enum kiln_simd simd;
+    assert_true(kiln_simd_choose(&simd, &error));
     uint8_t bytes[MOST + 40], out[2 * MOST + 1000], back[MOST + 40];
     assert_true(kiln_deflate_room(sizeof bytes) <= sizeof out);
     for (size_t run = 0; run <= MOST; run += run < 540 ? 1 : 7) {
@@ -241,11 +244,13 @@ static void runs_of_every_length_come_back(void **state)
             for (size_t i = 0; i < after; i++)
                 bytes[before + run + i] = (uint8_t)(next_random() % 255 + 1);
             /* two calls, whose output is one stream */
-            const size_t half = kiln_deflate(bytes, size, false, out, &scratch);
+            const size_t half =
+                KILN_SIMD_PICK(kiln_deflate, simd)(bytes, size, false, out, &scratch);
             struct data data = {out, half};
             uint8_t *rest = malloc(kiln_deflate_room(size));
             assert_non_null(rest);
-            const size_t more = kiln_deflate(bytes, size, true, rest, &scratch);
+            const size_t more =
+                KILN_SIMD_PICK(kiln_deflate, simd)(bytes, size, true, rest, &scratch);
             uint8_t *both = malloc(half + more);
             assert_non_null(both);
             memcpy(both, data.bytes, half);
