@@ -61,6 +61,13 @@ static const struct option options[] = {
      .placeholder = "8|16",
      .help = "Bits a channel of PNG, APNG and MKV files.",
      .fallback = "8"},
+    {.name = "png-effort",
+     .kind = OPTION_CHOICE,
+     .placeholder = "fast|small",
+     .help =
+         "How PNG files are compressed. 'small' files are about a tenth smaller; each takes some "
+         "hundred times as long to compress. The pixels are the same.",
+     .fallback = "fast"},
     {.name = "exr-bits",
      .kind = OPTION_CHOICE,
      .placeholder = "16|32",
@@ -296,6 +303,8 @@ static bool read_options(struct render *render, const struct arguments *argument
     params->threads = arguments_integer(arguments, "threads", params->threads);
     params->quality = arguments_integer(arguments, "quality", params->quality);
     params->png_bits = arguments_choice(arguments, "png-bits", 0) == 0 ? 8 : 16;
+    params->png_effort =
+        (enum kiln_png_effort)arguments_choice(arguments, "png-effort", KILN_PNG_FAST);
     params->exr_bits = arguments_choice(arguments, "exr-bits", 0) == 0 ? 16 : 32;
     params->overwrite = arguments_flag(arguments, "force");
     params->resume = arguments_flag(arguments, "resume");

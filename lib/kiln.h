@@ -362,6 +362,14 @@ struct kiln_written {
     double pass_ms[KILN_MAX_PASSES]; /* time of the passes before the output */
 };
 
+/* How PNG files are compressed. The pixels are the same. */
+enum kiln_png_effort {
+    KILN_PNG_FAST,
+    /* Files are about a tenth smaller, and take some hundred times as long to compress. While a
+     * picture is compressed, nobody is asked whether to go on. */
+    KILN_PNG_SMALL
+};
+
 struct kiln_render_params {
     size_t size;
     const char *output; /* a file, a pattern with %d or #, or NULL to render without writing */
@@ -417,6 +425,7 @@ struct kiln_render_params {
     /* Called for each file as soon as it is whole, on any thread, but never on two at a time. With
      * this callback, each file is read once more for its hash. */
     void (*written)(void *user, const struct kiln_written *file);
+    enum kiln_png_effort png_effort; /* of PNG files */
 };
 KILN_EMPTY(kiln_render_params, kiln_render_params_empty)
 

@@ -295,6 +295,7 @@ static struct kiln_output_params output_params(struct kiln_job *job)
         .png_bits = params->png_bits,
         .exr_bits = params->exr_bits,
         .quality = params->quality,
+        .png_effort = params->png_effort,
         .scene_hash = scene->hash,
         .seed = scene->seed,
         .log = params->log,

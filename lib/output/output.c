@@ -372,6 +372,8 @@ struct kiln_output_params kiln_output_complete(const struct kiln_output_params *
     const uint32_t uses = result.format ? result.format->uses : 0;
     if (!(uses & KILN_USES_PNG_BITS))
         result.png_bits = kiln_render_defaults().png_bits;
+    if (!(uses & KILN_USES_PNG_EFFORT))
+        result.png_effort = kiln_render_defaults().png_effort;
     if (!(uses & KILN_USES_EXR_BITS))
         result.exr_bits = kiln_render_defaults().exr_bits;
     if (!(uses & KILN_USES_QUALITY))

@@ -74,9 +74,6 @@ struct kiln_file_listener {
     void *user;
 };
 
-/* How PNG files are compressed: small ones take some hundred times as long. */
-enum kiln_png_effort { KILN_PNG_FAST, KILN_PNG_SMALL };
-
 struct kiln_format;
 
 struct kiln_output_params {

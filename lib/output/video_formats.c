@@ -171,7 +171,7 @@ static bool tune_apng(AVCodecContext *codec, const struct kiln_output_params *pa
     codec->compression_level = 3;
     /* If this were not set, the encoder would write an aspect ratio of 0. */
     codec->sample_aspect_ratio = (AVRational){1, 1};
-    return set_option(codec, "pred", "sub"); /* the same as in the single images of png.c */
+    return set_option(codec, "pred", "sub"); /* the fastest filter that helps */
 }
 
 /* Sets the delay after the last frame, since the muxer knows only those between frames. APNG stores

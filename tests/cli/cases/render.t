@@ -37,6 +37,10 @@ $ kiln render scenes/tiny.yaml -q --frames 3 -o f.png --size 32x18 --fps 60 && o
 1|         32         18
 $ kiln render scenes/tiny.yaml -q --frames 3 -o g.png --png-bits 16 && od -An -j24 -N1 -tu1 g.png
 1|  16
+$ kiln render scenes/tiny.yaml -q --frames 3 -o small.png --png-effort small && kiln compare tiny.png small.png | head -n 1; test $(stat -c %s small.png) -lt $(stat -c %s tiny.png)
+1|small.png against tiny.png: same
+$ for threads in 1 2 5; do kiln render scenes/tiny.yaml -q --frames 3 -o threads.png --size 640x360 --threads $threads --force; sha256sum <threads.png; done | uniq | wc -l
+1|1
 $ kiln render scenes/tiny.yaml -q --frames 3 -o i.png --fps 30/1 --size 64x36 && cmp tiny.png i.png
 $ cd scenes && cp tiny.yaml ./--odd.yaml && kiln render -q --frames 3 -o ../h.png -- --odd.yaml && cmp ../tiny.png ../h.png
 

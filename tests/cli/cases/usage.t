@@ -190,6 +190,11 @@ $ kiln help render
 1|                              takes one for each core. Default: 0.
 1|      --png-bits 8|16         Bits a channel of PNG, APNG and MKV files.
 1|                              Default: 8.
+1|      --png-effort fast|small
+1|                              How PNG files are compressed. 'small' files are
+1|                              about a tenth smaller; each takes some hundred
+1|                              times as long to compress. The pixels are the
+1|                              same. Default: fast.
 1|      --exr-bits 16|32        Bits a channel of EXR files: half or float.
 1|                              Default: 16.
 1|      --quality N             Quality of JPEG, MP4, WebM, MOV and WebP files,
