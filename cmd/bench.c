@@ -52,6 +52,14 @@ static const struct option options[] = {
              "but after three turns at the earliest.",
      .fallback = "4",
      .max = 3600},
+    {.name = "against",
+     .kind = OPTION_TEXT,
+     .placeholder = "PROGRAM",
+     .help =
+         "Compare this kiln with another one, mostly an earlier one, on scenes. Both render the "
+         "same frames to PNG in turn, in processes of their own. The command prints the "
+         "processor time and the elapsed time of a frame, the ratios of neighbours, and "
+         "whether the pictures are the same."},
     {.name = "stage",
      .repeats = true,
      .splits_at_commas = true,
@@ -161,6 +169,7 @@ static struct kiln_bench_params make_params(const struct arguments *arguments, s
         params.frame = arguments_integer(arguments, "frame", 0);
     params.stages = lists->stages.items;
     params.stage_count = lists->stages.count;
+    params.against = arguments_text(arguments, "against", NULL);
     params.parts = arguments_integer(arguments, "parts", 0);
     params.device = arguments_text(arguments, "device", NULL);
     params.techniques = lists->techniques.items;
@@ -186,9 +195,15 @@ static int check_options(const struct arguments *arguments, const struct kiln_be
     static const struct {
         const char *name;
         bool of_jobs; /* the suite `jobs` takes the option, too */
-    } options_of_scenes[] = {
-        {"stage", false}, {"frame", false}, {"size", true}, {"set", true}, {"asset-root", true}};
+    } options_of_scenes[] = {{"against", false}, {"stage", false}, {"frame", false},
+                             {"size", true},     {"set", true},    {"asset-root", true}};
     const bool jobs = kiln_bench_renders_scene(params), scenes = params->scene_count > 0 && !jobs;
+    if (params->against && params->suite_count > 0)
+        return report(KILN_USAGE, "bench: --against is for scenes, not for the suite %s",
+                      params->suites[0]);
+    if (params->against && params->stage_count > 0)
+        return report(KILN_USAGE, "bench: --against compares whole frames, so --stage cannot be "
+                                  "given");
     for (size_t i = 0; i < sizeof options_of_scenes / sizeof *options_of_scenes; i++) {
         const char *name = options_of_scenes[i].name;
         if (arguments_flag(arguments, name) && !scenes && !(jobs && options_of_scenes[i].of_jobs))
@@ -224,6 +239,9 @@ static int write_results(const struct kiln_bench *bench, const struct arguments 
         report(KILN_OK, "bench: %s", unplotted);
     if (kiln_bench_measured(bench) > 0)
         return 0;
+    if (arguments_flag(arguments, "against"))
+        return report(KILN_FRAME_FAILED,
+                      "bench: nothing could be measured; the notes of the tables say why");
     return report(KILN_NO_DEVICE, "bench: nothing could be measured on this device; the notes of "
                                   "the tables say why");
 }

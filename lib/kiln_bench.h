@@ -32,8 +32,10 @@ struct kiln_bench_params {
     int64_t frame;                  /* first frame of a scene that is drawn; -1: the middle one */
     const char *const *stages; /* stages whose techniques are compared for a scene; none: all */
     size_t stage_count;
-    uint32_t parts;     /* parts of the clip that the suite `jobs` renders; 0: the clip's own */
-    const char *device; /* as kiln_device_params.wanted */
+    const char *against; /* another program of kiln, with which this one is compared on the scenes;
+                            NULL: none */
+    uint32_t parts;      /* parts of the clip that the suite `jobs` renders; 0: the clip's own */
+    const char *device;  /* as kiln_device_params.wanted */
     const char *const *techniques; /* "stage=name", where a suite does not set another technique */
     size_t technique_count;
     uint32_t threads;     /* 0 takes one a core */
@@ -60,8 +62,9 @@ struct kiln_bench;
 bool kiln_bench_renders_scene(const struct kiln_bench_params *params);
 
 /* Runs benchmarks and returns the measurements, which the caller destroys. A comparison that cannot
- * run on the device is a line of the result and no error. Returns NULL with KILN_USAGE (an unknown
- * suite or stage, repetitions out of range), the errors of loading scenes and of rendering, or
+ * run on the device is a line of the result and no error; so is a scene that one of two programs
+ * cannot render. Returns NULL with KILN_USAGE (an unknown suite or stage, repetitions out of range,
+ * `against` is not a program of kiln), the errors of loading scenes and of rendering, or
  * KILN_INTERRUPTED. */
 struct kiln_bench *kiln_bench_run(const struct kiln_bench_params *params, struct kiln_error *error);
 void kiln_bench_destroy(struct kiln_bench **bench);

@@ -1,7 +1,8 @@
 /* Holds the table of the suites of `kiln bench`, and runs them. cmd/bench.c calls kiln_bench_run
  * once. That function runs the suites that are asked for and then measures the caller's scenes; if
- * neither is asked for, it runs every suite. The suite `jobs` takes the caller's scene as its
- * input, so the scene is not measured by itself then.
+ * neither is asked for, it runs every suite. With another program, it compares both on the scenes.
+ * The suite `jobs` takes the caller's scene as its input, so the scene is not measured by itself
+ * then.
  *
  * Parameters are checked before a device is opened, since a run takes minutes and a misspelt name
  * should not cost them. A new suite needs a row here and a function in bench/suite.h. Names are
@@ -133,6 +134,8 @@ static bool check(const struct kiln_bench_params *params, struct kiln_error *err
 static bool run_all(struct kiln_bench_run *run, struct kiln_error *error)
 {
     const struct kiln_bench_params *params = run->params;
+    if (params->against)
+        return kiln_bench_against(run, error);
     bool every = params->suite_count == 0 && params->scene_count == 0;
     for (size_t i = 0; i < (every ? SUITE_COUNT : params->suite_count); i++) {
         const struct kiln_suite_row *suite =

@@ -24,7 +24,8 @@
 enum {
     EVENTS = 3,
     /* the descriptor of the events in the process */ LINE_START_SIZE = 32,
-    WAKE_MS = 200
+    WAKE_MS = 200,
+    END_NS = 500000 /* between looks at a process that closed its events, which mostly has ended */
 };
 static const double grace_s = 5; /* the time from SIGTERM until SIGKILL */
 
@@ -34,7 +35,9 @@ struct child {
     pid_t id;
     char line_start[LINE_START_SIZE]; /* the start of the current line */
     size_t length;                    /* length of the current line */
+    double start_s;
     bool stopped;
+    bool timed_out;
     double stopped_s; /* when the stop was asked for */
 };
 
@@ -45,14 +48,15 @@ static int spawn(struct child *child, const char **arguments, int log, int event
     posix_spawnattr_t attributes;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDWR, 0);
-    posix_spawn_file_actions_adddup2(&files, STDIN_FILENO, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, log, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files, log, STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&files, events, EVENTS);
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); /* Ctrl-C is for the parent */
     posix_spawnattr_setpgroup(&attributes, 0);
+    const char *program = child->process->program ? child->process->program : "/proc/self/exe";
     const int failure =
-        posix_spawn(&child->id, "/proc/self/exe", &files, &attributes, (char **)arguments, environ);
+        posix_spawnp(&child->id, program, &files, &attributes, (char **)arguments, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     return failure;
@@ -64,20 +68,23 @@ static void take_point(struct child *child, enum kiln_process_point point)
 {
     clockid_t clock;
     struct timespec now;
+    child->process->clock_s[point] = kiln_clock_seconds() - child->start_s;
     if (clock_getcpuclockid(child->id, &clock) == 0 && clock_gettime(clock, &now) == 0)
         child->process->cpu_s[point] = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 static void take_line(struct child *child)
 {
-    double *cpu_s = child->process->cpu_s;
+    double *cpu_s = child->process->cpu_s, *clock_s = child->process->clock_s;
     if (strncmp(child->line_start, "{\"event\": \"device\"", 18) == 0)
         take_point(child, KILN_PROCESS_DEVICE);
     if (strncmp(child->line_start, "{\"event\": \"frame\"", 17) != 0)
         return;
     take_point(child, KILN_PROCESS_LAST);
-    if (cpu_s[KILN_PROCESS_FIRST] <= 0.0)
-        cpu_s[KILN_PROCESS_FIRST] = cpu_s[KILN_PROCESS_LAST];
+    if (cpu_s[KILN_PROCESS_FIRST] > 0.0)
+        return;
+    cpu_s[KILN_PROCESS_FIRST] = cpu_s[KILN_PROCESS_LAST];
+    clock_s[KILN_PROCESS_FIRST] = clock_s[KILN_PROCESS_LAST];
 }
 
 static void take_bytes(struct child *child, const char *bytes, size_t count)
@@ -94,16 +101,23 @@ static void take_bytes(struct child *child, const char *bytes, size_t count)
     }
 }
 
-/* Ends the process when a stop is asked for: by SIGTERM, and by SIGKILL when that does not help. */
+/* Ends the process when a stop is asked for, or when it takes too long: by SIGTERM, and by SIGKILL
+ * when that does not help. */
 static void check_stop(struct child *child)
 {
+    const double limit_s = child->process->timeout_s, now_s = kiln_clock_seconds();
+    if (!child->stopped && !child->timed_out && limit_s > 0 && now_s > child->start_s + limit_s) {
+        child->timed_out = true;
+        child->stopped_s = now_s;
+        kill(-child->id, SIGTERM);
+    }
     const struct kiln_bench_params *params = child->run->params;
     if (!child->stopped && params->stop && params->stop(params->user)) {
         child->stopped = true;
         child->stopped_s = kiln_clock_seconds();
         kill(-child->id, SIGTERM);
     }
-    if (child->stopped && kiln_clock_seconds() > child->stopped_s + grace_s)
+    if ((child->stopped || child->timed_out) && now_s > child->stopped_s + grace_s)
         kill(-child->id, SIGKILL);
 }
 
@@ -139,26 +153,35 @@ static void read_last_line(int log, char line[KILN_MESSAGE_SIZE])
     snprintf(line, KILN_MESSAGE_SIZE, "%s", last ? last + 1 : text);
 }
 
-static bool finish(struct child *child, const char **arguments, int log, double start_s,
-                   struct kiln_error *error)
+static bool finish(struct child *child, const char **arguments, int log, struct kiln_error *error)
 {
+    char *line = child->process->last_line;
     struct rusage usage = {0};
     int status = 0;
-    while (wait4(child->id, &status, 0, &usage) < 0 && errno == EINTR)
-        ;
-    child->process->elapsed_s = kiln_clock_seconds() - start_s;
+    /* a process may close its events before it ends */
+    for (pid_t ended = 0; ended == 0 || (ended < 0 && errno == EINTR);) {
+        ended = wait4(child->id, &status, WNOHANG, &usage);
+        if (ended == 0) {
+            check_stop(child);
+            nanosleep(&(struct timespec){.tv_nsec = END_NS}, NULL);
+        }
+    }
+    child->process->elapsed_s = kiln_clock_seconds() - child->start_s;
+    child->process->clock_s[KILN_PROCESS_END] = child->process->elapsed_s;
     child->process->cpu_s[KILN_PROCESS_END] =
         (double)usage.ru_utime.tv_sec + 1e-6 * (double)usage.ru_utime.tv_usec +
         (double)usage.ru_stime.tv_sec + 1e-6 * (double)usage.ru_stime.tv_usec;
     if (child->stopped)
         return kiln_error_set(error, KILN_INTERRUPTED, "stopped");
+    if (child->timed_out)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "kiln %s has not ended within %.0f s",
+                              arguments[0], child->process->timeout_s);
+    read_last_line(log, line);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return true;
     if (!WIFEXITED(status))
         return kiln_error_set(error, KILN_DEVICE_FAILED, "kiln %s was ended by signal %d",
                               arguments[0], WTERMSIG(status));
-    char line[KILN_MESSAGE_SIZE];
-    read_last_line(log, line);
     return kiln_error_set(error, (enum kiln_code)WEXITSTATUS(status),
                           "kiln %s has exit code %d: %.700s", arguments[0], WEXITSTATUS(status),
                           line);
@@ -185,8 +208,7 @@ static const char **make_arguments(const char **arguments, bool reports_events)
 bool kiln_process_run(const struct kiln_bench_run *run, const char **arguments,
                       struct kiln_process *process, struct kiln_error *error)
 {
-    struct child child = {.run = run, .process = process};
-    const double start_s = kiln_clock_seconds();
+    struct child child = {.run = run, .process = process, .start_s = kiln_clock_seconds()};
     const char **all = make_arguments(arguments, process->reports_events);
     const int log = memfd_create("log", MFD_CLOEXEC);
     int ends[2] = {-1, -1};
@@ -197,7 +219,7 @@ bool kiln_process_run(const struct kiln_bench_run *run, const char **arguments,
         close(ends[1]);
     if (failure == 0)
         read_events(&child, ends[0]);
-    const bool ok = failure == 0 ? finish(&child, arguments, log, start_s, error)
+    const bool ok = failure == 0 ? finish(&child, arguments, log, error)
                                  : kiln_error_set_errno(error, KILN_DEVICE_FAILED, failure,
                                                         "kiln %s cannot be started", arguments[0]);
     if (ends[0] >= 0)

@@ -40,6 +40,10 @@ bool kiln_bench_drift(const struct kiln_bench_run *run, struct kiln_error *error
 /* Measures a scene of the caller: whole frames, then the techniques of each stage. */
 bool kiln_bench_scene(const struct kiln_bench_run *run, const char *path, struct kiln_error *error);
 
+/* Compares this program with the caller's other one on each of the caller's scenes. KILN_USAGE when
+ * the other program is not a kiln. */
+bool kiln_bench_against(const struct kiln_bench_run *run, struct kiln_error *error);
+
 /* Overrides of a scene. */
 enum { KILN_MAX_SETTINGS = 32 };
 struct kiln_settings {
