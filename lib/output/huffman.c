@@ -85,7 +85,7 @@ void kiln_huffman_lengths(const uint32_t *weights, size_t count, unsigned max_bi
                           uint8_t *lengths)
 {
     uint64_t keys[KILN_HUFFMAN_MAX_SYMBOLS];
-    uint16_t parents[2 * KILN_HUFFMAN_MAX_SYMBOLS];
+    uint16_t parents[2 * KILN_HUFFMAN_MAX_SYMBOLS] = {0};
     uint32_t counts[KILN_HUFFMAN_MAX_BITS + 1] = {0};
     const size_t used = sort_symbols(weights, count, keys);
     join_trees(keys, used, parents);

@@ -86,24 +86,24 @@ static bool create_buffers(struct kiln_png_data *data)
     return ok;
 }
 
-void kiln_png_data_destroy(struct kiln_png_data **destroyed)
+void kiln_png_data_destroy(struct kiln_png_data **data)
 {
-    struct kiln_png_data *data = *destroyed;
-    *destroyed = NULL;
-    if (!data)
+    struct kiln_png_data *d = *data;
+    *data = NULL;
+    if (!d)
         return;
-    kiln_threads_destroy(&data->threads);
-    for (uint32_t i = 0; data->workers && i < data->worker_count; i++) {
-        free(data->workers[i].rows);
-        free(data->workers[i].scratch);
-        free(data->workers[i].deflate);
+    kiln_threads_destroy(&d->threads);
+    for (uint32_t i = 0; d->workers && i < d->worker_count; i++) {
+        free(d->workers[i].rows);
+        free(d->workers[i].scratch);
+        free(d->workers[i].deflate);
     }
-    for (uint32_t i = 0; data->bands && i < data->round_size; i++)
-        free(data->bands[i].bytes);
-    free(data->workers);
-    free(data->bands);
-    free(data->small);
-    free(data);
+    for (uint32_t i = 0; d->bands && i < d->round_size; i++)
+        free(d->bands[i].bytes);
+    free(d->workers);
+    free(d->bands);
+    free(d->small);
+    free(d);
 }
 
 /* Divides the picture into bands, and creates what compresses them. */
