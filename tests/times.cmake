@@ -43,6 +43,7 @@ set(kiln_test_times
     "queue.smoke 10"
     "python.module 10"
     "cli.bench 20"
+    "cli.bench_against 10"
     "cli.stop 10"
     "cli.compare 10"
     "cli.test 10"
