@@ -24,6 +24,7 @@ set(kiln_test_times
     "gpu.instances 10"
     "gpu.crowds 30"
     "gpu.billboards 10"
+    "gpu.small_billboards 40"
     "gpu.particles 10"
     "gpu.coarse 10"
     "gpu.occlusion 10"

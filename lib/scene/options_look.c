@@ -34,15 +34,18 @@ static const char *const line_ends[] = {
 };
 
 static const struct kiln_option point[] = {
-    VALUE(LOOK, "size", point_size, KILN_PIXELS, 0, 10000, BOTH, "0 px",
-          "Diameter of a point in pixels; 0 uses look.size, in metres."),
+    VALUE(
+        LOOK, "size", point_size, KILN_PIXELS, 0, 10000, BOTH, "0 px",
+        "Diameter of a point in pixels; 0 uses look.size, in metres. A point of less than a pixel "
+        "is drawn a pixel wide, and fainter."),
     BOOLEAN(LOOK, "round", point_round, "true", "true draws a disc, false a square."),
     END,
 };
 
 static const struct kiln_option line[] = {
     VALUE(LOOK, "width", line_width, KILN_PIXELS, 0, 1000, BOTH, "1.5 px",
-          "Width of a line in pixels."),
+          "Width of a line in pixels. A line of less than a pixel is drawn a pixel wide, and "
+          "fainter."),
     CHOICE(LOOK, "to", line_to, line_ends, "velocity",
            "The far end of a line. `velocity` puts it behind the particle, along the velocity, by "
            "the speed times look.stretch. `previous` puts it where the particle was a frame ago."),
@@ -139,7 +142,8 @@ const struct kiln_option kiln_options_look[] = {
            "`alpha` covers what is behind the particle, like smoke. `add` adds light to it, like "
            "fire."),
     VALUE(IF_CONTACTS_ARE_AS_DRAWN, "size", size, KILN_METRES, 0, 1000, BOTH, "0.5 m",
-          "Edge length of a billboard, diameter of a sphere, longest edge of a mesh."),
+          "Edge length of a billboard, diameter of a sphere, longest edge of a mesh. A billboard "
+          "that is thinner than a pixel is drawn a pixel wide, and fainter by the same factor."),
     RANGE(IF_CONTACTS_ARE_AS_DRAWN, "scale", scale, KILN_PLAIN, 0, 1000, TIME, "1",
           "Factor on size, chosen at random for each particle."),
     CHOICE(

@@ -122,6 +122,76 @@ REAL_FN S(billboard_place) billboard_place_deep(float4 frustum, float4 principal
     return place;
 }
 
+/* ---- rims ------------------------------------------------------------------------------------ */
+
+/* A billboard that is narrower or shorter than this, px, has filtered edges. Cells of the atlas
+ * that are shown larger have transparent borders, as a rule. */
+#define BILLBOARD_RIM_MOST 4.0f
+
+/* The place of a billboard and how its edges are filtered. */
+struct billboard_rim {
+    S(billboard_place) place;
+    real u, v;             /* pixels for a unit of each texture coordinate; 0: hard edges */
+    real reach_u, reach_v; /* half edges with the rim, in parts of the billboard's half edges */
+    real opacity;          /* a factor for its opacity */
+};
+
+/* Narrows a texture coordinate about the billboard's middle. near: 1 / depth, or 1 for a flat
+ * billboard. */
+REAL_FN S(picture_slope) picture_slope_narrowed(S(picture_slope) slope, S(picture_slope) near,
+                                                real middle, real part)
+{
+    real rest = middle * (1.0f - part);
+    return picture_slope_of(slope.at * part + near.at * rest, slope.x * part + near.x * rest,
+                            slope.y * part + near.y * rest);
+}
+
+/* Returns the pixels over which a texture coordinate changes by 1, at the billboard's middle. Where
+ * the coordinate grows slantwise, a pixel is as wide as its square is in that direction, up to the
+ * square's diagonal: filtered over this width, billboards have the same sum of light however they
+ * are turned. */
+REAL_FN real picture_slope_pixels(S(picture_slope) slope, S(picture_slope) near, real middle)
+{
+    real x = real_abs(slope.x - middle * near.x), y = real_abs(slope.y - middle * near.y);
+    return near.at / real_max(x + y, real_all(1e-12f));
+}
+
+/* Finds the rim of a billboard that was placed by billboard_place_flat or billboard_place_deep. A
+ * billboard that is thinner than a pixel is drawn a pixel wide, and fainter by the same factor, so
+ * that the sum of its light stays the same wherever it lies between the pixels. edge: the texture
+ * coordinate at the far edges. */
+REAL_FN S(billboard_rim) billboard_rim_of(S(billboard_place) place, bool is_flat, real edge)
+{
+    real one = real_all(1.0f), zero = real_all(0.0f), middle = 0.5f * edge;
+    S(picture_slope) near = place.q;
+    if (is_flat)
+        near = picture_slope_of(one, zero, zero);
+    real width = edge * picture_slope_pixels(place.u, near, middle);
+    real length = edge * picture_slope_pixels(place.v, near, middle);
+    truth small = real_min(width, length) < BILLBOARD_RIM_MOST;
+    real part_u = real_min(width, one), part_v = real_min(length, one);
+    S(billboard_rim) rim;
+    rim.place = place;
+    rim.place.u = picture_slope_narrowed(place.u, near, middle, part_u);
+    rim.place.v = picture_slope_narrowed(place.v, near, middle, part_v);
+    width = real_max(width, one);
+    length = real_max(length, one);
+    rim.u = real_where(small, width / edge);
+    rim.v = real_where(small, length / edge);
+    rim.reach_u = real_select(small, (1.0f + 1.0f / width) / part_u, one);
+    rim.reach_v = real_select(small, (1.0f + 1.0f / length) / part_v, one);
+    rim.opacity = part_u * part_v;
+    return rim;
+}
+
+/* Returns the part of a pixel, in one direction, that lies within two edges: the mean over the
+ * pixel's width. half_edge, from_middle: half of the distance of the edges, and the pixel's
+ * distance from their middle; pixels: those for a unit of both. */
+REAL_FN real edge_cover(real half_edge, real from_middle, real pixels)
+{
+    return real_clamp01((half_edge - real_abs(from_middle)) * pixels + 0.5f);
+}
+
 /* ---- points and lines ------------------------------------------------------------------------ */
 
 /* Half the width of a point or a line, px, and a factor for its opacity. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "draw/light/smoke_shadow.h"
+#include "shared/billboard_place.h"
 #include "shared/derived.h"
 #include "support/cmocka.h"
 
@@ -254,6 +255,47 @@ static dvec true_corner(const struct true_sprite *s, int i)
     return dvec_add(dvec_add(s->center, s->right, across), s->up, along);
 }
 
+/* Finds where the ray through (x, y), px, meets a billboard's plane: its depth, m, and the place in
+ * half edges from the middle. */
+static double true_meet(const struct true_scene *t, const struct true_sprite *s, double x, double y,
+                        double place[2])
+{
+    const float4 f = t->view->frustum;
+    dvec ray = {(2 * x / (double)f.z - 1) * (double)f.x, (1 - 2 * y / (double)f.w) * (double)f.y,
+                -1};
+    dvec normal = dvec_cross(s->right, s->up);
+    double depth = dvec_dot(s->center, normal) / dvec_dot(ray, normal);
+    dvec from_middle = dvec_add(dvec_scale(ray, depth), s->center, -1);
+    place[0] = dvec_dot(dvec_cross(from_middle, s->up), normal) / dvec_dot(normal, normal);
+    place[1] = dvec_dot(dvec_cross(s->right, from_middle), normal) / dvec_dot(normal, normal);
+    return depth;
+}
+
+/* Makes a billboard that is thinner than a pixel a pixel wide and fainter, and gives one of less
+ * than four pixels filtered edges. Its width is that in its middle. */
+static void true_widen(const struct true_scene *t, struct true_sprite *s)
+{
+    const double step = 1e-4;
+    double middle[2], a[2], b[2], width[2];
+    true_pixel(t, s->center, middle);
+    for (int i = 0; i < 2; i++) {
+        double slope[2];
+        for (int k = 0; k < 2; k++) {
+            double aside[2] = {k == 0 ? step : 0, k == 1 ? step : 0};
+            true_meet(t, s, middle[0] + aside[0], middle[1] + aside[1], a);
+            true_meet(t, s, middle[0] - aside[0], middle[1] - aside[1], b);
+            slope[k] = (a[i] - b[i]) / (2 * step);
+        }
+        width[i] = 2 / (fabs(slope[0]) + fabs(slope[1]));
+    }
+    bool small = fmin(width[0], width[1]) < BILLBOARD_RIM_MOST;
+    for (int i = 0; i < 2; i++) {
+        s->narrowed[i] = fmin(width[i], 1);
+        s->opacity *= s->narrowed[i];
+        s->rim[i] = small ? fmax(width[i], 1) : 0;
+    }
+}
+
 /* Computes the pixels that a sprite may touch: all pixels if a corner is behind the eye. */
 static void true_bound(const struct true_scene *t, struct true_sprite *s)
 {
@@ -272,8 +314,9 @@ static void true_bound(const struct true_scene *t, struct true_sprite *s)
             true_pixel(t, true_corner(s, i), at);
         }
         for (int k = 0; k < 2; k++) {
-            low[k] = fmin(low[k], at[k]);
-            high[k] = fmax(high[k], at[k]);
+            double margin = s->rim[0] > 0 ? 3 : 0;
+            low[k] = fmin(low[k], at[k] - margin);
+            high[k] = fmax(high[k], at[k] + margin);
         }
     }
     for (int k = 0; k < 2; k++) {
@@ -379,6 +422,8 @@ bool true_sprite_make(const struct true_scene *t, uint32_t entry,
         double back = p.look->form.w != 0 ? (double)view->clock.z : shape[1];
         true_make_plain(t, s, p.look, line || width > 0 ? width : p.diameter_px,
                         dvec_scale(p.moving, -back));
+    } else {
+        true_widen(t, s);
     }
     true_bound(t, s);
     return true;
@@ -401,17 +446,16 @@ bool true_place_of(const struct true_scene *t, const struct true_sprite *s, doub
 {
     if (s->plain)
         return true_place_plain(s, x, y, at);
-    const float4 f = t->view->frustum;
-    dvec ray = {(2 * x / (double)f.z - 1) * (double)f.x, (1 - 2 * y / (double)f.w) * (double)f.y,
-                -1};
-    dvec normal = dvec_cross(s->right, s->up);
-    at->depth = dvec_dot(s->center, normal) / dvec_dot(ray, normal);
-    dvec from_middle = dvec_add(dvec_scale(ray, at->depth), s->center, -1);
-    double a = dvec_dot(dvec_cross(from_middle, s->up), normal) / dvec_dot(normal, normal);
-    double b = dvec_dot(dvec_cross(s->right, from_middle), normal) / dvec_dot(normal, normal);
-    at->u = 0.5 + 0.5 * a;
-    at->v = 0.5 - 0.5 * b;
-    return at->depth > 0 && fabs(a) <= 1 && fabs(b) <= 1;
+    double place[2];
+    at->depth = true_meet(t, s, x, y, place);
+    bool inside = at->depth > 0;
+    for (int i = 0; i < 2; i++) {
+        place[i] *= s->narrowed[i];
+        inside = inside && fabs(place[i]) <= 1 + (s->rim[i] > 0 ? 1 / s->rim[i] : 0);
+    }
+    at->u = 0.5 + 0.5 * place[0];
+    at->v = 0.5 - 0.5 * place[1];
+    return inside;
 }
 
 /* Interpolates channel c bilinearly between texels of bytes, clamped at the edge of the texture. */
@@ -463,6 +507,14 @@ static double true_soft(const struct true_sprite *s, double depth, double scene)
     return fmin(fmax((scene - depth) * s->soft, 0), 1);
 }
 
+static double true_rim(const struct true_sprite *s, const struct true_place *at)
+{
+    if (s->plain || !(s->rim[0] > 0))
+        return 1;
+    return fmin(fmax((0.5 - fabs(at->u - 0.5)) * s->rim[0] + 0.5, 0), 1) *
+           fmin(fmax((0.5 - fabs(at->v - 0.5)) * s->rim[1] + 0.5, 0), 1);
+}
+
 static double true_coverage(const struct true_sprite *s, const struct true_place *at)
 {
     if (s->disc)
@@ -491,7 +543,7 @@ void true_shade(const struct true_scene *t, const struct true_sprite *s,
     double facing = sqrt(fmax(1 - slope[0] * slope[0] - slope[1] * slope[1], 0));
     double depth = s->plain || fabs(s->right.z) + fabs(s->up.z) > 0 ? at->depth : -s->center.z;
     double fade = s->opacity * true_soft(s, depth, scene);
-    fade = fmin(fade, 1 / fmax(alpha, 1e-6));
+    fade = fmin(fade, 1 / fmax(alpha, 1e-6)) * true_rim(s, at);
     for (int c = 0; c < 3; c++) {
         double light = s->light[0][c] + s->light[1][c] * slope[0] + s->light[2][c] * slope[1] +
                        s->light[3][c] * facing;

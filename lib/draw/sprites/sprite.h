@@ -39,6 +39,7 @@ struct kiln_sprite {
     float u, u_x, u_y, v, v_x, v_y; /* texels; plain: px from the sprite's middle */
     float q, q_x, q_y;              /* 1/m */
     float edge_u, edge_v;           /* edge of the cell, texels; plain: half the size, px */
+    float rim_u, rim_v;             /* pixels a texel; 0: hard edges (struct billboard_rim) */
     float depth;                    /* view depth, m; unused if deep */
     float soft, distance;           /* soft fade, 1/m; distance from the eye, m */
     float opacity;

@@ -48,21 +48,36 @@ SIMD void put_place(struct sprite_lanes *p, const struct billboard_place *place)
     p->words[WORD_OF(q_y)] = place->q.y;
 }
 
+/* Filters the edges of small billboards, stores the rows, and returns the rims. */
+SIMD struct billboard_rim put_billboard(struct sprite_lanes *p, const struct billboard_place *place,
+                                        bool is_flat)
+{
+    const struct billboard_rim rim = billboard_rim_of(*place, is_flat, p->words[WORD_OF(edge_u)]);
+    put_place(p, &rim.place);
+    p->words[WORD_OF(rim_u)] = rim.u;
+    p->words[WORD_OF(rim_v)] = rim.v;
+    p->words[WORD_OF(opacity)] *= rim.opacity;
+    return rim;
+}
+
 /* Places billboards that are parallel to the picture, and bounds the part of them that shows. */
 static void place_flat(struct sprite_lanes *p)
 {
     const struct billboard_flat flat = billboard_place_flat(
         p->pass->view->frustum, p->pass->view->principal, p->center, p->plane.right, p->half_size,
         p->plane.up, p->half_length, p->words[WORD_OF(edge_u)]);
-    const struct billboard_place *place = &flat.place;
-    put_place(p, place);
+    const struct billboard_rim rim = put_billboard(p, &flat.place, true);
+    const struct billboard_place *place = &rim.place;
     p->visible &=
         vf_abs(place->u.x) + vf_abs(place->u.y) + vf_abs(place->v.x) + vf_abs(place->v.y) <
         MOST_TEXELS_A_PIXEL;
     p->words[WORD_OF(depth)] = p->depth;
+    const vi has_rim = rim.u > 0.0f;
     vf width = p->hull_to.c[0] - p->hull_from.c[0], height = p->hull_to.c[1] - p->hull_from.c[1];
-    vf across = p->hull_from.c[0] + p->hull_to.c[0] - 1.0f;
-    vf along = 1.0f - (p->hull_from.c[1] + p->hull_to.c[1]);
+    width = vf_select(has_rim, rim.reach_u, width);
+    height = vf_select(has_rim, rim.reach_v, height);
+    vf across = vf_where(~has_rim, p->hull_from.c[0] + p->hull_to.c[0] - 1.0f);
+    vf along = vf_where(~has_rim, 1.0f - (p->hull_from.c[1] + p->hull_to.c[1]));
     vf x = place->anchor.x + flat.right.x * across + flat.up.x * along;
     vf y = place->anchor.y + flat.right.y * across + flat.up.y * along;
     vf reach_x = vf_abs(flat.right.x) * width + vf_abs(flat.up.x) * height;
@@ -72,9 +87,11 @@ static void place_flat(struct sprite_lanes *p)
 }
 
 /* Bounds the pixels by the projected corners of the visible part of the cell; a sprite that reaches
- * behind the eye may touch any pixel. */
-SIMD void limit_corners(struct sprite_lanes *p, struct vf3 right, struct vf3 up)
+ * behind the eye may touch any pixel. has_rim: a mask. Each edge of a rim lies at most a
+ * pixel's diagonal outside of the billboard's own, and each corner two pixels. */
+SIMD void limit_corners(struct sprite_lanes *p, struct vf3 right, struct vf3 up, vi has_rim)
 {
+    const vf margin = vf_where(has_rim, vf_all(2.0f));
     const struct kiln_view *view = p->pass->view;
     struct picture_point low = {vf_all(view->frustum.z), vf_all(view->frustum.w)};
     struct picture_point high = {vf_all(0.0f), vf_all(0.0f)};
@@ -90,8 +107,10 @@ SIMD void limit_corners(struct sprite_lanes *p, struct vf3 right, struct vf3 up)
         high = (struct picture_point){vf_max(high.x, at.x), vf_max(high.y, at.y)};
     }
     const vf least = vf_all(-1e6f), most = vf_all(1e6f);
-    low = (struct picture_point){vf_select(behind, least, low.x), vf_select(behind, least, low.y)};
-    high = (struct picture_point){vf_select(behind, most, high.x), vf_select(behind, most, high.y)};
+    low = (struct picture_point){vf_select(behind, least, low.x - margin),
+                                 vf_select(behind, least, low.y - margin)};
+    high = (struct picture_point){vf_select(behind, most, high.x + margin),
+                                  vf_select(behind, most, high.y + margin)};
     limit_box(p, low, high);
 }
 
@@ -103,9 +122,9 @@ static void place_deep(struct sprite_lanes *p)
     const struct billboard_place place =
         billboard_place_deep(p->pass->view->frustum, p->pass->view->principal, p->center, right, up,
                              p->words[WORD_OF(edge_u)]);
-    put_place(p, &place);
+    const struct billboard_rim rim = put_billboard(p, &place, false);
     p->flags |= KILN_SPRITE_DEEP;
-    limit_corners(p, right, up);
+    limit_corners(p, right, up, rim.u > 0.0f);
 }
 
 /* Returns the rear end of a line. */

@@ -1,10 +1,10 @@
 /* This header draws sprites into a tile. tile_simd.c, which is compiled for each KILN_SIMD_LEVEL,
- * defines the name TILE_DRAW and includes it. The operations of a pixel are those of
- * shaders/draw/sprites/shade.glsl (Heinz 2019, 3.2.3 to 3.2.6). All lanes do them; lanes outside of
- * the sprite have alpha 0. Sprites are drawn from the nearest to the farthest, and those behind
- * opaque pixels are left out. */
-#include "draw/sprites/texels.h"
+ * defines the name TILE_DRAW and includes it. The operations of a pixel, some of them in
+ * tile_shade.h, are those of shaders/draw/sprites/shade.glsl (Heinz 2019, 3.2.3 to 3.2.6). All
+ * lanes do them; lanes outside of the sprite have alpha 0. Sprites are drawn from the nearest to
+ * the farthest, and those behind opaque pixels are left out. */
 #include "draw/sprites/tile_rows.h"
+#include "draw/sprites/tile_shade.h"
 
 enum {
     PREFETCH_DISTANCE = 6,     /* sprites that are prefetched */
@@ -13,94 +13,6 @@ enum {
 
 /* A pixel that lets through less than this part of the light from behind counts as opaque. */
 #define NEGLIGIBLE 0x1p-16f
-
-/* Holds the data that all pixels of a sprite share. */
-struct brush {
-    const uint8_t *cell, *next, *moves; /* next: NULL if mixed; moves: NULL without motion */
-    int32_t pitch, texel;               /* bytes of a row and of a texel of the cells */
-    int32_t edge;                       /* edge of the cells, as a place */
-    int32_t part;                       /* weight of the next cell, of PART_ONE */
-    int32_t cell_move, next_move;  /* `part` of places_moved, for the cell and for the next cell */
-    int32_t move_shift, move_mask; /* turn a place in the cells into a place in the motion */
-    float sampled;                 /* the unit of sampled channels, SAMPLED_UNIT or a part of it */
-    bool emits;                    /* base or slope is not 0 */
-    bool unfaded;                  /* true: the scene is too far behind it for any pixel to fade */
-    int32_t layer;                 /* the first of the three planes that its colour goes to */
-    bool weighted_glow;            /* true: colour times bloom weights goes to the glow's planes */
-};
-
-static inline float least(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-/* Holds the shade of a vector of pixels: the colour, not yet multiplied by alpha except for colour
- * cells, which are premultiplied. */
-struct shaded {
-    vf rgb[3], alpha;
-};
-
-SIMD struct shaded shade_glow(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
-{
-    vf heat = cell.c[2] * b->sampled + SAMPLED_ZERO;
-    struct shaded shaded = {.alpha = cell.c[3] * b->sampled + SAMPLED_ZERO};
-    for (int c = 0; c < 3; c++)
-        shaded.rgb[c] = s->base[c] + s->slope[c] * heat;
-    return shaded;
-}
-
-SIMD struct shaded shade_lit(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
-{
-    struct shaded shaded = {.alpha = cell.c[3] * b->sampled + SAMPLED_ZERO};
-    float twice = 2.0f * b->sampled, zeros = 2.0f * SAMPLED_ZERO - 1.0f;
-    vf x = cell.c[0] * twice + zeros, y = cell.c[1] * twice + zeros;
-    vf zero = vf_all(0.0f);
-    vf z = vf_sqrt(vf_max(1.0f - (x * x + y * y), zero));
-    for (int c = 0; c < 3; c++) {
-        vf light =
-            (s->light[0][c] + s->light[1][c] * x) + (s->light[2][c] * y + s->light[3][c] * z);
-        shaded.rgb[c] = vf_max(light, zero);
-    }
-    if (b->emits) {
-        vf heat = cell.c[2] * b->sampled + SAMPLED_ZERO;
-        for (int c = 0; c < 3; c++)
-            shaded.rgb[c] += s->base[c] + s->slope[c] * heat;
-    }
-    return shaded;
-}
-
-/* Returns the colour of a colour cell. Channels are squared, since cells hold square roots. */
-SIMD struct shaded shade_color(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
-{
-    for (int c = 0; c < 4; c++) {
-        cell.c[c] = cell.c[c] * b->sampled + SAMPLED_ZERO;
-        cell.c[c] *= cell.c[c];
-    }
-    return (struct shaded){{cell.c[0] * s->base[0], cell.c[1] * s->base[1], cell.c[2] * s->base[2]},
-                           cell.c[3]};
-}
-
-/* Returns the colour of a disc or a rectangle; alpha is the part of a pixel inside. */
-SIMD struct shaded shade_plain(const struct kiln_sprite *s, vf u, vf v)
-{
-    vf alpha;
-    if (s->flags & KILN_SPRITE_DISC)
-        alpha = vf_clamp01(s->edge_u + 0.5f - vf_sqrt(u * u + v * v));
-    else
-        alpha = vf_clamp01(s->edge_u + 0.5f - vf_abs(u)) * vf_clamp01(s->edge_v + 0.5f - vf_abs(v));
-    return (struct shaded){{vf_all(s->base[0]), vf_all(s->base[1]), vf_all(s->base[2])}, alpha};
-}
-
-/* Returns the opacity of a sprite before the scene: equation 3.3, clamped or as printed. */
-SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
-{
-    vi visible = inside & (depth <= scene);
-    if (s->soft <= 0.0f)
-        return vf_where(visible, vf_all(s->opacity));
-    if (s->flags & KILN_SPRITE_LITERAL)
-        return vf_where(visible, vf_abs(scene - s->distance) * s->soft * s->opacity);
-    return vf_where(inside, vf_clamp01((scene - depth) * s->soft) * s->opacity);
-}
 
 /* Adds colour to the pixels at the offsets, and its glow. */
 SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struct brush *b,
@@ -135,6 +47,7 @@ struct batch {
     vi places[2][BATCH], inside[BATCH];
     struct vf4 cells[BATCH];
     vf u[BATCH], v[BATCH], depth[BATCH]; /* u, v: of plain sprites; depth: of deep sprites */
+    vf rim[BATCH];                       /* rim_cover; unset unless brush.rim */
     int32_t at[BATCH][UNITS];
     int count;
 };
@@ -153,6 +66,13 @@ SIMD void put_texels(struct batch *batch, int cell, int i, vi places, int32_t pi
     memcpy(batch->texels[cell][i], &texels, sizeof texels);
 }
 
+/* u, v: steps from the cell's corner. */
+SIMD void put_rim(struct batch *batch, const struct kiln_sprite *s, int i, vf u, vf v)
+{
+    const float texels = 1.0f / (float)PLACE_STEPS;
+    batch->rim[i] = rim_cover(s, u * texels, v * texels);
+}
+
 SIMD void put_pixels(struct batch *batch, const struct target *d, struct pixels p,
                      enum kiln_sprite_shade kind, bool deep, bool mixed)
 {
@@ -164,14 +84,23 @@ SIMD void put_pixels(struct batch *batch, const struct target *d, struct pixels 
         inside &= p.q > 0.0f;
         batch->depth[i] = 1.0f / p.q;
         if (textured) {
+            if (b->rim)
+                put_rim(batch, d->s, i, p.u * batch->depth[i], p.v * batch->depth[i]);
             vf limit = vf_all((float)b->edge + 2.0f * PLACE_ONE), depth = batch->depth[i];
             p.u = vf_min(vf_max(p.u * depth + PLACE_MIDDLE, vf_all(0.0f)), limit);
             p.v = vf_min(vf_max(p.v * depth + PLACE_MIDDLE, vf_all(0.0f)), limit);
         }
     }
+    if (textured && !deep && b->rim)
+        put_rim(batch, d->s, i, p.u - PLACE_MIDDLE, p.v - PLACE_MIDDLE);
     if (textured) {
         vi places = places_of(p.u, p.v);
-        inside &= places_between(places, PLACE_ONE / 2, b->edge + PLACE_ONE / 2 - 1);
+        if (b->rim) {
+            inside &= batch->rim[i] > 0.0f;
+            places = places_clamped(places, PLACE_ONE / 2, b->edge + PLACE_ONE / 2);
+        } else {
+            inside &= places_between(places, PLACE_ONE / 2, b->edge + PLACE_ONE / 2 - 1);
+        }
         if (mixed)
             put_texels(batch, 0, i, places & inside, b->pitch, b->texel);
         else
@@ -244,6 +173,8 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, 
     }
     if (s->flags & KILN_SPRITE_LITERAL) /* equation 3.3 has no bound: limits alpha to 1 */
         left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
+    if (d->brush.rim)
+        left *= batch->rim[i];
     if (over || covers)
         before = vf_load_units(planes[KILN_TILE_ALPHA], at);
     if (over)
@@ -382,6 +313,7 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
     b->edge = (s->pitch - KILN_CELL_MARGIN) * PLACE_ONE;
     b->sampled = SAMPLED_UNIT;
     b->emits = (s->flags & KILN_SPRITE_EMITS) != 0;
+    b->rim = s->rim_u > 0.0f;
     if (mixed)
         return;
     b->sampled = SAMPLED_UNIT / (float)PART_ONE;
@@ -483,7 +415,13 @@ SIMD void draw_floats(const struct target *d, struct batch *batch, vf u, vf v)
     const struct brush *b = &d->brush;
     const size_t first = s->shade == KILN_SHADE_GLOW ? 2 : 0;
     const vf zero = vf_all(0.0f), edge = vf_all(s->edge_u);
-    batch->inside[0] &= (u >= 0.0f) & (u < edge) & (v >= 0.0f) & (v < edge);
+    if (b->rim) {
+        batch->rim[0] = rim_cover(s, u, v);
+        batch->inside[0] &= batch->rim[0] > 0.0f;
+    } else {
+        batch->rim[0] = vf_all(1.0f);
+        batch->inside[0] &= (u >= 0.0f) & (u < edge) & (v >= 0.0f) & (v < edge);
+    }
     u = vf_min(vf_max(u, zero), edge) + 0.5f;
     v = vf_min(vf_max(v, zero), edge) + 0.5f;
     struct vf4 cell = sample_floats(b, b->cell, first, u, v);

@@ -31,6 +31,12 @@ SIMD void find_limits(const struct kiln_sprite *s, const struct kiln_cell_hull *
     memcpy(&limits->most, hull->to, sizeof limits->most);
     limits->least *= s->edge_u;
     limits->most *= s->edge_u;
+    if (s->rim_u > 0.0f) {
+        const float u = 0.5f / s->rim_u, v = 0.5f / s->rim_v;
+        const four rim = {u, v, u + v, u + v};
+        limits->least -= rim;
+        limits->most += rim;
+    }
 }
 
 /* Narrows each row's columns to those with least <= place + x / pixels_a_step < most, slightly

@@ -10,8 +10,14 @@ struct billboard {
     vec4 bloom;   /* weights of equation 3.2; a: scale of the motion between the cells */
     /* Light as spherical harmonics of degrees 0 and 1: light from all sides, and its change along
      * the billboard's axes (right, up, towards the viewer). */
-    vec4 light_0;
+    vec4 light_0; /* a: `u` of struct billboard_rim */
     vec4 light_x; /* a: half the thickness in the middle, m */
     vec4 light_y; /* a: place in the drawing order */
-    vec4 light_z;
+    vec4 light_z; /* a: `v` of struct billboard_rim */
 };
+
+/* Returns how far the rim of a billboard reaches beyond its edges, in texture coordinates. */
+vec2 rim_reach(billboard b)
+{
+    return b.light_0.a > 0.0 ? 0.5 / vec2(b.light_0.a, b.light_z.a) : vec2(0.0);
+}

@@ -18,7 +18,7 @@ layout(location = 12) flat in vec4 place_q;
  * place_covers; depth: the view-space depth of that place, m. */
 bool is_covered(out vec2 at, out float depth)
 {
-    place rows = place(place_u, place_v, vec4(0.0), vec2(0.0));
+    place rows = place(place_u, place_v, vec4(0.0), -rim_reach(quad));
     depth = quad.depth.x;
 #if SHAPES
     rows.q = place_q;

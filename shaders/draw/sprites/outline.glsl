@@ -14,7 +14,7 @@
 
 struct outline {
     place rows;
-    vec2 corners[4];     /* px from the top left; undefined unless `in_front` */
+    vec2 corners[4];     /* px from the top left, with the rim; undefined unless `in_front` */
     float nearest_depth; /* the smallest depth of the corners, m */
     bool in_front;       /* all corners lie in front of the eye */
     bool has_area;       /* false: the billboard is seen edge-on and covers no pixel */
@@ -46,14 +46,51 @@ place rows_of(billboard_place p)
     return rows;
 }
 
+/* Filters the edges of a small billboard: writes the rim to the particle, where shade.glsl reads it.
+ */
+billboard_rim find_rim(billboard_place p, bool is_flat)
+{
+    billboard_rim rim = billboard_rim_of(p, is_flat, 1.0);
+    particle.light_0.a = rim.u;
+    particle.light_z.a = rim.v;
+    particle.color.a *= rim.opacity;
+    return rim;
+}
+
 #if SHAPES
+
+/* The farthest that the rim of a billboard in any plane lies from its own edges, px: half of a
+ * pixel's diagonal by which it is widened, and as much for the rim. */
+const float RIM_MARGIN = 1.42;
+
+/* Puts the corners around a rim: around the four corners of a billboard, which may be a sliver, it
+ * lays a rectangle along the longer diagonal, with a margin, px. */
+void surround(inout outline s, float margin)
+{
+    vec2 one = s.corners[3] - s.corners[0], other = s.corners[2] - s.corners[1];
+    vec2 longer = dot(one, one) > dot(other, other) ? one : other;
+    float size = length(longer);
+    vec2 along = size > 1e-3 ? longer / size : vec2(1.0, 0.0), across = vec2(-along.y, along.x);
+    vec2 middle = 0.25 * (s.corners[0] + s.corners[1] + s.corners[2] + s.corners[3]);
+    vec2 reach = vec2(0.0);
+    for (int i = 0; i < 4; i++) {
+        vec2 from_middle = s.corners[i] - middle;
+        reach = max(reach, abs(vec2(dot(from_middle, along), dot(from_middle, across))));
+    }
+    for (int i = 0; i < 4; i++) {
+        vec2 corner = outline_corner(i) * (reach + margin);
+        s.corners[i] = middle + along * corner.x + across * corner.y;
+    }
+}
 
 /* Finds the outline of a billboard in any plane. */
 outline find_outline()
 {
     billboard_place p = billboard_place_deep(view.frustum, view.principal, center.xyz, right.xyz, up.xyz, 1.0);
     outline s;
-    s.rows = rows_of(p);
+    billboard_rim rim = find_rim(p, false);
+    s.rows = rows_of(rim.place);
+    s.rows.edge = -rim_reach(particle);
     s.nearest_depth = -center.z;
     s.in_front = true;
     for (int i = 0; i < 4; i++) {
@@ -64,6 +101,8 @@ outline find_outline()
         s.corners[i] = to_pixels(at);
         s.nearest_depth = min(s.nearest_depth, -at.z);
     }
+    if (rim.u > 0.0)
+        surround(s, RIM_MARGIN);
     s.has_area = p.seen;
     return s;
 }
@@ -100,10 +139,12 @@ outline find_outline()
 {
     billboard_flat p = billboard_place_flat(view.frustum, view.principal, center.xyz, right.xyz, 1.0, up.xyz, 1.0, 1.0);
     outline s;
-    s.rows = rows_of(p.place);
+    billboard_rim rim = find_rim(p.place, true);
+    s.rows = rows_of(rim.place);
+    s.rows.edge = -rim_reach(particle);
     vec2 middle = vec2(p.place.anchor.x, p.place.anchor.y);
     for (int i = 0; i < 4; i++) {
-        vec2 corner = outline_corner(i);
+        vec2 corner = outline_corner(i) * vec2(rim.reach_u, rim.reach_v);
         s.corners[i] = middle + vec2(p.right.x, p.right.y) * corner.x + vec2(p.up.x, p.up.y) * corner.y;
     }
     s.nearest_depth = -center.z;

@@ -200,6 +200,7 @@ void make_billboard(uint entry)
                           length(center.xyz));
     light_particle(cover.w, cover.rgb, entry & 0xffffffu, position, plane);
     particle.light_x.a = half_size * bloom.a; /* half the thickness, m */
+    particle.light_0.a = particle.light_z.a = 0.0; /* outline.glsl finds the rim */
 #if SHAPES
     if (form.x != 0u)
         make_plain(form, turn.zw * scale * view.clock.w, 2.0 * half_size * pixels_per_m, moving, shape.y);

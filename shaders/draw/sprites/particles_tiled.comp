@@ -137,7 +137,7 @@ void draw(uint i, vec2 first)
     int row = int(i) * TILED_SPRITE_ROWS;
     vec4 u = texelFetch(sprites, row + SPRITE_U), v = texelFetch(sprites, row + SPRITE_V);
     billboard quad = fetch_quad(row + SPRITE_QUAD);
-    place rows = place(u, v, vec4(0.0), vec2(0.0));
+    place rows = place(u, v, vec4(0.0), -rim_reach(quad));
 #if SHAPES
     rows.q = texelFetch(sprites, row + SPRITE_Q);
     rows.edge = texelFetch(sprites, row + SPRITE_BOUNDS).xy;

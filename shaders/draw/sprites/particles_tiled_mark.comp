@@ -94,17 +94,17 @@ bool touches(vec4 u, vec4 v, vec4 q, vec4 bounds, vec2 corner)
     vec2 from_anchor = corner + 0.5 * float(TILED_EDGE) - vec2(u.w, v.w);
     vec2 us = range_of(u.xyz, from_anchor), vs = range_of(v.xyz, from_anchor);
     vec4 inner = vec4(us.y, vs.y, 1.0 - us.x, 1.0 - vs.x);
-    float slack = 1e-4; /* for rounding */
+    vec2 slack = 1e-4 + max(-bounds.xy, 0.0); /* for rounding, and for the rim */
 #if SHAPES
     inner.z = range_of(q.xyz - u.xyz, from_anchor).y;
     inner.w = range_of(q.xyz - v.xyz, from_anchor).y;
     slack *= range_of(abs(q.xyz), abs(from_anchor)).y;
     if (bounds.x > 0.0) { /* a point or a line, whose u and v are in pixels */
         inner = vec4(bounds.xy + vec2(us.y, vs.y), bounds.xy - vec2(us.x, vs.x));
-        slack = 1e-2;
+        slack = vec2(1e-2);
     }
 #endif
-    return all(greaterThanEqual(inner, vec4(-slack)));
+    return all(greaterThanEqual(inner, -slack.xyxy));
 }
 
 /* Marks sprite i of the chunk in the tiles of a bin, and adds to the piece's bounds. atomicMax

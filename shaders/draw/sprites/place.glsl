@@ -12,7 +12,8 @@ struct place {
                 * and lines px from the middle, not divided; w: the anchor's x in u and y in v, px from
                 * the top left */
     vec4 q;    /* 1 / depth, 1/m; undefined without SHAPES; w: unused */
-    vec2 edge; /* half edges of a point or line with its soft rim, px; 0, 0 for billboards */
+    vec2 edge; /* half edges of a point or line with its soft rim, px; of a billboard, how far its
+                * rim reaches beyond 0..1, times -1 */
 };
 
 /* Returns whether the particle covers a pixel, given by its middle, px from the top left. `at`
@@ -25,11 +26,11 @@ bool place_covers(place p, vec2 pixel, inout float depth, out vec2 at)
 #if SHAPES
     bool stroke = p.edge.x > 0.0; /* a point or a line */
     float near = p.q.x + dot(p.q.yz, from_anchor);
-    vec2 low = stroke ? -p.edge : vec2(0.0), high = stroke ? p.edge : vec2(1.0);
+    vec2 low = stroke ? -p.edge : p.edge, high = stroke ? p.edge : 1.0 - p.edge;
     depth = near > 0.0 ? 1.0 / near : 0.0;
     at = near > 0.0 ? (stroke ? at : at * depth) : high;
 #else
-    vec2 low = vec2(0.0), high = vec2(1.0);
+    vec2 low = p.edge, high = 1.0 - p.edge;
 #endif
     return all(greaterThanEqual(at, low)) && all(lessThan(at, high));
 }

@@ -1,10 +1,12 @@
 /* Shades a place on a billboard. fragment.glsl includes this file for the fragment shaders of
- * particles, as does particles_tiled.comp. lib/draw/sprites/tile_draw.h does the same on the CPU.
+ * particles, as does particles_tiled.comp. lib/draw/sprites/tile_shade.h does the same on the CPU.
  *
  * Two adjacent cells of the atlas are mixed (Heinz 2019, 3.2.4, equation 3.2). The result is lit,
  * the light that the particle emits is added, and the sum fades where the billboard comes near the
  * scene (Heinz 2019, 3.2.6, equation 3.3). The bloom target gets the same colour times
  * quad.bloom.rgb (Heinz 2019, 3.2.5). Colours are premultiplied. */
+#include "shared/billboard_place.h"
+
 layout(binding = 1) uniform sampler2DArray atlas;
 layout(binding = 3) uniform sampler2DArray atlas_motion;
 
@@ -26,11 +28,18 @@ float coverage(billboard quad, vec2 uv)
 {
     if (uint(quad.depth.y) == KILN_CELL_DISC)
         return clamp(quad.cells.x + 0.5 - length(uv), 0.0, 1.0);
-    vec2 inside = clamp(quad.cells.xy + 0.5 - abs(uv), 0.0, 1.0);
-    return inside.x * inside.y;
+    return edge_cover(quad.cells.x, uv.x, 1.0) * edge_cover(quad.cells.y, uv.y, 1.0);
 }
 
 #endif
+
+/* Returns the part of a pixel at uv that a billboard covers. */
+float rim_cover(billboard quad, vec2 uv)
+{
+    if (quad.light_0.a <= 0.0)
+        return 1.0;
+    return edge_cover(0.5, uv.x - 0.5, quad.light_0.a) * edge_cover(0.5, uv.y - 0.5, quad.light_z.a);
+}
 
 /* Returns the factor on opacity near the scene: equation 3.3, clamped to 0 to 1. If quad.depth.z is
  * above 0, the scene file asks for the equation as it is printed (look.soft_formula: literal). That
@@ -92,6 +101,7 @@ void shade(billboard quad, vec2 uv, float depth, float scene, out vec4 color, ou
 
     /* The second argument of min keeps alpha * fade at 1 or below. */
     float fade = min(quad.color.a * soft_factor(quad, depth, scene), 1.0 / max(alpha, 1e-6));
+    fade *= rim_cover(quad, uv);
     alpha *= fade;
     rgb *= fade;
     color = vec4(rgb, quad.hot.a > 0.0 ? additive_alpha * alpha : alpha);

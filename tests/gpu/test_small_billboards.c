@@ -1,0 +1,142 @@
+/* Billboards of less than a few pixels: the sum of their light is that of their area, wherever they
+ * lie between the pixels, so that moving stars and streaks do not twinkle. */
+#include <stddef.h>
+#include <stdint.h>
+
+#include "support/cmocka.h"
+#include "support/device.h"
+#include "support/drawing.h"
+
+enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30, PLACES = 4 };
+
+/* With a wall at 10 m, alpha is (10 - depth) * 0.08: 0.4 where the particles are, 5 m from the
+ * camera. Nothing is drawn of system b, but with it the program is the one that knows all shapes.
+ */
+static const char SCENE[] =
+    "kiln: 1\n"
+    "output: {size: [320, 240], fps: 30, frames: 100}\n"
+    "simulation: {rate: 60}\n"
+    "camera: {position: [0, 0, 5], target: [0, 0, 0], fov: 60 deg, near: 0.1}\n"
+    "systems:\n"
+    "  a:\n"
+    "    emit: {rate: 1, life: 10 s}\n"
+    "    look: {size: 1 m, rotation: 0 deg, soft: 0.08, fade: {in: 0, out: 0}, near_fade: 0 m,\n"
+    "           bloom: [0.5, 0.25, 0.125]}\n"
+    "  b: {enabled: true, emit: {rate: 1}, look: {shape: point}}\n";
+
+static const double DISTANCE_M = 5, WALL_M = 10, ALPHA = 0.4;
+
+/* A small billboard. */
+struct small {
+    double width_px, length_px;
+    double angle_deg; /* against the clock; of streaks, by their velocity */
+    const char *facing;
+    double tolerance; /* the largest relative error of the sum */
+};
+
+/* Returns the sum of a channel over the picture. */
+static double sum_of(const struct kiln_image *image, int channel)
+{
+    double sum = 0;
+    for (int p = 0; p < PIXELS; p++)
+        sum += (double)image->host[4 * p + channel];
+    return sum;
+}
+
+/* Draws a billboard at places that differ by parts of a pixel. The texture is opaque everywhere. */
+static void check_small(struct kiln_device *device, const struct small *s, bool all_shapes)
+{
+    const double pixel_m = 2 * DISTANCE_M * tan(acos(-1) / 6) / HEIGHT;
+    const double turn = s->angle_deg * acos(-1) / 180, longer_px = s->length_px - s->width_px;
+    char size[64], angle[64], facing[64], stretch[64];
+    snprintf(size, sizeof size, "systems.a.look.size=%.9g m", s->width_px * pixel_m);
+    snprintf(angle, sizeof angle, "systems.a.look.rotation=%.9g deg", s->angle_deg);
+    snprintf(facing, sizeof facing, "systems.a.look.facing=%s", s->facing);
+    snprintf(stretch, sizeof stretch, "systems.a.look.stretch=%.9g s", longer_px * pixel_m);
+    const char *overrides[] = {size, angle, facing, stretch, "systems.b.enabled=false"};
+    struct drawing d;
+    drawing_init(&d, device, SCENE, overrides, all_shapes ? 4 : 5);
+    const float3 velocity = {(float)-sin(turn), (float)cos(turn), 0.0f}; /* 1 m/s */
+    const double want = s->width_px * s->length_px * ALPHA;
+    for (int i = 0; i < PLACES * PLACES; i++) {
+        const double x = (i % PLACES + 0.13) / PLACES, y = (i / PLACES + 0.29) / PLACES;
+        const float3 at = {(float)(x * pixel_m), (float)(y * pixel_m), 0.0f};
+        const struct kiln_particle particle = drawing_particle(0, at, velocity);
+        drawing_place(&d, &particle, 1, STEP);
+        drawing_run(&d, 1, (float)WALL_M);
+        const double alpha = sum_of(&d.color, 3), blue = sum_of(&d.color, 2);
+        if (fabs(alpha / want - 1) > s->tolerance)
+            print_message("%g x %g px, %g deg, %s: sum %g for %g\n", s->width_px, s->length_px,
+                          s->angle_deg, s->facing, alpha, want);
+        assert_true(fabs(alpha / want - 1) <= s->tolerance);
+        assert_true(fabs(blue / alpha - 1) < 1e-3); /* the texture's blue is 1 */
+        assert_true(fabs(sum_of(&d.bloom, 2) / (0.125 * blue) - 1) < 1e-3);
+    }
+    drawing_finish(&d);
+}
+
+static void small_billboards_shed_a_steady_light(void **state)
+{
+    static const struct small all[] = {
+        {0.33, 0.33, 0, "screen", 0.01},    {0.33, 0.33, 30, "screen", 0.05},
+        {1, 1, 0, "screen", 0.01},          {1.5, 1.5, 0, "screen", 0.01},
+        {1.5, 1.5, 45, "screen", 0.05},     {2.7, 2.7, 0, "screen", 0.01},
+        {0.33, 0.33, 0, "viewpoint", 0.01}, {2.7, 2.7, 20, "viewplane", 0.05},
+        {0.4, 14, 0, "velocity", 0.01},     {0.4, 14, 33, "velocity", 0.03},
+        {1.3, 14, 71, "velocity", 0.03},    {0.4, 14, 0, "axial", 0.02},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        check_small(*state, &all[i], true);
+        check_small(*state, &all[i], false);
+    }
+}
+
+/* A billboard that nearly turns its edge to the camera is thinner than a pixel, too: its axis
+ * points at the camera, less 6 degrees, so that its 6 pixels of width are 0.6 pixels high. That
+ * changes by 4 % over the pixel by which it moves. */
+static void thin_slivers_are_faint(void **state)
+{
+    static const char *const overrides[] = {"systems.a.look.facing=axial",
+                                            "systems.a.look.axis=[0.1, 0, 1]",
+                                            "systems.a.look.size=0.15 m"};
+    struct drawing d;
+    drawing_init(&d, *state, SCENE, overrides, 3);
+    const double pixel_m = 2 * DISTANCE_M * tan(acos(-1) / 6) / HEIGHT;
+    double least = 1e9, most = 0;
+    for (int i = 0; i < 10; i++) {
+        const float3 at = {(float)(i * 0.1 * pixel_m), 0.0f, 0.0f};
+        const struct kiln_particle particle = drawing_particle(0, at, (float3){0.0f, 0.0f, 0.0f});
+        drawing_place(&d, &particle, 1, STEP);
+        drawing_run(&d, 1, (float)WALL_M);
+        const double sum = sum_of(&d.color, 3);
+        least = fmin(least, sum);
+        most = fmax(most, sum);
+    }
+    print_message("a sliver has sums from %g to %g\n", least, most);
+    assert_true(least > 0 && most < 1.12 * least);
+    drawing_finish(&d);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        test_on_device(small_billboards_shed_a_steady_light),
+        test_on_device(thin_slivers_are_faint),
+    };
+    static const struct {
+        enum kiln_raster_technique technique;
+        const char *name;
+    } techniques[] = {
+        {KILN_RASTER_GEOMETRY, "geometry"},
+        {KILN_RASTER_INSTANCED, "instanced"},
+        {KILN_RASTER_TILED, "tiled"},
+        {KILN_RASTER_CPU, "cpu"},
+    };
+    int failed = 0;
+    for (size_t i = 0; i < sizeof techniques / sizeof *techniques; i++) {
+        drawing_technique = techniques[i].technique;
+        failed += cmocka_run_group_tests_name(techniques[i].name, tests, test_device_open,
+                                              test_device_close);
+    }
+    return failed;
+}
