@@ -397,12 +397,13 @@ struct kiln_render_params {
     /* Draw only one shard of the clip's parts, and resume it. kiln_join makes the clip of the parts
      * of all shards. shard is 0 to shards - 1; shards 0: draw all parts. */
     uint32_t shard, shards;
-    bool state_hash;   /* compute the hash for each drawn frame; a manifest always has it */
-    bool keep_frames;  /* for kiln_rendering_take_frame: frames have `layers`, even if `picture` is
-                          NULL */
-    uint32_t png_bits; /* bits of a sample of PNG, APNG and MKV, 8 or 16 */
-    uint32_t exr_bits; /* bits of a sample of EXR, 16 or 32 */
-    uint32_t quality;  /* of video and JPEG, 0 (smallest) to 100 (visually lossless) */
+    bool state_hash;  /* compute the hash for each drawn frame; a manifest always has it */
+    bool keep_frames; /* for kiln_rendering_take_frame: frames have `layers`, even if `picture` is
+                         NULL */
+    enum kiln_png_effort png_effort; /* of PNG files */
+    uint32_t png_bits;               /* bits of a sample of PNG, APNG and MKV, 8 or 16 */
+    uint32_t exr_bits;               /* bits of a sample of EXR, 16 or 32 */
+    uint32_t quality; /* of video and JPEG, 0 (smallest) to 100 (visually lossless) */
     /* Makes the output a flipbook with one cell for each frame; `ranges` are the cells that
      * kiln_flipbook_sample chose. NULL: no flipbook. */
     const struct kiln_flipbook *flipbook;
@@ -425,7 +426,6 @@ struct kiln_render_params {
     /* Called for each file as soon as it is whole, on any thread, but never on two at a time. With
      * this callback, each file is read once more for its hash. */
     void (*written)(void *user, const struct kiln_written *file);
-    enum kiln_png_effort png_effort; /* of PNG files */
 };
 KILN_EMPTY(kiln_render_params, kiln_render_params_empty)
 

@@ -137,7 +137,8 @@ static void from_afar_a_rectangle_is_a_point(void **state)
 static float particle_light(struct kiln_draw_light lamp, float3 at)
 {
     const struct light_sum none = {.red = {0}};
-    return light_sum_add_lamp(none, lamp, 1.0f, at).red.all;
+    const struct light_parts whole = {.all = 1.0f, .straight = 1.0f};
+    return light_sum_add_lamp(none, lamp, 1.0f, at, whole).red.all;
 }
 
 /* Half of the radiance of a white surface that faces the lamp counts as light from all sides. For a
