@@ -125,9 +125,9 @@ static uint32_t sum_differences(const uint8_t *bytes, size_t size)
 static uint8_t choose_filter(const uint8_t *row, const uint8_t *above, size_t size, size_t back,
                              uint8_t *trial)
 {
-    uint8_t best = FIRST_FILTER;
+    int best = FIRST_FILTER;
     uint32_t least = UINT32_MAX;
-    for (uint8_t i = FIRST_FILTER; i < FILTERS; i++) {
+    for (int i = FIRST_FILTER; i < FILTERS; i++) {
         filters[i](row, above, size, back, trial);
         const uint32_t sum = sum_differences(trial, size);
         if (sum < least) {
@@ -135,7 +135,7 @@ static uint8_t choose_filter(const uint8_t *row, const uint8_t *above, size_t si
             best = i;
         }
     }
-    return best;
+    return (uint8_t)best;
 }
 
 /* ---- The interface --------------------------------------------------------------------------- */

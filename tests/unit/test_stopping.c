@@ -15,7 +15,7 @@ static const struct {
     uint32_t asks;
 } outputs[] = {
     {"gif", false, 200 + 20 * 36}, /* for splits of the palette's boxes, and for rows */
-    {"png", true, 2 * 36},         /* for rows of the atlas and its motion */
+    {"png", true, 2},              /* for bands of 256 KiB of the atlas, and of its motion */
     {"webm", false, 5},            /* for frames that it looked ahead at */
     {"mp4", false, 5},
 };

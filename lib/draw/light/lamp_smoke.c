@@ -10,8 +10,8 @@
 
 enum {
     MOST_MAPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS,
-    ROWS = KILN_LAMP_SMOKE_WIDTH,
-    GRAIN = 8
+    ROWS = KILN_LAMP_SMOKE_HEIGHT,
+    GRAIN = 4
 };
 
 struct kiln_lamp_smoke {
@@ -129,8 +129,7 @@ static void fill_rows(void *context, size_t begin, size_t end, uint32_t worker)
     (void)worker;
     const struct kiln_lamp_smoke *smoke = context;
     for (size_t i = begin; i < end; i++)
-        smoke->fill(&smoke->jobs[i / KILN_LAMP_SMOKE_HEIGHT],
-                    (uint32_t)(i % KILN_LAMP_SMOKE_HEIGHT));
+        smoke->fill(&smoke->jobs[i / ROWS], (uint32_t)(i % ROWS));
 }
 
 const float *kiln_lamp_smoke_run(struct kiln_lamp_smoke *smoke, const struct kiln_smoke_grid *grid,
@@ -148,6 +147,6 @@ const float *kiln_lamp_smoke_run(struct kiln_lamp_smoke *smoke, const struct kil
         return NULL;
     for (uint32_t i = 0; i < *count; i++)
         smoke->jobs[i].map = smoke->maps + (size_t)i * KILN_LAMP_SMOKE_MAP;
-    kiln_threads_for(threads, (size_t)*count * KILN_LAMP_SMOKE_HEIGHT, GRAIN, fill_rows, smoke);
+    kiln_threads_for(threads, (size_t)*count * ROWS, GRAIN, fill_rows, smoke);
     return smoke->maps;
 }

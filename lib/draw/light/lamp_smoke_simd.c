@@ -70,7 +70,7 @@ static void fill(const struct kiln_lamp_smoke_job *job, uint32_t row)
 {
     const bool far = job->lamp.smoke_ahead.w > 0.0f;
     const uint32_t width = far ? KILN_LAMP_SMOKE_HEIGHT : KILN_LAMP_SMOKE_WIDTH;
-    float *line = job->map + (size_t)row * KILN_LAMP_SMOKE_WIDTH;
+    float *line = job->map + row * (size_t)KILN_LAMP_SMOKE_WIDTH;
     for (uint32_t x = 0; x < width; x += LANES) {
         const struct vf3 direction = directions_of(&job->lamp, x, row);
         vf depth = vf_all(0.0f);

@@ -144,7 +144,7 @@ static bool shade(struct kiln_lighting_stage *stage, const struct kiln_moment *m
     struct kiln_smoke_grid grids[GRIDS] = {
         {.direction = {0.0f, 1.0f, 0.0f},
          .depth = stage->depths,
-         .extinction = lighting->light_count ? stage->depths + GRIDS * CELLS : NULL},
+         .extinction = lighting->light_count ? stage->depths + (size_t)GRIDS * CELLS : NULL},
         {.direction = moment->sun.towards, .depth = stage->depths + CELLS},
     };
     if (!kiln_smoke_gather(&stage->puffs, moment, stage->threads, error))

@@ -457,7 +457,7 @@ static inline void add_to_coarse(const float *restrict extinction, int y, int z,
 {
     const bool first = (y & 1) == 0 && (z & 1) == 1; /* slices come from the last to the first */
     float *row = coarse + (size_t)(z / 2 * KILN_SMOKE_COARSE + y / 2) * KILN_SMOKE_COARSE;
-    for (int x = 0; x < KILN_SMOKE_COARSE; x++) {
+    for (size_t x = 0; x < KILN_SMOKE_COARSE; x++) {
         const float pair = 0.125f * (extinction[2 * x] + extinction[2 * x + 1]);
         row[x] = first ? pair : row[x] + pair;
     }
