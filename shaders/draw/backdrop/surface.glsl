@@ -197,7 +197,8 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
     visible *= oriented_lamp_visibility(casters, origin, way);
 #endif
 #ifdef MESHES
-    way = lamp_way_of(backdrop.lights[i].position_radius2.xyz - origin, backdrop.lights[i].color.w);
+    way = lamp_way_of(backdrop.lights[i].position_radius2.xyz - origin, backdrop.lights[i].color.w,
+                      0.0);
     visible *= 1.0 - mesh_lamp_cover(i, normal, way);
 #endif
     return visible;
