@@ -49,7 +49,7 @@ define effects/fire_beam '"66-89"' \
     'about: The flame reaches the block and turns to smoke.
 set: ["systems.fire.emit.rate={keys: {2.2 s: 380, 2.5 s: 60}}"]'
 define effects/linear '[66]' 'format: exr
-set: [post.bloom.strength=1.5]'
+set: [post.bloom.strength=2.5]'
 define post/bloom '[66, 67]' 'set: [post.bloom.strength=0.162]'
 define post/sparks '[66]'
 define weather/storm '[66]' 'about: "</script><script>window.harmed=1</script><!--"
