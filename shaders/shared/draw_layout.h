@@ -79,7 +79,7 @@ struct kiln_draw_light {
     float4 color; /* radiance of a white surface 1 m in front, far from the lamp; w: radius, m */
     /* x: a bit for each object of the backdrop that may hide the light: boxes first, then spheres,
      * cylinders, capsules and oriented boxes; y: 1 + number of its shadow maps of meshes; z: 1 +
-     * number of its map of smoke; 0: none, for both; w: 1 if anything may hide the light, or 0 */
+     * number of its map of smoke, 0: none; w: 1: it may be hidden; 3: particles have their part */
     uint4 casters;
     /* Distance that the shadow maps reach, m; distance of the first layer of the map of smoke, m;
      * layers of it that double the distance; unused. */

@@ -182,6 +182,8 @@ static bool cast_shadows(struct kiln_lighting_stage *stage, const struct kiln_mo
         lighting->lamplit =
             kiln_lamp_shade_run(stage->lamp_shade, moment, stage->threads, lighting->lights,
                                 lighting->light_count, lighting->lamp_maps, error);
+    for (uint32_t i = 0; lighting->lamplit && i < lighting->light_count; i++)
+        lighting->lights[i].casters.w |= lighting->lights[i].casters.w << 1;
     return (!stage->shade || lighting->sunlit) && (!stage->lamp_shade || lighting->lamplit);
 }
 

@@ -62,8 +62,8 @@ float lamplight_past_backdrop(int i, uint slot)
 {
 #ifdef LAMP_SHADE
     ivec3 at = ivec3(slot % uint(KILN_SUN_SHADE_ROW), slot / uint(KILN_SUN_SHADE_ROW), i / 4);
-    uint parts = texelFetch(lamp_shade, at, 0).r;
-    return float(bitfieldExtract(parts, 8 * (i % 4), 8)) / 255.0;
+    if ((backdrop.lights[i].casters.w & 2u) != 0u)
+        return float(bitfieldExtract(texelFetch(lamp_shade, at, 0).r, 8 * (i % 4), 8)) / 255.0;
 #endif
     return 1.0;
 }
