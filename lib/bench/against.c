@@ -8,7 +8,6 @@
  * first frame count. A program that does not know --events reports nothing; then whole processes
  * are compared instead, of both programs. */
 #include <errno.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -152,7 +151,7 @@ static void take_times(struct duel *duel, enum program program, const struct kil
 
 /* ---- Pictures -------------------------------------------------------------------------------- */
 
-/* What the comparison of the pictures says. */
+/* Holds the result of comparing the pictures. */
 struct verdict {
     uint32_t pictures, equal;
     char text[KILN_MESSAGE_SIZE];
@@ -201,24 +200,10 @@ static bool compare_pictures(const struct duel *duel, struct verdict *verdict,
 
 /* ---- Turns ----------------------------------------------------------------------------------- */
 
-static int remove_entry(const char *path, const struct stat *status, int kind, struct FTW *place)
-{
-    (void)status;
-    (void)kind;
-    (void)place;
-    return remove(path);
-}
-
-static void remove_folder(const char *path)
-{
-    /* NOLINTNEXTLINE(concurrency-mt-unsafe): this call does not change the working folder */
-    nftw(path, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
-}
-
 static void remove_pictures(const struct duel *duel)
 {
     for (int program = 0; program < PROGRAMS; program++)
-        remove_folder(duel->folders[program]);
+        kiln_process_remove_folder(duel->folders[program]);
 }
 
 /* Renders with one program, whose name stands in front of its error. */
@@ -382,7 +367,7 @@ static bool compare_scene(const struct kiln_bench_run *run, const char *path, co
     bool ok = choose_frames(duel, error) && kiln_bench_begin(run, &part, error);
     if (ok) {
         ok = make_folder(duel, error) && measure(duel, error);
-        remove_folder(duel->folder);
+        kiln_process_remove_folder(duel->folder);
     }
     free(duel);
     return ok;

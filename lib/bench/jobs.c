@@ -4,7 +4,6 @@
  * many machines. Every job is a process of kiln, since starting one is part of its cost. Jobs run
  * one after the other; machines that work at the same time are simulated. */
 #include <errno.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -155,20 +154,6 @@ static bool compare_clips(const struct clip_bench *b, struct kiln_error *error)
 
 /* ---- Turns ----------------------------------------------------------------------------------- */
 
-static int remove_entry(const char *path, const struct stat *status, int kind, struct FTW *place)
-{
-    (void)status;
-    (void)kind;
-    (void)place;
-    return remove(path);
-}
-
-static void remove_folder(const char *path)
-{
-    /* NOLINTNEXTLINE(concurrency-mt-unsafe): this call does not change the working folder */
-    nftw(path, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
-}
-
 static bool take_turn(struct clip_bench *b, uint32_t turn, struct kiln_error *error)
 {
     kiln_bench_say(b->run, "turn %u: single run", turn + 1);
@@ -201,13 +186,13 @@ static bool take_turns(struct clip_bench *b, struct kiln_error *error)
 {
     const double start_s = kiln_clock_seconds();
     bool ok = warm_up(b, error);
-    remove_folder(b->work);
+    kiln_process_remove_folder(b->work);
     for (uint32_t turn = 0; turn < b->run->bench->repetitions && ok; turn++) {
         if (turn >= KILN_BENCH_MIN_REPETITIONS &&
             kiln_clock_seconds() - start_s > b->run->params->seconds)
             break;
         ok = take_turn(b, turn, error);
-        remove_folder(b->work);
+        kiln_process_remove_folder(b->work);
         b->turns = turn + 1;
     }
     return ok;
@@ -499,7 +484,7 @@ bool kiln_suite_jobs(const struct kiln_bench_run *run, struct kiln_error *error)
                                     params->scratch);
     const bool ok = name_files(&b, error) && open_clip(&b, error) && take_turns(&b, error) &&
                     add_costs(&b, error) && add_ratios(&b, error) && add_outlook(&b, error);
-    remove_folder(b.folder);
+    kiln_process_remove_folder(b.folder);
     kiln_scene_destroy(&b.scene);
     free(b.options);
     free(b.part_s);

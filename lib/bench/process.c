@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <ftw.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -227,4 +228,18 @@ bool kiln_process_run(const struct kiln_bench_run *run, const char **arguments,
     if (log >= 0)
         close(log);
     return ok;
+}
+
+static int remove_entry(const char *path, const struct stat *status, int kind, struct FTW *place)
+{
+    (void)status;
+    (void)kind;
+    (void)place;
+    return remove(path);
+}
+
+void kiln_process_remove_folder(const char *path)
+{
+    /* NOLINTNEXTLINE(concurrency-mt-unsafe): this call does not change the working folder */
+    nftw(path, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
 }

@@ -34,4 +34,7 @@ struct kiln_process {
 bool kiln_process_run(const struct kiln_bench_run *run, const char **arguments,
                       struct kiln_process *process, struct kiln_error *error);
 
+/* Removes a folder with all that is in it, which processes wrote. What cannot be removed stays. */
+void kiln_process_remove_folder(const char *path);
+
 #endif

@@ -10,8 +10,8 @@
 
 #include "base/simd.h"
 
-/* What a call works with. Its content before and after a call does not matter; calls at the same
- * time need one each. 256 KiB. */
+/* Holds tables while a call runs. Their content before and after a call does not matter; calls at
+ * the same time need one each. 256 KiB. */
 struct kiln_deflate_scratch {
     uint32_t pairs[256 * 256];
 };

@@ -36,7 +36,7 @@ struct band {
     uint32_t adler;
 };
 
-/* What a thread works with. */
+/* Holds the buffers of a thread. */
 struct worker {
     uint8_t *rows, *scratch;
     struct kiln_deflate_scratch *deflate;

@@ -63,17 +63,6 @@ static void a_spot_lights_its_cone(void **state)
           spot(0.001, 19.8, 20));
 }
 
-/* Returns the sum of a picture's red light. */
-static double sum_of(void *device, const char *text)
-{
-    double sum = 0;
-    struct picture p = draw(device, text);
-    for (int i = 0; i < WIDTH * HEIGHT; i++)
-        sum += (double)p.colors[4 * i];
-    finish(&p);
-    return sum;
-}
-
 #define SWEEP(start, end)                                                                          \
     HEAD LIGHTS "    - spot: {direction: {keys: {0 s: " start ", 1 s: " end "}}, angle: {keys: "   \
                 "{0 s: 20 deg, 1 s: 60 deg}}, softness: {keys: {0 s: 0, 1 s: 1}}}\n"
@@ -81,10 +70,10 @@ static double sum_of(void *device, const char *text)
 /* At 0 s, a spot with keys shines as one that has the values of 0 s. */
 static void a_spot_has_keys_over_time(void **state)
 {
-    const double still = sum_of(*state, HEAD LIGHTS "    - spot: {direction: [0.3, -1, 0], "
-                                                    "angle: 20 deg, softness: 0}\n");
-    const double keyed = sum_of(*state, SWEEP("[0.3, -1, 0]", "[1, 0, 0]"));
-    const double away = sum_of(*state, SWEEP("[0, 1, 0]", "[0.3, -1, 0]"));
+    const double still = sum_of_red(*state, HEAD LIGHTS "    - spot: {direction: [0.3, -1, 0], "
+                                                        "angle: 20 deg, softness: 0}\n");
+    const double keyed = sum_of_red(*state, SWEEP("[0.3, -1, 0]", "[1, 0, 0]"));
+    const double away = sum_of_red(*state, SWEEP("[0, 1, 0]", "[0.3, -1, 0]"));
     assert_true(still > 10 && fabs(keyed - still) <= 1e-5 * still && away == 0);
 }
 
@@ -164,9 +153,9 @@ static void a_box_hides_a_rectangle(void **state)
 /* A wall hides nothing of the panel that hangs on it; a wall before it hides the panel. */
 static void a_wall_carries_a_rectangle(void **state)
 {
-    const double alone = sum_of(*state, ON_A_WALL("-9"));
-    const double carried = sum_of(*state, ON_A_WALL("-1.1"));
-    const double hidden = sum_of(*state, ON_A_WALL("-0.85"));
+    const double alone = sum_of_red(*state, ON_A_WALL("-9"));
+    const double carried = sum_of_red(*state, ON_A_WALL("-1.1"));
+    const double hidden = sum_of_red(*state, ON_A_WALL("-0.85"));
     assert_true(alone > 50 && carried > 0.9 * alone && hidden < 0.02 * alone);
 }
 
@@ -183,7 +172,7 @@ static void the_floor_hides_rectangles_below_it(void **state)
     };
     double sums[5];
     for (int i = 0; i < 5; i++)
-        sums[i] = sum_of(*state, texts[i]);
+        sums[i] = sum_of_red(*state, texts[i]);
     assert_true(sums[0] > 50 && fabs(sums[0] - sums[1]) < 0.01 * sums[1] && sums[2] == 0);
     assert_true(sums[4] > 5 && fabs(sums[3] - sums[4]) < 0.01 * sums[4]);
 }

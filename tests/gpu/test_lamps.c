@@ -140,17 +140,6 @@ static void a_mesh_hides_a_lamp(void **state)
     kiln_mesh_destroy(&mesh);
 }
 
-/* Returns the sum of a picture's red light. */
-static double sum_of(void *device, const char *text)
-{
-    double sum = 0;
-    struct picture p = draw(device, text);
-    for (int i = 0; i < WIDTH * HEIGHT; i++)
-        sum += (double)p.colors[4 * i];
-    finish(&p);
-    return sum;
-}
-
 #define GLOBE "    - sphere: {center: [0, 1.2, 0], radius: 0.3 m, color: 0}\n"
 #define LID   "    - box: {center: [0, 0.8, 0], size: [0.6, 0.05, 0.6], color: 0}\n"
 
@@ -158,10 +147,11 @@ static double sum_of(void *device, const char *text)
  * shines through both. */
 static void what_contains_a_lamp_lets_its_light_out(void **state)
 {
-    const double globe = sum_of(*state, HEAD LAMP("[0, 1.2, 0]", "0.05", "") "  objects:\n" GLOBE);
+    const double globe =
+        sum_of_red(*state, HEAD LAMP("[0, 1.2, 0]", "0.05", "") "  objects:\n" GLOBE);
     const double lid =
-        sum_of(*state, HEAD LAMP("[0, 1.2, 0]", "0.05", "") "  objects:\n" GLOBE LID);
-    const double through = sum_of(
+        sum_of_red(*state, HEAD LAMP("[0, 1.2, 0]", "0.05", "") "  objects:\n" GLOBE LID);
+    const double through = sum_of_red(
         *state, HEAD LAMP("[0, 1.2, 0]", "0.05", ", shadow: false") "  objects:\n" GLOBE LID);
     assert_true(globe > 100 && lid < 0.9 * globe && through > 1.05 * lid);
 }
@@ -171,9 +161,9 @@ static void what_contains_a_lamp_lets_its_light_out(void **state)
 /* A lamp half below the floor sends half of its light above it, and one below it none. */
 static void the_floor_hides_lamps_below_it(void **state)
 {
-    const double half = sum_of(*state, HEAD LAMP("[0, 0, 0]", "0.5", "") POST);
-    const double whole = sum_of(*state, HEAD LAMP("[0, 0, 0]", "0.5", ", shadow: false") POST);
-    const double none = sum_of(*state, HEAD LAMP("[0, -0.6, 0]", "0.5", "") POST);
+    const double half = sum_of_red(*state, HEAD LAMP("[0, 0, 0]", "0.5", "") POST);
+    const double whole = sum_of_red(*state, HEAD LAMP("[0, 0, 0]", "0.5", ", shadow: false") POST);
+    const double none = sum_of_red(*state, HEAD LAMP("[0, -0.6, 0]", "0.5", "") POST);
     assert_true(fabs(half - 0.5 * whole) <= 1e-3 * whole && none == 0);
 }
 

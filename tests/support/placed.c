@@ -1,3 +1,4 @@
+/* This file loads a scene and places particles in its pool, for tests of single stages. */
 #include "support/placed.h"
 
 #include "draw/moment/view.h"

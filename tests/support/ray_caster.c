@@ -344,3 +344,13 @@ void compare(const struct picture *p, const struct expected *e, int step)
     print_message("%d of %d pixels compared, worst %.3f\n", compared, looked, worst);
     assert_true(compared > looked * 3 / 4);
 }
+
+double sum_of_red(void *device, const char *text)
+{
+    double sum = 0;
+    struct picture p = draw(device, text);
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        sum += (double)p.colors[4 * i];
+    finish(&p);
+    return sum;
+}

@@ -94,4 +94,7 @@ double light(const struct expected *e, double px, double py, double *depth);
  * changes much are left out; at least three quarters must be compared. */
 void compare(const struct picture *p, const struct expected *e, int step);
 
+/* Draws a scene and returns the sum of the picture's red light. */
+double sum_of_red(void *device, const char *text);
+
 #endif

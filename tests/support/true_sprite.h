@@ -24,8 +24,8 @@ struct true_sprite {
     dvec center, right, up; /* half edges, view space, m */
     double soft, distance, opacity;
     double hot[3], cool[3], color[3], light[4][3], bloom[3], bulge;
-    /* Of a billboard, for right and up: the part by which its texture is drawn wider than it is,
-     * and pixels of the picture over the texture's width; 0: its edges are hard. */
+    /* Both are of a billboard, along right and up: the part by which its texture is drawn wider
+     * than it is, and pixels of the picture over the texture's width; 0: its edges are hard. */
     double narrowed[2], rim[2];
     uint32_t layers[2], level;
     double part, motion;

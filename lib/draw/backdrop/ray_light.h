@@ -120,7 +120,9 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_li
         return;
     const vf cone = lamp_cone(*lamp, towards);
     const struct ray_point lit = {p->at, p->normal, faces & (cone > 0.0f)};
-    vf seen = cone * smoke_transmittance(lamp_smoke_depth(frame->lamp_smoke, lamp, &lit));
+    vf seen = cone;
+    if (frame->lamp_smoke && lamp->casters.z)
+        seen *= smoke_transmittance(lamp_smoke_depth(frame->lamp_smoke, lamp, &lit));
     if (lamp->casters.x | lamp->casters.y && any(lit.active))
         seen *= lamp_visibility(&frame->lamp_objects, lamp,
                                 vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)), p->normal,
