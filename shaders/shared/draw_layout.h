@@ -63,6 +63,7 @@ struct kiln_view {
     float4 clock;
     uint4 clock_step; /* number of steps; seed; unused; unused */
     float4 within;    /* from the moment to the end of these steps, in steps; unused */
+    float4 exposure;  /* what the composite multiplies light by; unused */
     /* The principal point, where the line of sight meets the picture: px from the top left, and the
      * tangents of its angles to the right of and above the picture's middle. */
     float4 principal;

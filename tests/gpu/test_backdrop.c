@@ -36,13 +36,18 @@ struct fixture {
     struct kiln_backdrop_stage *stage;
 };
 
-static struct fixture fixture_create(void)
+static struct fixture fixture_of(const char *scene)
 {
     struct kiln_error error = {0};
-    struct fixture f = {.scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", NULL, &error)};
+    struct fixture f = {.scene = kiln_scene_parse(scene, strlen(scene), "test", NULL, &error)};
     if (!f.scene)
         fail_msg("%s", error.message);
     return f;
+}
+
+static struct fixture fixture_create(void)
+{
+    return fixture_of(SCENE);
 }
 
 static void fixture_start(struct fixture *f, void *device)
@@ -167,6 +172,46 @@ static void sky_floor_and_shadow_have_their_colors(void **state)
     fixture_end(&f);
 }
 
+/* A black ball before a sky that is eight times as bright as white, two stops of exposure included:
+ * on the ball's edge, pixels lie between the two on the display. Of the mean of light, a quarter
+ * of the sky in a pixel would be twice as bright as white. */
+static void bright_edges_have_all_steps(void **state)
+{
+    static const char scene[] = "kiln: 1\n"
+                                "output: {size: [96, 54], frames: 3, fps: 60}\n"
+                                "camera: {position: [0, 0, 5], target: [0, 0, 0], fov: 50 deg}\n"
+                                "backdrop:\n"
+                                "  haze: 0\n"
+                                "  sky: {top: [2, 2, 2], horizon: [2, 2, 2]}\n"
+                                "  floor: none\n"
+                                "  objects: [sphere: {radius: 1.7 m, color: 0}]\n"
+                                "post: {exposure: 2}\n";
+    struct kiln_error error = {0};
+    struct fixture f = fixture_of(scene);
+    fixture_start(&f, *state);
+    assert_true(kiln_moment_fill(&f.moment, NULL, kiln_instant_at_step(0), false, &error));
+    assert_true(kiln_backdrop_draw(f.stage, &f.moment, &NO_LIGHTING, &error));
+    const float *color = kiln_image_host(&f.color, KILN_READ, &error);
+    assert_non_null(color);
+    int steps[5] = {0}, other = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const double shown = 4 * (double)color[4 * i];
+        bool known = false;
+        for (int k = 0; k < 5; k++) {
+            const double part = k / 4.0, weight = part / 9;
+            const bool is = fabs(shown - 8 * weight / (weight + 1 - part)) < 0.01;
+            known |= is;
+            steps[k] += is;
+        }
+        other += !known;
+        assert_true(color[4 * i + 3] == 1.0f);
+    }
+    assert_int_equal(other, 0);
+    for (int k = 0; k < 5; k++)
+        assert_true(steps[k] >= 8);
+    fixture_end(&f);
+}
+
 /* The picture is kept while nothing changes, and drawn again when the camera moves. */
 static void only_changes_are_drawn_again(void **state)
 {
@@ -195,6 +240,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         test_on_device(depth_matches_c),
         test_on_device(sky_floor_and_shadow_have_their_colors),
+        test_on_device(bright_edges_have_all_steps),
         test_on_device(only_changes_are_drawn_again),
     };
     int failed = 0;

@@ -142,6 +142,77 @@ static void silhouettes_are_smooth(void **state)
     }
 }
 
+/* A sphere of a fifth of a pixel sheds as much light, on average over its places in the pixel, as
+ * its area. It does not hide what is behind it from particles: the depth stays that of the scene.
+ */
+static void spheres_below_a_pixel_are_fainter(void **state)
+{
+    enum { PLACES = 8 };
+    const double distance = 4, diameter_px = 0.2;
+    const double pixel_m = 2 * distance * tan(37.5 * acos(-1) / 180) / HEIGHT;
+    char size[64];
+    snprintf(size, sizeof size, "systems.a.look.size=%.9g m", diameter_px * pixel_m / 0.5);
+    const char *const overrides[] = {
+        size, "backdrop.objects=[]",
+        "camera={position: [0, 4, 4], target: [0, 4, 0], fov: 75 deg}"};
+    struct fixture f;
+    init(&f, *state, overrides, 3);
+    double sum = 0;
+    for (int i = 0; i < PLACES * PLACES; i++) {
+        const double x = (i % PLACES + 0.31) / PLACES, y = (i / PLACES + 0.17) / PLACES;
+        const float3 at = {(float)(x * pixel_m), (float)(4 + y * pixel_m), 0.0f};
+        const struct kiln_particle particle = drawing_particle(0, at, (float3){0.0f, 0.0f, 0.0f});
+        drawing_place(&f.drawing, &particle, 1, STEP);
+        opaque_draw(&f, 1);
+        double shed = 0;
+        for (int p = 0; p < PIXELS; p++)
+            shed += (double)f.bloom.host[4 * p] / ALBEDO[0];
+        const double area = acos(-1) * diameter_px * diameter_px / 4;
+        assert_true(shed > 0.5 * area && shed < 1.5 * area);
+        assert_memory_equal(f.depth.host, f.drawing.backdrop_depth.host, PIXELS * sizeof(float));
+        sum += shed / area / (PLACES * PLACES);
+    }
+    assert_true(fabs(sum - 1) < 0.06);
+    opaque_finish(&f);
+}
+
+/* What a display shows, 0 to 1, of the mean of a bright and a dark side, of which the part `bright`
+ * of the pixel shows the first. */
+static double shown_mean(double light, double dark, double bright)
+{
+    const double weight = bright / (1 + light), other = (1 - bright) / (1 + dark);
+    return fmin((light * weight + dark * other) / (weight + other), 1);
+}
+
+/* The edge of a sphere that is eight times as bright as white, two stops of exposure included. */
+static void bright_edges_have_all_steps(void **state)
+{
+    static const char *const overrides[] = {
+        "systems.a.look.color=[2, 1, 0.5]",
+        "systems.a.look.size=3 m",
+        "systems.a.look.bloom=0.5",
+        "backdrop.objects=[]",
+        "backdrop.floor=none",
+        "post.exposure=2",
+        "backdrop.sky={top: [0.02, 0.02, 0.02], horizon: [0.02, 0.02, 0.02]}"};
+    struct fixture f;
+    init(&f, *state, overrides, 7);
+    const struct kiln_particle particle =
+        drawing_particle(0, (float3){0.0f, 1.2f, -1.0f}, (float3){0.0f, 0.0f, 0.0f});
+    drawing_place(&f.drawing, &particle, 1, STEP);
+    opaque_draw(&f, 1);
+    int steps[5] = {0};
+    for (int p = 0; p < PIXELS; p++) {
+        const double part = (double)f.bloom.host[4 * p + 3];
+        const double shown = fmin(4 * (double)f.color.host[4 * p], 1);
+        assert_true(fabs(shown - shown_mean(8, 0.08, part)) < 2e-3);
+        steps[(int)lround(4 * part)]++;
+    }
+    for (int k = 0; k < 5; k++)
+        assert_true(steps[k] > 10);
+    opaque_finish(&f);
+}
+
 static void order_is_no_matter(void **state)
 {
     struct fixture f;
@@ -218,6 +289,8 @@ static void hot_spheres_shine(void **state)
         place_cloud(&f[i], particles);
         opaque_draw(&f[i], COUNT);
         for (int p = 0; p < PIXELS; p++) {
+            if (f[i].bloom.host[4 * p + 3] < 1.0f)
+                continue; /* at an edge, bright samples count less */
             red[i] += (double)f[i].color.host[4 * p];
             bloom[i] += (double)f[i].bloom.host[4 * p];
         }
@@ -315,6 +388,8 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         test_on_device(depth_is_where_the_ray_meets_a_sphere),
         test_on_device(silhouettes_are_smooth),
+        test_on_device(spheres_below_a_pixel_are_fainter),
+        test_on_device(bright_edges_have_all_steps),
         test_on_device(order_is_no_matter),
         test_on_device(light_is_the_backdrops),
         test_on_device(hot_spheres_shine),

@@ -135,6 +135,7 @@ static bool same_picture(const struct kiln_backdrop_inputs *a, const struct kiln
            memcmp(a->view.world_to_view, b->view.world_to_view, sizeof a->view.world_to_view) ==
                0 &&
            memcmp(&a->view.frustum, &b->view.frustum, sizeof a->view.frustum) == 0 &&
+           a->view.exposure.x == b->view.exposure.x &&
            memcmp(&a->view.principal, &b->view.principal, sizeof a->view.principal) == 0;
 }
 

@@ -3,6 +3,7 @@
 #include "draw/backdrop/backdrop_rows.h"
 #include "draw/backdrop/ray_floor.h"
 #include "draw/backdrop/ray_mesh.h"
+#include "shared/edge_mean.h"
 
 enum { TILE = KILN_EDGE_TILE, STRIP = 64 }; /* px; rays of a strip test the same objects */
 
@@ -317,16 +318,16 @@ static void antialias_tile(const struct kiln_backdrop_picture *p, uint32_t x, ui
         vi pixel = row * (int32_t)p->width + column, zero = vi_all(0);
         const struct eye_rays center = rays_through_pixels(frame, vi_select(inside, column, zero),
                                                            vi_select(inside, row, zero));
-        struct ray_color sum = {{{0}, {0}, {0}}, {0}};
+        const vf part = vf_all(1.0f / (float)KILN_EDGE_SAMPLES);
+        struct edge_sum sum = edge_sum_none();
         for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
             const struct ray_place place = sample_place(frame, &center.place, s);
             const struct eye_rays eye = rays_at(frame, &place);
             const struct shaded_rays shaded = shade_eye_rays(frame, &objects, &eye);
-            sum.rgb = vf3_add(sum.rgb, shaded.color.rgb);
-            sum.alpha += shaded.color.alpha;
+            sum =
+                edge_add(sum, shaded.color.rgb, shaded.color.alpha, part, frame->view->exposure.x);
         }
-        const vf share = vf_all(1.0f / (float)KILN_EDGE_SAMPLES);
-        const struct ray_color mean = {vf3_scale(sum.rgb, share), sum.alpha * share};
+        const struct ray_color mean = {edge_mean(sum), sum.alpha};
         store_tile(p, &mean, pixel, inside);
     }
 }

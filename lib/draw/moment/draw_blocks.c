@@ -5,7 +5,7 @@
 #include <assert.h>
 #include <stddef.h>
 
-static_assert(sizeof(struct kiln_view) == 144, "std140");
+static_assert(sizeof(struct kiln_view) == 160, "std140");
 static_assert(offsetof(struct kiln_view, eye) == 48, "std140");
 static_assert(sizeof(struct kiln_draw_light) == 144, "std140");
 static_assert(offsetof(struct kiln_draw_backdrop, counts) == 96, "std140");

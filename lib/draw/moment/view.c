@@ -106,6 +106,8 @@ struct kiln_view kiln_view_compute(const struct kiln_scene *scene, struct kiln_i
         .clock = {time_s, scene->dt_s, scene->dt_s * (float)scene->steps_per_frame, 1.0f},
         .clock_step = {instant.step, scene->seed, 0, 0},
         .within = {instant.back, 0.0f, 0.0f, 0.0f},
+        .exposure = {exact_exp2(kiln_scene_value(scene, &scene->post.exposure, time_s)), 0.0f, 0.0f,
+                     0.0f},
     };
     float tan_y = half_fov.sine / half_fov.cosine;
     float width = (float)scene->width, height = (float)scene->height;

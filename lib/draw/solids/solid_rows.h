@@ -20,6 +20,7 @@ struct kiln_drawn_sphere {
     float glow[3];           /* emitted light */
     float segments;          /* segments of each colour; 0: no pattern; below 0: a stripe */
     float bloom[3];          /* bloom weights (Heinz 2019, equation 3.2) */
+    float part;              /* below 1 where it is drawn larger than it is, to fill a pixel */
     float other[3], pose[4]; /* for a pattern: second albedo; quaternion, sphere to world */
     struct kiln_row_range x; /* columns that it may touch */
 };
@@ -27,8 +28,8 @@ struct kiln_drawn_sphere {
 struct kiln_drawn_instance {
     float to_view[3][4]; /* rows of the matrix from the mesh to view space, m */
     float albedo[3], lit;
-    float glow[3], shade; /* shade: radius of the sphere that stands for it in shadows, m */
-    float bloom[3];
+    float glow[3], shade;      /* shade: radius of the sphere that stands for it in shadows, m */
+    float bloom[3], part;      /* part: as of a sphere */
     uint32_t first, triangles; /* first corner; number of triangles, 0 if no mesh is drawn */
     struct kiln_row_range x;
 };

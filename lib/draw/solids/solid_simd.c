@@ -3,6 +3,7 @@
  * triangle once a pixel, by a ray through the pixel's middle. */
 #include "draw/solids/instance_cast.h"
 #include "shared/ball_pattern.h"
+#include "shared/edge_mean.h"
 
 enum { SAMPLES = KILN_SOLID_SAMPLES };
 
@@ -136,22 +137,24 @@ static void light_spheres(const struct kiln_solid_strip *s, const struct visible
     light_place(frame, &place, visible, color);
 }
 
-/* Adds the light of particles to their pixels, lane by lane. bloom: the bloom weights in the first
- * record of the particles' array. */
+/* Adds the light of particles to their pixels, lane by lane: weighted as samples of an edge to the
+ * colour, with the sum of weights in its alpha; as it is to the bloom. bloom: the bloom weights in
+ * the first record of the particles' array. */
 SIMD void add_particles(const struct kiln_solid_strip *s, const struct visible_particles *visible,
                         uint32_t count, uint32_t y, const float *bloom,
                         const struct ray_color *light)
 {
+    const vf weight = visible->part * edge_weight(light->rgb, s->frame->view->exposure.x);
     for (uint32_t i = 0; i < count; i++) {
         const float *weights = bloom + visible->particle[i];
         size_t at = 4 * ((size_t)y * s->width + (size_t)visible->column[i]);
         float part = visible->part[i];
         const float rgb[3] = {light->rgb.x[i], light->rgb.y[i], light->rgb.z[i]};
         for (int c = 0; c < 3; c++) {
-            s->color[at + (size_t)c] += rgb[c] * part;
+            s->color[at + (size_t)c] += rgb[c] * weight[i];
             s->bloom[at + (size_t)c] += rgb[c] * part * weights[c];
         }
-        s->color[at + 3] += part;
+        s->color[at + 3] += weight[i];
         s->bloom[at + 3] += part;
     }
 }
@@ -177,6 +180,12 @@ static inline float second_of(const float t[SAMPLES])
     return lesser(greater(near_a, near_b), lesser(far_a, far_b));
 }
 
+/* Returns the part of the pixels that it fills that a particle covers. */
+static inline float part_of(const struct kiln_solid_strip *s, uint32_t number)
+{
+    return is_instance(s, number) ? s->instances[number].part : s->spheres[number].part;
+}
+
 /* Holds lists of the particles in the pixels of a row. An entry has three words: the column; the
  * particle's number times 4, plus the quarters of the pixel that it covers less 1; the triangle.
  * The list of spheres grows from the front of the memory, that of triangles from its back. */
@@ -195,8 +204,9 @@ static void list_particle(const struct kiln_solid_strip *s, struct row_entries *
         *to += KILN_SOLID_VISIBLE_WORDS;
 }
 
-/* Lists the particles in the samples of pixel x, each once, and writes the pixel's depth. first:
- * index of the row's first sample. */
+/* Lists the particles in the samples of pixel x, each once, and writes the pixel's depth, for which
+ * a particle counts that covers at least half of the pixels that it fills. first: index of the
+ * row's first sample. */
 static void list_pixel(const struct kiln_solid_strip *s, size_t first, uint32_t x,
                        struct row_entries *entries, float *depth)
 {
@@ -205,7 +215,8 @@ static void list_pixel(const struct kiln_solid_strip *s, size_t first, uint32_t 
     for (size_t k = 0; k < SAMPLES; k++) {
         size_t at = first + k * s->pitch + x;
         numbers[k] = s->nearest[at];
-        t[k] = numbers[k] < 0 ? NO_DEPTH : s->samples[at];
+        bool counts = numbers[k] >= 0 && part_of(s, (uint32_t)numbers[k]) >= 0.5f;
+        t[k] = counts ? s->samples[at] : NO_DEPTH;
         if (numbers[k] >= 0 && is_instance(s, (uint32_t)numbers[k]))
             triangles[k] = s->triangles[at];
     }
@@ -227,15 +238,45 @@ static void list_pixel(const struct kiln_solid_strip *s, size_t first, uint32_t 
     }
 }
 
-/* Adds the scene behind the resolved samples of the solids. */
+/* Mixes the scene into LANES pixels of a row that solids cover at least in part. columns: of the
+ * pixels, of which the first `count` are written. */
+SIMD void mix_scene(const struct kiln_solid_strip *s, uint32_t y, vi columns, uint32_t count)
+{
+    const size_t row = 4 * (size_t)y * s->width;
+    const float *behind = s->scene_color + row, *bloom = s->bloom + row;
+    float *color = s->color + row;
+    const vi at = 4 * columns;
+    const vf covered = vf_gather(bloom + 3, at);
+    struct edge_sum sum = {.light = {{0}, {0}, {0}},
+                           .weighted = gather3(color, at),
+                           .alpha = covered,
+                           .weighted_alpha = vf_gather(color + 3, at)};
+    sum = edge_add(sum, gather3(behind, at), vf_gather(behind + 3, at), 1.0f - covered,
+                   s->frame->view->exposure.x);
+    const struct vf3 mean = edge_mean(sum);
+    for (uint32_t i = 0; i < count; i++) {
+        const float rgba[4] = {mean.x[i], mean.y[i], mean.z[i], sum.alpha[i]};
+        memcpy(color + at[i], rgba, sizeof rgba);
+    }
+}
+
+/* Puts the scene behind the resolved samples of the solids. */
 static void add_scene(const struct kiln_solid_strip *s, uint32_t y)
 {
-    const float *scene = s->scene_color + 4 * (size_t)y * s->width;
-    float *color = s->color + 4 * (size_t)y * s->width;
-    for (uint32_t x = 0; x < s->width; x++, scene += 4, color += 4) {
-        float part = 1.0f - color[3];
-        for (int c = 0; c < 4; c++)
-            color[c] += scene[c] * part;
+    const size_t row = 4 * (size_t)y * s->width;
+    vi columns = vi_all(0);
+    uint32_t count = 0;
+    for (uint32_t x = 0; x < s->width; x++) {
+        const size_t at = row + 4 * (size_t)x;
+        if (s->bloom[at + 3] > 0.0f) {
+            columns[count++] = (int32_t)x;
+        } else {
+            memcpy(s->color + at, s->scene_color + at, 4 * sizeof *s->color);
+        }
+        if (count == LANES || (count > 0 && x + 1 == s->width)) {
+            mix_scene(s, y, columns, count);
+            count = 0;
+        }
     }
 }
 
@@ -249,7 +290,7 @@ static void load_particles(const struct kiln_solid_strip *s, const uint32_t *ent
         uint32_t number = entries[1] >> 2;
         visible->column[lane] = (int32_t)entries[0];
         visible->particle[lane] = (int32_t)number * stride;
-        visible->part[lane] = 0.25f * (float)((entries[1] & 3) + 1);
+        visible->part[lane] = 0.25f * (float)((entries[1] & 3) + 1) * part_of(s, number);
         if (is_instance(s, number))
             visible->corner[lane] = corner_of(s, number, entries[2]);
     }

@@ -147,8 +147,9 @@ static void find_center(const struct kiln_view *view, float3 at, vec3 center)
     glm_mat4_mulv3(world_to_view, (vec3){at.x, at.y, at.z}, 1.0f, center);
 }
 
-/* Returns half the edge of a pixel in metres, at a depth in metres. A sphere with a smaller radius
- * would flicker between the samples. */
+/* Returns half the edge of a pixel in metres, at a depth in metres. A particle with a smaller
+ * radius would flicker between the samples. It is drawn as wide as a pixel, and covers a part of
+ * what it fills. */
 static float least_radius(const struct kiln_view *view, float depth)
 {
     float pixel_m = 2.0f * view->frustum.y * exact_max(depth, 1e-3f) / view->frustum.w;
@@ -190,6 +191,7 @@ static void make_sphere(const struct convert_job *m, const struct kiln_appearanc
     find_center(view, particle->position, s->center);
     float radius = particle->radius * particle->opacity, depth = -s->center[2];
     s->radius = exact_max(radius, least_radius(view, depth));
+    s->part = radius * radius / (s->radius * s->radius);
     if (!(radius > 0.0f) || depth - s->radius <= view->eye.w)
         return;
     float4 cover = kiln_appearance_look(system, KILN_LOOK_COVER, particle->progress);
@@ -239,6 +241,7 @@ static void make_instance(const struct convert_job *m, uint32_t number, uint32_t
     set3(d->albedo, cover);
     d->lit = cover.w;
     d->shade = size * look->mesh.shade;
+    d->part = size * size * mesh->reach * mesh->reach / (reach * reach);
     set3(d->glow, kiln_appearance_look(system, KILN_LOOK_HOT, particle->progress));
     set3(d->bloom, kiln_appearance_look(system, KILN_LOOK_BLOOM, particle->progress));
     d->first = mesh->first;

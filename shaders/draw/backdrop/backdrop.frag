@@ -187,15 +187,19 @@ void main()
 
 #else
 
+#include "shared/edge_mean.h"
+
 const vec2 SAMPLE_OFFSETS[KILN_EDGE_SAMPLES] = vec2[](KILN_EDGE_OFFSETS(vec2));
 
 void main()
 {
-    vec4 sum = vec4(0.0);
-    for (int s = 0; s < SAMPLES; s++)
-        sum += shade_eye_ray(ray_direction(floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s]), 1 + s)
-                   .color;
-    out_color = sum / float(SAMPLES);
+    edge_sum sum = edge_sum_none();
+    for (int s = 0; s < SAMPLES; s++) {
+        vec2 place = floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s];
+        vec4 color = shade_eye_ray(ray_direction(place), 1 + s).color;
+        sum = edge_add(sum, color.rgb, color.a, 1.0 / float(SAMPLES), view.exposure.x);
+    }
+    out_color = vec4(edge_mean(sum), sum.alpha);
 }
 
 #endif

@@ -23,7 +23,7 @@ layout(location = 5) flat in vec4 normal_c;
 layout(location = 6) flat in vec4 middle; /* of the particle, in view space; w: radius of the sphere
                                            * that throws its shadow, m */
 layout(location = 7) flat in vec4 albedo; /* a: 1 if lit, 0 if unlit, or between */
-layout(location = 8) flat in vec4 glow;
+layout(location = 8) flat in vec4 glow; /* a: as in solids_spheres.frag */
 layout(location = 9) flat in vec4 bloom;
 
 layout(location = 0) out vec4 out_color;
@@ -62,6 +62,6 @@ void main()
     vec3 rgb = glow.rgb + mix(albedo.rgb, lit, albedo.a);
 
     gl_FragDepth = 1.0 / (1.0 + t); /* near is 1, far is 0, as in solids_spheres.frag */
-    out_color = vec4(rgb, 1.0);
-    out_bloom = vec4(bloom.rgb * rgb, 1.0);
+    out_color = vec4(rgb, 1.0) * glow.a;
+    out_bloom = vec4(bloom.rgb * rgb, 1.0) * glow.a;
 }

@@ -36,7 +36,8 @@ layout(location = 6) flat out vec4 middle;        /* of the particle, in view sp
                                                    * the sphere that throws its shadow, m */
 layout(location = 7) flat out vec4 reflected;     /* albedo; a: from 1, which is lit, to 0, which
                                                    * shows the albedo as it is */
-layout(location = 8) flat out vec4 emitted;       /* radiance */
+layout(location = 8) flat out vec4 emitted;       /* radiance; a: part of what it fills that it
+                                                   * covers */
 layout(location = 9) flat out vec4 bloom_weights; /* rgb: weights of the light in the bloom target */
 
 vec3 world_to_view_vector(vec3 v)
@@ -89,7 +90,8 @@ void main()
     normal_c = vec4(turn * corners[corner + 5u].xyz, 0.0);
     middle = vec4(center, size * extent.y);
     reflected = look_at(system, KILN_LOOK_COVER, life);
-    emitted = look_at(system, KILN_LOOK_HOT, life);
+    emitted.rgb = look_at(system, KILN_LOOK_HOT, life).rgb;
+    emitted.a = size * size / (scale * scale);
     bloom_weights = look_at(system, KILN_LOOK_BLOOM, life);
 
     int k = gl_VertexID % 3;

@@ -28,7 +28,8 @@ layout(binding = 2) uniform sampler2D scene_depth;
 
 layout(location = 0) flat in vec4 sphere; /* in view space; w: radius */
 layout(location = 1) flat in vec4 albedo; /* a: from 0, unlit, to 1, lit */
-layout(location = 2) flat in vec4 glow;  /* light that the sphere emits */
+layout(location = 2) flat in vec4 glow;  /* light that the sphere emits; a: below 1 where it is
+                                          * drawn larger than it is, to fill a pixel */
 layout(location = 3) flat in vec4 bloom; /* weights of the colour in the bloom */
 #ifdef PATTERN
 layout(location = 4) flat in vec4 second_albedo; /* a: number of the pattern's segments of each
@@ -106,6 +107,6 @@ void main()
     /* The depth is 1 at the eye and 0 far away, since floats are most precise near 0.
      * solids_resolve.frag computes t from it. */
     gl_FragDepth = 1.0 / (1.0 + t);
-    out_color = vec4(rgb, 1.0);
-    out_bloom = vec4(bloom.rgb * rgb, 1.0);
+    out_color = vec4(rgb, 1.0) * glow.a;
+    out_bloom = vec4(bloom.rgb * rgb, 1.0) * glow.a;
 }

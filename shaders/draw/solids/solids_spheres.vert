@@ -10,7 +10,7 @@
 
 layout(location = 0) out vec4 center;        /* in view space; w: radius, m */
 layout(location = 1) out vec4 reflected;     /* albedo; a: 1 if lit, 0 if unlit, or between */
-layout(location = 2) out vec4 emitted;       /* radiance */
+layout(location = 2) out vec4 emitted;       /* radiance; a: part of what it fills that it covers */
 layout(location = 3) out vec4 bloom_weights; /* weights of equation 3.2 */
 #ifdef PATTERN
 layout(location = 4) out vec4 second_albedo; /* of the pattern; a: segments of each colour;
@@ -32,11 +32,13 @@ void main()
     center.xyz = world_to_view_point(particle_position(record));
     float scale = mix(spread.x, spread.y, random_unit(stream, RANDOM_SCALE));
     float radius = looks[system].form.x == LOOK_MESH ? 0.0 : 0.5 * shape.x * scale * shape.z;
-    /* A sphere is at least as wide as a pixel. A smaller one would flicker between the samples. */
+    /* A sphere is at least as wide as a pixel. A smaller one would flicker between the samples; it
+     * covers only a part of what it fills. */
     float pixel_m = 2.0 * view.frustum.y * max(-center.z, 1e-3) / view.frustum.w;
     center.w = radius > 0.0 ? max(radius, 0.5 * pixel_m) : 0.0;
     reflected = look_at(system, KILN_LOOK_COVER, life);
-    emitted = look_at(system, KILN_LOOK_HOT, life);
+    emitted.rgb = look_at(system, KILN_LOOK_HOT, life).rgb;
+    emitted.a = radius * radius / max(center.w * center.w, 1e-30);
     bloom_weights = look_at(system, KILN_LOOK_BLOOM, life);
 #ifdef PATTERN
     uvec4 turn = looks[system].turn;
