@@ -1,20 +1,39 @@
-/* This file composes rows of the picture on the host, as shaders/post/composite.frag does in GL. It
- * works on blocks of a row: it composes them pixel by pixel, then encodes them channel by channel,
- * in loops that compilers vectorise. */
+/* This file composes rows of the picture on the host, as shaders/post/composite.frag does in GL.
+ * Images hold RGBA, pixel by pixel: vectors of them are blended as they lie, then transposed to one
+ * vector for each channel, in which the pixels have another order (transpose.h).
+ *
+ * A block of vectors takes one short loop after another: a processor works on several turns of a
+ * short loop at a time, but on hardly more than one turn of a loop that does all. */
+#include "base/real.h"
+#include "base/transpose.h"
 #include "post/composite_rows.h"
+#include "post/magnify_row.h"
 #include "shared/tonemap.h"
 
-enum { BLOCK = 128 };
+enum {
+    FLOATS = 4 * LANES, /* of a vector of pixels */
+    BLOCK = 8,          /* vectors of a block, at most */
+};
+
+/* Holds channels of pixels, each vector in the order of columns; and the noise of the dither. */
+struct block {
+    vf channel[4][BLOCK];
+    vi noise[BLOCK];
+};
+
+/* Describes a block's pixels: the column of the first, its index in the pictures, and how many
+ * vectors they are. */
+struct place {
+    uint32_t x;
+    size_t at;
+    int count;
+};
 
 static const float HALF_MAX = 65504.0f;
 
-struct block {
-    float red[BLOCK], green[BLOCK], blue[BLOCK], alpha[BLOCK];
-    float noise[3][BLOCK]; /* of the dither, in levels */
-    int32_t words[4][BLOCK];
-};
+/* ---- dither ---------------------------------------------------------------------------------- */
 
-static inline uint32_t hash(uint32_t x)
+SIMD vu hash(vu x)
 {
     x ^= x >> 16;
     x *= 0x7feb352du;
@@ -24,176 +43,222 @@ static inline uint32_t hash(uint32_t x)
     return x;
 }
 
-/* Makes triangular noise with a mean of 0 from -0.5 to 0.5 levels. It differs by pixel, channel and
- * frame, and is the same in each run. */
-static inline void make_noise(struct block *block, uint32_t first, uint32_t row_hash)
+static inline uint32_t hash_of(uint32_t x)
 {
-    for (uint32_t i = 0; i < BLOCK; i++) {
-        uint32_t h = hash(first + i + row_hash);
-        for (uint32_t c = 0; c < 3; c++) {
-            h = hash(h + c);
-            float sum = (float)(int32_t)(h & 0xffffu) + (float)(int32_t)(h >> 16);
-            block->noise[c][i] = sum * (0.5f / 65535.0f) - 0.5f;
-        }
+    return hash(x - (vu){0})[0];
+}
+
+/* Makes the noise of the dither (shared/tonemap.h). It differs by pixel, channel and frame, and is
+ * the same in each run. */
+SIMD void make_noise(struct block *block, const struct place *place, uint32_t row_hash)
+{
+    const vu columns = (vu)vi_of(lane_order(vf_count())) + place->x + row_hash;
+    for (int i = 0; i < place->count; i++) {
+        const vu h = hash(columns + (uint32_t)(i * LANES));
+        block->noise[i] = (vi)((h & TONEMAP_NOISE_FIELDS) + (h >> 5 & TONEMAP_NOISE_FIELDS));
     }
 }
 
-/* Returns exposed light, limited to the range of 16-bit floats; a NaN becomes black. */
-static inline float exposed(float light, float exposure)
+/* ---- display --------------------------------------------------------------------------------- */
+
+/* Returns exposed light; a NaN becomes black. */
+SIMD vf exposed(vf light, float exposure)
 {
-    return exact_min(exact_max(light * exposure, 0.0f), HALF_MAX);
+    return vf_max(light * exposure, vf_all(0.0f));
 }
 
-static inline void expose(struct block *block, float exposure)
+SIMD void store_color(struct block *block, int i, struct vf3 color)
 {
-    for (int i = 0; i < BLOCK; i++) {
-        block->red[i] = exposed(block->red[i], exposure);
-        block->green[i] = exposed(block->green[i], exposure);
-        block->blue[i] = exposed(block->blue[i], exposure);
-    }
+    block->channel[0][i] = color.x;
+    block->channel[1][i] = color.y;
+    block->channel[2][i] = color.z;
 }
 
-static inline void map_agx(struct block *block)
+SIMD struct vf3 color_of(const struct block *block, int i)
 {
-    for (int i = 0; i < BLOCK; i++) {
-        float3 color = tonemap_agx_root(FLOAT3(block->red[i], block->green[i], block->blue[i]));
-        block->red[i] = color.x;
-        block->green[i] = color.y;
-        block->blue[i] = color.z;
-    }
+    return (struct vf3){block->channel[0][i], block->channel[1][i], block->channel[2][i]};
 }
 
-static inline void map_aces(struct block *block)
+/* Exposes, tone-maps and encodes light. Without AgX, which has a limit of its own, light is limited
+ * to the range of 16-bit floats, since the squares in a tone map overflow beyond it. */
+SIMD void encode(struct block *block, int count, float exposure, enum kiln_tonemap tonemap)
 {
-    for (int i = 0; i < BLOCK; i++) {
-        float3 color = tonemap_aces(FLOAT3(block->red[i], block->green[i], block->blue[i]));
-        block->red[i] = color.x;
-        block->green[i] = color.y;
-        block->blue[i] = color.z;
+    for (int i = 0; i < count; i++) {
+        struct vf3 light = color_of(block, i);
+        light.x = exposed(light.x, exposure);
+        light.y = exposed(light.y, exposure);
+        light.z = exposed(light.z, exposure);
+        if (tonemap == KILN_TONEMAP_AGX)
+            light = tonemap_agx_root(light);
+        else if (tonemap == KILN_TONEMAP_ACES)
+            light = tonemap_aces((struct vf3){vf_min(light.x, vf_all(HALF_MAX)),
+                                              vf_min(light.y, vf_all(HALF_MAX)),
+                                              vf_min(light.z, vf_all(HALF_MAX))});
+        store_color(block, i, light);
     }
-}
-
-static inline void encode_channel(float *channel, bool is_root)
-{
-    if (is_root) {
-        for (int i = 0; i < BLOCK; i++)
-            channel[i] = tonemap_encode_root(exact_min(channel[i], 1.0f));
-        return;
+    for (int c = 0; c < 3; c++) {
+        vf *x = block->channel[c];
+        for (int i = 0; i < count && tonemap == KILN_TONEMAP_AGX; i++)
+            x[i] = tonemap_encode_root(vf_min(x[i], vf_all(1.0f)));
+        for (int i = 0; i < count && tonemap != KILN_TONEMAP_AGX; i++)
+            x[i] = tonemap_encode(vf_min(x[i], vf_all(1.0f)));
     }
-    for (int i = 0; i < BLOCK; i++)
-        channel[i] = tonemap_encode(exact_min(channel[i], 1.0f));
 }
 
 /* Divides colour by alpha, since files hold straight alpha. Light brighter than its alpha, such as
  * fire over a transparent background, would exceed 1. Its brightness becomes its alpha instead, so
- * that it still shows over black. */
-static inline void unpremultiply(struct block *block)
+ * that it still shows over black. Returns whether all pixels are opaque. */
+SIMD bool unpremultiply(struct block *block, int i)
 {
-    for (int i = 0; i < BLOCK; i++) {
-        float r = block->red[i], g = block->green[i], b = block->blue[i], a = block->alpha[i];
-        bool opaque = !(a < 1.0f);
-        float alpha = exact_clamp(exact_max(a, exact_max(exact_max(r, g), b)), 0.0f, 1.0f);
-        float divisor = alpha > 0.0f ? alpha : 1.0f; /* a transparent black pixel stays black */
-        divisor = opaque ? 1.0f : divisor;
-        block->red[i] = exact_min(r / divisor, 1.0f);
-        block->green[i] = exact_min(g / divisor, 1.0f);
-        block->blue[i] = exact_min(b / divisor, 1.0f);
-        block->alpha[i] = opaque ? 1.0f : alpha;
+    const vf a = block->channel[3][i], one = vf_all(1.0f);
+    const vi opaque = ~(a < 1.0f);
+    if (!any(~opaque))
+        return true;
+    const struct vf3 color = color_of(block, i);
+    const vf brightest = vf_max(vf_max(color.x, color.y), color.z);
+    const vf alpha = vf_clamp01(vf_max(a, brightest));
+    vf divisor = vf_select(alpha > 0.0f, alpha, one); /* a transparent black pixel stays black */
+    divisor = vf_select(opaque, one, divisor);
+    for (int c = 0; c < 3; c++)
+        block->channel[c][i] = vf_min(block->channel[c][i] / divisor, one);
+    block->channel[3][i] = vf_select(opaque, one, alpha);
+    return false;
+}
+
+/* Stores pixels of 8 or 16 bits a channel, in the order of columns. steps: of the colours; alpha:
+ * levels. */
+SIMD void store_display(const struct kiln_composite_rows *p, const vi steps[3], vi alpha, size_t at)
+{
+    if (p->bits == 8) {
+        const vi pixels =
+            steps[0] >> 6 | (steps[1] << 2 & 0xff00) | (steps[2] << 10 & 0xff0000) | alpha << 24;
+        vf_store((float *)(void *)((uint8_t *)p->display + 4 * at), row_order((vf)pixels));
+        return;
+    }
+    _Alignas(64) uint32_t halves[2][LANES];
+    const vi red_green = steps[0] >> 6 | (steps[1] >> 6) << 16;
+    const vi blue_alpha = steps[2] >> 6 | alpha << 16;
+    vf_store((float *)(void *)halves[0], row_order((vf)red_green));
+    vf_store((float *)(void *)halves[1], row_order((vf)blue_alpha));
+    uint16_t *const to = (uint16_t *)p->display + 4 * at;
+    for (size_t i = 0; i < LANES; i++) {
+        memcpy(to + 4 * i, &halves[0][i], sizeof **halves);
+        memcpy(to + 4 * i + 2, &halves[1][i], sizeof **halves);
     }
 }
 
-static inline void round_channel(const float *channel, const float *noise, float levels,
-                                 int32_t *words)
+/* Shows a block's pixels: exposes, tone-maps, encodes and dithers them. */
+SIMD void show(const struct kiln_composite_rows *p, struct block *block, const struct place *place,
+               uint32_t row_hash)
 {
-    for (int i = 0; i < BLOCK; i++) {
-        float steps = channel[i] * levels + 0.5f + noise[i];
-        words[i] = (int32_t)exact_clamp(steps, 0.0f, levels);
-    }
-}
-
-static inline void encode_block(const struct kiln_composite_rows *p, struct block *block,
-                                uint32_t first, uint32_t row_hash)
-{
-    static const float no_noise[BLOCK];
-    const float levels = p->bits == 16 ? 65535.0f : 255.0f;
-    expose(block, p->exposure);
-    if (p->tonemap == KILN_TONEMAP_AGX)
-        map_agx(block);
-    else if (p->tonemap == KILN_TONEMAP_ACES)
-        map_aces(block);
-    const bool is_root = p->tonemap == KILN_TONEMAP_AGX;
-    encode_channel(block->red, is_root);
-    encode_channel(block->green, is_root);
-    encode_channel(block->blue, is_root);
-    unpremultiply(block);
+    const float levels = p->bits == 16 ? 65535.0f : 255.0f, scale = levels * TONEMAP_STEPS;
+    encode(block, place->count, p->exposure, p->tonemap);
     if (p->dither)
-        make_noise(block, first, row_hash);
-    round_channel(block->red, p->dither ? block->noise[0] : no_noise, levels, block->words[0]);
-    round_channel(block->green, p->dither ? block->noise[1] : no_noise, levels, block->words[1]);
-    round_channel(block->blue, p->dither ? block->noise[2] : no_noise, levels, block->words[2]);
-    round_channel(block->alpha, no_noise, levels, block->words[3]);
+        make_noise(block, place, row_hash);
+    for (int i = 0; i < place->count; i++) {
+        const bool opaque = unpremultiply(block, i);
+        const vi noise = p->dither ? block->noise[i] : vi_all(TONEMAP_NOISE_NONE);
+        vi steps[3] = {noise & 0x3ff, noise >> 10 & 0x3ff, noise >> 20}, alpha;
+        for (int c = 0; c < 3; c++)
+            steps[c] += vi_of(block->channel[c][i] * scale + TONEMAP_NOISE_BIAS);
+        alpha = opaque ? vi_all((int32_t)levels) : vi_of(block->channel[3][i] * levels + 0.5f);
+        store_display(p, steps, alpha, place->at + (size_t)(i * LANES));
+    }
 }
 
-static inline void store_bytes(const struct block *block, uint32_t count, uint8_t *out)
+/* ---- light ----------------------------------------------------------------------------------- */
+
+/* Blends pixels of a vector, which lie RGBA after RGBA, over others. */
+SIMD vf blend(vf above, vf alpha, vf below)
 {
-    for (uint32_t i = 0; i < count; i++) {
+    return above + below * (1.0f - alpha);
+}
+
+/* Composes as kiln_compose does. at: index of the first pixel. */
+SIMD void compose(const struct kiln_compose_light *light, size_t at, vf color[4])
+{
+    const vi is_alpha = (vi_count() & 3) == 3;
+    for (size_t k = 0; k < 4; k++) {
+        const size_t first = 4 * at + k * LANES;
+        color[k] = vf_load(light->scene + first);
+        if (light->particles) {
+            const vf above = vf_load(light->particles + first);
+            color[k] = blend(above, VF_PICK(above, above, 3, 3, 3, 3), color[k]);
+        }
+        if (light->fire) {
+            vf fire = vf_load(light->fire + first);
+            fire = vf_select(is_alpha, vf_min(fire, vf_all(1.0f)), fire);
+            color[k] = blend(fire, VF_PICK(fire, fire, 3, 3, 3, 3), color[k]);
+        }
+    }
+}
+
+/* Composes and shows a block of pixels. glow: the row of the glow, or NULL. */
+static void draw_block(const struct kiln_composite_rows *p, const struct place *place,
+                       uint32_t row_hash, const float *glow)
+{
+    struct block block;
+    for (int i = 0; i < place->count; i++) {
+        const size_t at = place->at + (size_t)(i * LANES);
+        vf lying[4];
+        compose(&p->light, at, lying);
+        struct columns color = columns_transpose(lying[0], lying[1], lying[2], lying[3]);
+        if (glow) {
+            const struct vf3 more = magnified(p->magnifier, glow, place->x + (uint32_t)(i * LANES));
+            color.c[0] += lane_order(more.x);
+            color.c[1] += lane_order(more.y);
+            color.c[2] += lane_order(more.z);
+        }
         for (int c = 0; c < 4; c++)
-            out[4 * i + (uint32_t)c] = (uint8_t)block->words[c][i];
+            block.channel[c][i] = color.c[c];
+        if (!p->beauty)
+            continue;
+        color = columns_transpose(color.c[0], color.c[1], color.c[2], color.c[3]);
+        for (size_t k = 0; k < 4; k++)
+            vf_store(p->beauty + 4 * at + k * LANES, color.c[k]);
     }
+    show(p, &block, place, row_hash);
 }
 
-static inline void store_shorts(const struct block *block, uint32_t count, uint16_t *out)
+/* Draws the last pixels of a row, fewer than a vector, by way of a copy. */
+static void draw_rest(const struct kiln_composite_rows *p, uint32_t x, size_t at, uint32_t count,
+                      uint32_t row_hash, const float *glow)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        for (int c = 0; c < 4; c++)
-            out[4 * i + (uint32_t)c] = (uint16_t)block->words[c][i];
+    float images[3][FLOATS] = {{0}}, beauty[FLOATS];
+    uint16_t display[FLOATS];
+    const float *const from[3] = {p->light.scene, p->light.particles, p->light.fire};
+    for (int i = 0; i < 3; i++) {
+        if (from[i])
+            memcpy(images[i], from[i] + 4 * at, 4 * count * sizeof **images);
     }
-}
-
-/* ---- rows ------------------------------------------------------------------------------------ */
-
-/* Composes a block of pixels. at: index of its first pixel in the picture; x: column of that
- * pixel. */
-static inline void compose_block(const struct kiln_composite_rows *p, struct block *block,
-                                 size_t at, uint32_t x, uint32_t count, const kiln_quad *glow)
-{
-    float *beauty = p->beauty;
-    for (uint32_t i = 0; i < count; i++) {
-        kiln_quad color = kiln_compose(&p->light, 4 * (at + i));
-        if (glow)
-            color += kiln_magnified(p->magnifier, glow, x + i);
-        if (beauty)
-            kiln_quad_store(beauty + 4 * (at + i), color);
-        block->red[i] = color[0];
-        block->green[i] = color[1];
-        block->blue[i] = color[2];
-        block->alpha[i] = color[3];
-    }
-}
-
-static inline void compose_row(const struct kiln_composite_rows *p, uint32_t y, uint32_t worker)
-{
-    const uint32_t width = p->width;
-    const uint32_t row_hash = hash(y + hash(p->frame));
-    const kiln_quad *glow = NULL;
-    if (p->glow)
-        glow = kiln_magnifier_row(p->magnifier, p->glow, y, p->strength, worker);
-    struct block block = {0};
-    for (uint32_t x = 0; x < width; x += BLOCK) {
-        uint32_t count = width - x < BLOCK ? width - x : BLOCK;
-        size_t at = (size_t)y * width + x;
-        compose_block(p, &block, at, x, count, glow);
-        encode_block(p, &block, x, row_hash);
-        if (p->bits == 16)
-            store_shorts(&block, count, (uint16_t *)p->display + 4 * at);
-        else
-            store_bytes(&block, count, (uint8_t *)p->display + 4 * at);
-    }
+    struct kiln_composite_rows copy = *p;
+    copy.light = (struct kiln_compose_light){images[0], from[1] ? images[1] : NULL,
+                                             from[2] ? images[2] : NULL};
+    copy.beauty = p->beauty ? beauty : NULL;
+    copy.display = display;
+    draw_block(&copy, &(struct place){x, 0, 1}, row_hash, glow);
+    const size_t pixel = 4 * (p->bits / 8);
+    memcpy((char *)p->display + pixel * at, display, pixel * count);
+    if (p->beauty)
+        memcpy(p->beauty + 4 * at, beauty, 4 * count * sizeof *beauty);
 }
 
 void KILN_SIMD_NAME(kiln_composite_rows_run)(void *context, size_t begin, size_t end,
                                              uint32_t worker)
 {
-    for (size_t y = begin; y < end; y++)
-        compose_row(context, (uint32_t)y, worker);
+    const struct kiln_composite_rows *p = context;
+    const uint32_t width = p->width, whole = width - width % LANES;
+    for (size_t y = begin; y < end; y++) {
+        const uint32_t row_hash = hash_of((uint32_t)y + hash_of(p->frame));
+        const float *glow = NULL;
+        if (p->glow)
+            glow = magnify_row(p->magnifier, p->glow, (uint32_t)y, p->strength, worker);
+        for (uint32_t x = 0; x < whole; x += BLOCK * LANES) {
+            const uint32_t left = (whole - x) / LANES;
+            const struct place place = {x, y * width + x, left < BLOCK ? (int)left : BLOCK};
+            draw_block(p, &place, row_hash, glow);
+        }
+        if (whole < width)
+            draw_rest(p, whole, y * width + whole, width - whole, row_hash, glow);
+    }
 }

@@ -1,25 +1,26 @@
 /* A kiln_magnifier enlarges the small picture of the glow to the size of the frame by the cubic
- * B-spline, on the host. */
+ * B-spline, on the host. It holds what all rows of the frame have in common; magnify_row.h filters
+ * rows. */
 #ifndef KILN_POST_MAGNIFY_H
 #define KILN_POST_MAGNIFY_H
 
+#include <math.h>
+
 #include "post/compose.h"
 
-/* Holds the four texels around a pixel along one axis and their weights. */
-struct kiln_magnify_taps {
-    int32_t first; /* index of the first texel; texels beyond the edge repeat the texel at the
-                    * edge */
-    float weights[4];
-};
+enum { KILN_MAGNIFY_EDGE = 2 }; /* texels that the filter reads beyond the picture, on each side */
 
 struct kiln_magnifier {
     uint32_t width, small_width, small_height; /* of the frame; of the glow */
     float scale;                               /* the size of the glow divided by that of the
                                                 * frame */
-    struct kiln_magnify_taps *columns;         /* of each pixel of a row */
-    kiln_quad *rows;                           /* a row of the glow with its edges for each
-                                                * thread */
-    size_t row_length;
+    bool near; /* true: a vector of pixels reads no more texels than it has lanes */
+    /* For each pixel of a row: the first of four texels of a plane, and their weights. Vectors may
+     * read beyond the last pixel. */
+    int32_t *first;
+    float *weights[4];
+    float *planes;       /* for each thread, three rows of the glow with their edges */
+    size_t plane_floats; /* of a row */
 };
 
 /* Allocates memory and computes the taps for the size of `glow`; does nothing if the last call had
@@ -29,19 +30,17 @@ bool kiln_magnifier_prepare(struct kiln_magnifier *magnifier, uint32_t width,
                             struct kiln_error *error);
 void kiln_magnifier_finish(struct kiln_magnifier *magnifier);
 
-/* Returns the glow filtered vertically for row y of the frame, times a strength; its alpha is 0.
- * The row is valid until the next call with the same worker. */
-const kiln_quad *kiln_magnifier_row(const struct kiln_magnifier *magnifier, const float *glow,
-                                    uint32_t y, float strength, uint32_t worker);
-
-/* Returns the glow at pixel x of a row that kiln_magnifier_row returned. */
-static inline kiln_quad kiln_magnified(const struct kiln_magnifier *magnifier, const kiln_quad *row,
-                                       size_t x)
+/* Computes the taps of the cubic B-spline around a pixel's centre along one axis. Returns the index
+ * of the first of four texels; texels beyond an edge repeat the texel at the edge. */
+static inline int32_t kiln_magnify_taps(uint32_t pixel, float scale, float weights[4])
 {
-    const struct kiln_magnify_taps *taps = &magnifier->columns[x];
-    const kiln_quad *from = row + taps->first;
-    return (from[0] * taps->weights[0] + from[1] * taps->weights[1]) +
-           (from[2] * taps->weights[2] + from[3] * taps->weights[3]);
+    const float texel = ((float)pixel + 0.5f) * scale - 0.5f;
+    const float base = floorf(texel), t = texel - base, s = 1.0f - t;
+    weights[0] = s * s * s * (1.0f / 6.0f);
+    weights[1] = (4.0f - 6.0f * t * t + 3.0f * t * t * t) * (1.0f / 6.0f);
+    weights[2] = (4.0f - 6.0f * s * s + 3.0f * s * s * s) * (1.0f / 6.0f);
+    weights[3] = t * t * t * (1.0f / 6.0f);
+    return (int32_t)base - 1;
 }
 
 #endif

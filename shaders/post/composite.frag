@@ -28,18 +28,14 @@ uint hash(uint x)
     return x;
 }
 
-/* Returns triangular noise of one level. It differs for each pixel, channel and frame, and is the
- * same in each run. */
-vec3 dither_noise()
+/* Returns the noise of the dither (shared/tonemap.h). It differs for each pixel, channel and frame,
+ * and is the same in each run. */
+ivec3 dither_noise()
 {
     uvec2 p = uvec2(gl_FragCoord.xy);
     uint h = hash(p.x + hash(p.y + hash(frame)));
-    vec3 noise;
-    for (int c = 0; c < 3; c++) {
-        h = hash(h + uint(c));
-        noise[c] = (float(h & 0xffffu) + float(h >> 16)) / 65535.0 - 1.0;
-    }
-    return noise;
+    int sums = int((h & TONEMAP_NOISE_FIELDS) + (h >> 5 & TONEMAP_NOISE_FIELDS));
+    return (ivec3(dither ? sums : TONEMAP_NOISE_NONE) >> ivec3(0, 10, 20)) & 0x3ff;
 }
 
 /* Describes the cubic B-spline of four neighbours along one axis as two linear fetches: where to
@@ -104,8 +100,6 @@ void main()
         display = alpha > 0.0 ? min(display / alpha, vec3(1.0)) : vec3(0.0);
     else
         alpha = 1.0;
-    vec3 steps = display * levels + 0.5;
-    if (dither)
-        steps += 0.5 * dither_noise();
-    out_display = vec4(clamp(floor(steps), 0.0, levels) / levels, floor(alpha * levels + 0.5) / levels);
+    ivec3 steps = ivec3(display * (levels * TONEMAP_STEPS) + TONEMAP_NOISE_BIAS) + dither_noise();
+    out_display = vec4(vec3(steps >> 6) / levels, floor(alpha * levels + 0.5) / levels);
 }

@@ -2,7 +2,7 @@
  * that they are the same on every device (docs/determinism.md, 1). Each takes arguments within the
  * range where its polynomial serves; callers see to the others.
  *
- * shared/exact.h includes this file for single numbers, draw/vector/ray_math.h for vectors, so it
+ * shared/exact.h includes this file for single numbers, base/lane_math.h for vectors, so it
  * has no guard. Before that, each of them defines:
  *   ELEMENT, ELEMENT_INT                the type of a number, and of its bits as a signed integer
  *   ELEMENT_FN                          what stands before functions

@@ -1,6 +1,6 @@
 /* Names the types and operations of arithmetic that is written once for the two devices that draw:
  * light, surfaces and shapes. A file that is written in these names compiles as GLSL for
- * one point, as C for one point, and as C for a vector of points where draw/vector/real.h was
+ * one point, as C for one point, and as C for a vector of points where base/real.h was
  * included first. Unlike the arithmetic of exact.h it need not give the same bits in GLSL and in C:
  * pictures of the two agree within a tolerance. C gives the same bits at every width of vectors.
  *
@@ -10,6 +10,8 @@
  *   real3      three of them; operations are functions
  *   truth      whether something holds at each point; truth_and, truth_or and truth_not combine it
  *   float      a number that all points share; real_all(x) makes a real of it
+ *   REAL_INT   a signed integer of each point; real_bits and real_of_bits reinterpret, real_of and
+ *              real_int convert
  * Both sides of a choice are computed: real_select(truth, yes, no) takes the place of ?: and if. */
 #ifndef KILN_SHARED_REAL_H
 #define KILN_SHARED_REAL_H
@@ -42,6 +44,11 @@
 #define real_select(holds, yes, no) ((holds) ? (yes) : (no))
 #define real_where(holds, x)        ((holds) ? (x) : 0.0f)
 #define real_sign_one(x)            ((x) < 0.0f ? -1.0f : 1.0f)
+#define REAL_INT                    int
+#define real_bits(x)                floatBitsToInt(x)
+#define real_of_bits(x)             intBitsToFloat(x)
+#define real_of(x)                  float(x)
+#define real_int(x)                 int(x)
 
 #define REAL3(x, y, z)               vec3(x, y, z)
 #define real3_all(v)                 ((v).xyz)
@@ -57,7 +64,7 @@
 #define real3_mix_all(a, b, x)       mix((a).xyz, (b).xyz, x)
 #define real3_select(holds, yes, no) ((holds) ? (yes) : (no))
 
-#elif !defined(KILN_DRAW_VECTOR_REAL_H)
+#elif !defined(KILN_BASE_REAL_H)
 
 #include "shared/exact.h"
 
@@ -84,6 +91,11 @@
 #define real_select(holds, yes, no) ((holds) ? (yes) : (no))
 #define real_where(holds, x)        ((holds) ? (x) : 0.0f)
 #define real_sign_one(x)            ((x) < 0.0f ? -1.0f : 1.0f)
+#define REAL_INT                    int32_t
+#define real_bits(x)                ((int32_t)FLOAT_BITS(x))
+#define real_of_bits(x)             BITS_FLOAT((uint32_t)(x))
+#define real_of(x)                  ((float)(x))
+#define real_int(x)                 ((int32_t)(x))
 
 #define REAL3(x, y, z)            FLOAT3(x, y, z)
 #define real3_all(v)              FLOAT3((v).x, (v).y, (v).z)

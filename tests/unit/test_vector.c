@@ -1,4 +1,4 @@
-/* lib/draw/vector/simd.h, ray_math.h and lib/draw/sprites/texels.h: at every level of vectors each
+/* lib/base/lanes.h, lane_math.h and lib/draw/sprites/texels.h: at every level of vectors each
  * operation has the bits that plain C has here, at the edges too: NaN, infinities, zeros with
  * signs, and floats that no integer holds. */
 #include <math.h>

@@ -1,8 +1,8 @@
 /* Applies the vectors of lib/draw to arrays of operands, a vector after the other. */
 #include "unit/vector_simd.h"
 
+#include "base/lane_math.h"
 #include "draw/sprites/texels.h"
-#include "draw/vector/ray_math.h"
 
 static vi load(const void *from, int i)
 {

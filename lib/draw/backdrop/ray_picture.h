@@ -3,8 +3,8 @@
 #ifndef KILN_DRAW_BACKDROP_RAY_PICTURE_H
 #define KILN_DRAW_BACKDROP_RAY_PICTURE_H
 
+#include "base/real.h"
 #include "draw/backdrop/ray.h"
-#include "draw/vector/real.h"
 #include "shared/picture_map.h"
 
 typedef float ray_texel __attribute__((vector_size(16)));

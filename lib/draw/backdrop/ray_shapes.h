@@ -2,8 +2,8 @@
 #ifndef KILN_DRAW_BACKDROP_RAY_SHAPES_H
 #define KILN_DRAW_BACKDROP_RAY_SHAPES_H
 
+#include "base/real.h"
 #include "draw/backdrop/ray.h"
-#include "draw/vector/real.h"
 #include "shared/shape_rays.h"
 
 #define RAY_FAR 1e9f

@@ -4,10 +4,10 @@
 #ifndef KILN_DRAW_LIGHT_RAY_LAMP_H
 #define KILN_DRAW_LIGHT_RAY_LAMP_H
 
+#include "base/real.h"
 #include "draw/light/lamp_map.h"
 #include "draw/light/lamps.h"
 #include "draw/light/ray_shadow.h"
-#include "draw/vector/real.h"
 #include "shared/lamp_cover.h"
 #include "shared/lamp_map.h"
 

@@ -3,8 +3,8 @@
 #ifndef KILN_DRAW_LIGHT_RAY_SHADOW_H
 #define KILN_DRAW_LIGHT_RAY_SHADOW_H
 
+#include "base/real.h"
 #include "draw/light/shadow_levels.h"
-#include "draw/vector/real.h"
 
 /* Describes maps of one size, one after another. */
 struct shadow_map {

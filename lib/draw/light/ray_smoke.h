@@ -4,9 +4,9 @@
 #ifndef KILN_DRAW_LIGHT_RAY_SMOKE_H
 #define KILN_DRAW_LIGHT_RAY_SMOKE_H
 
+#include "base/real.h"
 #include "draw/light/lamp_smoke.h"
 #include "draw/light/smoke_shadow.h"
-#include "draw/vector/real.h"
 #include "shared/lamp_smoke.h"
 #include "shared/smoke_grid.h"
 

@@ -6,9 +6,9 @@
 
 #include <assert.h>
 
+#include "base/real.h"
 #include "draw/sprites/sprite.h"
 #include "draw/vector/particle_math.h"
-#include "draw/vector/real.h"
 #include "shared/billboard.h"
 
 enum { SPRITE_WORDS = sizeof(struct kiln_sprite) / sizeof(float) };

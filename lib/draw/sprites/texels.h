@@ -1,4 +1,4 @@
-/* This header samples texels of cells with the vectors of draw/vector/simd.h, for tile_draw.h.
+/* This header samples texels of cells with the vectors of base/lanes.h, for tile_draw.h.
  *
  * A texel of 8 bytes holds red, green, blue and alpha of two rows: red, red of the row below, green
  * and so on, each less 128. A bilinear sample reads the 16 bytes of two adjacent texels and weights
@@ -11,7 +11,7 @@
 #ifndef KILN_DRAW_SPRITES_TEXELS_H
 #define KILN_DRAW_SPRITES_TEXELS_H
 
-#include "draw/vector/simd.h"
+#include "base/lanes.h"
 
 enum { PLACE_BITS = 8, PLACE_ONE = 1 << PLACE_BITS, PLACE_STEPS = 255 };
 

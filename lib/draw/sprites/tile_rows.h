@@ -3,8 +3,8 @@
 #ifndef KILN_DRAW_SPRITES_TILE_ROWS_H
 #define KILN_DRAW_SPRITES_TILE_ROWS_H
 
+#include "base/lanes.h"
 #include "draw/sprites/tile.h"
-#include "draw/vector/simd.h"
 
 /* Holds the units of pixels that a sprite touches. */
 struct units {

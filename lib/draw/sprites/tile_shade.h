@@ -4,9 +4,9 @@
 #ifndef KILN_DRAW_SPRITES_TILE_SHADE_H
 #define KILN_DRAW_SPRITES_TILE_SHADE_H
 
+#include "base/real.h"
 #include "draw/sprites/sprite.h"
 #include "draw/sprites/texels.h"
-#include "draw/vector/real.h"
 #include "shared/billboard_place.h"
 
 /* Holds the data that all pixels of a sprite share. */

@@ -1,7 +1,7 @@
 /* This file rasterises triangles into the rows of a strip, a vector of pixels at a time, within the
  * bounds of each triangle and in all layers. */
+#include "base/lane_math.h"
 #include "draw/vector/mesh_rows.h"
-#include "draw/vector/ray_math.h"
 
 struct plane_row {
     float u, rest; /* factor of u; value at u = 0 */

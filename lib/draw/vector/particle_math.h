@@ -3,7 +3,7 @@
 #ifndef KILN_DRAW_VECTOR_PARTICLE_MATH_H
 #define KILN_DRAW_VECTOR_PARTICLE_MATH_H
 
-#include "draw/vector/transpose.h"
+#include "base/transpose.h"
 #include "shared/derived.h"
 
 /* Returns 1 / x as exact_rcp does. */

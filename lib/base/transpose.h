@@ -1,10 +1,10 @@
 /* This header transposes records in memory to vectors and back. The lanes of a vector are records,
  * and four consecutive floats of each record become four vectors. Before the transposition, vector
  * k of four holds the four floats of lane 4 p + k in its 128-bit part p. */
-#ifndef KILN_DRAW_VECTOR_TRANSPOSE_H
-#define KILN_DRAW_VECTOR_TRANSPOSE_H
+#ifndef KILN_BASE_TRANSPOSE_H
+#define KILN_BASE_TRANSPOSE_H
 
-#include "draw/vector/ray_math.h"
+#include "base/lane_math.h"
 
 /* The indices of lanes a, b, c and d of the 128-bit part p, for a shuffle of two vectors; 4 to 7
  * are lanes of the second vector. */
@@ -68,6 +68,31 @@ SIMD struct columns columns_transpose(vf a, vf b, vf c, vf d)
     return (struct columns){{VF_PICK(ab, cd, 0, 1, 4, 5), VF_PICK(ab, cd, 2, 3, 6, 7),
                              VF_PICK(ab_high, cd_high, 0, 1, 4, 5),
                              VF_PICK(ab_high, cd_high, 2, 3, 6, 7)}};
+}
+
+/* Columns of records that lay one after another have their lanes in another order than the records:
+ * lane 4 p + k is record p of the k-th quarter of them. */
+#if LANES == 16
+#define LANE_ORDER 0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15
+#define ROW_ORDER  LANE_ORDER
+#elif LANES == 8
+#define LANE_ORDER 0, 2, 4, 6, 1, 3, 5, 7
+#define ROW_ORDER  0, 4, 1, 5, 2, 6, 3, 7
+#else
+#define LANE_ORDER 0, 1, 2, 3
+#define ROW_ORDER  LANE_ORDER
+#endif
+
+/* Puts values of consecutive records into the order of columns' lanes. */
+SIMD vf lane_order(vf x)
+{
+    return __builtin_shufflevector(x, x, LANE_ORDER);
+}
+
+/* Puts lanes of columns into the order of the records. */
+SIMD vf row_order(vf x)
+{
+    return __builtin_shufflevector(x, x, ROW_ORDER);
 }
 
 /* Loads four floats of each lane's record. places: offsets of the records, in floats. */

@@ -1,13 +1,13 @@
 /* This header defines the types and operations of shared/real.h as vectors, so that the formulas in
  * shaders/shared that are written in them compute a vector of points. A file includes it before any
  * header that includes shared/real.h, which would otherwise define them as single numbers. */
-#ifndef KILN_DRAW_VECTOR_REAL_H
+#ifndef KILN_BASE_REAL_H
 #ifdef KILN_SHARED_REAL_H
-#error "shared/real.h was included before draw/vector/real.h"
+#error "shared/real.h was included before base/real.h"
 #endif
-#define KILN_DRAW_VECTOR_REAL_H
+#define KILN_BASE_REAL_H
 
-#include "draw/vector/ray_math.h"
+#include "base/lane_math.h"
 
 #define REAL_FN                     SIMD
 #define real                        vf
@@ -32,6 +32,11 @@
 #define real_select(holds, yes, no) vf_select(holds, yes, no)
 #define real_where(holds, x)        vf_where(holds, x)
 #define real_sign_one(x)            vf_sign_one(x)
+#define REAL_INT                    vi
+#define real_bits(x)                ((vi)(x))
+#define real_of_bits(x)             ((vf)(x))
+#define real_of(x)                  vf_of(x)
+#define real_int(x)                 vi_of(x)
 
 #define REAL3(x, y, z)               ((struct vf3){x, y, z})
 #define real3_all(v)                 ((struct vf3){vf_all((v).x), vf_all((v).y), vf_all((v).z)})

@@ -1,9 +1,9 @@
-/* This header defines vectors of floats for the drawing code on the host, by the level that a file
+/* This header defines vectors of floats for code on the host, by the level that a file
  * is compiled for: KILN_SIMD_LEVEL is 0 (any machine), 1 (SSE4.1), 2 (AVX2), 3 (AVX-512 with BW) or
  * 4 (NEON). Every operation gives the same bits at all levels; a port to another processor starts
  * from level 0. */
-#ifndef KILN_DRAW_VECTOR_SIMD_H
-#define KILN_DRAW_VECTOR_SIMD_H
+#ifndef KILN_BASE_LANES_H
+#define KILN_BASE_LANES_H
 
 #include <math.h>
 #include <stddef.h>

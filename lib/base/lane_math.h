@@ -1,10 +1,10 @@
-/* This header defines functions and 3D vectors for vectors of rays, on top of draw/vector/simd.h.
+/* This header defines functions and 3D vectors of vectors of floats, on top of base/lanes.h.
  * They use operations that IEEE 754 rounds in one way, not libm's approximations, so results are
  * the same bits at every level. shaders/shared/exact.h has such functions for single numbers. */
-#ifndef KILN_DRAW_VECTOR_RAY_MATH_H
-#define KILN_DRAW_VECTOR_RAY_MATH_H
+#ifndef KILN_BASE_LANE_MATH_H
+#define KILN_BASE_LANE_MATH_H
 
-#include "draw/vector/simd.h"
+#include "base/lanes.h"
 #include "shared/exact.h"
 
 #define RAY_PI 3.14159265f
