@@ -19,6 +19,11 @@
 /* Edge in pixels of the tiles in which the backdrop is antialiased. */
 #define KILN_EDGE_TILE 8
 
+/* The greatest difference between the surfaces of neighbouring pixels that is no edge. Light
+ * changes by this much a pixel in a penumbra four pixels wide; numbers of surfaces differ by more.
+ */
+#define KILN_EDGE_THRESHOLD 0.25f
+
 /* Edge in pixels of an atlas's cells. */
 #define KILN_ATLAS_CELL 128
 

@@ -25,8 +25,8 @@ struct kiln_backdrop_picture {
 struct kiln_backdrop_rows {
     /* Casts a ray through the centre of each pixel and writes colour, depth and surface. */
     void (*cast)(const struct kiln_backdrop_picture *picture, uint32_t y);
-    /* Casts KILN_EDGE_SAMPLES rays a pixel in tiles where neighbouring pixels show different
-     * surfaces. All rows must have been cast before. */
+    /* Casts KILN_EDGE_SAMPLES rays a pixel where it or a pixel around it has a neighbour that shows
+     * another surface. All rows must have been cast before. */
     void (*antialias)(const struct kiln_backdrop_picture *picture, uint32_t y);
 };
 

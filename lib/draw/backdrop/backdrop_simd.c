@@ -254,10 +254,6 @@ static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 
 /* ---- edges ----------------------------------------------------------------------------------- */
 
-/* The greatest difference of neighbouring pixels that is no edge. Light changes by this much a
- * pixel in a penumbra four pixels wide; numbers of surfaces differ by more. */
-static const float EDGE_THRESHOLD = 0.25f;
-
 static inline int32_t within(int32_t x, uint32_t size)
 {
     return x < 0 ? 0 : x < (int32_t)size ? x : (int32_t)size - 1;
@@ -268,75 +264,112 @@ static inline const float *surface_row(const struct kiln_backdrop_picture *p, in
     return p->surfaces + (size_t)within(y, p->height) * p->width;
 }
 
-/* Returns whether two neighbouring pixels in the tile, or just around it, show different
- * surfaces. */
-static bool has_edge(const struct kiln_backdrop_picture *p, int32_t x, int32_t y)
+/* Holds which pixels of a strip and beside it differ from the pixel on their left, and from that
+ * above. Both have a row and a column more on each side, whose pixels repeat those at the
+ * picture's border. */
+struct steps {
+    uint8_t left[TILE + 2][STRIP + 3], above[TILE + 3][STRIP + 2];
+};
+
+static inline uint8_t differ(float a, float b)
 {
-    float largest_step = 0.0f, above[TILE + 2] = {0};
-    for (int32_t j = -1; j <= TILE; j++) {
-        const float *from = surface_row(p, y + j);
-        float row[TILE + 2];
-        if (x > 0 && x + TILE < (int32_t)p->width) {
-            memcpy(row, from + x - 1, sizeof row);
-        } else {
-            for (int32_t i = 0; i < TILE + 2; i++)
-                row[i] = from[within(x - 1 + i, p->width)];
-        }
-        float steps[TILE + 2] = {0};
-        for (int i = 1; i < TILE + 2; i++)
-            steps[i] = fabsf(row[i] - row[i - 1]);
-        for (int i = 0; j >= 0 && i < TILE + 2; i++)
-            steps[i] = exact_max(steps[i], fabsf(row[i] - above[i]));
-        for (int i = 0; i < TILE + 2; i++)
-            largest_step = exact_max(largest_step, steps[i]);
-        memcpy(above, row, sizeof above);
-    }
-    return largest_step > EDGE_THRESHOLD;
+    return fabsf(a - b) > KILN_EDGE_THRESHOLD;
 }
 
-SIMD void store_tile(const struct kiln_backdrop_picture *p, const struct ray_color *color, vi pixel,
-                     vi inside)
+static void find_steps(const struct kiln_backdrop_picture *p, int32_t x, int32_t y,
+                       struct steps *steps)
+{
+    float rows[TILE + 4][STRIP + 4]; /* from (x - 2, y - 2) on */
+    for (int32_t j = 0; j < TILE + 4; j++) {
+        const float *from = surface_row(p, y - 2 + j);
+        if (x >= 2 && x + STRIP + 2 <= (int32_t)p->width) {
+            memcpy(rows[j], from + x - 2, sizeof rows[j]);
+            continue;
+        }
+        for (int32_t i = 0; i < STRIP + 4; i++)
+            rows[j][i] = from[within(x - 2 + i, p->width)];
+    }
+    for (int j = 0; j < TILE + 2; j++) {
+        for (int i = 0; i < STRIP + 3; i++)
+            steps->left[j][i] = differ(rows[j + 1][i + 1], rows[j + 1][i]);
+    }
+    for (int j = 0; j < TILE + 3; j++) {
+        for (int i = 0; i < STRIP + 2; i++)
+            steps->above[j][i] = differ(rows[j + 1][i + 1], rows[j][i + 1]);
+    }
+}
+
+/* Lists the pixels of a strip at edges: those that have a step between two neighbours among
+ * themselves and the eight pixels around them. Returns how many they are. at: columns, then rows.
+ */
+static int list_edges(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
+                      int32_t at[2][STRIP * TILE + LANES])
+{
+    struct steps steps;
+    find_steps(p, (int32_t)x, (int32_t)y, &steps);
+    const int columns = x + STRIP < p->width ? STRIP : (int)(p->width - x);
+    int count = 0;
+    for (int j = 0; j < (int)(rows_from(p, y) - y); j++) {
+        uint8_t beside[STRIP + 3], over[STRIP + 2];
+        for (int i = 0; i < STRIP + 3; i++)
+            beside[i] = steps.left[j][i] | steps.left[j + 1][i] | steps.left[j + 2][i];
+        for (int i = 0; i < STRIP + 2; i++)
+            over[i] = steps.above[j + 1][i] | steps.above[j + 2][i];
+        for (int i = 0; i < columns; i++) {
+            at[0][count] = (int32_t)x + i;
+            at[1][count] = (int32_t)y + j;
+            count += beside[i + 1] | beside[i + 2] | over[i] | over[i + 1] | over[i + 2];
+        }
+    }
+    return count;
+}
+
+SIMD void store_pixels(const struct kiln_backdrop_picture *p, const struct ray_color *color,
+                       vi pixel, int count)
 {
     _Alignas(64) float channels[4 * LANES];
     store_colors(channels, color, LANES);
-    for (int i = 0; i < LANES; i++) {
-        if (inside[i])
-            memcpy(p->color + 4 * (size_t)pixel[i], channels + 4 * (size_t)i, 4 * sizeof *channels);
-    }
+    for (int i = 0; i < count; i++)
+        memcpy(p->color + 4 * (size_t)pixel[i], channels + 4 * (size_t)i, 4 * sizeof *channels);
 }
 
-static void antialias_tile(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y)
+/* Casts the rays of up to LANES pixels at edges, and writes the mean of each. */
+SIMD void antialias_pixels(const struct kiln_backdrop_picture *p,
+                           const struct kiln_ray_objects *objects, vi column, vi row, int count)
 {
     const struct kiln_ray_frame *frame = p->frame;
-    const struct kiln_ray_objects objects = find_objects(p, x, y, TILE);
-    for (int32_t i = 0; i < TILE * TILE; i += LANES) {
-        vi number = vi_count() + i;
-        vi column = number % TILE + (int32_t)x, row = number / TILE + (int32_t)y;
-        vi inside = (column < (int32_t)p->width) & (row < (int32_t)p->height);
-        if (!any(inside))
-            continue;
-        vi pixel = row * (int32_t)p->width + column, zero = vi_all(0);
-        const struct eye_rays center = rays_through_pixels(frame, vi_select(inside, column, zero),
-                                                           vi_select(inside, row, zero));
-        const vf part = vf_all(1.0f / (float)KILN_EDGE_SAMPLES);
-        struct edge_sum sum = edge_sum_none();
-        for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
-            const struct ray_place place = sample_place(frame, &center.place, s);
-            const struct eye_rays eye = rays_at(frame, &place);
-            const struct shaded_rays shaded = shade_eye_rays(frame, &objects, &eye);
-            sum =
-                edge_add(sum, shaded.color.rgb, shaded.color.alpha, part, frame->view->exposure.x);
-        }
-        const struct ray_color mean = {edge_mean(sum), sum.alpha};
-        store_tile(p, &mean, pixel, inside);
+    const struct eye_rays center = rays_through_pixels(frame, column, row);
+    const vf part = vf_all(1.0f / (float)KILN_EDGE_SAMPLES);
+    struct edge_sum sum = edge_sum_none();
+    for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
+        const struct ray_place place = sample_place(frame, &center.place, s);
+        const struct eye_rays eye = rays_at(frame, &place);
+        const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye);
+        sum = edge_add(sum, shaded.color.rgb, shaded.color.alpha, part, frame->view->exposure.x);
     }
+    const struct ray_color mean = {edge_mean(sum), sum.alpha};
+    store_pixels(p, &mean, row * (int32_t)p->width + column, count);
 }
 
 static void antialias_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 {
-    for (uint32_t x = 0; x < p->width; x += TILE) {
-        if (has_edge(p, (int32_t)x, (int32_t)y))
-            antialias_tile(p, x, y);
+    int32_t at[2][STRIP * TILE + LANES];
+    for (uint32_t x = 0; x < p->width; x += STRIP) {
+        const int count = list_edges(p, x, y, at);
+        if (count == 0)
+            continue;
+        const struct kiln_ray_objects objects = find_objects(p, x, y, STRIP);
+        for (int i = 1; i < LANES; i++) { /* the last vector repeats its last pixel */
+            at[0][count - 1 + i] = at[0][count - 1];
+            at[1][count - 1 + i] = at[1][count - 1];
+        }
+        for (int i = 0; i < count; i += LANES) {
+            const int left = count - i < LANES ? count - i : LANES;
+            vi column, row;
+            memcpy(&column, at[0] + i, sizeof column);
+            memcpy(&row, at[1] + i, sizeof row);
+            antialias_pixels(p, &objects, column, row, left);
+        }
     }
 }
 

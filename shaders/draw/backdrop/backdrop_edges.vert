@@ -5,10 +5,6 @@
 
 layout(binding = 0) uniform sampler2D surfaces;
 
-/* The greatest change from a pixel to the next that is no edge. It allows the sun's light to change
- * over a penumbra four pixels wide; numbers of different surfaces differ by more. */
-const float EDGE_THRESHOLD = 0.25;
-
 void main()
 {
     ivec2 size = textureSize(surfaces, 0);
@@ -32,6 +28,6 @@ void main()
      * inwards. */
     vec2 center = min(vec2(first) + 0.5 * float(KILN_EDGE_TILE), vec2(size) - 0.5);
     vec2 ndc = center / vec2(size) * 2.0 - 1.0;
-    gl_Position = largest_step > EDGE_THRESHOLD ? vec4(ndc, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    gl_Position = largest_step > KILN_EDGE_THRESHOLD ? vec4(ndc, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = float(KILN_EDGE_TILE);
 }
