@@ -167,6 +167,9 @@ const struct kiln_option kiln_options_look[] = {
           "How meshes look. All of them are instances of one mesh from a file."),
     VALUE(LOOK, "stretch", stretch, KILN_SECONDS, 0, 10, BOTH, "0 s",
           "The billboard is longer along the velocity by the speed times this. 0 keeps it square."),
+    BOOLEAN(LOOK, "stretch_dims", stretch_dims, "false",
+            "true spreads the light of a billboard over its stretch, as the shutter of a camera "
+            "does: it is fainter by the factor by which it is longer."),
     RANGE(LOOK, "rotation", rotation, KILN_ANGLE, KILN_DEG(-3600), KILN_DEG(3600), BOTH,
           "[0 deg, 360 deg]",
           "Angle by which a particle is turned, chosen at random for each particle. `spin` adds to "

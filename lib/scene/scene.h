@@ -216,6 +216,7 @@ struct kiln_look {
     struct kiln_look_mesh mesh;
     /* s: a billboard is longer along the velocity by speed * stretch; 0: square */
     struct kiln_value stretch;
+    bool stretch_dims;                   /* of a billboard: it is as much fainter as longer */
     struct kiln_range rotation;          /* rad at birth */
     struct kiln_range spin;              /* rad/s; the sign is random for each particle */
     struct kiln_value cycles;            /* passes through the atlas in one life */

@@ -90,6 +90,13 @@ REAL_FN S(billboard_edge) billboard_stretched(uint facing, S(billboard_edge) sti
     return edge;
 }
 
+/* Returns the factor by which a stretched billboard is fainter where the stretch spreads its light:
+ * the sum of its light stays that of the billboard at rest. */
+REAL_FN real billboard_dimming(real still_half_length, real half_length)
+{
+    return still_half_length / real_max(half_length, real_all(1e-12f));
+}
+
 /* Returns -1 for a billboard that spins backwards, or 1. Half of the particles spin backwards, and
  * are mirrored as well. unit: random, 0 to 1. */
 REAL_FN real billboard_side(real unit)

@@ -41,7 +41,8 @@
 struct kiln_draw_look {
     S(kiln_derived_params) derived; /* parameters for the progress of life */
     uint4 flags; /* additive; random start; literal soft formula (equation 3.3); textures */
-    uint4 form;  /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame */
+    uint4 form;  /* LOOK_* shape; LOOK_* facing; points are round; lines reach back a frame, or */
+                 /* a stretch dims billboards */
     uint4 turn;  /* 1: collisions turn it; offset of its slots to those of spins; pattern of */
                  /* spheres, LOOK_*; 1: a mesh is oriented by its spin */
     uint4 textures[KILN_MAX_TEXTURES]; /* first layer; cells; KILN_CELL_*; bits of the float that */

@@ -43,8 +43,10 @@ static double sum_of(const struct kiln_image *image, int channel)
     return sum;
 }
 
-/* Draws a billboard at places that differ by parts of a pixel. The texture is opaque everywhere. */
-static void check_small(struct kiln_device *device, const struct small *s, bool all_shapes)
+/* Draws a billboard at places that differ by parts of a pixel. The texture is opaque everywhere.
+ * dims: the stretch spreads the light of a square of its width. */
+static void check_small(struct kiln_device *device, const struct small *s, bool dims,
+                        bool all_shapes)
 {
     const double pixel_m = 2 * DISTANCE_M * tan(acos(-1) / 6) / HEIGHT;
     const double turn = s->angle_deg * acos(-1) / 180, longer_px = s->length_px - s->width_px;
@@ -53,11 +55,12 @@ static void check_small(struct kiln_device *device, const struct small *s, bool 
     snprintf(angle, sizeof angle, "systems.a.look.rotation=%.9g deg", s->angle_deg);
     snprintf(facing, sizeof facing, "systems.a.look.facing=%s", s->facing);
     snprintf(stretch, sizeof stretch, "systems.a.look.stretch=%.9g s", longer_px * pixel_m);
-    const char *overrides[] = {size, angle, facing, stretch, "systems.b.enabled=false"};
+    const char *spreads = dims ? "systems.a.look.stretch_dims=true" : "seed=1";
+    const char *overrides[] = {size, angle, facing, stretch, spreads, "systems.b.enabled=false"};
     struct drawing d;
-    drawing_init(&d, device, SCENE, overrides, all_shapes ? 4 : 5);
+    drawing_init(&d, device, SCENE, overrides, all_shapes ? 5 : 6);
     const float3 velocity = {(float)-sin(turn), (float)cos(turn), 0.0f}; /* 1 m/s */
-    const double want = s->width_px * s->length_px * ALPHA;
+    const double want = s->width_px * (dims ? s->width_px : s->length_px) * ALPHA;
     for (int i = 0; i < PLACES * PLACES; i++) {
         const double x = (i % PLACES + 0.13) / PLACES, y = (i / PLACES + 0.29) / PLACES;
         const float3 at = {(float)(x * pixel_m), (float)(y * pixel_m), 0.0f};
@@ -86,8 +89,21 @@ static void small_billboards_shed_a_steady_light(void **state)
         {1.3, 14, 71, "velocity", 0.03},    {0.4, 14, 0, "axial", 0.02},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        check_small(*state, &all[i], true);
-        check_small(*state, &all[i], false);
+        check_small(*state, &all[i], false, true);
+        check_small(*state, &all[i], false, false);
+    }
+}
+
+static void a_stretch_that_dims_keeps_the_light(void **state)
+{
+    static const struct small all[] = {
+        {2.7, 2.7, 0, "screen", 0.01},    {0.33, 14, 0, "screen", 0.01},
+        {1.3, 14, 71, "velocity", 0.03},  {0.4, 14, 0, "axial", 0.02},
+        {0.4, 14, 20, "viewplane", 0.03},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        check_small(*state, &all[i], true, true);
+        check_small(*state, &all[i], true, false);
     }
 }
 
@@ -121,6 +137,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(small_billboards_shed_a_steady_light),
+        test_on_device(a_stretch_that_dims_keeps_the_light),
         test_on_device(thin_slivers_are_faint),
     };
     static const struct {

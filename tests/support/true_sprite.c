@@ -364,6 +364,8 @@ static void true_turn(const struct true_scene *t, struct true_subject *p, struct
     p->axes[1] = upwards;
     s->right = dvec_scale(p->axes[0], p->half_size);
     s->up = dvec_scale(p->axes[1], p->half_size + longer);
+    if (p->look->form.x == 0 && p->look->form.w != 0)
+        s->opacity *= p->half_size / (p->half_size + longer);
 }
 
 static void true_read(const struct true_scene *t, uint32_t entry,

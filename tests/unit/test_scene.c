@@ -160,6 +160,7 @@ static void every_key_of_looks_and_shapes_arrives(void **state)
     assert_int_equal(look->columns, 4);
     assert_int_equal(look->rows, 16);
     assert_true(look->stretch.constant == 0.02f && look->spin.max.constant == 1);
+    assert_true(look->stretch_dims);
     assert_int_equal(look->shape, KILN_SHAPE_LINE);
     assert_int_equal(look->facing, KILN_FACING_AXIAL);
     assert_true(look->axis.y.count == 2 && look->axis.z.constant == -1);

@@ -217,7 +217,9 @@ static struct kiln_draw_look make_look(const struct kiln_scene *scene, uint32_t 
         .derived = kiln_scene_derived(scene, index),
         .flags = {look->blend == KILN_BLEND_ADD, look->random_start,
                   look->soft_formula == KILN_SOFT_LITERAL, textures->count},
-        .form = {look->shape, look->facing, look->point_round, look->line_to == KILN_LINE_PREVIOUS},
+        .form = {look->shape, look->facing, look->point_round,
+                 look->shape == KILN_SHAPE_LINE ? look->line_to == KILN_LINE_PREVIOUS
+                                                : look->stretch_dims},
     };
     const bool turns = kiln_scene_system_spins(scene, index);
     made.turn = (uint4){turns, spins_before(scene, index), kiln_look_pattern(look),

@@ -47,6 +47,8 @@ static void turn_billboards(struct sprite_lanes *p)
                                    vf3_dot(moving, plane.right), vf3_dot(moving, plane.up));
     }
     p->half_length = edge.half_length;
+    if (p->look->form.x == 0 && p->look->form.w != 0)
+        p->words[WORD_OF(opacity)] *= billboard_dimming(p->half_size, edge.half_length);
     p->plane = billboard_rotated(plane, edge, side);
 }
 

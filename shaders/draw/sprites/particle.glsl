@@ -177,6 +177,8 @@ void make_billboard(uint entry)
                                dot(moving, plane.up));
     float pixels_per_m = view.frustum.w / (2.0 * view.frustum.y * max(depth, 1e-3));
     float opacity = shape.z;
+    if (form.x == 0u && form.w != 0u)
+        opacity *= billboard_dimming(half_size, edge.half_length);
     billboard_size size = billboard_size(half_size, edge.half_length, 1.0);
     if (view.clock.w < 1.0 && form.x == 0u) /* a billboard in a picture smaller than the frame */
         size = billboard_widened(size.half_width, size.half_length, pixels_per_m);
