@@ -514,7 +514,7 @@ bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln
         inputs = (struct kiln_composite_inputs){
             .scene = kiln_shutter_image(s->shutter, KILN_SHUTTER_COMPOSED)};
     inputs.frame = frame;
-    inputs.time_s = kiln_scene_time(s->scene, kiln_scene_frame_step(s->scene, frame));
+    inputs.time_s = kiln_scene_instant_time(s->scene, kiln_scene_instant(s->scene, frame, 0));
     if (s->bloom) {
         const struct kiln_bloom_inputs light = {inputs.scene, inputs.particles, inputs.fire,
                                                 inputs.time_s};

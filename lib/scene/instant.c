@@ -97,10 +97,11 @@ static struct kiln_instant time_of(const struct kiln_scene *scene, uint32_t fram
     const double near_a_step = 1e-6;
     const struct kiln_camera *camera = &scene->camera;
     const uint32_t first = kiln_scene_frame_step(scene, frame);
-    if (camera->shutter_samples == 1)
-        return kiln_instant_at_step(first);
-    const double open_steps = scene->steps_per_frame * camera->shutter_angle / KILN_DEG(360);
-    const double after = moment * open_steps / kiln_scene_moment_count(scene);
+    double after = scene->steps_per_frame * camera->shutter_phase / KILN_DEG(360);
+    if (camera->shutter_samples > 1) {
+        const double open_steps = scene->steps_per_frame * camera->shutter_angle / KILN_DEG(360);
+        after += moment * open_steps / kiln_scene_moment_count(scene);
+    }
     /* A moment that only rounding keeps from the end of a step is at its end. */
     const uint32_t whole = (uint32_t)(after + near_a_step);
     if (after - whole <= near_a_step)

@@ -23,9 +23,10 @@ static inline struct kiln_instant kiln_instant_at_step(uint32_t step)
 uint32_t kiln_scene_moment_count(const struct kiln_scene *scene);
 
 /* Returns one of a frame's moments: 0 to kiln_scene_moment_count() - 1. The moments lie evenly in
- * the time that the shutter is open, which starts at the frame's own time. No moment is before the
- * one with the number below it. The places in the pixels and on the lens are the same in all
- * frames; the last moment is seen through the middle of the lens, as a pinhole would see it. */
+ * the time that the shutter is open, which starts at the frame's own time or by the shutter's phase
+ * later, and ends before the next frame. No moment is before the one with the number below it. The
+ * places in the pixels and on the lens are the same in all frames; the last moment is seen through
+ * the middle of the lens, as a pinhole would see it. */
 struct kiln_instant kiln_scene_instant(const struct kiln_scene *scene, uint32_t frame,
                                        uint32_t moment);
 

@@ -10,6 +10,11 @@ static const struct kiln_option shutter[] = {
     {ROW(ORDER, "angle", number, AT(shutter_angle), "180 deg",
          "Shutter angle: 360 deg keeps the shutter open for the whole time of a frame."),
      LIMITS(KILN_ANGLE, KILN_DEG(1), KILN_DEG(360))},
+    {ROW(ORDER, "phase", number, AT(shutter_phase), "0 deg",
+         "Part of a frame's time, of 360 deg, after which the first moment lies: of a sharp "
+         "picture, its only one. Clips of several phases are the frames of a slow motion of the "
+         "same simulation."),
+     LIMITS(KILN_ANGLE, 0, KILN_DEG(360))},
     END,
 };
 

@@ -401,6 +401,7 @@ struct kiln_camera {
     struct kiln_value focus;             /* m; KILN_VALUE_BY_WORD: the target's distance */
     uint32_t shutter_samples;            /* moments of a frame that are averaged */
     double shutter_angle;                /* rad; with a full turn, the shutter is always open */
+    double shutter_phase;                /* rad from the frame's own time to the first moment */
 };
 
 /* Returns whether particles collide with the floor: it is visible and collides. */

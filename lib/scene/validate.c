@@ -64,7 +64,9 @@ static bool settle_clock(struct kiln_reader *reader, const struct kiln_node *roo
 
     double warmup = scene->warmup_s * (double)scene->rate.num / (double)scene->rate.den;
     double steps = floor(warmup + 0.5) + (double)(scene->frames - 1) * scene->steps_per_frame +
-                   (kiln_scene_moment_count(scene) > 1 ? scene->steps_per_frame : 0);
+                   (kiln_scene_moment_count(scene) > 1 || scene->camera.shutter_phase > 0
+                        ? scene->steps_per_frame
+                        : 0);
     if (steps > (double)KILN_MAX_STEPS)
         return kiln_reader_error_at(
             reader, root, "output.frames",
@@ -448,6 +450,13 @@ static bool check_camera(struct kiln_reader *reader, const struct kiln_node *roo
     if (!at_all_keys(scene, ends, 2, are_apart))
         return kiln_reader_error_at(reader, root, "camera.target",
                                     "must not be the position of the camera");
+    const double opens = scene->camera.shutter_phase;
+    const double closes =
+        opens + (scene->camera.shutter_samples > 1 ? scene->camera.shutter_angle : 0);
+    if (closes > KILN_DEG(360) * (1 + 1e-9))
+        return kiln_reader_error_at(reader, root, "camera.shutter.phase",
+                                    "phase and angle together are more than the 360 deg of a "
+                                    "frame");
     if (kiln_scene_value_max(scene, &scene->camera.aperture) > 0.0f &&
         kiln_scene_moment_count(scene) == 1)
         return kiln_reader_error_at(reader, root, "camera.aperture",

@@ -120,6 +120,34 @@ static void a_frame_is_the_mean_of_its_moments(void **state)
     check(*state, "bloom: {kind: pyramid}, compose: alpha");
 }
 
+/* Frame 12 of a clip of 30 frames a second, three eighths of a frame later, is frame 99 of one of
+ * 240. */
+static void a_phase_shows_a_later_moment(void **state)
+{
+    char folder[] = "/tmp/kiln-shutter-XXXXXX", path[3][64];
+    assert_non_null(mkdtemp(folder));
+    static const char *const names[] = {"phase", "moment", "frame"};
+    for (int i = 0; i < 3; i++)
+        snprintf(path[i], sizeof path[i], "%s/%s.exr", folder, names[i]);
+    const char *post = "bloom: {kind: gaussian}";
+    render(*state, "30", "240", "shutter: {phase: 135 deg}", post, path[0], FRAME, FRAME);
+    render(*state, "240", "240", "roll: 0 deg", post, path[1], 8 * FRAME + 3, 8 * FRAME + 3);
+    render(*state, "30", "240", "roll: 0 deg", post, path[2], FRAME, FRAME);
+    const size_t bytes = WIDTH * HEIGHT * 4 * sizeof(float);
+    for (size_t l = 0; l < sizeof LAYERS / sizeof *LAYERS; l++) {
+        struct kiln_asset_image *images[3];
+        for (int i = 0; i < 3; i++)
+            images[i] = load_layer(path[i], LAYERS[l]);
+        assert_memory_equal(images[0]->pixels, images[1]->pixels, bytes);
+        assert_memory_not_equal(images[0]->pixels, images[2]->pixels, bytes);
+        for (int i = 0; i < 3; i++)
+            kiln_asset_image_destroy(&images[i]);
+    }
+    for (int i = 0; i < 3; i++)
+        unlink(path[i]);
+    rmdir(folder);
+}
+
 static void moments_lie_where_the_shutter_is_open(void **state)
 {
     (void)state;
@@ -146,6 +174,28 @@ static void moments_lie_where_the_shutter_is_open(void **state)
         assert_true(fabs((double)kiln_scene_instant_time(scene, instant) - time_s) < 1e-7);
     }
     assert_int_equal(kiln_scene_last_step(scene, 3), 7);
+    kiln_scene_destroy(&scene);
+
+    /* A phase of an eighth of a frame is a quarter of a step here. */
+    scene = load_scene("kiln: 1\noutput: {fps: 30}\ncamera: {shutter: {phase: 45 deg}}\n", NULL);
+    assert_true(kiln_scene_has_instants_between(scene));
+    const struct kiln_instant sharp = kiln_scene_instant(scene, 3, 0);
+    assert_true(sharp.step == 7 && sharp.back == 0.75f);
+    kiln_scene_destroy(&scene);
+}
+
+static void a_frame_ends_before_the_next_one(void **state)
+{
+    (void)state;
+    struct kiln_error error = {0};
+    static const char text[] = "kiln: 1\ncamera: {shutter: {phase: 200 deg, samples: 2}}\n";
+    assert_null(try_scene(text, NULL, &error));
+    assert_string_equal(error.message,
+                        SCENE_NAME ":2:27: camera.shutter.phase: phase and angle together are "
+                                   "more than the 360 deg of a frame");
+    /* A sharp picture has no angle. */
+    struct kiln_scene *scene = load_scene("kiln: 1\ncamera: {shutter: {phase: 360 deg}}\n", NULL);
+    assert_int_equal(kiln_scene_instant(scene, 3, 0).step, kiln_scene_frame_step(scene, 4));
     kiln_scene_destroy(&scene);
 }
 
@@ -247,7 +297,9 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(a_frame_is_the_mean_of_its_moments),
+        test_on_device(a_phase_shows_a_later_moment),
         test_on_device(moments_lie_where_the_shutter_is_open),
+        test_on_device(a_frame_ends_before_the_next_one),
         test_on_device(every_way_draws_the_same),
         test_on_device(few_steps_are_enough),
     };
