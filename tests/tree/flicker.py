@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Tests tools/flicker with frames that are made up here: flicker.py SOURCE.
+"""Tests tools/flicker with frames that are made up here, and with scenes: flicker.py SOURCE KILN.
 
 What moves (an edge, a field of drops, one fast drop) must not count as flicker. A pixel that blinks, a light
-that is on for one frame, and noise must.
+that is on for one frame, and noise must. Discs that turn and cross each other must not, in slow motion; discs
+that live for less than a frame must.
 """
 import pathlib
 import subprocess
@@ -58,14 +59,38 @@ def noise():
     return numpy.random.default_rng(5).uniform(0, 255, (FRAMES, HEIGHT // 2, WIDTH // 2))
 
 
+SCENE = """kiln: 1
+output: {{size: [320, 180], fps: 30, frames: 24}}
+simulation: {{rate: 60, warmup: 1 s}}
+camera: {{position: [0, 0, 6], target: [0, 0, 0], roll: {{keys: {{0 s: 0 deg, 1 s: 200 deg}}}}}}
+backdrop: {{floor: none, sky: {{top: 0.05, horizon: 0.05}}}}
+systems:
+  discs:
+    emit: {{rate: {rate}, life: {life}, speed: [0, 1.5], from: {{sphere: {{radius: 2 m, outward: true}}}}}}
+    look: {{shape: point, point: {{size: 5 px}}, color: 3, fade: {{in: 0, out: 0}}, soft: 0}}
+"""
+
+
+def measure_scene(source, kiln, rate, life):
+    """Returns spikes, moving, smooth and flicker of discs, as shares."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, "discs.yaml")
+        path.write_text(SCENE.format(rate=rate, life=life))
+        return row_of(source, path, "--kiln", kiln, "--size", "320x180", "--frames", "5")
+
+
+def row_of(source, *arguments):
+    said = subprocess.run([source / "tools/flicker", *arguments], check=True, capture_output=True,
+                          text=True).stdout.splitlines()
+    return [float(cell.strip(" %")) / 100 for cell in said[-1].split("|")[4:8]]
+
+
 def measure(source, frames, *options):
-    """Returns spikes, moving and flicker, as shares."""
+    """Returns spikes, moving, smooth and flicker, as shares."""
     with tempfile.TemporaryDirectory() as folder:
         for t, frame in enumerate(frames):
             Image.fromarray(frame.astype(numpy.uint8)).convert("RGB").save(f"{folder}/{t:03d}.png")
-        said = subprocess.run([source / "tools/flicker", folder, *options], check=True, capture_output=True,
-                              text=True).stdout.splitlines()
-    return [float(cell.strip(" %")) / 100 for cell in said[-1].split("|")[4:7]]
+        return row_of(source, folder, *options)
 
 
 def main():
@@ -75,24 +100,28 @@ def main():
     def expect(name, measured, valid):
         nonlocal failed
         if not valid:
-            print(f"{name}: spikes {measured[0]:.5f}, moving {measured[1]:.5f}, flicker {measured[2]:.5f}")
+            print(name, "spikes, moving, smooth, flicker", *(f"{share:.5f}" for share in measured))
             failed = True
 
     for name, frames in (("still", still()), ("edge", edge())):
         measured = measure(source, frames)
-        expect(name, measured, measured == [0, 0, 0])
+        expect(name, measured, measured == [0, 0, 0, 0])
     for name, frames in (("one drop", drops(1, 9)), ("200 drops", drops(200, 9))):
         measured = measure(source, frames)
-        expect(name, measured, measured[0] > 0 and measured[2] < 0.1 * measured[0])
+        expect(name, measured, measured[0] > 0 and measured[3] < 0.1 * measured[0])
     measured = measure(source, blinking(60))
     share = 60 * 4 / PIXELS
-    expect("blinking", measured, abs(measured[0] - share) < 1e-5 and measured[2] > 0.95 * share)
+    expect("blinking", measured, abs(measured[0] - share) < 1e-5 and measured[3] > 0.95 * share)
     measured = measure(source, blinking(60), "--threshold", "100")
-    expect("blinking, below the threshold", measured, measured == [0, 0, 0])
+    expect("blinking, below the threshold", measured, measured == [0, 0, 0, 0])
     measured = measure(source, flash())
-    expect("flash", measured, abs(measured[0] - 0.1) < 1e-5 and measured[2] > 0.099)
+    expect("flash", measured, abs(measured[0] - 0.1) < 1e-5 and measured[3] > 0.099)
     measured = measure(source, noise())
-    expect("noise", measured, measured[0] > 0.3 and measured[2] > 0.95 * measured[0])
+    expect("noise", measured, measured[0] > 0.3 and measured[3] > 0.95 * measured[0])
+    measured = measure_scene(source, sys.argv[2], 100, "3 s")
+    expect("discs that turn", measured, measured[2] > 0.002 and measured[3] < 0.1 * measured[2])
+    measured = measure_scene(source, sys.argv[2], 3000, "20 ms")
+    expect("discs that flash", measured, measured[3] > 0.5 * measured[0] > 0.002)
     return failed
 
 
