@@ -1,18 +1,17 @@
 /* This file draws the silhouettes of particles that are meshes, as the sun sees them, into tiles of
- * an atlas. It rasterises triangles into a bit mask of 4 x 4 bits a texel, in rows of words. A bit
- * is set if its centre lies in a triangle, whichever way the triangle faces. A texel is the part of
- * its bits that are set; texels of coarser levels are means. */
+ * an atlas. It rasterises triangles into a bit mask. A texel is the part of its bits that are set;
+ * texels of coarser levels are means. */
 #include "draw/light/instance_tiles.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "draw/light/bit_mask.h"
 #include "shared/exact.h"
 
 enum {
-    SUB = 4, /* bits of a texel, across and down */
-    BITS = KILN_INSTANCE_LARGEST_TILE * SUB,
+    BITS = KILN_INSTANCE_LARGEST_TILE * KILN_BIT_CELL,
     WORDS = BITS / 64,
     AT_A_TIME = 16,
 };
@@ -80,59 +79,14 @@ const float *kiln_instance_tiles_texels(const struct kiln_instance_tiles *tiles)
     return tiles->texels;
 }
 
-/* ---- bits ------------------------------------------------------------------------------------ */
-
-/* Returns the first bit whose centre is at or after x. */
-static int32_t bit_from(float x, int32_t bits)
-{
-    const float at = x - 0.5f;
-    if (!(at > 0.0f))
-        return 0;
-    const int32_t whole = at < (float)bits ? (int32_t)at : bits;
-    return whole + ((float)whole < at && whole < bits ? 1 : 0);
-}
-
-static void set_bits(uint64_t *row, int32_t from, int32_t to)
-{
-    for (int32_t word = from / 64; from < to; word++) {
-        const int32_t end = (word + 1) * 64 < to ? (word + 1) * 64 : to;
-        const int32_t count = end - from;
-        row[word] |= (count == 64 ? ~UINT64_C(0) : ((UINT64_C(1) << count) - 1)) << from % 64;
-        from = end;
-    }
-}
-
-static void set_triangle(uint64_t (*rows)[WORDS], int32_t bits, const float p[3][2])
-{
-    const float low = exact_min(p[0][1], exact_min(p[1][1], p[2][1]));
-    const float high = exact_max(p[0][1], exact_max(p[1][1], p[2][1]));
-    float slopes[3];
-    for (int k = 0; k < 3; k++) {
-        const float *a = p[k], *b = p[(k + 1) % 3];
-        slopes[k] = b[1] != a[1] ? (b[0] - a[0]) / (b[1] - a[1]) : 0.0f;
-    }
-    for (int32_t y = bit_from(low, bits), end = bit_from(high, bits); y < end; y++) {
-        const float middle = (float)y + 0.5f;
-        float from = (float)bits, to = 0.0f;
-        for (int k = 0; k < 3; k++) {
-            const float *a = p[k], *b = p[(k + 1) % 3];
-            if ((a[1] <= middle) == (b[1] <= middle))
-                continue;
-            const float x = a[0] + (middle - a[1]) * slopes[k];
-            from = exact_min(from, x);
-            to = exact_max(to, x);
-        }
-        set_bits(rows[y], bit_from(from, bits), bit_from(to, bits));
-    }
-}
+/* ---- silhouettes ----------------------------------------------------------------------------- */
 
 static void set_mesh(const struct kiln_instance_tiles *tiles, struct kiln_silhouette *place,
-                     uint64_t (*rows)[WORDS])
+                     const struct kiln_bit_mask *mask)
 {
     const struct kiln_instance_mesh *mesh = &tiles->meshes->meshes[place->system];
     const float4(*corners)[2] = (const float4(*)[2])tiles->meshes->corners + mesh->first;
-    const int32_t bits = (int32_t)tiles->edge * SUB;
-    const float half = 0.5f * (float)bits;
+    const float half = 0.5f * (float)mask->edge;
     for (int c = 0; c < 2; c++) {
         place->low[c] = 1.0f;
         place->high[c] = -1.0f;
@@ -149,21 +103,11 @@ static void set_mesh(const struct kiln_instance_tiles *tiles, struct kiln_silhou
                 p[k][c] = half + half * part;
             }
         }
-        set_triangle(rows, bits, (const float(*)[2])p);
+        kiln_bit_mask_add(mask, (const float(*)[2])p);
     }
 }
 
 /* ---- texels ---------------------------------------------------------------------------------- */
-
-static float texel_of(uint64_t (*rows)[WORDS], uint32_t x, uint32_t y)
-{
-    int count = 0;
-    for (uint32_t i = 0; i < SUB; i++) {
-        const uint64_t word = rows[y * SUB + i][x * SUB / 64];
-        count += __builtin_popcountll(word >> x * SUB % 64 & ((1 << SUB) - 1));
-    }
-    return (float)count / (SUB * SUB);
-}
 
 static float mean_of(const float *texels, size_t pitch)
 {
@@ -171,7 +115,8 @@ static float mean_of(const float *texels, size_t pitch)
 }
 
 /* Writes a tile's texels at all levels. Returns the part of the tile that is covered. */
-static float write_tile(struct kiln_instance_tiles *tiles, uint32_t number, uint64_t (*rows)[WORDS])
+static float write_tile(struct kiln_instance_tiles *tiles, uint32_t number,
+                        const struct kiln_bit_mask *mask)
 {
     const struct kiln_instance_tile tile = kiln_instance_tile_at(tiles, number);
     const float *finer = NULL;
@@ -183,7 +128,7 @@ static float write_tile(struct kiln_instance_tiles *tiles, uint32_t number, uint
         for (uint32_t y = 0; y < edge; y++) {
             for (uint32_t x = 0; x < edge; x++) {
                 const float *of = finer ? finer + (size_t)4 * pitch * y + (size_t)2 * x : NULL;
-                last = of ? mean_of(of, (size_t)2 * pitch) : texel_of(rows, x, y);
+                last = of ? mean_of(of, (size_t)2 * pitch) : kiln_bit_mask_part(mask, x, y);
                 texels[(size_t)y * pitch + x] = last;
             }
         }
@@ -197,10 +142,11 @@ static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
     (void)worker;
     struct kiln_instance_tiles *tiles = context;
     uint64_t rows[BITS][WORDS];
+    const struct kiln_bit_mask mask = {rows[0], WORDS, (int32_t)tiles->edge * KILN_BIT_CELL};
     for (size_t i = begin; i < end; i++) {
-        memset(rows, 0, (size_t)tiles->edge * SUB * sizeof *rows);
-        set_mesh(tiles, &tiles->places[i], rows);
-        tiles->places[i].covered = write_tile(tiles, (uint32_t)i, rows);
+        memset(rows, 0, (size_t)mask.edge * sizeof *rows);
+        set_mesh(tiles, &tiles->places[i], &mask);
+        tiles->places[i].covered = write_tile(tiles, (uint32_t)i, &mask);
     }
 }
 
