@@ -14,6 +14,7 @@ set(kiln_test_times
     "gpu.shadows 15 2"
     "gpu.lamps 25"
     "gpu.lamp_kinds 10"
+    "gpu.solid_lamps 15"
     "gpu.lens 10"
     "gpu.bloom 10"
     "gpu.shutter 10"

@@ -257,8 +257,8 @@ static const struct kiln_option object = {.name = "object",
               "Radius of the light. Near the light, it keeps the brightness finite; it softens "   \
               "shadows."),                                                                         \
         BOOLEAN(LOOK, "shadow", shadow, "true",                                                    \
-                "Smoke dims the light, and objects of the backdrop hide it, except those that "    \
-                "contain its centre.")
+                "Smoke dims the light, and objects of the backdrop and solid particles hide it, "  \
+                "except those that contain its centre.")
 
 #define LIGHT_DIRECTION                                                                            \
     VECTOR(LOOK, "direction", direction, KILN_PLAIN, -FAR, FAR, TIME, "[0, -1, 0]",                \
@@ -295,8 +295,9 @@ static const struct kiln_option rectangle[] = {
           "Radiance of the rectangle's front. From afar and from in front, it gives as much light "
           "as a point light of this colour times the area in m^2, divided by pi."),
     BOOLEAN(LOOK, "shadow", shadow, "true",
-            "Smoke dims the light, and objects of the backdrop hide it, except those that contain "
-            "its centre or are wholly behind it. Edges of shadows are as soft as those of a ball "
+            "Smoke dims the light, and objects of the backdrop and solid particles hide it, except "
+            "those that contain its centre or are wholly behind it. Edges of shadows are as soft "
+            "as those of a ball "
             "whose outline has the area of the rectangle."),
     END,
 };

@@ -214,8 +214,9 @@ const struct kiln_option kiln_options_look[] = {
     INTEGER(LOOK, "lights", light_count, 1, KILN_MAX_FIRE_LIGHTS, "4",
             "Number of moving lights that shed the light of the system, grouped by the ages of its "
             "particles. All systems of a scene have up to 16 together."),
-    BOOLEAN(LOOK, "light_shadow", light_shadow, "true",
-            "Smoke dims the light of look.light, and objects of the backdrop hide it, except those "
-            "that contain a light's centre."),
+    BOOLEAN(
+        LOOK, "light_shadow", light_shadow, "true",
+        "Smoke dims the light of look.light, and objects of the backdrop and solid particles hide "
+        "it, except those that contain a light's centre."),
     END,
 };

@@ -26,7 +26,8 @@ enum {
     BACKDROP_BYTES = 15,  /* a pixel of a picture of floor or sky: half floats, with mip levels */
     ATLAS_BYTES = 6,      /* a pixel of an atlas's picture; pictures are loaded one at a time */
     LIGHT_BYTES = 147456, /* a light that casts shadows: its map of smoke */
-    LIGHT_MAP_BYTES = 2097144, /* its maps of meshes */
+    LIGHT_MAP_BYTES = 2097144,   /* its maps of meshes */
+    LIGHT_SOLID_BYTES = 4194288, /* its maps of solid particles */
 };
 
 /* ---- counts ---------------------------------------------------------------------------------- */
@@ -153,10 +154,19 @@ static uint64_t slot_bytes(const struct kiln_scene *scene)
            (kiln_scene_has_instants_between(scene) ? 2 * sizeof(struct kiln_particle) : 0);
 }
 
-/* Returns the bytes of a light that casts shadows. */
-static uint64_t light_bytes(bool meshes)
+static bool has_solids(const struct kiln_scene *scene)
 {
-    return LIGHT_BYTES + (meshes ? (uint64_t)LIGHT_MAP_BYTES : 0);
+    bool solids = false;
+    for (uint32_t i = 0; i < scene->system_count; i++)
+        solids |= scene->systems[i].enabled && kiln_look_is_opaque(&scene->systems[i].look);
+    return solids;
+}
+
+/* Returns the bytes of a light that casts shadows. */
+static uint64_t light_bytes(const struct kiln_scene *scene, bool meshes)
+{
+    return LIGHT_BYTES + (meshes ? (uint64_t)LIGHT_MAP_BYTES : 0) +
+           (has_solids(scene) ? (uint64_t)LIGHT_SOLID_BYTES : 0);
 }
 
 static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
@@ -177,7 +187,8 @@ static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
         {SAMPLE_BYTES * scene->samples, "backdrop.objects", NULL},
         {BACKDROP_BYTES * backdrop_pixels, "backdrop", NULL},
         {ATLAS_BYTES * atlas_pixels, "look.atlas", atlas_system},
-        {light_bytes(triangles > 0) * kiln_scene_shadow_lights(scene), "backdrop.lights", NULL},
+        {light_bytes(scene, triangles > 0) * kiln_scene_shadow_lights(scene), "backdrop.lights",
+         NULL},
     };
     memcpy(terms, all, sizeof all);
 }

@@ -79,16 +79,20 @@ struct kiln_view {
 #define KILN_LAMP_SPOT      1.0f
 #define KILN_LAMP_RECTANGLE 2.0f
 
+/* Bit of `casters.y` of a lamp at which the number of its maps of solids begins. */
+#define KILN_LAMP_SOLID_SHIFT 8
+
 /* A lamp, or a part of the light of fire. A rectangle has the radius of a disc of its area. */
 struct kiln_draw_light {
     float4 position_radius2; /* m, m^2 */
     float4 color; /* radiance of a white surface 1 m in front, far from the lamp; w: radius, m */
     /* x: a bit for each object of the backdrop that may hide the light: boxes first, then spheres,
-     * cylinders, capsules and oriented boxes; y: 1 + number of its shadow maps of meshes; z: 1 +
-     * number of its map of smoke, 0: none; w: 1: it may be hidden; 3: particles have their part */
+     * cylinders, capsules and oriented boxes; y: 1 + number of its shadow maps of meshes, and from
+     * KILN_LAMP_SOLID_SHIFT on that of its maps of solid particles; z: 1 + number of its map of
+     * smoke; for all three, 0: none; w: 1: it may be hidden; 3: particles have their part */
     uint4 casters;
-    /* Distance that the shadow maps reach, m; distance of the first layer of the map of smoke, m;
-     * layers of it that double the distance; unused. */
+    /* Distance that the shadow maps of meshes reach, m; distance of the first layer of the map of
+     * smoke, m; layers of it that double the distance; reach of the maps of solids, m. */
     float4 maps;
     float4 smoke_ahead, smoke_right; /* of the map of smoke (shared/lamp_smoke.h) */
     float4 facing;                   /* unit, where a spot or a rectangle shines; w: KILN_LAMP_* */

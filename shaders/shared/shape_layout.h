@@ -25,6 +25,7 @@
 #define KILN_UNIT_SOLID_TILES 13 /* for each entry of the list: its tile, if it is a mesh */
 #define KILN_UNIT_SILHOUETTES 14 /* the atlas of tiles */
 #define KILN_UNIT_LAMP_MAPS   15 /* six layers for each lamp that meshes may hide */
+#define KILN_UNIT_LAMP_SOLIDS 18 /* six layers for each lamp that solid particles may hide */
 
 /* Rays of a pixel at the edge of a surface. They are a rotated grid, in which no two share a row or
  * a column. KILN_EDGE_OFFSETS lists their places in the pixel; `pair` makes a value of two numbers.

@@ -300,7 +300,7 @@ static const uint32_t *shade(struct placed *f, struct kiln_lamp_shade **shade)
     *shade = kiln_lamp_shade_create(f->scene, &error);
     assert_non_null(*shade);
     const uint32_t *words =
-        kiln_lamp_shade_run(*shade, &f->moment, f->threads, lights, count, NULL, &error);
+        kiln_lamp_shade_run(*shade, &f->moment, f->threads, lights, count, NULL, NULL, &error);
     assert_non_null(words);
     return words + f->pool.systems[0].base;
 }

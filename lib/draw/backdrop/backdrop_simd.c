@@ -93,7 +93,7 @@ SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, 
         glossy = glossy && any(hit->surface == 0.0f);
         if (glossy)
             shaded->mirror = floor_reflection_along(frame, ray);
-        arrived = light_without_sun(frame, &point, glossy ? &shaded->mirror.at : NULL);
+        arrived = light_without_sun(frame, &point, glossy ? &shaded->mirror.at : NULL, NULL);
         shaded->light = sunlit - arrived.hidden / vf_max(arrived.all, vf_all(1e-6f));
         shaded->reflected = arrived.reflected;
     }

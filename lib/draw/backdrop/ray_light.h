@@ -107,10 +107,11 @@ struct arrived {
     vf all, hidden;
 };
 
-/* Adds the light of a lamp. gloss: how a glossy floor reflects it, or NULL. */
+/* Adds the light of a lamp. gloss: how a glossy floor reflects it, or NULL; middle: of the solid
+ * particles that the points are on, or NULL. */
 SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_light *lamp,
                    const struct ray_point *p, const struct floor_reflection *gloss,
-                   struct arrived *arrived)
+                   const struct vf3 *middle, struct arrived *arrived)
 {
     const struct vf3 towards = vf3_towards(lamp->position_radius2, p->at);
     const float radius2 = lamp->position_radius2.w;
@@ -126,7 +127,7 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_li
     if (lamp->casters.x | lamp->casters.y && any(lit.active))
         seen *= lamp_visibility(&frame->lamp_objects, lamp,
                                 vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)), p->normal,
-                                vf_all(0.0f), lit.active);
+                                middle, vf_all(0.0f), lit.active);
     const vf all = (lamp->color.x + lamp->color.y + lamp->color.z) * part;
     arrived->all += all;
     arrived->hidden += all * (1.0f - seen);
@@ -141,9 +142,10 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_li
     }
 }
 
-/* Returns the light of the sky and of the lamps. gloss: as for add_lamp. */
+/* Returns the light of the sky and of the lamps. gloss, middle: as for add_lamp. */
 SIMD struct arrived light_without_sun(const struct kiln_ray_frame *frame, const struct ray_point *p,
-                                      const struct floor_reflection *gloss)
+                                      const struct floor_reflection *gloss,
+                                      const struct vf3 *middle)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     vf sky = boxes_sky_visibility(frame, p, vf_all(1.0f));
@@ -155,7 +157,7 @@ SIMD struct arrived light_without_sun(const struct kiln_ray_frame *frame, const 
     struct arrived arrived = {.irradiance = vf3_scale(ambient, RAY_PI * sky)};
     arrived.all = arrived.irradiance.x + arrived.irradiance.y + arrived.irradiance.z;
     for (uint32_t i = 0; i < b->counts.y; i++)
-        add_lamp(frame, &b->lights[i], p, gloss, &arrived);
+        add_lamp(frame, &b->lights[i], p, gloss, middle, &arrived);
     return arrived;
 }
 

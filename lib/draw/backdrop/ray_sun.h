@@ -134,7 +134,8 @@ SIMD vf oriented_sun_visibility(const struct kiln_ray_frame *frame,
 SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
-    const struct shadow_map map = {frame->meshes->shadows[i], KILN_SHADOW_EDGE, KILN_SHADOW_LEVELS};
+    const struct shadow_map map = {frame->meshes->shadows[i], KILN_SHADOW_EDGE, KILN_SHADOW_LEVELS,
+                                   1};
     const vi first = vi_all(0);
     const float spread = shapes->sun_right.w;
     const struct shadow_receiver at =

@@ -23,7 +23,8 @@ bool kiln_lamp_shade_exists(const struct kiln_scene *scene)
     bool lit = false;
     for (uint32_t i = 0; i < scene->system_count; i++)
         lit |= kiln_sun_shade_concerns(scene, i);
-    return lit && scene->backdrop.object_count > 0 && kiln_scene_shadow_lights(scene) > 0;
+    return lit && (scene->backdrop.object_count > 0 || kiln_shape_features(scene).solids) &&
+           kiln_scene_shadow_lights(scene) > 0;
 }
 
 struct kiln_lamp_shade *kiln_lamp_shade_create(const struct kiln_scene *scene,
@@ -96,7 +97,8 @@ static bool reserve(struct kiln_lamp_shade *shade, size_t words, struct kiln_err
 const uint32_t *kiln_lamp_shade_run(struct kiln_lamp_shade *shade, const struct kiln_moment *moment,
                                     struct kiln_threads *threads,
                                     const struct kiln_draw_light *lights, uint32_t light_count,
-                                    const uint32_t *maps, struct kiln_error *error)
+                                    const uint32_t *maps, const uint32_t *solid_maps,
+                                    struct kiln_error *error)
 {
     const size_t plane = kiln_lamp_shade_plane(moment->pool->slot_count);
     const size_t planes = (light_count + LIGHTS_OF_WORD - 1) / LIGHTS_OF_WORD;
@@ -109,6 +111,7 @@ const uint32_t *kiln_lamp_shade_run(struct kiln_lamp_shade *shade, const struct 
         .box_half = shade->box_half,
         .shapes = &moment->shapes,
         .maps = maps,
+        .solid_maps = solid_maps,
     };
     for (uint32_t i = 0; i < shade->scene->system_count; i++) {
         if (!kiln_sun_shade_concerns(shade->scene, i))

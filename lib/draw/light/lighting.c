@@ -32,6 +32,7 @@ struct kiln_lighting_stage {
     struct kiln_sun_shade *shade;
     struct kiln_lamp_shade *lamp_shade;
     struct kiln_lamp_maps *lamp_maps;
+    struct kiln_lamp_solids *lamp_solids;
     struct kiln_lighting_gl *gl;
 };
 
@@ -86,7 +87,12 @@ static bool create_shadows(struct kiln_lighting_stage *stage, const struct kiln_
     }
     if (kiln_lamp_maps_exist(scene)) {
         stage->lamp_maps = kiln_lamp_maps_create(moment, stage->threads, error);
-        return stage->lamp_maps != NULL;
+        if (!stage->lamp_maps)
+            return false;
+    }
+    if (kiln_lamp_solids_exist(scene)) {
+        stage->lamp_solids = kiln_lamp_solids_create(moment, stage->threads, error);
+        return stage->lamp_solids != NULL;
     }
     return true;
 }
@@ -128,6 +134,7 @@ void kiln_lighting_destroy(struct kiln_lighting_stage **stage)
     kiln_sun_shade_destroy(&(*stage)->shade);
     kiln_lamp_shade_destroy(&(*stage)->lamp_shade);
     kiln_lamp_maps_destroy(&(*stage)->lamp_maps);
+    kiln_lamp_solids_destroy(&(*stage)->lamp_solids);
     free((*stage)->depths);
     kiln_smoke_finish(&(*stage)->puffs);
     kiln_smoke_shadow_destroy(&(*stage)->shadow);
@@ -179,9 +186,9 @@ static bool cast_shadows(struct kiln_lighting_stage *stage, const struct kiln_mo
     if (stage->shade)
         lighting->sunlit = kiln_sun_shade_run(stage->shade, moment, stage->threads, error);
     if (stage->lamp_shade)
-        lighting->lamplit =
-            kiln_lamp_shade_run(stage->lamp_shade, moment, stage->threads, lighting->lights,
-                                lighting->light_count, lighting->lamp_maps, error);
+        lighting->lamplit = kiln_lamp_shade_run(
+            stage->lamp_shade, moment, stage->threads, lighting->lights, lighting->light_count,
+            lighting->lamp_maps, lighting->lamp_solids.texels, error);
     for (uint32_t i = 0; lighting->lamplit && i < lighting->light_count; i++)
         lighting->lights[i].casters.w |= lighting->lights[i].casters.w << 1;
     return (!stage->shade || lighting->sunlit) && (!stage->lamp_shade || lighting->lamplit);
@@ -202,6 +209,9 @@ static bool light_lamps(struct kiln_lighting_stage *stage, const struct kiln_mom
             return false;
         lighting->lamp_map_changes = kiln_lamp_maps_changes(stage->lamp_maps);
     }
+    if (stage->lamp_solids && !kiln_lamp_solids_run(stage->lamp_solids, moment, lighting->lights,
+                                                    count, &lighting->lamp_solids, error))
+        return false;
     kiln_lamps_find_casters(moment, lighting->lights, count);
     return true;
 }

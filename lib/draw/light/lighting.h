@@ -8,6 +8,7 @@
 #include "draw/light/lamp_map.h"
 #include "draw/light/lamp_shade.h"
 #include "draw/light/lamp_smoke.h"
+#include "draw/light/lamp_solids.h"
 #include "draw/light/smoke_shadow.h"
 #include "draw/light/solid_shadow.h"
 #include "draw/light/sun_shade.h"
@@ -22,8 +23,9 @@ struct kiln_lighting {
     const uint32_t *lamp_maps; /* shadow maps of the first lamp_map_count of kiln_lamp_maps_run; */
     uint32_t lamp_map_count;   /* NULL: there are none */
     uint64_t lamp_map_changes; /* a number that grows when a map changes */
-    bool smoke;                /* there is smoke, and its grids are set */
-    float4 sun_to_grid[3], sky_to_grid[3]; /* world positions to 0..1 in the grids */
+    struct kiln_lamp_solid_maps lamp_solids; /* shadow maps of solid particles */
+    bool smoke;                              /* there is smoke, and its grids are set */
+    float4 sun_to_grid[3], sky_to_grid[3];   /* world positions to 0..1 in the grids */
     const float *sun_depth, *sky_depth; /* optical depth in the grids, KILN_SMOKE_GRID cubed, rows
                                          * along x; sun_depth is NULL where there is no sun */
     const float *lamp_smoke; /* maps of the first lamp_smoke_count of kiln_lamp_smoke_run; NULL:

@@ -16,6 +16,7 @@ enum texture {
     SILHOUETTES,
     SUN_SHADE,
     LAMP_MAPS,
+    LAMP_SOLIDS,
     LAMP_SMOKE,
     LAMP_SHADE,
     TEXTURE_COUNT
@@ -34,6 +35,7 @@ static const struct {
     [SILHOUETTES] = {GL_TEXTURE_2D, KILN_UNIT_SILHOUETTES, "silhouettes"},
     [SUN_SHADE] = {GL_TEXTURE_2D, KILN_UNIT_SUN_SHADE, "sun on particles"},
     [LAMP_MAPS] = {GL_TEXTURE_2D_ARRAY, KILN_UNIT_LAMP_MAPS, "shadows of lamps"},
+    [LAMP_SOLIDS] = {GL_TEXTURE_2D_ARRAY, KILN_UNIT_LAMP_SOLIDS, "solids before lamps"},
     [LAMP_SMOKE] = {GL_TEXTURE_2D_ARRAY, KILN_UNIT_LAMP_SMOKE, "smoke around lamps"},
     [LAMP_SHADE] = {GL_TEXTURE_2D_ARRAY, KILN_UNIT_LAMP_SHADE, "lamps on particles"},
 };
@@ -45,8 +47,10 @@ struct kiln_lighting_gl {
     size_t solid_rows, shade_rows;  /* of the textures */
     uint32_t lamp_map_count;        /* lamps that the texture has room for */
     uint64_t lamp_map_changes;      /* of the maps that the texture holds */
-    uint32_t lamp_smoke_count;      /* lamps that their texture has room for */
-    size_t lamp_shade_words;        /* of the texture */
+    uint32_t lamp_solid_count;      /* lamps that their texture has room for */
+    uint64_t lamp_solid_changes[KILN_LAMP_MAPS * KILN_LAMP_FACES]; /* of faces in the texture */
+    uint32_t lamp_smoke_count; /* lamps that their texture has room for */
+    size_t lamp_shade_words;   /* of the texture */
 };
 
 struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device)
@@ -172,17 +176,24 @@ static void send_shade(struct kiln_lighting_gl *gl, const struct kiln_lighting *
     gl->device->traffic.to_device += sizeof(float) * KILN_SUN_SHADE_ROW * rows;
 }
 
-/* Sends the levels of each face; the texels beside a face count as empty. */
+/* Binds the texture of an array of faces. Texels beside a face count as empty. */
+static void make_faces(struct kiln_lighting_gl *gl, enum texture which)
+{
+    const GLenum target = GL_TEXTURE_2D_ARRAY;
+    if (!make(gl, which, GL_LINEAR))
+        return;
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, KILN_LAMP_LEVELS - 1);
+}
+
+/* Sends the levels of each face. */
 static void send_lamp_maps(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
 {
     const GLenum target = GL_TEXTURE_2D_ARRAY;
     const GLsizei layers = (GLsizei)(lighting->lamp_map_count * KILN_LAMP_FACES);
-    if (make(gl, LAMP_MAPS, GL_LINEAR)) {
-        glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-        glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-        glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-        glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, KILN_LAMP_LEVELS - 1);
-    }
+    make_faces(gl, LAMP_MAPS);
     const uint32_t *texels = lighting->lamp_maps;
     for (GLint level = 0; level < KILN_LAMP_LEVELS; level++) {
         const GLsizei edge = KILN_LAMP_EDGE >> level;
@@ -199,6 +210,36 @@ static void send_lamp_maps(struct kiln_lighting_gl *gl, const struct kiln_lighti
     if (gl->lamp_map_count < lighting->lamp_map_count)
         gl->lamp_map_count = lighting->lamp_map_count;
     gl->lamp_map_changes = lighting->lamp_map_changes;
+}
+
+/* Sends the levels of the faces that were drawn since the texture got them. */
+static void send_lamp_solids(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
+{
+    const GLenum target = GL_TEXTURE_2D_ARRAY;
+    const struct kiln_lamp_solid_maps *maps = &lighting->lamp_solids;
+    const GLsizei layers = (GLsizei)(maps->count * KILN_LAMP_FACES);
+    const bool all = gl->lamp_solid_count < maps->count;
+    make_faces(gl, LAMP_SOLIDS);
+    for (GLint level = 0; all && level < KILN_LAMP_LEVELS; level++)
+        glTexImage3D(target, level, GL_RGBA16, KILN_LAMP_EDGE >> level, KILN_LAMP_EDGE >> level,
+                     layers, 0, GL_RGBA, GL_UNSIGNED_SHORT, NULL);
+    if (all)
+        gl->lamp_solid_count = maps->count;
+    for (GLsizei layer = 0; layer < layers; layer++) {
+        if (!all && gl->lamp_solid_changes[layer] == maps->changes[layer])
+            continue;
+        gl->lamp_solid_changes[layer] = maps->changes[layer];
+        const uint32_t *texels =
+            maps->texels + (size_t)layer * KILN_LAMP_TEXELS * KILN_LAMP_SOLID_WORDS;
+        for (GLint level = 0; level < KILN_LAMP_LEVELS; level++) {
+            const GLsizei edge = KILN_LAMP_EDGE >> level;
+            glTexSubImage3D(target, level, 0, 0, layer, edge, edge, 1, GL_RGBA, GL_UNSIGNED_SHORT,
+                            texels);
+            texels += (size_t)edge * (size_t)edge * KILN_LAMP_SOLID_WORDS;
+        }
+        gl->device->traffic.to_device +=
+            (size_t)KILN_LAMP_TEXELS * KILN_LAMP_SOLID_WORDS * sizeof *texels;
+    }
 }
 
 static void send_lamp_smoke(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)
@@ -255,6 +296,8 @@ bool kiln_lighting_bind(const struct kiln_lighting *lighting, struct kiln_error 
             send_solids(gl, &lighting->solids);
         if (lighting->sunlit)
             send_shade(gl, lighting);
+        if (lighting->lamp_solids.count > 0)
+            send_lamp_solids(gl, lighting);
         if (lighting->lamp_map_count > 0 && gl->lamp_map_changes != lighting->lamp_map_changes)
             send_lamp_maps(gl, lighting);
     }

@@ -1,11 +1,13 @@
 /* This header computes the part of each lamp that vectors of points, or of balls, see past the
- * backdrop's objects (shared/lamp_cover.h). An object that hides nothing from a lane multiplies the
- * lane's light by exactly 1, so that it does not matter which lanes share a vector. */
+ * backdrop's objects (shared/lamp_cover.h) and past solid particles (shared/lamp_map.h). An object
+ * that hides nothing from a lane multiplies the lane's light by exactly 1, so that it does not
+ * matter which lanes share a vector. */
 #ifndef KILN_DRAW_LIGHT_RAY_LAMP_H
 #define KILN_DRAW_LIGHT_RAY_LAMP_H
 
 #include "base/real.h"
 #include "draw/light/lamp_map.h"
+#include "draw/light/lamp_solids.h"
 #include "draw/light/lamps.h"
 #include "draw/light/ray_shadow.h"
 #include "shared/lamp_cover.h"
@@ -95,6 +97,17 @@ SIMD void hide_lamp_by_oriented(const struct kiln_draw_shapes *shapes, uint32_t 
 
 /* ---- meshes ---------------------------------------------------------------------------------- */
 
+/* Return 1 + the number of a lamp's maps of meshes, and of solid particles; 0: it has none. */
+SIMD uint32_t mesh_map_of(const struct kiln_draw_light *lamp)
+{
+    return lamp->casters.y & ((1u << KILN_LAMP_SOLID_SHIFT) - 1);
+}
+
+SIMD uint32_t solid_map_of(const struct kiln_draw_light *lamp)
+{
+    return lamp->casters.y >> KILN_LAMP_SOLID_SHIFT;
+}
+
 /* Returns the part of a lamp that meshes hide, in the lanes where the receiver still sees it. */
 SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct kiln_draw_light *lamp,
                         const struct lamp_receiver *r, struct vf3 normal)
@@ -106,8 +119,8 @@ SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct ki
     if (!any(near))
         return vf_all(0.0f);
 
-    const struct shadow_map maps = {objects->maps, KILN_LAMP_EDGE, KILN_LAMP_LEVELS};
-    const vi face = vi_of(place.face) + (int32_t)(KILN_LAMP_FACES * (lamp->casters.y - 1));
+    const struct shadow_map maps = {objects->maps, KILN_LAMP_EDGE, KILN_LAMP_LEVELS, 1};
+    const vi face = vi_of(place.face) + (int32_t)(KILN_LAMP_FACES * (mesh_map_of(lamp) - 1));
     const vi first = face * KILN_LAMP_TEXELS;
     const vf level = lamp_level(lamp_widest(place, radius, r->way.lit)) + 1.0f;
     struct shadow_sample shadow = read_shadow(&maps, first, place.at.u, place.at.v, level);
@@ -126,6 +139,47 @@ SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct ki
     return vf_where(near, cover);
 }
 
+/* ---- solid particles ------------------------------------------------------------------------- */
+
+/* Returns the part of a lamp that solid particles hide, in the lanes where the receiver still sees
+ * it. middle: of the solid that is lit; NULL: another surface is lit. */
+SIMD vf lamp_solid_cover(const struct kiln_lamp_objects *objects,
+                         const struct kiln_draw_light *lamp, const struct lamp_receiver *r,
+                         struct vf3 normal, const struct vf3 *middle)
+{
+    const float radius = lamp->color.w, far = lamp->maps.w;
+    vi near = r->active & (r->visible > 0.0f);
+    if (!any(near))
+        return vf_all(0.0f);
+    const struct lamp_solid_place to = lamp_solid_place_of(
+        vf3_scale(r->way.direction, -r->way.reach), normal, far, vi_all(middle ? -1 : 0),
+        middle ? vf3_length(vf3_towards(lamp->position_radius2, *middle)) : vf_all(0.0f));
+    const struct shadow_receiver at = to.at;
+    const struct shadow_map maps = {objects->solid_maps, KILN_LAMP_EDGE, KILN_LAMP_LEVELS,
+                                    KILN_LAMP_SOLID_WORDS};
+    const vi face = vi_of(to.place.face) + (int32_t)(KILN_LAMP_FACES * (solid_map_of(lamp) - 1));
+    const vi first = face * KILN_LAMP_TEXELS;
+    const vf level = lamp_level(lamp_widest(to.place, radius, r->way.lit)) + 1.0f;
+    struct shadow_sample shadow = read_shadow(&maps, first, at.u, at.v, level);
+    near &= shadow.cover > 0.0f;
+    if (!any(near))
+        return vf_all(0.0f);
+    const vf found = shadow.cover, narrow = shadow.narrow;
+    const vf distance =
+        middle ? lamp_other_distance(at, found, shadow.distance, shadow.square) : shadow.distance;
+    const vf width = lamp_solid_width(to, radius, r->way.lit, far, found, distance);
+    const vf fine = lamp_level(width), stride = 0.5f * width, ramp = 1.0f / at.slack;
+    vf cover = vf_all(0.0f);
+    for (int k = 0; k < 4; k++) {
+        vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
+        shadow = read_shadow(&maps, first, at.u + aside_u, at.v + aside_v, fine);
+        cover += middle ? lamp_solid_tap(at, shadow.cover, shadow.distance, shadow.square)
+                        : shadow_tap(at, aside_u, aside_v, shadow.cover, shadow.distance, ramp);
+    }
+    return vf_where(near,
+                    lamp_thin_cover(to, radius, r->way.lit, far, found, distance, narrow, cover));
+}
+
 /* ---- lamps ----------------------------------------------------------------------------------- */
 
 /* Returns the next `count` bits, which belong to the objects of one kind, and removes them. */
@@ -136,10 +190,12 @@ SIMD uint32_t take_bits(uint32_t *bits, uint32_t count)
     return taken;
 }
 
-/* Returns the part of a lamp, 0 to 1, that points or balls see. normal: of the surface, unit; lit:
- * radius of the balls, m; 0 for points. */
+/* Returns the part of a lamp, 0 to 1, that points or balls see. normal: of the surface, unit;
+ * middle: of the solid particles that the points are on, or NULL; lit: radius of the balls, m; 0
+ * for points. */
 SIMD vf lamp_visibility(const struct kiln_lamp_objects *objects, const struct kiln_draw_light *lamp,
-                        struct vf3 origin, struct vf3 normal, vf lit, vi active)
+                        struct vf3 origin, struct vf3 normal, const struct vf3 *middle, vf lit,
+                        vi active)
 {
     uint32_t casters = lamp->casters.x;
     const struct kiln_draw_shapes *shapes = objects->shapes;
@@ -150,10 +206,12 @@ SIMD vf lamp_visibility(const struct kiln_lamp_objects *objects, const struct ki
     hide_lamp_by_round(shapes, spheres, take_bits(&casters, shapes->counts.y), &r);
     const uint32_t capsules = take_bits(&casters, shapes->oriented_counts.x);
     hide_lamp_by_oriented(shapes, capsules, take_bits(&casters, shapes->oriented_counts.y), &r);
-    if (lamp->casters.y) {
+    if (lamp->casters.y)
         r.way = lamp_way_of(vf3_towards(lamp->position_radius2, origin), lamp->color.w, lit);
+    if (mesh_map_of(lamp))
         hide_lamp(&r, active, lamp_mesh_cover(objects, lamp, &r, normal));
-    }
+    if (solid_map_of(lamp))
+        hide_lamp(&r, active, lamp_solid_cover(objects, lamp, &r, normal, middle));
     return r.visible;
 }
 

@@ -239,6 +239,7 @@ static void light_triangles(const struct kiln_solid_strip *s,
     place.direction = view_to_world(frame, ray);
     place.normal = view_to_world(frame, normal);
     place.at = vf3_add(vf3_all(frame->view->eye), view_to_world(frame, point));
+    place.middle = vf3_add(vf3_all(frame->view->eye), view_to_world(frame, center));
     /* The ray to the sun starts past the particle's middle, so that the sphere that stands for the
      * particle in shadows does not shade the particle itself. */
     const float4 sun = frame->backdrop->sun_direction;

@@ -45,6 +45,7 @@ struct visible_particles {
 struct visible_point {
     struct vf3 at, normal, direction; /* position, m; unit normal; direction of the ray */
     struct vf3 sun_from;              /* start of the ray to the sun, m */
+    struct vf3 middle;                /* of the particle, m */
     vf depth, lit;
     struct vf3 albedo, glow;
 };
@@ -61,7 +62,7 @@ SIMD void light_place(const struct kiln_ray_frame *frame, const struct visible_p
     vf sunlit = sun_visibility(frame, place->sun_from, point.normal, facing_sun(frame, &point));
     const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
     sunlit *= smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
-    const struct arrived arrived = light_without_sun(frame, &point, NULL);
+    const struct arrived arrived = light_without_sun(frame, &point, NULL, &place->middle);
     const struct ray_color lit =
         radiance(frame, &hit, place->direction, arrived.irradiance, sunlit);
     struct vf3 shown = vf3_add_scaled(hit.albedo, vf3_sub(lit.rgb, hit.albedo), place->lit);

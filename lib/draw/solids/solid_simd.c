@@ -132,6 +132,7 @@ static void light_spheres(const struct kiln_solid_strip *s, const struct visible
     place.normal = view_to_world(frame, out);
     place.at = vf3_add_scaled(vf3_all(frame->view->eye), place.direction, t);
     place.sun_from = place.at;
+    place.middle = vf3_add(vf3_all(frame->view->eye), view_to_world(frame, center));
     if (s->patterned)
         paint_spheres(s, visible, &place);
     light_place(frame, &place, visible, color);

@@ -110,8 +110,9 @@ float mesh_lamp_cover(int i, vec3 normal, lamp_way way)
 {
     float radius = backdrop.lights[i].color.w, far = backdrop.lights[i].maps.x;
     lamp_place place = lamp_place_of(-way.direction * way.reach, normal, far);
-    float layer = place.face + 6.0 * float(int(backdrop.lights[i].casters.y) - 1);
-    int taps = backdrop.lights[i].casters.y != 0u ? 5 : 0;
+    int number = int(backdrop.lights[i].casters.y) & (1 << KILN_LAMP_SOLID_SHIFT) - 1;
+    float layer = place.face + 6.0 * float(number - 1);
+    int taps = number != 0 ? 5 : 0;
     float level = lamp_level(lamp_widest(place, radius, 0.0)) + 1.0;
     float stride = 0.0, cover = 0.0;
     for (int k = 0; k < taps; k++) {

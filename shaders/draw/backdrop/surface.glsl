@@ -81,6 +81,7 @@ bool take_caster(inout uint casters)
 #endif
 #ifdef SOLIDS
 #include "draw/light/solid_shadow.glsl"
+#include "draw/light/lamp_solids.glsl"
 #endif
 #ifdef SKY_IMAGE
 #include "draw/backdrop/sky_image.glsl"
@@ -177,7 +178,8 @@ vec3 horizon(vec3 direction)
 #endif
 }
 
-/* Returns the part of lamp i, 0 to 1, that a point sees past the backdrop's objects. */
+/* Returns the part of lamp i, 0 to 1, that a point sees past the backdrop's objects and past solid
+ * particles. */
 float lamp_visibility(int i, vec3 point, vec3 normal)
 {
     uint casters = backdrop.lights[i].casters.x;
@@ -196,10 +198,15 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
 #ifdef ORIENTED
     visible *= oriented_lamp_visibility(casters, origin, way);
 #endif
-#ifdef MESHES
+#if defined MESHES || defined SOLIDS
     way = lamp_way_of(backdrop.lights[i].position_radius2.xyz - origin, backdrop.lights[i].color.w,
                       0.0);
+#endif
+#ifdef MESHES
     visible *= 1.0 - mesh_lamp_cover(i, normal, way);
+#endif
+#ifdef SOLIDS
+    visible *= 1.0 - solid_lamp_cover(i, normal, way);
 #endif
     return visible;
 }

@@ -55,6 +55,7 @@ void main()
      * does not shade itself. */
     float ahead = dot(view_to_world(middle.xyz - seen), backdrop.sun_direction.xyz);
     float outwards = max(ahead + 0.05 * middle.w + 1e-5 * t, 0.0);
+    lit_middle = vec4(view.eye.xyz + view_to_world(middle.xyz), 1.0);
     hit h = hit(t, 0, normal, albedo.rgb);
     float sunlit = sun_visibility(point + backdrop.sun_direction.xyz * outwards, normal) *
                    sunlight_through_smoke(point);

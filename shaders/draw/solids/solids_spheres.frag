@@ -98,6 +98,7 @@ void main()
 #ifdef PATTERN
     reflected = pattern_albedo(normal, direction, t);
 #endif
+    lit_middle = vec4(view.eye.xyz + view_to_world(sphere.xyz), 1.0);
     hit h = hit(t, 0, normal, reflected);
     float sunlit = sun_visibility(point, normal) * sunlight_through_smoke(point);
     vec3 lit = radiance(h, direction, irradiance_without_sun(h, point), sunlit).rgb;
