@@ -115,7 +115,8 @@ static void assert_alike(const struct composed *a, const struct composed *b, siz
         int y = bits == 8 ? b->display[i] : ((const uint16_t *)(const void *)b->display)[i];
         most = abs(x - y) > most ? abs(x - y) : most;
         sum += abs(x - y);
-        double allowed = 1e-5 * fabs((double)a->beauty[i]) + (glow ? 1e-3 : 1e-8);
+        double allowed =
+            (1e-5 + test_rounding()) * fabs((double)a->beauty[i]) + (glow ? 1e-3 : 1e-8);
         assert_true(fabs((double)(a->beauty[i] - b->beauty[i])) <= allowed);
     }
     print_message("%s, %u bits: at most %d, mean %.5f\n", what, bits, most, sum / (double)channels);

@@ -18,6 +18,11 @@ struct kiln_device *test_device(void)
     return test_opened_device;
 }
 
+double test_rounding(void)
+{
+    return test_device()->info.software ? 0x1p-24 : 0x1p-11;
+}
+
 int test_device_open(void **state)
 {
     struct kiln_error error = {0};

@@ -11,6 +11,10 @@ void test_log(void *user, enum kiln_log_level level, const char *line);
 /* Returns the device that the group opened, for tests whose state is not the device. */
 struct kiln_device *test_device(void);
 
+/* Returns how much a value in a frame's pictures may be rounded, relative to it: as a half float on
+ * a GPU, as a float on software GL (lib/frame/stages.c). */
+double test_rounding(void);
+
 /* A group set-up of cmocka: *state becomes the device, the first with GL or the one that
  * KILN_TEST_DEVICE names. Ends the program as skipped (77) when there is none. */
 int test_device_open(void **state);
