@@ -153,7 +153,8 @@ REAL_FN real lamp_other_distance(S(shadow_receiver) at, real cover, real distanc
 }
 
 /* Returns the part of the lamp that one of the four fetches around a lit solid adds to the covered
- * part, as shadow_tap: Chebyshev's bound, which is exact for two distances. */
+ * part, as shadow_tap: Chebyshev's bound, which is exact for two distances (Donnelly and Lauritzen,
+ * Variance Shadow Maps, 2006). */
 REAL_FN real lamp_solid_tap(S(shadow_receiver) at, real cover, real distance, real square)
 {
     real mean = shadow_depth(cover, distance);

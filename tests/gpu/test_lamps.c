@@ -164,6 +164,7 @@ static void the_floor_hides_lamps_below_it(void **state)
     const double half = sum_of_red(*state, HEAD LAMP("[0, 0, 0]", "0.5", "") POST);
     const double whole = sum_of_red(*state, HEAD LAMP("[0, 0, 0]", "0.5", ", shadow: false") POST);
     const double none = sum_of_red(*state, HEAD LAMP("[0, -0.6, 0]", "0.5", "") POST);
+    print_message("half %g, whole %g, none %g\n", half, whole, none);
     assert_true(fabs(half - 0.5 * whole) <= 1e-3 * whole && none == 0);
 }
 

@@ -8,10 +8,12 @@
 
 enum { WIDTH = 128, HEIGHT = 72 };
 
-/* The beginning of the scenes. The sky is black, so all light is the sun's. */
+/* The beginning of the scenes. The sky is black, so all light is the sun's. The exposure is so low
+ * that a pixel at an edge is the mean of its samples (shared/edge_mean.h). */
 #define HEAD                                                                                       \
     "kiln: 1\n"                                                                                    \
     "output: {size: [128, 72], frames: 1}\n"                                                       \
+    "post: {exposure: -16}\n"                                                                      \
     "camera: {position: [0, 2.5, 5], target: [0, 0.5, 0], fov: 40 deg}\n"                          \
     "backdrop:\n"                                                                                  \
     "  haze: 0\n"                                                                                  \
