@@ -4,7 +4,7 @@
 Renders nothing. Every picture in docs/images has a sidecar, is the file that this describes, is
 shown by a document, and its command stands in one, word for word. A clip has a command and no
 sidecar; all clips together stay small. Not among them: the guide, which docs.scenes compares with
-what it draws, and the screenshot of a report.
+what it draws, the pairs of two versions (tools/pairs), and the screenshot of a report.
 """
 import glob
 import hashlib
@@ -18,7 +18,7 @@ import sys
 SUFFIX = ".figure.json"
 CLIPS = "docs/images/moving/"
 CLIPS_BYTES = 3_000_000
-OTHERS = ("docs/images/guide/", "docs/images/report.jpg")
+OTHERS = ("docs/images/guide/", "docs/images/pairs/", "docs/images/report.jpg")
 
 
 def read(path):
