@@ -84,7 +84,8 @@ static const struct option options[] = {
     {.name = "flipbook-alpha",
      .kind = OPTION_CHOICE,
      .placeholder = "straight|premultiplied",
-     .help = "Whether the colours of a flipbook are straight, or premultiplied by alpha.",
+     .help = "Whether the colours of a flipbook are straight, for renderers that blend light, such "
+             "as kiln, or premultiplied by alpha, as a display shows them over black.",
      .fallback = "straight"},
     {.name = "flipbook-fade",
      .kind = OPTION_INTEGER,

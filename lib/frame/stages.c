@@ -200,7 +200,8 @@ static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *tec
         &(struct kiln_composite_params){.technique = techniques->composite,
                                         .threads = s->threads,
                                         .bits = needs.bits ? needs.bits : 8,
-                                        .beauty = needs.layers != KILN_LAYERS_NONE},
+                                        .beauty = needs.layers != KILN_LAYERS_NONE,
+                                        .texture = needs.texture},
         error);
     return s->composite != NULL;
 }

@@ -341,6 +341,7 @@ static bool fill(const struct encode *encode, const struct kiln_asset_image *ima
             .bits = picture->bits,
             .exposure = encode->params->exposure,
             .tonemap = encode->tonemap,
+            .texture = kiln_output_needs(encode->output).texture,
             .frame = picture->frame,
         };
         return kiln_display_make(encode->threads, &display, image->pixels, picture->display, error);

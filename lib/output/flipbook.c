@@ -104,7 +104,9 @@ static void measure_steps(const struct kiln_output_params *params, uint32_t *lea
 
 static struct kiln_output_needs needs(const struct kiln_output_params *params)
 {
-    return (struct kiln_output_needs){.bits = params->png_bits};
+    /* Premultiplied, colours are the display's values, which renderers add as light. */
+    return (struct kiln_output_needs){.bits = params->png_bits,
+                                      .texture = !params->flipbook.premultiplied};
 }
 
 static bool check(const struct kiln_output_params *params, struct kiln_error *error)

@@ -50,6 +50,7 @@ enum kiln_layers { KILN_LAYERS_NONE, KILN_LAYERS_BEAUTY, KILN_LAYERS_ALL };
 struct kiln_output_needs {
     uint32_t bits; /* bits of the display pixels: 0 (none), 8, 16 */
     enum kiln_layers layers;
+    bool texture; /* colours are divided by alpha as light, not as the display's values */
 };
 
 /* A file that is complete and has its final name. */

@@ -25,7 +25,7 @@ struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
     if (params->technique == KILN_COMPOSITE_CPU)
         stage->cpu = kiln_composite_cpu_create(scene, params, error);
     else
-        stage->gl = kiln_composite_gl_create(device, scene, params->bits, error);
+        stage->gl = kiln_composite_gl_create(device, scene, params, error);
     if (!stage->cpu && !stage->gl)
         kiln_composite_destroy(&stage);
     return stage;

@@ -17,6 +17,9 @@ struct kiln_composite_params {
     struct kiln_threads *threads; /* for KILN_COMPOSITE_CPU */
     uint32_t bits;                /* bits a channel of the display picture: 8 or 16 */
     bool beauty;                  /* whether kiln_composite_read_beauty will be called */
+    /* false: alpha times the display's values of a colour shows it over black, as viewers blend;
+     * true: alpha times its light does, as renderers blend textures */
+    bool texture;
 };
 
 /* The scene and the threads must outlive the stage; device may be NULL for KILN_COMPOSITE_CPU.

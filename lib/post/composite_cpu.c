@@ -15,6 +15,7 @@ struct kiln_composite_cpu {
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
     uint32_t bits;
+    bool texture;
     void *display; /* RGBA, `bits` bits a channel */
     float *beauty; /* NULL unless the parameters ask for it */
     struct kiln_magnifier magnifier;
@@ -28,8 +29,10 @@ struct kiln_composite_cpu *kiln_composite_cpu_create(const struct kiln_scene *sc
     struct kiln_composite_cpu *stage = calloc(1, sizeof *stage);
     size_t pixels = (size_t)scene->width * scene->height;
     if (stage) {
-        *stage = (struct kiln_composite_cpu){
-            .scene = scene, .threads = params->threads, .bits = params->bits};
+        *stage = (struct kiln_composite_cpu){.scene = scene,
+                                             .threads = params->threads,
+                                             .bits = params->bits,
+                                             .texture = params->texture};
         stage->display = malloc(pixels * 4 * (params->bits / 8));
         stage->beauty = params->beauty ? malloc(pixels * 4 * sizeof(float)) : NULL;
     }
@@ -69,6 +72,7 @@ bool kiln_composite_cpu_run(struct kiln_composite_cpu *stage,
         .exposure = exact_exp2(kiln_scene_value(scene, &post->exposure, inputs->time_s)),
         .tonemap = post->tonemap,
         .dither = post->dither,
+        .texture = stage->texture,
         .frame = inputs->frame,
         .bits = stage->bits,
         .display = stage->display,

@@ -12,13 +12,14 @@
 
 struct uniforms {
     GLint bloom_strength, bloom_scale, separate_fire, scene_alone, exposure, tonemap, levels,
-        dither, frame;
+        dither, frame, texture;
 };
 
 struct kiln_composite_gl {
     struct kiln_device *device;
     const struct kiln_scene *scene;
     uint32_t bits;
+    bool texture;
     GLuint program, vertex_array;
     struct kiln_framebuffer framebuffer;
     struct kiln_image display, beauty;
@@ -38,11 +39,13 @@ static void find_uniforms(struct kiln_composite_gl *stage)
         .levels = glGetUniformLocation(p, "levels"),
         .dither = glGetUniformLocation(p, "dither"),
         .frame = glGetUniformLocation(p, "frame"),
+        .texture = glGetUniformLocation(p, "is_texture"),
     };
 }
 
 struct kiln_composite_gl *kiln_composite_gl_create(struct kiln_device *device,
-                                                   const struct kiln_scene *scene, uint32_t bits,
+                                                   const struct kiln_scene *scene,
+                                                   const struct kiln_composite_params *params,
                                                    struct kiln_error *error)
 {
     struct kiln_composite_gl *stage = calloc(1, sizeof *stage);
@@ -50,14 +53,15 @@ struct kiln_composite_gl *kiln_composite_gl_create(struct kiln_device *device,
         kiln_error_set(error, KILN_DEVICE_FAILED, "composite: out of memory");
         return NULL;
     }
-    *stage = (struct kiln_composite_gl){.device = device, .scene = scene, .bits = bits};
+    *stage = (struct kiln_composite_gl){
+        .device = device, .scene = scene, .bits = params->bits, .texture = params->texture};
     stage->program =
         kiln_program_create(device,
                             &(struct kiln_program_params){.vertex = "gpu/framebuffer_fill.vert",
                                                           .fragment = "post/composite.frag"},
                             error);
     kiln_image_init(&stage->display, device, scene->width, scene->height,
-                    bits == 16 ? GL_RGBA16 : GL_RGBA8, "display");
+                    params->bits == 16 ? GL_RGBA16 : GL_RGBA8, "display");
     kiln_image_init(&stage->beauty, device, scene->width, scene->height, GL_RGBA32F, "beauty");
     struct kiln_image *targets[] = {&stage->display, &stage->beauty};
     if (!stage->program || !kiln_framebuffer_init(&stage->framebuffer, device, targets, 2, error)) {
@@ -124,6 +128,7 @@ bool kiln_composite_gl_run(struct kiln_composite_gl *stage,
     glUniform1f(stage->locations.levels, stage->bits == 16 ? 65535.0f : 255.0f);
     glUniform1i(stage->locations.dither, post->dither);
     glUniform1ui(stage->locations.frame, inputs->frame);
+    glUniform1i(stage->locations.texture, stage->texture);
 
     glDisable(GL_BLEND);
     kiln_framebuffer_fill(stage->vertex_array);

@@ -8,7 +8,8 @@
 struct kiln_composite_gl;
 
 struct kiln_composite_gl *kiln_composite_gl_create(struct kiln_device *device,
-                                                   const struct kiln_scene *scene, uint32_t bits,
+                                                   const struct kiln_scene *scene,
+                                                   const struct kiln_composite_params *params,
                                                    struct kiln_error *error);
 void kiln_composite_gl_destroy(struct kiln_composite_gl **stage);
 

@@ -13,7 +13,7 @@ struct kiln_composite_rows {
     const struct kiln_magnifier *magnifier;
     float strength, exposure; /* strength: of the glow */
     enum kiln_tonemap tonemap;
-    bool dither;
+    bool dither, texture; /* texture: as of struct kiln_composite_params */
     uint32_t frame, bits;
     void *display; /* RGBA, `bits` bits a channel */
     float *beauty; /* NULL if no linear picture is wanted */

@@ -79,10 +79,13 @@ SIMD struct vf3 color_of(const struct block *block, int i)
     return (struct vf3){block->channel[0][i], block->channel[1][i], block->channel[2][i]};
 }
 
-/* Exposes, tone-maps and encodes light. Without AgX, which has a limit of its own, light is limited
- * to the range of 16-bit floats, since the squares in a tone map overflow beyond it. */
-SIMD void encode(struct block *block, int count, float exposure, enum kiln_tonemap tonemap)
+/* Exposes, tone-maps and encodes light; of textures, divides it by alpha before it is encoded.
+ * Without AgX, which has a limit of its own, light is limited to the range of 16-bit floats, since
+ * the squares in a tone map overflow beyond it. */
+SIMD void encode(const struct kiln_composite_rows *p, struct block *block, int count)
 {
+    const enum kiln_tonemap tonemap = p->tonemap;
+    const float exposure = p->exposure, root = tonemap == KILN_TONEMAP_AGX ? 2.2f : 1.0f;
     for (int i = 0; i < count; i++) {
         struct vf3 light = color_of(block, i);
         light.x = exposed(light.x, exposure);
@@ -94,6 +97,12 @@ SIMD void encode(struct block *block, int count, float exposure, enum kiln_tonem
             light = tonemap_aces((struct vf3){vf_min(light.x, vf_all(HALF_MAX)),
                                               vf_min(light.y, vf_all(HALF_MAX)),
                                               vf_min(light.z, vf_all(HALF_MAX))});
+        if (p->texture) {
+            const struct tonemap_straight straight =
+                tonemap_straight_of(light, block->channel[3][i], root);
+            light = straight.color;
+            block->channel[3][i] = straight.alpha;
+        }
         store_color(block, i, light);
     }
     for (int c = 0; c < 3; c++) {
@@ -152,11 +161,11 @@ SIMD void show(const struct kiln_composite_rows *p, struct block *block, const s
                uint32_t row_hash)
 {
     const float levels = p->bits == 16 ? 65535.0f : 255.0f, scale = levels * TONEMAP_STEPS;
-    encode(block, place->count, p->exposure, p->tonemap);
+    encode(p, block, place->count);
     if (p->dither)
         make_noise(block, place, row_hash);
     for (int i = 0; i < place->count; i++) {
-        const bool opaque = unpremultiply(block, i);
+        const bool opaque = !p->texture && unpremultiply(block, i);
         const vi noise = p->dither ? block->noise[i] : vi_all(TONEMAP_NOISE_NONE);
         vi steps[3] = {noise & 0x3ff, noise >> 10 & 0x3ff, noise >> 20}, alpha;
         for (int c = 0; c < 3; c++)
@@ -229,7 +238,7 @@ static void draw_rest(const struct kiln_composite_rows *p, uint32_t x, size_t at
     const float *const from[3] = {p->light.scene, p->light.particles, p->light.fire};
     for (int i = 0; i < 3; i++) {
         if (from[i])
-            memcpy(images[i], from[i] + 4 * at, 4 * count * sizeof **images);
+            memcpy(images[i], from[i] + 4 * at, count * (4 * sizeof **images));
     }
     struct kiln_composite_rows copy = *p;
     copy.light = (struct kiln_compose_light){images[0], from[1] ? images[1] : NULL,
@@ -237,10 +246,10 @@ static void draw_rest(const struct kiln_composite_rows *p, uint32_t x, size_t at
     copy.beauty = p->beauty ? beauty : NULL;
     copy.display = display;
     draw_block(&copy, &(struct place){x, 0, 1}, row_hash, glow);
-    const size_t pixel = 4 * (p->bits / 8);
+    const size_t pixel = (size_t)4 * (p->bits / 8);
     memcpy((char *)p->display + pixel * at, display, pixel * count);
     if (p->beauty)
-        memcpy(p->beauty + 4 * at, beauty, 4 * count * sizeof *beauty);
+        memcpy(p->beauty + 4 * at, beauty, count * (4 * sizeof *beauty));
 }
 
 void KILN_SIMD_NAME(kiln_composite_rows_run)(void *context, size_t begin, size_t end,

@@ -19,6 +19,7 @@ bool kiln_display_make(struct kiln_threads *threads, const struct kiln_display_p
         .exposure = exact_exp2(params->exposure),
         .tonemap = params->tonemap,
         .dither = true,
+        .texture = params->texture,
         .frame = params->frame,
         .bits = params->bits,
         .display = display,

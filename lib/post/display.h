@@ -10,6 +10,7 @@ struct kiln_display_params {
     uint32_t width, height, bits; /* bits a channel: 8 or 16 */
     float exposure;               /* stops */
     enum kiln_tonemap tonemap;
+    bool texture;   /* as of struct kiln_composite_params */
     uint32_t frame; /* seeds the dither noise, which differs from frame to frame */
 };
 

@@ -43,9 +43,10 @@ static const float *magnify_row(const struct kiln_magnifier *m, const float *glo
     const size_t width = m->small_width, whole = width - width % LANES;
     float *const planes = m->planes + 3 * m->plane_floats * worker;
     for (size_t x = 0; x < whole; x += LANES) {
+        const size_t at = 4 * x, lanes = LANES;
         const struct columns c = columns_transpose(
-            magnify_floats(&rows, 4 * x), magnify_floats(&rows, 4 * x + LANES),
-            magnify_floats(&rows, 4 * x + 2 * LANES), magnify_floats(&rows, 4 * x + 3 * LANES));
+            magnify_floats(&rows, at), magnify_floats(&rows, at + lanes),
+            magnify_floats(&rows, at + 2 * lanes), magnify_floats(&rows, at + 3 * lanes));
         for (size_t k = 0; k < 3; k++)
             vf_store(planes + k * m->plane_floats + KILN_MAGNIFY_EDGE + x, row_order(c.c[k]));
     }

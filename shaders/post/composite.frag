@@ -13,6 +13,7 @@ uniform float exposure; /* factor */
 uniform int tonemap;    /* 0 none, 1 AgX, 2 ACES: enum kiln_tonemap */
 uniform float levels;   /* largest value of an output channel, 255 or 65535 */
 uniform bool dither;
+uniform bool is_texture; /* struct kiln_composite_params */
 uniform uint frame;
 
 layout(location = 0) out vec4 out_display; /* not premultiplied */
@@ -84,22 +85,31 @@ void main()
     /* Light is shown as white long before this limit. Beyond it, the squares in a tone map
      * overflow. */
     vec3 display = clamp(color.rgb * exposure, 0.0, HALF_MAX);
-    if (tonemap == 1) {
-        vec3 root = min(tonemap_agx_root(display), vec3(1.0));
-        display = vec3(tonemap_encode_root(root.x), tonemap_encode_root(root.y),
-                       tonemap_encode_root(root.z));
-    } else {
-        vec3 light = min(tonemap == 2 ? tonemap_aces(display) : display, vec3(1.0));
-        display = vec3(tonemap_encode(light.x), tonemap_encode(light.y), tonemap_encode(light.z));
+    if (tonemap == 1)
+        display = tonemap_agx_root(display);
+    else if (tonemap == 2)
+        display = tonemap_aces(display);
+    float alpha = color.a;
+    if (is_texture) {
+        tonemap_straight straight = tonemap_straight_of(display, alpha, tonemap == 1 ? 2.2 : 1.0);
+        display = straight.color;
+        alpha = straight.alpha;
     }
+    display = min(display, vec3(1.0));
+    if (tonemap == 1)
+        display = vec3(tonemap_encode_root(display.x), tonemap_encode_root(display.y),
+                       tonemap_encode_root(display.z));
+    else
+        display = vec3(tonemap_encode(display.x), tonemap_encode(display.y),
+                       tonemap_encode(display.z));
 
     /* The colours of a file are not premultiplied. Light without alpha (fire over nothing) cannot
      * be stored so, so its brightness becomes its alpha, and it still shows over black. */
-    float alpha = clamp(max(color.a, max(max(display.r, display.g), display.b)), 0.0, 1.0);
-    if (color.a < 1.0)
+    if (!is_texture && alpha < 1.0) {
+        alpha = clamp(max(alpha, max(max(display.r, display.g), display.b)), 0.0, 1.0);
         display = alpha > 0.0 ? min(display / alpha, vec3(1.0)) : vec3(0.0);
-    else
-        alpha = 1.0;
+    }
+    alpha = min(alpha, 1.0);
     ivec3 steps = ivec3(display * (levels * TONEMAP_STEPS) + TONEMAP_NOISE_BIAS) + dither_noise();
     out_display = vec4(vec3(steps >> 6) / levels, floor(alpha * levels + 0.5) / levels);
 }

@@ -88,20 +88,26 @@ REAL_FN real3 tonemap_aces(real3 color)
 
 /* Curves are off by 2e-5 at most, AgX and encoding together: 0.005 of 255 levels. */
 
-/* For light up to 1. */
-REAL_FN real tonemap_encode(real linear)
+/* Returns x^exponent, for x from 1e-6 to 1 and exponents from 0 to 3, by logarithm and exponential.
+ * 1 gives 1. */
+REAL_FN real tonemap_power(real x, float exponent)
 {
-    /* linear^(1 / 2.4), by logarithm and exponential */
-    S(tonemap_parts) parts = tonemap_parts_of(real_max(linear, real_all(0.0031308f)));
+    S(tonemap_parts) parts = tonemap_parts_of(x);
     real f = parts.f;
     real log_high = (0.4866861f - 0.3945754f * f) + (f * f) * 0.2526603f;
     real log_f = f * ((1.442578f - 0.7202418f * f) + (f * f) * log_high);
-    real power = (parts.exponent + log_f) * (1.0f / 2.4f);
+    real power = (parts.exponent + log_f) * exponent;
     real whole = real_floor(power), g = power - whole;
     real part =
         (1.0f + 0.6930186f * g) + (g * g) * ((0.2414455f + 0.0519505f * g) + (g * g) * 0.0135812f);
-    real high = part * real_of_bits((real_int(whole) + 127) * 8388608);
-    return real_select(linear <= 0.0031308f, linear * 12.92f, 1.055f * high - 0.055f);
+    return part * real_of_bits((real_int(whole) + 127) * 8388608);
+}
+
+/* For light up to 1. */
+REAL_FN real tonemap_encode(real linear)
+{
+    real power = tonemap_power(real_max(linear, real_all(0.0031308f)), 1.0f / 2.4f);
+    return real_select(linear <= 0.0031308f, linear * 12.92f, 1.055f * power - 0.055f);
 }
 
 /* Encodes root^2.2, for roots up to 1; both parts of the curve are powers of the root. Each is a
@@ -114,7 +120,31 @@ REAL_FN real tonemap_encode_root(real root)
     real higher = (1.61403477f - 1.45597887f * z) + z2 * 0.528714836f;
     real high = (0.968429267f + 0.00884623732f * z) + z2 * (0.259641021f - 0.873366237f * z);
     high = high + (z2 * z2) * higher;
-    return real_select(x <= 0.0727213f, low * x, 1.0f - high * z); /* 0.0031308^(1 / 2.2) */
+    low = real_max(low * x, real_all(0.0f));
+    return real_select(x <= 0.0727213f, low, 1.0f - high * z); /* 0.0031308^(1 / 2.2) */
+}
+
+/* ---- alpha ----------------------------------------------------------------------------------- */
+
+/* Colour that is not premultiplied, and its alpha. */
+struct tonemap_straight {
+    real3 color;
+    real alpha;
+};
+
+/* Divides light by its alpha, as a renderer multiplies a texture: before the encoding. Light
+ * brighter than its alpha, such as fire over nothing, has its brightness as alpha. root: what the
+ * light is a power of: 2.2 for tonemap_agx_root, else 1. */
+REAL_FN S(tonemap_straight) tonemap_straight_of(real3 shown, real alpha, float root)
+{
+    real least = real_all(1e-6f);
+    real brightest = real_max(real_max(shown.x, shown.y), shown.z);
+    real light = tonemap_power(real_clamp(brightest, 1e-6f, 1.0f), root);
+    S(tonemap_straight) straight;
+    straight.alpha = real_clamp01(real_max(alpha, real_where(brightest > 1e-6f, light)));
+    real divisor = tonemap_power(real_max(straight.alpha, least), 1.0f / root);
+    straight.color = real3_scale(shown, 1.0f / divisor);
+    return straight;
 }
 
 /* ---- dither ---------------------------------------------------------------------------------- */

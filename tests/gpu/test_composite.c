@@ -12,6 +12,7 @@
 enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
 
 static enum kiln_composite_technique technique = KILN_COMPOSITE_GL;
+static bool texture = false;
 
 static struct kiln_scene *parse(const char *post)
 {
@@ -115,7 +116,7 @@ static void fixture_init(struct fixture *f, void *device, const char *post, uint
     f->threads = kiln_threads_create(2);
     assert_non_null(f->threads);
     const struct kiln_composite_params params = {
-        .technique = technique, .threads = f->threads, .bits = bits};
+        .technique = technique, .threads = f->threads, .bits = bits, .texture = texture};
     f->stage = kiln_composite_create(device, f->scene, &params, &error);
     assert_non_null(f->stage);
     f->inputs = (struct kiln_composite_inputs){.scene = &f->back, .particles = &f->particles};
@@ -277,6 +278,46 @@ static void transparent_pictures_keep_the_light(void **state)
     fixture_finish(&f);
 }
 
+static double decode(double x)
+{
+    return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
+}
+
+/* Textures are blended as light: alpha times the light of the colour is what the display shows over
+ * black. */
+static void textures_keep_the_light(void **state)
+{
+    static const char *const posts[] = {"tonemap: none", "tonemap: agx", "tonemap: aces"};
+    for (size_t k = 0; k < 3; k++) {
+        uint16_t got[2][PIXELS * 4];
+        int covered = 0, shining = 0;
+        for (size_t i = 0; i < 2; i++) {
+            struct fixture f;
+            texture = i == 1;
+            fixture_init(&f, *state, posts[k], 16, 0.9f);
+            texture = false;
+            memset(backdrop_pixels(&f), 0, sizeof(float) * PIXELS * 4);
+            for (int p = 0; p < PIXELS; p += 2) /* fire, of less alpha than light */
+                f.particles.host[4 * p + 3] *= 0.1f;
+            run(&f, got[i]);
+            for (int p = 0; p < PIXELS && i == 1; p++) {
+                const double alpha = got[1][4 * p + 3] / 65535.0;
+                const double own = (double)f.particles.host[4 * p + 3];
+                assert_true(alpha + 1e-4 >= own);
+                covered += fabs(alpha - own) < 1e-4;
+                shining += alpha > own + 1e-3;
+            }
+            fixture_finish(&f);
+        }
+        for (int p = 0; p < PIXELS * 4; p++) {
+            const double shown = got[0][p] / 65535.0 * got[0][p | 3] / 65535.0;
+            const double light = decode(got[1][p] / 65535.0) * got[1][p | 3] / 65535.0;
+            assert_true(p % 4 == 3 || fabs(light - decode(shown)) < 4e-4);
+        }
+        assert_true(covered > PIXELS / 4 && shining > PIXELS / 4);
+    }
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -287,6 +328,7 @@ int main(void)
         test_on_device(any_brightness_is_white),
         test_on_device(dither_is_small_and_repeatable),
         test_on_device(transparent_pictures_keep_the_light),
+        test_on_device(textures_keep_the_light),
     };
     int failed = cmocka_run_group_tests_name("gl", tests, test_device_open, test_device_close);
     technique = KILN_COMPOSITE_CPU;

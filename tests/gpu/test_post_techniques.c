@@ -86,7 +86,7 @@ static struct composed compose(void *device, const struct kiln_scene *scene,
     size_t channels = (size_t)scene->width * scene->height * 4;
     struct composed out = {malloc(channels * bits / 8), malloc(channels * sizeof(float))};
     struct kiln_threads *workers = kiln_threads_create(threads);
-    const struct kiln_composite_params params = {technique, workers, bits, true};
+    const struct kiln_composite_params params = {technique, workers, bits, true, false};
     struct kiln_composite_stage *stage = kiln_composite_create(device, scene, &params, &error);
     assert_non_null(stage);
     assert_true(kiln_composite_run(stage, inputs, &error));

@@ -10,7 +10,7 @@ $ kiln complete -- figure ''
 $ kiln complete -- help exi
 1|word	exit-codes	what each exit code means
 $ kiln complete -- render --flipbook-a
-1|word	--flipbook-alpha	Whether the colours of a flipbook are straight, or premultiplied by alpha.
+1|word	--flipbook-alpha	Whether the colours of a flipbook are straight, for renderers that blend light, such as kiln, or premultiplied by alpha, as a display shows them over black.
 $ kiln complete -- render --progress ''
 1|word	tty	
 1|word	lines	

@@ -206,8 +206,10 @@ $ kiln help render
 1|                              frame of --size. The cells are spread evenly over
 1|                              --frames, and no other frames are drawn.
 1|      --flipbook-alpha straight|premultiplied
-1|                              Whether the colours of a flipbook are straight, or
-1|                              premultiplied by alpha. Default: straight.
+1|                              Whether the colours of a flipbook are straight,
+1|                              for renderers that blend light, such as kiln, or
+1|                              premultiplied by alpha, as a display shows them
+1|                              over black. Default: straight.
 1|      --flipbook-fade N       How far from its border a cell of a flipbook with
 1|                              alpha fades out, in percent of its shorter side,
 1|                              so that no glow and no smoke shows a cut there. 0
