@@ -9,8 +9,6 @@
 
 #define RAY_PI 3.14159265f
 
-typedef uint32_t vu __attribute__((vector_size(4 * LANES)));
-
 SIMD vi vi_all(int32_t x)
 {
     return x - (vi){0};

@@ -80,8 +80,8 @@ SIMD struct vf3 color_of(const struct block *block, int i)
 }
 
 /* Exposes, tone-maps and encodes light; of textures, divides it by alpha before it is encoded.
- * Without AgX, which has a limit of its own, light is limited to the range of 16-bit floats, since
- * the squares in a tone map overflow beyond it. */
+ * For ACES, light is limited to the range of 16-bit floats, since its squares overflow beyond it.
+ */
 SIMD void encode(const struct kiln_composite_rows *p, struct block *block, int count)
 {
     const enum kiln_tonemap tonemap = p->tonemap;

@@ -221,7 +221,8 @@ static void a_ball_hides_a_lamp(void **state)
     static const char *const texts[] = {SCENE("0.01 m", BALL), SCENE("0.2 m", BALL),
                                         SCENE("0.5 m", BALL)};
     static const double radii[] = {0.01, 0.2, 0.5};
-    /* Where a ball lies on the floor, its shadow is as soft as if it began at the ball's middle. */
+    /* The shadow of a ball that lies on the floor is as soft as if it began at the ball's middle.
+     */
     static const double tolerances[] = {0.05, 0.13, 0.25};
     const vec places[] = {{-0.5, 1.5, 0.2}, {1, 0.3, -0.8}, {-2.2, 2.2, 1.2}};
     int partly[3];

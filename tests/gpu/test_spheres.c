@@ -176,8 +176,8 @@ static void spheres_below_a_pixel_are_fainter(void **state)
     opaque_finish(&f);
 }
 
-/* What a display shows, 0 to 1, of the mean of a bright and a dark side, of which the part `bright`
- * of the pixel shows the first. */
+/* Returns what a display shows, 0 to 1, of a pixel at the edge between a bright and a dark side.
+ * bright: the part of the pixel that shows the bright side. */
 static double shown_mean(double light, double dark, double bright)
 {
     const double weight = bright / (1 + light), other = (1 - bright) / (1 + dark);

@@ -283,7 +283,7 @@ static void billboards_see_lamps_past_balls(void **state)
     tear_down(&f);
 }
 
-/* The same bytes by one thread and by four. */
+/* One thread and four draw the same bytes. */
 static void threads_do_not_change_maps(void **state)
 {
     (void)state;

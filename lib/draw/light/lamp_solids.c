@@ -19,7 +19,7 @@
 
 enum { FIRST_ROOM = 1024, FACES = KILN_LAMP_MAPS * KILN_LAMP_FACES };
 
-/* What a mesh has besides the sphere that stands for it. */
+/* Holds the pose of a mesh, which it has besides the sphere that stands for it. */
 struct posed {
     float4 axes[3]; /* of the mesh in the world, for each unit of a corner, m */
     float reach;    /* radius of its bounding sphere, m */

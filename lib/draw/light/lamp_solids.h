@@ -18,7 +18,7 @@ struct kiln_lamp_solid_maps {
     uint32_t count; /* lamps that have maps */
     /* For each lamp its faces, for each face its levels, the finest first. NULL: there are none. */
     const uint32_t *texels;
-    /* Of each face of each lamp: a number that grows when the face is drawn. */
+    /* Each face of each lamp has a number that grows when the face is drawn. */
     const uint64_t *changes;
 };
 

@@ -81,7 +81,7 @@ void kiln_solid_canvas_clear(struct kiln_solid_canvas *canvas, float far)
     memset(canvas->narrow, 0, sizeof canvas->narrow);
 }
 
-/* What a texel keeps of a solid. */
+/* Holds what a texel keeps of a solid. */
 struct kept {
     float depth;  /* distance, as a part of `far` */
     float narrow; /* as of struct kiln_solid_canvas */

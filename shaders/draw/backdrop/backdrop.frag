@@ -8,7 +8,7 @@
  * lib/draw/backdrop/backdrop_gl.c runs two passes. The first casts one ray through the centre of
  * each pixel and notes which surface it hits. The second casts SAMPLES rays a pixel at edges, which
  * are where neighbouring pixels hit different surfaces: backdrop_edges.vert finds the tiles that
- * have edges, at_edge their pixels. */
+ * have edges, this shader their pixels. */
 // variant: SAMPLES=1
 // variant: SAMPLES=4
 // variant: SAMPLES=1 ROUND=1
@@ -192,32 +192,11 @@ void main()
 
 const vec2 SAMPLE_OFFSETS[KILN_EDGE_SAMPLES] = vec2[](KILN_EDGE_OFFSETS(vec2));
 
-layout(binding = 0) uniform sampler2D surfaces;
-
-/* Returns whether two neighbours among the pixel and the eight around it hit different surfaces. */
-bool at_edge()
-{
-    ivec2 last = textureSize(surfaces, 0) - 1;
-    float largest_step = 0.0;
-    float above[3];
-    for (int y = -1; y <= 1; y++) {
-        float before = 0.0;
-        for (int x = -1; x <= 1; x++) {
-            ivec2 at = clamp(ivec2(gl_FragCoord.xy) + ivec2(x, y), ivec2(0), last);
-            float surface = texelFetch(surfaces, at, 0).r;
-            if (x >= 0)
-                largest_step = max(largest_step, abs(surface - before));
-            if (y >= 0)
-                largest_step = max(largest_step, abs(surface - above[x + 1]));
-            above[x + 1] = before = surface;
-        }
-    }
-    return largest_step > KILN_EDGE_THRESHOLD;
-}
+#include "draw/backdrop/backdrop_edges.glsl"
 
 void main()
 {
-    if (!at_edge())
+    if (!has_edge(ivec2(gl_FragCoord.xy) - 1, 3))
         discard;
     edge_sum sum = edge_sum_none();
     for (int s = 0; s < SAMPLES; s++) {
