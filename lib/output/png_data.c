@@ -5,19 +5,19 @@
  * is the same for any number of threads. Bands are compressed in rounds of a few, whose output
  * waits in memory until it is taken.
  *
- * Small data is made by libdeflate at its highest level from the whole picture, and taken in
- * parts. Its lower levels are slower than deflate.c and give larger files. */
+ * Small data is made by png_small.c from the whole picture, and taken in parts. */
 #include "output/png_data.h"
 
-#include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
 #include "base/error.h"
 #include "base/thread.h"
+#include "output/adler.h"
 #include "output/deflate.h"
 #include "output/png_rows.h"
+#include "output/png_small.h"
 
 enum {
     BAND_BYTES = 256 << 10, /* what a band has at most, if its rows are not larger than that */
@@ -25,7 +25,6 @@ enum {
     HEAD = 2,               /* bytes of a zlib stream before its data */
     TAIL = 4,               /* bytes behind it */
     BANDS_A_THREAD = 4,     /* of a round, so that a slow thread delays the round less */
-    SMALL_LEVEL = 12,       /* libdeflate's highest level */
     SMALL_PART = 1 << 20    /* bytes that are taken at once */
 };
 
@@ -175,7 +174,7 @@ static void compress_bands(void *context, size_t begin, size_t end, uint32_t wor
         band->start = HEAD;
         band->size = data->deflate(worker->rows, size, number + 1 == data->band_count,
                                    band->bytes + HEAD, worker->deflate);
-        band->adler = libdeflate_adler32(1, worker->rows, size);
+        band->adler = kiln_adler32(worker->rows, size);
     }
 }
 
@@ -236,18 +235,13 @@ static bool compress_small(struct kiln_png_data *data)
     const struct kiln_picture *picture = data->picture;
     const size_t size = picture->height * data->row_bytes;
     uint8_t *rows = malloc(size), *scratch = malloc(kiln_png_filter_scratch(picture));
-    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(SMALL_LEVEL);
-    if (rows && scratch && compressor) {
-        const size_t room = libdeflate_zlib_compress_bound(compressor, size);
-        data->small = malloc(room);
+    if (rows && scratch) {
         data->filter_rows(picture, 0, picture->height, TOGETHER, rows, scratch);
-        if (data->small)
-            data->small_size = libdeflate_zlib_compress(compressor, rows, size, data->small, room);
+        data->small = kiln_png_small_compress(rows, size, &data->small_size);
     }
-    libdeflate_free_compressor(compressor);
     free(scratch);
     free(rows);
-    return data->small_size > 0;
+    return data->small != NULL;
 }
 
 static bool next_small(struct kiln_png_data *data, const struct kiln_caller *caller,
