@@ -97,6 +97,14 @@ REAL_FN real billboard_dimming(real still_half_length, real half_length)
     return still_half_length / real_max(half_length, real_all(1e-12f));
 }
 
+/* Returns whether a billboard shows the strip of its cell (KILN_ATLAS_STRIP). The level of a cell
+ * follows from the width. At one or two texels a streak would be a bar, as bright at its ends as in
+ * its middle. width, length: px. */
+REAL_FN truth billboard_shows_strip(real width, real length)
+{
+    return truth_and(width <= 2.0f, length >= 4.0f);
+}
+
 /* Returns -1 for a billboard that spins backwards, or 1. Half of the particles spin backwards, and
  * are mirrored as well. unit: random, 0 to 1. */
 REAL_FN real billboard_side(real unit)

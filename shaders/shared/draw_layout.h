@@ -27,6 +27,15 @@
 /* Edge in pixels of an atlas's cells. */
 #define KILN_ATLAS_CELL 128
 
+/* Texels of a cell's strip. A long thin billboard shows it (billboard_shows_strip): a texel is the
+ * mean of an eighth of the cell, from its top to its bottom. The level of detail that stands for
+ * it is behind those of the cell. */
+#define KILN_ATLAS_STRIP 8
+#define KILN_STRIP_LEVEL 8
+
+/* The texture unit of the strips. */
+#define KILN_UNIT_STRIPS 19
+
 /* Least edge in pixels of a billboard in a picture smaller than the frame; a smaller one would
  * flicker. */
 #define KILN_COARSE_LEAST 1.5f

@@ -133,12 +133,49 @@ static void thin_slivers_are_faint(void **state)
     drawing_finish(&d);
 }
 
+/* Returns the mean of the texture's green in the rows of the picture that a billboard of 40 px at
+ * its middle covers, from one row to another one. */
+static double green_between(const struct kiln_image *image, int from, int to)
+{
+    double green = 0, alpha = 0;
+    for (int p = from * WIDTH; p < to * WIDTH; p++) {
+        green += (double)image->host[4 * p + 1];
+        alpha += (double)image->host[4 * p + 3];
+    }
+    assert_true(alpha > 0);
+    return green / alpha;
+}
+
+/* The texture's green grows from 0 at the top to 1 at the bottom, and so it does on a streak whose
+ * width alone would choose a level of one texel. */
+static void long_thin_billboards_show_their_cell_from_end_to_end(void **state)
+{
+    static const char *const overrides[] = {"systems.a.look.facing=velocity",
+                                            "systems.a.look.size=0.0205 m", /* 0.85 px */
+                                            "systems.a.look.stretch=0.94 s"};
+    struct drawing d;
+    drawing_init(&d, *state, SCENE, overrides, 3);
+    const struct kiln_particle particle =
+        drawing_particle(0, (float3){0.0f, 0.0f, 0.0f}, (float3){0.0f, 1.0f, 0.0f});
+    drawing_place(&d, &particle, 1, STEP);
+    drawing_run(&d, 1, (float)WALL_M);
+    const double top = green_between(&d.color, 100, 105),
+                 middle = green_between(&d.color, 117, 123);
+    const double bottom = green_between(&d.color, 135, 140);
+    print_message("green %g, %g, %g\n", top, middle, bottom);
+    assert_true(fabs(top - 0.07) < 0.03);
+    assert_true(fabs(middle - 0.5) < 0.02);
+    assert_true(fabs(bottom - 0.93) < 0.03);
+    drawing_finish(&d);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(small_billboards_shed_a_steady_light),
         test_on_device(a_stretch_that_dims_keeps_the_light),
         test_on_device(thin_slivers_are_faint),
+        test_on_device(long_thin_billboards_show_their_cell_from_end_to_end),
     };
     static const struct {
         enum kiln_raster_technique technique;

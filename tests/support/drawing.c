@@ -17,10 +17,10 @@ const char *drawing_asset_root;
 
 /* Fills a texture whose colour tells the place: red grows to the right, green grows downwards, and
  * blue is 1. */
-static void drawing_fill_level(unsigned char *texels, int edge)
+static void drawing_fill_level(unsigned char *texels, int columns, int rows)
 {
-    for (int i = 0; i < edge * edge; i++) {
-        double x = (i % edge + 0.5) / edge, y = (i / edge + 0.5) / edge;
+    for (int i = 0; i < columns * rows; i++) {
+        double x = (i % columns + 0.5) / columns, y = (i / columns + 0.5) / rows;
         unsigned char texel[4] = {(unsigned char)(sqrt(x) * 255 + 0.5),
                                   (unsigned char)(sqrt(y) * 255 + 0.5), 255, 255};
         memcpy(texels + 4 * i, texel, 4);
@@ -30,11 +30,12 @@ static void drawing_fill_level(unsigned char *texels, int edge)
 static void drawing_make_atlas(struct drawing *d)
 {
     static const signed char still[2] = {0, 0};
-    GLuint textures[2];
-    glGenTextures(2, textures);
+    GLuint textures[3];
+    glGenTextures(3, textures);
     d->atlas = (struct kiln_atlas){.texels = calloc(1, KILN_ATLAS_LAYER_BYTES),
                                    .texture = textures[0],
                                    .motion = textures[1],
+                                   .strips = textures[2],
                                    .layers = 1};
     assert_non_null(d->atlas.texels);
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[0]);
@@ -42,7 +43,7 @@ static void drawing_make_atlas(struct drawing *d)
     unsigned char *texels = d->atlas.texels;
     for (int level = 0; level < KILN_ATLAS_LEVELS; level++) {
         int edge = DRAWING_CELL >> level;
-        drawing_fill_level(texels, edge);
+        drawing_fill_level(texels, edge, edge);
         glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, 0, edge, edge, 1, GL_RGBA,
                         GL_UNSIGNED_BYTE, texels);
         texels += 4 * edge * edge;
@@ -53,6 +54,13 @@ static void drawing_make_atlas(struct drawing *d)
     glBindTexture(GL_TEXTURE_2D_ARRAY, textures[1]);
     glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RG8_SNORM, 1, 1, 1);
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, 1, 1, 1, GL_RG, GL_BYTE, still);
+    drawing_fill_level(texels, 1, KILN_ATLAS_STRIP);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, textures[2]);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA8, 1, KILN_ATLAS_STRIP, 1);
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, 1, KILN_ATLAS_STRIP, 1, GL_RGBA,
+                    GL_UNSIGNED_BYTE, texels);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     for (int i = 0; i < KILN_MAX_SYSTEMS; i++)
         d->atlas.systems[i] = (struct kiln_atlas_textures){
             .textures = {{.cells = 1, .kind = KILN_CELL_COLOR}}, .count = 1};

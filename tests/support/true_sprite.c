@@ -200,7 +200,7 @@ static double true_up(double angle, double stretch, const double moving[2], uint
 
 static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
                               const struct kiln_draw_look *look, uint32_t stream, float passes,
-                              double diameter_px)
+                              double width_px, double length_px)
 {
     uint32_t number = (uint32_t)(random_unit(stream, RANDOM_TEXTURE) * (float)look->flags.w);
     uint4 texture = look->textures[number < look->flags.w ? number : look->flags.w - 1];
@@ -211,7 +211,13 @@ static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
     s->layers[0] = texture.x + first % texture.y;
     s->layers[1] = texture.x + (first + 1) % texture.y;
     s->part = (double)position - first;
-    s->level = (uint32_t)floor(log2(fmax(KILN_ATLAS_CELL / fmax(diameter_px, 1), 1)));
+    s->level = (uint32_t)floor(log2(fmax(KILN_ATLAS_CELL / fmax(width_px, 1), 1)));
+    s->columns = s->rows = KILN_ATLAS_CELL >> s->level;
+    if (width_px <= 2 && length_px >= 4) {
+        s->level = KILN_STRIP_LEVEL;
+        s->columns = 1;
+        s->rows = KILN_ATLAS_STRIP;
+    }
     s->masks = texture.z != KILN_CELL_COLOR;
     s->motion = t->atlas->moves ? (double)BITS_FLOAT(texture.w) : 0;
 }
@@ -416,7 +422,7 @@ bool true_sprite_make(const struct true_scene *t, uint32_t entry,
     s->bulge = p.half_size * p.row[KILN_LOOK_BLOOM][3];
     s->distance = sqrt(dvec_dot(s->center, s->center));
     true_choose_cells(t, s, p.look, p.stream, p.life * (float)p.row[KILN_LOOK_COOL][3],
-                      p.diameter_px);
+                      p.diameter_px, 2 * sqrt(dvec_dot(s->up, s->up)) * pixels_per_m);
     true_light(t, s, p.row[KILN_LOOK_COVER], KILN_ENTRY_SLOT(entry), p.position, p.axes);
     if (p.look->form.x != 0) {
         bool line = p.look->form.x == LOOK_LINE;
@@ -461,13 +467,14 @@ bool true_place_of(const struct true_scene *t, const struct true_sprite *s, doub
 }
 
 /* Interpolates channel c bilinearly between texels of bytes, clamped at the edge of the texture. */
-static double true_bilinear(const uint8_t *texels, int edge, int channels, int c, double u,
-                            double v, bool has_sign)
+static double true_bilinear(const uint8_t *texels, int columns, int rows, int channels, int c,
+                            double u, double v, bool has_sign)
 {
-    double x = fmin(fmax(u * edge - 0.5, 0), edge - 1), y = fmin(fmax(v * edge - 0.5, 0), edge - 1);
+    double x = fmin(fmax(u * columns - 0.5, 0), columns - 1);
+    double y = fmin(fmax(v * rows - 0.5, 0), rows - 1);
     int x0 = (int)x, y0 = (int)y;
-    int x1 = x0 + 1 < edge ? x0 + 1 : x0, y1 = y0 + 1 < edge ? y0 + 1 : y0;
-    const int at[4] = {y0 * edge + x0, y0 * edge + x1, y1 * edge + x0, y1 * edge + x1};
+    int x1 = x0 + 1 < columns ? x0 + 1 : x0, y1 = y0 + 1 < rows ? y0 + 1 : y0;
+    const int at[4] = {y0 * columns + x0, y0 * columns + x1, y1 * columns + x0, y1 * columns + x1};
     double t[4];
     for (int i = 0; i < 4; i++) {
         uint8_t byte = texels[at[i] * channels + c];
@@ -485,16 +492,15 @@ static void true_cell(const struct true_scene *t, const struct true_sprite *s,
     if (s->motion > 0) {
         const int8_t *moves = t->atlas->moves + (size_t)s->layers[0] * KILN_ATLAS_MOVES_BYTES;
         for (int i = 0; i < 2; i++)
-            way[i] = s->motion * true_bilinear((const uint8_t *)moves, KILN_ATLAS_MOTION, 2, i,
-                                               at->u, at->v, true);
+            way[i] = s->motion * true_bilinear((const uint8_t *)moves, KILN_ATLAS_MOTION,
+                                               KILN_ATLAS_MOTION, 2, i, at->u, at->v, true);
     }
     const uint8_t *from = kiln_atlas_level(t->atlas, s->layers[0], s->level);
     const uint8_t *to = kiln_atlas_level(t->atlas, s->layers[1], s->level);
-    int edge = KILN_ATLAS_CELL >> s->level;
     for (int c = 0; c < 4; c++) {
-        double one = true_bilinear(from, edge, 4, c, at->u - s->part * way[0],
+        double one = true_bilinear(from, s->columns, s->rows, 4, c, at->u - s->part * way[0],
                                    at->v - s->part * way[1], false);
-        double other = true_bilinear(to, edge, 4, c, at->u + (1 - s->part) * way[0],
+        double other = true_bilinear(to, s->columns, s->rows, 4, c, at->u + (1 - s->part) * way[0],
                                      at->v + (1 - s->part) * way[1], false);
         cell[c] = one + (other - one) * s->part;
     }

@@ -28,6 +28,7 @@ struct true_sprite {
      * than it is, and pixels of the picture over the texture's width; 0: its edges are hard. */
     double narrowed[2], rim[2];
     uint32_t layers[2], level;
+    int columns, rows; /* of texels, at the level */
     double part, motion;
     /* A plain sprite is a rectangle of the picture: its middle, px; unit direction; half edges, px;
      * 1 / depth at both ends, 1/m. */

@@ -170,6 +170,18 @@ static GLenum cell_format(const struct kiln_device *device)
     return device->info.software ? GL_RGBA16 : GL_RGBA8;
 }
 
+static void upload_strips(struct kiln_atlas *atlas)
+{
+    glGenTextures(1, &atlas->strips);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, atlas->strips);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, cell_format(atlas->device), 1, KILN_ATLAS_STRIP,
+                   atlas->layers ? (GLsizei)atlas->layers : 1);
+    for (uint32_t layer = 0; layer < atlas->layers; layer++)
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, (GLint)layer, 1, KILN_ATLAS_STRIP, 1, GL_RGBA,
+                        GL_UNSIGNED_BYTE, kiln_atlas_level(atlas, layer, KILN_STRIP_LEVEL));
+    set_filters(1, GL_LINEAR);
+}
+
 static void upload_cells(struct kiln_atlas *atlas)
 {
     glGenTextures(1, &atlas->texture);
@@ -212,8 +224,10 @@ bool kiln_atlas_send(struct kiln_atlas *atlas, struct kiln_error *error)
                               atlas->layers, device->info.name, device->info.max_array_layers);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     upload_cells(atlas);
+    upload_strips(atlas);
     upload_moves(atlas);
     kiln_device_label(device, GL_TEXTURE, atlas->texture, "atlas");
+    kiln_device_label(device, GL_TEXTURE, atlas->strips, "atlas strips");
     kiln_device_label(device, GL_TEXTURE, atlas->motion, "atlas motion");
     return kiln_device_check(device, "atlas", error);
 }
@@ -441,6 +455,7 @@ void kiln_atlas_finish(struct kiln_atlas *atlas)
 {
     if (atlas->texture) {
         glDeleteTextures(1, &atlas->texture);
+        glDeleteTextures(1, &atlas->strips);
         glDeleteTextures(1, &atlas->motion);
     }
     free(atlas->texels);

@@ -11,7 +11,7 @@
 
 enum {
     KILN_ATLAS_LEVELS = 8,          /* levels with edges from KILN_ATLAS_CELL to 1 */
-    KILN_ATLAS_LAYER_BYTES = 87380, /* bytes of all levels of a cell, RGBA */
+    KILN_ATLAS_LAYER_BYTES = 87412, /* bytes of all levels of a cell and of its strip, RGBA */
     KILN_ATLAS_MOTION = 32,         /* edge of a layer of motion, texels */
     KILN_ATLAS_MOVES_BYTES = 2 * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION,
 };
@@ -32,11 +32,12 @@ struct kiln_atlas_textures {
 
 struct kiln_atlas {
     struct kiln_device *device; /* NULL: host only */
-    uint8_t *texels;            /* the levels of all layers, KILN_ATLAS_LAYER_BYTES a layer */
+    uint8_t *texels;            /* levels, then strip, of each layer: KILN_ATLAS_LAYER_BYTES */
     /* motion towards the next cell, right and down, KILN_ATLAS_MOVES_BYTES a layer; */
     int8_t *moves;
     /* NULL when no cell moves */
     GLuint texture; /* 2-D array, RGBA8, with mip levels; 0 before kiln_atlas_send */
+    GLuint strips;  /* 2-D array of the layers' strips, each one texel wide */
     GLuint motion;  /* 2-D array of the same layers, RG8_SNORM; 1 x 1 x 1 when no cell moves */
     struct kiln_atlas_textures systems[KILN_MAX_SYSTEMS];
     uint32_t layers;

@@ -1,11 +1,29 @@
-/* This file makes the mip levels of a cell and stores them in 8 bits. */
+/* This file makes the mip levels of a cell and its strip, and stores them in 8 bits. */
 #include <math.h>
 
 #include "asset/atlas/atlas_code.h"
 #include "asset/atlas/quad.h"
 #include "shared/draw_layout.h"
 
-/* Halves a level; normals and heat are weighted by their density. */
+/* Returns the mean of texels; normals and heat are weighted by their density. */
+static asset_quad mean_of(const asset_quad *texels, int count, uint32_t kind)
+{
+    const float part = 1.0f / (float)count;
+    asset_quad sum = {0}, weighted = {0};
+    for (int i = 0; i < count; i++) {
+        sum += part * texels[i];
+        weighted += texels[i][3] * texels[i];
+    }
+    const float density = (float)count * sum[3];
+    asset_quad mean = sum;
+    if (kind == KILN_CELL_MASK && density > 1e-6f) {
+        mean = weighted / density;
+        mean[3] = sum[3];
+    }
+    return mean;
+}
+
+/* Halves a level. */
 static void shrink(const float *from, size_t edge, uint32_t kind, float *to)
 {
     const size_t half = edge / 2;
@@ -15,19 +33,19 @@ static void shrink(const float *from, size_t edge, uint32_t kind, float *to)
             const asset_quad p[4] = {asset_quad_load(row), asset_quad_load(row + 4),
                                      asset_quad_load(row + 4 * edge),
                                      asset_quad_load(row + 4 * edge + 4)};
-            asset_quad sum = {0}, weighted = {0};
-            for (int i = 0; i < 4; i++) {
-                sum += 0.25f * p[i];
-                weighted += p[i][3] * p[i];
-            }
-            const float density = 4.0f * sum[3];
-            asset_quad mean = sum;
-            if (kind == KILN_CELL_MASK && density > 1e-6f) {
-                mean = weighted / density;
-                mean[3] = sum[3];
-            }
-            asset_quad_store(to, mean);
+            asset_quad_store(to, mean_of(p, 4, kind));
         }
+    }
+}
+
+/* Makes the strip from the level that has as many rows. */
+static void average_rows(const float *from, uint32_t kind, float *strip)
+{
+    for (size_t y = 0; y < KILN_ATLAS_STRIP; y++, strip += 4) {
+        asset_quad row[KILN_ATLAS_STRIP];
+        for (size_t x = 0; x < KILN_ATLAS_STRIP; x++, from += 4)
+            row[x] = asset_quad_load(from);
+        asset_quad_store(strip, mean_of(row, KILN_ATLAS_STRIP, kind));
     }
 }
 
@@ -51,12 +69,16 @@ static void encode(const float *from, size_t pixels, uint32_t kind, uint8_t *to)
 
 static void store_cell(float *cell, uint32_t edge, uint32_t kind, uint8_t *texels)
 {
+    float strip[4 * KILN_ATLAS_STRIP];
     for (; edge > 0; edge /= 2) {
+        if (edge == KILN_ATLAS_STRIP)
+            average_rows(cell, kind, strip);
         encode(cell, (size_t)edge * edge, kind, texels);
         texels += 4 * (size_t)edge * edge;
         if (edge > 1)
             shrink(cell, edge, kind, cell);
     }
+    encode(strip, KILN_ATLAS_STRIP, kind, texels);
 }
 
 const struct kiln_atlas_code KILN_SIMD_NAME(kiln_atlas) = {.store_cell = store_cell};

@@ -49,6 +49,19 @@ static void lay_out(const uint8_t *from, uint32_t edge, uint32_t channel, uint32
     }
 }
 
+/* Returns the texels of a layer of the atlas at a level. `strip` has room for a cell whose columns
+ * are all the layer's strip. */
+static const uint8_t *cell_texels(const struct kiln_atlas *atlas, uint32_t layer, uint32_t level,
+                                  uint8_t strip[4 * KILN_ATLAS_STRIP * KILN_ATLAS_STRIP])
+{
+    const uint8_t *texels = kiln_atlas_level(atlas, layer, level);
+    if (level != KILN_STRIP_LEVEL)
+        return texels;
+    for (size_t i = 0; i < (size_t)KILN_ATLAS_STRIP * KILN_ATLAS_STRIP; i++)
+        memcpy(strip + 4 * i, texels + i / KILN_ATLAS_STRIP * 4, 4);
+    return strip;
+}
+
 /* Lays a cell out: all four channels, then a copy with only blue and alpha. */
 static void lay_out_cell(const uint8_t *from, uint32_t edge, uint8_t *to)
 {
@@ -179,21 +192,22 @@ static struct kiln_cell_hull hull_of(const struct extent *extent, float motion, 
 static void make_hulls_of(struct kiln_cells *cells, const struct kiln_atlas_range *range,
                           uint32_t level)
 {
-    const int edge = KILN_ATLAS_CELL >> level;
+    const int edge = (int)kiln_cell_edge(level);
+    uint8_t strip[4 * KILN_ATLAS_STRIP * KILN_ATLAS_STRIP];
     struct kiln_cell_hull *hulls =
-        cells->hulls + (size_t)range->first_layer * KILN_ATLAS_LEVELS + level;
+        cells->hulls + (size_t)range->first_layer * KILN_CELL_LEVELS + level;
     struct extent first = {{0}, {0}}, cell = first;
     for (uint32_t i = 0; i <= range->cells; i++) {
         const struct extent next =
             i < range->cells
-                ? measure(kiln_atlas_level(cells->atlas, range->first_layer + i, level), edge,
+                ? measure(cell_texels(cells->atlas, range->first_layer + i, level, strip), edge,
                           range->kind)
                 : first;
         const struct extent both = around_both(&cell, &next);
         if (i == 0)
             first = next;
         else
-            hulls[(size_t)(i - 1) * KILN_ATLAS_LEVELS] = hull_of(&both, range->motion, edge);
+            hulls[(size_t)(i - 1) * KILN_CELL_LEVELS] = hull_of(&both, range->motion, edge);
         cell = next;
     }
 }
@@ -202,8 +216,8 @@ static void make_hulls(struct kiln_cells *cells)
 {
     for (uint32_t i = 0; i < KILN_MAX_SYSTEMS; i++) {
         const struct kiln_atlas_textures *textures = &cells->atlas->systems[i];
-        for (uint32_t t = 0; t < textures->count * KILN_ATLAS_LEVELS; t++)
-            make_hulls_of(cells, &textures->textures[t / KILN_ATLAS_LEVELS], t % KILN_ATLAS_LEVELS);
+        for (uint32_t t = 0; t < textures->count * KILN_CELL_LEVELS; t++)
+            make_hulls_of(cells, &textures->textures[t / KILN_CELL_LEVELS], t % KILN_CELL_LEVELS);
     }
 }
 
@@ -249,7 +263,7 @@ void kiln_cells_destroy(struct kiln_cells **cells)
 uint32_t kiln_cells_request(struct kiln_cells *cells, const struct kiln_cell_name *name)
 {
     uint32_t number =
-        (name->layer * KILN_CELL_PHASES + name->phase) * KILN_ATLAS_LEVELS + name->level;
+        (name->layer * KILN_CELL_PHASES + name->phase) * KILN_CELL_LEVELS + name->level;
     atomic_bool *requested = &cells->requested[number];
     /* Only the first thread that wants the cell writes the slot; any would write the same. */
     if (!atomic_load_explicit(requested, memory_order_relaxed) &&
@@ -354,11 +368,12 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
     uint8_t texels[4 * MIXED_EDGE * MIXED_EDGE] = {0}, *texel = texels;
     const struct mix_source *source = &cells->sources[number];
     const struct kiln_atlas *atlas = cells->atlas;
-    uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
-    uint32_t phase = number / KILN_ATLAS_LEVELS % KILN_CELL_PHASES;
-    uint32_t edge = (uint32_t)KILN_ATLAS_CELL >> level;
-    const uint8_t *from = kiln_atlas_level(atlas, layer, level);
-    const uint8_t *to = kiln_atlas_level(atlas, source->next_layer, level);
+    uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_CELL_LEVELS;
+    uint32_t phase = number / KILN_CELL_LEVELS % KILN_CELL_PHASES;
+    uint32_t edge = kiln_cell_edge(level);
+    uint8_t strips[2][4 * KILN_ATLAS_STRIP * KILN_ATLAS_STRIP];
+    const uint8_t *from = cell_texels(atlas, layer, level, strips[0]);
+    const uint8_t *to = cell_texels(atlas, source->next_layer, level, strips[1]);
     const int8_t *moves = atlas->moves && source->motion > 0.0f
                               ? atlas->moves + (size_t)layer * KILN_ATLAS_MOVES_BYTES
                               : NULL;
@@ -384,8 +399,9 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
 /* Lays a layer of the atlas out as the cell of a slot with phase 0. */
 static void copy(const struct kiln_cells *cells, uint32_t number)
 {
-    uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_ATLAS_LEVELS;
-    lay_out_cell(kiln_atlas_level(cells->atlas, layer, level), (uint32_t)KILN_ATLAS_CELL >> level,
+    uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_CELL_LEVELS;
+    uint8_t strip[4 * KILN_ATLAS_STRIP * KILN_ATLAS_STRIP];
+    lay_out_cell(cell_texels(cells->atlas, layer, level, strip), kiln_cell_edge(level),
                  cells->texels[number]);
 }
 
@@ -395,7 +411,7 @@ static void mix_missing(void *context, size_t begin, size_t end, uint32_t worker
     const struct kiln_cells *cells = context;
     for (size_t i = begin; i < end; i++) {
         uint32_t number = cells->missing[i];
-        bool itself = number / KILN_ATLAS_LEVELS % KILN_CELL_PHASES == 0;
+        bool itself = number / KILN_CELL_LEVELS % KILN_CELL_PHASES == 0;
         (itself ? copy : mix)(cells, number);
     }
 }
@@ -407,7 +423,7 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
     for (uint32_t i = 0; i < cells->slot_count; i++) {
         if (cells->texels[i] || !atomic_load_explicit(&cells->requested[i], memory_order_relaxed))
             continue;
-        size_t texels = kiln_cells_texels((size_t)KILN_ATLAS_CELL >> i % KILN_ATLAS_LEVELS);
+        size_t texels = kiln_cells_texels(kiln_cell_edge(i % KILN_CELL_LEVELS));
         cells->texels[i] = malloc((KILN_CELL_TEXEL + KILN_CELL_PAIR) * texels);
         if (!cells->texels[i])
             return kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");

@@ -22,10 +22,12 @@ enum {
     KILN_CELL_PAIR = 4,    /* bytes of a texel of two channels */
     KILN_CELL_MARGIN = 2,  /* columns besides the edge: the outer texels are repeated */
     KILN_CELL_PHASES = 16, /* steps from a cell to the next one */
-    KILN_CELL_NUMBERS = KILN_CELL_PHASES * KILN_ATLAS_LEVELS, /* slots of a layer */
+    KILN_CELL_LEVELS = KILN_STRIP_LEVEL + 1,
+    KILN_CELL_NUMBERS = KILN_CELL_PHASES * KILN_CELL_LEVELS, /* slots of a layer */
 
     /* The levels below are those of the atlas: level 0 has the largest cells, and each level has
-     * half the edge of the one before. */
+     * half the edge of the one before. Cells of KILN_STRIP_LEVEL repeat the strip in all columns.
+     */
 
     /* Mixed cells of KILN_CELL_MIXED_LEVEL have only every second phase, so that they fit into the
      * processor's cache. */
@@ -95,6 +97,12 @@ struct kiln_cells_content {
 
 struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells);
 
+/* Returns the edge of the cells of a level, texels. */
+static inline uint32_t kiln_cell_edge(uint32_t level)
+{
+    return level == KILN_STRIP_LEVEL ? KILN_ATLAS_STRIP : (uint32_t)KILN_ATLAS_CELL >> level;
+}
+
 /* Returns how many texels a laid-out cell has. */
 static inline size_t kiln_cells_texels(size_t edge)
 {
@@ -113,8 +121,8 @@ static inline const uint8_t *kiln_cells_moves(const struct kiln_cells_content *c
 static inline const struct kiln_cell_hull *kiln_cells_hull(const struct kiln_cells_content *content,
                                                            uint32_t number)
 {
-    return &content->hulls[number / KILN_CELL_NUMBERS * KILN_ATLAS_LEVELS +
-                           number % KILN_ATLAS_LEVELS];
+    return &content
+                ->hulls[number / KILN_CELL_NUMBERS * KILN_CELL_LEVELS + number % KILN_CELL_LEVELS];
 }
 
 #endif

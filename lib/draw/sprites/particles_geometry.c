@@ -129,6 +129,7 @@ bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_part
     bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
     bind_texture(2, GL_TEXTURE_2D, depth);
     bind_texture(3, GL_TEXTURE_2D_ARRAY, stage->atlas->motion);
+    bind_texture(KILN_UNIT_STRIPS, GL_TEXTURE_2D_ARRAY, stage->atlas->strips);
     return true;
 }
 

@@ -27,16 +27,24 @@ SIMD struct columns choose_textures(const struct sprite_lanes *p)
 }
 
 /* Returns the level with one to two texels a pixel: 7 less the exponent of the least power of two
- * that is not below the size in pixels. */
-SIMD vi level_of(vf diameter_px)
+ * that is not below the width in pixels; or that of the strip. */
+SIMD vi level_of(vf width_px, vf length_px)
 {
-    vi bits = (vi)vf_clamp(diameter_px, 1.0f, (float)KILN_ATLAS_CELL);
-    return KILN_ATLAS_LEVELS - 1 - (((bits - 1) >> 23) - 126);
+    vi bits = (vi)vf_clamp(width_px, 1.0f, (float)KILN_ATLAS_CELL);
+    vi level = KILN_ATLAS_LEVELS - 1 - (((bits - 1) >> 23) - 126);
+    return vi_select(billboard_shows_strip(width_px, length_px), vi_all(KILN_STRIP_LEVEL), level);
+}
+
+/* Returns the edge of the cells of a level (kiln_cell_edge). */
+SIMD vf edge_of(vi level)
+{
+    vf edge = (vf)((127 + KILN_ATLAS_LEVELS - 1 - level) << 23);
+    return vf_select(level == KILN_STRIP_LEVEL, vf_all(KILN_ATLAS_STRIP), edge);
 }
 
 SIMD vi cell_number(vi layer, vi phase, vi level)
 {
-    return (layer * KILN_CELL_PHASES + phase) * KILN_ATLAS_LEVELS + level;
+    return (layer * KILN_CELL_PHASES + phase) * KILN_CELL_LEVELS + level;
 }
 
 /* Calls kiln_cells_request for the cell of each visible lane. It first checks whether all of them
@@ -63,7 +71,7 @@ SIMD void request_cells(const struct sprite_lanes *p, const struct chosen_cells 
 SIMD void read_hulls(struct sprite_lanes *p, vi layer)
 {
     enum { FLOATS = sizeof(struct kiln_cell_hull) / sizeof(float) };
-    const struct lane_offsets at = lane_offsets_of((layer * KILN_ATLAS_LEVELS + p->level) * FLOATS);
+    const struct lane_offsets at = lane_offsets_of((layer * KILN_CELL_LEVELS + p->level) * FLOATS);
     const float *hulls = (const float *)(const void *)p->pass->content.hulls;
     p->hull_from = columns_load(hulls, &at);
     p->hull_to = columns_load(hulls + 4, &at);
@@ -79,7 +87,7 @@ static void choose_cells(struct sprite_lanes *p)
     if (p->look->flags.y != 0)
         position += vu_unit(p->stream, RANDOM_CELL) * counted;
     position = vf_clamp(position, 0.0f, 1e6f);
-    vf edge = (vf)((127 + KILN_ATLAS_LEVELS - 1 - p->level) << 23);
+    vf edge = edge_of(p->level);
     vf motion = p->texture.c[3] * edge;
     vi alone = (count == 1) & (motion == 0.0f); /* the next cell is the cell itself */
     position = vf_where(~alone, position);

@@ -172,7 +172,7 @@ static void place_sprites(struct sprite_lanes *p)
         place_plain(p, diameter_px);
         return;
     }
-    p->level = level_of(diameter_px);
+    p->level = level_of(diameter_px, 2.0f * p->half_length * pixels_per_m);
     choose_cells(p);
     if (billboard_is_flat(p->look->form.y))
         place_flat(p);

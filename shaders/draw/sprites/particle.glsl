@@ -106,8 +106,8 @@ uint4 choose_texture(uint system, uint stream)
 
 /* Chooses two adjacent cells of the atlas and the mix between them (Heinz 2019, equation 3.2).
  * `cell_cycles` is how often the particle has gone through its cells until now, and need not be
- * whole. The result is both layers of the atlas, the mix, and the level of detail. */
-vec4 choose_cells(uint4 atlas, float cell_cycles, bool random_start, uint stream, float diameter_px)
+ * whole. The result is both layers of the atlas, the mix, and the level of detail. size: px. */
+vec4 choose_cells(uint4 atlas, float cell_cycles, bool random_start, uint stream, vec2 size)
 {
     float cells = float(atlas.y);
     float position = cell_cycles * (cells - 1.0);
@@ -115,7 +115,9 @@ vec4 choose_cells(uint4 atlas, float cell_cycles, bool random_start, uint stream
         position += random_unit(stream, RANDOM_CELL) * cells;
     float first = floor(position);
     float base = float(atlas.x);
-    float level = floor(log2(max(float(KILN_ATLAS_CELL) / max(diameter_px, 1.0), 1.0)));
+    float level = floor(log2(max(float(KILN_ATLAS_CELL) / max(size.x, 1.0), 1.0)));
+    if (billboard_shows_strip(size.x, size.y))
+        level = float(KILN_STRIP_LEVEL);
     return vec4(base + mod(first, cells), base + mod(first + 1.0, cells), position - first, level);
 }
 
@@ -197,7 +199,7 @@ void make_billboard(uint entry)
     particle.bloom = vec4(bloom.rgb, uintBitsToFloat(texture_cells.w));
 
     particle.cells = choose_cells(texture_cells, life * cool.w, looks[system].flags.y != 0u,
-                                  stream, 2.0 * half_size * pixels_per_m);
+                                  stream, 2.0 * pixels_per_m * vec2(half_size, size.half_length));
     particle.depth = vec4(depth, float(texture_cells.z), float(looks[system].flags.z),
                           length(center.xyz));
     light_particle(cover.w, cover.rgb, entry & 0xffffffu, position, plane);

@@ -9,6 +9,7 @@
 
 layout(binding = 1) uniform sampler2DArray atlas;
 layout(binding = 3) uniform sampler2DArray atlas_motion;
+layout(binding = KILN_UNIT_STRIPS) uniform sampler2DArray atlas_strips;
 
 /* The factor on the alpha of additive particles. It is 0 where they cover nothing, and 1 where they
  * cover what is behind them (fire_covers) or their alpha is summed (sum_alpha of struct
@@ -63,9 +64,11 @@ vec4 cell_between(billboard quad, vec2 uv)
 {
     float weight = quad.cells.z;
     vec2 motion = textureLod(atlas_motion, vec3(uv, quad.cells.x), 0.0).xy * quad.bloom.a;
-    vec4 from = textureLod(atlas, vec3(uv - weight * motion, quad.cells.x), quad.cells.w);
-    vec4 to = textureLod(atlas, vec3(uv + (1.0 - weight) * motion, quad.cells.y), quad.cells.w);
-    return mix(from, to, weight);
+    vec3 from = vec3(uv - weight * motion, quad.cells.x);
+    vec3 to = vec3(uv + (1.0 - weight) * motion, quad.cells.y);
+    if (int(quad.cells.w) == KILN_STRIP_LEVEL)
+        return mix(textureLod(atlas_strips, from, 0.0), textureLod(atlas_strips, to, 0.0), weight);
+    return mix(textureLod(atlas, from, quad.cells.w), textureLod(atlas, to, quad.cells.w), weight);
 }
 
 /* Shades the billboard at uv. depth, scene: view depths of the billboard and of the scene there,
