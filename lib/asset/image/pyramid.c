@@ -36,7 +36,7 @@ static size_t lay_out(struct kiln_pyramid *p)
         uint32_t level = p->levels++;
         p->widths[level] = width;
         p->heights[level] = height;
-        p->first[level] = texels;
+        p->first[level] = (uint32_t)texels; /* images have at most 2^28 pixels */
         texels += (size_t)width * height;
         if (width == 1 && height == 1)
             break;

@@ -16,7 +16,7 @@ struct kiln_pyramid {
     uint32_t width, height, levels;
     uint32_t widths[KILN_PYRAMID_LEVELS], heights[KILN_PYRAMID_LEVELS];
     /* index of the first texel of each level, the finest level first */
-    size_t first[KILN_PYRAMID_LEVELS];
+    uint32_t first[KILN_PYRAMID_LEVELS];
     uint16_t (*texels)[4];
 };
 

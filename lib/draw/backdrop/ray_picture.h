@@ -1,5 +1,6 @@
-/* This header reads the pictures of the floor and the sky for vectors of rays. Texels are fetched
- * one lane after another; a ray_texel is a vector of one texel's channels. */
+/* This header reads pictures: those of the floor and the sky for vectors of rays, and the paint of
+ * meshes for one ray after another, since each ray may meet another mesh. A ray_texel is a vector
+ * of one texel's channels. */
 #ifndef KILN_DRAW_BACKDROP_RAY_PICTURE_H
 #define KILN_DRAW_BACKDROP_RAY_PICTURE_H
 
@@ -74,11 +75,85 @@ static inline ray_texel read_picture(const struct kiln_pyramid *p, const struct 
     return fine;
 }
 
-SIMD void set_lane(struct vf3 *color, int lane, ray_texel texel)
+/* ---- vectors --------------------------------------------------------------------------------- */
+
+/* Holds a mip level of each lane: its size, and its first texel. */
+struct ray_level {
+    vi width, height, first;
+};
+
+SIMD struct ray_level level_of_lanes(const struct kiln_pyramid *p, vi level)
 {
-    color->x[lane] = texel[0];
-    color->y[lane] = texel[1];
-    color->z[lane] = texel[2];
+    return (struct ray_level){vi_gather((const int32_t *)p->widths, level),
+                              vi_gather((const int32_t *)p->heights, level),
+                              vi_gather((const int32_t *)p->first, level)};
+}
+
+/* Reads colours of half floats, as read_texel does. A texel is two words, each of two channels. */
+SIMD struct vf3 gather_texels(const struct kiln_pyramid *p, vi at)
+{
+    const int32_t *words = (const int32_t *)(const void *)p->texels;
+    const vi low = vi_gather(words, 2 * at), high = vi_gather(words + 1, 2 * at);
+    return (struct vf3){(vf)((low & 0xffff) << 13) * 0x1p112f,
+                        (vf)((low >> 16 & 0xffff) << 13) * 0x1p112f,
+                        (vf)((high & 0xffff) << 13) * 0x1p112f};
+}
+
+SIMD struct vf3 mix_colors(struct vf3 from, struct vf3 to, vf part)
+{
+    return (struct vf3){from.x + (to.x - from.x) * part, from.y + (to.y - from.y) * part,
+                        from.z + (to.z - from.z) * part};
+}
+
+/* Interpolates as read_level does. */
+SIMD struct vf3 gather_level(const struct kiln_pyramid *p, const struct ray_level *level, vf u,
+                             vf v, bool repeats_y)
+{
+    const vi width = level->width, height = level->height, zero = vi_all(0);
+    const vf x = u * vf_of(width) - 0.5f, y = v * vf_of(height) - 0.5f;
+    const vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
+    vi x0 = vi_of(left), y0 = vi_of(top), x1 = x0 + 1, y1 = y0 + 1;
+    x1 &= x1 < width;
+    x0 = vi_select(x0 < 0, width - 1, x0);
+    y1 = vi_select(y1 < height, y1, repeats_y ? zero : height - 1);
+    y0 = vi_select(y0 < 0, repeats_y ? height - 1 : zero, y0);
+    const vi upper = level->first + y0 * width, lower = level->first + y1 * width;
+    const struct vf3 above =
+        mix_colors(gather_texels(p, upper + x0), gather_texels(p, upper + x1), right);
+    const struct vf3 below =
+        mix_colors(gather_texels(p, lower + x0), gather_texels(p, lower + x1), right);
+    return mix_colors(above, below, down);
+}
+
+/* Holds the two mip levels between which each lane interpolates. */
+struct ray_level_pair {
+    struct ray_level fine, coarse;
+    vf part; /* weight of the coarse level */
+    bool mixes;
+};
+
+/* Chooses levels as choose_levels does. */
+SIMD struct ray_level_pair level_pair(const struct kiln_pyramid *p, vf level)
+{
+    const int32_t last = (int32_t)p->levels - 1;
+    level = vf_clamp(level, 0.0f, (float)last);
+    const vi fine = vi_of(level), next = fine + 1;
+    const vf part = level - vf_of(fine);
+    return (struct ray_level_pair){
+        level_of_lanes(p, fine),
+        level_of_lanes(p, vi_select(next <= last, next, fine)),
+        part,
+        any(part > 0.0f),
+    };
+}
+
+SIMD struct vf3 gather_picture(const struct kiln_pyramid *p, const struct ray_level_pair *levels,
+                               vf u, vf v, bool repeats_y)
+{
+    const struct vf3 fine = gather_level(p, &levels->fine, u, v, repeats_y);
+    if (!levels->mixes)
+        return fine;
+    return mix_colors(fine, gather_level(p, &levels->coarse, u, v, repeats_y), levels->part);
 }
 
 /* ---- the floor ------------------------------------------------------------------------------- */
@@ -89,21 +164,16 @@ SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame,
 {
     const struct kiln_pyramid *picture = frame->floor_image;
     const float4 map = frame->shapes->floor_map;
-    struct vf3 color = {{0}, {0}, {0}};
-    for (int lane = 0; lane < LANES; lane++) {
-        if (!active[lane])
-            continue;
-        const struct ray_levels levels = choose_levels(picture, footprint->level[lane]);
-        ray_texel sum = {0};
-        for (int i = 0; i < FLOOR_TAPS; i++) {
-            float way = floor_tap_of(i);
-            float u = fraction((x[lane] + footprint->longer_x[lane] * way) * map.x);
-            float v = fraction((z[lane] + footprint->longer_z[lane] * way) * map.y);
-            sum += read_picture(picture, &levels, u, v, true);
-        }
-        set_lane(&color, lane, sum * (1.0f / (float)FLOOR_TAPS));
+    const struct ray_level_pair levels = level_pair(picture, vf_where(active, footprint->level));
+    struct vf3 sum = {{0}, {0}, {0}};
+    for (int i = 0; i < FLOOR_TAPS; i++) {
+        const float way = floor_tap_of(i);
+        const vf u = (x + footprint->longer_x * way) * map.x;
+        const vf v = (z + footprint->longer_z * way) * map.y;
+        sum = vf3_add(sum, gather_picture(picture, &levels, vf_where(active, u - vf_floor(u)),
+                                          vf_where(active, v - vf_floor(v)), true));
     }
-    return color;
+    return vf3_scale(sum, vf_all(1.0f / (float)FLOOR_TAPS));
 }
 
 /* ---- the sky --------------------------------------------------------------------------------- */
@@ -114,17 +184,12 @@ SIMD struct vf3 sky_picture(const struct kiln_ray_frame *frame, struct vf3 direc
 {
     const struct kiln_pyramid *picture = frame->sky_image;
     const float4 map = frame->shapes->sky_map;
-    const struct ray_levels levels =
-        choose_levels(picture, exact_log2(exact_max(angle * map.z, 1e-6f)));
+    const struct ray_level_pair levels =
+        level_pair(picture, vf_all(exact_log2(exact_max(angle * map.z, 1e-6f))));
     const struct sky_place at = sky_place_of(direction, map.x);
-    vf u = at.u - vf_floor(at.u);
-    struct vf3 color = {{0}, {0}, {0}};
-    for (int lane = 0; lane < LANES; lane++) {
-        if (active[lane])
-            set_lane(&color, lane,
-                     read_picture(picture, &levels, u[lane], at.v[lane], false) * map.y);
-    }
-    return color;
+    const struct vf3 color = gather_picture(
+        picture, &levels, vf_where(active, at.u - vf_floor(at.u)), vf_where(active, at.v), false);
+    return vf3_scale(color, vf_all(map.y));
 }
 
 #endif
