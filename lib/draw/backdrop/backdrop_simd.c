@@ -1,11 +1,15 @@
 /* This file casts the rays of the backdrop's picture for technique backdrop=cpu, a vector of rays
  * at a time. */
+#include <assert.h>
+
 #include "draw/backdrop/backdrop_rows.h"
 #include "draw/backdrop/ray_floor.h"
 #include "draw/backdrop/ray_mesh.h"
 #include "shared/edge_mean.h"
 
-enum { TILE = KILN_EDGE_TILE, STRIP = 64 }; /* px; rays of a strip test the same objects */
+/* px; rays of a strip test the same objects */
+enum { TILE = KILN_EDGE_TILE, STRIP = GRID_WIDTH };
+static_assert((int)TILE == (int)GRID_HEIGHT, "a strip of the picture has a grid");
 
 /* Holds rays from the eye through pixels. */
 struct eye_rays {
@@ -77,9 +81,15 @@ struct shaded_rays {
     struct vf3 reflected;         /* light of the lamps that it reflects to the eye */
 };
 
+/* Describes pixels of a row whose rays are cast. */
+struct grid_row {
+    const struct lamp_grid *grid; /* of their strip */
+    uint32_t column, row;         /* of the first pixel, in the strip */
+};
+
 /* Computes the light that arrives at the hits, and their colours. */
 SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, bool glossy,
-                     struct shaded_rays *shaded)
+                     const struct grid_row *row, struct shaded_rays *shaded)
 {
     const struct ray_hit *hit = &shaded->first;
     const struct ray_point point = {ray_at(ray, hit->t), hit->normal, hit->surface >= 0.0f};
@@ -93,7 +103,13 @@ SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, 
         glossy = glossy && any(hit->surface == 0.0f);
         if (glossy)
             shaded->mirror = floor_reflection_along(frame, ray);
-        arrived = light_without_sun(frame, &point, glossy ? &shaded->mirror.at : NULL, NULL);
+        struct lit_surface surface = {.point = point, .gloss = glossy ? &shaded->mirror.at : NULL};
+        struct grid_place place;
+        if (row) {
+            place = grid_place_of(row->grid, row->column, row->row, hit, point.at);
+            surface.grid = &place;
+        }
+        arrived = light_without_sun(frame, &surface);
         shaded->light = sunlit - arrived.hidden / vf_max(arrived.all, vf_all(1e-6f));
         shaded->reflected = arrived.reflected;
     }
@@ -101,17 +117,18 @@ SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, 
         radiance_or_sky(frame, hit, ray->direction, arrived.irradiance, shaded->arrives);
 }
 
-/* glossy: whether reflections of a glossy floor are wanted. */
+/* glossy: whether reflections of a glossy floor are wanted; row: NULL where there is no grid. */
 SIMD struct shaded_rays shade_rays(const struct kiln_ray_frame *frame,
                                    const struct kiln_ray_objects *objects, const struct ray *ray,
-                                   vf floor, const struct ray_place *place, bool glossy)
+                                   vf floor, const struct ray_place *place, bool glossy,
+                                   const struct grid_row *row)
 {
     struct shaded_rays shaded = {.first = trace(frame, objects, ray, floor, place)};
     vi below = shaded.first.surface == 0.0f;
     if (any(below))
         shaded.first.albedo =
             vf3_select(below, floor_albedo(frame, ray, shaded.first.t, below), shaded.first.albedo);
-    light_hits(frame, ray, glossy, &shaded);
+    light_hits(frame, ray, glossy, row, &shaded);
     return shaded;
 }
 
@@ -138,7 +155,7 @@ SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *r
     const struct ray reflected = {ray_at(ray, shaded->first.t), m->at.direction};
     const struct ray_place nowhere = {.layer = -1};
     const struct shaded_rays reflection =
-        shade_rays(frame, &objects, &reflected, vf_all(2.0f * RAY_FAR), &nowhere, false);
+        shade_rays(frame, &objects, &reflected, vf_all(2.0f * RAY_FAR), &nowhere, false, NULL);
     struct vf3 more = vf3_scale(shaded->reflected, m->part);
     more = vf3_add_scaled(more, m->sun, shaded->arrives);
     more = vf3_add_scaled(more, reflection.color.rgb, m->part * m->at.reflectance);
@@ -147,10 +164,10 @@ SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *r
 
 SIMD struct shaded_rays shade_eye_rays(const struct kiln_ray_frame *frame,
                                        const struct kiln_ray_objects *objects,
-                                       const struct eye_rays *eye)
+                                       const struct eye_rays *eye, const struct grid_row *row)
 {
     struct shaded_rays shaded = shade_rays(frame, objects, &eye->ray, find_floor(frame, &eye->ray),
-                                           &eye->place, frame->floor_gloss);
+                                           &eye->place, frame->floor_gloss, row);
     shaded.color.rgb =
         add_sun_disc(frame, shaded.color.rgb, eye->ray.direction, shaded.first.surface < 0.0f);
     if (frame->floor_gloss)
@@ -166,13 +183,13 @@ static uint32_t objects_overlapping(const struct kiln_pixel_box boxes[KILN_MAX_O
     uint32_t overlapping = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct kiln_pixel_box *b = &boxes[i];
-        if (b->x_from < x + width && b->x_to > x && b->y_from < y + TILE && b->y_to > y)
+        if (b->x_from < x + width && b->x_to > x && b->y_from <= y + TILE && b->y_to > y)
             overlapping |= 1u << i;
     }
     return overlapping;
 }
 
-/* Returns the objects that may be visible in TILE rows from y, in `width` columns from x. */
+/* Returns the objects that may be visible in TILE + 1 rows from y, in `width` columns from x. */
 static struct kiln_ray_objects find_objects(const struct kiln_backdrop_picture *p, uint32_t x,
                                             uint32_t y, uint32_t width)
 {
@@ -213,9 +230,40 @@ SIMD void store_numbers(float *to, vf numbers, uint32_t count)
         to[i] = all[i];
 }
 
-/* Casts the rays of up to LANES pixels of a row, from (x, y) on. */
+static bool has_shadows_of_lamps(const struct kiln_ray_frame *frame)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    uint32_t casters = 0;
+    for (uint32_t i = 0; i < b->counts.y; i++)
+        casters |= b->lights[i].casters.x | b->lights[i].casters.y;
+    return casters != 0;
+}
+
+/* Fills the grid of the strip at (x, y). */
+static void fill_grid(const struct kiln_backdrop_picture *p, const struct kiln_ray_objects *objects,
+                      uint32_t x, uint32_t y, struct lamp_grid *grid)
+{
+    const struct kiln_ray_frame *frame = p->frame;
+    const vi width = vi_all((int32_t)p->width), height = vi_all((int32_t)p->height);
+    for (int i = 0; i < GRID_NODES; i += LANES) {
+        const vi node = vi_count() + i, above = vi_of((vf_of(node) + 0.5f) * (1.0f / GRID_COLUMNS));
+        vi column = (node - above * GRID_COLUMNS) * GRID_STEP + (int32_t)x;
+        vi row = above * GRID_STEP + (int32_t)y;
+        const vi within = (column < width) & (row < height);
+        column = vi_select(column < width, column, width - 1);
+        row = vi_select(row < height, row, height - 1);
+        const struct eye_rays eye = rays_through_pixels(frame, column, row);
+        const struct ray_hit hit =
+            trace(frame, objects, &eye.ray, find_floor(frame, &eye.ray), &eye.place);
+        fill_nodes(frame, i, &hit, ray_at(&eye.ray, hit.t), within, grid);
+    }
+    for (int i = 0; i < GRID_BLOCKS; i += LANES)
+        judge_blocks(frame, i, grid);
+}
+
+/* Casts the rays of up to LANES pixels of a row, from (x, y) on. row: NULL without a grid. */
 SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_ray_objects *objects,
-                      uint32_t x, uint32_t y)
+                      uint32_t x, uint32_t y, const struct grid_row *grid_row)
 {
     const struct kiln_ray_frame *frame = p->frame;
     uint32_t left = p->width - x, count = left < LANES ? left : LANES;
@@ -224,7 +272,7 @@ SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_r
     vi last = vi_all((int32_t)p->width - 1);
     column = vi_select(column < last, column, last);
     const struct eye_rays eye = rays_through_pixels(frame, column, vi_all((int32_t)y));
-    const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye);
+    const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, grid_row);
     vf surface = shaded.first.surface;
     if (frame->meshes)
         surface = mark_mesh_edges(frame, &eye.place, surface, -((column + (int32_t)y) & 1));
@@ -241,13 +289,20 @@ static uint32_t rows_from(const struct kiln_backdrop_picture *p, uint32_t y)
 
 static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 {
-    uint32_t y_to = rows_from(p, y);
+    const uint32_t y_to = rows_from(p, y);
+    const bool shadows = has_shadows_of_lamps(p->frame);
+    struct lamp_grid grid;
     for (uint32_t strip = 0; strip < p->width; strip += STRIP) {
-        const struct kiln_ray_objects objects = find_objects(p, strip, y, STRIP);
+        /* with a column and a row more, for the nodes */
+        const struct kiln_ray_objects objects = find_objects(p, strip, y, STRIP + 1);
+        if (shadows)
+            fill_grid(p, &objects, strip, y, &grid);
         uint32_t x_to = strip + STRIP < p->width ? strip + STRIP : p->width;
         for (uint32_t row = y; row < y_to; row++) {
-            for (uint32_t x = strip; x < x_to; x += LANES)
-                cast_pixels(p, &objects, x, row);
+            for (uint32_t x = strip; x < x_to; x += LANES) {
+                const struct grid_row at = {&grid, x - strip, row - y};
+                cast_pixels(p, &objects, x, row, shadows ? &at : NULL);
+            }
         }
     }
 }
@@ -344,7 +399,7 @@ SIMD void antialias_pixels(const struct kiln_backdrop_picture *p,
     for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
         const struct ray_place place = sample_place(frame, &center.place, s);
         const struct eye_rays eye = rays_at(frame, &place);
-        const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye);
+        const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, NULL);
         sum = edge_add(sum, shaded.color.rgb, shaded.color.alpha, part, frame->view->exposure.x);
     }
     const struct ray_color mean = {edge_mean(sum), sum.alpha};

@@ -3,6 +3,7 @@
 #ifndef KILN_DRAW_BACKDROP_RAY_LIGHT_H
 #define KILN_DRAW_BACKDROP_RAY_LIGHT_H
 
+#include "draw/backdrop/ray_grid.h"
 #include "draw/backdrop/ray_oriented.h"
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_sun.h"
@@ -107,12 +108,40 @@ struct arrived {
     vf all, hidden;
 };
 
-/* Adds the light of a lamp. gloss: how a glossy floor reflects it, or NULL; middle: of the solid
- * particles that the points are on, or NULL. */
-SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_light *lamp,
-                   const struct ray_point *p, const struct floor_reflection *gloss,
-                   const struct vf3 *middle, struct arrived *arrived)
+/* Describes surfaces that get light. */
+struct lit_surface {
+    struct ray_point point;
+    const struct floor_reflection *gloss; /* how a glossy floor reflects lamps, or NULL */
+    const struct vf3 *middle;             /* of the solid particles that it is of, or NULL */
+    const struct grid_place *grid;        /* or NULL */
+};
+
+/* Returns the part of lamp i that a surface sees past objects. */
+SIMD vf lamp_seen(const struct kiln_ray_frame *frame, uint32_t i, const struct lit_surface *s,
+                  vi active)
 {
+    const struct kiln_draw_light *lamp = &frame->backdrop->lights[i];
+    vf seen = vf_all(1.0f);
+    vi known = vi_all(0);
+    if (s->grid)
+        known = grid_seen(s->grid, i, &seen);
+    active &= ~known;
+    if (!any(active))
+        return seen;
+    const struct ray_point *p = &s->point;
+    const vf found = lamp_visibility(&frame->lamp_objects, lamp,
+                                     vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)),
+                                     p->normal, s->middle, vf_all(0.0f), active);
+    return vf_select(known, seen, found);
+}
+
+/* Adds the light of lamp i. */
+SIMD void add_lamp(const struct kiln_ray_frame *frame, uint32_t i, const struct lit_surface *s,
+                   struct arrived *arrived)
+{
+    const struct kiln_draw_light *lamp = &frame->backdrop->lights[i];
+    const struct ray_point *p = &s->point;
+    const struct floor_reflection *gloss = s->gloss;
     const struct vf3 towards = vf3_towards(lamp->position_radius2, p->at);
     const float radius2 = lamp->position_radius2.w;
     const vf part = vf_where(p->active, lamp_irradiance(*lamp, towards, p->normal));
@@ -125,9 +154,7 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_li
     if (frame->lamp_smoke && lamp->casters.z)
         seen *= smoke_transmittance(lamp_smoke_depth(frame->lamp_smoke, lamp, &lit));
     if (lamp->casters.x | lamp->casters.y && any(lit.active))
-        seen *= lamp_visibility(&frame->lamp_objects, lamp,
-                                vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)), p->normal,
-                                middle, vf_all(0.0f), lit.active);
+        seen *= lamp_seen(frame, i, s, lit.active);
     const vf all = (lamp->color.x + lamp->color.y + lamp->color.z) * part;
     arrived->all += all;
     arrived->hidden += all * (1.0f - seen);
@@ -142,12 +169,12 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, const struct kiln_draw_li
     }
 }
 
-/* Returns the light of the sky and of the lamps. gloss, middle: as for add_lamp. */
-SIMD struct arrived light_without_sun(const struct kiln_ray_frame *frame, const struct ray_point *p,
-                                      const struct floor_reflection *gloss,
-                                      const struct vf3 *middle)
+/* Returns the light of the sky and of the lamps. */
+SIMD struct arrived light_without_sun(const struct kiln_ray_frame *frame,
+                                      const struct lit_surface *s)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
+    const struct ray_point *p = &s->point;
     vf sky = boxes_sky_visibility(frame, p, vf_all(1.0f));
     sky = round_sky_visibility(frame, p, sky);
     sky = oriented_sky_visibility(frame, p, sky);
@@ -157,7 +184,7 @@ SIMD struct arrived light_without_sun(const struct kiln_ray_frame *frame, const 
     struct arrived arrived = {.irradiance = vf3_scale(ambient, RAY_PI * sky)};
     arrived.all = arrived.irradiance.x + arrived.irradiance.y + arrived.irradiance.z;
     for (uint32_t i = 0; i < b->counts.y; i++)
-        add_lamp(frame, &b->lights[i], p, gloss, middle, &arrived);
+        add_lamp(frame, i, s, &arrived);
     return arrived;
 }
 

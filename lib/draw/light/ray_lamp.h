@@ -19,7 +19,15 @@ struct lamp_receiver {
     struct lamp_way way;
     vi active;
     vf visible; /* part of the lamp, so far */
+    vf blur;    /* width of the narrowest filter that read a map, m */
 };
+
+/* Takes the filter of a fetch into account. width: in texture coordinates of a face. */
+SIMD void blur_lamp(struct lamp_receiver *r, vi near, vf width)
+{
+    const vf wide = 2.0f * width * r->way.reach;
+    r->blur = vf_select(near, vf_min(r->blur, wide), r->blur);
+}
 
 /* Rotates a direction from the world to the frame of a box. */
 SIMD struct vf3 into_box(const struct kiln_draw_oriented_box *box, struct vf3 v)
@@ -110,7 +118,7 @@ SIMD uint32_t solid_map_of(const struct kiln_draw_light *lamp)
 
 /* Returns the part of a lamp that meshes hide, in the lanes where the receiver still sees it. */
 SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct kiln_draw_light *lamp,
-                        const struct lamp_receiver *r, struct vf3 normal)
+                        struct lamp_receiver *r, struct vf3 normal)
 {
     const float radius = lamp->color.w, far = lamp->maps.x;
     const struct lamp_place place =
@@ -122,12 +130,14 @@ SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct ki
     const struct shadow_map maps = {objects->maps, KILN_LAMP_EDGE, KILN_LAMP_LEVELS, 1};
     const vi face = vi_of(place.face) + (int32_t)(KILN_LAMP_FACES * (mesh_map_of(lamp) - 1));
     const vi first = face * KILN_LAMP_TEXELS;
-    const vf level = lamp_level(lamp_widest(place, radius, r->way.lit)) + 1.0f;
+    const vf widest = lamp_widest(place, radius, r->way.lit), level = lamp_level(widest) + 1.0f;
+    blur_lamp(r, near, widest);
     struct shadow_sample shadow = read_shadow(&maps, first, place.at.u, place.at.v, level);
     near &= shadow.cover > 0.0f;
     if (!any(near))
         return vf_all(0.0f);
     const vf width = lamp_width(place, radius, r->way.lit, far, shadow.cover, shadow.distance);
+    blur_lamp(r, near, width);
     const vf fine = lamp_level(width), stride = 0.5f * width;
     const vf ramp = 1.0f / (place.at.slack + stride * (2.0f * KILN_LAMP_RANGE) * place.at.depth);
     vf cover = vf_all(0.0f);
@@ -144,7 +154,7 @@ SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct ki
 /* Returns the part of a lamp that solid particles hide, in the lanes where the receiver still sees
  * it. middle: of the solid that is lit; NULL: another surface is lit. */
 SIMD vf lamp_solid_cover(const struct kiln_lamp_objects *objects,
-                         const struct kiln_draw_light *lamp, const struct lamp_receiver *r,
+                         const struct kiln_draw_light *lamp, struct lamp_receiver *r,
                          struct vf3 normal, const struct vf3 *middle)
 {
     const float radius = lamp->color.w, far = lamp->maps.w;
@@ -159,7 +169,8 @@ SIMD vf lamp_solid_cover(const struct kiln_lamp_objects *objects,
                                     KILN_LAMP_SOLID_WORDS};
     const vi face = vi_of(to.place.face) + (int32_t)(KILN_LAMP_FACES * (solid_map_of(lamp) - 1));
     const vi first = face * KILN_LAMP_TEXELS;
-    const vf level = lamp_level(lamp_widest(to.place, radius, r->way.lit)) + 1.0f;
+    const vf widest = lamp_widest(to.place, radius, r->way.lit), level = lamp_level(widest) + 1.0f;
+    blur_lamp(r, near, widest);
     struct shadow_sample shadow = read_shadow(&maps, first, at.u, at.v, level);
     near &= shadow.cover > 0.0f;
     if (!any(near))
@@ -168,6 +179,7 @@ SIMD vf lamp_solid_cover(const struct kiln_lamp_objects *objects,
     const vf distance =
         middle ? lamp_other_distance(at, found, shadow.distance, shadow.square) : shadow.distance;
     const vf width = lamp_solid_width(to, radius, r->way.lit, far, found, distance);
+    blur_lamp(r, near, width);
     const vf fine = lamp_level(width), stride = 0.5f * width, ramp = 1.0f / at.slack;
     vf cover = vf_all(0.0f);
     for (int k = 0; k < 4; k++) {
@@ -190,16 +202,18 @@ SIMD uint32_t take_bits(uint32_t *bits, uint32_t count)
     return taken;
 }
 
-/* Returns the part of a lamp, 0 to 1, that points or balls see. normal: of the surface, unit;
+/* Computes what points or balls see of a lamp: `visible`, 0 to 1. normal: of the surface, unit;
  * middle: of the solid particles that the points are on, or NULL; lit: radius of the balls, m; 0
  * for points. */
-SIMD vf lamp_visibility(const struct kiln_lamp_objects *objects, const struct kiln_draw_light *lamp,
-                        struct vf3 origin, struct vf3 normal, const struct vf3 *middle, vf lit,
-                        vi active)
+SIMD struct lamp_receiver lamp_receiver_of(const struct kiln_lamp_objects *objects,
+                                           const struct kiln_draw_light *lamp, struct vf3 origin,
+                                           struct vf3 normal, const struct vf3 *middle, vf lit,
+                                           vi active)
 {
     uint32_t casters = lamp->casters.x;
     const struct kiln_draw_shapes *shapes = objects->shapes;
-    struct lamp_receiver r = {.origin = origin, .active = active, .visible = vf_all(1.0f)};
+    struct lamp_receiver r = {
+        .origin = origin, .active = active, .visible = vf_all(1.0f), .blur = vf_all(1e6f)};
     r.way = lamp_way_to(*lamp, origin, normal, lit);
     hide_lamp_by_boxes(objects, take_bits(&casters, objects->box_count), &r);
     const uint32_t spheres = take_bits(&casters, shapes->counts.x);
@@ -212,7 +226,14 @@ SIMD vf lamp_visibility(const struct kiln_lamp_objects *objects, const struct ki
         hide_lamp(&r, active, lamp_mesh_cover(objects, lamp, &r, normal));
     if (solid_map_of(lamp))
         hide_lamp(&r, active, lamp_solid_cover(objects, lamp, &r, normal, middle));
-    return r.visible;
+    return r;
+}
+
+SIMD vf lamp_visibility(const struct kiln_lamp_objects *objects, const struct kiln_draw_light *lamp,
+                        struct vf3 origin, struct vf3 normal, const struct vf3 *middle, vf lit,
+                        vi active)
+{
+    return lamp_receiver_of(objects, lamp, origin, normal, middle, lit, active).visible;
 }
 
 #endif

@@ -58,11 +58,13 @@ SIMD void light_place(const struct kiln_ray_frame *frame, const struct visible_p
                                 .surface = vf_all(0.0f),
                                 .normal = place->normal,
                                 .albedo = place->albedo};
-    const struct ray_point point = {place->at, hit.normal, visible->part > 0.0f};
+    const struct lit_surface surface = {.point = {place->at, hit.normal, visible->part > 0.0f},
+                                        .middle = &place->middle};
+    const struct ray_point point = surface.point;
     vf sunlit = sun_visibility(frame, place->sun_from, point.normal, facing_sun(frame, &point));
     const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
     sunlit *= smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
-    const struct arrived arrived = light_without_sun(frame, &point, NULL, &place->middle);
+    const struct arrived arrived = light_without_sun(frame, &surface);
     const struct ray_color lit =
         radiance(frame, &hit, place->direction, arrived.irradiance, sunlit);
     struct vf3 shown = vf3_add_scaled(hit.albedo, vf3_sub(lit.rgb, hit.albedo), place->lit);

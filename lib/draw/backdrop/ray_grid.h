@@ -1,0 +1,279 @@
+/* This header interpolates the part of each lamp that surfaces see past objects. A lamp fills a
+ * disc of the sky, so its shadows are blurred, and mostly wider than a few pixels. The picture is
+ * divided into strips of blocks of GRID_STEP x GRID_STEP pixels. What is seen is computed at the
+ * blocks' corners, the nodes of a grid. A pixel takes it from its block's corners where no shadow
+ * can be missed: the corners and the pixel lie on one smooth piece of surface, what they see is
+ * alike, and every object that may hide the lamp has a penumbra wider than the block. All other
+ * pixels compute it. Blocks do not depend on the width of vectors, so neither does the picture. */
+#ifndef KILN_DRAW_BACKDROP_RAY_GRID_H
+#define KILN_DRAW_BACKDROP_RAY_GRID_H
+
+#include "draw/backdrop/ray_shapes.h"
+#include "draw/light/ray_lamp.h"
+#include "shared/lamp.h"
+
+enum {
+    GRID_WIDTH = 64,
+    GRID_HEIGHT = 8, /* of a strip, px */
+    GRID_STEP = 4,   /* edge of a block, px */
+    GRID_COLUMNS = GRID_WIDTH / GRID_STEP + 1,
+    GRID_ROWS = GRID_HEIGHT / GRID_STEP + 1,
+    GRID_NODES = GRID_COLUMNS * GRID_ROWS,
+    GRID_NODE_ROOM = 64, /* GRID_NODES, rounded up to whole vectors */
+    GRID_BLOCKS_A_ROW = GRID_WIDTH / GRID_STEP,
+    GRID_BLOCKS = GRID_BLOCKS_A_ROW * (GRID_HEIGHT / GRID_STEP),
+    GRID_LAMPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS,
+};
+
+/* The least cosine between normals of one smooth piece of surface, and how far its points may lie
+ * off its plane, as a part of their distance from each other. */
+#define GRID_ALIKE_COSINE 0.98f
+#define GRID_ALIKE_SLOPE  0.15f
+
+/* How much what is seen of a lamp may bend (bend_around), in parts of the lamp. */
+#define GRID_BEND 0.03f
+
+/* The least width of the filter that blurs shadows from maps, as a part of a block's extent. */
+#define GRID_BLUR 0.25f
+
+struct lamp_grid {
+    /* by node */
+    _Alignas(64) float surface[GRID_NODE_ROOM];
+    float at[3][GRID_NODE_ROOM], normal[3][GRID_NODE_ROOM];
+    float seen[GRID_LAMPS][GRID_NODE_ROOM]; /* of each lamp; -1: the node faces away from it */
+    float blur[GRID_LAMPS][GRID_NODE_ROOM]; /* of shadows from maps, m */
+    /* by block, whose number of the first node is in `node` */
+    int32_t node[GRID_BLOCKS];
+    int32_t alike[GRID_BLOCKS];              /* mask: the corners lie on one smooth piece */
+    int32_t smooth[GRID_LAMPS][GRID_BLOCKS]; /* mask: what they see of a lamp may be interpolated */
+    float size2[GRID_BLOCKS];                /* square of the extent of the corners, m2 */
+};
+
+SIMD struct vf3 gather_vector(const float (*from)[GRID_NODE_ROOM], vi node)
+{
+    return (struct vf3){vf_gather(from[0], node), vf_gather(from[1], node),
+                        vf_gather(from[2], node)};
+}
+
+/* Stores the hits of LANES nodes, and what they see of the lamps. */
+SIMD void fill_nodes(const struct kiln_ray_frame *frame, int first, const struct ray_hit *hit,
+                     struct vf3 at, vi within, struct lamp_grid *grid)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    const vi active = within & (hit->surface >= 0.0f);
+    vf_store(grid->surface + first, vf_select(active, hit->surface, vf_all(-1.0f)));
+    const vf numbers[6] = {at.x, at.y, at.z, hit->normal.x, hit->normal.y, hit->normal.z};
+    for (int i = 0; i < 3; i++) {
+        vf_store(grid->at[i] + first, numbers[i]);
+        vf_store(grid->normal[i] + first, numbers[3 + i]);
+    }
+    const struct vf3 origin = vf3_add_scaled(at, hit->normal, vf_all(LAMP_START));
+    for (uint32_t i = 0; i < b->counts.y; i++) {
+        const struct kiln_draw_light *lamp = &b->lights[i];
+        if (!(lamp->casters.x | lamp->casters.y))
+            continue;
+        const struct vf3 towards = vf3_towards(lamp->position_radius2, at);
+        const vi faces = active & (lamp_irradiance(*lamp, towards, hit->normal) > 0.0f);
+        struct lamp_receiver lit = {.visible = vf_all(1.0f), .blur = vf_all(0.0f)};
+        if (any(faces))
+            lit = lamp_receiver_of(&frame->lamp_objects, lamp, origin, hit->normal, NULL,
+                                   vf_all(0.0f), faces);
+        vf_store(grid->seen[i] + first, vf_select(faces, lit.visible, vf_all(-1.0f)));
+        vf_store(grid->blur[i] + first, lit.blur);
+    }
+}
+
+/* ---- blocks ---------------------------------------------------------------------------------- */
+
+/* Returns the lanes where a point lies on the smooth piece of surface around another one, not
+ * farther from it than the square root of size2, m. */
+SIMD vi on_same_piece(struct vf3 at, struct vf3 normal, struct vf3 other, struct vf3 other_normal,
+                      vf size2)
+{
+    const struct vf3 way = vf3_sub(other, at);
+    const vf off = vf3_dot(way, normal), square = vf3_dot(way, way);
+    return (vf3_dot(normal, other_normal) > GRID_ALIKE_COSINE) & (square <= size2) &
+           (off * off <= GRID_ALIKE_SLOPE * GRID_ALIKE_SLOPE * size2);
+}
+
+/* Returns the lanes where a shape hides nothing of the lamp from a ball, or has a penumbra there
+ * that is as wide as the ball. towards, size: of the shape's bounding sphere. */
+SIMD vi casts_smoothly(const struct lamp_way *way, struct vf3 towards, float size)
+{
+    const vf nearest = vf3_dot(towards, way->direction) - size;
+    const vf penumbra = nearest * (way->radius / way->reach);
+    return ~lamp_meets(towards, size, *way) | (penumbra >= way->lit);
+}
+
+/* Returns the lanes where a block of a surface and a lamp are both beyond one side of a box, which
+ * then hides nothing. The block may lie on this side. towards: the way to the box's centre;
+ * to_lamp, normal: the way to the lamp, and the surface's normal; all along the box's axes. size:
+ * of the block, m. */
+SIMD vi is_beside(float4 half, struct vf3 towards, struct vf3 to_lamp, struct vf3 normal, vf size)
+{
+    const float halves[3] = {half.x, half.y, half.z};
+    const vf ways[3] = {towards.x, towards.y, towards.z};
+    const vf lamps[3] = {to_lamp.x, to_lamp.y, to_lamp.z};
+    const vf normals[3] = {normal.x, normal.y, normal.z};
+    vi beside = vi_all(0);
+    for (int i = 0; i < 3; i++) {
+        const vf margin = size * vf_sqrt(vf_max(1.0f - normals[i] * normals[i], vf_all(0.0f)));
+        const vf least = margin + (halves[i] - LAMP_START);
+        const vf block = -ways[i], source = lamps[i] - ways[i];
+        beside |= (block >= least) & (source >= halves[i]);
+        beside |= (-block >= least) & (-source >= halves[i]);
+    }
+    return beside;
+}
+
+/* Returns the lanes where all shapes cast smooth shadows on a block of a surface. size: of the
+ * block, m. */
+SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
+                             const struct kiln_draw_light *lamp, struct vf3 at, struct vf3 normal,
+                             vf size)
+{
+    const struct kiln_draw_shapes *shapes = objects->shapes;
+    const struct vf3 to_lamp = vf3_towards(lamp->position_radius2, at);
+    const struct lamp_way way = lamp_way_of(to_lamp, lamp->color.w, size);
+    uint32_t casters = lamp->casters.x;
+    vi smooth = ~vi_all(0);
+    for (uint32_t of = take_bits(&casters, objects->box_count); of; of &= of - 1) {
+        const float4 center = objects->box_center[__builtin_ctz(of)];
+        const float4 half = objects->box_half[__builtin_ctz(of)];
+        const struct vf3 towards = vf3_towards(center, at);
+        smooth &= casts_smoothly(&way, towards, lamp_box_size(half)) |
+                  is_beside(half, towards, to_lamp, normal, size);
+    }
+    for (uint32_t of = take_bits(&casters, shapes->counts.x); of; of &= of - 1) {
+        const float4 sphere = shapes->spheres[__builtin_ctz(of)];
+        smooth &= casts_smoothly(&way, vf3_towards(sphere, at), sphere.w);
+    }
+    for (uint32_t of = take_bits(&casters, shapes->counts.y); of; of &= of - 1) {
+        const int i = __builtin_ctz(of);
+        const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
+        smooth &= casts_smoothly(&way, vf3_towards(cylinder, at),
+                                 sqrtf(cylinder.w * cylinder.w + axis.w * axis.w));
+    }
+    for (uint32_t of = take_bits(&casters, shapes->oriented_counts.x); of; of &= of - 1) {
+        const int i = __builtin_ctz(of);
+        const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
+        smooth &= casts_smoothly(&way, vf3_towards(capsule, at), capsule.w + axis.w);
+    }
+    for (uint32_t of = take_bits(&casters, shapes->oriented_counts.y); of; of &= of - 1) {
+        const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[__builtin_ctz(of)];
+        const struct vf3 towards = vf3_towards(box->center, at);
+        smooth &= casts_smoothly(&way, towards, lamp_box_size(box->half_size)) |
+                  is_beside(box->half_size, into_box(box, towards), into_box(box, to_lamp),
+                            into_box(box, normal), size);
+    }
+    return smooth;
+}
+
+/* Returns how much values of nodes bend around a block: the greatest second difference of three
+ * neighbours in a row or in a column. The error of interpolation is about an eighth of it. */
+SIMD vf bend_around(const float *values, vi node, vi column, vi row)
+{
+    const vi left = vi_select(column > 0, node - 1, node);
+    const vi right = vi_select(column < GRID_BLOCKS_A_ROW - 1, node + 1, node);
+    const vi top = node - row * GRID_COLUMNS;
+    vf bend = vf_all(0.0f);
+    for (int i = 0; i < 2; i++) {
+        const vi starts[2] = {left, right};
+        for (int k = 0; k < 2; k++) {
+            const vi at = starts[k] + i * GRID_COLUMNS;
+            const vf sides = vf_gather(values, at) + vf_gather(values + 2, at);
+            bend = vf_max(bend, vf_abs(sides - 2.0f * vf_gather(values + 1, at)));
+        }
+        const vf ends = vf_gather(values + i, top) + vf_gather(values + i + 2 * GRID_COLUMNS, top);
+        bend = vf_max(bend, vf_abs(ends - 2.0f * vf_gather(values + i + GRID_COLUMNS, top)));
+    }
+    return bend;
+}
+
+/* Decides for LANES blocks what may be interpolated. */
+SIMD void judge_blocks(const struct kiln_ray_frame *frame, int first, struct lamp_grid *grid)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    const vi block = vi_count() + first, row = vi_of(vf_of(block) * (1.0f / GRID_BLOCKS_A_ROW));
+    const vi column = block - row * GRID_BLOCKS_A_ROW, node = row * GRID_COLUMNS + column;
+    const vi corners[4] = {node, node + 1, node + GRID_COLUMNS, node + GRID_COLUMNS + 1};
+    const struct vf3 at = gather_vector(grid->at, node), normal = gather_vector(grid->normal, node);
+    vf size2 = vf_all(0.0f);
+    for (int i = 1; i < 4; i++) {
+        const struct vf3 way = vf3_sub(gather_vector(grid->at, corners[i]), at);
+        size2 = vf_max(size2, vf3_dot(way, way));
+    }
+    const vf surface = vf_gather(grid->surface, node);
+    vi alike = surface >= 0.0f;
+    for (int i = 1; i < 4; i++)
+        alike &= (vf_gather(grid->surface, corners[i]) == surface) &
+                 on_same_piece(at, normal, gather_vector(grid->at, corners[i]),
+                               gather_vector(grid->normal, corners[i]), size2);
+    memcpy(grid->node + first, &node, sizeof node);
+    memcpy(grid->alike + first, &alike, sizeof alike);
+    vf_store(grid->size2 + first, size2);
+    for (uint32_t i = 0; i < b->counts.y; i++) {
+        const struct kiln_draw_light *lamp = &b->lights[i];
+        if (!(lamp->casters.x | lamp->casters.y))
+            continue;
+        vf least = vf_gather(grid->seen[i], node);
+        vf blur = vf_gather(grid->blur[i], node);
+        for (int k = 1; k < 4; k++) {
+            least = vf_min(least, vf_gather(grid->seen[i], corners[k]));
+            blur = vf_min(blur, vf_gather(grid->blur[i], corners[k]));
+        }
+        vi smooth = alike & (least >= 0.0f) & (blur * blur >= GRID_BLUR * GRID_BLUR * size2) &
+                    (bend_around(grid->seen[i], node, column, row) <= GRID_BEND);
+        if (lamp->casters.x && any(smooth))
+            smooth &= shapes_cast_smoothly(&frame->lamp_objects, lamp, at, normal, vf_sqrt(size2));
+        memcpy(grid->smooth[i] + first, &smooth, sizeof smooth);
+    }
+}
+
+/* ---- pixels ---------------------------------------------------------------------------------- */
+
+/* Where pixels lie in a grid. */
+struct grid_place {
+    const struct lamp_grid *grid;
+    vi block, node;
+    vf right, down; /* part of the way between the block's corners */
+    vi alike;       /* mask: the pixel lies on the smooth piece of its block */
+};
+
+/* Returns the places of pixels of a row of a strip, from its column on. */
+SIMD struct grid_place grid_place_of(const struct lamp_grid *grid, uint32_t column, uint32_t row,
+                                     const struct ray_hit *hit, struct vf3 at)
+{
+    const vi x = vi_count() + (int32_t)column, across = x >> 2;
+    const int32_t above = (int32_t)(row / GRID_STEP);
+    struct grid_place place = {.grid = grid};
+    place.block = across + above * GRID_BLOCKS_A_ROW;
+    place.node = across + above * GRID_COLUMNS;
+    place.right = vf_of(x & (GRID_STEP - 1)) * (1.0f / GRID_STEP);
+    place.down = vf_all((float)(row % GRID_STEP) * (1.0f / GRID_STEP));
+    place.alike = vi_gather(grid->alike, place.block);
+    if (any(place.alike))
+        place.alike &= (vf_gather(grid->surface, place.node) == hit->surface) &
+                       on_same_piece(gather_vector(grid->at, place.node),
+                                     gather_vector(grid->normal, place.node), at, hit->normal,
+                                     vf_gather(grid->size2, place.block));
+    return place;
+}
+
+/* Returns the lanes where what is seen of lamp i is interpolated, and what that is. */
+SIMD vi grid_seen(const struct grid_place *place, uint32_t i, vf *seen)
+{
+    const struct lamp_grid *grid = place->grid;
+    const vi known = place->alike & vi_gather(grid->smooth[i], place->block);
+    if (!any(known))
+        return known;
+    const float *from = grid->seen[i];
+    const vf a = vf_gather(from, place->node), b = vf_gather(from + 1, place->node);
+    const vf c = vf_gather(from + GRID_COLUMNS, place->node);
+    const vf d = vf_gather(from + GRID_COLUMNS + 1, place->node);
+    const vf above = a + (b - a) * place->right, below = c + (d - c) * place->right;
+    *seen = above + (below - above) * place->down;
+    return known;
+}
+
+#endif
