@@ -31,7 +31,7 @@ enum {
 #define GRID_ALIKE_SLOPE  0.15f
 
 /* How much what is seen of a lamp may bend (bend_around), in parts of the lamp. */
-#define GRID_BEND 0.03f
+#define GRID_BEND 0.02f
 
 /* The least width of the filter that blurs shadows from maps, as a part of a block's extent. */
 #define GRID_BLUR 0.25f
