@@ -2,8 +2,9 @@
 """Tests tools/flicker with frames that are made up here, and with scenes: flicker.py SOURCE KILN.
 
 What moves (an edge, a field of drops, one fast drop) must not count as flicker. A pixel that blinks, a light
-that is on for one frame, and noise must. Discs that turn and cross each other must not, in slow motion; discs
-that live for less than a frame must.
+that is on for one frame, and noise must. Discs that turn and cross each other must not, in slow motion, even
+if they fly by more pixels a frame than the slow motion has pictures; discs that live for less than a frame
+must, with and without fades.
 """
 import pathlib
 import subprocess
@@ -62,20 +63,20 @@ def noise():
 SCENE = """kiln: 1
 output: {{size: [320, 180], fps: 30, frames: 24}}
 simulation: {{rate: 60, warmup: 1 s}}
-camera: {{position: [0, 0, 6], target: [0, 0, 0], roll: {{keys: {{0 s: 0 deg, 1 s: 200 deg}}}}}}
+camera: {{position: [0, 0, 6], target: [0, 0, 0], roll: {{keys: {{0 s: 0 deg, 1 s: {turn} deg}}}}}}
 backdrop: {{floor: none, sky: {{top: 0.05, horizon: 0.05}}}}
 systems:
   discs:
     emit: {{rate: {rate}, life: {life}, speed: [0, 1.5], from: {{sphere: {{radius: 2 m, outward: true}}}}}}
-    look: {{shape: point, point: {{size: 5 px}}, color: 3, fade: {{in: 0, out: 0}}, soft: 0}}
+    look: {{shape: point, point: {{size: 5 px}}, color: 3, fade: {{in: {fade}, out: {fade}}}, soft: 0}}
 """
 
 
-def measure_scene(source, kiln, rate, life):
+def measure_scene(source, kiln, rate, life, turn=200, fade=0):
     """Returns spikes, moving, smooth and flicker of discs, as shares."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "discs.yaml")
-        path.write_text(SCENE.format(rate=rate, life=life))
+        path.write_text(SCENE.format(rate=rate, life=life, turn=turn, fade=fade))
         return row_of(source, path, "--kiln", kiln, "--size", "320x180", "--frames", "5")
 
 
@@ -120,6 +121,10 @@ def main():
     expect("noise", measured, measured[0] > 0.3 and measured[3] > 0.95 * measured[0])
     measured = measure_scene(source, sys.argv[2], 100, "3 s")
     expect("discs that turn", measured, measured[2] > 0.002 and measured[3] < 0.1 * measured[2])
+    measured = measure_scene(source, sys.argv[2], 100, "3 s", turn=600)
+    expect("discs that turn fast", measured, measured[2] > 0.002 and measured[3] < 0.1 * measured[2])
+    measured = measure_scene(source, sys.argv[2], 6000, "4 ms", fade=0.5)
+    expect("discs that flash and fade", measured, measured[3] > 0.5 * measured[0] > 0.002)
     measured = measure_scene(source, sys.argv[2], 3000, "20 ms")
     expect("discs that flash", measured, measured[3] > 0.5 * measured[0] > 0.002)
     return failed
