@@ -230,7 +230,7 @@ $ ls -A scratch
 A process that no SIGTERM ends is killed five seconds later.
 
 $ TMPDIR=$PWD/scratch env --default-signal kiln bench jobs --device cpu --quiet & bench=$!
-> until child=$(<"/proc/$bench/task/$bench/children") && grep -qs frames=0 "/proc/${child% }/cmdline"; do sleep 0.1; done
+> until child=$(<"/proc/$bench/task/$bench/children") && grep -qs frames=3840 "/proc/${child% }/cmdline" && ! grep -qs frames=0 "/proc/${child% }/cmdline"; do sleep 0.1; done
 > kill -STOP ${child% } && kill -TERM $bench; start=$SECONDS; wait $bench; code=$?
 > echo $((SECONDS - start >= 4)); ls -A scratch; ! kill -0 ${child% } 2>/dev/null; exit $code
 1|1
