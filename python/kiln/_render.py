@@ -162,6 +162,9 @@ def open_for(device: AnyDevice, techniques: list[str]) -> tuple[Device, bool]:
     return Device(device), True
 
 
+_EFFORTS = {"fast": "KILN_PNG_FAST", "small": "KILN_PNG_SMALL"}
+
+
 @dataclass
 class _Request:
     """The parameters that render and render_to have in common."""
@@ -177,6 +180,7 @@ class _Request:
     shard: Optional[tuple[int, int]]
     state_hash: bool
     png_bits: Optional[int]
+    png_effort: Optional[str]
     exr_bits: Optional[int]
     quality: Optional[int]
     cancel: Optional[Cancel]
@@ -188,6 +192,10 @@ class _Request:
             value = getattr(self, name)
             if value is not None:
                 params.set(name, value)
+        if self.png_effort is not None:
+            if self.png_effort not in _EFFORTS:
+                raise ValueError(f"png_effort: found {self.png_effort!r}, expected one of {', '.join(_EFFORTS)}")
+            params.set("png_effort", ffi.typeof("enum kiln_png_effort").relements[_EFFORTS[self.png_effort]])
         ranges = _ranges(self.frames)
         params.pointer.ranges = params.keep(ffi.new("struct kiln_frame_range[]", ranges))
         params.pointer.range_count = len(ranges)
@@ -331,8 +339,8 @@ def render(scene: Scene, *, frames: Frames = None, size: Optional[tuple[int, int
            device: AnyDevice = None, states: Optional[PathLike] = None, manifest: Optional[PathLike] = None,
            techniques: Union[Mapping[str, str], Iterable[str]] = (), threads: int = 0, overwrite: bool = False,
            resume: bool = False, shard: Optional[tuple[int, int]] = None, state_hash: bool = False,
-           png_bits: Optional[int] = None, exr_bits: Optional[int] = None, quality: Optional[int] = None,
-           cancel: Optional[Cancel] = None) -> Rendering:
+           png_bits: Optional[int] = None, png_effort: Optional[str] = None, exr_bits: Optional[int] = None,
+           quality: Optional[int] = None, cancel: Optional[Cancel] = None) -> Rendering:
     """Returns a job that draws one frame for each turn of a loop: `for frame in kiln.render(scene): ...`.
 
     `frames` are a number, a range or ascending numbers, or None for all; `size` is (width, height) in pixels in
@@ -340,14 +348,15 @@ def render(scene: Scene, *, frames: Frames = None, size: Optional[tuple[int, int
     without pixels. `output` also writes a file, or files by a pattern such as "frame_####.png". `device` is an
     open :class:`Device`, or the value `wanted` of one to open. `states` is a folder of :func:`bake`; the job starts
     from the latest state there that serves it. `techniques` are {"stage": "name"}; `threads` 0 takes one a core;
-    `shard` (i, n) draws the i-th of n shares, from 0. `png_bits` are 8 (the default) or 16, `exr_bits` 16 (the
-    default) or 32, `quality` of videos and JPEG is 0 to 100 (80 by default). `overwrite` replaces files that exist.
+    `shard` (i, n) draws the i-th of n shares, from 0. `png_bits` are 8 (the default) or 16; `png_effort`
+    is "fast" (the default) or "small"; `exr_bits` are 16 (the default) or 32; `quality` of videos and JPEG is 0 to 100
+    (80 by default). `overwrite` replaces files that exist.
     `cancel` ends the job from any thread; Ctrl-C ends it with KeyboardInterrupt.
 
     Raises :class:`kiln.Error`, in this call or when a frame is drawn.
     """
     request = _Request(output, frames, states, manifest, techniques, threads, overwrite, resume, shard, state_hash,
-                       png_bits, exr_bits, quality, cancel)
+                       png_bits, png_effort, exr_bits, quality, cancel)
     return Rendering(_sized(scene, size), request, layers, device)
 
 
@@ -356,8 +365,8 @@ def render_to(scene: Scene, output: PathLike, *, frames: Frames = None, size: Op
               states: Optional[PathLike] = None, manifest: Optional[PathLike] = None,
               techniques: Union[Mapping[str, str], Iterable[str]] = (), threads: int = 0, overwrite: bool = False,
               resume: bool = False, shard: Optional[tuple[int, int]] = None, state_hash: bool = False,
-              png_bits: Optional[int] = None, exr_bits: Optional[int] = None, quality: Optional[int] = None,
-              cancel: Optional[Cancel] = None) -> Stats:
+              png_bits: Optional[int] = None, png_effort: Optional[str] = None, exr_bits: Optional[int] = None,
+              quality: Optional[int] = None, cancel: Optional[Cancel] = None) -> Stats:
     """Draws frames into a file, or into files by a pattern, and returns numbers of the job.
 
     The suffix of `output` is the format: a clip (.mp4, .webm, .mkv, .mov, .gif, .apng, .webp) or images (.png,
@@ -365,7 +374,7 @@ def render_to(scene: Scene, output: PathLike, *, frames: Frames = None, size: Op
     the job. The other parameters are those of :func:`render`. Files appear whole or not at all.
     """
     request = _Request(output, frames, states, manifest, techniques, threads, overwrite, resume, shard, state_hash,
-                       png_bits, exr_bits, quality, cancel)
+                       png_bits, png_effort, exr_bits, quality, cancel)
     with Rendering(_sized(scene, size), request, (), device) as job:
         for frame in job:
             if progress is not None:

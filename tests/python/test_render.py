@@ -126,6 +126,15 @@ def test_frames_of_an_output_have_its_bits(scene, tmp_path):
         assert kiln.compare(tmp_path / f"f_{frame.number}.png", frame.pixels).frames[0].equal
 
 
+def test_small_png_files_have_the_same_pixels(scene, tmp_path):
+    for effort in ("fast", "small"):
+        kiln.render_to(scene, tmp_path / f"{effort}.png", frames=3, png_effort=effort, device="cpu")
+    assert kiln.compare(tmp_path / "fast.png", tmp_path / "small.png").frames[0].equal
+    assert (tmp_path / "small.png").stat().st_size < (tmp_path / "fast.png").stat().st_size
+    with pytest.raises(ValueError, match="png_effort: found 'smaller', expected one of fast, small"):
+        kiln.render_to(scene, tmp_path / "x.png", frames=3, png_effort="smaller", device="cpu")
+
+
 def test_a_job_that_is_left_leaves_nothing(scene, tmp_path):
     with kiln.render(scene, output=tmp_path / "clip.mp4", device="cpu") as job:
         next(job)
