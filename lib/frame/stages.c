@@ -261,6 +261,9 @@ struct particle_pass {
     bool keep_bloom; /* do not clear the bloom image */
     bool sum_alpha, fire_covers;
     bool by_fragment;
+    /* NULL, or for the colour of covering particles alone; becomes NULL if that needs a pass of its
+     * own */
+    struct kiln_image *covering;
 };
 
 /* Returns the sort order of a pass. Particles whose blending does not depend on the order are not
@@ -333,13 +336,13 @@ static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_dept
            end_pass(s, kiln_sort_run(s->sort, s->moment.pool, &params, &s->entries, count, error));
 }
 
-static bool draw_particles(struct kiln_stages *s, const struct particle_pass *pass, uint32_t *count,
+static bool draw_particles(struct kiln_stages *s, struct particle_pass *pass, uint32_t *count,
                            struct kiln_error *error)
 {
     if (!sort_particles(s, pass->systems, pass->by_depth, count, error))
         return false;
 
-    const struct kiln_particles_draw draw = {
+    struct kiln_particles_draw draw = {
         .moment = &s->moment,
         .entries = &s->entries,
         .count = *count,
@@ -353,6 +356,9 @@ static bool draw_particles(struct kiln_stages *s, const struct particle_pass *pa
         .fire_covers = pass->fire_covers,
         .by_fragment = pass->by_fragment,
     };
+    if (s->coarse || !kiln_particles_splits(s->particles, &draw, pass->systems))
+        pass->covering = NULL;
+    draw.covering = pass->covering;
     return begin_pass(s, KILN_PASS_particles, error) &&
            end_pass(s, s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
                                  : kiln_particles_run(s->particles, &draw, error));
@@ -369,8 +375,8 @@ static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_erro
 
 /* Draws fire and smoke from one sorted list, or with KILN_COMPOSE_OIT from one list for each pixel.
  * Fire is additive and smoke covers fire and its glow; with KILN_COMPOSE_ALPHA fire covers as well
- * (Heinz 2019, 2.3.1). The smoke and fire layers of an EXR file are drawn in passes of their
- * own. */
+ * (Heinz 2019, 2.3.1). The fire layer of an EXR file is drawn in a pass of its own, and so is the
+ * smoke layer where it cannot be kept apart. */
 static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     uint32_t fire = transparent_systems(s->scene, KILN_BLEND_ADD);
@@ -382,7 +388,8 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
                                 .framebuffer = &s->particle_framebuffer,
                                 .keep_bloom = s->solids != NULL,
                                 .fire_covers = fire_covers,
-                                .by_fragment = by_fragment};
+                                .by_fragment = by_fragment,
+                                .covering = s->layers ? &s->smoke_color : NULL};
     if (!draw_particles(s, &all, drawn, error))
         return false;
     if (!s->layers)
@@ -397,7 +404,7 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
                                        .by_depth = fire_covers,
                                        .framebuffer = &s->fire_framebuffer,
                                        .fire_covers = fire_covers};
-    return draw_particles(s, &smoke_layer, &count, error) &&
+    return (all.covering || draw_particles(s, &smoke_layer, &count, error)) &&
            draw_particles(s, &fire_layer, &count, error);
 }
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "base/pages.h"
 #include "output/output.h"
 
 /* Returns the bytes of width * height pixels, or 0 when there are none or too many. */
@@ -20,13 +21,13 @@ struct kiln_picture *kiln_picture_create(uint32_t width, uint32_t height, uint32
     bool good = picture && layer_count <= KILN_MAX_LAYERS && width > 0 && height > 0;
     if (good && bits > 0) {
         size_t size = pixel_bytes(width, height, bits / 8 * (size_t)4);
-        picture->display = size > 0 ? malloc(size) : NULL;
+        picture->display = size > 0 ? kiln_alloc_pages(size) : NULL;
         good = picture->display != NULL;
     }
     for (uint32_t i = 0; good && i < layer_count; i++) {
         size_t size = pixel_bytes(width, height, channels[i] * sizeof(float));
         picture->layers[i] =
-            (struct kiln_layer){names[i], channels[i], size > 0 ? malloc(size) : NULL};
+            (struct kiln_layer){names[i], channels[i], size > 0 ? kiln_alloc_pages(size) : NULL};
         picture->layer_count = i + 1;
         good = picture->layers[i].pixels != NULL;
     }

@@ -59,8 +59,9 @@ static void forget(struct seen *seen)
         free(seen->pixels[i]);
 }
 
-/* Renders frame 10 and shows these layers of it. */
-static struct seen show(const char *output, const char *const *layers, size_t count)
+/* Renders frame 10 of a scene and shows these layers of it. */
+static struct seen show_scene(struct kiln_scene *of, const char *output, const char *const *layers,
+                              size_t count)
 {
     struct seen seen = {.count = 0};
     struct kiln_error error = kiln_error_empty();
@@ -75,7 +76,7 @@ static struct seen show(const char *output, const char *const *layers, size_t co
     params.layer_count = count;
     params.picture = see;
     params.user = &seen;
-    if (!kiln_render(device, scene, &params, NULL, &error))
+    if (!kiln_render(device, of, &params, NULL, &error))
         fail_msg("%s", error.message);
     for (size_t i = 0; i < seen.count; i++) {
         const struct kiln_frame_layer *view = &seen.views[i];
@@ -83,6 +84,11 @@ static struct seen show(const char *output, const char *const *layers, size_t co
         assert_true(view->width == WIDTH && view->height == HEIGHT);
     }
     return seen;
+}
+
+static struct seen show(const char *output, const char *const *layers, size_t count)
+{
+    return show_scene(scene, output, layers, count);
 }
 
 static void nothing_named_is_the_display(void **state)
@@ -137,6 +143,40 @@ static void layers_come_in_the_order_of_their_names(void **state)
     forget(&display);
 }
 
+/* The glow of fire alone is kept apart from smoke, so that the smoke layer needs no pass of its
+ * own. Smoke that glows does. */
+static void smoke_is_the_same_in_a_pass_of_its_own(void **state)
+{
+    (void)state;
+    static const char *const layers[] = {"smoke", "fire"};
+    const char *overrides[] = {"output.size=[96, 54]", "systems.*.look.size=0.6 m",
+                               "systems.smoke.look.bloom=[0, 0, 0]"};
+    struct seen seen[2];
+    for (int i = 0; i < 2; i++) {
+        struct kiln_error error = kiln_error_empty();
+        struct kiln_scene_params params = kiln_scene_defaults();
+        params.overrides = overrides;
+        params.override_count = 3;
+        struct kiln_scene *cloud =
+            kiln_scene_load(KILN_SOURCE_DIR "/scenes/bench/cloud.yaml", &params, &error);
+        if (!cloud)
+            fail_msg("%s", error.message);
+        seen[i] = show_scene(cloud, NULL, layers, 2);
+        kiln_scene_destroy(&cloud);
+        overrides[2] = "systems.smoke.look.bloom=[1, 0.5, 0.25]";
+    }
+    const float *smoke = seen[0].pixels[0];
+    float most = 0.0f;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        most = smoke[4 * i + 3] > most ? smoke[4 * i + 3] : most;
+    assert_true(most > 0.5f);
+    for (size_t i = 0; i < 2; i++)
+        assert_memory_equal(seen[0].pixels[i], seen[1].pixels[i],
+                            seen[0].views[i].row_bytes * HEIGHT);
+    forget(&seen[0]);
+    forget(&seen[1]);
+}
+
 static void of_sixteen_bits_the_display_has_as_many(void **state)
 {
     (void)state;
@@ -182,6 +222,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         IN_FOLDER(nothing_named_is_the_display),
         IN_FOLDER(layers_come_in_the_order_of_their_names),
+        IN_FOLDER(smoke_is_the_same_in_a_pass_of_its_own),
         IN_FOLDER(of_sixteen_bits_the_display_has_as_many),
         IN_FOLDER(other_names_are_refused_before_anything_is_written),
     };

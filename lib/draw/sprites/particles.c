@@ -63,6 +63,12 @@ bool kiln_particles_nearest_first(const struct kiln_particles_stage *stage)
     return stage->technique == KILN_RASTER_TILED && stage->scene->post.compose != KILN_COMPOSE_OIT;
 }
 
+bool kiln_particles_splits(const struct kiln_particles_stage *stage,
+                           const struct kiln_particles_draw *draw, uint32_t systems)
+{
+    return stage->technique == KILN_RASTER_CPU && kiln_raster_cpu_splits(draw, systems);
+}
+
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error)
 {

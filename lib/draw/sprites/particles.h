@@ -47,7 +47,14 @@ struct kiln_particles_draw {
      * fire_covers must be false. */
     bool by_fragment;
     bool fire_covers; /* true: blends by premultiplied `over`; additive particles cover, too */
+    /* NULL, or gets the colour and alpha of covering particles alone, if kiln_particles_splits */
+    struct kiln_image *covering;
 };
+
+/* Returns whether the stage can draw the covering particles of the given systems, a bit each, into
+ * an image of their own while it draws a pass. */
+bool kiln_particles_splits(const struct kiln_particles_stage *stage,
+                           const struct kiln_particles_draw *draw, uint32_t systems);
 
 /* Draws the particles of a pass into draw->framebuffer. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,

@@ -126,7 +126,8 @@ static bool make_room(struct kiln_raster_cpu *tiles, uint32_t count, struct kiln
 
 struct tile_job {
     struct kiln_raster_cpu *tiles;
-    float *color, *bloom; /* pixels of the targets; bloom NULL: there is none */
+    /* pixels of the targets; NULL: there is no bloom, or no image for covering particles alone */
+    float *color, *bloom, *covering;
     const float *depth;
     uint32_t width, height;
     bool first; /* true: this is the first piece of the pass, before which pixels are empty */
@@ -177,11 +178,12 @@ static void store_row(const struct tile_job *d, const struct kiln_tile *tile, in
 {
     const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->pixels[y];
     for (size_t x = 0; x < (size_t)tile->width; x += 4) {
-        four color[4], glow[4];
+        four color[4], glow[4], covering[4];
         float passed[4];
         for (int c = 0; c < 3; c++) {
             memcpy(&color[c], &planes[KILN_TILE_RED + c][x], sizeof color[c]);
             memcpy(&glow[c], &planes[KILN_TILE_GLOW_RED + c][x], sizeof glow[c]);
+            covering[c] = color[c];
             if (d->glow == KILN_TILE_GLOW_APART) {
                 color[c] += glow[c];
                 glow[c] *= d->weights[c];
@@ -191,13 +193,17 @@ static void store_row(const struct tile_job *d, const struct kiln_tile *tile, in
         memcpy(&alpha, &planes[KILN_TILE_ALPHA][x], sizeof alpha);
         const four left = 1.0f - (d->sum ? (four){0} : alpha);
         memcpy(passed, &left, sizeof passed);
-        color[3] = glow[3] = alpha;
+        color[3] = glow[3] = covering[3] = alpha;
         transpose(color);
         transpose(glow);
         size_t count = (size_t)tile->width - x < 4 ? (size_t)tile->width - x : 4;
         blend_pixels(color, passed, !d->first, d->color + 4 * (at + x), count);
         if (d->bloom)
             blend_pixels(glow, passed, !d->first || d->keep_bloom, d->bloom + 4 * (at + x), count);
+        if (d->covering) {
+            transpose(covering);
+            blend_pixels(covering, passed, !d->first, d->covering + 4 * (at + x), count);
+        }
     }
 }
 
@@ -210,6 +216,8 @@ static void clear_tile(const struct tile_job *d, size_t at, uint32_t width, uint
         memset(d->color + place, 0, bytes);
         if (d->bloom && !d->keep_bloom)
             memset(d->bloom + place, 0, bytes);
+        if (d->covering)
+            memset(d->covering + place, 0, bytes);
     }
 }
 
@@ -395,29 +403,46 @@ static bool steady_bloom(const float4 *table, uint32_t system, float weights[3])
     return true;
 }
 
-/* Chooses how tiles draw the glow: not at all if there is none, and with less work where all
- * glowing particles have the same bloom weights, as in most scenes. */
-static void choose_glow(const struct kiln_moment *moment, struct tile_job *d)
+static bool glows(const float weights[3])
 {
-    d->glow = KILN_TILE_GLOW_NONE;
-    if (!d->bloom)
-        return;
-    for (uint32_t i = 0; i < moment->scene->system_count && !d->keep_bloom && !d->by_fragment;
-         i++) {
+    return weights[0] != 0.0f || weights[1] != 0.0f || weights[2] != 0.0f;
+}
+
+/* Chooses how tiles draw the glow of a pass: not at all if there is none, and with less work where
+ * all glowing particles have the same bloom weights, as in most scenes. Writes these weights. */
+static enum kiln_tile_glow choose_glow(const struct kiln_particles_draw *draw, float all[3])
+{
+    if (draw->framebuffer->count < 2)
+        return KILN_TILE_GLOW_NONE;
+    if (draw->keep_bloom || draw->by_fragment)
+        return KILN_TILE_GLOW_WEIGHED;
+    enum kiln_tile_glow glow = KILN_TILE_GLOW_NONE;
+    const struct kiln_moment *moment = draw->moment;
+    for (uint32_t i = 0; i < moment->scene->system_count; i++) {
         float weights[3];
-        bool steady = steady_bloom(moment->look_table, i, weights);
-        if (steady && weights[0] == 0.0f && weights[1] == 0.0f && weights[2] == 0.0f)
+        const bool steady = steady_bloom(moment->look_table, i, weights);
+        if (steady && !glows(weights))
             continue;
-        if (steady && d->glow == KILN_TILE_GLOW_NONE) {
-            d->glow = KILN_TILE_GLOW_APART;
-            memcpy(d->weights, weights, sizeof weights);
-        } else if (!steady || memcmp(d->weights, weights, sizeof weights) != 0) {
-            d->glow = KILN_TILE_GLOW_WEIGHED;
-            return;
-        }
+        if (!steady || (glow == KILN_TILE_GLOW_APART && memcmp(all, weights, sizeof weights) != 0))
+            return KILN_TILE_GLOW_WEIGHED;
+        glow = KILN_TILE_GLOW_APART;
+        memcpy(all, weights, sizeof weights);
     }
-    if (d->keep_bloom || d->by_fragment)
-        d->glow = KILN_TILE_GLOW_WEIGHED;
+    return glow;
+}
+
+bool kiln_raster_cpu_splits(const struct kiln_particles_draw *draw, uint32_t systems)
+{
+    const struct kiln_moment *moment = draw->moment;
+    float weights[3];
+    if (choose_glow(draw, weights) != KILN_TILE_GLOW_APART || draw->sum_alpha || draw->fire_covers)
+        return false;
+    for (uint32_t i = 0; i < moment->scene->system_count; i++) {
+        const bool drawn = systems >> i & 1, adds = moment->looks[i].flags.x != 0;
+        if (drawn && (!steady_bloom(moment->look_table, i, weights) || glows(weights) != adds))
+            return false;
+    }
+    return true;
 }
 
 /* Makes the pixels that a pass reads and writes available on the host. */
@@ -425,15 +450,17 @@ static bool open_images(const struct kiln_particles_draw *draw, struct tile_job 
                         struct kiln_error *error)
 {
     struct kiln_image *color = draw->framebuffer->images[0];
-    bool glows = draw->framebuffer->count > 1;
+    bool blooms = draw->framebuffer->count > 1;
     d->width = color->width;
     d->height = color->height;
     d->depth = kiln_image_host(draw->depth, KILN_READ, error);
     d->color = d->depth ? kiln_image_host(color, KILN_OVERWRITE, error) : NULL;
-    if (d->color && glows)
+    if (d->color && blooms)
         d->bloom = kiln_image_host(draw->framebuffer->images[1],
                                    draw->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error);
-    return d->color && (d->bloom || !glows);
+    if (d->color && draw->covering)
+        d->covering = kiln_image_host(draw->covering, KILN_OVERWRITE, error);
+    return d->color && (d->bloom || !blooms) && (d->covering || !draw->covering);
 }
 
 bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_particles_draw *draw,
@@ -448,7 +475,7 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
     if (!entries || !open_images(draw, &job, error) ||
         !make_room(tiles, draw->count < most ? draw->count : most, error))
         return false;
-    choose_glow(draw->moment, &job);
+    job.glow = choose_glow(draw, job.weights);
     struct kiln_sprite_pass pass = {
         .scene = tiles->scene,
         .looks = draw->moment->looks,
