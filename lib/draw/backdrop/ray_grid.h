@@ -169,6 +169,13 @@ SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
     return smooth;
 }
 
+/* Returns the second difference of three nodes in a line, without its sign. */
+SIMD vf second_difference(const float *values, vi node, int32_t step)
+{
+    const vf ends = vf_gather(values, node) + vf_gather(values, node + 2 * step);
+    return vf_abs(ends - 2.0f * vf_gather(values, node + step));
+}
+
 /* Returns how much values of nodes bend around a block: the greatest second difference of three
  * neighbours in a row or in a column. The error of interpolation is about an eighth of it. */
 SIMD vf bend_around(const float *values, vi node, vi column, vi row)
@@ -177,15 +184,11 @@ SIMD vf bend_around(const float *values, vi node, vi column, vi row)
     const vi right = vi_select(column < GRID_BLOCKS_A_ROW - 1, node + 1, node);
     const vi top = node - row * GRID_COLUMNS;
     vf bend = vf_all(0.0f);
+    const vi starts[2] = {left, right};
     for (int i = 0; i < 2; i++) {
-        const vi starts[2] = {left, right};
-        for (int k = 0; k < 2; k++) {
-            const vi at = starts[k] + i * GRID_COLUMNS;
-            const vf sides = vf_gather(values, at) + vf_gather(values + 2, at);
-            bend = vf_max(bend, vf_abs(sides - 2.0f * vf_gather(values + 1, at)));
-        }
-        const vf ends = vf_gather(values + i, top) + vf_gather(values + i + 2 * GRID_COLUMNS, top);
-        bend = vf_max(bend, vf_abs(ends - 2.0f * vf_gather(values + i + GRID_COLUMNS, top)));
+        for (int k = 0; k < 2; k++)
+            bend = vf_max(bend, second_difference(values, starts[k] + i * GRID_COLUMNS, 1));
+        bend = vf_max(bend, second_difference(values, top + i, GRID_COLUMNS));
     }
     return bend;
 }
