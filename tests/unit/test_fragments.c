@@ -1,6 +1,6 @@
 /* lib/draw/sprites/fragments.c and what particles_cpu.c does with it: more fragments than a thread
  * has room for, and more sprites than are made at a time, give the picture all the same, in bounded
- * memory.
+ * memory. Every width of vectors gives the same bytes.
  */
 #include <math.h>
 #include <stddef.h>
@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "base/simd.h"
 #include "support/cmocka.h"
 #include "support/raster.h"
 #include "support/scenes.h"
@@ -99,14 +100,21 @@ static void expect_picture(struct raster *r, long most_mib)
     free(merged);
 }
 
-/* A row of 64 pixels gets over half a million fragments, of 48 bytes each. */
+/* A row of 64 pixels gets over half a million fragments, for which 48 bytes each are kept; twice as
+ * many of round billboards, whose near sheets all lie at the eye. */
 static void long_lists_are_drawn_in_turns(void **state)
 {
     (void)state;
-    struct raster r;
-    set_up(&r, "systems.cards.look={size: 12 m, opacity: 0.0003}", 64, 16, 9000);
-    expect_picture(&r, 40);
-    raster_close(&r);
+    static const char *const looks[] = {
+        "systems.cards.look={size: 12 m, opacity: 0.0003}",
+        "systems.cards.look={size: 12 m, opacity: 0.0003, thickness: 1, lit: 0}",
+    };
+    for (int i = 0; i < 2; i++) {
+        struct raster r;
+        set_up(&r, looks[i], 64, 16, 9000);
+        expect_picture(&r, 40);
+        raster_close(&r);
+    }
 }
 
 /* Of 192 bytes each; the lists of sprites take 4 more for each tile. */
@@ -119,11 +127,49 @@ static void many_sprites_are_made_for_some_tiles_at_a_time(void **state)
     raster_close(&r);
 }
 
+/* Draws round puffs, whose sheets cross each other, with two particles at each depth. */
+static void draw_puffs(float *drawn, size_t floats, uint32_t count)
+{
+    struct raster r;
+    set_up(&r, "systems.cards.look={atlas: 'builtin:puff', size: 0.7 m, thickness: 1, bloom: 0.3}",
+           120, 48, count);
+    assert_int_equal(floats, (size_t)r.scene->width * r.scene->height * 8);
+    draw(&r, true);
+    memcpy(drawn, r.color.host, floats / 2 * sizeof *drawn);
+    memcpy(drawn + floats / 2, r.bloom.host, floats / 2 * sizeof *drawn);
+    raster_close(&r);
+}
+
+/* Lists of one puff, of a few, and of up to hundreds. */
+static void every_width_of_vectors_sorts_alike(void **state)
+{
+    (void)state;
+    static const uint32_t counts[] = {1, 40, 2 * PLACES};
+    enum { FLOATS = 120 * 48 * 8 };
+    float *expected = malloc(FLOATS * sizeof *expected), *drawn = malloc(FLOATS * sizeof *drawn);
+    assert_true(expected && drawn);
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        setenv("KILN_SIMD", kiln_simd_name(KILN_SIMD_NARROWEST), 1);
+        draw_puffs(expected, FLOATS, counts[i]);
+        for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+            if (!kiln_simd_has(simd))
+                continue;
+            setenv("KILN_SIMD", kiln_simd_name(simd), 1);
+            draw_puffs(drawn, FLOATS, counts[i]);
+            assert_memory_equal(drawn, expected, FLOATS * sizeof *drawn);
+        }
+    }
+    unsetenv("KILN_SIMD");
+    free(expected);
+    free(drawn);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(long_lists_are_drawn_in_turns),
         cmocka_unit_test(many_sprites_are_made_for_some_tiles_at_a_time),
+        cmocka_unit_test(every_width_of_vectors_sorts_alike),
     };
     return cmocka_run_group_tests_name("fragments", tests, NULL, NULL);
 }

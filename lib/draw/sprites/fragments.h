@@ -8,7 +8,7 @@
 struct kiln_fragments;
 
 /* Returns NULL when memory is short. */
-struct kiln_fragments *kiln_fragments_create(void);
+struct kiln_fragments *kiln_fragments_create(enum kiln_simd simd);
 void kiln_fragments_destroy(struct kiln_fragments **fragments);
 
 /* Blends sprites into the tile. The fragments of a pixel are blended from the farthest to the

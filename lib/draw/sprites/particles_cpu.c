@@ -35,14 +35,14 @@ static bool out_of_memory(struct kiln_error *error)
     return kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
 }
 
-static bool create_fragments(struct kiln_raster_cpu *tiles)
+static bool create_fragments(struct kiln_raster_cpu *tiles, enum kiln_simd simd)
 {
     if (tiles->scene->post.compose != KILN_COMPOSE_OIT)
         return true;
     const uint32_t threads = kiln_threads_count(tiles->threads);
     tiles->fragments = calloc(threads, sizeof(struct kiln_fragments *));
     for (uint32_t i = 0; i < threads && tiles->fragments; i++) {
-        tiles->fragments[i] = kiln_fragments_create();
+        tiles->fragments[i] = kiln_fragments_create(simd);
         if (!tiles->fragments[i])
             return false;
     }
@@ -70,7 +70,7 @@ struct kiln_raster_cpu *kiln_raster_cpu_create(const struct kiln_scene *scene,
     tiles->draw = KILN_SIMD_PICK(kiln_tile_draw, simd);
     tiles->tiles = aligned_alloc(64, kiln_threads_count(threads) * sizeof *tiles->tiles);
     tiles->cells = kiln_cells_create(atlas, error);
-    if (!tiles->tiles || !tiles->cells || !create_fragments(tiles) ||
+    if (!tiles->tiles || !tiles->cells || !create_fragments(tiles, simd) ||
         !kiln_bins_init(&tiles->bins, scene->width, scene->height, error)) {
         out_of_memory(error);
         kiln_raster_cpu_destroy(&tiles);
