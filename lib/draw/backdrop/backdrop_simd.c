@@ -255,10 +255,9 @@ static void fill_grid(const struct kiln_backdrop_picture *p, const struct kiln_r
         const struct eye_rays eye = rays_through_pixels(frame, column, row);
         const struct ray_hit hit =
             trace(frame, objects, &eye.ray, find_floor(frame, &eye.ray), &eye.place);
-        fill_nodes(frame, i, &hit, ray_at(&eye.ray, hit.t), within, grid);
+        place_nodes(i, &hit, ray_at(&eye.ray, hit.t), within, grid);
     }
-    for (int i = 0; i < GRID_BLOCKS; i += LANES)
-        judge_blocks(frame, i, grid);
+    judge_grid(frame, grid);
 }
 
 /* Casts the rays of up to LANES pixels of a row, from (x, y) on. row: NULL without a grid. */

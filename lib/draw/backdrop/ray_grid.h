@@ -2,9 +2,10 @@
  * disc of the sky, so its shadows are blurred, and mostly wider than a few pixels. The picture is
  * divided into strips of blocks of GRID_STEP x GRID_STEP pixels. What is seen is computed at the
  * blocks' corners, the nodes of a grid. A pixel takes it from its block's corners where no shadow
- * can be missed: the corners and the pixel lie on one smooth piece of surface, what they see is
- * alike, and every object that may hide the lamp has a penumbra wider than the block. All other
- * pixels compute it. Blocks do not depend on the width of vectors, so neither does the picture. */
+ * can be missed: the corners and the pixel lie on one smooth piece of surface, what is seen hardly
+ * bends between nodes, and every object that may hide the lamp has a penumbra wider than the block.
+ * All other pixels compute it. Blocks do not depend on the width of vectors, so neither does the
+ * picture. */
 #ifndef KILN_DRAW_BACKDROP_RAY_GRID_H
 #define KILN_DRAW_BACKDROP_RAY_GRID_H
 
@@ -42,8 +43,7 @@ struct lamp_grid {
     float at[3][GRID_NODE_ROOM], normal[3][GRID_NODE_ROOM];
     float seen[GRID_LAMPS][GRID_NODE_ROOM]; /* of each lamp; -1: the node faces away from it */
     float blur[GRID_LAMPS][GRID_NODE_ROOM]; /* of shadows from maps, m */
-    /* by block, whose number of the first node is in `node` */
-    int32_t node[GRID_BLOCKS];
+    /* by block */
     int32_t alike[GRID_BLOCKS];              /* mask: the corners lie on one smooth piece */
     int32_t smooth[GRID_LAMPS][GRID_BLOCKS]; /* mask: what they see of a lamp may be interpolated */
     float size2[GRID_BLOCKS];                /* square of the extent of the corners, m2 */
@@ -55,11 +55,12 @@ SIMD struct vf3 gather_vector(const float (*from)[GRID_NODE_ROOM], vi node)
                         vf_gather(from[2], node)};
 }
 
-/* Stores the hits of LANES nodes, and what they see of the lamps. */
-SIMD void fill_nodes(const struct kiln_ray_frame *frame, int first, const struct ray_hit *hit,
-                     struct vf3 at, vi within, struct lamp_grid *grid)
+/* ---- nodes ----------------------------------------------------------------------------------- */
+
+/* Stores the hits of LANES nodes. within: mask of those in the picture. */
+SIMD void place_nodes(int first, const struct ray_hit *hit, struct vf3 at, vi within,
+                      struct lamp_grid *grid)
 {
-    const struct kiln_draw_backdrop *b = frame->backdrop;
     const vi active = within & (hit->surface >= 0.0f);
     vf_store(grid->surface + first, vf_select(active, hit->surface, vf_all(-1.0f)));
     const vf numbers[6] = {at.x, at.y, at.z, hit->normal.x, hit->normal.y, hit->normal.z};
@@ -67,20 +68,30 @@ SIMD void fill_nodes(const struct kiln_ray_frame *frame, int first, const struct
         vf_store(grid->at[i] + first, numbers[i]);
         vf_store(grid->normal[i] + first, numbers[3 + i]);
     }
-    const struct vf3 origin = vf3_add_scaled(at, hit->normal, vf_all(LAMP_START));
-    for (uint32_t i = 0; i < b->counts.y; i++) {
-        const struct kiln_draw_light *lamp = &b->lights[i];
-        if (!(lamp->casters.x | lamp->casters.y))
-            continue;
-        const struct vf3 towards = vf3_towards(lamp->position_radius2, at);
-        const vi faces = active & (lamp_irradiance(*lamp, towards, hit->normal) > 0.0f);
-        struct lamp_receiver lit = {.visible = vf_all(1.0f), .blur = vf_all(0.0f)};
-        if (any(faces))
-            lit = lamp_receiver_of(&frame->lamp_objects, lamp, origin, hit->normal, NULL,
-                                   vf_all(0.0f), faces);
-        vf_store(grid->seen[i] + first, vf_select(faces, lit.visible, vf_all(-1.0f)));
-        vf_store(grid->blur[i] + first, lit.blur);
-    }
+}
+
+SIMD struct vf3 load_vector(const float (*from)[GRID_NODE_ROOM], int first)
+{
+    return (struct vf3){vf_load(from[0] + first), vf_load(from[1] + first),
+                        vf_load(from[2] + first)};
+}
+
+/* Computes what LANES nodes see of lamp i. */
+SIMD void light_nodes(const struct kiln_ray_frame *frame, uint32_t i, int first,
+                      struct lamp_grid *grid)
+{
+    const struct kiln_draw_light *lamp = &frame->backdrop->lights[i];
+    const struct vf3 at = load_vector(grid->at, first), normal = load_vector(grid->normal, first);
+    const struct vf3 towards = vf3_towards(lamp->position_radius2, at);
+    const vi faces =
+        (vf_load(grid->surface + first) >= 0.0f) & (lamp_irradiance(*lamp, towards, normal) > 0.0f);
+    struct lamp_receiver lit = {.visible = vf_all(1.0f), .blur = vf_all(0.0f)};
+    if (any(faces))
+        lit = lamp_receiver_of(&frame->lamp_objects, lamp,
+                               vf3_add_scaled(at, normal, vf_all(LAMP_START)), normal, NULL,
+                               vf_all(0.0f), faces);
+    vf_store(grid->seen[i] + first, vf_select(faces, lit.visible, vf_all(-1.0f)));
+    vf_store(grid->blur[i] + first, lit.blur);
 }
 
 /* ---- blocks ---------------------------------------------------------------------------------- */
@@ -193,49 +204,91 @@ SIMD vf bend_around(const float *values, vi node, vi column, vi row)
     return bend;
 }
 
-/* Decides for LANES blocks what may be interpolated. */
-SIMD void judge_blocks(const struct kiln_ray_frame *frame, int first, struct lamp_grid *grid)
+/* Describes LANES blocks: where each lies in the grid, and its first node. */
+struct grid_blocks {
+    vi column, row, node;
+};
+
+SIMD struct grid_blocks grid_blocks_from(int first)
+{
+    const vi block = vi_count() + first, row = vi_of(vf_of(block) * (1.0f / GRID_BLOCKS_A_ROW));
+    const vi column = block - row * GRID_BLOCKS_A_ROW;
+    return (struct grid_blocks){column, row, row * GRID_COLUMNS + column};
+}
+
+/* Decides for LANES blocks whether their corners lie on one smooth piece of surface, and which
+ * lamps shapes hide smoothly. */
+SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, struct lamp_grid *grid)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
-    const vi block = vi_count() + first, row = vi_of(vf_of(block) * (1.0f / GRID_BLOCKS_A_ROW));
-    const vi column = block - row * GRID_BLOCKS_A_ROW, node = row * GRID_COLUMNS + column;
-    const vi corners[4] = {node, node + 1, node + GRID_COLUMNS, node + GRID_COLUMNS + 1};
+    const vi node = grid_blocks_from(first).node;
+    const vi corners[3] = {node + 1, node + GRID_COLUMNS, node + GRID_COLUMNS + 1};
     const struct vf3 at = gather_vector(grid->at, node), normal = gather_vector(grid->normal, node);
     vf size2 = vf_all(0.0f);
-    for (int i = 1; i < 4; i++) {
+    for (int i = 0; i < 3; i++) {
         const struct vf3 way = vf3_sub(gather_vector(grid->at, corners[i]), at);
         size2 = vf_max(size2, vf3_dot(way, way));
     }
     const vf surface = vf_gather(grid->surface, node);
     vi alike = surface >= 0.0f;
-    for (int i = 1; i < 4; i++)
+    for (int i = 0; i < 3; i++)
         alike &= (vf_gather(grid->surface, corners[i]) == surface) &
                  on_same_piece(at, normal, gather_vector(grid->at, corners[i]),
                                gather_vector(grid->normal, corners[i]), size2);
-    memcpy(grid->node + first, &node, sizeof node);
     memcpy(grid->alike + first, &alike, sizeof alike);
     vf_store(grid->size2 + first, size2);
     for (uint32_t i = 0; i < b->counts.y; i++) {
         const struct kiln_draw_light *lamp = &b->lights[i];
-        if (!(lamp->casters.x | lamp->casters.y))
-            continue;
-        vf least = vf_gather(grid->seen[i], node);
-        vf blur = vf_gather(grid->blur[i], node);
-        for (int k = 1; k < 4; k++) {
-            least = vf_min(least, vf_gather(grid->seen[i], corners[k]));
-            blur = vf_min(blur, vf_gather(grid->blur[i], corners[k]));
-        }
-        vi smooth = alike & (least >= 0.0f) & (blur * blur >= GRID_BLUR * GRID_BLUR * size2) &
-                    (bend_around(grid->seen[i], node, column, row) <= GRID_BEND);
+        vi smooth = alike;
         if (lamp->casters.x && any(smooth))
             smooth &= shapes_cast_smoothly(&frame->lamp_objects, lamp, at, normal, vf_sqrt(size2));
         memcpy(grid->smooth[i] + first, &smooth, sizeof smooth);
     }
 }
 
+/* Removes blocks from those that are smooth for a lamp: some corner faces away from the lamp, what
+ * is seen of it bends around the block, or its shadow is sharp there. */
+SIMD void judge_seen(uint32_t lamp, int first, struct lamp_grid *grid)
+{
+    static const int32_t corners[4] = {0, 1, GRID_COLUMNS, GRID_COLUMNS + 1};
+    const struct grid_blocks blocks = grid_blocks_from(first);
+    const vf size2 = vf_load(grid->size2 + first);
+    vf least = vf_all(1.0f), blur = vf_all(1e6f);
+    for (int i = 0; i < 4; i++) {
+        least = vf_min(least, vf_gather(grid->seen[lamp] + corners[i], blocks.node));
+        blur = vf_min(blur, vf_gather(grid->blur[lamp] + corners[i], blocks.node));
+    }
+    const vf bend = bend_around(grid->seen[lamp], blocks.node, blocks.column, blocks.row);
+    vi smooth;
+    memcpy(&smooth, grid->smooth[lamp] + first, sizeof smooth);
+    smooth &=
+        (least >= 0.0f) & (bend <= GRID_BEND) & (blur * blur >= GRID_BLUR * GRID_BLUR * size2);
+    memcpy(grid->smooth[lamp] + first, &smooth, sizeof smooth);
+}
+
+/* Finds what may be interpolated in a grid whose nodes have their places. Where no block is smooth
+ * for a lamp, the nodes need not see it. */
+SIMD void judge_grid(const struct kiln_ray_frame *frame, struct lamp_grid *grid)
+{
+    const struct kiln_draw_backdrop *b = frame->backdrop;
+    for (int first = 0; first < GRID_BLOCKS; first += LANES)
+        judge_surfaces(frame, first, grid);
+    for (uint32_t i = 0; i < b->counts.y; i++) {
+        int32_t some = 0;
+        for (int block = 0; block < GRID_BLOCKS; block++)
+            some |= grid->smooth[i][block];
+        if (!some || !(b->lights[i].casters.x | b->lights[i].casters.y))
+            continue;
+        for (int first = 0; first < GRID_NODES; first += LANES)
+            light_nodes(frame, i, first, grid);
+        for (int first = 0; first < GRID_BLOCKS; first += LANES)
+            judge_seen(i, first, grid);
+    }
+}
+
 /* ---- pixels ---------------------------------------------------------------------------------- */
 
-/* Where pixels lie in a grid. */
+/* Holds where pixels lie in a grid. */
 struct grid_place {
     const struct lamp_grid *grid;
     vi block, node;
