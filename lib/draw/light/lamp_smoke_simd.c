@@ -66,6 +66,15 @@ static vf depth_between(const struct kiln_lamp_smoke_job *job, struct vf3 direct
     return sum * step;
 }
 
+/* Clears the texels beside a picture. The one next to it is read with weight 0, and must be a
+ * number. */
+static void clear_beside(float *line, uint32_t width)
+{
+    for (size_t layer = 0; layer < KILN_LAMP_SMOKE_LAYERS; layer++)
+        memset(line + layer * KILN_LAMP_SMOKE_LAYER + width, 0,
+               (KILN_LAMP_SMOKE_WIDTH - width) * sizeof *line);
+}
+
 static void fill(const struct kiln_lamp_smoke_job *job, uint32_t row)
 {
     const bool far = job->lamp.smoke_ahead.w > 0.0f;
@@ -82,6 +91,7 @@ static void fill(const struct kiln_lamp_smoke_job *job, uint32_t row)
             to *= job->factor;
         }
     }
+    clear_beside(line, width);
 }
 
 void KILN_SIMD_NAME(kiln_lamp_smoke_fill)(const struct kiln_lamp_smoke_job *job, uint32_t row)
