@@ -79,6 +79,16 @@ float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_val
     return least;
 }
 
+bool kiln_scene_view_stands(const struct kiln_scene *scene)
+{
+    const struct kiln_camera *camera = &scene->camera;
+    return scene->pixel_samples == 1 && kiln_value3_is_constant(&camera->position) &&
+           kiln_value3_is_constant(&camera->target) && camera->fov.clock == KILN_CLOCK_CONSTANT &&
+           camera->roll.clock == KILN_CLOCK_CONSTANT &&
+           camera->near_plane.clock == KILN_CLOCK_CONSTANT &&
+           !(kiln_scene_value_max(scene, &camera->aperture) > 0.0f);
+}
+
 uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene)
 {
     uint32_t count = 0;

@@ -491,6 +491,10 @@ bool kiln_object_is_oriented_box(const struct kiln_object *object);
 float kiln_scene_value_max(const struct kiln_scene *scene, const struct kiln_value *value);
 float kiln_scene_value_min(const struct kiln_scene *scene, const struct kiln_value *value);
 
+/* Returns whether all pictures have the same view: nothing of the camera changes with time, and the
+ * eye and the pixels' samples have one place. */
+bool kiln_scene_view_stands(const struct kiln_scene *scene);
+
 /* Returns how many lamps, and lights of fire, may be hidden by what is in their way. */
 uint32_t kiln_scene_shadow_lights(const struct kiln_scene *scene);
 

@@ -17,6 +17,7 @@ enum {
     PROGRAM_BYTES = 26 << 20,
     ANY_MESH_BYTES = 6 << 20,
     PIXEL_BYTES = 68,
+    CACHE_BYTES = 80, /* a pixel of the cache of surfaces, which a camera that stands still has */
     SLOT_BYTES = 100,
     CELL_BYTES = 150000, /* a cell of an atlas, including what is needed while it is made */
     TRIANGLE_BYTES = 350,
@@ -169,6 +170,17 @@ static uint64_t light_bytes(const struct kiln_scene *scene, bool meshes)
            (has_solids(scene) ? (uint64_t)LIGHT_SOLID_BYTES : 0);
 }
 
+/* Returns the bytes of a pixel of the picture. A glossy floor has its reflections in the cache, and
+ * each lamp that casts shadows has a number. */
+static uint64_t pixel_bytes(const struct kiln_scene *scene)
+{
+    if (!kiln_scene_view_stands(scene) || scene->frames < 2)
+        return PIXEL_BYTES;
+    const bool gloss = kiln_scene_value_max(scene, &scene->backdrop.floor_gloss) > 0.0f;
+    const uint64_t lamps = sizeof(float) * kiln_scene_shadow_lights(scene);
+    return PIXEL_BYTES + (gloss ? 2 : 1) * (CACHE_BYTES + lamps);
+}
+
 static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
 {
     const uint64_t triangles = count_triangles(scene);
@@ -177,7 +189,7 @@ static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
     const uint64_t backdrop_pixels = count_pixels(scene, scene->backdrop.floor_image) +
                                      count_pixels(scene, scene->backdrop.sky_image);
     const struct term all[TERMS] = {
-        {PIXEL_BYTES * (uint64_t)scene->width * scene->height, "output.size", NULL},
+        {pixel_bytes(scene) * scene->width * scene->height, "output.size", NULL},
         {slot_bytes(scene) * kiln_work_particles(scene), NULL, NULL},
         {CELL_BYTES * count_cells(scene), "systems", NULL},
         {TRIANGLE_BYTES * triangles + (triangles > 0 ? ANY_MESH_BYTES : 0), "backdrop.objects",

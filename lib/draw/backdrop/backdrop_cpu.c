@@ -21,6 +21,7 @@ struct kiln_backdrop_cpu {
     struct kiln_pyramid *floor_image, *sky_image; /* NULL: none */
     struct kiln_meshes_cpu *meshes;               /* NULL: the scene has none */
     float *surfaces;
+    struct kiln_surface_cache *cache; /* NULL: the camera moves */
     struct kiln_ray_frame frame;
 };
 
@@ -62,6 +63,10 @@ struct kiln_backdrop_cpu *kiln_backdrop_cpu_create(const struct kiln_scene *scen
         return NULL;
     }
     bool ok = load_pictures(cpu, error);
+    if (ok && kiln_scene_view_stands(scene)) {
+        cpu->cache = kiln_surface_cache_create(scene, cpu->rows->lanes, error);
+        ok = cpu->cache != NULL;
+    }
     if (ok && meshes->count > 0) {
         cpu->meshes = kiln_meshes_cpu_create(scene, meshes, params->threads, error);
         ok = cpu->meshes != NULL;
@@ -78,6 +83,7 @@ void kiln_backdrop_cpu_destroy(struct kiln_backdrop_cpu **cpu)
     kiln_pyramid_destroy(&(*cpu)->floor_image);
     kiln_pyramid_destroy(&(*cpu)->sky_image);
     kiln_meshes_cpu_destroy(&(*cpu)->meshes);
+    kiln_surface_cache_destroy(&(*cpu)->cache);
     free((*cpu)->surfaces);
     free(*cpu);
     *cpu = NULL;
@@ -248,7 +254,10 @@ bool kiln_backdrop_cpu_draw(struct kiln_backdrop_cpu *cpu,
     cpu->frame = make_frame(cpu, inputs, lighting);
     if (is_current)
         return true;
-    if (cpu->meshes &&
+    if (cpu->cache)
+        kiln_surface_cache_begin(cpu->cache, inputs);
+    const bool is_cached = cpu->cache && cpu->cache->use != KILN_CACHE_UNUSED;
+    if (cpu->meshes && !(is_cached && cpu->cache->use == KILN_CACHE_FILLED) &&
         !kiln_meshes_cpu_run(cpu->meshes, &inputs->view, &inputs->block, &inputs->shapes, error))
         return false;
     struct kiln_backdrop_picture picture = {
@@ -257,6 +266,7 @@ bool kiln_backdrop_cpu_draw(struct kiln_backdrop_cpu *cpu,
         .height = cpu->color->height,
         .color = kiln_image_host(cpu->color, KILN_OVERWRITE, error),
         .surfaces = cpu->surfaces,
+        .cache = is_cached ? cpu->cache : NULL,
     };
     if (picture.color)
         picture.depth = kiln_image_host(cpu->depth, KILN_OVERWRITE, error);

@@ -5,6 +5,7 @@
 
 #include "base/simd.h"
 #include "draw/backdrop/ray.h"
+#include "draw/backdrop/surface_cache.h"
 
 /* Holds the range of pixels, from .. to - 1, in which an object may be seen. */
 struct kiln_pixel_box {
@@ -17,12 +18,14 @@ struct kiln_backdrop_picture {
     float *color;    /* RGBA */
     float *depth;    /* m */
     float *surfaces; /* number of the surface at each pixel's centre; differs across edges */
+    struct kiln_surface_cache *cache; /* NULL: nothing is kept */
     struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], spheres[KILN_MAX_OBJECTS],
         cylinders[KILN_MAX_OBJECTS], capsules[KILN_MAX_OBJECTS], oriented_boxes[KILN_MAX_OBJECTS];
 };
 
 /* Each function draws KILN_EDGE_TILE rows from row y. */
 struct kiln_backdrop_rows {
+    uint32_t lanes; /* width of vectors */
     /* Casts a ray through the centre of each pixel and writes colour, depth and surface. */
     void (*cast)(const struct kiln_backdrop_picture *picture, uint32_t y);
     /* Casts KILN_EDGE_SAMPLES rays a pixel where it or a pixel around it has a neighbour that shows

@@ -87,25 +87,32 @@ struct grid_row {
     uint32_t column, row;         /* of the first pixel, in the strip */
 };
 
+/* Describes what helps to shade rays; members are NULL where there is no such help. */
+struct ray_help {
+    const struct grid_row *row;
+    const struct cached_rays *cached;
+};
+
 /* Computes the light that arrives at the hits, and their colours. */
 SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, bool glossy,
-                     const struct grid_row *row, struct shaded_rays *shaded)
+                     const struct ray_help *help, struct shaded_rays *shaded)
 {
     const struct ray_hit *hit = &shaded->first;
     const struct ray_point point = {ray_at(ray, hit->t), hit->normal, hit->surface >= 0.0f};
     struct arrived arrived = {.irradiance = {{0}, {0}, {0}}};
     if (any(point.active)) {
-        const vi lit = facing_sun(frame, &point);
-        const vf sunlit = sun_visibility(frame, point.at, point.normal, lit);
+        const vf sunlit = sun_seen(frame, &point, facing_sun(frame, &point), help->cached);
         const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
         shaded->arrives =
             sunlit * smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
         glossy = glossy && any(hit->surface == 0.0f);
         if (glossy)
             shaded->mirror = floor_reflection_along(frame, ray);
-        struct lit_surface surface = {.point = point, .gloss = glossy ? &shaded->mirror.at : NULL};
+        struct lit_surface surface = {
+            .point = point, .gloss = glossy ? &shaded->mirror.at : NULL, .cached = help->cached};
         struct grid_place place;
-        if (row) {
+        if (help->row) {
+            const struct grid_row *row = help->row;
             place = grid_place_of(row->grid, row->column, row->row, hit, point.at);
             surface.grid = &place;
         }
@@ -113,22 +120,35 @@ SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, 
         shaded->light = sunlit - arrived.hidden / vf_max(arrived.all, vf_all(1e-6f));
         shaded->reflected = arrived.reflected;
     }
-    shaded->color =
-        radiance_or_sky(frame, hit, ray->direction, arrived.irradiance, shaded->arrives);
+    const struct hit_light light = {arrived.irradiance, shaded->arrives};
+    shaded->color = radiance_or_sky(frame, hit, ray->direction, &light, help->cached);
 }
 
-/* glossy: whether reflections of a glossy floor are wanted; row: NULL where there is no grid. */
+/* Finds what rays from the eye, or reflected ones, hit. place->layer is -1 for the latter. */
+SIMD struct ray_hit find_hit(const struct kiln_ray_frame *frame,
+                             const struct kiln_ray_objects *objects, const struct ray *ray,
+                             const struct ray_place *place, const struct cached_rays *cached)
+{
+    if (is_filled(cached))
+        return read_cached_hit(cached);
+    const vf floor = place->layer < 0 ? vf_all(2.0f * RAY_FAR) : find_floor(frame, ray);
+    struct ray_hit hit = trace(frame, objects, ray, floor, place);
+    const vi below = hit.surface == 0.0f;
+    if (any(below))
+        hit.albedo = vf3_select(below, floor_albedo(frame, ray, hit.t, below), hit.albedo);
+    if (cached)
+        fill_cached_hit(cached, &hit);
+    return hit;
+}
+
+/* glossy: whether reflections of a glossy floor are wanted. */
 SIMD struct shaded_rays shade_rays(const struct kiln_ray_frame *frame,
                                    const struct kiln_ray_objects *objects, const struct ray *ray,
-                                   vf floor, const struct ray_place *place, bool glossy,
-                                   const struct grid_row *row)
+                                   const struct ray_place *place, bool glossy,
+                                   const struct ray_help *help)
 {
-    struct shaded_rays shaded = {.first = trace(frame, objects, ray, floor, place)};
-    vi below = shaded.first.surface == 0.0f;
-    if (any(below))
-        shaded.first.albedo =
-            vf3_select(below, floor_albedo(frame, ray, shaded.first.t, below), shaded.first.albedo);
-    light_hits(frame, ray, glossy, row, &shaded);
+    struct shaded_rays shaded = {.first = find_hit(frame, objects, ray, place, help->cached)};
+    light_hits(frame, ray, glossy, help, &shaded);
     return shaded;
 }
 
@@ -137,9 +157,10 @@ SIMD uint32_t first_bits(uint32_t count)
     return (uint32_t)((1ull << count) - 1);
 }
 
-/* Adds the reflection of a glossy floor by following the reflected ray. */
+/* Adds the reflection of a glossy floor by following the reflected ray. cached: of the rays from
+ * the eye. */
 SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *ray,
-                         struct shaded_rays *shaded)
+                         const struct cached_rays *cached, struct shaded_rays *shaded)
 {
     vi floor = shaded->first.surface == 0.0f;
     if (!any(floor))
@@ -154,8 +175,12 @@ SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *r
     const struct ray_reflection *m = &shaded->mirror;
     const struct ray reflected = {ray_at(ray, shaded->first.t), m->at.direction};
     const struct ray_place nowhere = {.layer = -1};
+    struct cached_rays planes;
+    if (cached)
+        planes = cached_reflections(cached);
+    const struct ray_help help = {.cached = cached ? &planes : NULL};
     const struct shaded_rays reflection =
-        shade_rays(frame, &objects, &reflected, vf_all(2.0f * RAY_FAR), &nowhere, false, NULL);
+        shade_rays(frame, &objects, &reflected, &nowhere, false, &help);
     struct vf3 more = vf3_scale(shaded->reflected, m->part);
     more = vf3_add_scaled(more, m->sun, shaded->arrives);
     more = vf3_add_scaled(more, reflection.color.rgb, m->part * m->at.reflectance);
@@ -164,14 +189,14 @@ SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *r
 
 SIMD struct shaded_rays shade_eye_rays(const struct kiln_ray_frame *frame,
                                        const struct kiln_ray_objects *objects,
-                                       const struct eye_rays *eye, const struct grid_row *row)
+                                       const struct eye_rays *eye, const struct ray_help *help)
 {
-    struct shaded_rays shaded = shade_rays(frame, objects, &eye->ray, find_floor(frame, &eye->ray),
-                                           &eye->place, frame->floor_gloss, row);
+    struct shaded_rays shaded =
+        shade_rays(frame, objects, &eye->ray, &eye->place, frame->floor_gloss, help);
     shaded.color.rgb =
         add_sun_disc(frame, shaded.color.rgb, eye->ray.direction, shaded.first.surface < 0.0f);
     if (frame->floor_gloss)
-        add_reflection(frame, &eye->ray, &shaded);
+        add_reflection(frame, &eye->ray, help->cached, &shaded);
     return shaded;
 }
 
@@ -230,18 +255,21 @@ SIMD void store_numbers(float *to, vf numbers, uint32_t count)
         to[i] = all[i];
 }
 
-static bool has_shadows_of_lamps(const struct kiln_ray_frame *frame)
+/* Returns a bit for each lamp that objects hide and whose shadows are not in the cache. */
+static uint32_t find_shadow_lamps(const struct kiln_backdrop_picture *p)
 {
-    const struct kiln_draw_backdrop *b = frame->backdrop;
-    uint32_t casters = 0;
-    for (uint32_t i = 0; i < b->counts.y; i++)
-        casters |= b->lights[i].casters.x | b->lights[i].casters.y;
-    return casters != 0;
+    const struct kiln_draw_backdrop *b = p->frame->backdrop;
+    uint32_t lamps = 0;
+    for (uint32_t i = 0; i < b->counts.y; i++) {
+        if (b->lights[i].casters.x | b->lights[i].casters.y)
+            lamps |= 1u << i;
+    }
+    return p->cache && p->cache->use == KILN_CACHE_FILLED ? lamps & ~p->cache->lamps : lamps;
 }
 
-/* Fills the grid of the strip at (x, y). */
+/* Fills the grid of the strip at (x, y) for some lamps, a bit for each. */
 static void fill_grid(const struct kiln_backdrop_picture *p, const struct kiln_ray_objects *objects,
-                      uint32_t x, uint32_t y, struct lamp_grid *grid)
+                      uint32_t x, uint32_t y, uint32_t lamps, struct lamp_grid *grid)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const vi width = vi_all((int32_t)p->width), height = vi_all((int32_t)p->height);
@@ -257,7 +285,19 @@ static void fill_grid(const struct kiln_backdrop_picture *p, const struct kiln_r
             trace(frame, objects, &eye.ray, find_floor(frame, &eye.ray), &eye.place);
         place_nodes(i, &hit, ray_at(&eye.ray, hit.t), within, grid);
     }
-    judge_grid(frame, grid);
+    judge_grid(frame, lamps, grid);
+}
+
+/* Returns the numbers of the surfaces that rays hit, by which edges are found. */
+SIMD vf mark_surfaces(const struct kiln_ray_frame *frame, const struct eye_rays *eye, vf surface,
+                      vi odd, const struct cached_rays *cached)
+{
+    if (is_filled(cached))
+        return read_cached(cached, KILN_CACHE_MARKED);
+    if (frame->meshes)
+        surface = mark_mesh_edges(frame, &eye->place, surface, odd);
+    fill_cached(cached, KILN_CACHE_MARKED, surface);
+    return surface;
 }
 
 /* Casts the rays of up to LANES pixels of a row, from (x, y) on. row: NULL without a grid. */
@@ -271,10 +311,14 @@ SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_r
     vi last = vi_all((int32_t)p->width - 1);
     column = vi_select(column < last, column, last);
     const struct eye_rays eye = rays_through_pixels(frame, column, vi_all((int32_t)y));
-    const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, grid_row);
-    vf surface = shaded.first.surface;
-    if (frame->meshes)
-        surface = mark_mesh_edges(frame, &eye.place, surface, -((column + (int32_t)y) & 1));
+    struct cached_rays planes;
+    if (p->cache)
+        planes = cached_centers(p->cache, x, y);
+    const struct cached_rays *cached = p->cache ? &planes : NULL;
+    const struct ray_help help = {grid_row, cached};
+    const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, &help);
+    vf surface =
+        mark_surfaces(frame, &eye, shaded.first.surface, -((column + (int32_t)y) & 1), cached);
     surface = 4.0f * surface + shaded.light;
     store_colors(p->color + 4 * first, &shaded.color, count);
     store_numbers(p->depth + first, shaded.first.t, count);
@@ -289,13 +333,13 @@ static uint32_t rows_from(const struct kiln_backdrop_picture *p, uint32_t y)
 static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 {
     const uint32_t y_to = rows_from(p, y);
-    const bool shadows = has_shadows_of_lamps(p->frame);
+    const uint32_t shadows = find_shadow_lamps(p);
     struct lamp_grid grid;
     for (uint32_t strip = 0; strip < p->width; strip += STRIP) {
         /* with a column and a row more, for the nodes */
         const struct kiln_ray_objects objects = find_objects(p, strip, y, STRIP + 1);
         if (shadows)
-            fill_grid(p, &objects, strip, y, &grid);
+            fill_grid(p, &objects, strip, y, shadows, &grid);
         uint32_t x_to = strip + STRIP < p->width ? strip + STRIP : p->width;
         for (uint32_t row = y; row < y_to; row++) {
             for (uint32_t x = strip; x < x_to; x += LANES) {
@@ -378,18 +422,23 @@ static int list_edges(const struct kiln_backdrop_picture *p, uint32_t x, uint32_
     return count;
 }
 
+/* Stores the colours of pixels in the lanes of a mask. */
 SIMD void store_pixels(const struct kiln_backdrop_picture *p, const struct ray_color *color,
-                       vi pixel, int count)
+                       vi pixel, vi active)
 {
     _Alignas(64) float channels[4 * LANES];
     store_colors(channels, color, LANES);
-    for (int i = 0; i < count; i++)
-        memcpy(p->color + 4 * (size_t)pixel[i], channels + 4 * (size_t)i, 4 * sizeof *channels);
+    for (int i = 0; i < LANES; i++) {
+        if (active[i])
+            memcpy(p->color + 4 * (size_t)pixel[i], channels + 4 * (size_t)i, 4 * sizeof *channels);
+    }
 }
 
-/* Casts the rays of up to LANES pixels at edges, and writes the mean of each. */
+/* Casts the rays of pixels at edges, and writes the mean of each, in the lanes of a mask. cached:
+ * of the first sample, or NULL. */
 SIMD void antialias_pixels(const struct kiln_backdrop_picture *p,
-                           const struct kiln_ray_objects *objects, vi column, vi row, int count)
+                           const struct kiln_ray_objects *objects, vi column, vi row, vi active,
+                           const struct cached_rays *cached)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const struct eye_rays center = rays_through_pixels(frame, column, row);
@@ -398,36 +447,121 @@ SIMD void antialias_pixels(const struct kiln_backdrop_picture *p,
     for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
         const struct ray_place place = sample_place(frame, &center.place, s);
         const struct eye_rays eye = rays_at(frame, &place);
-        const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, NULL);
+        struct cached_rays planes;
+        if (cached)
+            planes = cached_sample(cached, s);
+        const struct ray_help help = {.cached = cached ? &planes : NULL};
+        const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, &help);
         sum = edge_add(sum, shaded.color.rgb, shaded.color.alpha, part, frame->view->exposure.x);
     }
     const struct ray_color mean = {edge_mean(sum), sum.alpha};
-    store_pixels(p, &mean, row * (int32_t)p->width + column, count);
+    store_pixels(p, &mean, row * (int32_t)p->width + column, active);
+}
+
+/* ---- edges in the cache ---------------------------------------------------------------------- */
+
+/* Flags listed pixels as edges, and leaves those out of the list that are in the cache. Returns how
+ * many are left. */
+static int take_out_cached(const struct kiln_surface_cache *cache, int count,
+                           int32_t at[2][STRIP * TILE + LANES])
+{
+    int left = 0;
+    for (int i = 0; i < count; i++) {
+        uint8_t *flags = &cache->flags[(size_t)at[1][i] * cache->width + (size_t)at[0][i]];
+        at[0][left] = at[0][i];
+        at[1][left] = at[1][i];
+        left += !(*flags & KILN_PIXEL_IS_CACHED);
+        *flags |= KILN_PIXEL_IS_EDGE;
+    }
+    return left;
+}
+
+/* Adds a vector of pixels to the cache if it has room. Returns whether it has. */
+static bool add_to_cache(const struct kiln_surface_cache *cache, struct kiln_cached_edges *edges,
+                         vi column, vi row, struct cached_rays *cached)
+{
+    if (edges->count == edges->room)
+        return false;
+    memcpy(edges->columns + (size_t)edges->count * LANES, &column, sizeof column);
+    memcpy(edges->rows + (size_t)edges->count * LANES, &row, sizeof row);
+    for (int i = 0; i < LANES; i++)
+        cache->flags[(size_t)row[i] * cache->width + (size_t)column[i]] |= KILN_PIXEL_IS_CACHED;
+    *cached = cached_samples(cache, edges, edges->count++, false);
+    return true;
+}
+
+/* Lights the cached pixels that are at edges in this picture. */
+static void light_cached_edges(const struct kiln_backdrop_picture *p,
+                               const struct kiln_cached_edges *edges, uint32_t count)
+{
+    const struct kiln_surface_cache *cache = p->cache;
+    const struct kiln_ray_objects none = {0};
+    for (uint32_t k = 0; k < count; k++) {
+        vi column, row;
+        memcpy(&column, edges->columns + (size_t)k * LANES, sizeof column);
+        memcpy(&row, edges->rows + (size_t)k * LANES, sizeof row);
+        vi edge;
+        for (int i = 0; i < LANES; i++)
+            edge[i] = -((cache->flags[(size_t)row[i] * cache->width + (size_t)column[i]] &
+                         KILN_PIXEL_IS_EDGE) != 0);
+        if (!any(edge))
+            continue;
+        const struct cached_rays cached = cached_samples(cache, edges, k, true);
+        antialias_pixels(p, &none, column, row, edge, &cached);
+    }
+}
+
+static void forget_edges(const struct kiln_surface_cache *cache, uint32_t y, uint32_t y_to)
+{
+    uint8_t *flags = cache->flags + (size_t)y * cache->width;
+    for (size_t i = 0; i < (size_t)(y_to - y) * cache->width; i++)
+        flags[i] &= KILN_PIXEL_IS_CACHED;
+}
+
+/* ---- rows of edges --------------------------------------------------------------------------- */
+
+/* Antialiases listed pixels of a strip at x. edges: NULL without a cache. */
+static void antialias_listed(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
+                             int count, int32_t at[2][STRIP * TILE + LANES],
+                             struct kiln_cached_edges *edges)
+{
+    if (count == 0)
+        return;
+    const struct kiln_ray_objects objects = find_objects(p, x, y, STRIP);
+    for (int i = 1; i < LANES; i++) { /* the last vector repeats its last pixel */
+        at[0][count - 1 + i] = at[0][count - 1];
+        at[1][count - 1 + i] = at[1][count - 1];
+    }
+    for (int i = 0; i < count; i += LANES) {
+        vi column, row;
+        memcpy(&column, at[0] + i, sizeof column);
+        memcpy(&row, at[1] + i, sizeof row);
+        struct cached_rays cached;
+        const bool is_cached = edges && add_to_cache(p->cache, edges, column, row, &cached);
+        antialias_pixels(p, &objects, column, row, vi_count() < count - i,
+                         is_cached ? &cached : NULL);
+    }
 }
 
 static void antialias_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 {
     int32_t at[2][STRIP * TILE + LANES];
+    struct kiln_cached_edges *edges = p->cache ? &p->cache->edges[y / TILE] : NULL;
+    const uint32_t cached = edges ? edges->count : 0;
+    if (edges)
+        forget_edges(p->cache, y, rows_from(p, y));
     for (uint32_t x = 0; x < p->width; x += STRIP) {
-        const int count = list_edges(p, x, y, at);
-        if (count == 0)
-            continue;
-        const struct kiln_ray_objects objects = find_objects(p, x, y, STRIP);
-        for (int i = 1; i < LANES; i++) { /* the last vector repeats its last pixel */
-            at[0][count - 1 + i] = at[0][count - 1];
-            at[1][count - 1 + i] = at[1][count - 1];
-        }
-        for (int i = 0; i < count; i += LANES) {
-            const int left = count - i < LANES ? count - i : LANES;
-            vi column, row;
-            memcpy(&column, at[0] + i, sizeof column);
-            memcpy(&row, at[1] + i, sizeof row);
-            antialias_pixels(p, &objects, column, row, left);
-        }
+        int count = list_edges(p, x, y, at);
+        if (edges)
+            count = take_out_cached(p->cache, count, at);
+        antialias_listed(p, x, y, count, at, edges);
     }
+    if (edges)
+        light_cached_edges(p, edges, cached);
 }
 
 const struct kiln_backdrop_rows KILN_SIMD_NAME(kiln_backdrop_rows) = {
+    .lanes = LANES,
     .cast = cast_rows,
     .antialias = antialias_rows,
 };

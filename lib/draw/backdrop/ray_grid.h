@@ -218,7 +218,8 @@ SIMD struct grid_blocks grid_blocks_from(int first)
 
 /* Decides for LANES blocks whether their corners lie on one smooth piece of surface, and which
  * lamps shapes hide smoothly. */
-SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, struct lamp_grid *grid)
+SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, uint32_t lamps,
+                         struct lamp_grid *grid)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     const vi node = grid_blocks_from(first).node;
@@ -238,6 +239,8 @@ SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, struct l
     memcpy(grid->alike + first, &alike, sizeof alike);
     vf_store(grid->size2 + first, size2);
     for (uint32_t i = 0; i < b->counts.y; i++) {
+        if (!(lamps >> i & 1))
+            continue;
         const struct kiln_draw_light *lamp = &b->lights[i];
         vi smooth = alike;
         if (lamp->casters.x && any(smooth))
@@ -267,17 +270,19 @@ SIMD void judge_seen(uint32_t lamp, int first, struct lamp_grid *grid)
 }
 
 /* Finds what may be interpolated in a grid whose nodes have their places. Where no block is smooth
- * for a lamp, the nodes need not see it. */
-SIMD void judge_grid(const struct kiln_ray_frame *frame, struct lamp_grid *grid)
+ * for a lamp, the nodes need not see it. lamps: a bit for each lamp that pixels will ask for. */
+SIMD void judge_grid(const struct kiln_ray_frame *frame, uint32_t lamps, struct lamp_grid *grid)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     for (int first = 0; first < GRID_BLOCKS; first += LANES)
-        judge_surfaces(frame, first, grid);
+        judge_surfaces(frame, first, lamps, grid);
     for (uint32_t i = 0; i < b->counts.y; i++) {
+        if (!(lamps >> i & 1))
+            continue;
         int32_t some = 0;
         for (int block = 0; block < GRID_BLOCKS; block++)
             some |= grid->smooth[i][block];
-        if (!some || !(b->lights[i].casters.x | b->lights[i].casters.y))
+        if (!some)
             continue;
         for (int first = 0; first < GRID_NODES; first += LANES)
             light_nodes(frame, i, first, grid);

@@ -3,6 +3,7 @@
 #ifndef KILN_DRAW_BACKDROP_RAY_LIGHT_H
 #define KILN_DRAW_BACKDROP_RAY_LIGHT_H
 
+#include "draw/backdrop/ray_cache.h"
 #include "draw/backdrop/ray_grid.h"
 #include "draw/backdrop/ray_oriented.h"
 #include "draw/backdrop/ray_picture.h"
@@ -97,6 +98,15 @@ SIMD vf meshes_sky_visibility(const struct kiln_ray_frame *frame, const struct r
     return visible;
 }
 
+/* Returns the part of the sky that is seen past objects. */
+SIMD vf sky_past_objects(const struct kiln_ray_frame *frame, const struct ray_point *p)
+{
+    vf sky = boxes_sky_visibility(frame, p, vf_all(1.0f));
+    sky = round_sky_visibility(frame, p, sky);
+    sky = oriented_sky_visibility(frame, p, sky);
+    return meshes_sky_visibility(frame, p, sky);
+}
+
 /* ---- light that arrives at a surface --------------------------------------------------------- */
 
 /* Holds the light of sky and lamps that arrives at points. */
@@ -114,11 +124,12 @@ struct lit_surface {
     const struct floor_reflection *gloss; /* how a glossy floor reflects lamps, or NULL */
     const struct vf3 *middle;             /* of the solid particles that it is of, or NULL */
     const struct grid_place *grid;        /* or NULL */
+    const struct cached_rays *cached;     /* or NULL */
 };
 
-/* Returns the part of lamp i that a surface sees past objects. */
-SIMD vf lamp_seen(const struct kiln_ray_frame *frame, uint32_t i, const struct lit_surface *s,
-                  vi active)
+/* Computes the part of lamp i that a surface sees past objects. */
+SIMD vf find_lamp_seen(const struct kiln_ray_frame *frame, uint32_t i, const struct lit_surface *s,
+                       vi active)
 {
     const struct kiln_draw_light *lamp = &frame->backdrop->lights[i];
     vf seen = vf_all(1.0f);
@@ -133,6 +144,19 @@ SIMD vf lamp_seen(const struct kiln_ray_frame *frame, uint32_t i, const struct l
                                      vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)),
                                      p->normal, s->middle, vf_all(0.0f), active);
     return vf_select(known, seen, found);
+}
+
+/* Returns the part of lamp i that a surface sees past objects. */
+SIMD vf lamp_seen(const struct kiln_ray_frame *frame, uint32_t i, const struct lit_surface *s,
+                  vi active)
+{
+    const uint32_t plane = plane_of_lamp(s->cached, i);
+    if (plane && is_filled(s->cached))
+        return read_cached(s->cached, plane);
+    const vf seen = find_lamp_seen(frame, i, s, active);
+    if (plane)
+        fill_cached(s->cached, plane, seen);
+    return seen;
 }
 
 /* Adds the light of lamp i. */
@@ -175,10 +199,13 @@ SIMD struct arrived light_without_sun(const struct kiln_ray_frame *frame,
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     const struct ray_point *p = &s->point;
-    vf sky = boxes_sky_visibility(frame, p, vf_all(1.0f));
-    sky = round_sky_visibility(frame, p, sky);
-    sky = oriented_sky_visibility(frame, p, sky);
-    sky = meshes_sky_visibility(frame, p, sky);
+    vf sky;
+    if (is_filled(s->cached)) {
+        sky = read_cached(s->cached, KILN_CACHE_SKY);
+    } else {
+        sky = sky_past_objects(frame, p);
+        fill_cached(s->cached, KILN_CACHE_SKY, sky);
+    }
     sky *= smoke_lets_through(frame->smoke_to_sky, b->sky_to_grid, p);
     const struct vf3 ambient = sky_ambient(b->sky_horizon, b->sky_top, p->normal);
     struct arrived arrived = {.irradiance = vf3_scale(ambient, RAY_PI * sky)};
@@ -186,6 +213,21 @@ SIMD struct arrived light_without_sun(const struct kiln_ray_frame *frame,
     for (uint32_t i = 0; i < b->counts.y; i++)
         add_lamp(frame, i, s, &arrived);
     return arrived;
+}
+
+/* Returns the part of the sun that points see; 0 in lanes that are not lit. */
+SIMD vf sun_seen(const struct kiln_ray_frame *frame, const struct ray_point *p, vi lit,
+                 const struct cached_rays *cached)
+{
+    const struct sun_receiver receiver = sun_receiver_of(p->at, p->normal, lit);
+    vf seen;
+    if (is_filled(cached)) {
+        seen = read_cached(cached, KILN_CACHE_SUN);
+    } else {
+        seen = sun_past_objects(frame, &receiver);
+        fill_cached(cached, KILN_CACHE_SUN, seen);
+    }
+    return seen * sun_past_particles(frame, &receiver);
 }
 
 /* Returns the lanes whose surface faces the sun; none where the sun is black. */
@@ -249,39 +291,70 @@ SIMD struct vf3 horizon_color(const struct kiln_ray_frame *frame, struct vf3 dir
     return add_sun_glow(b, sky, direction);
 }
 
-/* Returns the radiance of a Lambertian surface: albedo / pi * irradiance, with haze. sunlight: the
- * part of the sun that arrives. */
+/* Returns the colour of the haze in front of surfaces. */
+SIMD struct vf3 haze_color(const struct kiln_ray_frame *frame, struct vf3 direction, vi active,
+                           const struct cached_rays *cached)
+{
+    const uint32_t plane = cached ? cached->cache->haze : 0;
+    if (plane && cached->filled)
+        return read_cached3(cached, plane);
+    const struct vf3 haze = horizon_color(frame, direction, active);
+    if (plane)
+        fill_cached3(cached, plane, haze);
+    return haze;
+}
+
+/* Holds light that arrives at hits. */
+struct hit_light {
+    struct vf3 irradiance; /* of the sky and of the lamps */
+    vf sunlight;           /* part of the sun that arrives */
+};
+
+/* Returns the radiance of a Lambertian surface: albedo / pi * irradiance, with haze. */
 SIMD struct ray_color radiance(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
-                               struct vf3 direction, struct vf3 irradiance, vf sunlight)
+                               struct vf3 direction, const struct hit_light *light,
+                               const struct cached_rays *cached)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     bool transparent = b->counts.z != 0;
     vi surface = hit->surface >= 0.0f;
-    vf sun = vf_max(vf3_dot_all(hit->normal, b->sun_direction), vf_all(0.0f)) * sunlight;
-    irradiance = vf3_add_scaled(irradiance, vf3_all(b->sun_color), sun);
+    vf sun = vf_max(vf3_dot_all(hit->normal, b->sun_direction), vf_all(0.0f)) * light->sunlight;
+    const struct vf3 irradiance = vf3_add_scaled(light->irradiance, vf3_all(b->sun_color), sun);
     struct vf3 color = {hit->albedo.x * (1.0f / RAY_PI) * irradiance.x,
                         hit->albedo.y * (1.0f / RAY_PI) * irradiance.y,
                         hit->albedo.z * (1.0f / RAY_PI) * irradiance.z};
     if (!transparent && b->floor_params.z > 0.0f) {
         vf clear = vf_exp(-b->floor_params.z * hit->t * vf3_length(direction));
-        struct vf3 haze = horizon_color(frame, direction, surface);
+        struct vf3 haze = haze_color(frame, direction, surface, cached);
         color = vf3_add_scaled(haze, vf3_sub(color, haze), clear);
     }
     return (struct ray_color){color, vf_all(1.0f)};
 }
 
+/* Returns the colour of the sky behind rays that hit nothing. In the cache it is their albedo. */
+SIMD struct vf3 sky_behind(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
+                           struct vf3 direction, vi sky, const struct cached_rays *cached)
+{
+    if (is_filled(cached))
+        return hit->albedo;
+    const struct vf3 behind = sky_color(frame, direction, sky);
+    fill_cached3(cached, KILN_CACHE_ALBEDO, vf3_select(sky, behind, hit->albedo));
+    return behind;
+}
+
 /* Returns the radiance of a surface, or the sky where the ray hits nothing. */
 SIMD struct ray_color radiance_or_sky(const struct kiln_ray_frame *frame, const struct ray_hit *hit,
-                                      struct vf3 direction, struct vf3 irradiance, vf sunlight)
+                                      struct vf3 direction, const struct hit_light *light,
+                                      const struct cached_rays *cached)
 {
-    struct ray_color color = radiance(frame, hit, direction, irradiance, sunlight);
+    struct ray_color color = radiance(frame, hit, direction, light, cached);
     vi sky = hit->surface < 0.0f;
     if (!any(sky))
         return color;
     struct vf3 behind = {{0}, {0}, {0}};
     vf alpha = vf_all(0.0f);
     if (frame->backdrop->counts.z == 0) {
-        behind = sky_color(frame, direction, sky);
+        behind = sky_behind(frame, hit, direction, sky, cached);
         alpha = vf_all(1.0f);
     }
     return (struct ray_color){vf3_select(sky, behind, color.rgb),

@@ -317,25 +317,41 @@ SIMD vf particles_sun_visibility(const struct kiln_ray_frame *frame,
 
 /* ---- all objects and particles --------------------------------------------------------------- */
 
+SIMD struct sun_receiver sun_receiver_of(struct vf3 point, struct vf3 normal, vi active)
+{
+    return (struct sun_receiver){vf3_add_scaled(point, normal, vf_all(1e-3f)), normal, active};
+}
+
+/* Returns the part of the sun that is visible past objects; 0 for lanes that are not active. */
+SIMD vf sun_past_objects(const struct kiln_ray_frame *frame, const struct sun_receiver *receiver)
+{
+    if (!any(receiver->active))
+        return vf_all(0.0f);
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    vf visible = boxes_sun_visibility(frame, receiver);
+    if (shapes->counts.x + shapes->counts.y > 0)
+        visible *= round_sun_visibility(frame, receiver);
+    if (shapes->oriented_counts.x + shapes->oriented_counts.y > 0)
+        visible *= oriented_sun_visibility(frame, receiver);
+    for (int i = 0; i < (int)shapes->counts.z; i++)
+        visible *= 1.0f - mesh_cover(frame, i, receiver);
+    return vf_where(receiver->active, visible);
+}
+
+/* Returns the part of the sun that solid particles let through. */
+SIMD vf sun_past_particles(const struct kiln_ray_frame *frame, const struct sun_receiver *receiver)
+{
+    if (frame->shapes->counts.w == 0 || !any(receiver->active))
+        return vf_all(1.0f);
+    return particles_sun_visibility(frame, receiver);
+}
+
 /* Returns the visible part of the sun; 0 for lanes that are not active. */
 SIMD vf sun_visibility(const struct kiln_ray_frame *frame, struct vf3 point, struct vf3 normal,
                        vi active)
 {
-    if (!any(active))
-        return vf_all(0.0f);
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    const struct sun_receiver receiver = {vf3_add_scaled(point, normal, vf_all(1e-3f)), normal,
-                                          active};
-    vf visible = boxes_sun_visibility(frame, &receiver);
-    if (shapes->counts.x + shapes->counts.y > 0)
-        visible *= round_sun_visibility(frame, &receiver);
-    if (shapes->oriented_counts.x + shapes->oriented_counts.y > 0)
-        visible *= oriented_sun_visibility(frame, &receiver);
-    for (int i = 0; i < (int)shapes->counts.z; i++)
-        visible *= 1.0f - mesh_cover(frame, i, &receiver);
-    if (shapes->counts.w > 0)
-        visible *= particles_sun_visibility(frame, &receiver);
-    return vf_where(active, visible);
+    const struct sun_receiver receiver = sun_receiver_of(point, normal, active);
+    return sun_past_objects(frame, &receiver) * sun_past_particles(frame, &receiver);
 }
 
 #endif

@@ -64,9 +64,8 @@ SIMD void light_place(const struct kiln_ray_frame *frame, const struct visible_p
     vf sunlit = sun_visibility(frame, place->sun_from, point.normal, facing_sun(frame, &point));
     const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
     sunlit *= smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
-    const struct arrived arrived = light_without_sun(frame, &surface);
-    const struct ray_color lit =
-        radiance(frame, &hit, place->direction, arrived.irradiance, sunlit);
+    const struct hit_light light = {light_without_sun(frame, &surface).irradiance, sunlit};
+    const struct ray_color lit = radiance(frame, &hit, place->direction, &light, NULL);
     struct vf3 shown = vf3_add_scaled(hit.albedo, vf3_sub(lit.rgb, hit.albedo), place->lit);
     color->rgb = vf3_add(place->glow, shown);
     color->alpha = visible->part;
