@@ -83,8 +83,8 @@ struct shaded_rays {
 
 /* Describes pixels of a row whose rays are cast. */
 struct grid_row {
-    const struct lamp_grid *grid; /* of their strip */
-    uint32_t column, row;         /* of the first pixel, in the strip */
+    const struct lamp_grid *grid, *mirrored; /* of their strip, and of its reflections or NULL */
+    uint32_t column, row;                    /* of the first pixel, in the strip */
 };
 
 /* Describes what helps to shade rays; members are NULL where there is no such help. */
@@ -157,28 +157,40 @@ SIMD uint32_t first_bits(uint32_t count)
     return (uint32_t)((1ull << count) - 1);
 }
 
-/* Adds the reflection of a glossy floor by following the reflected ray. cached: of the rays from
- * the eye. */
+static struct kiln_ray_objects all_objects(const struct kiln_ray_frame *frame)
+{
+    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
+    return (struct kiln_ray_objects){first_bits(frame->backdrop->counts.x),
+                                     first_bits(round.x),
+                                     first_bits(round.y),
+                                     first_bits(oriented.x),
+                                     first_bits(oriented.y),
+                                     first_bits(oriented.z)};
+}
+
+/* Adds the reflection of a glossy floor by following the reflected ray. eye: what helps with the
+ * ray from the eye. */
 SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *ray,
-                         const struct cached_rays *cached, struct shaded_rays *shaded)
+                         const struct ray_help *eye, struct shaded_rays *shaded)
 {
     vi floor = shaded->first.surface == 0.0f;
     if (!any(floor))
         return;
-    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
-    const struct kiln_ray_objects objects = {first_bits(frame->backdrop->counts.x),
-                                             first_bits(round.x),
-                                             first_bits(round.y),
-                                             first_bits(oriented.x),
-                                             first_bits(oriented.y),
-                                             first_bits(oriented.z)};
+    const struct kiln_ray_objects objects = all_objects(frame);
     const struct ray_reflection *m = &shaded->mirror;
     const struct ray reflected = {ray_at(ray, shaded->first.t), m->at.direction};
     const struct ray_place nowhere = {.layer = -1};
+    struct ray_help help = {NULL, NULL};
     struct cached_rays planes;
-    if (cached)
-        planes = cached_reflections(cached);
-    const struct ray_help help = {.cached = cached ? &planes : NULL};
+    if (eye->cached) {
+        planes = cached_reflections(eye->cached);
+        help.cached = &planes;
+    }
+    struct grid_row row;
+    if (eye->row && eye->row->mirrored) {
+        row = (struct grid_row){eye->row->mirrored, NULL, eye->row->column, eye->row->row};
+        help.row = &row;
+    }
     const struct shaded_rays reflection =
         shade_rays(frame, &objects, &reflected, &nowhere, false, &help);
     struct vf3 more = vf3_scale(shaded->reflected, m->part);
@@ -196,7 +208,7 @@ SIMD struct shaded_rays shade_eye_rays(const struct kiln_ray_frame *frame,
     shaded.color.rgb =
         add_sun_disc(frame, shaded.color.rgb, eye->ray.direction, shaded.first.surface < 0.0f);
     if (frame->floor_gloss)
-        add_reflection(frame, &eye->ray, help->cached, &shaded);
+        add_reflection(frame, &eye->ray, help, &shaded);
     return shaded;
 }
 
@@ -267,9 +279,25 @@ static uint32_t find_shadow_lamps(const struct kiln_backdrop_picture *p)
     return p->cache && p->cache->use == KILN_CACHE_FILLED ? lamps & ~p->cache->lamps : lamps;
 }
 
-/* Fills the grid of the strip at (x, y) for some lamps, a bit for each. */
-static void fill_grid(const struct kiln_backdrop_picture *p, const struct kiln_ray_objects *objects,
-                      uint32_t x, uint32_t y, uint32_t lamps, struct lamp_grid *grid)
+/* Places nodes of a strip's reflections where the nodes of the strip are on the floor. */
+SIMD void place_mirrored_nodes(const struct kiln_ray_frame *frame, int first, const struct ray *ray,
+                               const struct ray_hit *hit, vi within, struct lamp_grid *mirrored)
+{
+    const vi floor = within & (hit->surface == 0.0f);
+    const struct ray reflected = {ray_at(ray, hit->t),
+                                  floor_reflection_along(frame, ray).at.direction};
+    const struct ray_place nowhere = {.layer = -1};
+    const struct kiln_ray_objects objects = all_objects(frame);
+    const struct ray_hit seen =
+        trace(frame, &objects, &reflected, vf_all(2.0f * RAY_FAR), &nowhere);
+    place_nodes(first, &seen, ray_at(&reflected, seen.t), floor, mirrored);
+}
+
+/* Fills the grids of the strip at (x, y) and of its reflections (NULL: none) for some lamps, a bit
+ * for each. */
+static void fill_grids(const struct kiln_backdrop_picture *p,
+                       const struct kiln_ray_objects *objects, uint32_t x, uint32_t y,
+                       uint32_t lamps, struct lamp_grid *grid, struct lamp_grid *mirrored)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const vi width = vi_all((int32_t)p->width), height = vi_all((int32_t)p->height);
@@ -284,8 +312,12 @@ static void fill_grid(const struct kiln_backdrop_picture *p, const struct kiln_r
         const struct ray_hit hit =
             trace(frame, objects, &eye.ray, find_floor(frame, &eye.ray), &eye.place);
         place_nodes(i, &hit, ray_at(&eye.ray, hit.t), within, grid);
+        if (mirrored)
+            place_mirrored_nodes(frame, i, &eye.ray, &hit, within, mirrored);
     }
     judge_grid(frame, lamps, grid);
+    if (mirrored)
+        judge_grid(frame, lamps, mirrored);
 }
 
 /* Returns the numbers of the surfaces that rays hit, by which edges are found. */
@@ -334,16 +366,17 @@ static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 {
     const uint32_t y_to = rows_from(p, y);
     const uint32_t shadows = find_shadow_lamps(p);
-    struct lamp_grid grid;
+    struct lamp_grid grid, reflections;
+    struct lamp_grid *mirrored = p->frame->floor_gloss ? &reflections : NULL;
     for (uint32_t strip = 0; strip < p->width; strip += STRIP) {
         /* with a column and a row more, for the nodes */
         const struct kiln_ray_objects objects = find_objects(p, strip, y, STRIP + 1);
         if (shadows)
-            fill_grid(p, &objects, strip, y, shadows, &grid);
+            fill_grids(p, &objects, strip, y, shadows, &grid, mirrored);
         uint32_t x_to = strip + STRIP < p->width ? strip + STRIP : p->width;
         for (uint32_t row = y; row < y_to; row++) {
             for (uint32_t x = strip; x < x_to; x += LANES) {
-                const struct grid_row at = {&grid, x - strip, row - y};
+                const struct grid_row at = {&grid, mirrored, x - strip, row - y};
                 cast_pixels(p, &objects, x, row, shadows ? &at : NULL);
             }
         }

@@ -108,12 +108,38 @@ SIMD vi on_same_piece(struct vf3 at, struct vf3 normal, struct vf3 other, struct
 }
 
 /* Returns the lanes where a shape hides nothing of the lamp from a ball, or has a penumbra there
- * that is as wide as the ball. towards, size: of the shape's bounding sphere. */
-SIMD vi casts_smoothly(const struct lamp_way *way, struct vf3 towards, float size)
+ * that is as wide as the ball. towards, size: of the shape's bounding sphere; distance: from the
+ * ball's centre to the shape, m. */
+SIMD vi casts_smoothly(const struct lamp_way *way, struct vf3 towards, float size, vf distance)
 {
-    const vf nearest = vf3_dot(towards, way->direction) - size;
-    const vf penumbra = nearest * (way->radius / way->reach);
+    const vf penumbra = distance * (way->radius / way->reach);
     return ~lamp_meets(towards, size, *way) | (penumbra >= way->lit);
+}
+
+/* Return the distance from a point to a shape, m; 0 inside of it. towards: the way to the shape's
+ * centre, for a box along its axes. */
+SIMD vf distance_to_box(struct vf3 towards, float4 half)
+{
+    const struct vf3 beside = {vf_max(vf_abs(towards.x) - half.x, vf_all(0.0f)),
+                               vf_max(vf_abs(towards.y) - half.y, vf_all(0.0f)),
+                               vf_max(vf_abs(towards.z) - half.z, vf_all(0.0f))};
+    return vf3_length(beside);
+}
+
+SIMD vf distance_to_cylinder(struct vf3 towards, float radius, float4 axis)
+{
+    const vf along = vf3_dot_all(towards, axis);
+    const vf across = vf3_length(vf3_add_scaled(towards, vf3_all(axis), -along));
+    const vf aside = vf_max(across - radius, vf_all(0.0f));
+    const vf above = vf_max(vf_abs(along) - axis.w, vf_all(0.0f));
+    return vf_sqrt(aside * aside + above * above);
+}
+
+SIMD vf distance_to_capsule(struct vf3 towards, float radius, float4 axis)
+{
+    const vf along = vf_clamp(vf3_dot_all(towards, axis), -axis.w, axis.w);
+    const vf middle = vf3_length(vf3_add_scaled(towards, vf3_all(axis), -along));
+    return vf_max(middle - radius, vf_all(0.0f));
 }
 
 /* Returns the lanes where a block of a surface and a lamp are both beyond one side of a box, which
@@ -152,30 +178,37 @@ SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
         const float4 center = objects->box_center[__builtin_ctz(of)];
         const float4 half = objects->box_half[__builtin_ctz(of)];
         const struct vf3 towards = vf3_towards(center, at);
-        smooth &= casts_smoothly(&way, towards, lamp_box_size(half)) |
-                  is_beside(half, towards, to_lamp, normal, size);
+        smooth &=
+            casts_smoothly(&way, towards, lamp_box_size(half), distance_to_box(towards, half)) |
+            is_beside(half, towards, to_lamp, normal, size);
     }
     for (uint32_t of = take_bits(&casters, shapes->counts.x); of; of &= of - 1) {
         const float4 sphere = shapes->spheres[__builtin_ctz(of)];
-        smooth &= casts_smoothly(&way, vf3_towards(sphere, at), sphere.w);
+        const struct vf3 towards = vf3_towards(sphere, at);
+        smooth &= casts_smoothly(&way, towards, sphere.w, vf3_length(towards) - sphere.w);
     }
     for (uint32_t of = take_bits(&casters, shapes->counts.y); of; of &= of - 1) {
         const int i = __builtin_ctz(of);
         const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
-        smooth &= casts_smoothly(&way, vf3_towards(cylinder, at),
-                                 sqrtf(cylinder.w * cylinder.w + axis.w * axis.w));
+        const struct vf3 towards = vf3_towards(cylinder, at);
+        smooth &= casts_smoothly(&way, towards, sqrtf(cylinder.w * cylinder.w + axis.w * axis.w),
+                                 distance_to_cylinder(towards, cylinder.w, axis));
     }
     for (uint32_t of = take_bits(&casters, shapes->oriented_counts.x); of; of &= of - 1) {
         const int i = __builtin_ctz(of);
         const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
-        smooth &= casts_smoothly(&way, vf3_towards(capsule, at), capsule.w + axis.w);
+        const struct vf3 towards = vf3_towards(capsule, at);
+        smooth &= casts_smoothly(&way, towards, capsule.w + axis.w,
+                                 distance_to_capsule(towards, capsule.w, axis));
     }
     for (uint32_t of = take_bits(&casters, shapes->oriented_counts.y); of; of &= of - 1) {
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[__builtin_ctz(of)];
         const struct vf3 towards = vf3_towards(box->center, at);
-        smooth &= casts_smoothly(&way, towards, lamp_box_size(box->half_size)) |
-                  is_beside(box->half_size, into_box(box, towards), into_box(box, to_lamp),
-                            into_box(box, normal), size);
+        const struct vf3 to_box = into_box(box, towards);
+        smooth &=
+            casts_smoothly(&way, towards, lamp_box_size(box->half_size),
+                           distance_to_box(to_box, box->half_size)) |
+            is_beside(box->half_size, to_box, into_box(box, to_lamp), into_box(box, normal), size);
     }
     return smooth;
 }

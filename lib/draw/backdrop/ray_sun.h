@@ -5,6 +5,7 @@
 #define KILN_DRAW_BACKDROP_RAY_SUN_H
 
 #include "draw/backdrop/ray_oriented.h"
+#include "draw/light/ray_lamp.h"
 #include "draw/light/ray_shadow.h"
 #include "shared/shadow_map.h"
 #include "shared/sun_cover.h"
@@ -14,6 +15,19 @@ struct sun_receiver {
     struct vf3 origin, normal;
     vi active;
 };
+
+/* Returns the lanes where a shape may hide a part of the sun. towards: the way to the centre of its
+ * bounding sphere; size: the sphere's radius, m. */
+SIMD vi sun_may_be_hidden(const struct kiln_ray_frame *frame, const struct sun_receiver *receiver,
+                          struct vf3 towards, float size)
+{
+    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
+    const float spread = frame->shapes->sun_right.w;
+    const vf t = vf3_dot(towards, way);
+    const struct vf3 across = vf3_add_scaled(towards, way, -t);
+    const vf wide = spread * vf_max(t + size, vf_all(0.0f)) + (size + 1e-3f);
+    return receiver->active & (t > -size) & (vf3_dot(across, across) < wide * wide);
+}
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
@@ -35,14 +49,17 @@ SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,
     const struct vf3 inverses = vf3_all(edges->inverse);
     vf visible = vf_all(1.0f);
     for (uint32_t i = 0; i < b->counts.x; i++) {
-        struct ray_slabs s = ray_cross_slabs(vf3_towards(b->box_center[i], receiver->origin),
-                                             b->box_half[i], inverses);
+        const struct vf3 towards = vf3_towards(b->box_center[i], receiver->origin);
+        const vi near = sun_may_be_hidden(frame, receiver, towards, lamp_box_size(b->box_half[i]));
+        if (!any(near))
+            continue;
+        struct ray_slabs s = ray_cross_slabs(towards, b->box_half[i], inverses);
         if (!frame->soft_sun) {
-            vi hidden = receiver->active & ray_is_blocked(ray_slabs_interval(s));
+            vi hidden = near & ray_is_blocked(ray_slabs_interval(s));
             visible = vf_where(~hidden, visible);
         } else {
             vf cover = box_cover(&s, edges, frame->shapes->sun_right.w);
-            visible *= 1.0f - vf_where(receiver->active, cover);
+            visible *= 1.0f - vf_where(near, cover);
         }
     }
     return visible;
@@ -118,6 +135,10 @@ SIMD vf oriented_sun_visibility(const struct kiln_ray_frame *frame,
     }
     for (int i = 0; i < (int)shapes->oriented_counts.y; i++) {
         const struct sun_edges *edges = &shapes->oriented_edges[i];
+        const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
+        if (!any(sun_may_be_hidden(frame, receiver, vf3_towards(box->center, receiver->origin),
+                                   lamp_box_size(box->half_size))))
+            continue;
         struct ray_slabs s = cross_oriented_box(&shapes->oriented_boxes[i], receiver->origin,
                                                 vf3_all(edges->inverse));
         if (frame->soft_sun)

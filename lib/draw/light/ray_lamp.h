@@ -42,6 +42,25 @@ SIMD vi lamp_may_be_hidden(const struct lamp_receiver *r, struct vf3 towards, fl
     return r->active & lamp_meets(towards, size, r->way);
 }
 
+/* Returns the lanes where a box may hide a part of a lamp: those in which the way to the lamp meets
+ * the box after it is grown by the widest radius of the cone of light, which is that at the lamp's
+ * far side. A box is mostly much smaller than its bounding sphere. towards: the way to the box's
+ * centre; direction: to the lamp; both are along the box's axes. */
+SIMD vi lamp_meets_box(struct vf3 towards, float4 half, struct vf3 direction,
+                       const struct lamp_way *way)
+{
+    const struct vf3 inverse = ray_inverse3(direction);
+    const vf grow =
+        vf_max(vf_max(way->spread, vf_all(0.0f)) * way->radius + way->radius, way->lit) + 1e-3f;
+    const struct ray_slabs s = ray_cross_slabs(towards, half, inverse);
+    const struct vf3 more = {grow * vf_abs(inverse.x), grow * vf_abs(inverse.y),
+                             grow * vf_abs(inverse.z)};
+    const struct vf3 near = vf3_sub(s.near, more), far = vf3_add(s.far, more);
+    const vf enters = vf_max(vf_max(near.x, near.y), near.z);
+    const vf leaves = vf_min(vf_min(far.x, far.y), far.z);
+    return (enters <= leaves) & (leaves >= -way->lit) & (enters <= way->reach + way->radius);
+}
+
 SIMD void hide_lamp(struct lamp_receiver *r, vi near, vf cover)
 {
     r->visible *= 1.0f - vf_where(near, cover);
@@ -54,7 +73,10 @@ SIMD void hide_lamp_by_boxes(const struct kiln_lamp_objects *objects, uint32_t b
         const int i = __builtin_ctz(boxes);
         const float4 half = objects->box_half[i];
         const struct vf3 towards = vf3_towards(objects->box_center[i], r->origin);
-        const vi near = lamp_may_be_hidden(r, towards, lamp_box_size(half));
+        vi near = lamp_may_be_hidden(r, towards, lamp_box_size(half));
+        if (!any(near))
+            continue;
+        near &= lamp_meets_box(towards, half, r->way.direction, &r->way);
         if (any(near))
             hide_lamp(r, near, lamp_box_cover(towards, half, r->way.direction, r->way));
     }
@@ -95,11 +117,14 @@ SIMD void hide_lamp_by_oriented(const struct kiln_draw_shapes *shapes, uint32_t 
     for (; boxes; boxes &= boxes - 1) {
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[__builtin_ctz(boxes)];
         const struct vf3 towards = vf3_towards(box->center, r->origin);
-        const vi near = lamp_may_be_hidden(r, towards, lamp_box_size(box->half_size));
+        vi near = lamp_may_be_hidden(r, towards, lamp_box_size(box->half_size));
+        if (!any(near))
+            continue;
+        const struct vf3 to_box = into_box(box, towards);
+        const struct vf3 direction = into_box(box, r->way.direction);
+        near &= lamp_meets_box(to_box, box->half_size, direction, &r->way);
         if (any(near))
-            hide_lamp(r, near,
-                      lamp_box_cover(into_box(box, towards), box->half_size,
-                                     into_box(box, r->way.direction), r->way));
+            hide_lamp(r, near, lamp_box_cover(to_box, box->half_size, direction, r->way));
     }
 }
 
