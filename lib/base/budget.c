@@ -36,7 +36,7 @@ struct kiln_budget {
 struct kiln_budget *kiln_budget_create(const struct kiln_limits *limits)
 {
     struct kiln_budget *budget = calloc(1, sizeof *budget);
-    struct kiln_error ignored;
+    struct kiln_error ignored = {0};
     if (budget) {
         budget->limits = kiln_limits_empty();
         if (!kiln_sized_take(&budget->limits, limits, "kiln_limits", &ignored)) {

@@ -53,7 +53,7 @@ static bool read_bytes(FILE *in, void *bytes, size_t size)
 bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, size_t size)
 {
     char path[KILN_PATH_SIZE];
-    struct kiln_error ignored;
+    struct kiln_error ignored = {0};
     size_t file_size = 0;
     const int file = kiln_path_join(path, folder, name, &ignored)
                          ? kiln_file_open(path, "cache", "", &file_size, &ignored)
@@ -159,7 +159,7 @@ static void make_room(const char *path, const char *name, size_t size)
 void kiln_cache_write(const char *folder, const char *name, const void *bytes, size_t size)
 {
     char path[KILN_PATH_SIZE], header[HEADER + 1];
-    struct kiln_error ignored;
+    struct kiln_error ignored = {0};
     struct kiln_temporary file = {.target = NULL};
     if (size > KILN_CACHE_BYTES - HEADER || !kiln_path_join(path, folder, name, &ignored) ||
         !kiln_make_parent_folders(path, &ignored))

@@ -152,7 +152,7 @@ static bool kernel_has_seccomp(void)
 bool kiln_has_seccomp(void)
 {
     struct seccomp library;
-    struct kiln_error ignored;
+    struct kiln_error ignored = {0};
     return kernel_has_seccomp() && open_library(&library, &ignored);
 }
 

@@ -239,7 +239,7 @@ const char *kiln_temporary_path(const struct kiln_temporary *temporary)
 bool kiln_temporary_write(struct kiln_temporary *temporary, const void *bytes, size_t size)
 {
     const char *rest = bytes;
-    struct kiln_error ignored;
+    struct kiln_error ignored = {0};
     if (!kiln_budget_take(temporary->budget, KILN_LIMIT_output, size, "", &ignored))
         temporary->failure = EDQUOT;
     while (size > 0 && temporary->failure == 0) {

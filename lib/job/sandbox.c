@@ -115,7 +115,7 @@ static bool add_machine(struct places *places, char *library_path)
 static bool add_helper(struct places *places, char helper[KILN_PATH_SIZE])
 {
     const char *linker = NULL;
-    struct kiln_error ignored;
+    struct kiln_error ignored = {0};
     dl_iterate_phdr(find_linker, &linker);
     return (!linker || add(places, linker, KILN_MAY_READ | KILN_MAY_EXECUTE)) &&
            (!kiln_helper_find(helper, &ignored) ||
@@ -124,7 +124,7 @@ static bool add_helper(struct places *places, char helper[KILN_PATH_SIZE])
 
 static bool add_cache(struct places *places, char cache[KILN_PATH_SIZE])
 {
-    struct kiln_error ignored;
+    struct kiln_error ignored = {0};
     if (!kiln_cache_folder(cache))
         return true;
     strcat(cache, "/"); /* path has room for one more character */

@@ -19,7 +19,7 @@
 static bool add_source(struct kiln_text *text, const char *source, struct kiln_loader *loader)
 {
     const struct kiln_loader_file file = {source, "image", "regular", SIZE_MAX};
-    struct kiln_error ignored;
+    struct kiln_error ignored = {0};
     char hash[65];
     if (source[0] != '/') {
         kiln_text_add(text, "%s\n", source);
