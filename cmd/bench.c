@@ -194,10 +194,13 @@ static int check_options(const struct arguments *arguments, const struct kiln_be
 {
     static const struct {
         const char *name;
-        bool of_jobs; /* the suite `jobs` takes the option, too */
-    } options_of_scenes[] = {{"against", false}, {"stage", false}, {"frame", false},
-                             {"size", true},     {"set", true},    {"asset-root", true}};
-    const bool jobs = kiln_bench_renders_scene(params), scenes = params->scene_count > 0 && !jobs;
+        bool of_jobs, of_threads; /* these suites take the option, too */
+    } options_of_scenes[] = {{"against", false, false}, {"stage", false, false},
+                             {"frame", false, true},    {"size", true, false},
+                             {"set", true, true},       {"asset-root", true, true}};
+    const bool jobs = kiln_bench_names(params, "jobs"),
+               threads = kiln_bench_names(params, "threads") && params->scene_count > 0,
+               scenes = params->scene_count > 0 && !jobs && !threads;
     if (params->against && params->suite_count > 0)
         return report(KILN_USAGE, "bench: --against is for scenes, not for the suite %s",
                       params->suites[0]);
@@ -206,7 +209,8 @@ static int check_options(const struct arguments *arguments, const struct kiln_be
                                   "given");
     for (size_t i = 0; i < sizeof options_of_scenes / sizeof *options_of_scenes; i++) {
         const char *name = options_of_scenes[i].name;
-        if (arguments_flag(arguments, name) && !scenes && !(jobs && options_of_scenes[i].of_jobs))
+        if (arguments_flag(arguments, name) && !scenes && !(jobs && options_of_scenes[i].of_jobs) &&
+            !(threads && options_of_scenes[i].of_threads))
             return report(KILN_USAGE, "bench: --%s is for scenes, and no scene is %s", name,
                           params->scene_count > 0 ? "measured by itself" : "given");
     }
@@ -303,6 +307,10 @@ const struct command bench_command = {
         "the bake, which must be at most 1.05. It also has this ratio with the bake on both sides, "
         "and as a multiple of the single run alone. 'jobs_elapsed' is the elapsed time on 1 to "
         "1,000 workers, simulated from the times of the parts.\n"
+        "\n"
+        "The suite threads takes scenes, too. It draws frames to PNG at two sizes with 1, 2 and 8 "
+        "threads, and prints the processor time of a frame, and how much of it no other thread can "
+        "share, pass by pass.\n"
         "\n"
         "Values that a paper published stand beside the measured values. Tables go to standard "
         "output, progress to standard error. No picture changes by a choice that is made here by "

@@ -57,9 +57,9 @@ static inline struct kiln_bench_params kiln_bench_defaults(void)
 
 struct kiln_bench;
 
-/* Returns whether the suite `jobs` is asked for, which renders a scene of the caller. That scene is
- * then not measured on its own. */
-bool kiln_bench_renders_scene(const struct kiln_bench_params *params);
+/* Returns whether a suite is asked for by its name. The suites `jobs`, which takes one scene, and
+ * `threads` measure the scenes of the caller, which are then not measured by themselves. */
+bool kiln_bench_names(const struct kiln_bench_params *params, const char *suite);
 
 /* Runs benchmarks and returns the measurements, which the caller destroys. A comparison that cannot
  * run on the device is a line of the result and no error; so is a scene that one of two programs

@@ -11,6 +11,13 @@ double kiln_clock_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+double kiln_clock_thread_seconds(void)
+{
+    struct timespec worked = {0};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &worked);
+    return (double)worked.tv_sec + 1e-9 * (double)worked.tv_nsec;
+}
+
 double kiln_clock_cpu_seconds(void)
 {
     struct timespec worked = {0};

@@ -9,4 +9,7 @@ double kiln_clock_seconds(void);
  * processes that it started, once they have ended. */
 double kiln_clock_cpu_seconds(void);
 
+/* Seconds that a processor has worked for the calling thread. */
+double kiln_clock_thread_seconds(void);
+
 #endif

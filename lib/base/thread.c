@@ -42,6 +42,9 @@ struct kiln_threads {
     size_t total, grain;
     atomic_size_t next;
 
+    bool measures;   /* whether shared_s is counted */
+    double shared_s; /* time of a processor for the posting thread in loops of several pieces */
+
     struct kiln_caller caller;
     bool asks;      /* whether the present loop calls caller.may_go_on */
     double asked_s; /* when it was called last */
@@ -156,22 +159,9 @@ uint32_t kiln_threads_count(const struct kiln_threads *threads)
     return threads->count;
 }
 
-void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
-                      void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
-                      void *context)
+/* Runs the pool's loop on all workers, and returns when all have ended. */
+static void share_pieces(struct kiln_threads *pool)
 {
-    if (count == 0)
-        return;
-    struct kiln_threads *pool = threads;
-    pool->body = body;
-    pool->context = context;
-    pool->total = count;
-    pool->grain = grain ? grain : 1;
-    atomic_store(&pool->next, 0);
-    if (pool->started == 0 || count <= pool->grain) {
-        take_pieces(pool, 0);
-        return;
-    }
     pthread_mutex_lock(&pool->mutex);
     pool->posts++;
     pool->open = true;
@@ -185,6 +175,38 @@ void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
     while (pool->running > 0)
         pthread_cond_wait(&pool->finished, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
+}
+
+void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
+                      void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
+                      void *context)
+{
+    if (count == 0)
+        return;
+    struct kiln_threads *pool = threads;
+    pool->body = body;
+    pool->context = context;
+    pool->total = count;
+    pool->grain = grain ? grain : 1;
+    atomic_store(&pool->next, 0);
+    const bool has_several = count > pool->grain, is_measured = has_several && pool->measures;
+    const double start_s = is_measured ? kiln_clock_thread_seconds() : 0.0;
+    if (has_several && pool->started > 0)
+        share_pieces(pool);
+    else
+        take_pieces(pool, 0);
+    if (is_measured)
+        pool->shared_s += kiln_clock_thread_seconds() - start_s;
+}
+
+void kiln_threads_measure(struct kiln_threads *threads)
+{
+    threads->measures = true;
+}
+
+double kiln_threads_serial_seconds(const struct kiln_threads *threads)
+{
+    return kiln_clock_thread_seconds() - threads->shared_s;
 }
 
 void kiln_threads_set_caller(struct kiln_threads *threads, const struct kiln_caller *caller)

@@ -25,6 +25,15 @@ void kiln_threads_for(struct kiln_threads *threads, size_t count, size_t grain,
                       void (*body)(void *context, size_t begin, size_t end, uint32_t worker),
                       void *context);
 
+/* Starts to count the time of loops for kiln_threads_serial_seconds. It is not counted from the
+ * start, since each loop would then read a clock twice. */
+void kiln_threads_measure(struct kiln_threads *threads);
+
+/* Returns how many seconds a processor has worked for the calling thread outside of loops that
+ * several workers could share. A loop of one piece is not such a loop. Only differences between two
+ * calls, both on the thread that runs the loops, mean anything. */
+double kiln_threads_serial_seconds(const struct kiln_threads *threads);
+
 /* Sets the caller of the operation (base/caller.h), whom kiln_threads_try asks whether to go on, on
  * the thread that calls kiln_threads_try. A new pool asks nobody. */
 void kiln_threads_set_caller(struct kiln_threads *threads, const struct kiln_caller *caller);

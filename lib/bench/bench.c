@@ -1,8 +1,8 @@
 /* Holds the table of the suites of `kiln bench`, and runs them. cmd/bench.c calls kiln_bench_run
  * once. That function runs the suites that are asked for and then measures the caller's scenes; if
  * neither is asked for, it runs every suite. With another program, it compares both on the scenes.
- * The suite `jobs` takes the caller's scene as its input, so the scene is not measured by itself
- * then.
+ * The suites `jobs` and `threads` take the caller's scenes as their input, so these are not
+ * measured by themselves then.
  *
  * Parameters are checked before a device is opened, since a run takes minutes and a misspelt name
  * should not cost them. A new suite needs a row here and a function in bench/suite.h. Names are
@@ -15,7 +15,8 @@
 #include "base/thread.h"
 #include "bench/suite.h"
 
-#define JOBS "jobs"
+#define JOBS    "jobs"
+#define THREADS "threads"
 
 /* A row has a suite's name, its help, about how many minutes it takes on two cores without a GPU,
  * and its function. Suites run in this order if all of them run. */
@@ -53,6 +54,8 @@ static const struct kiln_suite_row SUITES[] = {
     {{"states", "size of saved states, and time to save and to load one", 1.5}, kiln_suite_states},
     {{JOBS, "64 parts of a clip with states compared with one run, and many workers", 5},
      kiln_suite_jobs},
+    {{THREADS, "CPU time of a frame with 1, 2 and 8 threads, and how much of it is serial", 0.5},
+     kiln_suite_threads},
     {{"output", "whole jobs to PNG, EXR and mp4, compared with the time of their stages", 1},
      kiln_suite_output},
 };
@@ -64,13 +67,19 @@ void kiln_visit_benches(void (*visit)(void *user, const struct kiln_bench_suite 
         visit(user, &SUITES[i].info);
 }
 
-bool kiln_bench_renders_scene(const struct kiln_bench_params *params)
+bool kiln_bench_names(const struct kiln_bench_params *params, const char *suite)
 {
     for (size_t i = 0; i < params->suite_count; i++) {
-        if (strcmp(params->suites[i], JOBS) == 0)
+        if (strcmp(params->suites[i], suite) == 0)
             return true;
     }
     return false;
+}
+
+/* Returns whether a suite takes the scenes, which are then not measured by themselves. */
+static bool are_for_suites(const struct kiln_bench_params *params)
+{
+    return kiln_bench_names(params, JOBS) || kiln_bench_names(params, THREADS);
 }
 
 static const struct kiln_suite_row *find_suite(const char *name, struct kiln_error *error)
@@ -115,7 +124,7 @@ static bool check(const struct kiln_bench_params *params, struct kiln_error *err
         if (!find_suite(params->suites[i], error))
             return false;
     }
-    if (params->scene_count > 1 && kiln_bench_renders_scene(params))
+    if (params->scene_count > 1 && kiln_bench_names(params, JOBS))
         return kiln_error_set(error, KILN_USAGE, "the suite " JOBS " takes one scene; found %zu",
                               params->scene_count);
     for (size_t i = 0; i < params->stage_count; i++) {
@@ -146,7 +155,7 @@ static bool run_all(struct kiln_bench_run *run, struct kiln_error *error)
         if (!suite->run(run, error))
             return false;
     }
-    for (size_t i = 0; i < params->scene_count && !kiln_bench_renders_scene(params); i++) {
+    for (size_t i = 0; i < params->scene_count && !are_for_suites(params); i++) {
         run->suite = params->scenes[i];
         if (!kiln_bench_scene(run, params->scenes[i], error))
             return false;

@@ -85,12 +85,11 @@ static bool measure_stage(struct subject *s, size_t stage, struct kiln_error *er
            kiln_bench_add_samples(s->run, &comparison, s->samples, error);
 }
 
-/* Loads the scene with enough frames for all turns. Added frames do not change the frames before
- * them. */
-static struct kiln_scene *load(const struct kiln_bench_run *run, const char *path, uint32_t *frame,
-                               struct kiln_error *error)
+struct kiln_scene *kiln_bench_load_caller_scene(const struct kiln_bench_run *run, const char *path,
+                                                const struct kiln_scene_params *wanted,
+                                                uint32_t *frame, struct kiln_error *error)
 {
-    struct kiln_scene_params params = run->params->scene;
+    struct kiln_scene_params params = *wanted;
     struct kiln_scene *scene = kiln_scene_load(path, &params, error);
     if (!scene)
         return NULL;
@@ -119,7 +118,8 @@ static struct kiln_scene *load(const struct kiln_bench_run *run, const char *pat
 bool kiln_bench_scene(const struct kiln_bench_run *run, const char *path, struct kiln_error *error)
 {
     struct subject subject = {.run = run, .path = path};
-    struct kiln_scene *scene = load(run, path, &subject.frame, error);
+    struct kiln_scene *scene =
+        kiln_bench_load_caller_scene(run, path, &run->params->scene, &subject.frame, error);
     subject.scene = scene;
     subject.samples = calloc(KILN_MAX_LANES, sizeof *subject.samples);
     if (scene && !subject.samples)

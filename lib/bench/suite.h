@@ -30,6 +30,7 @@ bool kiln_suite_paint(const struct kiln_bench_run *run, struct kiln_error *error
 bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_states(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_jobs(const struct kiln_bench_run *run, struct kiln_error *error);
+bool kiln_suite_threads(const struct kiln_bench_run *run, struct kiln_error *error);
 bool kiln_suite_output(const struct kiln_bench_run *run, struct kiln_error *error);
 
 /* Adds the part of the suite `gravity` that measures how well bodies keep their energy. */
@@ -70,6 +71,12 @@ void kiln_set_small_picture(const struct kiln_bench_run *run, struct kiln_settin
 struct kiln_scene *kiln_bench_load_scene(const struct kiln_bench_run *run, const char *name,
                                          const struct kiln_settings *settings,
                                          struct kiln_error *error);
+
+/* Loads a scene of the caller with enough frames for all turns from *frame on, which becomes the
+ * caller's frame or the middle one. Added frames do not change the frames before them. */
+struct kiln_scene *kiln_bench_load_caller_scene(const struct kiln_bench_run *run, const char *path,
+                                                const struct kiln_scene_params *wanted,
+                                                uint32_t *frame, struct kiln_error *error);
 
 /* Makes a lane of each technique of a stage, first the one that `auto` takes. The names of the
  * lanes live as long as the run. Returns the number of lanes; 0 with an error. */

@@ -306,6 +306,11 @@ struct kiln_threads *kiln_loop_threads(struct kiln_loop *loop)
     return loop->threads;
 }
 
+struct kiln_timer *kiln_loop_timer(struct kiln_loop *loop)
+{
+    return loop->timer;
+}
+
 struct kiln_sort *kiln_loop_spread_sort(struct kiln_loop *loop)
 {
     return kiln_stages_keep_history(&loop->stages) ? loop->stages.sort : NULL;

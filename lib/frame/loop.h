@@ -9,6 +9,7 @@
 #include "sort/sort.h"
 
 struct kiln_loop;
+struct kiln_timer;
 
 struct kiln_loop_params {
     const char *const *techniques; /* "stage=name" */
@@ -59,6 +60,9 @@ struct kiln_sort *kiln_loop_spread_sort(struct kiln_loop *loop);
 
 /* Returns the worker threads, for work between frames. */
 struct kiln_threads *kiln_loop_threads(struct kiln_loop *loop);
+
+/* Returns the timer of the passes. */
+struct kiln_timer *kiln_loop_timer(struct kiln_loop *loop);
 
 /* Returns how many steps this loop has simulated itself. */
 uint64_t kiln_loop_steps(const struct kiln_loop *loop);

@@ -27,6 +27,9 @@ struct kiln_timer {
     enum kiln_pass pass; /* of the open pass */
     double begin;        /* of the open pass, host seconds */
     double ms[KILN_PASS_COUNT];
+    const struct kiln_threads *threads; /* NULL: serial times are not measured */
+    double serial_begin;                /* of the open pass, seconds */
+    double serial_ms[KILN_PASS_COUNT];
     double gpu_to_host; /* added to GPU seconds; measured at the first pass of a frame */
     struct span spans[MAX_SPANS];
     size_t span_count;
@@ -93,6 +96,8 @@ void kiln_timer_begin(struct kiln_timer *timer, enum kiln_pass pass)
         begin_span(timer, pass);
     timer->pass = pass;
     timer->open = true;
+    if (timer->threads)
+        timer->serial_begin = kiln_threads_serial_seconds(timer->threads);
     timer->begin = kiln_clock_seconds();
 }
 
@@ -101,6 +106,9 @@ void kiln_timer_end(struct kiln_timer *timer)
     if (!timer->open)
         return;
     timer->open = false;
+    if (timer->threads)
+        timer->serial_ms[timer->pass] +=
+            (kiln_threads_serial_seconds(timer->threads) - timer->serial_begin) * 1e3;
     if (timer->on_gpu && timer->span_count < MAX_SPANS) {
         struct span *span = &timer->spans[timer->span_count++];
         glQueryCounter(span->end, GL_TIMESTAMP);
@@ -136,5 +144,19 @@ void kiln_timer_collect(struct kiln_timer *timer, double pass_ms[KILN_PASS_COUNT
     for (size_t i = 0; i < KILN_PASS_COUNT; i++) {
         pass_ms[i] = timer->ms[i];
         timer->ms[i] = 0;
+    }
+}
+
+void kiln_timer_measure_serial(struct kiln_timer *timer, struct kiln_threads *threads)
+{
+    kiln_threads_measure(threads);
+    timer->threads = threads;
+}
+
+void kiln_timer_collect_serial(struct kiln_timer *timer, double serial_ms[KILN_PASS_COUNT])
+{
+    for (size_t i = 0; i < KILN_PASS_COUNT; i++) {
+        serial_ms[i] = timer->serial_ms[i];
+        timer->serial_ms[i] = 0;
     }
 }

@@ -4,6 +4,7 @@
 #ifndef KILN_GPU_TIMER_H
 #define KILN_GPU_TIMER_H
 
+#include "base/thread.h"
 #include "gpu/device.h"
 
 struct kiln_timer; /* times the passes of one renderer */
@@ -20,5 +21,12 @@ void kiln_timer_end(struct kiln_timer *timer);
 /* Ends the frame. Writes the milliseconds of each pass since the last kiln_timer_collect; waits for
  * the GPU if necessary. */
 void kiln_timer_collect(struct kiln_timer *timer, double pass_ms[KILN_PASS_COUNT]);
+
+/* Starts to measure the serial time of passes, as kiln_threads_serial_seconds has it. The threads
+ * are borrowed. */
+void kiln_timer_measure_serial(struct kiln_timer *timer, struct kiln_threads *threads);
+
+/* Writes the serial milliseconds of each pass since the last call. */
+void kiln_timer_collect_serial(struct kiln_timer *timer, double serial_ms[KILN_PASS_COUNT]);
 
 #endif

@@ -19,6 +19,7 @@ $ kiln bench --list | sed -E 's/ [0-9]+\.[0-9] min/ <time>/'
 1|  bytes       <time>  memory and communication of techniques (Heinz 2019, 4.2)
 1|  states      <time>  size of saved states, and time to save and to load one
 1|  jobs        <time>  64 parts of a clip with states compared with one run, and many workers
+1|  threads     <time>  CPU time of a frame with 1, 2 and 8 threads, and how much of it is serial
 1|  output      <time>  whole jobs to PNG, EXR and mp4, compared with the time of their stages
 1|All suites together take <time> on two cores without a GPU.
 
@@ -160,6 +161,28 @@ $ kiln bench jobs scenes/tiny.yaml --quick --quiet --device cpu --parts 3 --size
 1| 3 all join <n> <n> - <n> 3
 1| scenes/tiny.yaml, 32 x 32 pixels, 12 frames, 4 a part. The joined clip had the same bytes as the clip of the single run in all 3 turns.
 
+Of threads: what of a frame's CPU time is serial. `threads` takes scenes, too.
+
+$ kiln bench threads scenes/tiny.yaml --quick --quiet --device cpu --frame 3 --format json >threads.json; jq -r '.parts[] | .name, .unit, .notes[], (.rows[] | select(.x == 8) | "\(.x) \(.measure), \(.technique)")' threads.json
+1|threads, scenes/tiny.yaml, 160x90
+1|ms; %
+1|Means of frames 4 to 6.
+1|8 frame, all, ms
+1|8 frame, serial, ms
+1|8 frame, serial, %
+1|8 simulate, serial, ms
+1|8 sort, serial, ms
+1|8 lighting, serial, ms
+1|8 backdrop, serial, ms
+1|8 particles, serial, ms
+1|8 bloom, serial, ms
+1|8 composite, serial, ms
+1|8 readback, serial, ms
+1|8 between passes, serial, ms
+$ jq -c '[.parts[].rows[] | .value.median] | (min > -0.01), .[1] < .[0]' threads.json
+1|true
+1|true
+
 What cannot be.
 
 $ kiln bench tabel1
@@ -182,6 +205,9 @@ $ kiln bench --technique sort=quick scenes/tiny.yaml --quick 2>&1 | sed 's/; the
 
 $ kiln bench bytes --parts 4
 2|kiln: bench: --parts is for the suite jobs, and the suite is not named
+= 2
+$ kiln bench threads scenes/tiny.yaml --size 32x32
+2|kiln: bench: --size is for scenes, and no scene is measured by itself
 = 2
 $ kiln bench jobs scenes/tiny.yaml scenes/empty.yaml
 2|kiln: bench: the suite jobs takes one scene; found 2
