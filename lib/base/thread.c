@@ -14,7 +14,7 @@
 
 enum {
     MAX_THREADS = 256,
-    COPY_AT_A_TIME = 1 << 20, /* bytes */
+    COPY_AT_A_TIME = 1 << 18, /* bytes */
 };
 
 /* The least time in seconds between two calls of may_go_on. It is much less than a second, so that
