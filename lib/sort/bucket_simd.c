@@ -18,18 +18,6 @@ static inline uint32_t digit_of(const struct digits *digits, kiln_sort_pair pair
     return key >> (pass * digits->bits) & ((1u << digits->bits) - 1);
 }
 
-static uint32_t find_span(const kiln_sort_pair *pairs, size_t count, uint32_t *least)
-{
-    uint32_t low = UINT32_MAX, high = 0;
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t key = (uint32_t)(pairs[i] >> 32);
-        low = key < low ? key : low;
-        high = key > high ? key : high;
-    }
-    *least = low;
-    return high - low;
-}
-
 /* Chooses the width of a digit and returns how many passes are needed. */
 static unsigned choose_digit_width(struct digits *digits, uint32_t span)
 {
@@ -71,11 +59,13 @@ static void find_places(struct digits *digits, unsigned passes, const kiln_sort_
     }
 }
 
-void KILN_SIMD_NAME(kiln_sort_bucket)(kiln_sort_pair *pairs, size_t count, kiln_sort_pair *scratch,
+void KILN_SIMD_NAME(kiln_sort_bucket)(kiln_sort_pair *pairs, size_t count,
+                                      struct kiln_sort_span span, kiln_sort_pair *scratch,
                                       uint32_t *list, int step)
 {
     struct digits digits;
-    const unsigned passes = choose_digit_width(&digits, find_span(pairs, count, &digits.least));
+    digits.least = span.least;
+    const unsigned passes = choose_digit_width(&digits, span.greatest - span.least);
     if (passes == 0) {
         for (size_t i = 0; i < count; i++)
             list[(ptrdiff_t)i * step] = (uint32_t)pairs[i];

@@ -25,15 +25,28 @@ struct kiln_sort_slots {
     float3 eye, forward; /* as in struct kiln_sort_params */
 };
 
+/* The key of a dead particle. No living one has it, since it is that of a NaN. */
+#define KILN_SORT_DEAD 0u
+
 struct kiln_sort_loops {
+    /* Writes the key of each particle, or KILN_SORT_DEAD, to keys[slot]. If there are several
+     * cells, adds the number of particles in each to counts, which has one cell more for dead
+     * particles. */
+    void (*count)(const struct kiln_sort_slots *slots, const struct kiln_sort_cells *cells,
+                  uint32_t *keys, uint32_t *counts);
+    /* Writes the draw entry of each particle, dead ones included, to the next free place of its
+     * cell. keys: as written by `count`; places: that place for each cell. */
+    void (*scatter)(const struct kiln_sort_slots *slots, const struct kiln_sort_cells *cells,
+                    const uint32_t *keys, uint32_t *places, uint32_t *entries);
+    /* Makes pairs of `count` draw entries and their keys, and returns the span of the keys. Fetches
+     * keys ahead into the cache, of the first `fetch_count` entries at most, which may be more than
+     * `count`. */
+    struct kiln_sort_span (*pair)(const uint32_t *entries, size_t count, size_t fetch_count,
+                                  const uint32_t *keys, kiln_sort_pair *pairs);
     /* Writes a pair of key and draw entry for each living particle and returns the number of pairs;
-     * `pairs` has room for one pair a slot. Adds the number of pairs in each cell to counts, which
-     * has one cell more for dead particles. Widens the span to hold the keys. */
-    size_t (*list)(const struct kiln_sort_slots *slots, const struct kiln_sort_cells *cells,
-                   kiln_sort_pair *pairs, uint32_t *counts, struct kiln_sort_span *span);
-    /* Copies each pair to the next free place of its cell. places: that place for each cell. */
-    void (*scatter)(const kiln_sort_pair *pairs, size_t count, const struct kiln_sort_cells *cells,
-                    uint32_t *places, kiln_sort_pair *to);
+     * `pairs` has room for one pair a slot. Widens the span to hold the keys. */
+    size_t (*list)(const struct kiln_sort_slots *slots, const uint32_t *keys, kiln_sort_pair *pairs,
+                   struct kiln_sort_span *span);
 };
 KILN_SIMD_DECLARE(const struct kiln_sort_loops, kiln_sort_loops);
 

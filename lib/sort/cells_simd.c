@@ -1,6 +1,6 @@
-/* This file computes keys and cells of particles for the sort by depth and distributes pairs to
- * cells. It processes LANES particles at a time in loops without branches, which compilers
- * vectorise. Only the stores of pairs are made one by one. */
+/* This file computes keys and cells of particles for the sort by depth and distributes draw entries
+ * to cells. It processes LANES particles at a time in loops without branches, which compilers
+ * vectorise. Only the stores of pairs and entries are made one by one. */
 #include <string.h>
 
 #include "particles/pool.h"
@@ -31,13 +31,22 @@ static inline uint32_t cell_of(const struct kiln_sort_cells *cells, uint32_t key
 
 struct lanes {
     uint32_t x[LANES], y[LANES], z[LANES], births[LANES]; /* words of records */
-    uint32_t keys[LANES], cells[LANES], alive[LANES];
+    uint32_t keys[LANES], alive[LANES];
 };
 
-/* Computes keys and cells. A dead particle gets the cell behind the last one. */
-static inline void find_keys(const struct kiln_particle *records, float3 eye, float3 forward,
-                             const struct kiln_sort_cells *cells, struct lanes *lanes)
+/* Computes the keys of `count` particles, at most LANES. Others of the lanes count as dead. */
+static inline void find_keys(const struct kiln_sort_slots *slots, uint32_t first, uint32_t count,
+                             struct lanes *lanes)
 {
+    const struct kiln_particle *records = slots->records + first;
+    struct kiln_particle tail[LANES];
+    for (uint32_t i = AHEAD; i < AHEAD + LANES && i < slots->end - first; i += RECORD_LINE)
+        __builtin_prefetch(records + i);
+    if (count < LANES) {
+        memset(tail, 0, sizeof tail);
+        memcpy(tail, records, count * sizeof *tail);
+        records = tail;
+    }
     for (uint32_t i = 0; i < LANES; i++) {
         lanes->x[i] = records[i].position_serial.x;
         lanes->y[i] = records[i].position_serial.y;
@@ -49,74 +58,92 @@ static inline void find_keys(const struct kiln_particle *records, float3 eye, fl
             .position_serial = {lanes->x[i], lanes->y[i], lanes->z[i], 0},
             .velocity_birth = {0, 0, 0, lanes->births[i]},
         };
-        lanes->keys[i] = key_of_particle(p, eye, forward);
+        lanes->keys[i] = key_of_particle(p, slots->eye, slots->forward);
         lanes->alive[i] = particle_is_alive(p);
     }
-    for (uint32_t i = 0; i < LANES; i++) {
-        const uint32_t dead = lanes->alive[i] - 1u;
-        const uint32_t cell = cell_of(cells, lanes->keys[i]);
-        lanes->cells[i] = (cell & ~dead) | (cells->count & dead);
-    }
 }
 
-static inline void widen(struct kiln_sort_span *span, const struct lanes *lanes)
+static inline uint32_t lanes_from(const struct kiln_sort_slots *slots, uint32_t first)
 {
-    uint32_t least = span->least, greatest = span->greatest;
-    for (uint32_t i = 0; i < LANES; i++) {
-        const uint32_t dead = lanes->alive[i] - 1u, key = lanes->keys[i];
-        const uint32_t low = key | dead, high = key & ~dead;
-        least = low < least ? low : least;
-        greatest = high > greatest ? high : greatest;
-    }
-    *span = (struct kiln_sort_span){least, greatest};
+    return slots->end - first < LANES ? slots->end - first : LANES;
 }
 
-__attribute__((flatten)) static size_t list(const struct kiln_sort_slots *slots,
-                                            const struct kiln_sort_cells *cells,
-                                            kiln_sort_pair *pairs, uint32_t *counts,
-                                            struct kiln_sort_span *span)
+__attribute__((flatten)) static void count(const struct kiln_sort_slots *slots,
+                                           const struct kiln_sort_cells *cells, uint32_t *keys,
+                                           uint32_t *counts)
 {
+    const struct kiln_sort_slots range = *slots;
     const struct kiln_sort_cells layout = *cells;
-    kiln_sort_pair *to = pairs;
     struct lanes lanes;
-    for (uint32_t first = slots->first; first < slots->end; first += LANES) {
-        const uint32_t remaining = slots->end - first,
-                       count = remaining < LANES ? remaining : LANES;
-        const struct kiln_particle *records = slots->records + first;
-        struct kiln_particle tail[LANES];
-        for (uint32_t i = AHEAD; i < AHEAD + LANES && i < remaining; i += RECORD_LINE)
-            __builtin_prefetch(records + i);
-        if (count < LANES) {
-            memset(tail, 0, sizeof tail);
-            memcpy(tail, records, count * sizeof *tail);
-            records = tail;
+    uint32_t cell[LANES];
+    for (uint32_t first = range.first; first < range.end; first += LANES) {
+        const uint32_t lane_count = lanes_from(&range, first);
+        find_keys(&range, first, lane_count, &lanes);
+        for (uint32_t i = 0; i < LANES; i++) {
+            const uint32_t dead = lanes.alive[i] - 1u;
+            cell[i] = (cell_of(&layout, lanes.keys[i]) & ~dead) | (layout.count & dead);
+            lanes.keys[i] = (lanes.keys[i] & ~dead) | (KILN_SORT_DEAD & dead);
         }
-        find_keys(records, slots->eye, slots->forward, &layout, &lanes);
-        widen(span, &lanes);
-        const uint32_t entry = KILN_ENTRY(slots->system, first);
-        for (uint32_t i = 0; i < count; i++) {
-            *to = (kiln_sort_pair)lanes.keys[i] << 32 | (entry + i);
-            to += lanes.alive[i];
-            counts[lanes.cells[i]]++;
-        }
+        memcpy(keys + first, lanes.keys, lane_count * sizeof *keys);
+        for (uint32_t i = 0; i < lane_count && layout.count > 1; i++)
+            counts[cell[i]]++;
     }
-    return (size_t)(to - pairs);
 }
 
-__attribute__((flatten)) static void scatter(const kiln_sort_pair *pairs, size_t count,
-                                             const struct kiln_sort_cells *cells, uint32_t *places,
-                                             kiln_sort_pair *to)
+__attribute__((flatten)) static void scatter(const struct kiln_sort_slots *slots,
+                                             const struct kiln_sort_cells *cells,
+                                             const uint32_t *keys, uint32_t *places,
+                                             uint32_t *entries)
 {
     const struct kiln_sort_cells layout = *cells;
     uint32_t cell[LANES];
-    for (; count >= LANES; count -= LANES, pairs += LANES) {
-        for (uint32_t i = 0; i < LANES; i++)
-            cell[i] = cell_of(&layout, (uint32_t)(pairs[i] >> 32));
-        for (uint32_t i = 0; i < LANES; i++)
-            to[places[cell[i]]++] = pairs[i];
+    for (uint32_t first = slots->first; first < slots->end; first += LANES) {
+        const uint32_t lane_count = lanes_from(slots, first);
+        const uint32_t first_entry = KILN_ENTRY(slots->system, first);
+        for (uint32_t i = 0; i < lane_count; i++) {
+            const uint32_t key = keys[first + i];
+            const uint32_t of_living = cell_of(&layout, key);
+            cell[i] = key == KILN_SORT_DEAD ? layout.count : of_living;
+        }
+        for (uint32_t i = 0; i < lane_count; i++)
+            entries[places[cell[i]]++] = first_entry + i;
     }
-    for (size_t i = 0; i < count; i++)
-        to[places[cell_of(&layout, (uint32_t)(pairs[i] >> 32))]++] = pairs[i];
 }
 
-const struct kiln_sort_loops KILN_SIMD_NAME(kiln_sort_loops) = {.list = list, .scatter = scatter};
+static struct kiln_sort_span pair(const uint32_t *entries, size_t entry_count, size_t fetch_count,
+                                  const uint32_t *keys, kiln_sort_pair *pairs)
+{
+    uint32_t least = UINT32_MAX, greatest = 0;
+    for (size_t first = 0; first < entry_count; first += LANES) {
+        const size_t end = entry_count - first < LANES ? entry_count : first + LANES;
+        for (size_t i = first + LANES; i < first + 2 * (size_t)LANES && i < fetch_count; i++)
+            __builtin_prefetch(&keys[KILN_ENTRY_SLOT(entries[i])]);
+        for (size_t i = first; i < end; i++) {
+            const uint32_t key = keys[KILN_ENTRY_SLOT(entries[i])];
+            pairs[i] = (kiln_sort_pair)key << 32 | entries[i];
+            least = key < least ? key : least;
+            greatest = key > greatest ? key : greatest;
+        }
+    }
+    return (struct kiln_sort_span){least, greatest};
+}
+
+static size_t list(const struct kiln_sort_slots *slots, const uint32_t *keys, kiln_sort_pair *pairs,
+                   struct kiln_sort_span *span)
+{
+    kiln_sort_pair *to = pairs;
+    uint32_t least = span->least, greatest = span->greatest;
+    for (uint32_t slot = slots->first; slot < slots->end; slot++) {
+        const uint32_t key = keys[slot], dead = key == KILN_SORT_DEAD ? UINT32_MAX : 0;
+        const uint32_t low = key | dead;
+        *to = (kiln_sort_pair)key << 32 | KILN_ENTRY(slots->system, slot);
+        to += key != KILN_SORT_DEAD;
+        least = low < least ? low : least;
+        greatest = key > greatest ? key : greatest;
+    }
+    *span = (struct kiln_sort_span){least, greatest};
+    return (size_t)(to - pairs);
+}
+
+const struct kiln_sort_loops KILN_SIMD_NAME(kiln_sort_loops) = {
+    .count = count, .scatter = scatter, .pair = pair, .list = list};

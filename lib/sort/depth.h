@@ -20,8 +20,8 @@ struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
 void kiln_sort_depth_destroy(struct kiln_sort_depth **sorter);
 
 /* Fills entries with the draw entries of the living particles of the blocks, ordered by
- * params->order (not KILN_SORT_BY_SERIAL), and counts them. Enlarges entries to one pair for each
- * slot of the pool. The blocks cover the systems' slots in the order of serials. */
+ * params->order (not KILN_SORT_BY_SERIAL), and counts them. May enlarge entries to twice the words,
+ * to sort in them. The blocks cover the systems' slots in the order of serials. */
 bool kiln_sort_depth_run(struct kiln_sort_depth *sorter, struct kiln_pool *pool,
                          const struct kiln_sort_params *params,
                          const struct kiln_sort_block *blocks, size_t block_count,

@@ -91,7 +91,8 @@ uint64_t kiln_sort_bytes(enum kiln_sort_technique technique, bool spread, uint32
     const uint64_t pair = 8, word = 4;
     const uint64_t padded = kiln_network_padded(slots) * pair;
     switch (technique) {
-    case KILN_SORT_CPU:
+    case KILN_SORT_CPU: /* a key and an entry; twice that where cells of depth do not help */
+        return pair * slots;
     case KILN_SORT_RADIX:
         return 2 * pair * slots; /* the pairs twice; the list overwrites one of the copies */
     case KILN_SORT_BITONIC:

@@ -74,11 +74,11 @@ Two buffers count twice, textures once more; sorting takes 16 bytes a slot.
 $ for technique in cpu inplace pingpong feedback texels; do
 >     kiln render scenes/tiny.yaml --frames 20 -o none --technique simulate=$technique --stats | grep slots
 > done
-1|  particles    52 alive, 82 slots, 3936 bytes (48.0 a slot)
-1|  particles    52 alive, 82 slots, 3936 bytes (48.0 a slot)
-1|  particles    52 alive, 82 slots, 6560 bytes (80.0 a slot)
-1|  particles    52 alive, 82 slots, 6560 bytes (80.0 a slot)
-1|  particles    52 alive, 82 slots, 9184 bytes (112.0 a slot)
+1|  particles    52 alive, 82 slots, 3280 bytes (40.0 a slot)
+1|  particles    52 alive, 82 slots, 3280 bytes (40.0 a slot)
+1|  particles    52 alive, 82 slots, 5904 bytes (72.0 a slot)
+1|  particles    52 alive, 82 slots, 5904 bytes (72.0 a slot)
+1|  particles    52 alive, 82 slots, 8528 bytes (104.0 a slot)
 $ for sort in cpu radix bitonic; do
 >     kiln render scenes/tiny.yaml --frames 20 -o $sort.png --technique simulate=inplace,sort=$sort
 > done
@@ -116,7 +116,7 @@ $ kiln render scenes/tiny.yaml -o none --frames 0-3 --stats=text --progress none
 1|  set-up <ms>
 1|  total <ms>
 1|  steps        18
-1|  particles    36 alive, 82 slots, 3936 bytes (48.0 a slot)
+1|  particles    36 alive, 82 slots, 3280 bytes (40.0 a slot)
 1|  memory <MiB> at the peak
 1|  techniques   simulate=cpu sort=cpu backdrop=cpu raster=geometry bloom=cpu composite=cpu
 1|  chosen       simulate=cpu: as asked for
@@ -211,7 +211,7 @@ Nothing to see, and one frame.
 $ kiln render scenes/empty.yaml -o empty_%d.png --stats --progress none | grep -E 'empty|particles'
 1|empty_0.png and 1 more: 2 frames in <s> s
 1|  particles <ms>
-1|  particles    0 alive, 1 slots, 48 bytes (48.0 a slot)
+1|  particles    0 alive, 1 slots, 40 bytes (40.0 a slot)
 $ kiln render scenes/tiny.yaml -o one.png --set output.frames=1 --progress none
 1|device: <device>
 1|one.png: 1 frame in <s> s
