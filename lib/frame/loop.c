@@ -29,6 +29,7 @@ struct kiln_loop {
     struct kiln_timer *timer;
     struct kiln_simulate *simulate;
     struct kiln_stages stages;
+    struct kiln_spare_pictures *spares;
 
     struct kiln_run run;
     struct kiln_pool before; /* particles after before_step steps, for moments within a step */
@@ -149,11 +150,15 @@ static bool read_picture(struct kiln_loop *loop, uint32_t frame, struct kiln_dra
     const uint32_t all = kiln_stages_layers(names, channels);
     const uint32_t layers[] = {
         [KILN_LAYERS_NONE] = 0, [KILN_LAYERS_BEAUTY] = 1, [KILN_LAYERS_ALL] = all};
-    struct kiln_picture *picture = drawn->picture =
-        kiln_picture_create(scene->width, scene->height, loop->needs.bits, names, channels,
-                            layers[loop->needs.layers], error);
-    if (!picture)
-        return false;
+    struct kiln_picture *picture = kiln_spare_pictures_take(loop->spares);
+    if (!picture) {
+        picture = kiln_picture_create(scene->width, scene->height, loop->needs.bits, names,
+                                      channels, layers[loop->needs.layers], error);
+        if (!picture)
+            return false;
+        kiln_spare_pictures_add(loop->spares, picture);
+    }
+    drawn->picture = picture;
     picture->frame = frame;
     picture->has_alpha = scene->backdrop.transparent;
     if (kiln_stages_read(&loop->stages, picture, error))
@@ -266,6 +271,9 @@ bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
     loop->timer = kiln_timer_create(device);
     if (!loop->timer)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "timers: out of memory");
+    loop->spares = kiln_spare_pictures_create();
+    if (!loop->spares)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "pictures: out of memory");
     loop->simulate =
         kiln_simulate_create(device, loop->scene, loop->techniques.simulate, loop->threads, error);
     const struct kiln_stages_params stages = {.techniques = loop->techniques,
@@ -288,6 +296,7 @@ void kiln_loop_destroy(struct kiln_loop **loop)
     kiln_stages_finish(&l->stages);
     kiln_simulate_destroy(&l->simulate);
     kiln_timer_destroy(&l->timer);
+    kiln_spare_pictures_destroy(&l->spares);
     l->device->work_group_size = 0;
     kiln_pool_finish(&l->run.pool);
     kiln_pool_finish(&l->before);

@@ -30,6 +30,8 @@ struct kiln_picture {
     void *display; /* sRGB, RGBA, not premultiplied, rows from the top, host byte order */
     struct kiln_layer layers[KILN_MAX_LAYERS]; /* only the layers that the format needs */
     uint32_t layer_count;
+    struct kiln_spare_pictures *spares; /* where it goes when it is destroyed, or NULL */
+    struct kiln_picture *next_spare;    /* while it is spare */
 };
 
 /* Allocates a picture with room for display pixels (bits 0: none) and layers (names[i],
@@ -41,6 +43,22 @@ struct kiln_picture *kiln_picture_create(uint32_t width, uint32_t height, uint32
 /* Adds a holder to a picture, on any thread. Each holder destroys it once. */
 struct kiln_picture *kiln_picture_share(struct kiln_picture *picture);
 void kiln_picture_destroy(struct kiln_picture **picture);
+
+/* Keeps destroyed pictures, all of one shape, for those to come: the system clears all memory that
+ * it gives, which takes as long as to fill it. */
+struct kiln_spare_pictures;
+
+/* Returns NULL when memory is short. */
+struct kiln_spare_pictures *kiln_spare_pictures_create(void);
+
+/* Frees the spare pictures. Those that are still in use are freed when they are destroyed. */
+void kiln_spare_pictures_destroy(struct kiln_spare_pictures **spares);
+
+/* Returns a spare picture, whose pixels are undefined, or NULL: there is none. */
+struct kiln_picture *kiln_spare_pictures_take(struct kiln_spare_pictures *spares);
+
+/* Makes a picture return to the spare ones when it is destroyed, on any thread. */
+void kiln_spare_pictures_add(struct kiln_spare_pictures *spares, struct kiln_picture *picture);
 
 /* Which float layers are needed: none, the whole picture's, or also those of its parts, which are
  * drawn separately. */

@@ -1,5 +1,6 @@
 /* Allocates, shares and frees pictures: the pixels of one frame between the renderer and an
  * encoder. */
+#include <pthread.h>
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -49,14 +50,108 @@ struct kiln_picture *kiln_picture_share(struct kiln_picture *picture)
     return picture;
 }
 
+static void free_picture(struct kiln_picture *picture)
+{
+    free(picture->display);
+    for (uint32_t i = 0; i < picture->layer_count; i++)
+        free(picture->layers[i].pixels);
+    free(picture);
+}
+
+/* ---- spare pictures -------------------------------------------------------------------------- */
+
+struct kiln_spare_pictures {
+    pthread_mutex_t mutex;
+    struct kiln_picture *first; /* of a list by next_spare */
+    size_t in_use;              /* pictures that will come back */
+    bool closed;                /* nobody takes any more; the last picture in use frees this */
+};
+
+struct kiln_spare_pictures *kiln_spare_pictures_create(void)
+{
+    struct kiln_spare_pictures *spares = calloc(1, sizeof *spares);
+    if (spares)
+        pthread_mutex_init(&spares->mutex, NULL);
+    return spares;
+}
+
+static void free_spares(struct kiln_spare_pictures *spares)
+{
+    pthread_mutex_destroy(&spares->mutex);
+    free(spares);
+}
+
+void kiln_spare_pictures_destroy(struct kiln_spare_pictures **spares)
+{
+    struct kiln_spare_pictures *s = *spares;
+    if (!s)
+        return;
+    *spares = NULL;
+    pthread_mutex_lock(&s->mutex);
+    struct kiln_picture *picture = s->first;
+    s->first = NULL;
+    s->closed = true;
+    const bool last = s->in_use == 0;
+    pthread_mutex_unlock(&s->mutex);
+    while (picture) {
+        struct kiln_picture *next = picture->next_spare;
+        free_picture(picture);
+        picture = next;
+    }
+    if (last)
+        free_spares(s);
+}
+
+struct kiln_picture *kiln_spare_pictures_take(struct kiln_spare_pictures *spares)
+{
+    pthread_mutex_lock(&spares->mutex);
+    struct kiln_picture *picture = spares->first;
+    if (picture) {
+        spares->first = picture->next_spare;
+        spares->in_use++;
+    }
+    pthread_mutex_unlock(&spares->mutex);
+    if (!picture)
+        return NULL;
+    picture->next_spare = NULL;
+    picture->has_alpha = picture->is_data = false;
+    atomic_store(&picture->others, 0);
+    return picture;
+}
+
+void kiln_spare_pictures_add(struct kiln_spare_pictures *spares, struct kiln_picture *picture)
+{
+    pthread_mutex_lock(&spares->mutex);
+    spares->in_use++;
+    pthread_mutex_unlock(&spares->mutex);
+    picture->spares = spares;
+}
+
+/* Takes a picture back from its last holder. */
+static void take_back(struct kiln_spare_pictures *spares, struct kiln_picture *picture)
+{
+    pthread_mutex_lock(&spares->mutex);
+    spares->in_use--;
+    const bool closed = spares->closed, last = closed && spares->in_use == 0;
+    if (!closed) {
+        picture->next_spare = spares->first;
+        spares->first = picture;
+    }
+    pthread_mutex_unlock(&spares->mutex);
+    if (closed)
+        free_picture(picture);
+    if (last)
+        free_spares(spares);
+}
+
 void kiln_picture_destroy(struct kiln_picture **picture)
 {
     struct kiln_picture *p = *picture;
     *picture = NULL;
     if (!p || atomic_fetch_sub(&p->others, 1) > 0)
         return;
-    free(p->display);
-    for (uint32_t i = 0; i < p->layer_count; i++)
-        free(p->layers[i].pixels);
-    free(p);
+    if (p->spares)
+        take_back(p->spares, p);
+    else
+        free_picture(p);
 }

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "output/formats.h"
+#include "output/libdeflate.h"
 #include "output/png_data.h"
-#include "output/png_small.h"
 
 struct png_encoder {
     png_structp png;
@@ -32,7 +32,7 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
         return kiln_error_set(error, KILN_USAGE,
                               "found %u bits a channel for a PNG; allowed are 8 or 16",
                               params->png_bits);
-    return params->png_effort != KILN_PNG_SMALL || kiln_png_small_open(error);
+    return params->png_effort != KILN_PNG_SMALL || kiln_libdeflate_open(error);
 }
 
 /* Keeps libpng's message and jumps back to the setjmp in encode, since libpng must not return from

@@ -5,7 +5,7 @@
  * is the same for any number of threads. Bands are compressed in rounds of a few, whose output
  * waits in memory until it is taken.
  *
- * Small data is made by png_small.c from the whole picture, and taken in parts. */
+ * Small data is made by libdeflate.c from the whole picture, and taken in parts. */
 #include "output/png_data.h"
 
 #include <stdlib.h>
@@ -16,8 +16,8 @@
 #include "base/thread.h"
 #include "output/adler.h"
 #include "output/deflate.h"
+#include "output/libdeflate.h"
 #include "output/png_rows.h"
-#include "output/png_small.h"
 
 enum {
     BAND_BYTES = 256 << 10, /* what a band has at most, if its rows are not larger than that */
@@ -25,7 +25,8 @@ enum {
     HEAD = 2,               /* bytes of a zlib stream before its data */
     TAIL = 4,               /* bytes behind it */
     BANDS_A_THREAD = 4,     /* of a round, so that a slow thread delays the round less */
-    SMALL_PART = 1 << 20    /* bytes that are taken at once */
+    SMALL_PART = 1 << 20,   /* bytes that are taken at once */
+    SMALL_LEVEL = 12        /* libdeflate's highest */
 };
 
 /* A band that was compressed. */
@@ -229,19 +230,34 @@ static bool next_band(struct kiln_png_data *data, const struct kiln_caller *call
 
 /* ---- Small data ------------------------------------------------------------------------------ */
 
+/* Compresses rows; false when memory is short. */
+static bool compress_rows(struct kiln_png_data *data, const uint8_t *rows, size_t size)
+{
+    struct kiln_compressor *compressor = kiln_compressor_create(SMALL_LEVEL);
+    if (!compressor)
+        return false;
+    const size_t room = kiln_compressor_room(compressor, size);
+    data->small = malloc(room);
+    if (data->small)
+        data->small_size = kiln_compressor_run(compressor, rows, size, data->small, room);
+    kiln_compressor_destroy(&compressor);
+    return data->small != NULL;
+}
+
 /* Compresses the whole picture; false when memory is short. */
 static bool compress_small(struct kiln_png_data *data)
 {
     const struct kiln_picture *picture = data->picture;
     const size_t size = picture->height * data->row_bytes;
     uint8_t *rows = malloc(size), *scratch = malloc(kiln_png_filter_scratch(picture));
-    if (rows && scratch) {
+    bool ok = rows && scratch;
+    if (ok) {
         data->filter_rows(picture, 0, picture->height, TOGETHER, rows, scratch);
-        data->small = kiln_png_small_compress(rows, size, &data->small_size);
+        ok = compress_rows(data, rows, size);
     }
     free(scratch);
     free(rows);
-    return data->small != NULL;
+    return ok;
 }
 
 static bool next_small(struct kiln_png_data *data, const struct kiln_caller *caller,

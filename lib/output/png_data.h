@@ -10,7 +10,7 @@ struct kiln_png_data;
 /* Returns the data of a picture, which must outlive it. KILN_PNG_FAST is compressed by `threads`
  * workers; the data is the same for any number of them, and on every machine. KILN_PNG_SMALL is
  * compressed by the calling thread, depends on the version of libdeflate, and needs
- * kiln_png_small_open. NULL with KILN_DEVICE_FAILED when memory is short. */
+ * kiln_libdeflate_open. NULL with KILN_DEVICE_FAILED when memory is short. */
 struct kiln_png_data *kiln_png_data_create(const struct kiln_picture *picture,
                                            enum kiln_png_effort effort, uint32_t threads,
                                            struct kiln_error *error);

@@ -16,9 +16,9 @@ allowed=(
     "ffmpeg.c.o mutex.0"
     "ffmpeg.c.o kiln_ff"
     # And so it has libdeflate.
-    "png_small.c.o library"
-    "png_small.c.o is_open.1"
-    "png_small.c.o mutex.2"
+    "libdeflate.c.o library"
+    "libdeflate.c.o is_open.1"
+    "libdeflate.c.o mutex.2"
 )
 
 # D, B and C are writable data. libepoxy's dispatch pointers are data of libepoxy, not of kiln.

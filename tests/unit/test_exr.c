@@ -156,6 +156,46 @@ static void extremes_survive(void **state)
     test_remove_folder(folder);
 }
 
+/* A chunk that compression would not make smaller is stored as it is. */
+static void noise_survives(void **state)
+{
+    (void)state;
+    char folder[32], path[64];
+    test_make_folder(folder);
+    snprintf(path, sizeof path, "%s/x.exr", folder);
+    const struct kiln_frame_range range = {0, 0};
+    struct kiln_output_params params = test_output_params(path, &range);
+    params.exr_bits = 32;
+    struct kiln_error error = {0};
+    struct kiln_output *output = kiln_output_open(&params, &error);
+    assert_non_null(output);
+    struct kiln_picture *picture = test_picture(output, &params, 0);
+    const size_t pixels = (size_t)params.width * params.height;
+    uint32_t state_of_noise = 1;
+    for (uint32_t i = 0; i < picture->layer_count; i++) {
+        for (size_t k = 0; k < pixels * picture->layers[i].channels; k++) {
+            state_of_noise = state_of_noise * 1664525u + 1013904223u;
+            const uint32_t bits = state_of_noise & 0xbfffffffu; /* no infinity */
+            memcpy(&picture->layers[i].pixels[k], &bits, sizeof bits);
+        }
+    }
+    float *expected = malloc(pixels * sizeof *expected);
+    assert_non_null(expected);
+    memcpy(expected, picture->layers[1].pixels, pixels * sizeof *expected);
+    assert_true(kiln_output_write(output, picture, &error));
+    assert_true(kiln_output_finish(output, &error));
+    kiln_output_close(&output);
+
+    exr_context_t file = NULL;
+    assert_int_equal(exr_start_read(&file, path, NULL), EXR_ERR_SUCCESS);
+    float *depth = read_channel(file, "Z", (int)params.width, (int)params.height);
+    assert_memory_equal(depth, expected, pixels * sizeof *expected);
+    free(depth);
+    free(expected);
+    exr_finish(&file);
+    test_remove_folder(folder);
+}
+
 static void other_depths_are_refused(void **state)
 {
     (void)state;
@@ -173,6 +213,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_and_metadata_come_back),
         cmocka_unit_test(extremes_survive),
+        cmocka_unit_test(noise_survives),
         cmocka_unit_test(other_depths_are_refused),
     };
     return cmocka_run_group_tests_name("exr", tests, NULL, NULL);
