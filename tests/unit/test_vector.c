@@ -46,6 +46,7 @@ static void fill(struct vector_operands *o)
         o->pairs[i] = (uint8_t)random_mix(stream++);
     memset(o->quads, 0x80, sizeof o->quads / 4); /* the farthest from zero */
     memset(o->pairs, 0x80, sizeof o->pairs / 4);
+    memcpy(o->alphas, o->pairs, sizeof o->alphas);
 }
 
 static uint32_t limited(double x, uint32_t least, uint32_t most)
@@ -104,6 +105,7 @@ static void expect(const struct vector_operands *o, struct vector_results *r, ui
         r->offsets[i] = (int32_t)(texel * VECTOR_QUAD);
         for (int c = 0; c < 4; c++)
             r->four[c][i] = (float)sample(o->quads, 4, c, o->inside[i], o->part);
+        r->alpha[i] = (int32_t)sample(o->alphas, 1, 0, o->inside[i], o->part);
         for (int c = 0; c < 2; c++) {
             r->two[c][i] = (float)sample(o->pairs, 2, c, o->inside[i], o->part);
             int64_t way = sample(o->pairs, 2, c, o->inside[i], 1) >> 8;
@@ -163,6 +165,7 @@ static void check_level(enum kiln_simd simd, const struct vector_operands *o)
     for (int c = 0; c < 2; c++)
         FLOATS(two[c]);
     BYTES(sampled_ways);
+    BYTES(alpha);
 #undef FLOATS
 #undef BYTES
     free(found);

@@ -54,6 +54,9 @@ static void compute_texels(const struct vector_operands *o, struct vector_result
     for (int c = 0; c < 2; c++)
         vf_store(r->two[c] + i, two.c[2 + c]);
     store(r->sampled_ways, i, ways_of(sample_pairs(o->pairs, at, inside, 1)));
+    offsets = texel_offsets(inside, VECTOR_EDGE * VECTOR_ALPHA, VECTOR_ALPHA);
+    memcpy(at, &offsets, sizeof at);
+    store(r->alpha, i, sample_alphas(o->alphas, at, inside, o->part));
 }
 
 static void compute(const struct vector_operands *operands, struct vector_results *results)

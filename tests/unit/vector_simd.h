@@ -12,6 +12,7 @@ enum {
     VECTOR_EDGE = 64,    /* texels of the cells, with a margin */
     VECTOR_QUAD = 8,     /* bytes of a texel with four channels */
     VECTOR_PAIR = 4,     /* with two */
+    VECTOR_ALPHA = 2,    /* with alpha alone */
 };
 
 struct vector_operands {
@@ -25,6 +26,7 @@ struct vector_operands {
     int32_t part;
     uint8_t quads[VECTOR_EDGE * VECTOR_EDGE * VECTOR_QUAD];
     uint8_t pairs[VECTOR_EDGE * VECTOR_EDGE * VECTOR_PAIR];
+    uint8_t alphas[VECTOR_EDGE * VECTOR_EDGE * VECTOR_ALPHA];
 };
 
 struct vector_results {
@@ -36,6 +38,7 @@ struct vector_results {
     uint32_t moved[VECTOR_COUNT];
     int32_t offsets[VECTOR_COUNT]; /* of `inside`, among the quads */
     float four[4][VECTOR_COUNT], two[2][VECTOR_COUNT];
+    int32_t alpha[VECTOR_COUNT];
     uint32_t sampled_ways[VECTOR_COUNT]; /* of the pairs, for part 1 */
 };
 

@@ -62,11 +62,13 @@ static const uint8_t *cell_texels(const struct kiln_atlas *atlas, uint32_t layer
     return strip;
 }
 
-/* Lays a cell out: all four channels, then a copy with only blue and alpha. */
+/* Lays a cell out: all four channels, then a copy with only blue and alpha, then one of alpha. */
 static void lay_out_cell(const uint8_t *from, uint32_t edge, uint8_t *to)
 {
+    const size_t texels = kiln_cells_texels(edge);
     lay_out(from, edge, 0, 4, to);
-    lay_out(from, edge, 2, 2, to + KILN_CELL_TEXEL * kiln_cells_texels(edge));
+    lay_out(from, edge, 2, 2, to + KILN_CELL_TEXEL * texels);
+    lay_out(from, edge, 3, 1, to + (KILN_CELL_TEXEL + KILN_CELL_PAIR) * texels);
 }
 
 /* Lays the atlas's motion of a layer out for sampling. */
@@ -424,7 +426,7 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
         if (cells->texels[i] || !atomic_load_explicit(&cells->requested[i], memory_order_relaxed))
             continue;
         size_t texels = kiln_cells_texels(kiln_cell_edge(i % KILN_CELL_LEVELS));
-        cells->texels[i] = malloc((KILN_CELL_TEXEL + KILN_CELL_PAIR) * texels);
+        cells->texels[i] = malloc((KILN_CELL_TEXEL + KILN_CELL_PAIR + KILN_CELL_ALPHA) * texels);
         if (!cells->texels[i])
             return kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
         cells->missing[count++] = i;

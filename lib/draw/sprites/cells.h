@@ -20,6 +20,7 @@
 enum {
     KILN_CELL_TEXEL = 8,   /* bytes of a texel of four channels (draw/sprites/texels.h) */
     KILN_CELL_PAIR = 4,    /* bytes of a texel of two channels */
+    KILN_CELL_ALPHA = 2,   /* bytes of a texel of alpha alone */
     KILN_CELL_MARGIN = 2,  /* columns besides the edge: the outer texels are repeated */
     KILN_CELL_PHASES = 16, /* steps from a cell to the next one */
     KILN_CELL_LEVELS = KILN_STRIP_LEVEL + 1,
@@ -83,9 +84,9 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
 
 /* Holds the data that sampling reads. Cells have edge + 1 rows of edge + KILN_CELL_MARGIN texels:
  * the outer texels of the atlas's cell are repeated, so that a bilinear sample needs no clamping.
- * After each cell comes a copy with two channels, heat (blue) and alpha, for sprites that need no
- * more. Motion is a cell of two channels, right and down, with the edge KILN_ATLAS_MOTION: 128
- * stands for no motion, 128 + 127 for a full move. */
+ * After each cell come a copy with two channels, heat (blue) and alpha, and a copy of alpha alone,
+ * for sprites that need no more. Motion is a cell of two channels, right and down, with the edge
+ * KILN_ATLAS_MOTION: 128 stands for no motion, 128 + 127 for a full move. */
 struct kiln_cells_content {
     const uint8_t *const *texels; /* by a cell's number; NULL: the cell is not made yet */
     const atomic_bool

@@ -15,6 +15,7 @@
 /* Names how a pixel of a sprite gets its colour. */
 enum kiln_sprite_shade {
     KILN_SHADE_GLOW,  /* mask: base + slope times the cell's heat */
+    KILN_SHADE_ALPHA, /* mask: base, where slope is 0 */
     KILN_SHADE_LIT,   /* mask: the same, plus light by the cell's normal */
     KILN_SHADE_COLOR, /* the cell's colour times base */
     KILN_SHADE_PLAIN, /* base in a rectangle or a disc, antialiased over a pixel */

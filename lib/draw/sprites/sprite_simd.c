@@ -85,7 +85,8 @@ static void choose_shade(struct sprite_lanes *p)
 static void color_sprites(struct sprite_lanes *p)
 {
     const vf zero = vf_all(0.0f);
-    vi lit = p->shade == KILN_SHADE_LIT, glows = p->shade == KILN_SHADE_GLOW, emits = vi_all(0);
+    vi lit = p->shade == KILN_SHADE_LIT, glows = p->shade == KILN_SHADE_GLOW;
+    vi emits = vi_all(0), heated = vi_all(0);
     struct light_sum light;
     memset(&light, 0, sizeof light);
     if (any(p->visible & reflecting(p)))
@@ -99,7 +100,8 @@ static void color_sprites(struct sprite_lanes *p)
         vf flat = vf_max(channel->all + channel->along.z, zero) * albedo;
         vf base = vf_select(lit, cool, vf_select(glows, cool, hot) + flat);
         vf slope = vf_where(lit | glows, hot - cool);
-        emits |= (base != 0.0f) | (slope != 0.0f);
+        heated |= slope != 0.0f;
+        emits |= (base != 0.0f) | heated;
         p->words[WORD_OF(base) + c] = base;
         p->words[WORD_OF(slope) + c] = slope;
         if (!some_lit)
@@ -110,6 +112,7 @@ static void color_sprites(struct sprite_lanes *p)
         p->words[WORD_OF(light) + 9 + c] = vf_where(lit, channel->along.z * albedo);
     }
     p->flags |= emits & KILN_SPRITE_EMITS;
+    p->shade = vi_select(glows & ~heated, vi_all(KILN_SHADE_ALPHA), p->shade);
     const struct columns bloom = look_row(p, KILN_LOOK_BLOOM);
     for (size_t c = 0; c < 3; c++)
         p->words[WORD_OF(bloom) + c] = bloom.c[c];

@@ -3,7 +3,8 @@
  * A texel of 8 bytes holds red, green, blue and alpha of two rows: red, red of the row below, green
  * and so on, each less 128. A bilinear sample reads the 16 bytes of two adjacent texels and weights
  * them by integers: first down by two bytes, then across by two words; each two weights have the
- * sum 255. A texel of 4 bytes has only two channels, and takes half the work.
+ * sum 255. A texel of 4 bytes has only two channels, and takes half the work; a texel of 2 bytes
+ * has only alpha.
  *
  * A place in a cell is two unsigned words, u and v. The high byte of a word is the texel. The low
  * byte is the place between that texel and the next one, in 255ths; it is the weight of the next
@@ -47,6 +48,16 @@ enum { PART_ONE = 128 };
 #include "draw/sprites/texels_neon.h"
 #elif KILN_SIMD_LEVEL > 0
 
+/* Loads the 4 bytes at each of four offsets. */
+SIMD __m128i four_texels(const uint8_t *texels, const int32_t *at)
+{
+    int32_t loaded[4];
+    for (int i = 0; i < 4; i++)
+        memcpy(&loaded[i], texels + at[i], sizeof loaded[i]);
+    __m128i two = _mm_insert_epi32(_mm_cvtsi32_si128(loaded[0]), loaded[1], 1);
+    return _mm_insert_epi32(_mm_insert_epi32(two, loaded[2], 2), loaded[3], 3);
+}
+
 /* Loads the 8 bytes at each of two offsets. */
 SIMD __m128i two_texels(const uint8_t *texels, const int32_t *at)
 {
@@ -76,6 +87,14 @@ SIMD words fetch_pairs(const uint8_t *texels, const int32_t *at)
                                            two_texels(texels, at + 12), 1);
     return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
+SIMD words fetch_alphas(const uint8_t *texels, const int32_t *at)
+{
+    __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(four_texels(texels, at)),
+                                          four_texels(texels, at + 4), 1);
+    __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(four_texels(texels, at + 8)),
+                                           four_texels(texels, at + 12), 1);
+    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+}
 /* Returns the four integers in each 128 bits. */
 SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 {
@@ -96,6 +115,11 @@ SIMD words fetch_pairs(const uint8_t *texels, const int32_t *at)
     return _mm256_inserti128_si256(_mm256_castsi128_si256(two_texels(texels, at)),
                                    two_texels(texels, at + 4), 1);
 }
+SIMD words fetch_alphas(const uint8_t *texels, const int32_t *at)
+{
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(four_texels(texels, at)),
+                                   four_texels(texels, at + 4), 1);
+}
 SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 {
     return _mm256_broadcastsi128_si256(_mm_setr_epi32(a, b, c, d));
@@ -111,6 +135,10 @@ SIMD words fetch_texels(const uint8_t *texels, const int32_t *at)
 SIMD words fetch_pairs(const uint8_t *texels, const int32_t *at)
 {
     return two_texels(texels, at);
+}
+SIMD words fetch_alphas(const uint8_t *texels, const int32_t *at)
+{
+    return four_texels(texels, at);
 }
 SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 {
@@ -218,6 +246,14 @@ SIMD struct pairs sample_pairs(const uint8_t *texels, const int32_t *offsets, vi
     PAIR(1, 2, 0xfa);
 #undef PAIR
     return pairs;
+}
+
+/* Samples texels that have only alpha; returns the sums of the pixels. */
+SIMD vi sample_alphas(const uint8_t *texels, const int32_t *offsets, vi places, int32_t part)
+{
+    const struct weights w = weigh(places, part);
+    words across = WORDS(maddubs_epi16)(w.rows, fetch_alphas(texels, offsets));
+    return (vi)WORDS(madd_epi16)(across, w.columns);
 }
 
 SIMD struct vf4 channels_of(struct quads q)
@@ -347,6 +383,11 @@ SIMD struct pairs sample_pairs(const uint8_t *texels, const int32_t *offsets, vi
 {
     return (struct pairs){{sample_channel(texels, offsets, places, part, 2, 0),
                            sample_channel(texels, offsets, places, part, 2, 1)}};
+}
+
+SIMD vi sample_alphas(const uint8_t *texels, const int32_t *offsets, vi places, int32_t part)
+{
+    return sample_channel(texels, offsets, places, part, 1, 0);
 }
 
 SIMD struct vf4 channels_of(struct quads q)

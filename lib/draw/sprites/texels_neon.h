@@ -108,6 +108,24 @@ SIMD struct pairs sample_pairs(const uint8_t *texels, const int32_t *offsets, vi
         {(vi)vcombine_s32(sampled[0], sampled[1]), (vi)vcombine_s32(sampled[2], sampled[3])}};
 }
 
+/* Samples texels that have only alpha; returns the sums of the pixels. */
+SIMD vi sample_alphas(const uint8_t *texels, const int32_t *offsets, vi places, int32_t part)
+{
+    const struct weights w = weigh(places, part);
+    int32_t loaded[LANES];
+    for (int i = 0; i < LANES; i++)
+        memcpy(&loaded[i], texels + offsets[i], sizeof loaded[i]);
+    /* The 4 bytes of a pixel are a texel and the next one, each in two rows. */
+    int8x16_t both = vreinterpretq_s8_s32(vld1q_s32(loaded));
+    int16x8_t row = vmovl_s8(vget_low_s8(vuzp1q_s8(both, both)));
+    int16x8_t below = vmovl_s8(vget_low_s8(vuzp2q_s8(both, both)));
+    int16x8_t down = vmulq_s16(row, vtrn2q_s16(w.near, w.near));
+    down = vmlaq_s16(down, below, vtrn2q_s16(w.far, w.far));
+    int16x8_t across = vtrn1q_s16(w.near_part, w.far_part);
+    return (vi)vpaddq_s32(vmull_s16(vget_low_s16(down), vget_low_s16(across)),
+                          vmull_s16(vget_high_s16(down), vget_high_s16(across)));
+}
+
 SIMD struct vf4 channels_of(struct quads q)
 {
     int32x4x2_t ab = vtrnq_s32((int32x4_t)q.k[0], (int32x4_t)q.k[1]);

@@ -141,14 +141,26 @@ SIMD void follow(struct batch *batch, const struct brush *b)
     }
 }
 
-/* Returns the sampled channels of vector i; with pair, only those of heat and alpha. */
-SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b, bool pair,
-                       bool mixed)
+/* Returns the first channel of a cell that a shade reads. */
+SIMD size_t first_channel(enum kiln_sprite_shade kind)
+{
+    return kind == KILN_SHADE_ALPHA ? 3 : kind == KILN_SHADE_GLOW ? 2 : 0;
+}
+
+/* Returns the sampled channels of vector i, from first_channel() on. */
+SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b,
+                       enum kiln_sprite_shade kind, bool mixed)
 {
     const int32_t part = mixed ? 1 : PART_ONE - b->part;
     vi places = batch->places[0][i], next = batch->places[1][i];
     const int32_t *texels = batch->texels[0][i], *next_texels = batch->texels[1][i];
-    if (pair) {
+    if (kind == KILN_SHADE_ALPHA) {
+        vi alphas = sample_alphas(b->cell, texels, places, part);
+        if (!mixed)
+            alphas += sample_alphas(b->next, next_texels, next, b->part);
+        return (struct vf4){{[3] = __builtin_convertvector(alphas, vf)}};
+    }
+    if (kind == KILN_SHADE_GLOW) {
         struct pairs pairs = sample_pairs(b->cell, texels, places, part);
         return channels_of_pairs(
             mixed ? pairs : pairs_sum(pairs, sample_pairs(b->next, next_texels, next, b->part)));
@@ -198,13 +210,14 @@ SIMD void draw_batch(struct batch *batch, const struct target *d, enum kiln_spri
     __asm__("" : "+m"(*batch)); /* keeps it in memory: taking vectors apart costs twice as much */
     if (textured && !mixed)
         follow(batch, b);
-    for (int i = 0; i < batch->count && textured; i++)
-        batch->cells[i] = sample(batch, i, b, kind == KILN_SHADE_GLOW, mixed);
+    for (int i = 0; i < batch->count && textured; i++) {
+        const struct vf4 cell = sample(batch, i, b, kind, mixed);
+        for (size_t c = first_channel(kind); c < 4; c++)
+            batch->cells[i].c[c] = cell.c[c];
+    }
     for (int i = 0; i < batch->count; i++) {
-        struct shaded c = kind == KILN_SHADE_LIT     ? shade_lit(s, b, batch->cells[i])
-                          : kind == KILN_SHADE_GLOW  ? shade_glow(s, b, batch->cells[i])
-                          : kind == KILN_SHADE_COLOR ? shade_color(s, b, batch->cells[i])
-                                                     : shade_plain(s, batch->u[i], batch->v[i]);
+        struct shaded c = textured ? shade_cell(s, b, kind, batch->cells[i])
+                                   : shade_plain(s, batch->u[i], batch->v[i]);
         draw_vector(batch, i, d, c, kind == KILN_SHADE_COLOR, deep, covers);
     }
     batch->count = 0;
@@ -305,10 +318,12 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
                  (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f);
     if (kind == KILN_SHADE_PLAIN)
         return;
-    bool pair = kind == KILN_SHADE_GLOW;
-    size_t offset = pair ? (size_t)KILN_CELL_TEXEL * (s->pitch - 1u) * s->pitch : 0;
+    const size_t texels = (s->pitch - 1u) * (size_t)s->pitch, first = first_channel(kind);
+    const size_t offset = first == 3   ? (KILN_CELL_TEXEL + KILN_CELL_PAIR) * texels
+                          : first == 2 ? KILN_CELL_TEXEL * texels
+                                       : 0;
     b->cell = cells->texels[s->cell] + offset;
-    b->texel = pair ? KILN_CELL_PAIR : KILN_CELL_TEXEL;
+    b->texel = first == 3 ? KILN_CELL_ALPHA : first == 2 ? KILN_CELL_PAIR : KILN_CELL_TEXEL;
     b->pitch = b->texel * s->pitch;
     b->edge = (s->pitch - KILN_CELL_MARGIN) * PLACE_ONE;
     b->sampled = SAMPLED_UNIT;
@@ -413,7 +428,7 @@ SIMD void draw_floats(const struct target *d, struct batch *batch, vf u, vf v)
 {
     const struct kiln_sprite *s = d->s;
     const struct brush *b = &d->brush;
-    const size_t first = s->shade == KILN_SHADE_GLOW ? 2 : 0;
+    const size_t first = first_channel((enum kiln_sprite_shade)s->shade);
     const vf zero = vf_all(0.0f), edge = vf_all(s->edge_u);
     if (b->rim) {
         batch->rim[0] = rim_cover(s, u, v);
@@ -430,9 +445,7 @@ SIMD void draw_floats(const struct target *d, struct batch *batch, vf u, vf v)
         for (size_t c = first; c < 4; c++)
             cell.c[c] += (next.c[c] - cell.c[c]) * s->part;
     }
-    struct shaded c = s->shade == KILN_SHADE_LIT    ? shade_lit(s, b, cell)
-                      : s->shade == KILN_SHADE_GLOW ? shade_glow(s, b, cell)
-                                                    : shade_color(s, b, cell);
+    struct shaded c = shade_cell(s, b, (enum kiln_sprite_shade)s->shade, cell);
     draw_vector(batch, 0, d, c, s->shade == KILN_SHADE_COLOR, false,
                 (s->flags & KILN_SPRITE_COVERS) != 0);
 }
@@ -477,10 +490,12 @@ typedef void drawing(struct kiln_tile *tile, const struct kiln_cells_content *ce
     DRAW(name##_deep_covers, kind, true, true, mixed)
 
 DRAW_FORMS(glow, KILN_SHADE_GLOW, false)
+DRAW_FORMS(alpha, KILN_SHADE_ALPHA, false)
 DRAW_FORMS(lit, KILN_SHADE_LIT, false)
 DRAW_FORMS(color, KILN_SHADE_COLOR, false)
 DRAW_FORMS(plain, KILN_SHADE_PLAIN, false)
 DRAW_FORMS(mixed_glow, KILN_SHADE_GLOW, true)
+DRAW_FORMS(mixed_alpha, KILN_SHADE_ALPHA, true)
 DRAW_FORMS(mixed_lit, KILN_SHADE_LIT, true)
 DRAW_FORMS(mixed_color, KILN_SHADE_COLOR, true)
 
@@ -494,8 +509,8 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
                const struct kiln_cells *cells, const uint32_t *list, size_t count)
 {
     static drawing *const draw[2][KILN_SHADES][4] = {
-        {ROW(glow), ROW(lit), ROW(color), ROW(plain)},
-        {ROW(mixed_glow), ROW(mixed_lit), ROW(mixed_color), ROW(plain)},
+        {ROW(glow), ROW(alpha), ROW(lit), ROW(color), ROW(plain)},
+        {ROW(mixed_glow), ROW(mixed_alpha), ROW(mixed_lit), ROW(mixed_color), ROW(plain)},
     };
     const struct kiln_cells_content content = kiln_cells_content(cells);
     tile->has_opaque = false;

@@ -45,6 +45,12 @@ SIMD struct shaded shade_glow(const struct kiln_sprite *s, const struct brush *b
     return shaded;
 }
 
+SIMD struct shaded shade_alpha(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
+{
+    return (struct shaded){{vf_all(s->base[0]), vf_all(s->base[1]), vf_all(s->base[2])},
+                           cell.c[3] * b->sampled + SAMPLED_ZERO};
+}
+
 SIMD struct shaded shade_lit(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
 {
     struct shaded shaded = {.alpha = cell.c[3] * b->sampled + SAMPLED_ZERO};
@@ -74,6 +80,16 @@ SIMD struct shaded shade_color(const struct kiln_sprite *s, const struct brush *
     }
     return (struct shaded){{cell.c[0] * s->base[0], cell.c[1] * s->base[1], cell.c[2] * s->base[2]},
                            cell.c[3]};
+}
+
+/* Shades pixels by their sampled channels, for any shade but plain. */
+SIMD struct shaded shade_cell(const struct kiln_sprite *s, const struct brush *b,
+                              enum kiln_sprite_shade kind, struct vf4 cell)
+{
+    return kind == KILN_SHADE_LIT     ? shade_lit(s, b, cell)
+           : kind == KILN_SHADE_GLOW  ? shade_glow(s, b, cell)
+           : kind == KILN_SHADE_ALPHA ? shade_alpha(s, b, cell)
+                                      : shade_color(s, b, cell);
 }
 
 /* Returns the colour of a disc or a rectangle; alpha is the part of a pixel inside. */
