@@ -10,8 +10,6 @@ enum {
     KILN_TILE_WIDTH = 64,
     KILN_TILE_HEIGHT = 16,
     KILN_TILE_PITCH = KILN_TILE_WIDTH + 8, /* a unit of 8 pixels may reach beyond the right edge */
-    /* The number of units in a tile, and room for 8 units that are written and not kept. */
-    KILN_TILE_UNITS = KILN_TILE_HEIGHT * KILN_TILE_WIDTH / 8 + 8,
 };
 
 /* Names the contents of the glow's planes. */
@@ -46,6 +44,9 @@ struct kiln_tile {
     /* a bit for each pixel in which sprites behind the drawn ones are visible; valid if has_opaque
      */
     uint64_t transparent[KILN_TILE_HEIGHT];
+    /* a bit for each pixel: it or one of the seven after it is transparent; the left and the right
+     * half of each row; valid if has_opaque */
+    _Alignas(64) int32_t seen[2][KILN_TILE_HEIGHT];
     bool has_opaque; /* true: some pixels hide the sprites behind them */
     bool over;       /* true: sprites cover those behind them; false: alpha is summed */
 };

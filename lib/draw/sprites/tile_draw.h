@@ -236,14 +236,12 @@ SIMD void draw_wide(const struct target *d, const struct kiln_cell_hull *hull,
     find_rows(d->tile, s, box, !deep && textured ? hull : NULL, &rows);
     float scale = textured ? (float)PLACE_STEPS : 1.0f;
     float margin = textured && !deep ? PLACE_MIDDLE : 0.0f;
-    for (int i = 0; i < KILN_TILE_HEIGHT && textured; i += LANES) {
-        vf_store(rows.u + i, vf_load(rows.u + i) * scale + margin);
-        vf_store(rows.v + i, vf_load(rows.v + i) * scale + margin);
+    for (int i = 0; i < ROW_VECTORS && textured; i++) {
+        rows.u[i] = rows.u[i] * scale + margin;
+        rows.v[i] = rows.v[i] * scale + margin;
     }
     const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
-    int count = list_units(&rows, box, steps, deep, &units);
-    if (d->tile->has_opaque)
-        count = drop_hidden(d->tile, &units, count);
+    int count = list_units(d->tile, &rows, box, steps, deep, &units);
     if (UNITS > 1)
         add_padding(&units, count);
     for (int begin = 0; begin < count; begin += BATCH / UNIT_PARTS * UNITS) {
@@ -377,6 +375,11 @@ static bool find_transparent(struct kiln_tile *tile)
                 (uint64_t)vi_bits(vf_load(&tile->pixels[y][KILN_TILE_ALPHA][x]) < 1.0f - NEGLIGIBLE)
                 << x;
         tile->transparent[y] = transparent & whole;
+        uint64_t seen = tile->transparent[y] | tile->transparent[y] >> 1;
+        seen |= seen >> 2;
+        seen |= seen >> 4;
+        tile->seen[0][y] = (int32_t)(uint32_t)seen;
+        tile->seen[1][y] = (int32_t)(seen >> 32);
         any |= tile->transparent[y];
         every &= tile->transparent[y];
     }

@@ -3,13 +3,20 @@
 #ifndef KILN_DRAW_SPRITES_TILE_ROWS_H
 #define KILN_DRAW_SPRITES_TILE_ROWS_H
 
-#include "base/lanes.h"
+#include "draw/sprites/compress.h"
 #include "draw/sprites/tile.h"
+
+enum {
+    ROW_VECTORS = KILN_TILE_HEIGHT / LANES,
+    /* Units of a whole tile, one for padding, and room for a vector that is written and not kept.
+     */
+    LISTED_UNITS = KILN_TILE_HEIGHT * KILN_TILE_WIDTH / UNIT + 1 + LANES,
+};
 
 /* Holds the units of pixels that a sprite touches. */
 struct units {
-    int32_t at[KILN_TILE_UNITS]; /* offset in kiln_tile.pixels */
-    float u[KILN_TILE_UNITS], v[KILN_TILE_UNITS], q[KILN_TILE_UNITS]; /* at its first pixel */
+    int32_t at[LISTED_UNITS];                                /* offset in kiln_tile.pixels */
+    float u[LISTED_UNITS], v[LISTED_UNITS], q[LISTED_UNITS]; /* at its first pixel */
 };
 
 typedef float four __attribute__((vector_size(16)));
@@ -55,8 +62,8 @@ SIMD void clip_columns(vf place, float pixels_a_step, float least, float most, f
 
 /* Holds the span of a sprite in each row of a tile. */
 struct rows {
-    _Alignas(64) float u[KILN_TILE_HEIGHT], v[KILN_TILE_HEIGHT], q[KILN_TILE_HEIGHT];
-    int32_t from[KILN_TILE_HEIGHT], units[KILN_TILE_HEIGHT]; /* first column; number of units */
+    vf u[ROW_VECTORS], v[ROW_VECTORS], q[ROW_VECTORS]; /* at the first column */
+    vi from[ROW_VECTORS], units[ROW_VECTORS];          /* first column; number of units */
 };
 
 /* Holds the range of pixels of a tile that a sprite may touch, px. */
@@ -72,8 +79,9 @@ SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
     if (hull)
         find_limits(s, hull, &limits);
     float offset = s->x - 0.5f - (float)tile->x;
-    for (int i = 0; i < KILN_TILE_HEIGHT; i += LANES) {
-        vf y = vf_count() + ((float)(tile->y + i) + 0.5f - s->y);
+    for (int i = 0; i < ROW_VECTORS; i++) {
+        vf row = vf_count() + (float)(i * LANES);
+        vf y = row + ((float)tile->y + 0.5f) - s->y;
         vf u = s->u + s->u_y * y, v = s->v + s->v_y * y;
         vf from = vf_all((float)box->x_from), to = vf_all((float)box->x_to);
         if (hull) {
@@ -82,61 +90,55 @@ SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
                 clip_columns(places[k], limits.pixels_a_step[k], limits.least[k], limits.most[k],
                              offset, &from, &to);
         }
-        vi any = from < to;
+        vi any = (from < to) & (row >= (float)box->y_from) & (row < (float)box->y_to);
         vi first = vi_of(vf_where(any, from));
         vi end = vi_of(vf_where(any, to));
         vf x = __builtin_convertvector(first, vf) - offset;
-        vf_store(rows->u + i, u + s->u_x * x);
-        vf_store(rows->v + i, v + s->v_x * x);
-        vf_store(rows->q + i, (s->q + s->q_y * y) + s->q_x * x);
-        vi units = (end - first + (UNIT - 1)) >> 3;
-        memcpy(rows->from + i, &first, sizeof first);
-        memcpy(rows->units + i, &units, sizeof units);
+        rows->u[i] = u + s->u_x * x;
+        rows->v[i] = v + s->v_x * x;
+        rows->q[i] = (s->q + s->q_y * y) + s->q_x * x;
+        rows->from[i] = first;
+        rows->units[i] = (end - first + (UNIT - 1)) >> 3;
     }
 }
 
-/* Lists the units of all rows and returns their number. For each row it writes as many units as the
- * longest row may have, then advances by the number that the row has, so that there is no branch to
- * predict. */
-SIMD int list_units(const struct rows *rows, const struct box *box, const float steps[3], bool deep,
-                    struct units *units)
+/* Returns a mask of the units at the columns, one in each row, of which some pixel is visible. */
+SIMD vi units_seen(const struct kiln_tile *tile, size_t vector, vi columns)
 {
-    const four numbers = {0.0f, 8.0f, 16.0f, 24.0f};
-    const four_ints places = {0, 8, 16, 24};
-    int count = 0, most = (box->x_to - box->x_from + UNIT - 1) / UNIT;
-    for (int y = box->y_from; y < box->y_to; y++) {
-        int32_t at = rows->from[y] + y * KILN_TILE_PLANES * KILN_TILE_PITCH;
-        for (int k = 0; k < most; k += 4) {
-            four u = rows->u[y] + (numbers + (float)(8 * k)) * steps[0];
-            four v = rows->v[y] + (numbers + (float)(8 * k)) * steps[1];
-            four_ints to = at + 8 * k + places;
-            memcpy(units->at + count + k, &to, sizeof to);
-            memcpy(units->u + count + k, &u, sizeof u);
-            memcpy(units->v + count + k, &v, sizeof v);
-            if (deep) {
-                four q = rows->q[y] + (numbers + (float)(8 * k)) * steps[2];
-                memcpy(units->q + count + k, &q, sizeof q);
-            }
+    vi left, right;
+    memcpy(&left, tile->seen[0] + vector * LANES, sizeof left);
+    memcpy(&right, tile->seen[1] + vector * LANES, sizeof right);
+    vi is_right = columns > 31;
+    vi bits = (left & ~is_right) | (right & is_right);
+    return (bits << (31 - (columns & 31))) < 0;
+}
+
+/* Lists the units of all rows and returns their number. Hidden units are left out. It lists the
+ * first unit of each row, then the second of each row, and so on, so that there is no branch to
+ * predict. */
+SIMD int list_units(const struct kiln_tile *tile, const struct rows *rows, const struct box *box,
+                    const float steps[3], bool deep, struct units *units)
+{
+    int count = 0;
+    const int most = (box->x_to - box->x_from + UNIT - 1) / UNIT;
+    const vi numbers = __builtin_convertvector(vf_count(), vi);
+    for (int k = 0; k < most; k++) {
+        const float right = (float)(UNIT * k);
+        for (int i = 0; i < ROW_VECTORS; i++) {
+            vi columns = rows->from[i] + UNIT * k, listed = rows->units[i] > k;
+            if (tile->has_opaque)
+                listed &= units_seen(tile, (size_t)i, columns);
+            const struct selection selection = selection_of(listed);
+            vi at = columns + (numbers + i * LANES) * (KILN_TILE_PLANES * KILN_TILE_PITCH);
+            vi_compress(units->at + count, selection, at);
+            vf_compress(units->u + count, selection, rows->u[i] + right * steps[0]);
+            vf_compress(units->v + count, selection, rows->v[i] + right * steps[1]);
+            if (deep)
+                vf_compress(units->q + count, selection, rows->q[i] + right * steps[2]);
+            count += selection.count;
         }
-        count += rows->units[y];
     }
     return count;
-}
-
-/* Removes units whose pixels are all hidden; returns the number of units that remain. */
-SIMD int drop_hidden(const struct kiln_tile *tile, struct units *units, int count)
-{
-    int remaining = 0;
-    for (int i = 0; i < count; i++) {
-        uint32_t at = (uint32_t)units->at[i], pixel = at % (KILN_TILE_PLANES * KILN_TILE_PITCH);
-        uint64_t row = tile->transparent[at / (KILN_TILE_PLANES * KILN_TILE_PITCH)];
-        units->at[remaining] = units->at[i];
-        units->u[remaining] = units->u[i];
-        units->v[remaining] = units->v[i];
-        units->q[remaining] = units->q[i];
-        remaining += (row >> pixel & 0xff) != 0;
-    }
-    return remaining;
 }
 
 /* Appends a padding unit that lies outside of the tile, so that units can be drawn in pairs. */
