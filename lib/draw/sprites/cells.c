@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "draw/sprites/cell_pool.h"
 
 enum {
     MIXED_EDGE = KILN_ATLAS_CELL >> KILN_CELL_MIXED_LEVEL,
@@ -22,10 +23,12 @@ struct mix_source {
 
 struct kiln_cells {
     const struct kiln_atlas *atlas;
-    struct mix_source *sources; /* by layer, phase and level */
-    atomic_bool *requested;     /* by slot: the slot's cell was requested */
-    uint8_t **texels;           /* by slot: the cell, laid out; NULL: it is not made yet */
+    struct mix_source *sources;      /* by layer, phase and level */
+    atomic_bool *requested;          /* by slot: the slot's cell was requested */
+    struct kiln_cell_texels *texels; /* by slot */
     uint32_t slot_count;
+    /* the texels of each form: those that are sampled together share the processor's caches */
+    struct kiln_cell_pool pools[KILN_CELL_FORMS];
     uint32_t *missing;            /* numbers of the slots to be made now */
     struct kiln_cell_hull *hulls; /* by layer and level */
     uint8_t *moves;               /* motion of all layers, laid out; NULL: no cell moves */
@@ -62,13 +65,13 @@ static const uint8_t *cell_texels(const struct kiln_atlas *atlas, uint32_t layer
     return strip;
 }
 
-/* Lays a cell out: all four channels, then a copy with only blue and alpha, then one of alpha. */
-static void lay_out_cell(const uint8_t *from, uint32_t edge, uint8_t *to)
+/* Lays all forms of a cell out. */
+static void lay_out_cell(const uint8_t *from, uint32_t edge, const struct kiln_cell_texels *to)
 {
-    const size_t texels = kiln_cells_texels(edge);
-    lay_out(from, edge, 0, 4, to);
-    lay_out(from, edge, 2, 2, to + KILN_CELL_TEXEL * texels);
-    lay_out(from, edge, 3, 1, to + (KILN_CELL_TEXEL + KILN_CELL_PAIR) * texels);
+    for (enum kiln_cell_form form = 0; form < KILN_CELL_FORMS; form++) {
+        const uint32_t channels = kiln_cell_channels(form);
+        lay_out(from, edge, 4 - channels, channels, to->forms[form]);
+    }
 }
 
 /* Lays the atlas's motion of a layer out for sampling. */
@@ -88,7 +91,7 @@ static bool make_moves(struct kiln_cells *cells)
     if (!atlas->moves)
         return true;
     size_t bytes = KILN_CELL_PAIR * kiln_cells_texels(KILN_ATLAS_MOTION);
-    cells->moves = calloc((size_t)atlas->layers + 1, bytes); /* never 0 bytes */
+    cells->moves = kiln_cell_pool_alloc(&cells->pools[KILN_CELL_HEAT_ALPHA], atlas->layers * bytes);
     for (uint32_t i = 0; cells->moves && i < atlas->layers; i++)
         lay_out_moves(atlas->moves + (size_t)i * KILN_ATLAS_MOVES_BYTES, cells->moves + i * bytes);
     return cells->moves != NULL;
@@ -250,14 +253,13 @@ void kiln_cells_destroy(struct kiln_cells **cells)
     struct kiln_cells *c = *cells;
     if (!c)
         return;
-    for (uint32_t i = 0; c->texels && i < c->slot_count; i++)
-        free(c->texels[i]);
+    for (enum kiln_cell_form form = 0; form < KILN_CELL_FORMS; form++)
+        kiln_cell_pool_finish(&c->pools[form]);
     free(c->sources);
     free(c->requested);
     free(c->texels);
     free(c->missing);
     free(c->hulls);
-    free(c->moves);
     free(c);
     *cells = NULL;
 }
@@ -276,7 +278,7 @@ uint32_t kiln_cells_request(struct kiln_cells *cells, const struct kiln_cell_nam
 
 struct kiln_cells_content kiln_cells_content(const struct kiln_cells *cells)
 {
-    return (struct kiln_cells_content){.texels = (const uint8_t *const *)cells->texels,
+    return (struct kiln_cells_content){.texels = cells->texels,
                                        .requested = cells->requested,
                                        .hulls = cells->hulls,
                                        .moves = cells->moves,
@@ -395,7 +397,7 @@ static void mix(const struct kiln_cells *cells, uint32_t number)
                     (uint8_t)(clamp(first[c] + (second[c] - first[c]) * part, 0.0f, 255.0f) + 0.5f);
         }
     }
-    lay_out_cell(texels, edge, cells->texels[number]);
+    lay_out_cell(texels, edge, &cells->texels[number]);
 }
 
 /* Lays a layer of the atlas out as the cell of a slot with phase 0. */
@@ -404,7 +406,7 @@ static void copy(const struct kiln_cells *cells, uint32_t number)
     uint32_t layer = number / KILN_CELL_NUMBERS, level = number % KILN_CELL_LEVELS;
     uint8_t strip[4 * KILN_ATLAS_STRIP * KILN_ATLAS_STRIP];
     lay_out_cell(cell_texels(cells->atlas, layer, level, strip), kiln_cell_edge(level),
-                 cells->texels[number]);
+                 &cells->texels[number]);
 }
 
 static void mix_missing(void *context, size_t begin, size_t end, uint32_t worker)
@@ -418,16 +420,30 @@ static void mix_missing(void *context, size_t begin, size_t end, uint32_t worker
     }
 }
 
+/* Allocates the forms of a slot's cell. */
+static bool allocate(struct kiln_cells *cells, uint32_t number)
+{
+    const size_t texels = kiln_cells_texels(kiln_cell_edge(number % KILN_CELL_LEVELS));
+    struct kiln_cell_texels made;
+    for (enum kiln_cell_form form = 0; form < KILN_CELL_FORMS; form++) {
+        made.forms[form] = kiln_cell_pool_alloc(&cells->pools[form],
+                                                2 * (size_t)kiln_cell_channels(form) * texels);
+        if (!made.forms[form])
+            return false;
+    }
+    cells->texels[number] = made;
+    return true;
+}
+
 bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
                     struct kiln_error *error)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < cells->slot_count; i++) {
-        if (cells->texels[i] || !atomic_load_explicit(&cells->requested[i], memory_order_relaxed))
+        if (cells->texels[i].forms[0] ||
+            !atomic_load_explicit(&cells->requested[i], memory_order_relaxed))
             continue;
-        size_t texels = kiln_cells_texels(kiln_cell_edge(i % KILN_CELL_LEVELS));
-        cells->texels[i] = malloc((KILN_CELL_TEXEL + KILN_CELL_PAIR + KILN_CELL_ALPHA) * texels);
-        if (!cells->texels[i])
+        if (!allocate(cells, i))
             return kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
         cells->missing[count++] = i;
     }

@@ -18,9 +18,7 @@
 #include "base/thread.h"
 
 enum {
-    KILN_CELL_TEXEL = 8,   /* bytes of a texel of four channels (draw/sprites/texels.h) */
-    KILN_CELL_PAIR = 4,    /* bytes of a texel of two channels */
-    KILN_CELL_ALPHA = 2,   /* bytes of a texel of alpha alone */
+    KILN_CELL_PAIR = 4,    /* bytes of a texel of two channels (draw/sprites/texels.h) */
     KILN_CELL_MARGIN = 2,  /* columns besides the edge: the outer texels are repeated */
     KILN_CELL_PHASES = 16, /* steps from a cell to the next one */
     KILN_CELL_LEVELS = KILN_STRIP_LEVEL + 1,
@@ -82,13 +80,32 @@ uint32_t kiln_cells_request(struct kiln_cells *cells, const struct kiln_cell_nam
 bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
                     struct kiln_error *error);
 
+/* Names the forms that each cell has, for sprites that need some channels only. A form has the last
+ * channels of RGBA, each in two bytes. */
+enum kiln_cell_form {
+    KILN_CELL_RGBA,
+    KILN_CELL_HEAT_ALPHA, /* heat is the blue channel of masks */
+    KILN_CELL_ALPHA,
+    KILN_CELL_FORMS, /* number of forms */
+};
+
+/* Holds the laid-out forms of a cell; NULL: the cell is not made yet. */
+struct kiln_cell_texels {
+    uint8_t *forms[KILN_CELL_FORMS];
+};
+
+/* Returns the number of channels that a form has. */
+static inline uint32_t kiln_cell_channels(enum kiln_cell_form form)
+{
+    return form == KILN_CELL_RGBA ? 4 : form == KILN_CELL_HEAT_ALPHA ? 2 : 1;
+}
+
 /* Holds the data that sampling reads. Cells have edge + 1 rows of edge + KILN_CELL_MARGIN texels:
  * the outer texels of the atlas's cell are repeated, so that a bilinear sample needs no clamping.
- * After each cell come a copy with two channels, heat (blue) and alpha, and a copy of alpha alone,
- * for sprites that need no more. Motion is a cell of two channels, right and down, with the edge
+ * Motion is a cell of two channels, right and down, with the edge
  * KILN_ATLAS_MOTION: 128 stands for no motion, 128 + 127 for a full move. */
 struct kiln_cells_content {
-    const uint8_t *const *texels; /* by a cell's number; NULL: the cell is not made yet */
+    const struct kiln_cell_texels *texels; /* by a cell's number */
     const atomic_bool
         *requested; /* by a cell's number; true: kiln_cells_request was called for it */
     const struct kiln_cell_hull *hulls;

@@ -141,10 +141,18 @@ SIMD void follow(struct batch *batch, const struct brush *b)
     }
 }
 
+/* Returns the form of cells that a shade reads. */
+SIMD enum kiln_cell_form form_of(enum kiln_sprite_shade kind)
+{
+    return kind == KILN_SHADE_ALPHA  ? KILN_CELL_ALPHA
+           : kind == KILN_SHADE_GLOW ? KILN_CELL_HEAT_ALPHA
+                                     : KILN_CELL_RGBA;
+}
+
 /* Returns the first channel of a cell that a shade reads. */
 SIMD size_t first_channel(enum kiln_sprite_shade kind)
 {
-    return kind == KILN_SHADE_ALPHA ? 3 : kind == KILN_SHADE_GLOW ? 2 : 0;
+    return 4 - kiln_cell_channels(form_of(kind));
 }
 
 /* Returns the sampled channels of vector i, from first_channel() on. */
@@ -316,12 +324,9 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
                  (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f);
     if (kind == KILN_SHADE_PLAIN)
         return;
-    const size_t texels = (s->pitch - 1u) * (size_t)s->pitch, first = first_channel(kind);
-    const size_t offset = first == 3   ? (KILN_CELL_TEXEL + KILN_CELL_PAIR) * texels
-                          : first == 2 ? KILN_CELL_TEXEL * texels
-                                       : 0;
-    b->cell = cells->texels[s->cell] + offset;
-    b->texel = first == 3 ? KILN_CELL_ALPHA : first == 2 ? KILN_CELL_PAIR : KILN_CELL_TEXEL;
+    const enum kiln_cell_form form = form_of(kind);
+    b->cell = cells->texels[s->cell].forms[form];
+    b->texel = 2 * (int32_t)kiln_cell_channels(form);
     b->pitch = b->texel * s->pitch;
     b->edge = (s->pitch - KILN_CELL_MARGIN) * PLACE_ONE;
     b->sampled = SAMPLED_UNIT;
@@ -330,7 +335,7 @@ SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_conte
     if (mixed)
         return;
     b->sampled = SAMPLED_UNIT / (float)PART_ONE;
-    b->next = cells->texels[s->next_cell] + offset;
+    b->next = cells->texels[s->next_cell].forms[form];
     b->part = (int32_t)(s->part * (float)PART_ONE + 0.5f);
     b->moves = s->motion > 0.0f ? kiln_cells_moves(cells, s->cell) : NULL;
     float full = s->motion * (float)PLACE_ONE * (32768.0f / WAY_ONE);
