@@ -10,6 +10,7 @@
 #include "base/pages.h"
 #include "draw/sprites/bins.h"
 #include "draw/sprites/fragments.h"
+#include "draw/sprites/stream.h"
 
 enum {
     SPRITES_AT_A_TIME = 1 << 18, /* sprites of a piece */
@@ -145,9 +146,6 @@ static void begin_row(const struct tile_job *d, struct kiln_tile *tile, int y, s
     memset(planes, 0, KILN_TILE_DEPTH * sizeof *planes);
 }
 
-typedef float four __attribute__((vector_size(16)));
-typedef float four_unaligned __attribute__((vector_size(16), aligned(4), may_alias));
-
 /* Transposes four channels of four pixels into four pixels of four channels, or back. */
 static inline void transpose(four c[4])
 {
@@ -168,7 +166,10 @@ static inline void blend_pixels(const four drawn[4], const float passed[4], bool
 {
     for (size_t i = 0; i < count; i++) {
         four_unaligned *pixel = (four_unaligned *)(to + 4 * i);
-        *pixel = keep ? drawn[i] + *pixel * passed[i] : drawn[i];
+        if (keep)
+            *pixel = drawn[i] + *pixel * passed[i];
+        else
+            stream_four(to + 4 * i, drawn[i]);
     }
 }
 
@@ -251,6 +252,7 @@ static void draw_tile(const struct tile_job *d, size_t number, uint32_t worker)
                             tiles->cells, list, count);
     for (int row = 0; row < tile->height; row++)
         store_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
+    stream_end();
 }
 
 static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
