@@ -49,7 +49,6 @@ struct batch {
     vf u[BATCH], v[BATCH], depth[BATCH]; /* u, v: of plain sprites; depth: of deep sprites */
     vf rim[BATCH];                       /* rim_cover; unset unless brush.rim */
     int32_t at[BATCH][UNITS];
-    int count;
 };
 
 /* Holds the sprite that is drawn, and its tile. */
@@ -73,11 +72,10 @@ SIMD void put_rim(struct batch *batch, const struct kiln_sprite *s, int i, vf u,
     batch->rim[i] = rim_cover(s, u * texels, v * texels);
 }
 
-SIMD void put_pixels(struct batch *batch, const struct target *d, struct pixels p,
+SIMD void put_pixels(struct batch *batch, int i, const struct target *d, struct pixels p,
                      enum kiln_sprite_shade kind, bool deep, bool mixed)
 {
     const struct brush *b = &d->brush;
-    int i = batch->count++;
     bool textured = kind != KILN_SHADE_PLAIN;
     vi inside = p.inside;
     if (deep) {
@@ -115,11 +113,11 @@ SIMD void put_pixels(struct batch *batch, const struct target *d, struct pixels 
 
 /* Follows the motion of two cells to the time between them. Places are clamped to the centres of
  * the outer texels. */
-SIMD void follow(struct batch *batch, const struct brush *b)
+SIMD void follow(struct batch *batch, int count, const struct brush *b)
 {
     const int32_t half = PLACE_ONE / 2, most = b->edge + half;
     const uint32_t halves = (uint32_t)half << 16 | (uint32_t)half;
-    for (int i = 0; i < batch->count && b->moves; i++) {
+    for (int i = 0; i < count && b->moves; i++) {
         vi at = (vi)((vu)places_clamped(batch->places[0][i], half, most - 1) - halves);
         at = (vi)((vu)((at >> b->move_shift) & b->move_mask) + halves);
         batch->places[1][i] = at;
@@ -127,7 +125,7 @@ SIMD void follow(struct batch *batch, const struct brush *b)
                                   KILN_CELL_PAIR);
         memcpy(batch->texels[1][i], &texels, sizeof texels);
     }
-    for (int i = 0; i < batch->count; i++) {
+    for (int i = 0; i < count; i++) {
         vi places = batch->places[0][i], next;
         if (b->moves) {
             vi way = ways_of(sample_pairs(b->moves, batch->texels[1][i], batch->places[1][i], 1));
@@ -209,26 +207,26 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, 
     }
 }
 
-SIMD void draw_batch(struct batch *batch, const struct target *d, enum kiln_sprite_shade kind,
-                     bool deep, bool covers, bool mixed)
+/* Draws the first `count` vectors of a batch. */
+SIMD void draw_batch(struct batch *batch, int count, const struct target *d,
+                     enum kiln_sprite_shade kind, bool deep, bool covers, bool mixed)
 {
     const struct kiln_sprite *s = d->s;
     const struct brush *b = &d->brush;
     const bool textured = kind != KILN_SHADE_PLAIN;
     __asm__("" : "+m"(*batch)); /* keeps it in memory: taking vectors apart costs twice as much */
     if (textured && !mixed)
-        follow(batch, b);
-    for (int i = 0; i < batch->count && textured; i++) {
+        follow(batch, count, b);
+    for (int i = 0; i < count && textured; i++) {
         const struct vf4 cell = sample(batch, i, b, kind, mixed);
         for (size_t c = first_channel(kind); c < 4; c++)
             batch->cells[i].c[c] = cell.c[c];
     }
-    for (int i = 0; i < batch->count; i++) {
+    for (int i = 0; i < count; i++) {
         struct shaded c = textured ? shade_cell(s, b, kind, batch->cells[i])
                                    : shade_plain(s, batch->u[i], batch->v[i]);
         draw_vector(batch, i, d, c, kind == KILN_SHADE_COLOR, deep, covers);
     }
-    batch->count = 0;
 }
 
 /* ---- wide sprites: units of their rows ------------------------------------------------------- */
@@ -255,6 +253,7 @@ SIMD void draw_wide(const struct target *d, const struct kiln_cell_hull *hull,
     for (int begin = 0; begin < count; begin += BATCH / UNIT_PARTS * UNITS) {
         int end =
             count - begin < BATCH / UNIT_PARTS * UNITS ? count : begin + BATCH / UNIT_PARTS * UNITS;
+        int drawn = 0;
         for (int i = begin; i < end; i += UNITS) {
             for (int part = 0; part < UNIT_PARTS; part++) {
                 vf lane = vf_units_count(part);
@@ -265,10 +264,10 @@ SIMD void draw_wide(const struct target *d, const struct kiln_cell_hull *hull,
                     p.q = vf_units(units.q + i) + lane * steps[2];
                 for (int k = 0; k < UNITS; k++)
                     p.at[k] = units.at[i + k] + part * LANES;
-                put_pixels(batch, d, p, kind, deep, mixed);
+                put_pixels(batch, drawn++, d, p, kind, deep, mixed);
             }
         }
-        draw_batch(batch, d, kind, deep, covers, mixed);
+        draw_batch(batch, drawn, d, kind, deep, covers, mixed);
     }
 }
 
@@ -291,6 +290,7 @@ SIMD void draw_narrow(const struct target *d, const struct box *box, struct batc
     float u_row = s->u_y * scale, v_row = s->v_y * scale;
     const float end = (float)(tile->y + box->y_to);
     int32_t at = box->y_from * KILN_TILE_PLANES * KILN_TILE_PITCH + box->x_from;
+    int count = 0;
     for (int y = box->y_from; y < box->y_to; y += UNITS) {
         vf row = vf_units_number() + ((float)(tile->y + y) + 0.5f), from_anchor = row - s->y;
         for (int part = 0; part < UNIT_PARTS; part++) {
@@ -299,13 +299,15 @@ SIMD void draw_narrow(const struct target *d, const struct box *box, struct batc
                                .inside = row < end};
             for (int k = 0; k < UNITS; k++)
                 p.at[k] = at + k * KILN_TILE_PLANES * KILN_TILE_PITCH + part * LANES;
-            put_pixels(batch, d, p, kind, false, mixed);
+            put_pixels(batch, count++, d, p, kind, false, mixed);
         }
         at += UNITS * KILN_TILE_PLANES * KILN_TILE_PITCH;
-        if (batch->count == BATCH)
-            draw_batch(batch, d, kind, false, covers, mixed);
+        if (count == BATCH) {
+            draw_batch(batch, count, d, kind, false, covers, mixed);
+            count = 0;
+        }
     }
-    draw_batch(batch, d, kind, false, covers, mixed);
+    draw_batch(batch, count, d, kind, false, covers, mixed);
 }
 
 /* ---- any sprite ------------------------------------------------------------------------------ */
@@ -402,7 +404,6 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
     struct target target = {.tile = tile, .s = s};
     make_brush(tile, cells, s, kind, deep, mixed, &target.brush);
     struct batch batch;
-    batch.count = 0;
     if (!deep && box.x_to - box.x_from <= UNIT)
         draw_narrow(&target, &box, &batch, kind, covers, mixed);
     else
