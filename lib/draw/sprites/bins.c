@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/pages.h"
 
 enum { PIECE = 4096 }; /* sprites of a piece */
 
@@ -35,6 +36,7 @@ void kiln_bins_finish(struct kiln_bins *bins)
     free(bins->counts);
     free(bins->first);
     free(bins->list);
+    free(bins->boxes);
     *bins = (struct kiln_bins){0};
 }
 
@@ -81,14 +83,33 @@ void kiln_bins_measure(struct kiln_bins *bins, const float *depth, uint32_t widt
 
 struct filling {
     struct kiln_bins *bins;
-    const struct kiln_sprite *sprites;
     uint32_t count;
 };
 
-/* Returns whether a sprite lies behind the scene everywhere in a tile. */
-static bool is_hidden(const struct kiln_sprite *s, struct kiln_tile_depth depth)
+bool kiln_bins_begin(struct kiln_bins *bins, uint32_t count, struct kiln_error *error)
 {
-    return !(s->flags & KILN_SPRITE_DEEP) && s->depth > depth.farthest;
+    if (count <= bins->box_room)
+        return true;
+    free(bins->boxes);
+    bins->boxes = kiln_alloc_pages(count * sizeof *bins->boxes);
+    bins->box_room = bins->boxes ? count : 0;
+    return bins->boxes || out_of_memory(error);
+}
+
+void kiln_bins_note(const struct kiln_bins *bins, const struct kiln_sprite *sprites, size_t begin,
+                    size_t end)
+{
+    for (size_t i = begin; i < end; i++) {
+        const struct kiln_sprite *s = &sprites[i];
+        const float depth = s->flags & KILN_SPRITE_DEEP ? 0.0f : s->depth;
+        bins->boxes[i] = (struct kiln_bin_box){s->x_from, s->y_from, s->x_to, s->y_to, depth};
+    }
+}
+
+/* Returns whether a sprite lies behind the scene everywhere in a tile. */
+static bool is_hidden(const struct kiln_bin_box *s, struct kiln_tile_depth depth)
+{
+    return s->depth > depth.farthest;
 }
 
 /* Visits each tile of each sprite of a piece. Without a list it counts the sprites of each tile;
@@ -102,7 +123,7 @@ static void visit_piece(const struct filling *f, size_t piece, uint32_t *list)
     uint32_t begin = (uint32_t)piece * PIECE;
     uint32_t end = f->count - begin < PIECE ? f->count : begin + PIECE;
     for (uint32_t i = begin; i < end; i++) {
-        const struct kiln_sprite *s = &f->sprites[i];
+        const struct kiln_bin_box *s = &bins->boxes[i];
         if (s->x_from >= s->x_to)
             continue;
         uint32_t left = (uint32_t)s->x_from / KILN_TILE_WIDTH;
@@ -173,10 +194,10 @@ static bool make_room(uint32_t **array, size_t *room, size_t count)
     return *array != NULL;
 }
 
-bool kiln_bins_fill(struct kiln_bins *bins, const struct kiln_sprite *sprites, uint32_t count,
-                    struct kiln_threads *threads, struct kiln_error *error)
+bool kiln_bins_fill(struct kiln_bins *bins, uint32_t count, struct kiln_threads *threads,
+                    struct kiln_error *error)
 {
-    struct filling filling = {bins, sprites, count};
+    struct filling filling = {bins, count};
     size_t tiles = (size_t)bins->columns * bins->rows, pieces = (count + PIECE - 1) / PIECE;
     if (!make_room(&bins->counts, &bins->count_room, pieces * tiles))
         return out_of_memory(error);

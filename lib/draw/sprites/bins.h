@@ -11,11 +11,19 @@ struct kiln_tile_depth {
     float nearest, farthest;
 };
 
+/* What lists of tiles need of a sprite. */
+struct kiln_bin_box {
+    int16_t x_from, y_from, x_to, y_to; /* those of struct kiln_sprite */
+    float depth;                        /* of its nearest pixel, m; 0 if it is deep */
+};
+
 struct kiln_bins {
     uint32_t columns, rows;        /* tiles along the picture's edges */
     struct kiln_tile_depth *depth; /* by tile */
     uint32_t *counts; /* by piece and tile: a count of sprites, then a place in `list` */
     size_t count_room;
+    struct kiln_bin_box *boxes; /* by sprite */
+    size_t box_room;
     uint32_t *first; /* by tile: start of its list in `list`; at last, the end of all lists */
     uint32_t *list;  /* numbers of sprites, tile after tile */
     size_t list_room;
@@ -32,9 +40,18 @@ void kiln_bins_finish(struct kiln_bins *bins);
 void kiln_bins_measure(struct kiln_bins *bins, const float *depth, uint32_t width, uint32_t height,
                        struct kiln_threads *threads);
 
-/* Makes the lists of sprites. A sprite without pixels (x_from = x_to) is in no list. A tile does
- * not list sprites that are farther than the scene everywhere in it. */
-bool kiln_bins_fill(struct kiln_bins *bins, const struct kiln_sprite *sprites, uint32_t count,
-                    struct kiln_threads *threads, struct kiln_error *error);
+/* Makes room for the boxes of `count` sprites; earlier boxes are lost. Returns false with an error.
+ */
+bool kiln_bins_begin(struct kiln_bins *bins, uint32_t count, struct kiln_error *error);
+
+/* Notes the boxes of the sprites from `begin` to `end`. Threads may note different sprites; best
+ * soon after making them, while the processor's cache has them. */
+void kiln_bins_note(const struct kiln_bins *bins, const struct kiln_sprite *sprites, size_t begin,
+                    size_t end);
+
+/* Makes the lists of `count` sprites whose boxes are noted. A sprite without pixels (x_from = x_to)
+ * is in no list. A tile does not list sprites that are farther than the scene everywhere in it. */
+bool kiln_bins_fill(struct kiln_bins *bins, uint32_t count, struct kiln_threads *threads,
+                    struct kiln_error *error);
 
 #endif

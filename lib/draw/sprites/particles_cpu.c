@@ -102,6 +102,7 @@ struct sprite_job {
     const struct kiln_sprite_pass *pass;
     const uint32_t *entries;
     struct kiln_sprite *sprites;
+    const struct kiln_bins *bins;
 };
 
 static void make_sprites(void *context, size_t begin, size_t end, uint32_t worker)
@@ -109,6 +110,7 @@ static void make_sprites(void *context, size_t begin, size_t end, uint32_t worke
     (void)worker;
     const struct sprite_job *job = context;
     job->make(job->pass, job->entries + begin, end - begin, job->sprites + begin);
+    kiln_bins_note(job->bins, job->sprites, begin, end);
 }
 
 static bool make_room(struct kiln_raster_cpu *tiles, uint32_t count, struct kiln_error *error)
@@ -268,10 +270,12 @@ static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_p
                        const uint32_t *entries, uint32_t count, struct tile_job *tile_job,
                        struct kiln_error *error)
 {
-    struct sprite_job job = {tiles->make, pass, entries, tiles->sprites};
+    struct sprite_job job = {tiles->make, pass, entries, tiles->sprites, &tiles->bins};
+    if (!kiln_bins_begin(&tiles->bins, count, error))
+        return false;
     kiln_threads_for(tiles->threads, count, GRAIN, make_sprites, &job);
     if (!kiln_cells_mix(tiles->cells, tiles->threads, error) ||
-        !kiln_bins_fill(&tiles->bins, tiles->sprites, count, tiles->threads, error))
+        !kiln_bins_fill(&tiles->bins, count, tiles->threads, error))
         return false;
     size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
     return kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, tile_job, error);
@@ -298,9 +302,12 @@ static uint32_t make_piece(const struct sorted_pass *s, uint32_t first, struct k
 {
     const uint32_t left = s->count - first;
     const uint32_t count = left < SPRITES_AT_A_TIME ? left : SPRITES_AT_A_TIME;
-    struct sprite_job job = {s->tiles->make, s->pass, s->entries + first, s->tiles->sprites};
+    struct kiln_bins *bins = &s->tiles->bins;
+    struct sprite_job job = {s->tiles->make, s->pass, s->entries + first, s->tiles->sprites, bins};
+    if (!kiln_bins_begin(bins, count, error))
+        return 0;
     kiln_threads_for(s->tiles->threads, count, GRAIN, make_sprites, &job);
-    bool ok = kiln_bins_fill(&s->tiles->bins, s->tiles->sprites, count, s->tiles->threads, error);
+    bool ok = kiln_bins_fill(bins, count, s->tiles->threads, error);
     return ok ? count : 0;
 }
 
@@ -356,7 +363,10 @@ static bool draw_some_tiles(struct sorted_pass *s, struct tile_job *job, size_t 
         return false;
     struct kiln_sprite *piece = tiles->sprites;
     tiles->sprites = s->selected;
-    bool ok = kiln_bins_fill(&tiles->bins, s->selected, s->selected_count, tiles->threads, error);
+    bool ok = kiln_bins_begin(&tiles->bins, s->selected_count, error);
+    if (ok)
+        kiln_bins_note(&tiles->bins, s->selected, 0, s->selected_count);
+    ok = ok && kiln_bins_fill(&tiles->bins, s->selected_count, tiles->threads, error);
     job->first_tile = first_tile;
     ok = ok && kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, job, error);
     tiles->sprites = piece;
