@@ -46,8 +46,14 @@ struct pass {
 
 enum { MOST_STEPS = 200 }; /* that a scene is taken: then every one is on its way */
 
+/* A scene that stands here, not in a file. */
+struct text {
+    const char *name, *yaml;
+};
+
 /* So many and so faint that each adds less than a byte can say. */
-static const char FAINT[] =
+static const struct text FAINT = {
+    "faint",
     "kiln: 1\n"
     "simulation: {rate: 10}\n"
     "output: {frames: 4, fps: 10}\n"
@@ -55,20 +61,42 @@ static const char FAINT[] =
     "systems:\n"
     "  haze:\n"
     "    emit: {bursts: {0 s: 70000}, life: 10 s, from: {box: {size: [6, 3, 2]}}}\n"
-    "    look: {atlas: \"builtin:smoke\", size: 20 cm, opacity: 0.004, color: [1, 0.9, 0.8]}\n";
+    "    look: {atlas: \"builtin:smoke\", size: 20 cm, opacity: 0.004, color: [1, 0.9, 0.8]}\n"};
 
-/* path: of the file, or NULL for FAINT. */
-static void open_subject(struct subject *s, struct kiln_device *device, const char *path)
+/* So many particles that cells are mixed beforehand, of 11 to 21 pixels and all ages: cells of two
+ * levels, with motion and many phases. */
+static const struct text MIXED = {
+    "mixed",
+    "kiln: 1\n"
+    "simulation: {rate: 10}\n"
+    "output: {frames: 4, fps: 10}\n"
+    "camera: {position: [0, 0, 5], target: [0, 0, 0]}\n"
+    "systems:\n"
+    "  fire:\n"
+    "    emit: {bursts: {0 s: 66000}, life: [0.5 s, 10 s], from: {box: {size: [6, 3, 2]}}}\n"
+    "    look:\n"
+    "      atlas: \"builtin:fire\"\n"
+    "      cells: [8, 4]\n"
+    "      blend: add\n"
+    "      size: 27 cm\n"
+    "      scale: [0.7, 1.3]\n"
+    "      rotation: [0 deg, 360 deg]\n"
+    "      opacity: 0.01\n"
+    "      temperature: 1700\n"};
+
+/* path: of the file, or NULL for `text`. */
+static void open_subject(struct subject *s, struct kiln_device *device, const char *path,
+                         const struct text *text)
 {
     struct kiln_error error = {0};
     static const char *const overrides[] = {"output.size=[384, 216]", "post.bloom.kind=none"};
     struct kiln_scene_params params = kiln_scene_defaults();
     params.overrides = overrides;
     params.override_count = 2;
-    *s = (struct subject){.name = path ? strrchr(path, '/') + 1 : "faint",
+    *s = (struct subject){.name = path ? strrchr(path, '/') + 1 : text->name,
                           .threads = kiln_threads_create(2)};
     s->scene = path ? kiln_scene_load(path, &params, &error)
-                    : kiln_scene_parse(FAINT, strlen(FAINT), "faint", &params, &error);
+                    : kiln_scene_parse(text->yaml, strlen(text->yaml), text->name, &params, &error);
     if (!s->scene) {
         fail_msg("%s", error.message);
         return;
@@ -252,10 +280,10 @@ static void draw_pass(struct subject *s, const struct pass *pass)
 }
 
 /* All that is blended, and each layer of an EXR where that is not all. */
-static bool agree_on(struct kiln_device *device, const char *path)
+static bool agree_on(struct kiln_device *device, const char *path, const struct text *text)
 {
     struct subject s;
-    open_subject(&s, device, path);
+    open_subject(&s, device, path, text);
     draw_subject(&s);
     uint32_t fire = systems_of(s.scene, KILN_BLEND_ADD);
     uint32_t smoke = systems_of(s.scene, KILN_BLEND_ALPHA);
@@ -274,21 +302,29 @@ static bool agree_on(struct kiln_device *device, const char *path)
 static void techniques_agree_on_a_scene(void **state)
 {
     const struct test_scene *given = *state;
-    assert_true(agree_on(test_device(), given->path));
+    assert_true(agree_on(test_device(), given->path, NULL));
 }
 
 static void techniques_agree_on_what_is_faint(void **state)
 {
     (void)state;
-    assert_true(agree_on(test_device(), NULL));
+    assert_true(agree_on(test_device(), NULL, &FAINT));
+}
+
+static void techniques_agree_on_mixed_cells(void **state)
+{
+    (void)state;
+    assert_true(agree_on(test_device(), NULL, &MIXED));
 }
 
 int main(int argc, char **argv)
 {
     static const struct CMUnitTest faint = test_on_device(techniques_agree_on_what_is_faint);
+    static const struct CMUnitTest mixed = test_on_device(techniques_agree_on_mixed_cells);
     static const struct CMUnitTest scene = test_on_device(techniques_agree_on_a_scene);
     struct test_list list = {.count = 0};
     test_list_add(&list, &faint, 1);
+    test_list_add(&list, &mixed, 1);
     test_list_add_scenes(&list, scene, 1);
     return test_list_run(&list, "rasters", argc, argv, test_device_open_alone, test_device_close);
 }

@@ -1,9 +1,9 @@
 /* A kiln_cells holds the cells of flipbooks as the CPU rasteriser samples them (Heinz 2019, 3.2.4,
  * equation 3.2). By its progress through life, a particle shows a mixture of two adjacent cells.
  * For a large particle the rasteriser samples both cells, and their motion. For a small particle of
- * a large system the two cells are mixed beforehand: the part of the way between them is rounded to
- * one of KILN_CELL_PHASES, and the mixed cell is rounded to bytes and kept. Large cells are not
- * mixed, since so many of them would not stay in the processor's cache.
+ * a large system the two cells are mixed beforehand, along their motion: the part of the way
+ * between them is rounded to one of KILN_CELL_PHASES, and the mixed cell is rounded to bytes and
+ * kept. Large cells are not mixed, since so many of them would not stay in the processor's cache.
  *
  * The CPU rasteriser (particles_cpu.c) calls it for each piece of the particles: threads that make
  * sprites request cells (sprite_cells.h), then kiln_cells_mix makes those that are missing, then
@@ -31,15 +31,15 @@ enum {
     /* Mixed cells of KILN_CELL_MIXED_LEVEL have only every second phase, so that they fit into the
      * processor's cache. */
     KILN_CELL_LARGE_STEP = 2,
+    /* Flipbooks with at least KILN_CELL_MANY cells change little from a cell to the next one. They
+     * have only every second of the phases that others have, for the same reason. */
+    KILN_CELL_MANY = 32,
+    KILN_CELL_MANY_STEP = 2,
     /* Cells of this level and of coarser levels may be sampled in floats (KILN_CELL_FINE_MOST). */
     KILN_CELL_FINE_LEVEL = 3,
     /* Cells of this level and of coarser levels may be mixed, under the conditions below. */
     KILN_CELL_MIXED_LEVEL = 2,
 };
-
-/* Cells are mixed only if no texel moves farther than this, texels, since mixing blurs moving
- * texels. */
-#define KILN_CELL_MIXED_MOVE 0.5f
 
 /* Cells are mixed only for systems with at least this many slots. In a smaller system the error of
  * a single sprite is visible, and few sprites share a mixed cell. */

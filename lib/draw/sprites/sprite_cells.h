@@ -78,6 +78,13 @@ SIMD void read_hulls(struct sprite_lanes *p, vi layer)
     p->visible &= p->hull_from.c[0] < p->hull_to.c[0];
 }
 
+/* Returns how far apart the phases are that mixed cells have. count: cells of the flipbook. */
+SIMD vi step_of(vi level, vi count)
+{
+    vi step = vi_select(level > KILN_CELL_MIXED_LEVEL, vi_all(1), vi_all(KILN_CELL_LARGE_STEP));
+    return vi_select(count >= KILN_CELL_MANY, step * KILN_CELL_MANY_STEP, step);
+}
+
 /* Chooses the two adjacent cells and the part of the way between them by the progress through life
  * (equation 3.2). */
 static void choose_cells(struct sprite_lanes *p)
@@ -91,14 +98,9 @@ static void choose_cells(struct sprite_lanes *p)
     vf motion = p->texture.c[3] * edge;
     vi alone = (count == 1) & (motion == 0.0f); /* the next cell is the cell itself */
     position = vf_where(~alone, position);
-    vi mixed =
-        (p->level >= KILN_CELL_MIXED_LEVEL) & (motion <= KILN_CELL_MIXED_MOVE) & p->mixes_cells;
-    mixed |= alone;
-    vi fine = p->level > KILN_CELL_MIXED_LEVEL;
-    vi step = vi_select(fine, vi_all(1), vi_all(KILN_CELL_LARGE_STEP));
-    vf steps = vf_select(fine, vf_all(KILN_CELL_PHASES),
-                         vf_all((float)(KILN_CELL_PHASES / KILN_CELL_LARGE_STEP)));
-    vi phase = step * vi_of(position * steps + 0.5f);
+    vi mixed = ((p->level >= KILN_CELL_MIXED_LEVEL) & p->mixes_cells) | alone;
+    vi step = step_of(p->level, count);
+    vi phase = step * vi_of(position * ((float)KILN_CELL_PHASES / vf_of(step)) + 0.5f);
     vi number = vi_select(mixed, (vi)((vu)phase / KILN_CELL_PHASES), vi_of(position));
     /* number is below 2^20, so the rounded quotient never reaches the next integer. */
     vi cell = number - vi_of(vf_of(number) / counted) * count;
