@@ -172,8 +172,8 @@ static void smoke_dims_a_lamp_by_its_optical_depth(void **state)
 static const float *run_again(const struct smoke_fixture *f, struct kiln_lamp_smoke *smoke,
                               struct kiln_draw_light *lights, uint32_t *count)
 {
-    float *before = (float *)(uintptr_t)run(f, smoke, lights, count);
-    memset(before, 0xff, *count * KILN_LAMP_SMOKE_MAP * sizeof *before);
+    const float *before = run(f, smoke, lights, count);
+    memset((void *)before, 0xff, *count * KILN_LAMP_SMOKE_MAP * sizeof *before);
     return run(f, smoke, lights, count);
 }
 

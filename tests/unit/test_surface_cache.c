@@ -134,7 +134,8 @@ static void frames_are_the_same_as_alone(void **state)
             render(scene, (struct kiln_frame_range){k, k}, 1, &alone);
         assert_true(together.count == FRAMES && alone.count == FRAMES);
         for (size_t k = 0; k < FRAMES; k++) {
-            if (memcmp(together.frames[k], alone.frames[k], 4 * sizeof(float) * WIDTH * HEIGHT))
+            if (memcmp(together.frames[k], alone.frames[k], 4 * sizeof(float) * WIDTH * HEIGHT) !=
+                0)
                 fail_msg("%s: frame %zu differs from the frame alone", CLIPS[i].name, k);
         }
         free_clip(&together);

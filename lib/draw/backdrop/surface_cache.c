@@ -131,7 +131,7 @@ static bool reserve_edges(struct kiln_surface_cache *cache)
 {
     const uint32_t vectors = EDGE_ROWS * cache->width / cache->lanes;
     const size_t pixels = (size_t)vectors * cache->lanes;
-    const size_t floats = vectors * KILN_EDGE_SAMPLES * kiln_cache_ray(cache);
+    const size_t floats = (size_t)vectors * KILN_EDGE_SAMPLES * kiln_cache_ray(cache);
     bool ok = true;
     for (uint32_t i = 0; ok && i < tiles_of(cache); i++) {
         struct kiln_cached_edges *edges = &cache->edges[i];
