@@ -68,7 +68,7 @@ void kiln_between_destroy(struct kiln_between **between)
 static void prepare(struct kiln_between *between, const struct kiln_pool *after)
 {
     struct kiln_pool *pool = &between->pool;
-    if (pool->slot_count == 0)
+    if (!pool->records.label) /* not made yet; a scene without systems has buffers of 0 bytes */
         kiln_buffer_init(&pool->records, between->device, after->records.size,
                          "particles within a step");
     if (pool->spins.size != after->spins.size)
