@@ -108,8 +108,6 @@ static void close_encoder(void *opaque)
 static void *open_encoder(const struct kiln_output_params *params, struct kiln_temporary *file,
                           struct kiln_error *error)
 {
-    if (!kiln_libdeflate_open(error)) /* again: not all callers check parameters before */
-        return NULL;
     struct exr_encoder *encoder = calloc(1, sizeof *encoder);
     if (!encoder) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the EXR encoder",

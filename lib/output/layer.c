@@ -90,6 +90,8 @@ static bool encode(const struct kiln_format *format, const struct kiln_picture *
         .png_bits = picture->bits,
         .exr_bits = 32,
     };
+    if (!format->check(&params, error))
+        return false;
     void *encoder = format->open(&params, file, error);
     const bool ok = encoder && format->encode(encoder, picture, error) &&
                     (!format->finish || format->finish(encoder, NULL, error));

@@ -42,7 +42,7 @@ struct block_part {
     /* For each cell, how many of the particles it gets, and behind the last cell the number of dead
      * ones. After sum_cells: for each cell, the place of the block's next entry. */
     uint32_t *counts;
-    /* Of sort_at_once alone: the range of the block's pairs, and the span of their keys. */
+    /* The range of the block's pairs, and the span of their keys; sort_at_once alone sets them. */
     size_t first, count;
     struct kiln_sort_span span;
 };

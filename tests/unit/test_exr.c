@@ -122,78 +122,92 @@ static void values_and_metadata_come_back(void **state)
     test_remove_folder(folder);
 }
 
+/* Holds an EXR file of one frame, before and after it is written. */
+struct written {
+    char folder[32], path[64];
+    struct kiln_frame_range range;
+    struct kiln_output_params params;
+    struct kiln_output *output;
+    struct kiln_picture *picture; /* the test may change it; the output takes it */
+    exr_context_t file;
+};
+
+static void begin_file(struct written *w, uint32_t bits)
+{
+    struct kiln_error error = {0};
+    *w = (struct written){.range = {0, 0}};
+    test_make_folder(w->folder);
+    snprintf(w->path, sizeof w->path, "%s/x.exr", w->folder);
+    w->params = test_output_params(w->path, &w->range);
+    w->params.exr_bits = bits;
+    w->output = kiln_output_open(&w->params, &error);
+    assert_non_null(w->output);
+    w->picture = test_picture(w->output, &w->params, 0);
+}
+
+static void write_file(struct written *w)
+{
+    struct kiln_error error = {0};
+    assert_true(kiln_output_write(w->output, w->picture, &error));
+    assert_true(kiln_output_finish(w->output, &error));
+    kiln_output_close(&w->output);
+    assert_int_equal(exr_start_read(&w->file, w->path, NULL), EXR_ERR_SUCCESS);
+}
+
+static void remove_file(struct written *w)
+{
+    exr_finish(&w->file);
+    test_remove_folder(w->folder);
+}
+
 /* Brighter than a half can say stays finite; depth keeps every bit, infinity too. */
 static void extremes_survive(void **state)
 {
     (void)state;
-    char folder[32], path[64];
-    test_make_folder(folder);
-    snprintf(path, sizeof path, "%s/x.exr", folder);
-    const struct kiln_frame_range range = {0, 0};
-    struct kiln_output_params params = test_output_params(path, &range);
-    struct kiln_error error = {0};
-    struct kiln_output *output = kiln_output_open(&params, &error);
-    assert_non_null(output);
-    struct kiln_picture *picture = test_picture(output, &params, 0);
-    picture->layers[0].pixels[0] = 1e9f;
-    picture->layers[0].pixels[1] = -1e9f;
-    picture->layers[1].pixels[0] = 1e9f + 64.0f;
-    picture->layers[1].pixels[1] = INFINITY;
-    assert_true(kiln_output_write(output, picture, &error));
-    assert_true(kiln_output_finish(output, &error));
-    kiln_output_close(&output);
-
-    exr_context_t file = NULL;
-    assert_int_equal(exr_start_read(&file, path, NULL), EXR_ERR_SUCCESS);
-    float *red = read_channel(file, "R", 64, 36), *green = read_channel(file, "G", 64, 36);
-    float *depth = read_channel(file, "Z", 64, 36);
+    struct written w;
+    begin_file(&w, 16);
+    w.picture->layers[0].pixels[0] = 1e9f;
+    w.picture->layers[0].pixels[1] = -1e9f;
+    w.picture->layers[1].pixels[0] = 1e9f + 64.0f;
+    w.picture->layers[1].pixels[1] = INFINITY;
+    write_file(&w);
+    float *red = read_channel(w.file, "R", 64, 36), *green = read_channel(w.file, "G", 64, 36);
+    float *depth = read_channel(w.file, "Z", 64, 36);
     assert_true(red[0] == 65504.0f && green[0] == -65504.0f);
     assert_true(depth[0] == 1e9f + 64.0f && isinf(depth[1]));
     free(red);
     free(green);
     free(depth);
-    exr_finish(&file);
-    test_remove_folder(folder);
+    remove_file(&w);
+}
+
+static void fill_with_noise(struct kiln_layer *layer, size_t pixels, uint32_t seed)
+{
+    for (size_t i = 0; i < pixels * layer->channels; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        const uint32_t bits = seed & 0xbfffffffu; /* no infinity */
+        memcpy(&layer->pixels[i], &bits, sizeof bits);
+    }
 }
 
 /* A chunk that compression would not make smaller is stored as it is. */
 static void noise_survives(void **state)
 {
     (void)state;
-    char folder[32], path[64];
-    test_make_folder(folder);
-    snprintf(path, sizeof path, "%s/x.exr", folder);
-    const struct kiln_frame_range range = {0, 0};
-    struct kiln_output_params params = test_output_params(path, &range);
-    params.exr_bits = 32;
-    struct kiln_error error = {0};
-    struct kiln_output *output = kiln_output_open(&params, &error);
-    assert_non_null(output);
-    struct kiln_picture *picture = test_picture(output, &params, 0);
-    const size_t pixels = (size_t)params.width * params.height;
-    uint32_t state_of_noise = 1;
-    for (uint32_t i = 0; i < picture->layer_count; i++) {
-        for (size_t k = 0; k < pixels * picture->layers[i].channels; k++) {
-            state_of_noise = state_of_noise * 1664525u + 1013904223u;
-            const uint32_t bits = state_of_noise & 0xbfffffffu; /* no infinity */
-            memcpy(&picture->layers[i].pixels[k], &bits, sizeof bits);
-        }
-    }
+    struct written w;
+    begin_file(&w, 32);
+    const size_t pixels = (size_t)w.params.width * w.params.height;
+    for (uint32_t i = 0; i < w.picture->layer_count; i++)
+        fill_with_noise(&w.picture->layers[i], pixels, i);
     float *expected = malloc(pixels * sizeof *expected);
     assert_non_null(expected);
-    memcpy(expected, picture->layers[1].pixels, pixels * sizeof *expected);
-    assert_true(kiln_output_write(output, picture, &error));
-    assert_true(kiln_output_finish(output, &error));
-    kiln_output_close(&output);
-
-    exr_context_t file = NULL;
-    assert_int_equal(exr_start_read(&file, path, NULL), EXR_ERR_SUCCESS);
-    float *depth = read_channel(file, "Z", (int)params.width, (int)params.height);
+    memcpy(expected, w.picture->layers[1].pixels, pixels * sizeof *expected);
+    write_file(&w);
+    float *depth = read_channel(w.file, "Z", (int)w.params.width, (int)w.params.height);
     assert_memory_equal(depth, expected, pixels * sizeof *expected);
     free(depth);
     free(expected);
-    exr_finish(&file);
-    test_remove_folder(folder);
+    remove_file(&w);
 }
 
 static void other_depths_are_refused(void **state)

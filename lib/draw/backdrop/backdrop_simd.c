@@ -284,8 +284,12 @@ SIMD void place_mirrored_nodes(const struct kiln_ray_frame *frame, int first, co
                                const struct ray_hit *hit, vi within, struct lamp_grid *mirrored)
 {
     const vi floor = within & (hit->surface == 0.0f);
-    const struct ray reflected = {ray_at(ray, hit->t),
-                                  floor_reflection_along(frame, ray).at.direction};
+    const struct vf3 at = ray_at(ray, hit->t);
+    if (!any(floor)) {
+        place_nodes(first, hit, at, floor, mirrored);
+        return;
+    }
+    const struct ray reflected = {at, floor_reflection_along(frame, ray).at.direction};
     const struct ray_place nowhere = {.layer = -1};
     const struct kiln_ray_objects objects = all_objects(frame);
     const struct ray_hit seen =

@@ -68,8 +68,8 @@ void kiln_surface_cache_destroy(struct kiln_surface_cache **cache)
 
 /* ---- what is the same ------------------------------------------------------------------------ */
 
-/* Returns inputs without all that changes only the light: a picture with equal ones shows the same
- * surfaces, sun and sky. */
+/* Copies inputs without all that changes only the light: pictures whose copies are equal show the
+ * same surfaces, sun and sky. */
 static void keep_surfaces(const struct kiln_backdrop_inputs *inputs,
                           struct kiln_backdrop_inputs *surfaces)
 {

@@ -11,7 +11,7 @@ struct kiln_tile_depth {
     float nearest, farthest;
 };
 
-/* What lists of tiles need of a sprite. */
+/* Holds what the lists of tiles need of a sprite. */
 struct kiln_bin_box {
     int16_t x_from, y_from, x_to, y_to; /* those of struct kiln_sprite */
     float depth;                        /* of its nearest pixel, m; 0 if it is deep */
