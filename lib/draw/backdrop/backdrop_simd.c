@@ -152,22 +152,6 @@ SIMD struct shaded_rays shade_rays(const struct kiln_ray_frame *frame,
     return shaded;
 }
 
-SIMD uint32_t first_bits(uint32_t count)
-{
-    return (uint32_t)((1ull << count) - 1);
-}
-
-static struct kiln_ray_objects all_objects(const struct kiln_ray_frame *frame)
-{
-    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
-    return (struct kiln_ray_objects){first_bits(frame->backdrop->counts.x),
-                                     first_bits(round.x),
-                                     first_bits(round.y),
-                                     first_bits(oriented.x),
-                                     first_bits(oriented.y),
-                                     first_bits(oriented.z)};
-}
-
 /* Adds the reflection of a glossy floor by following the reflected ray. eye: what helps with the
  * ray from the eye. */
 SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *ray,

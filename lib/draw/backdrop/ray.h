@@ -29,4 +29,22 @@ struct kiln_ray_objects {
     uint32_t boxes, spheres, cylinders, capsules, oriented_boxes, planes;
 };
 
+/* Returns the lowest bits, one for each of `count` objects. */
+static inline uint32_t first_bits(uint32_t count)
+{
+    return (uint32_t)((1ull << count) - 1);
+}
+
+/* Returns all objects of a frame. */
+static inline struct kiln_ray_objects all_objects(const struct kiln_ray_frame *frame)
+{
+    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
+    return (struct kiln_ray_objects){first_bits(frame->backdrop->counts.x),
+                                     first_bits(round.x),
+                                     first_bits(round.y),
+                                     first_bits(oriented.x),
+                                     first_bits(oriented.y),
+                                     first_bits(oriented.z)};
+}
+
 #endif
