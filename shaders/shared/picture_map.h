@@ -6,13 +6,14 @@
 
 #include "shared/real.h"
 
-/* Fetches along the longer edge of the part of the floor that a pixel covers. */
+/* The most fetches along the longer edge of the part of the floor that a pixel covers. */
 #define FLOOR_TAPS 8
 
-/* The footprint of a pixel on the floor, a parallelogram. Several fetches lie along its longer
- * edge, m; its shorter edge chooses their level. */
+/* The footprint of a pixel on the floor, a parallelogram. So many fetches, a whole number, lie
+ * along its longer edge, m, that none is farther from the next than a texel of their level is wide;
+ * its shorter edge chooses the level. */
 struct floor_footprint {
-    real longer_x, longer_z, level;
+    real longer_x, longer_z, level, taps;
 };
 
 /* How far a place on the floor moves, m. */
@@ -48,15 +49,18 @@ REAL_FN S(floor_footprint) floor_footprint_of(real3 direction, real t, float4 ri
     S(floor_footprint) footprint;
     footprint.longer_x = real_select(along_u, u.x, v.x);
     footprint.longer_z = real_select(along_u, u.z, v.z);
-    footprint.level =
-        real_log2(real_min(real_max(covered * texels_a_m, real_all(1e-6f)), real_all(1e9f)));
+    real texels = real_min(real_max(covered * texels_a_m, real_all(1e-6f)), real_all(1e9f));
+    footprint.level = real_log2(texels);
+    real length = square * inverse * texels_a_m;
+    footprint.taps = real_clamp(real_floor(length / real_max(texels, real_all(1.0f)) + 0.99f), 1.0f,
+                                FLOAT(FLOOR_TAPS));
     return footprint;
 }
 
 /* Returns where fetch i lies along the longer edge, as a part of it from the middle. */
-FN float floor_tap_of(int i)
+REAL_FN real floor_tap_of(S(floor_footprint) footprint, int i)
 {
-    return (FLOAT(i) + 0.5f) / FLOAT(FLOOR_TAPS) - 0.5f;
+    return (FLOAT(i) + 0.5f) / footprint.taps - 0.5f;
 }
 
 /* Texture coordinates. */

@@ -165,15 +165,17 @@ SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame,
     const struct kiln_pyramid *picture = frame->floor_image;
     const float4 map = frame->shapes->floor_map;
     const struct ray_level_pair levels = level_pair(picture, vf_where(active, footprint->level));
+    const vf taps = vf_where(active, footprint->taps);
     struct vf3 sum = {{0}, {0}, {0}};
-    for (int i = 0; i < FLOOR_TAPS; i++) {
-        const float way = floor_tap_of(i);
+    for (int i = 0; any(taps > (float)i); i++) {
+        const vf way = floor_tap_of(*footprint, i);
         const vf u = (x + footprint->longer_x * way) * map.x;
         const vf v = (z + footprint->longer_z * way) * map.y;
-        sum = vf3_add(sum, gather_picture(picture, &levels, vf_where(active, u - vf_floor(u)),
-                                          vf_where(active, v - vf_floor(v)), true));
+        const struct vf3 color = gather_picture(picture, &levels, vf_where(active, u - vf_floor(u)),
+                                                vf_where(active, v - vf_floor(v)), true);
+        sum = vf3_add_scaled(sum, color, vf_where(taps > (float)i, vf_all(1.0f)));
     }
-    return vf3_scale(sum, vf_all(1.0f / (float)FLOOR_TAPS));
+    return vf3_scale(sum, 1.0f / footprint->taps);
 }
 
 /* ---- the sky --------------------------------------------------------------------------------- */

@@ -11,9 +11,9 @@ vec3 floor_picture(vec2 position, vec3 direction, float t)
                            view.frustum, shapes.floor_map.z);
     vec2 longer = vec2(covered.longer_x, covered.longer_z);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < FLOOR_TAPS; i++) {
-        vec2 at = position + longer * floor_tap_of(i);
+    for (int i = 0; i < int(covered.taps); i++) {
+        vec2 at = position + longer * floor_tap_of(covered, i);
         sum += textureLod(floor_image, at * shapes.floor_map.xy, covered.level).rgb;
     }
-    return sum / float(FLOOR_TAPS);
+    return sum / covered.taps;
 }
