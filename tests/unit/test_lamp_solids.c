@@ -84,6 +84,13 @@ static const uint32_t *level_of(const struct fixture *f, size_t face, uint32_t l
                (face * KILN_LAMP_TEXELS + kiln_shadow_level_start(KILN_LAMP_EDGE, level));
 }
 
+/* Returns texel i, row by row, of the finest level of a face. */
+static const uint32_t *texel_of(const uint32_t *finest, int i)
+{
+    const int row = i / KILN_LAMP_EDGE, column = i % KILN_LAMP_EDGE;
+    return finest + KILN_LAMP_SOLID_WORDS * (row * KILN_SHADOW_PITCH(KILN_LAMP_EDGE) + column);
+}
+
 /* Returns the solid angle that solids cover in the direct part of all faces, sr. Each texel is
  * weighed by its own solid angle. */
 static double covered_angle(const struct fixture *f)
@@ -95,8 +102,7 @@ static double covered_angle(const struct fixture *f)
         for (int i = 0; i < KILN_LAMP_EDGE * KILN_LAMP_EDGE; i++) {
             const double u = (i % KILN_LAMP_EDGE + 0.5) * step - (double)KILN_LAMP_RANGE;
             const double v = (i / KILN_LAMP_EDGE + 0.5) * step - (double)KILN_LAMP_RANGE;
-            const double part =
-                (texels[KILN_LAMP_SOLID_WORDS * i] & 0xffff) / (double)KILN_SHADOW_ONE;
+            const double part = (texel_of(texels, i)[0] & 0xffff) / (double)KILN_SHADOW_ONE;
             const double wide = fmax(0, fmin(1, (1 - fabs(u)) / step + 0.5));
             const double high = fmax(0, fmin(1, (1 - fabs(v)) / step + 0.5));
             sum += part * wide * high * step * step / pow(1 + u * u + v * v, 1.5);
@@ -149,7 +155,7 @@ static void levels_have_the_means(void **state)
     const uint32_t *finest = level_of(&f, 0, 0), *last = level_of(&f, 0, KILN_LAMP_LEVELS - 1);
     const int count = KILN_LAMP_EDGE * KILN_LAMP_EDGE;
     for (int i = 0; i < count; i++) {
-        const uint32_t *texel = finest + KILN_LAMP_SOLID_WORDS * i;
+        const uint32_t *texel = texel_of(finest, i);
         const double cover = texel[0] & 0xffff, distance = texel[0] >> 16,
                      square = texel[1] & 0xffff;
         /* One ball fills a texel: there is one distance. */

@@ -83,8 +83,8 @@ struct shaded_rays {
 
 /* Describes pixels of a row whose rays are cast. */
 struct grid_row {
-    const struct lamp_grid *grid, *mirrored; /* of their strip, and of its reflections or NULL */
-    uint32_t column, row;                    /* of the first pixel, in the strip */
+    const struct light_grid *grid, *mirrored; /* of their strip, and of its reflections or NULL */
+    uint32_t column, row;                     /* of the first pixel, in the strip */
 };
 
 /* Describes what helps to shade rays; members are NULL where there is no such help. */
@@ -251,21 +251,26 @@ SIMD void store_numbers(float *to, vf numbers, uint32_t count)
         to[i] = all[i];
 }
 
-/* Returns a bit for each lamp that objects hide and whose shadows are not in the cache. */
-static uint32_t find_shadow_lamps(const struct kiln_backdrop_picture *p)
+/* Returns the lights that objects hide and whose shadows are not in the cache. */
+static struct grid_lights find_shadow_lights(const struct kiln_backdrop_picture *p)
 {
     const struct kiln_draw_backdrop *b = p->frame->backdrop;
-    uint32_t lamps = 0;
+    const struct kiln_draw_shapes *s = p->frame->shapes;
+    const uint32_t objects = b->counts.x + s->counts.x + s->counts.y + s->counts.z +
+                             s->oriented_counts.x + s->oriented_counts.y;
+    struct grid_lights lights = {.sky = objects > 0};
     for (uint32_t i = 0; i < b->counts.y; i++) {
         if (b->lights[i].casters.x | b->lights[i].casters.y)
-            lamps |= 1u << i;
+            lights.lamps |= 1u << i;
     }
-    return p->cache && p->cache->use == KILN_CACHE_FILLED ? lamps & ~p->cache->lamps : lamps;
+    if (p->cache && p->cache->use == KILN_CACHE_FILLED)
+        lights = (struct grid_lights){lights.lamps & ~p->cache->lamps, false};
+    return lights;
 }
 
 /* Places nodes of a strip's reflections where the nodes of the strip are on the floor. */
 SIMD void place_mirrored_nodes(const struct kiln_ray_frame *frame, int first, const struct ray *ray,
-                               const struct ray_hit *hit, vi within, struct lamp_grid *mirrored)
+                               const struct ray_hit *hit, vi within, struct light_grid *mirrored)
 {
     const vi floor = within & (hit->surface == 0.0f);
     const struct vf3 at = ray_at(ray, hit->t);
@@ -281,11 +286,11 @@ SIMD void place_mirrored_nodes(const struct kiln_ray_frame *frame, int first, co
     place_nodes(first, &seen, ray_at(&reflected, seen.t), floor, mirrored);
 }
 
-/* Fills the grids of the strip at (x, y) and of its reflections (NULL: none) for some lamps, a bit
- * for each. */
+/* Fills the grids of the strip at (x, y) and of its reflections (NULL: none). */
 static void fill_grids(const struct kiln_backdrop_picture *p,
                        const struct kiln_ray_objects *objects, uint32_t x, uint32_t y,
-                       uint32_t lamps, struct lamp_grid *grid, struct lamp_grid *mirrored)
+                       struct grid_lights lights, struct light_grid *grid,
+                       struct light_grid *mirrored)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const vi width = vi_all((int32_t)p->width), height = vi_all((int32_t)p->height);
@@ -303,9 +308,9 @@ static void fill_grids(const struct kiln_backdrop_picture *p,
         if (mirrored)
             place_mirrored_nodes(frame, i, &eye.ray, &hit, within, mirrored);
     }
-    judge_grid(frame, lamps, grid);
+    judge_grid(frame, lights, grid);
     if (mirrored)
-        judge_grid(frame, lamps, mirrored);
+        judge_grid(frame, lights, mirrored);
 }
 
 /* Returns the numbers of the surfaces that rays hit, by which edges are found. */
@@ -353,19 +358,20 @@ static uint32_t rows_from(const struct kiln_backdrop_picture *p, uint32_t y)
 static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 {
     const uint32_t y_to = rows_from(p, y);
-    const uint32_t shadows = find_shadow_lamps(p);
-    struct lamp_grid grid, reflections;
-    struct lamp_grid *mirrored = p->frame->floor_gloss ? &reflections : NULL;
+    const struct grid_lights lights = find_shadow_lights(p);
+    const bool has_grid = lights.lamps || lights.sky;
+    struct light_grid grid, reflections;
+    struct light_grid *mirrored = p->frame->floor_gloss ? &reflections : NULL;
     for (uint32_t strip = 0; strip < p->width; strip += STRIP) {
         /* with a column and a row more, for the nodes */
         const struct kiln_ray_objects objects = find_objects(p, strip, y, STRIP + 1);
-        if (shadows)
-            fill_grids(p, &objects, strip, y, shadows, &grid, mirrored);
+        if (has_grid)
+            fill_grids(p, &objects, strip, y, lights, &grid, mirrored);
         uint32_t x_to = strip + STRIP < p->width ? strip + STRIP : p->width;
         for (uint32_t row = y; row < y_to; row++) {
             for (uint32_t x = strip; x < x_to; x += LANES) {
                 const struct grid_row at = {&grid, mirrored, x - strip, row - y};
-                cast_pixels(p, &objects, x, row, shadows ? &at : NULL);
+                cast_pixels(p, &objects, x, row, has_grid ? &at : NULL);
             }
         }
     }

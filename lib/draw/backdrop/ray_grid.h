@@ -1,15 +1,16 @@
-/* This header interpolates the part of each lamp that surfaces see past objects. A lamp fills a
- * disc of the sky, so its shadows are blurred, and mostly wider than a few pixels. The picture is
- * divided into strips of blocks of GRID_STEP x GRID_STEP pixels. What is seen is computed at the
- * blocks' corners, the nodes of a grid. A pixel takes it from its block's corners where no shadow
- * can be missed: the corners and the pixel lie on one smooth piece of surface, what is seen hardly
- * bends between nodes, and every object that may hide the lamp has a penumbra wider than the block.
- * All other pixels compute it. Blocks do not depend on the width of vectors, so neither does the
- * picture. */
+/* This header interpolates the parts of the sky and of each lamp that surfaces see past objects. A
+ * lamp fills a disc of the sky, so its shadows are blurred, and mostly wider than a few pixels;
+ * the sky is all around. The picture is divided into strips of blocks of GRID_STEP x GRID_STEP
+ * pixels. What is seen is computed at the blocks' corners, the nodes of a grid. A pixel takes it
+ * from its block's corners where no shadow can be missed: the corners and the pixel lie on one
+ * smooth piece of surface, what is seen hardly bends between nodes, and every object that may hide
+ * a lamp has a penumbra wider than the block. All other pixels compute it. Blocks do not depend on
+ * the width of vectors, so neither does the picture. */
 #ifndef KILN_DRAW_BACKDROP_RAY_GRID_H
 #define KILN_DRAW_BACKDROP_RAY_GRID_H
 
 #include "draw/backdrop/ray_shapes.h"
+#include "draw/backdrop/ray_sky.h"
 #include "draw/light/ray_lamp.h"
 #include "shared/lamp.h"
 
@@ -31,21 +32,30 @@ enum {
 #define GRID_ALIKE_COSINE 0.98f
 #define GRID_ALIKE_SLOPE  0.15f
 
-/* How much what is seen of a lamp may bend (bend_around), in parts of the lamp. */
-#define GRID_BEND 0.02f
+/* How much what is seen may bend (bend_around), in parts of a lamp or of the sky. */
+#define GRID_BEND     0.02f
+#define GRID_SKY_BEND 0.01f
 
 /* The least width of the filter that blurs shadows from maps, as a part of a block's extent. */
 #define GRID_BLUR 0.25f
 
-struct lamp_grid {
+/* Describes what is interpolated. */
+struct grid_lights {
+    uint32_t lamps; /* a bit for each */
+    bool sky;
+};
+
+struct light_grid {
     /* by node */
     _Alignas(64) float surface[GRID_NODE_ROOM];
     float at[3][GRID_NODE_ROOM], normal[3][GRID_NODE_ROOM];
     float seen[GRID_LAMPS][GRID_NODE_ROOM]; /* of each lamp; -1: the node faces away from it */
     float blur[GRID_LAMPS][GRID_NODE_ROOM]; /* of shadows from maps, m */
+    float sky[GRID_NODE_ROOM];              /* the part that is seen; -1: no surface */
     /* by block */
     int32_t alike[GRID_BLOCKS];              /* mask: the corners lie on one smooth piece */
     int32_t smooth[GRID_LAMPS][GRID_BLOCKS]; /* mask: what they see of a lamp may be interpolated */
+    int32_t sky_smooth[GRID_BLOCKS];         /* mask: the same of the sky */
     float size2[GRID_BLOCKS];                /* square of the extent of the corners, m2 */
 };
 
@@ -59,7 +69,7 @@ SIMD struct vf3 gather_vector(const float (*from)[GRID_NODE_ROOM], vi node)
 
 /* Stores the hits of LANES nodes. within: mask of those in the picture. */
 SIMD void place_nodes(int first, const struct ray_hit *hit, struct vf3 at, vi within,
-                      struct lamp_grid *grid)
+                      struct light_grid *grid)
 {
     const vi active = within & (hit->surface >= 0.0f);
     vf_store(grid->surface + first, vf_select(active, hit->surface, vf_all(-1.0f)));
@@ -78,7 +88,7 @@ SIMD struct vf3 load_vector(const float (*from)[GRID_NODE_ROOM], int first)
 
 /* Computes what LANES nodes see of lamp i. */
 SIMD void light_nodes(const struct kiln_ray_frame *frame, uint32_t i, int first,
-                      struct lamp_grid *grid)
+                      struct light_grid *grid)
 {
     const struct kiln_draw_light *lamp = &frame->backdrop->lights[i];
     const struct vf3 at = load_vector(grid->at, first), normal = load_vector(grid->normal, first);
@@ -94,6 +104,19 @@ SIMD void light_nodes(const struct kiln_ray_frame *frame, uint32_t i, int first,
     vf_store(grid->blur[i] + first, lit.blur);
 }
 
+/* Computes what LANES nodes see of the sky. */
+SIMD void light_nodes_by_sky(const struct kiln_ray_frame *frame, int first, struct light_grid *grid)
+{
+    const vi active = vf_load(grid->surface + first) >= 0.0f;
+    vf seen = vf_all(1.0f);
+    if (any(active)) {
+        const struct ray_point point = {load_vector(grid->at, first),
+                                        load_vector(grid->normal, first), active};
+        seen = sky_past_objects(frame, &point);
+    }
+    vf_store(grid->sky + first, vf_select(active, seen, vf_all(-1.0f)));
+}
+
 /* ---- blocks ---------------------------------------------------------------------------------- */
 
 /* Returns the lanes where a point lies on the smooth piece of surface around another one, not
@@ -107,13 +130,19 @@ SIMD vi on_same_piece(struct vf3 at, struct vf3 normal, struct vf3 other, struct
            (off * off <= GRID_ALIKE_SLOPE * GRID_ALIKE_SLOPE * size2);
 }
 
-/* Returns the lanes where a shape hides nothing of the lamp from a ball, or has a penumbra there
- * that is as wide as the ball. towards, size: of the shape's bounding sphere; distance: from the
- * ball's centre to the shape, m. */
+/* Returns the lanes where a shape has a penumbra that is as wide as the ball that is lit. distance:
+ * from the ball's centre to the shape, m. */
+SIMD vi has_wide_penumbra(const struct lamp_way *way, vf distance)
+{
+    return distance * (way->radius / way->reach) >= way->lit;
+}
+
+/* Returns the lanes where a shape hides nothing of the lamp from a ball, or has a wide penumbra
+ * there. towards, size: of the shape's bounding sphere; distance: from the ball's centre to the
+ * shape, m. */
 SIMD vi casts_smoothly(const struct lamp_way *way, struct vf3 towards, float size, vf distance)
 {
-    const vf penumbra = distance * (way->radius / way->reach);
-    return ~lamp_meets(towards, size, *way) | (penumbra >= way->lit);
+    return ~lamp_meets(towards, size, *way) | has_wide_penumbra(way, distance);
 }
 
 /* Return the distance from a point to a shape, m; 0 inside of it. towards: the way to the shape's
@@ -163,6 +192,17 @@ SIMD vi is_beside(float4 half, struct vf3 towards, struct vf3 to_lamp, struct vf
     return beside;
 }
 
+/* Returns what casts_smoothly does, for a box and a block of a surface. towards, to_lamp, normal:
+ * as for is_beside. */
+SIMD vi box_casts_smoothly(const struct lamp_way *way, float4 half, struct vf3 towards,
+                           struct vf3 to_lamp, struct vf3 normal)
+{
+    const struct vf3 direction = vf3_scale(to_lamp, 1.0f / way->reach);
+    return ~lamp_meets_box(towards, half, direction, way) |
+           has_wide_penumbra(way, distance_to_box(towards, half)) |
+           is_beside(half, towards, to_lamp, normal, way->lit);
+}
+
 /* Returns the lanes where all shapes cast smooth shadows on a block of a surface. size: of the
  * block, m. */
 SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
@@ -178,9 +218,7 @@ SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
         const float4 center = objects->box_center[__builtin_ctz(of)];
         const float4 half = objects->box_half[__builtin_ctz(of)];
         const struct vf3 towards = vf3_towards(center, at);
-        smooth &=
-            casts_smoothly(&way, towards, lamp_box_size(half), distance_to_box(towards, half)) |
-            is_beside(half, towards, to_lamp, normal, size);
+        smooth &= box_casts_smoothly(&way, half, towards, to_lamp, normal);
     }
     for (uint32_t of = take_bits(&casters, shapes->counts.x); of; of &= of - 1) {
         const float4 sphere = shapes->spheres[__builtin_ctz(of)];
@@ -191,7 +229,7 @@ SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
         const int i = __builtin_ctz(of);
         const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
         const struct vf3 towards = vf3_towards(cylinder, at);
-        smooth &= casts_smoothly(&way, towards, sqrtf(cylinder.w * cylinder.w + axis.w * axis.w),
+        smooth &= casts_smoothly(&way, towards, cylinder_size(cylinder, axis),
                                  distance_to_cylinder(towards, cylinder.w, axis));
     }
     for (uint32_t of = take_bits(&casters, shapes->oriented_counts.x); of; of &= of - 1) {
@@ -205,10 +243,8 @@ SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[__builtin_ctz(of)];
         const struct vf3 towards = vf3_towards(box->center, at);
         const struct vf3 to_box = into_box(box, towards);
-        smooth &=
-            casts_smoothly(&way, towards, lamp_box_size(box->half_size),
-                           distance_to_box(to_box, box->half_size)) |
-            is_beside(box->half_size, to_box, into_box(box, to_lamp), into_box(box, normal), size);
+        smooth &= box_casts_smoothly(&way, box->half_size, to_box, into_box(box, to_lamp),
+                                     into_box(box, normal));
     }
     return smooth;
 }
@@ -252,7 +288,7 @@ SIMD struct grid_blocks grid_blocks_from(int first)
 /* Decides for LANES blocks whether their corners lie on one smooth piece of surface, and which
  * lamps shapes hide smoothly. */
 SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, uint32_t lamps,
-                         struct lamp_grid *grid)
+                         struct light_grid *grid)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     const vi node = grid_blocks_from(first).node;
@@ -284,7 +320,7 @@ SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, uint32_t
 
 /* Removes blocks from those that are smooth for a lamp: some corner faces away from the lamp, what
  * is seen of it bends around the block, or its shadow is sharp there. */
-SIMD void judge_seen(uint32_t lamp, int first, struct lamp_grid *grid)
+SIMD void judge_seen(uint32_t lamp, int first, struct light_grid *grid)
 {
     static const int32_t corners[4] = {0, 1, GRID_COLUMNS, GRID_COLUMNS + 1};
     const struct grid_blocks blocks = grid_blocks_from(first);
@@ -302,20 +338,42 @@ SIMD void judge_seen(uint32_t lamp, int first, struct lamp_grid *grid)
     memcpy(grid->smooth[lamp] + first, &smooth, sizeof smooth);
 }
 
+/* Finds the blocks whose corners see alike parts of the sky. */
+SIMD void judge_sky(const struct kiln_ray_frame *frame, struct light_grid *grid)
+{
+    for (int first = 0; first < GRID_NODES; first += LANES)
+        light_nodes_by_sky(frame, first, grid);
+    for (int first = 0; first < GRID_BLOCKS; first += LANES) {
+        const struct grid_blocks blocks = grid_blocks_from(first);
+        const vf bend = bend_around(grid->sky, blocks.node, blocks.column, blocks.row);
+        vi smooth;
+        memcpy(&smooth, grid->alike + first, sizeof smooth);
+        smooth &= bend <= GRID_SKY_BEND;
+        memcpy(grid->sky_smooth + first, &smooth, sizeof smooth);
+    }
+}
+
+static inline bool are_some(const int32_t masks[GRID_BLOCKS])
+{
+    int32_t some = 0;
+    for (int block = 0; block < GRID_BLOCKS; block++)
+        some |= masks[block];
+    return some != 0;
+}
+
 /* Finds what may be interpolated in a grid whose nodes have their places. Where no block is smooth
- * for a lamp, the nodes need not see it. lamps: a bit for each lamp that pixels will ask for. */
-SIMD void judge_grid(const struct kiln_ray_frame *frame, uint32_t lamps, struct lamp_grid *grid)
+ * for a light, the nodes need not see it. lights: those that pixels will ask for. */
+SIMD void judge_grid(const struct kiln_ray_frame *frame, struct grid_lights lights,
+                     struct light_grid *grid)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     for (int first = 0; first < GRID_BLOCKS; first += LANES)
-        judge_surfaces(frame, first, lamps, grid);
+        judge_surfaces(frame, first, lights.lamps, grid);
+    memset(grid->sky_smooth, 0, sizeof grid->sky_smooth);
+    if (lights.sky && are_some(grid->alike))
+        judge_sky(frame, grid);
     for (uint32_t i = 0; i < b->counts.y; i++) {
-        if (!(lamps >> i & 1))
-            continue;
-        int32_t some = 0;
-        for (int block = 0; block < GRID_BLOCKS; block++)
-            some |= grid->smooth[i][block];
-        if (!some)
+        if (!(lights.lamps >> i & 1) || !are_some(grid->smooth[i]))
             continue;
         for (int first = 0; first < GRID_NODES; first += LANES)
             light_nodes(frame, i, first, grid);
@@ -328,14 +386,14 @@ SIMD void judge_grid(const struct kiln_ray_frame *frame, uint32_t lamps, struct 
 
 /* Holds where pixels lie in a grid. */
 struct grid_place {
-    const struct lamp_grid *grid;
+    const struct light_grid *grid;
     vi block, node;
     vf right, down; /* part of the way between the block's corners */
     vi alike;       /* mask: the pixel lies on the smooth piece of its block */
 };
 
 /* Returns the places of pixels of a row of a strip, from its column on. */
-SIMD struct grid_place grid_place_of(const struct lamp_grid *grid, uint32_t column, uint32_t row,
+SIMD struct grid_place grid_place_of(const struct light_grid *grid, uint32_t column, uint32_t row,
                                      const struct ray_hit *hit, struct vf3 at)
 {
     const vi x = vi_count() + (int32_t)column, across = x >> 2;
@@ -354,20 +412,31 @@ SIMD struct grid_place grid_place_of(const struct lamp_grid *grid, uint32_t colu
     return place;
 }
 
-/* Returns the lanes where what is seen of lamp i is interpolated, and what that is. */
-SIMD vi grid_seen(const struct grid_place *place, uint32_t i, vf *seen)
+/* Interpolates numbers of nodes in the lanes whose blocks are smooth, and returns these lanes. */
+SIMD vi grid_between(const struct grid_place *place, const float *from,
+                     const int32_t smooth[GRID_BLOCKS], vf *seen)
 {
-    const struct lamp_grid *grid = place->grid;
-    const vi known = place->alike & vi_gather(grid->smooth[i], place->block);
+    const vi known = place->alike & vi_gather(smooth, place->block);
     if (!any(known))
         return known;
-    const float *from = grid->seen[i];
     const vf a = vf_gather(from, place->node), b = vf_gather(from + 1, place->node);
     const vf c = vf_gather(from + GRID_COLUMNS, place->node);
     const vf d = vf_gather(from + GRID_COLUMNS + 1, place->node);
     const vf above = a + (b - a) * place->right, below = c + (d - c) * place->right;
     *seen = above + (below - above) * place->down;
     return known;
+}
+
+/* Return the lanes where what is seen of lamp i, or of the sky, is interpolated, and what that is.
+ */
+SIMD vi grid_lamp_seen(const struct grid_place *place, uint32_t i, vf *seen)
+{
+    return grid_between(place, place->grid->seen[i], place->grid->smooth[i], seen);
+}
+
+SIMD vi grid_sky_seen(const struct grid_place *place, vf *seen)
+{
+    return grid_between(place, place->grid->sky, place->grid->sky_smooth, seen);
 }
 
 #endif

@@ -50,10 +50,16 @@ SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,
     vf visible = vf_all(1.0f);
     for (uint32_t i = 0; i < b->counts.x; i++) {
         const struct vf3 towards = vf3_towards(b->box_center[i], receiver->origin);
-        const vi near = sun_may_be_hidden(frame, receiver, towards, lamp_box_size(b->box_half[i]));
+        vi near = sun_may_be_hidden(frame, receiver, towards, lamp_box_size(b->box_half[i]));
         if (!any(near))
             continue;
         struct ray_slabs s = ray_cross_slabs(towards, b->box_half[i], inverses);
+        const vf grow = cone_at_box(vf_all(0.0f), vf_all(frame->shapes->sun_right.w), towards,
+                                    b->box_half[i], vf3_all(b->sun_direction));
+        const struct box_crossing crossing = cross_grown_box(&s, inverses, grow);
+        near &= (crossing.enters <= crossing.leaves) & (crossing.leaves >= 0.0f);
+        if (!any(near))
+            continue;
         if (!frame->soft_sun) {
             vi hidden = near & ray_is_blocked(ray_slabs_interval(s));
             visible = vf_where(~hidden, visible);
@@ -84,17 +90,23 @@ SIMD vf round_sun_visibility(const struct kiln_ray_frame *frame,
     const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
     vf visible = vf_all(1.0f);
     for (int i = 0; i < (int)shapes->counts.x; i++) {
+        const float4 sphere = shapes->spheres[i];
+        const struct vf3 towards = vf3_towards(sphere, receiver->origin);
+        if (!any(sun_may_be_hidden(frame, receiver, towards, sphere.w)))
+            continue;
         if (frame->soft_sun)
-            visible *= 1.0f - ball_cover(vf3_towards(shapes->spheres[i], receiver->origin),
-                                         shapes->spheres[i].w, way, vf_all(shapes->sun_right.w),
-                                         vf_all(0.0f))
-                                  .cover;
+            visible *=
+                1.0f -
+                ball_cover(towards, sphere.w, way, vf_all(shapes->sun_right.w), vf_all(0.0f)).cover;
         else
             visible =
-                vf_where(~ray_is_blocked(ray_cross_ball(shapes->spheres[i], receiver->origin, way)),
-                         visible);
+                vf_where(~ray_is_blocked(ray_cross_ball(sphere, receiver->origin, way)), visible);
     }
     for (int i = 0; i < (int)shapes->counts.y; i++) {
+        if (!any(sun_may_be_hidden(frame, receiver,
+                                   vf3_towards(shapes->cylinders[i], receiver->origin),
+                                   cylinder_size(shapes->cylinders[i], shapes->cylinder_axis[i]))))
+            continue;
         if (frame->soft_sun) {
             visible *= 1.0f - cylinder_of_sun(frame, i, receiver->origin);
         } else {
@@ -125,6 +137,10 @@ SIMD vf oriented_sun_visibility(const struct kiln_ray_frame *frame,
     const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
     vf visible = vf_all(1.0f);
     for (int i = 0; i < (int)shapes->oriented_counts.x; i++) {
+        const float4 capsule = shapes->capsules[i];
+        if (!any(sun_may_be_hidden(frame, receiver, vf3_towards(capsule, receiver->origin),
+                                   capsule.w + shapes->capsule_axis[i].w)))
+            continue;
         if (frame->soft_sun)
             visible *= 1.0f - capsule_cover(frame, i, receiver->origin);
         else
@@ -168,16 +184,18 @@ SIMD vf mesh_cover(const struct kiln_ray_frame *frame, int i, const struct sun_r
     if (!any(near))
         return vf_all(0.0f);
 
-    struct shadow_sample shadow = read_shadow(&map, first, at.u, at.v, shadow_level(widest) + 1.0f);
+    struct shadow_filter filter = shadow_filter_of(&map, first, shadow_level(widest) + 1.0f);
+    struct shadow_sample shadow = read_shadow(&map, &filter, at.u, at.v);
     near &= shadow.cover > 0.0f;
     if (!any(near))
         return vf_all(0.0f);
     vf width = shadow_width(at, spread, shadow.cover, shadow.distance);
-    vf level = shadow_level(width), stride = 0.5f * width, cover = vf_all(0.0f);
+    filter = shadow_filter_of(&map, first, shadow_level(width));
+    vf stride = 0.5f * width, cover = vf_all(0.0f);
     vf ramp = 1.0f / (at.slack + stride);
     for (int k = 0; k < 4; k++) {
         vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
-        shadow = read_shadow(&map, first, at.u + aside_u, at.v + aside_v, level);
+        shadow = read_shadow(&map, &filter, at.u + aside_u, at.v + aside_v);
         cover += shadow_tap(at, aside_u, aside_v, shadow.cover, shadow.distance, ramp);
     }
     return vf_where(near, cover);

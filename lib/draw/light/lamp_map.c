@@ -197,12 +197,14 @@ static void draw_face(const struct kiln_lamp_maps *maps, uint32_t number, uint32
     };
     maps->rows->draw(&strip, canvas->triangles, canvas->list, count);
     uint32_t *texels = maps->texels + ((size_t)number * KILN_LAMP_FACES + face) * KILN_LAMP_TEXELS;
+    uint32_t *finest = texels + kiln_shadow_level_start(EDGE, 0);
     const float inverse_far = 1.0f / lamp->far;
     for (size_t y = 0; y < EDGE; y++) {
         for (size_t x = 0; x < EDGE; x++) {
             const float nearness = canvas->nearness[y * PITCH + x];
             const float distance = exact_min(inverse_far / exact_max(nearness, 1e-6f), 1.0f);
-            texels[y * EDGE + x] = nearness > 0.0f ? kiln_shadow_texel(distance) : 0;
+            finest[y * KILN_SHADOW_PITCH(EDGE) + x] =
+                nearness > 0.0f ? kiln_shadow_texel(distance) : 0;
         }
     }
     for (uint32_t level = 1; level < KILN_LAMP_LEVELS; level++)
@@ -272,10 +274,11 @@ static bool reserve(struct kiln_lamp_maps *maps, uint32_t count, struct kiln_err
 {
     if (count <= maps->room)
         return true;
-    const size_t lamp = (size_t)KILN_LAMP_FACES * KILN_LAMP_TEXELS * sizeof *maps->texels;
-    uint32_t *texels = realloc(maps->texels, count * lamp);
+    const size_t lamp = (size_t)KILN_LAMP_FACES * KILN_LAMP_TEXELS;
+    uint32_t *texels = realloc(maps->texels, count * lamp * sizeof *texels);
     if (!texels)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of lamps: out of memory");
+    memset(texels + maps->room * lamp, 0, (count - maps->room) * lamp * sizeof *texels);
     maps->texels = texels;
     maps->room = count;
     return true;

@@ -11,8 +11,8 @@
 enum {
     KILN_LAMP_LEVELS = 9, /* down to 1 texel */
     KILN_LAMP_FACES = 6,
-    KILN_LAMP_TEXELS = (4 * KILN_LAMP_EDGE * KILN_LAMP_EDGE - 1) / 3, /* of all levels of a face */
-    KILN_LAMP_MAPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS,          /* the most lamps with maps */
+    KILN_LAMP_TEXELS = KILN_SHADOW_MAP_TEXELS(KILN_LAMP_EDGE, KILN_LAMP_LEVELS), /* of a face */
+    KILN_LAMP_MAPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS, /* the most lamps with maps */
 };
 
 struct kiln_lamp_maps;
@@ -28,7 +28,7 @@ void kiln_lamp_maps_destroy(struct kiln_lamp_maps **maps);
 
 /* Draws the maps of the lights whose `casters` is not 0, and sets their numbers and reach. A map
  * that already shows the same meshes from the same place is kept. Returns the texels: for each
- * number its faces, for each face its levels, the finest first. *count becomes how many lamps have
+ * number its faces (shadow_levels.h). *count becomes how many lamps have
  * maps. NULL with an error when memory is short. */
 const uint32_t *kiln_lamp_maps_run(struct kiln_lamp_maps *maps, const struct kiln_moment *moment,
                                    struct kiln_draw_light *lights, uint32_t light_count,

@@ -17,7 +17,7 @@ static_assert(EDGE == 1 << (KILN_SHADOW_LEVELS - 1), "down to one texel");
 bool kiln_mesh_shadow_init(struct kiln_mesh_shadow *shadow, struct kiln_error *error)
 {
     *shadow = (struct kiln_mesh_shadow){.drawn = false};
-    shadow->texels = malloc(KILN_SHADOW_TEXELS * sizeof *shadow->texels);
+    shadow->texels = calloc(KILN_SHADOW_TEXELS, sizeof *shadow->texels);
     return shadow->texels ||
            kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
 }
@@ -136,7 +136,8 @@ static void draw_band(const struct shadow_job *d, uint32_t band, float *nearness
                        lists->first[band + 1] - lists->first[band]);
     for (uint32_t row = 0; row < KILN_MESH_ROWS; row++) {
         const float *from = nearness + row * canvas->pitch;
-        uint32_t *to = d->shadow->texels + (size_t)(y + row) * EDGE;
+        uint32_t *to = d->shadow->texels + kiln_shadow_level_start(EDGE, 0) +
+                       (size_t)(y + row) * KILN_SHADOW_PITCH(EDGE);
         for (uint32_t x = 0; x < EDGE; x++) {
             const float distance = exact_clamp(1.0f - from[x], 0.0f, 1.0f);
             to[x] = from[x] > 0.0f ? kiln_shadow_texel(distance) : 0;

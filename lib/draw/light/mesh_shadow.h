@@ -11,12 +11,11 @@
 
 enum {
     KILN_SHADOW_LEVELS = 11, /* each of half the edge of the one before, down to 1 texel */
-    KILN_SHADOW_TEXELS = (4 * KILN_SHADOW_EDGE * KILN_SHADOW_EDGE - 1) / 3, /* of all levels */
+    KILN_SHADOW_TEXELS = KILN_SHADOW_MAP_TEXELS(KILN_SHADOW_EDGE, KILN_SHADOW_LEVELS),
 };
 
 struct kiln_mesh_shadow {
-    /* KILN_SHADOW_TEXELS texels (shadow_levels.h), the finest level first. */
-    uint32_t *texels;
+    uint32_t *texels;             /* KILN_SHADOW_TEXELS (shadow_levels.h) */
     struct kiln_draw_mesh placed; /* the mesh that the map shows, and the sun at that time */
     float4 right, up, sun;
     bool drawn;

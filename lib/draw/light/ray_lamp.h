@@ -29,6 +29,13 @@ SIMD void blur_lamp(struct lamp_receiver *r, vi near, vf width)
     r->blur = vf_select(near, vf_min(r->blur, wide), r->blur);
 }
 
+/* Returns the radius of a cylinder's bounding sphere, m. axis: its direction and half its height.
+ */
+SIMD float cylinder_size(float4 cylinder, float4 axis)
+{
+    return sqrtf(cylinder.w * cylinder.w + axis.w * axis.w);
+}
+
 /* Rotates a direction from the world to the frame of a box. */
 SIMD struct vf3 into_box(const struct kiln_draw_oriented_box *box, struct vf3 v)
 {
@@ -42,23 +49,45 @@ SIMD vi lamp_may_be_hidden(const struct lamp_receiver *r, struct vf3 towards, fl
     return r->active & lamp_meets(towards, size, r->way);
 }
 
+/* Returns the radius of a cone of light at the place of a box that is farthest along it, m. lit,
+ * spread: of lamp_way; towards: the way to the box's centre; direction: of the light; both are
+ * along the box's axes. */
+SIMD vf cone_at_box(vf lit, vf spread, struct vf3 towards, float4 half, struct vf3 direction)
+{
+    const vf extent =
+        vf_abs(direction.x) * half.x + vf_abs(direction.y) * half.y + vf_abs(direction.z) * half.z;
+    const vf far = vf_max(vf3_dot(towards, direction) + extent, vf_all(0.0f));
+    return lit + vf_max(spread, vf_all(0.0f)) * far + 1e-3f;
+}
+
+/* Holds the t at which rays enter and leave a box. */
+struct box_crossing {
+    vf enters, leaves;
+};
+
+/* Returns where rays cross a box after it is grown to all sides, m. */
+SIMD struct box_crossing cross_grown_box(const struct ray_slabs *s, struct vf3 inverse, vf grow)
+{
+    const struct vf3 more = {grow * vf_abs(inverse.x), grow * vf_abs(inverse.y),
+                             grow * vf_abs(inverse.z)};
+    const struct vf3 near = vf3_sub(s->near, more), far = vf3_add(s->far, more);
+    return (struct box_crossing){vf_max(vf_max(near.x, near.y), near.z),
+                                 vf_min(vf_min(far.x, far.y), far.z)};
+}
+
 /* Returns the lanes where a box may hide a part of a lamp: those in which the way to the lamp meets
- * the box after it is grown by the widest radius of the cone of light, which is that at the lamp's
- * far side. A box is mostly much smaller than its bounding sphere. towards: the way to the box's
- * centre; direction: to the lamp; both are along the box's axes. */
+ * the box after it is grown by the cone of light. A box is mostly much smaller than its bounding
+ * sphere. towards: the way to the box's centre; direction: to the lamp; both are along the box's
+ * axes. */
 SIMD vi lamp_meets_box(struct vf3 towards, float4 half, struct vf3 direction,
                        const struct lamp_way *way)
 {
     const struct vf3 inverse = ray_inverse3(direction);
-    const vf grow =
-        vf_max(vf_max(way->spread, vf_all(0.0f)) * way->radius + way->radius, way->lit) + 1e-3f;
     const struct ray_slabs s = ray_cross_slabs(towards, half, inverse);
-    const struct vf3 more = {grow * vf_abs(inverse.x), grow * vf_abs(inverse.y),
-                             grow * vf_abs(inverse.z)};
-    const struct vf3 near = vf3_sub(s.near, more), far = vf3_add(s.far, more);
-    const vf enters = vf_max(vf_max(near.x, near.y), near.z);
-    const vf leaves = vf_min(vf_min(far.x, far.y), far.z);
-    return (enters <= leaves) & (leaves >= -way->lit) & (enters <= way->reach + way->radius);
+    const vf grow = cone_at_box(way->lit, way->spread, towards, half, direction);
+    const struct box_crossing c = cross_grown_box(&s, inverse, grow);
+    return (c.enters <= c.leaves) & (c.leaves >= -way->lit) &
+           (c.enters <= way->reach + way->radius);
 }
 
 SIMD void hide_lamp(struct lamp_receiver *r, vi near, vf cover)
@@ -96,8 +125,7 @@ SIMD void hide_lamp_by_round(const struct kiln_draw_shapes *shapes, uint32_t sph
         const int i = __builtin_ctz(cylinders);
         const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
         const struct vf3 towards = vf3_towards(cylinder, r->origin);
-        const float size = sqrtf(cylinder.w * cylinder.w + axis.w * axis.w);
-        const vi near = lamp_may_be_hidden(r, towards, size);
+        const vi near = lamp_may_be_hidden(r, towards, cylinder_size(cylinder, axis));
         if (any(near))
             hide_lamp(r, near, lamp_cylinder_cover(towards, cylinder.w, axis, r->way));
     }
@@ -157,18 +185,20 @@ SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct ki
     const vi first = face * KILN_LAMP_TEXELS;
     const vf widest = lamp_widest(place, radius, r->way.lit), level = lamp_level(widest) + 1.0f;
     blur_lamp(r, near, widest);
-    struct shadow_sample shadow = read_shadow(&maps, first, place.at.u, place.at.v, level);
+    struct shadow_filter filter = shadow_filter_of(&maps, first, level);
+    struct shadow_sample shadow = read_shadow(&maps, &filter, place.at.u, place.at.v);
     near &= shadow.cover > 0.0f;
     if (!any(near))
         return vf_all(0.0f);
     const vf width = lamp_width(place, radius, r->way.lit, far, shadow.cover, shadow.distance);
     blur_lamp(r, near, width);
-    const vf fine = lamp_level(width), stride = 0.5f * width;
+    filter = shadow_filter_of(&maps, first, lamp_level(width));
+    const vf stride = 0.5f * width;
     const vf ramp = 1.0f / (place.at.slack + stride * (2.0f * KILN_LAMP_RANGE) * place.at.depth);
     vf cover = vf_all(0.0f);
     for (int k = 0; k < 4; k++) {
         vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
-        shadow = read_shadow(&maps, first, place.at.u + aside_u, place.at.v + aside_v, fine);
+        shadow = read_shadow(&maps, &filter, place.at.u + aside_u, place.at.v + aside_v);
         cover += shadow_tap(place.at, aside_u, aside_v, shadow.cover, shadow.distance, ramp);
     }
     return vf_where(near, cover);
@@ -196,7 +226,8 @@ SIMD vf lamp_solid_cover(const struct kiln_lamp_objects *objects,
     const vi first = face * KILN_LAMP_TEXELS;
     const vf widest = lamp_widest(to.place, radius, r->way.lit), level = lamp_level(widest) + 1.0f;
     blur_lamp(r, near, widest);
-    struct shadow_sample shadow = read_shadow(&maps, first, at.u, at.v, level);
+    struct shadow_filter filter = shadow_filter_of(&maps, first, level);
+    struct shadow_sample shadow = read_shadow(&maps, &filter, at.u, at.v);
     near &= shadow.cover > 0.0f;
     if (!any(near))
         return vf_all(0.0f);
@@ -205,11 +236,12 @@ SIMD vf lamp_solid_cover(const struct kiln_lamp_objects *objects,
         middle ? lamp_other_distance(at, found, shadow.distance, shadow.square) : shadow.distance;
     const vf width = lamp_solid_width(to, radius, r->way.lit, far, found, distance);
     blur_lamp(r, near, width);
-    const vf fine = lamp_level(width), stride = 0.5f * width, ramp = 1.0f / at.slack;
+    filter = shadow_filter_of(&maps, first, lamp_level(width));
+    const vf stride = 0.5f * width, ramp = 1.0f / at.slack;
     vf cover = vf_all(0.0f);
     for (int k = 0; k < 4; k++) {
         vf aside_u = k & 1 ? stride : -stride, aside_v = k >> 1 ? stride : -stride;
-        shadow = read_shadow(&maps, first, at.u + aside_u, at.v + aside_v, fine);
+        shadow = read_shadow(&maps, &filter, at.u + aside_u, at.v + aside_v);
         cover += middle ? lamp_solid_tap(at, shadow.cover, shadow.distance, shadow.square)
                         : shadow_tap(at, aside_u, aside_v, shadow.cover, shadow.distance, ramp);
     }

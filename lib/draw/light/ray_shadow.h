@@ -21,56 +21,81 @@ struct shadow_sample {
     vf square, narrow; /* as in lamp_solids.h; 0 where texels have one word */
 };
 
-/* Interpolates linearly between four texels of a level; texels beside the map are empty. first:
- * where the map starts, in texels. */
-SIMD struct shadow_sample read_shadow_level(const struct shadow_map *map, vi first, vf u, vf v,
-                                            vi level)
+/* Describes a level of maps in each lane: its edge, texels, and where its first texel is. */
+struct shadow_level {
+    vf edge;
+    vi start;
+};
+
+/* Describes how maps are read in each lane: between two levels. */
+struct shadow_filter {
+    struct shadow_level fine, coarse;
+    vf part; /* of the way from the fine level to the coarse one */
+};
+
+/* first: where the map starts, in texels. */
+SIMD struct shadow_level shadow_level_at(const struct shadow_map *map, vi first, vf level)
 {
-    vi edge = vi_all(map->edge) >> level;
-    vf size = vf_of(edge);
-    vf x = vf_min(vf_max(u * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
-    vf y = vf_min(vf_max(v * size - 0.5f, vf_all(-2.0f)), size + 1.0f);
-    vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
-    /* Finer levels have edge^2 + edge^2 / 4 + ... texels. */
-    vi start = first + (4 * map->edge * map->edge - 4 * edge * edge) / 3;
+    const vi number = vi_of(level), edge = vi_all(map->edge) >> number, finest = number <= 0;
+    const vi row = vi_select(finest, vi_all(1), KILN_SHADOW_COARSE_ROW(map->edge, number, edge));
+    const vi column = vi_select(finest, vi_all(1), vi_all(KILN_SHADOW_COARSE_COLUMN(map->edge)));
+    return (struct shadow_level){vf_of(edge), first + row * KILN_SHADOW_PITCH(map->edge) + column};
+}
+
+/* Returns the filter for a level, which need not be whole. */
+SIMD struct shadow_filter shadow_filter_of(const struct shadow_map *map, vi first, vf level)
+{
+    const float last = (float)(map->levels - 1);
+    level = vf_clamp(level, 0.0f, last);
+    const vf fine = vf_floor(level), coarse = vf_min(fine + 1.0f, vf_all(last));
+    return (struct shadow_filter){shadow_level_at(map, first, fine),
+                                  shadow_level_at(map, first, coarse), level - fine};
+}
+
+/* Interpolates linearly between four texels of a level; texels beside the map are empty. Numbers
+ * are in units of 1 / KILN_SHADOW_ONE. */
+SIMD struct shadow_sample read_shadow_level(const struct shadow_map *map,
+                                            const struct shadow_level *level, vf u, vf v)
+{
+    const vf x = vf_min(vf_max(u * level->edge - 0.5f, vf_all(-1.0f)), level->edge);
+    const vf y = vf_min(vf_max(v * level->edge - 0.5f, vf_all(-1.0f)), level->edge);
+    const vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
+    const int32_t pitch = KILN_SHADOW_PITCH(map->edge);
+    const vi at = (level->start + vi_of(top) * pitch + vi_of(left)) * map->words;
     struct shadow_sample sum = {{0}, {0}, {0}, {0}};
     for (int i = 0; i < 4; i++) {
-        vi column = vi_of(left) + (i & 1), row = vi_of(top) + (i >> 1);
-        vi inside = (column >= 0) & (row >= 0) & (column < edge) & (row < edge);
-        vf weight = (i & 1 ? right : 1.0f - right) * (i >> 1 ? down : 1.0f - down);
-        weight = vf_where(inside, weight);
-        vi at = vi_select(inside, start + row * edge + column, vi_all(0));
-        vi texel = vi_gather((const int32_t *)map->texels, at * map->words);
-        weight *= 1.0f / (float)KILN_SHADOW_ONE;
+        const int32_t *texels =
+            (const int32_t *)map->texels + ((i >> 1) * pitch + (i & 1)) * map->words;
+        const vf weight = (i & 1 ? right : 1.0f - right) * (i >> 1 ? down : 1.0f - down);
+        const vi texel = vi_gather(texels, at);
+        sum.cover += weight * vf_of(texel & 0xffff);
+        sum.distance += weight * vf_of(texel >> 16 & 0xffff);
         if (map->words > 1) {
-            vi more = vi_gather((const int32_t *)map->texels + 1, at * map->words);
+            const vi more = vi_gather(texels + 1, at);
             sum.square += weight * vf_of(more & 0xffff);
             sum.narrow += weight * vf_of(more >> 16 & 0xffff);
         }
-        sum.cover += weight * vf_of(texel & 0xffff);
-        sum.distance += weight * vf_of(texel >> 16 & 0xffff);
     }
     return sum;
 }
 
-/* Reads a shadow map, interpolated between two levels. */
-SIMD struct shadow_sample read_shadow(const struct shadow_map *map, vi first, vf u, vf v, vf level)
+/* Reads a shadow map at a place. */
+SIMD struct shadow_sample read_shadow(const struct shadow_map *map,
+                                      const struct shadow_filter *filter, vf u, vf v)
 {
-    const float last = (float)(map->levels - 1);
-    level = vf_clamp(level, 0.0f, last);
-    vf fine = vf_floor(level), part = level - fine;
-    struct shadow_sample shadow = read_shadow_level(map, first, u, v, vi_of(fine));
-    if (any(part > 0.0f)) {
-        vf coarse = vf_min(fine + 1.0f, vf_all(last));
-        struct shadow_sample coarser = read_shadow_level(map, first, u, v, vi_of(coarse));
-        shadow.cover += (coarser.cover - shadow.cover) * part;
-        shadow.distance += (coarser.distance - shadow.distance) * part;
+    struct shadow_sample shadow = read_shadow_level(map, &filter->fine, u, v);
+    if (any(filter->part > 0.0f)) {
+        const struct shadow_sample coarse = read_shadow_level(map, &filter->coarse, u, v);
+        shadow.cover += (coarse.cover - shadow.cover) * filter->part;
+        shadow.distance += (coarse.distance - shadow.distance) * filter->part;
         if (map->words > 1) {
-            shadow.square += (coarser.square - shadow.square) * part;
-            shadow.narrow += (coarser.narrow - shadow.narrow) * part;
+            shadow.square += (coarse.square - shadow.square) * filter->part;
+            shadow.narrow += (coarse.narrow - shadow.narrow) * filter->part;
         }
     }
-    return shadow;
+    const float unit = 1.0f / (float)KILN_SHADOW_ONE;
+    return (struct shadow_sample){shadow.cover * unit, shadow.distance * unit, shadow.square * unit,
+                                  shadow.narrow * unit};
 }
 
 #endif

@@ -1,5 +1,8 @@
 /* This header declares the levels of shadow maps of meshes on the host: each has half the edge of
- * the one before, down to one texel, and holds means of four texels. */
+ * the one before, down to one texel, and holds means of four texels. All levels of a map lie in one
+ * array of rows: the finest on the left, the others below each other on its right. An empty row or
+ * column lies between any two of them and around them, so that a fetch between four texels needs
+ * no test for a level's border. */
 #ifndef KILN_DRAW_LIGHT_SHADOW_LEVELS_H
 #define KILN_DRAW_LIGHT_SHADOW_LEVELS_H
 
@@ -13,11 +16,22 @@
  * light and 1 farthest from it. */
 enum { KILN_SHADOW_ONE = 65535 };
 
-/* Returns where a level starts, in texels. edge: of the first level, a power of two. */
+/* The texels of a row of a map, and of a whole map, of such an edge (a power of two) and so many
+ * levels. The empty column on the right of a row is the one on the left of the next. */
+#define KILN_SHADOW_PITCH(edge)              ((edge) + (edge) / 2 + 2)
+#define KILN_SHADOW_MAP_TEXELS(edge, levels) (KILN_SHADOW_PITCH(edge) * ((edge) + (levels) + 1))
+
+/* The row and the column of the first texel of a coarser level than the finest, whose first texel
+ * is in row 1 and column 1. width: the edge of that level. */
+#define KILN_SHADOW_COARSE_ROW(edge, level, width) ((edge)-2 * (width) + (level))
+#define KILN_SHADOW_COARSE_COLUMN(edge)            ((edge) + 2)
+
+/* Returns where the first texel of a level is, in texels. */
 static inline size_t kiln_shadow_level_start(size_t edge, uint32_t level)
 {
-    const size_t whole = 4 * edge * edge, rest = whole >> (2 * level);
-    return (whole - rest) / 3;
+    const size_t row = level ? KILN_SHADOW_COARSE_ROW(edge, level, edge >> level) : 1;
+    const size_t column = level ? KILN_SHADOW_COARSE_COLUMN(edge) : 1;
+    return row * KILN_SHADOW_PITCH(edge) + column;
 }
 
 /* Returns the texel of a place that a mesh covers at a distance, 0 to 1. */
