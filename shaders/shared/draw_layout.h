@@ -19,10 +19,12 @@
 /* Edge in pixels of the tiles in which the backdrop is antialiased. */
 #define KILN_EDGE_TILE 8
 
-/* The greatest difference between the surfaces of neighbouring pixels that is no edge. Light
- * changes by this much a pixel in a penumbra four pixels wide; numbers of surfaces differ by more.
- */
+/* Edges are found by a number of each pixel: four times that of the surface at its centre, plus the
+ * part of the light that it gets, -1 to 1; with KILN_EDGE_MARK added where its samples show that
+ * it is at an edge inside a mesh. Marks aside, the threshold is the greatest difference between
+ * neighbours that is no edge. Light changes by this much a pixel in a penumbra four pixels wide. */
 #define KILN_EDGE_THRESHOLD 0.25f
+#define KILN_EDGE_MARK      32768.0f
 
 /* Edge in pixels of an atlas's cells. */
 #define KILN_ATLAS_CELL 128

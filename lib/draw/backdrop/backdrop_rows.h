@@ -17,7 +17,7 @@ struct kiln_backdrop_picture {
     uint32_t width, height;
     float *color;    /* RGBA */
     float *depth;    /* m */
-    float *surfaces; /* number of the surface at each pixel's centre; differs across edges */
+    float *surfaces; /* the number of each pixel by which edges are found (draw_layout.h) */
     struct kiln_surface_cache *cache; /* NULL: nothing is kept */
     struct kiln_pixel_box boxes[KILN_MAX_OBJECTS], spheres[KILN_MAX_OBJECTS],
         cylinders[KILN_MAX_OBJECTS], capsules[KILN_MAX_OBJECTS], oriented_boxes[KILN_MAX_OBJECTS];
@@ -28,8 +28,7 @@ struct kiln_backdrop_rows {
     uint32_t lanes; /* width of vectors */
     /* Casts a ray through the centre of each pixel and writes colour, depth and surface. */
     void (*cast)(const struct kiln_backdrop_picture *picture, uint32_t y);
-    /* Casts KILN_EDGE_SAMPLES rays a pixel where it or a pixel around it has a neighbour that shows
-     * another surface. All rows must have been cast before. */
+    /* Casts KILN_EDGE_SAMPLES rays a pixel at edges. All rows must have been cast before. */
     void (*antialias)(const struct kiln_backdrop_picture *picture, uint32_t y);
 };
 

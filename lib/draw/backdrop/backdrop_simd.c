@@ -315,12 +315,12 @@ static void fill_grids(const struct kiln_backdrop_picture *p,
 
 /* Returns the numbers of the surfaces that rays hit, by which edges are found. */
 SIMD vf mark_surfaces(const struct kiln_ray_frame *frame, const struct eye_rays *eye, vf surface,
-                      vi odd, const struct cached_rays *cached)
+                      const struct cached_rays *cached)
 {
     if (is_filled(cached))
         return read_cached(cached, KILN_CACHE_MARKED);
     if (frame->meshes)
-        surface = mark_mesh_edges(frame, &eye->place, surface, odd);
+        surface = mark_mesh_edges(frame, &eye->place, surface);
     fill_cached(cached, KILN_CACHE_MARKED, surface);
     return surface;
 }
@@ -342,12 +342,10 @@ SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_r
     const struct cached_rays *cached = p->cache ? &planes : NULL;
     const struct ray_help help = {grid_row, cached};
     const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, &help);
-    vf surface =
-        mark_surfaces(frame, &eye, shaded.first.surface, -((column + (int32_t)y) & 1), cached);
-    surface = 4.0f * surface + shaded.light;
+    const vf surface = 4.0f * mark_surfaces(frame, &eye, shaded.first.surface, cached);
     store_colors(p->color + 4 * first, &shaded.color, count);
     store_numbers(p->depth + first, shaded.first.t, count);
-    store_numbers(p->surfaces + first, surface, count);
+    store_numbers(p->surfaces + first, surface + shaded.light, count);
 }
 
 static uint32_t rows_from(const struct kiln_backdrop_picture *p, uint32_t y)
@@ -389,61 +387,66 @@ static inline const float *surface_row(const struct kiln_backdrop_picture *p, in
     return p->surfaces + (size_t)within(y, p->height) * p->width;
 }
 
-/* Holds which pixels of a strip and beside it differ from the pixel on their left, and from that
- * above. Both have a row and a column more on each side, whose pixels repeat those at the
- * picture's border. */
-struct steps {
-    uint8_t left[TILE + 2][STRIP + 3], above[TILE + 3][STRIP + 2];
+/* The numbers of a strip's pixels and of those around it, which repeat at the picture's border. */
+struct around {
+    float rows[TILE + 2][STRIP + 2]; /* from (x - 1, y - 1) on */
 };
 
-static inline uint8_t differ(float a, float b)
+static void look_around(const struct kiln_backdrop_picture *p, int32_t x, int32_t y,
+                        struct around *around)
 {
-    return fabsf(a - b) > KILN_EDGE_THRESHOLD;
-}
-
-static void find_steps(const struct kiln_backdrop_picture *p, int32_t x, int32_t y,
-                       struct steps *steps)
-{
-    float rows[TILE + 4][STRIP + 4]; /* from (x - 2, y - 2) on */
-    for (int32_t j = 0; j < TILE + 4; j++) {
-        const float *from = surface_row(p, y - 2 + j);
-        if (x >= 2 && x + STRIP + 2 <= (int32_t)p->width) {
-            memcpy(rows[j], from + x - 2, sizeof rows[j]);
+    for (int32_t j = 0; j < TILE + 2; j++) {
+        const float *from = surface_row(p, y - 1 + j);
+        if (x >= 1 && x + STRIP + 1 <= (int32_t)p->width) {
+            memcpy(around->rows[j], from + x - 1, sizeof around->rows[j]);
             continue;
         }
-        for (int32_t i = 0; i < STRIP + 4; i++)
-            rows[j][i] = from[within(x - 2 + i, p->width)];
-    }
-    for (int j = 0; j < TILE + 2; j++) {
-        for (int i = 0; i < STRIP + 3; i++)
-            steps->left[j][i] = differ(rows[j + 1][i + 1], rows[j + 1][i]);
-    }
-    for (int j = 0; j < TILE + 3; j++) {
-        for (int i = 0; i < STRIP + 2; i++)
-            steps->above[j][i] = differ(rows[j + 1][i + 1], rows[j][i + 1]);
+        for (int32_t i = 0; i < STRIP + 2; i++)
+            around->rows[j][i] = from[within(x - 1 + i, p->width)];
     }
 }
 
-/* Lists the pixels of a strip at edges: those that have a step between two neighbours among
- * themselves and the eight pixels around them. Returns how many they are. at: columns, then rows.
- */
+/* Returns the lanes whose number is marked. */
+SIMD vi is_marked(vf number)
+{
+    return number >= 0.5f * KILN_EDGE_MARK;
+}
+
+SIMD vf without_mark(vf number)
+{
+    return number - vf_where(is_marked(number), vf_all(KILN_EDGE_MARK));
+}
+
+/* Returns which of LANES pixels are at edges: those that are marked, and those that differ from one
+ * of the eight pixels around them. A straight edge that parts a pixel's area parts its middle from
+ * one of theirs. i, j: of the first pixel, in the strip. */
+SIMD vi find_edges(const struct around *around, int i, int j)
+{
+    const vf number = vf_load(&around->rows[j + 1][i + 1]), own = without_mark(number);
+    vi edge = is_marked(number);
+    for (int k = 0; k < 9; k++) {
+        const vf other = without_mark(vf_load(&around->rows[j + k / 3][i + k % 3]));
+        edge |= vf_abs(other - own) > KILN_EDGE_THRESHOLD;
+    }
+    return edge;
+}
+
+/* Lists the pixels of a strip at edges. Returns how many they are. at: columns, then rows. */
 static int list_edges(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
                       int32_t at[2][STRIP * TILE + LANES])
 {
-    struct steps steps;
-    find_steps(p, (int32_t)x, (int32_t)y, &steps);
+    struct around around;
+    look_around(p, (int32_t)x, (int32_t)y, &around);
     const int columns = x + STRIP < p->width ? STRIP : (int)(p->width - x);
     int count = 0;
     for (int j = 0; j < (int)(rows_from(p, y) - y); j++) {
-        uint8_t beside[STRIP + 3], over[STRIP + 2];
-        for (int i = 0; i < STRIP + 3; i++)
-            beside[i] = steps.left[j][i] | steps.left[j + 1][i] | steps.left[j + 2][i];
-        for (int i = 0; i < STRIP + 2; i++)
-            over[i] = steps.above[j + 1][i] | steps.above[j + 2][i];
-        for (int i = 0; i < columns; i++) {
-            at[0][count] = (int32_t)x + i;
-            at[1][count] = (int32_t)y + j;
-            count += beside[i + 1] | beside[i + 2] | over[i] | over[i + 1] | over[i + 2];
+        for (int first = 0; first < columns; first += LANES) {
+            const vi edge = find_edges(&around, first, j) & (vi_count() < columns - first);
+            for (int i = 0; i < LANES && any(edge); i++) {
+                at[0][count] = (int32_t)x + first + i;
+                at[1][count] = (int32_t)y + j;
+                count += edge[i] != 0;
+            }
         }
     }
     return count;

@@ -149,11 +149,8 @@ SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const str
     return (struct ray_place){at->u + right, at->v - down, at->hit, 1 + sample};
 }
 
-/* Marks edges inside a mesh, where it hides itself or bends, by a change of the surface's number.
- * The number alternates from pixel to pixel, so that a tile whose pixels are all edges is found as
- * well. */
-SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at, vf surface,
-                        vi odd)
+/* Marks edges inside a mesh, where it hides itself or bends, in the surface's number. */
+SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at, vf surface)
 {
     vi seen = surface >= (float)KILN_SURFACE_MESHES;
     if (!any(seen))
@@ -171,7 +168,7 @@ SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_pla
                          (vf_abs(hit.depth - middle.depth) > 0.01f * middle.depth) |
                          (vf3_dot(hit.normal, middle.normal) < 0.95f));
     }
-    return surface + vf_where(edge, vf_select(odd, vf_all(2.0f), vf_all(1.0f)));
+    return surface + vf_where(edge, vf_all(0.25f * KILN_EDGE_MARK));
 }
 
 #endif

@@ -177,13 +177,13 @@ void main()
     hit h = shaded.first;
     out_color = shaded.color;
     out_depth = h.t;
-#ifdef MESHES
-    h.surface = mark_mesh_edge(h.surface);
-#endif
     bool sunny = dot(h.normal, backdrop.sun_direction.xyz) > 0.0 &&
                  dot(backdrop.sun_color.rgb, vec3(1.0)) > 0.0;
     float light = (sunny ? shaded.sunlit : 0.0) - shaded.hidden;
     out_surface = float(4 * h.surface) + (h.surface >= 0 ? light : 0.0);
+#ifdef MESHES
+    out_surface += has_mesh_edge(h.surface) ? KILN_EDGE_MARK : 0.0;
+#endif
 }
 
 #else
@@ -196,7 +196,7 @@ const vec2 SAMPLE_OFFSETS[KILN_EDGE_SAMPLES] = vec2[](KILN_EDGE_OFFSETS(vec2));
 
 void main()
 {
-    if (!has_edge(ivec2(gl_FragCoord.xy) - 1, 3))
+    if (!is_edge(ivec2(gl_FragCoord.xy)))
         discard;
     edge_sum sum = edge_sum_none();
     for (int s = 0; s < SAMPLES; s++) {

@@ -1,26 +1,53 @@
-/* Finds edges in the picture of surface numbers that backdrop.frag draws first: changes between
- * neighbouring pixels. backdrop_edges.vert looks for them in tiles, backdrop.frag around pixels. */
+/* Finds edges in the picture of numbers that backdrop.frag draws first (shared/draw_layout.h):
+ * backdrop_edges.vert finds the tiles that may have some, backdrop.frag their pixels. Pixels beside
+ * the picture repeat those at its border. */
 layout(binding = 0) uniform sampler2D surfaces;
 
-/* Returns whether two neighbours in a square of pixels show different surfaces. first: the square's
- * top left pixel; edge: of the square, at most KILN_EDGE_TILE + 2 px. Pixels beside the picture
- * repeat those at its border. */
-bool has_edge(ivec2 first, int edge)
+float edge_number(ivec2 at)
 {
-    ivec2 last = textureSize(surfaces, 0) - 1;
+    return texelFetch(surfaces, clamp(at, ivec2(0), textureSize(surfaces, 0) - 1), 0).r;
+}
+
+bool is_marked(float number)
+{
+    return number >= 0.5 * KILN_EDGE_MARK;
+}
+
+float without_mark(float number)
+{
+    return is_marked(number) ? number - KILN_EDGE_MARK : number;
+}
+
+/* Returns whether a pixel is marked, or differs from one of the eight pixels around it. A straight
+ * edge that parts a pixel's area parts its middle from one of theirs. */
+bool is_edge(ivec2 pixel)
+{
+    float number = edge_number(pixel), own = without_mark(number), largest_step = 0.0;
+    for (int k = 0; k < 9; k++) {
+        float other = without_mark(edge_number(pixel + ivec2(k % 3, k / 3) - 1));
+        largest_step = max(largest_step, abs(other - own));
+    }
+    return is_marked(number) || largest_step > KILN_EDGE_THRESHOLD;
+}
+
+/* Returns whether a tile may have pixels at edges: one is marked, or two neighbours in the tile or
+ * in the pixels around it differ. first: the tile's top left pixel. */
+bool has_edges(ivec2 first)
+{
     float largest_step = 0.0;
     float above[KILN_EDGE_TILE + 2];
-    for (int y = 0; y < edge; y++) {
+    bool marked = false;
+    for (int y = 0; y < KILN_EDGE_TILE + 2; y++) {
         float before = 0.0;
-        for (int x = 0; x < edge; x++) {
-            ivec2 at = clamp(first + ivec2(x, y), ivec2(0), last);
-            float surface = texelFetch(surfaces, at, 0).r;
+        for (int x = 0; x < KILN_EDGE_TILE + 2; x++) {
+            float number = edge_number(first + ivec2(x, y) - 1), own = without_mark(number);
+            marked = marked || is_marked(number);
             if (x > 0)
-                largest_step = max(largest_step, abs(surface - before));
+                largest_step = max(largest_step, abs(own - before));
             if (y > 0)
-                largest_step = max(largest_step, abs(surface - above[x]));
-            above[x] = before = surface;
+                largest_step = max(largest_step, abs(own - above[x]));
+            above[x] = before = own;
         }
     }
-    return largest_step > KILN_EDGE_THRESHOLD;
+    return marked || largest_step > KILN_EDGE_THRESHOLD;
 }

@@ -14,6 +14,6 @@ void main()
      * inwards. */
     vec2 center = min(vec2(first) + 0.5 * float(KILN_EDGE_TILE), vec2(size) - 0.5);
     vec2 ndc = center / vec2(size) * 2.0 - 1.0;
-    gl_Position = has_edge(first - 1, KILN_EDGE_TILE + 2) ? vec4(ndc, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    gl_Position = has_edges(first) ? vec4(ndc, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = float(KILN_EDGE_TILE);
 }

@@ -45,10 +45,8 @@ void trace_meshes(int layer, inout hit nearest)
     }
 }
 
-/* Marks an edge inside a mesh, where it hides itself or bends, by another surface number, and
- * returns the number. The mark alternates from pixel to pixel, so that a tile full of edges is
- * found as well. */
-int mark_mesh_edge(int surface)
+/* Returns whether the pixel is at an edge inside a mesh, where that hides itself or bends. */
+bool has_mesh_edge(int surface)
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     uvec2 center = texelFetch(mesh_hits, ivec3(pixel, 0), 0).xy;
@@ -63,7 +61,7 @@ int mark_mesh_edge(int surface)
                abs(mesh_hit_depth(other) - depth) > 0.01 * depth ||
                dot(mesh_hit_normal(other), normal) < 0.95;
     }
-    return edge && surface >= KILN_SURFACE_MESHES ? surface + 1 + (pixel.x + pixel.y & 1) : surface;
+    return edge && surface >= KILN_SURFACE_MESHES;
 }
 
 /* Returns the part of the sun that a mesh covers. A texel of its map has the coverage and, weighted
