@@ -7,8 +7,12 @@
 #include "draw/backdrop/ray_mesh.h"
 #include "shared/edge_mean.h"
 
-/* px; rays of a strip test the same objects */
-enum { TILE = KILN_EDGE_TILE, STRIP = GRID_WIDTH };
+enum {
+    TILE = KILN_EDGE_TILE,
+    STRIP = GRID_WIDTH,     /* px; rays of a strip test the same objects */
+    EDGE_STRIP = 4 * STRIP, /* px; pixels of such a strip at edges share vectors */
+    EDGE_ROOM = EDGE_STRIP * TILE + LANES,
+};
 static_assert((int)TILE == (int)GRID_HEIGHT, "a strip of the picture has a grid");
 
 /* Holds rays from the eye through pixels. */
@@ -431,14 +435,13 @@ SIMD vi find_edges(const struct around *around, int i, int j)
     return edge;
 }
 
-/* Lists the pixels of a strip at edges. Returns how many they are. at: columns, then rows. */
-static int list_edges(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
-                      int32_t at[2][STRIP * TILE + LANES])
+/* Adds the pixels of a strip at edges to a list. Returns its new length. at: columns, then rows. */
+static int list_edges(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y, int count,
+                      int32_t at[2][EDGE_ROOM])
 {
     struct around around;
     look_around(p, (int32_t)x, (int32_t)y, &around);
     const int columns = x + STRIP < p->width ? STRIP : (int)(p->width - x);
-    int count = 0;
     for (int j = 0; j < (int)(rows_from(p, y) - y); j++) {
         for (int first = 0; first < columns; first += LANES) {
             const vi edge = find_edges(&around, first, j) & (vi_count() < columns - first);
@@ -493,7 +496,7 @@ SIMD void antialias_pixels(const struct kiln_backdrop_picture *p,
 /* Flags listed pixels as edges, and leaves those out of the list that are in the cache. Returns how
  * many are left. */
 static int take_out_cached(const struct kiln_surface_cache *cache, int count,
-                           int32_t at[2][STRIP * TILE + LANES])
+                           int32_t at[2][EDGE_ROOM])
 {
     int left = 0;
     for (int i = 0; i < count; i++) {
@@ -550,14 +553,13 @@ static void forget_edges(const struct kiln_surface_cache *cache, uint32_t y, uin
 
 /* ---- rows of edges --------------------------------------------------------------------------- */
 
-/* Antialiases listed pixels of a strip at x. edges: NULL without a cache. */
+/* Antialiases listed pixels of EDGE_STRIP columns from x. edges: NULL without a cache. */
 static void antialias_listed(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
-                             int count, int32_t at[2][STRIP * TILE + LANES],
-                             struct kiln_cached_edges *edges)
+                             int count, int32_t at[2][EDGE_ROOM], struct kiln_cached_edges *edges)
 {
     if (count == 0)
         return;
-    const struct kiln_ray_objects objects = find_objects(p, x, y, STRIP);
+    const struct kiln_ray_objects objects = find_objects(p, x, y, EDGE_STRIP);
     for (int i = 1; i < LANES; i++) { /* the last vector repeats its last pixel */
         at[0][count - 1 + i] = at[0][count - 1];
         at[1][count - 1 + i] = at[1][count - 1];
@@ -575,13 +577,15 @@ static void antialias_listed(const struct kiln_backdrop_picture *p, uint32_t x, 
 
 static void antialias_rows(const struct kiln_backdrop_picture *p, uint32_t y)
 {
-    int32_t at[2][STRIP * TILE + LANES];
+    int32_t at[2][EDGE_ROOM];
     struct kiln_cached_edges *edges = p->cache ? &p->cache->edges[y / TILE] : NULL;
     const uint32_t cached = edges ? edges->count : 0;
     if (edges)
         forget_edges(p->cache, y, rows_from(p, y));
-    for (uint32_t x = 0; x < p->width; x += STRIP) {
-        int count = list_edges(p, x, y, at);
+    for (uint32_t x = 0; x < p->width; x += EDGE_STRIP) {
+        int count = 0;
+        for (uint32_t strip = x; strip < x + EDGE_STRIP && strip < p->width; strip += STRIP)
+            count = list_edges(p, strip, y, count, at);
         if (edges)
             count = take_out_cached(p->cache, count, at);
         antialias_listed(p, x, y, count, at, edges);
