@@ -46,6 +46,11 @@ SIMD vf vf_clamp(vf x, float low, float high)
     return vf_min(vf_max(x, vf_all(low)), vf_all(high));
 }
 
+/* Holds two numbers for each lane. vi_gather_pair gathers two that are neighbours in memory. */
+struct vi_pair {
+    vi first, second;
+};
+
 #if KILN_SIMD_LEVEL == 3
 
 SIMD bool any(vi mask)
@@ -63,6 +68,16 @@ SIMD vf vf_gather(const float *from, vi index)
     return (vf)_mm512_i32gather_ps((__m512i)index, from, 4);
 }
 
+SIMD struct vi_pair vi_gather_pair(const int32_t *from, vi index)
+{
+    const __m512i even = (__m512i)(vi){0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30};
+    const __m256i upper = _mm512_extracti64x4_epi64((__m512i)index, 1);
+    const __m512i a = _mm512_i32gather_epi64(_mm512_castsi512_si256((__m512i)index), from, 4);
+    const __m512i b = _mm512_i32gather_epi64(upper, from, 4);
+    return (struct vi_pair){(vi)_mm512_permutex2var_epi32(a, even, b),
+                            (vi)_mm512_permutex2var_epi32(a, (__m512i)((vi)even + 1), b)};
+}
+
 #elif KILN_SIMD_LEVEL == 2
 
 SIMD bool any(vi mask)
@@ -78,6 +93,20 @@ SIMD vf round_down(vf x)
 SIMD vf vf_gather(const float *from, vi index)
 {
     return (vf)_mm256_i32gather_ps(from, (__m256i)index, 4);
+}
+
+SIMD struct vi_pair vi_gather_pair(const int32_t *from, vi index)
+{
+    typedef long long pairs __attribute__((vector_size(32)));
+    const long long *at = (const long long *)(const void *)from;
+    const __m128i lower = _mm256_castsi256_si128((__m256i)index);
+    const pairs a = (pairs)_mm256_i32gather_epi64(at, lower, 4);
+    const pairs b =
+        (pairs)_mm256_i32gather_epi64(at, _mm256_extracti128_si256((__m256i)index, 1), 4);
+    return (struct vi_pair){
+        __builtin_shuffle((vi)a, (vi)b, (vi){0, 2, 4, 6, 8, 10, 12, 14}),
+        __builtin_shuffle((vi)a, (vi)b, (vi){1, 3, 5, 7, 9, 11, 13, 15}),
+    };
 }
 
 #else
@@ -131,6 +160,16 @@ SIMD vf vf_gather(const float *from, vi index)
     for (int i = 0; i < LANES; i++)
         x[i] = from[index[i]];
     return x;
+}
+
+SIMD struct vi_pair vi_gather_pair(const int32_t *from, vi index)
+{
+    vi first, second;
+    for (int i = 0; i < LANES; i++) {
+        first[i] = from[index[i]];
+        second[i] = from[index[i] + 1];
+    }
+    return (struct vi_pair){first, second};
 }
 
 #endif

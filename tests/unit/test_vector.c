@@ -91,6 +91,8 @@ static void expect(const struct vector_operands *o, struct vector_results *r, ui
         r->root[i] = sqrtf(o->a[i]);
         r->floor[i] = floorf(o->a[i]);
         r->gathered[i] = o->a[o->places[i] % VECTOR_COUNT];
+        for (uint32_t k = 0; k < 2; k++)
+            r->neighbours[k][i] = o->ways[o->places[i] % (VECTOR_COUNT / 2) + k];
         r->integer[i] = fabsf(o->a[i]) < 0x1p31f ? (int32_t)o->a[i] : INT32_MIN;
         r->bit[i] = o->masks[i] != 0;
         for (uint32_t k = i / lanes * lanes; k < i / lanes * lanes + lanes; k++)
@@ -152,6 +154,7 @@ static void check_level(enum kiln_simd simd, const struct vector_operands *o)
     FLOATS(root);
     FLOATS(floor);
     BYTES(gathered);
+    BYTES(neighbours);
     BYTES(integer);
     BYTES(bit);
     BYTES(any);

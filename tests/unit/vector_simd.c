@@ -24,7 +24,12 @@ static void compute_numbers(const struct vector_operands *o, struct vector_resul
     vf_store(r->max + i, vf_max(a, b));
     vf_store(r->root + i, vf_sqrt(a));
     vf_store(r->floor + i, round_down(a));
-    vf_store(r->gathered + i, vf_gather(o->a, load(o->places, i) & (VECTOR_COUNT - 1)));
+    const vi places = load(o->places, i) & (VECTOR_COUNT - 1);
+    vf_store(r->gathered + i, vf_gather(o->a, places));
+    const struct vi_pair pair =
+        vi_gather_pair((const int32_t *)o->ways, places & (VECTOR_COUNT / 2 - 1));
+    store(r->neighbours[0], i, pair.first);
+    store(r->neighbours[1], i, pair.second);
     store(r->integer, i, vi_of(a));
     uint32_t bits = vi_bits(mask);
     for (int k = 0; k < LANES; k++) {

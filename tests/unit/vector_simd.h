@@ -31,7 +31,8 @@ struct vector_operands {
 
 struct vector_results {
     float min[VECTOR_COUNT], max[VECTOR_COUNT], root[VECTOR_COUNT], floor[VECTOR_COUNT];
-    float gathered[VECTOR_COUNT]; /* a, by the last bits of places */
+    float gathered[VECTOR_COUNT];         /* a, by the last bits of places */
+    uint32_t neighbours[2][VECTOR_COUNT]; /* two of ways, by fewer of these bits */
     int32_t integer[VECTOR_COUNT];
     uint8_t bit[VECTOR_COUNT], any[VECTOR_COUNT]; /* of a mask; of all masks of the vector */
     uint32_t placed[VECTOR_COUNT], clamped[VECTOR_COUNT], between[VECTOR_COUNT];

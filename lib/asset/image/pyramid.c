@@ -9,6 +9,7 @@
 #include "asset/image/image.h"
 #include "asset/image/linear.h"
 #include "base/error.h"
+#include "base/pages.h"
 #include "shared/exact.h"
 
 /* Converts 0 to 65504 to a half float, rounded to the nearest. Numbers below the least normal half
@@ -109,8 +110,11 @@ struct kiln_pyramid *kiln_pyramid_create(uint32_t width, uint32_t height)
         return NULL;
     pyramid->width = width;
     pyramid->height = height;
-    pyramid->texels = calloc(lay_out(pyramid), sizeof *pyramid->texels);
-    if (!pyramid->texels)
+    const size_t bytes = lay_out(pyramid) * sizeof *pyramid->texels;
+    pyramid->texels = kiln_alloc_pages(bytes);
+    if (pyramid->texels)
+        memset(pyramid->texels, 0, bytes);
+    else
         kiln_pyramid_destroy(&pyramid);
     return pyramid;
 }

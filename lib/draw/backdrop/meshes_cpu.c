@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/matrix.h"
+#include "base/pages.h"
 #include "draw/light/mesh_shadow.h"
 #include "draw/vector/mesh_project.h"
 #include "shared/exact.h"
@@ -62,7 +63,10 @@ static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
     m->triangles = calloc(triangles, sizeof *m->triangles);
     if (m->meshes->painted)
         m->uvs = calloc(triangles, sizeof *m->uvs);
-    m->hits = calloc(bands * KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch, sizeof *m->hits);
+    const size_t hits = bands * KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch * sizeof *m->hits;
+    m->hits = kiln_alloc_pages(hits);
+    if (m->hits)
+        memset(m->hits, 0, hits);
     m->empty = malloc(bands * sizeof *m->empty);
     struct kiln_mesh_canvas *canvas = &m->canvas;
     canvas->threads = threads;

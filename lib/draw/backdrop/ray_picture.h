@@ -93,10 +93,10 @@ SIMD struct ray_level level_of_lanes(const struct kiln_pyramid *p, vi level)
 SIMD struct vf3 gather_texels(const struct kiln_pyramid *p, vi at)
 {
     const int32_t *words = (const int32_t *)(const void *)p->texels;
-    const vi low = vi_gather(words, 2 * at), high = vi_gather(words + 1, 2 * at);
-    return (struct vf3){(vf)((low & 0xffff) << 13) * 0x1p112f,
-                        (vf)((low >> 16 & 0xffff) << 13) * 0x1p112f,
-                        (vf)((high & 0xffff) << 13) * 0x1p112f};
+    const struct vi_pair two = vi_gather_pair(words, 2 * at);
+    return (struct vf3){(vf)((two.first & 0xffff) << 13) * 0x1p112f,
+                        (vf)((two.first >> 16 & 0xffff) << 13) * 0x1p112f,
+                        (vf)((two.second & 0xffff) << 13) * 0x1p112f};
 }
 
 SIMD struct vf3 mix_colors(struct vf3 from, struct vf3 to, vf part)

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/matrix.h"
+#include "base/pages.h"
 #include "draw/vector/mesh_project.h"
 #include "shared/exact.h"
 
@@ -275,10 +276,13 @@ static bool reserve(struct kiln_lamp_maps *maps, uint32_t count, struct kiln_err
     if (count <= maps->room)
         return true;
     const size_t lamp = (size_t)KILN_LAMP_FACES * KILN_LAMP_TEXELS;
-    uint32_t *texels = realloc(maps->texels, count * lamp * sizeof *texels);
+    uint32_t *texels = kiln_alloc_pages(count * lamp * sizeof *texels);
     if (!texels)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of lamps: out of memory");
+    if (maps->room)
+        memcpy(texels, maps->texels, maps->room * lamp * sizeof *texels);
     memset(texels + maps->room * lamp, 0, (count - maps->room) * lamp * sizeof *texels);
+    free(maps->texels);
     maps->texels = texels;
     maps->room = count;
     return true;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/matrix.h"
+#include "base/pages.h"
 #include "shared/exact.h"
 
 enum { EDGE = KILN_SHADOW_EDGE, ROWS_AT_A_TIME = 32 };
@@ -17,9 +18,11 @@ static_assert(EDGE == 1 << (KILN_SHADOW_LEVELS - 1), "down to one texel");
 bool kiln_mesh_shadow_init(struct kiln_mesh_shadow *shadow, struct kiln_error *error)
 {
     *shadow = (struct kiln_mesh_shadow){.drawn = false};
-    shadow->texels = calloc(KILN_SHADOW_TEXELS, sizeof *shadow->texels);
-    return shadow->texels ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
+    shadow->texels = kiln_alloc_pages(KILN_SHADOW_TEXELS * sizeof *shadow->texels);
+    if (!shadow->texels)
+        return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
+    memset(shadow->texels, 0, KILN_SHADOW_TEXELS * sizeof *shadow->texels);
+    return true;
 }
 
 void kiln_mesh_shadow_finish(struct kiln_mesh_shadow *shadow)

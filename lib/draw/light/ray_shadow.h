@@ -52,6 +52,18 @@ SIMD struct shadow_filter shadow_filter_of(const struct shadow_map *map, vi firs
                                   shadow_level_at(map, first, coarse), level - fine};
 }
 
+SIMD void add_texel(struct shadow_sample *sum, vf weight, vi texel)
+{
+    sum->cover += weight * vf_of(texel & 0xffff);
+    sum->distance += weight * vf_of(texel >> 16 & 0xffff);
+}
+
+SIMD void add_second_word(struct shadow_sample *sum, vf weight, vi word)
+{
+    sum->square += weight * vf_of(word & 0xffff);
+    sum->narrow += weight * vf_of(word >> 16 & 0xffff);
+}
+
 /* Interpolates linearly between four texels of a level; texels beside the map are empty. Numbers
  * are in units of 1 / KILN_SHADOW_ONE. */
 SIMD struct shadow_sample read_shadow_level(const struct shadow_map *map,
@@ -63,17 +75,19 @@ SIMD struct shadow_sample read_shadow_level(const struct shadow_map *map,
     const int32_t pitch = KILN_SHADOW_PITCH(map->edge);
     const vi at = (level->start + vi_of(top) * pitch + vi_of(left)) * map->words;
     struct shadow_sample sum = {{0}, {0}, {0}, {0}};
-    for (int i = 0; i < 4; i++) {
-        const int32_t *texels =
-            (const int32_t *)map->texels + ((i >> 1) * pitch + (i & 1)) * map->words;
-        const vf weight = (i & 1 ? right : 1.0f - right) * (i >> 1 ? down : 1.0f - down);
-        const vi texel = vi_gather(texels, at);
-        sum.cover += weight * vf_of(texel & 0xffff);
-        sum.distance += weight * vf_of(texel >> 16 & 0xffff);
-        if (map->words > 1) {
-            const vi more = vi_gather(texels + 1, at);
-            sum.square += weight * vf_of(more & 0xffff);
-            sum.narrow += weight * vf_of(more >> 16 & 0xffff);
+    for (int i = 0; i < 2; i++) {
+        const int32_t *row = (const int32_t *)map->texels + i * pitch * map->words;
+        const vf height = i ? down : 1.0f - down, weights[2] = {1.0f - right, right};
+        if (map->words == 1) {
+            const struct vi_pair texels = vi_gather_pair(row, at);
+            add_texel(&sum, weights[0] * height, texels.first);
+            add_texel(&sum, weights[1] * height, texels.second);
+            continue;
+        }
+        for (int k = 0; k < 2; k++) {
+            const struct vi_pair words = vi_gather_pair(row + k * map->words, at);
+            add_texel(&sum, weights[k] * height, words.first);
+            add_second_word(&sum, weights[k] * height, words.second);
         }
     }
     return sum;
