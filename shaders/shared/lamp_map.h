@@ -44,7 +44,8 @@ REAL_FN S(lamp_place) lamp_place_of(real3 from, real3 normal, float far)
     place.face =
         real_select(on_x, real_all(0.0f), real_select(on_y, real_all(2.0f), real_all(4.0f))) +
         real_where(ahead < 0.0f, real_all(1.0f));
-    real right = aside / place.distance, up = above / place.distance;
+    real nearness = 1.0f / place.distance;
+    real right = aside * nearness, up = above * nearness;
     place.at.u = 0.5f + right * (0.5f / KILN_LAMP_RANGE);
     place.at.v = 0.5f - up * (0.5f / KILN_LAMP_RANGE);
     place.at.depth = place.distance * (1.0f / far);
@@ -92,10 +93,10 @@ REAL_FN real lamp_width(S(lamp_place) place, float radius, real lit, float far, 
                     real_all(LAMP_TEXEL));
 }
 
-/* Returns the mipmap level whose texels have this width, in texture coordinates. */
+/* Returns the level whose texels have this width, in texture coordinates. */
 REAL_FN real lamp_level(real width)
 {
-    return real_log2(width * FLOAT(KILN_LAMP_EDGE));
+    return shadow_level_of(width * FLOAT(KILN_LAMP_EDGE));
 }
 
 /* ---- solid particles ------------------------------------------------------------------------- */

@@ -47,10 +47,17 @@ REAL_FN real shadow_widest(S(shadow_receiver) at, float spread)
     return real_max(spread * at.depth, real_all(SHADOW_TEXEL));
 }
 
-/* Returns the mipmap level whose texels have this width, in texture coordinates. */
+/* Returns the level between mipmaps whose texels have such a width, in texels of the finest: 0 for
+ * one texel. Between two mipmaps, the level grows linearly with the width. */
+REAL_FN real shadow_level_of(real texels)
+{
+    return real_of(real_bits(texels)) * (1.0f / 8388608.0f) - 127.0f;
+}
+
+/* Returns the level whose texels have this width, in texture coordinates. */
 REAL_FN real shadow_level(real width)
 {
-    return real_log2(width * (1.0f / SHADOW_TEXEL));
+    return shadow_level_of(width * (1.0f / SHADOW_TEXEL));
 }
 
 /* Returns the mean depth of the mesh in the map, from the two numbers of a fetch: cover, and depth
@@ -74,9 +81,10 @@ REAL_FN real shadow_width(S(shadow_receiver) at, float spread, real cover, real 
 REAL_FN real shadow_tap(S(shadow_receiver) at, real aside_u, real aside_v, real cover,
                         real distance, real ramp)
 {
-    real before =
-        at.depth + (at.slope_u * aside_u + at.slope_v * aside_v) - shadow_depth(cover, distance);
-    return 0.25f * cover * real_clamp01(before * ramp - 0.5f);
+    real depth = at.depth + (at.slope_u * aside_u + at.slope_v * aside_v);
+    real before = depth * cover - distance; /* times cover */
+    real part = real_min(before * ramp - 0.5f * cover, cover);
+    return 0.25f * real_max(part, real_all(0.0f));
 }
 
 /* ---- silhouettes of mesh particles ----------------------------------------------------------- */
