@@ -64,16 +64,20 @@ REAL_FN S(box_strip) box_strip_of(real inverse_a, real inverse_b)
     S(box_strip) strip;
     strip.first = inverse_a * inverse_a;
     strip.second = inverse_b * inverse_b;
-    strip.inverse = 1.0f / (strip.first + strip.second);
-    strip.root = real_sqrt(strip.inverse);
+    strip.root = real_rsqrt(strip.first + strip.second);
+    strip.inverse = strip.root * strip.root;
     return strip;
 }
 
+/* Returns the eighth power of the cosine between two edges in the outline. a, b: the light's
+ * direction along their axes. */
 REAL_FN real box_likeness(real a, real b)
 {
-    real cosine = a * b / real_sqrt(real_max((1.0f - a * a) * (1.0f - b * b), real_all(1e-12f)));
-    real square = real_min(cosine * cosine, real_all(1.0f));
-    return square * square * square * square;
+    real aa = a * a, bb = b * b;
+    real square = aa * bb / real_max((1.0f - aa) * (1.0f - bb), real_all(1e-12f));
+    square = real_min(square, real_all(1.0f));
+    square *= square;
+    return square * square;
 }
 
 REAL_FN real box_later(real inverse)
