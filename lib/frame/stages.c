@@ -261,9 +261,9 @@ struct particle_pass {
     bool keep_bloom; /* do not clear the bloom image */
     bool sum_alpha, fire_covers;
     bool by_fragment;
-    /* NULL, or for the colour of covering particles alone; becomes NULL if that needs a pass of its
-     * own */
-    struct kiln_image *covering;
+    /* NULL, or for the colour of covering and of additive particles alone; become NULL if they need
+     * passes of their own */
+    struct kiln_image *covering, *added;
 };
 
 /* Returns the sort order of a pass. Particles whose blending does not depend on the order are not
@@ -358,7 +358,10 @@ static bool draw_particles(struct kiln_stages *s, struct particle_pass *pass, ui
     };
     if (s->coarse || !kiln_particles_splits(s->particles, &draw, pass->systems))
         pass->covering = NULL;
+    if (s->coarse || !kiln_particles_adds_apart(s->particles, &draw))
+        pass->added = NULL;
     draw.covering = pass->covering;
+    draw.added = pass->added;
     return begin_pass(s, KILN_PASS_particles, error) &&
            end_pass(s, s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
                                  : kiln_particles_run(s->particles, &draw, error));
@@ -375,8 +378,8 @@ static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_erro
 
 /* Draws fire and smoke from one sorted list, or with KILN_COMPOSE_OIT from one list for each pixel.
  * Fire is additive and smoke covers fire and its glow; with KILN_COMPOSE_ALPHA fire covers as well
- * (Heinz 2019, 2.3.1). The fire layer of an EXR file is drawn in a pass of its own, and so is the
- * smoke layer where it cannot be kept apart. */
+ * (Heinz 2019, 2.3.1). The smoke layer and the fire layer of an EXR file are drawn in passes of
+ * their own where the stage cannot keep them apart. */
 static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     uint32_t fire = transparent_systems(s->scene, KILN_BLEND_ADD);
@@ -389,7 +392,8 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
                                 .keep_bloom = s->solids != NULL,
                                 .fire_covers = fire_covers,
                                 .by_fragment = by_fragment,
-                                .covering = s->layers ? &s->smoke_color : NULL};
+                                .covering = s->layers ? &s->smoke_color : NULL,
+                                .added = s->layers ? &s->fire_color : NULL};
     if (!draw_particles(s, &all, drawn, error))
         return false;
     if (!s->layers)
@@ -405,7 +409,7 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
                                        .framebuffer = &s->fire_framebuffer,
                                        .fire_covers = fire_covers};
     return (all.covering || draw_particles(s, &smoke_layer, &count, error)) &&
-           draw_particles(s, &fire_layer, &count, error);
+           (all.added || draw_particles(s, &fire_layer, &count, error));
 }
 
 /* Draws smoke over the scene, then sums fire in a target of its own, so that it shines through

@@ -63,6 +63,7 @@ float *raster_add_targets(struct raster *r)
     kiln_image_init(&r->depth, NULL, width, height, GL_R32F, "depth");
     kiln_image_init(&r->color, NULL, width, height, GL_RGBA32F, "color");
     kiln_image_init(&r->bloom, NULL, width, height, GL_RGBA32F, "bloom");
+    kiln_image_init(&r->added, NULL, width, height, GL_RGBA32F, "added");
     r->framebuffer = (struct kiln_framebuffer){.images = {&r->color, &r->bloom}, .count = 2};
     float *depth = kiln_image_host(&r->depth, KILN_OVERWRITE, &error);
     assert_non_null(depth);
@@ -120,7 +121,7 @@ void raster_close(struct raster *r)
     kiln_moment_finish(&r->moment);
     kiln_buffer_finish(&r->entries);
     kiln_pool_finish(&r->pool);
-    struct kiln_image *images[] = {&r->depth, &r->color, &r->bloom};
+    struct kiln_image *images[] = {&r->depth, &r->color, &r->bloom, &r->added};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++)
         kiln_image_finish(images[i]);
     kiln_atlas_finish(&r->atlas);

@@ -13,7 +13,7 @@ struct raster {
     struct kiln_moment moment;
     struct kiln_draw_backdrop light;
     /* made by raster_add_targets */
-    struct kiln_image depth, color, bloom;
+    struct kiln_image depth, color, bloom, added;
     struct kiln_framebuffer framebuffer;
     /* made by raster_add_particles */
     struct kiln_pool pool;

@@ -59,11 +59,11 @@ static void place_particles(struct raster *r)
     }
 }
 
-static int set_up(void **state)
+static int set_up_with(void **state, const char *const *overrides)
 {
     struct raster *r = calloc(1, sizeof *r);
     assert_non_null(r);
-    raster_open(r, load_scene(SCENE, NULL), 4, 2, STEP);
+    raster_open(r, load_scene(SCENE, overrides), 4, 2, STEP);
     raster_add_lamps(r, 9);
     float *depth = raster_add_targets(r);
     for (int i = 0; i < PIXELS; i++) /* a slope before the sky */
@@ -73,11 +73,30 @@ static int set_up(void **state)
     return 0;
 }
 
+static int set_up(void **state)
+{
+    return set_up_with(state, NULL);
+}
+
+static int set_up_with_opaque_discs(void **state)
+{
+    static const char *const overrides[] = {"systems.dots.look.point.size=40 px", NULL};
+    return set_up_with(state, overrides);
+}
+
 static int tear_down(void **state)
 {
     raster_close(*state);
     free(*state);
     return 0;
+}
+
+static void draw_job(struct raster *r, const struct kiln_particles_draw *job, const char *simd,
+                     uint32_t thread_count)
+{
+    assert_int_equal(setenv("KILN_SIMD", simd, 1), 0);
+    raster_draw(r, job, thread_count);
+    unsetenv("KILN_SIMD");
 }
 
 /* Draws by vectors of a name, and keeps the bloom if asked to. */
@@ -87,9 +106,7 @@ static void draw(struct raster *r, const char *simd, uint32_t thread_count, uint
     struct kiln_particles_draw job = raster_job(r);
     job.count = count;
     job.keep_bloom = keep_bloom;
-    assert_int_equal(setenv("KILN_SIMD", simd, 1), 0);
-    raster_draw(r, &job, thread_count);
-    unsetenv("KILN_SIMD");
+    draw_job(r, &job, simd, thread_count);
 }
 
 static void every_width_and_thread_count_gives_the_same_bytes(void **state)
@@ -120,6 +137,63 @@ static void every_width_and_thread_count_gives_the_same_bytes(void **state)
             assert_memory_equal(bloom, r->bloom.host, bytes);
         }
     }
+    free(color);
+    free(bloom);
+}
+
+/* Draws the additive particles alone, and returns the copied picture. */
+static float *draw_additive(struct raster *r)
+{
+    struct kiln_particles_draw job = raster_job(r);
+    struct kiln_error error = {0};
+    uint32_t *entries = kiln_buffer_host(&r->entries, KILN_READ_WRITE, &error), all[COUNT];
+    float *color = malloc(PIXELS * 4 * sizeof *color);
+    assert_true(entries && color);
+    memcpy(all, entries, sizeof all);
+    job.count = 0;
+    for (size_t i = 0; i < COUNT; i++) {
+        const uint32_t system = KILN_ENTRY_SYSTEM(all[i]);
+        if (r->scene->systems[system].look.blend == KILN_BLEND_ADD)
+            entries[job.count++] = all[i];
+    }
+    draw_job(r, &job, kiln_simd_name(KILN_SIMD_NARROWEST), 1);
+    memcpy(color, r->color.host, PIXELS * 4 * sizeof *color);
+    memcpy(entries, all, sizeof all);
+    return color;
+}
+
+/* Additive particles are added apart as if nothing hid them, and change nothing else. */
+static void additive_particles_are_added_apart(void **state)
+{
+    struct raster *r = *state;
+    const size_t floats = PIXELS * 4;
+    float *alone = draw_additive(r), *color = malloc(floats * sizeof *color),
+          *bloom = malloc(floats * sizeof *bloom);
+    assert_true(color && bloom);
+    draw(r, kiln_simd_name(KILN_SIMD_NARROWEST), 2, COUNT, false);
+    memcpy(color, r->color.host, floats * sizeof *color);
+    memcpy(bloom, r->bloom.host, floats * sizeof *bloom);
+    size_t opaque = 0, hidden = 0;
+    for (size_t i = 0; i < PIXELS; i++) {
+        opaque += color[4 * i + 3] == 1.0f;
+        hidden += alone[4 * i] > 10.0f * bloom[4 * i];
+    }
+    assert_true(opaque > PIXELS / 4 && hidden > PIXELS / 5);
+    struct kiln_particles_draw job = raster_job(r);
+    job.added = &r->added;
+    for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+        for (uint32_t threads = 1; threads <= 5 && kiln_simd_has(simd); threads += 2) {
+            draw_job(r, &job, kiln_simd_name(simd), threads);
+            assert_memory_equal(color, r->color.host, floats * sizeof *color);
+            assert_memory_equal(bloom, r->bloom.host, floats * sizeof *bloom);
+            for (size_t i = 0; i < floats; i++) /* sums in another order */
+                assert_true(fabsf(alone[i] - r->added.host[i]) <= 4e-6f * alone[i]);
+            if (simd == KILN_SIMD_NARROWEST && threads == 1)
+                memcpy(alone, r->added.host, floats * sizeof *alone);
+            assert_memory_equal(alone, r->added.host, floats * sizeof *alone);
+        }
+    }
+    free(alone);
     free(color);
     free(bloom);
 }
@@ -170,6 +244,8 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(every_width_and_thread_count_gives_the_same_bytes, set_up,
                                         tear_down),
+        cmocka_unit_test_setup_teardown(additive_particles_are_added_apart,
+                                        set_up_with_opaque_discs, tear_down),
         cmocka_unit_test_setup_teardown(an_unknown_width_is_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(no_particles_leave_a_clear_picture, set_up, tear_down),
         cmocka_unit_test_setup_teardown(kept_bloom_is_dimmed_and_added_to, set_up, tear_down),

@@ -1,5 +1,6 @@
 /* What a program is told of each frame: the pixels of a PNG and the layers of an EXR, with and
  * without an output. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -143,6 +144,19 @@ static void layers_come_in_the_order_of_their_names(void **state)
     forget(&display);
 }
 
+static struct kiln_scene *load_cloud(const char *const *overrides, size_t count)
+{
+    struct kiln_error error = kiln_error_empty();
+    struct kiln_scene_params params = kiln_scene_defaults();
+    params.overrides = overrides;
+    params.override_count = count;
+    struct kiln_scene *cloud =
+        kiln_scene_load(KILN_SOURCE_DIR "/scenes/bench/cloud.yaml", &params, &error);
+    if (!cloud)
+        fail_msg("%s", error.message);
+    return cloud;
+}
+
 /* The glow of fire alone is kept apart from smoke, so that the smoke layer needs no pass of its
  * own. Smoke that glows does. */
 static void smoke_is_the_same_in_a_pass_of_its_own(void **state)
@@ -153,14 +167,7 @@ static void smoke_is_the_same_in_a_pass_of_its_own(void **state)
                                "systems.smoke.look.bloom=[0, 0, 0]"};
     struct seen seen[2];
     for (int i = 0; i < 2; i++) {
-        struct kiln_error error = kiln_error_empty();
-        struct kiln_scene_params params = kiln_scene_defaults();
-        params.overrides = overrides;
-        params.override_count = 3;
-        struct kiln_scene *cloud =
-            kiln_scene_load(KILN_SOURCE_DIR "/scenes/bench/cloud.yaml", &params, &error);
-        if (!cloud)
-            fail_msg("%s", error.message);
+        struct kiln_scene *cloud = load_cloud(overrides, 3);
         seen[i] = show_scene(cloud, NULL, layers, 2);
         kiln_scene_destroy(&cloud);
         overrides[2] = "systems.smoke.look.bloom=[1, 0.5, 0.25]";
@@ -173,6 +180,35 @@ static void smoke_is_the_same_in_a_pass_of_its_own(void **state)
     for (size_t i = 0; i < 2; i++)
         assert_memory_equal(seen[0].pixels[i], seen[1].pixels[i],
                             seen[0].views[i].row_bytes * HEIGHT);
+    forget(&seen[0]);
+    forget(&seen[1]);
+}
+
+/* The fire layer comes with the frame, but has fire behind smoke, too: the light that a pass of its
+ * own sums with post.compose: separate. */
+static void fire_is_the_same_in_a_pass_of_its_own(void **state)
+{
+    (void)state;
+    static const char *const layers[] = {"fire", "bloom"};
+    const char *overrides[] = {"output.size=[96, 54]", "systems.*.look.size=0.6 m",
+                               "systems.smoke.look.opacity=1", "post.compose=merged"};
+    struct seen seen[2];
+    for (int i = 0; i < 2; i++) {
+        struct kiln_scene *cloud = load_cloud(overrides, 4);
+        seen[i] = show_scene(cloud, NULL, layers, 2);
+        kiln_scene_destroy(&cloud);
+        overrides[3] = "post.compose=separate";
+    }
+    const float *merged = seen[0].pixels[0], *separate = seen[1].pixels[0];
+    const float *visible = seen[0].pixels[1];
+    size_t hidden = 0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
+        for (size_t c = 4 * i; c < 4 * i + 3; c++) /* sums in another order */
+            assert_true(fabsf(merged[c] - separate[c]) <= 4e-6f * separate[c]);
+        assert_true(merged[4 * i + 3] == 0.0f);
+        hidden += merged[4 * i] > 0.1f && visible[4 * i] < 0.01f * merged[4 * i];
+    }
+    assert_true(hidden > WIDTH * HEIGHT / 10);
     forget(&seen[0]);
     forget(&seen[1]);
 }
@@ -223,6 +259,7 @@ int main(void)
         IN_FOLDER(nothing_named_is_the_display),
         IN_FOLDER(layers_come_in_the_order_of_their_names),
         IN_FOLDER(smoke_is_the_same_in_a_pass_of_its_own),
+        IN_FOLDER(fire_is_the_same_in_a_pass_of_its_own),
         IN_FOLDER(of_sixteen_bits_the_display_has_as_many),
         IN_FOLDER(other_names_are_refused_before_anything_is_written),
     };

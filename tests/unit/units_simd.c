@@ -17,7 +17,8 @@ void KILN_SIMD_NAME(units_list)(const struct kiln_tile *tile, const struct units
     const struct box box = {spans->x_from, spans->x_to, 0, KILN_TILE_HEIGHT};
     struct units units;
     memset(&units, 0, sizeof units);
-    listed->count = list_units(tile, &rows, &box, spans->steps, spans->deep, &units);
+    listed->count = list_units(tile, &rows, &box, spans->steps, spans->deep,
+                               tile->has_opaque ? UNITS_SEEN : UNITS_ALL, &units);
     const size_t count = (size_t)listed->count;
     memcpy(listed->at, units.at, count * sizeof *units.at);
     memcpy(listed->u, units.u, count * sizeof *units.u);

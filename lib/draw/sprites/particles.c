@@ -69,6 +69,13 @@ bool kiln_particles_splits(const struct kiln_particles_stage *stage,
     return stage->technique == KILN_RASTER_CPU && kiln_raster_cpu_splits(draw, systems);
 }
 
+bool kiln_particles_adds_apart(const struct kiln_particles_stage *stage,
+                               const struct kiln_particles_draw *draw)
+{
+    return stage->technique == KILN_RASTER_CPU && !draw->sum_alpha && !draw->fire_covers &&
+           !draw->by_fragment;
+}
+
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,
                         struct kiln_error *error)
 {

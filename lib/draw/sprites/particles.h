@@ -49,12 +49,20 @@ struct kiln_particles_draw {
     bool fire_covers; /* true: blends by premultiplied `over`; additive particles cover, too */
     /* NULL, or gets the colour and alpha of covering particles alone, if kiln_particles_splits */
     struct kiln_image *covering;
+    /* NULL, or gets the colour of additive particles alone, as if no other particle hid them, if
+     * kiln_particles_adds_apart */
+    struct kiln_image *added;
 };
 
 /* Returns whether the stage can draw the covering particles of the given systems, a bit each, into
  * an image of their own while it draws a pass. */
 bool kiln_particles_splits(const struct kiln_particles_stage *stage,
                            const struct kiln_particles_draw *draw, uint32_t systems);
+
+/* Returns whether the stage can draw the additive particles into an image of their own while it
+ * draws a pass. */
+bool kiln_particles_adds_apart(const struct kiln_particles_stage *stage,
+                               const struct kiln_particles_draw *draw);
 
 /* Draws the particles of a pass into draw->framebuffer. */
 bool kiln_particles_run(struct kiln_particles_stage *stage, const struct kiln_particles_draw *draw,

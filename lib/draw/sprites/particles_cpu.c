@@ -129,8 +129,9 @@ static bool make_room(struct kiln_raster_cpu *tiles, uint32_t count, struct kiln
 
 struct tile_job {
     struct kiln_raster_cpu *tiles;
-    /* pixels of the targets; NULL: there is no bloom, or no image for covering particles alone */
-    float *color, *bloom, *covering;
+    /* pixels of the targets; NULL: there is no bloom, or no image for covering or for additive
+     * particles alone */
+    float *color, *bloom, *covering, *added;
     const float *depth;
     uint32_t width, height;
     bool first; /* true: this is the first piece of the pass, before which pixels are empty */
@@ -146,6 +147,8 @@ static void begin_row(const struct tile_job *d, struct kiln_tile *tile, int y, s
     float(*planes)[KILN_TILE_PITCH] = tile->pixels[y];
     memcpy(planes[KILN_TILE_DEPTH], d->depth + at, (size_t)tile->width * sizeof(float));
     memset(planes, 0, KILN_TILE_DEPTH * sizeof *planes);
+    if (d->added)
+        memset(tile->added[y], 0, KILN_TILE_ALPHA * sizeof *tile->added[y]);
 }
 
 /* Transposes four channels of four pixels into four pixels of four channels, or back. */
@@ -210,6 +213,21 @@ static void store_row(const struct tile_job *d, const struct kiln_tile *tile, in
     }
 }
 
+/* Adds a row of the light of additive sprites alone to the result of earlier pieces. */
+static void store_added(const struct tile_job *d, const struct kiln_tile *tile, int y, size_t at)
+{
+    static const float all[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    const float(*planes)[KILN_TILE_PITCH] = (const float(*)[KILN_TILE_PITCH])tile->added[y];
+    for (size_t x = 0; x < (size_t)tile->width; x += 4) {
+        four color[4] = {{0}};
+        for (int c = 0; c < 3; c++)
+            memcpy(&color[c], &planes[KILN_TILE_RED + c][x], sizeof color[c]);
+        transpose(color);
+        size_t count = (size_t)tile->width - x < 4 ? (size_t)tile->width - x : 4;
+        blend_pixels(color, all, !d->first, d->added + 4 * (at + x), count);
+    }
+}
+
 /* Clears the pixels of a tile without sprites in the first piece; does nothing in later pieces. */
 static void clear_tile(const struct tile_job *d, size_t at, uint32_t width, uint32_t height)
 {
@@ -221,6 +239,8 @@ static void clear_tile(const struct tile_job *d, size_t at, uint32_t width, uint
             memset(d->bloom + place, 0, bytes);
         if (d->covering)
             memset(d->covering + place, 0, bytes);
+        if (d->added)
+            memset(d->added + place, 0, bytes);
     }
 }
 
@@ -244,6 +264,7 @@ static void draw_tile(const struct tile_job *d, size_t number, uint32_t worker)
     tile->height = height < KILN_TILE_HEIGHT ? (int)height : KILN_TILE_HEIGHT;
     tile->glow = d->glow;
     tile->nearest = bins->depth[number].nearest;
+    tile->adds_apart = d->added != NULL;
     tile->over = !d->sum && !d->by_fragment; /* lists of fragments need each sprite's alpha */
     for (int row = 0; row < tile->height; row++)
         begin_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
@@ -254,6 +275,8 @@ static void draw_tile(const struct tile_job *d, size_t number, uint32_t worker)
                             tiles->cells, list, count);
     for (int row = 0; row < tile->height; row++)
         store_row(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
+    for (int row = 0; row < tile->height && d->added; row++)
+        store_added(d, tile, row, (size_t)(y + (uint32_t)row) * d->width + x);
     stream_end();
 }
 
@@ -472,7 +495,10 @@ static bool open_images(const struct kiln_particles_draw *draw, struct tile_job 
                                    draw->keep_bloom ? KILN_READ_WRITE : KILN_OVERWRITE, error);
     if (d->color && draw->covering)
         d->covering = kiln_image_host(draw->covering, KILN_OVERWRITE, error);
-    return d->color && (d->bloom || !blooms) && (d->covering || !draw->covering);
+    if (d->color && draw->added)
+        d->added = kiln_image_host(draw->added, KILN_OVERWRITE, error);
+    return d->color && (d->bloom || !blooms) && (d->covering || !draw->covering) &&
+           (d->added || !draw->added);
 }
 
 bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_particles_draw *draw,

@@ -38,6 +38,10 @@ enum kiln_tile_plane {
 struct kiln_tile {
     /* The last row lies outside of the tile; padding units are drawn into it. */
     _Alignas(64) float pixels[KILN_TILE_HEIGHT + 1][KILN_TILE_PLANES][KILN_TILE_PITCH];
+    /* The colour of additive sprites alone, as if no sprite hid them, in the planes of colour; used
+     * if adds_apart. Offsets in it are those in `pixels`, so that other drawing needs no more of
+     * the cache. */
+    _Alignas(64) float added[KILN_TILE_HEIGHT + 1][KILN_TILE_PLANES][KILN_TILE_PITCH];
     int x, y, width, height; /* in the picture, px */
     enum kiln_tile_glow glow;
     float nearest; /* least depth of the scene in the tile, m */
@@ -48,6 +52,7 @@ struct kiln_tile {
      * half of each row; valid if has_opaque */
     _Alignas(64) int32_t seen[2][KILN_TILE_HEIGHT];
     bool has_opaque; /* true: some pixels hide the sprites behind them */
+    bool adds_apart; /* true: `added` is drawn, too */
     bool over;       /* true: sprites cover those behind them; false: alpha is summed */
 };
 

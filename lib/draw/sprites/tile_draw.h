@@ -2,7 +2,8 @@
  * defines the name TILE_DRAW and includes it. The operations of a pixel, some of them in
  * tile_shade.h, are those of shaders/draw/sprites/shade.glsl (Heinz 2019, 3.2.3 to 3.2.6). All
  * lanes do them; lanes outside of the sprite have alpha 0. Sprites are drawn from the nearest to
- * the farthest, and those behind opaque pixels are left out. */
+ * the farthest, and those behind opaque pixels are left out, except where additive sprites are
+ * added apart, too. */
 #include "draw/sprites/tile_rows.h"
 #include "draw/sprites/tile_shade.h"
 
@@ -25,6 +26,15 @@ SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struc
     for (int c = 0; c < 3 && b->weighted_glow; c++) {
         float *glow = planes[KILN_TILE_GLOW_RED + c];
         vf_store_units(glow, at, vf_load_units(glow, at) + rgb[c] * bloom[c]);
+    }
+}
+
+/* Adds colour times a weight to the pixels of kiln_tile.added at the offsets. */
+SIMD void add_apart(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const vf rgb[3], vf weight)
+{
+    for (int c = 0; c < 3; c++) {
+        float *color = planes[KILN_TILE_RED + c];
+        vf_store_units(color, at, vf_load_units(color, at) + rgb[c] * weight);
     }
 }
 
@@ -56,6 +66,8 @@ struct target {
     struct kiln_tile *tile;
     const struct kiln_sprite *s;
     struct brush brush;
+    float (*added)[KILN_TILE_PITCH]; /* the tile's, or NULL if the sprite is not added apart */
+    bool hidden;                     /* true: it is only added apart, since opaque pixels hide it */
 };
 
 SIMD void put_texels(struct batch *batch, int cell, int i, vi places, int32_t pitch, int32_t texel)
@@ -193,6 +205,11 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, 
         left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
     if (d->brush.rim)
         left *= batch->rim[i];
+    if (!covers && d->added) {
+        add_apart(d->added, at, c.rgb, multiplied ? left : c.alpha * left);
+        if (d->hidden)
+            return;
+    }
     if (over || covers)
         before = vf_load_units(planes[KILN_TILE_ALPHA], at);
     if (over)
@@ -231,23 +248,13 @@ SIMD void draw_batch(struct batch *batch, int count, const struct target *d,
 
 /* ---- wide sprites: units of their rows ------------------------------------------------------- */
 
-SIMD void draw_wide(const struct target *d, const struct kiln_cell_hull *hull,
-                    const struct box *box, struct batch *batch, enum kiln_sprite_shade kind,
-                    bool deep, bool covers, bool mixed)
+/* Draws the chosen units of some rows. */
+SIMD void draw_units(const struct target *d, const struct rows *rows, const struct box *box,
+                     const float steps[3], enum units_choice choice, struct batch *batch,
+                     enum kiln_sprite_shade kind, bool deep, bool covers, bool mixed)
 {
-    const struct kiln_sprite *s = d->s;
-    struct rows rows;
     struct units units;
-    bool textured = kind != KILN_SHADE_PLAIN;
-    find_rows(d->tile, s, box, !deep && textured ? hull : NULL, &rows);
-    float scale = textured ? (float)PLACE_STEPS : 1.0f;
-    float margin = textured && !deep ? PLACE_MIDDLE : 0.0f;
-    for (int i = 0; i < ROW_VECTORS && textured; i++) {
-        rows.u[i] = rows.u[i] * scale + margin;
-        rows.v[i] = rows.v[i] * scale + margin;
-    }
-    const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
-    int count = list_units(d->tile, &rows, box, steps, deep, &units);
+    int count = list_units(d->tile, rows, box, steps, deep, choice, &units);
     if (UNITS > 1)
         add_padding(&units, count);
     for (int begin = 0; begin < count; begin += BATCH / UNIT_PARTS * UNITS) {
@@ -268,6 +275,31 @@ SIMD void draw_wide(const struct target *d, const struct kiln_cell_hull *hull,
             }
         }
         draw_batch(batch, drawn, d, kind, deep, covers, mixed);
+    }
+}
+
+SIMD void draw_wide(struct target *d, const struct kiln_cell_hull *hull, const struct box *box,
+                    struct batch *batch, enum kiln_sprite_shade kind, bool deep, bool covers,
+                    bool mixed)
+{
+    const struct kiln_sprite *s = d->s;
+    struct rows rows;
+    bool textured = kind != KILN_SHADE_PLAIN;
+    find_rows(d->tile, s, box, !deep && textured ? hull : NULL, &rows);
+    float scale = textured ? (float)PLACE_STEPS : 1.0f;
+    float margin = textured && !deep ? PLACE_MIDDLE : 0.0f;
+    for (int i = 0; i < ROW_VECTORS && textured; i++) {
+        rows.u[i] = rows.u[i] * scale + margin;
+        rows.v[i] = rows.v[i] * scale + margin;
+    }
+    const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
+    enum units_choice choice = d->tile->has_opaque && !d->hidden ? UNITS_SEEN : UNITS_ALL;
+    for (;;) {
+        draw_units(d, &rows, box, steps, choice, batch, kind, deep, covers, mixed);
+        if (covers || choice != UNITS_SEEN || !d->added)
+            return;
+        choice = UNITS_HIDDEN;
+        d->hidden = true;
     }
 }
 
@@ -369,6 +401,21 @@ SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
     return transparent == 0;
 }
 
+/* Begins to draw a sprite in a box. Returns false if there is nothing to draw. */
+SIMD bool begin_target(struct kiln_tile *tile, const struct kiln_sprite *s, const struct box *box,
+                       bool covers, struct target *d)
+{
+    *d = (struct target){.tile = tile, .s = s};
+    if (!covers && tile->adds_apart)
+        d->added = tile->added[0];
+    if (!tile->has_opaque)
+        return true;
+    if (box->x_from >= box->x_to)
+        return false;
+    d->hidden = box_hidden(tile, box);
+    return !d->hidden || d->added;
+}
+
 /* Finds the pixels in which sprites behind the drawn ones are still visible; returns false if there
  * are none. */
 static bool find_transparent(struct kiln_tile *tile)
@@ -399,9 +446,9 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
                       bool covers, bool mixed)
 {
     const struct box box = box_in(tile, s);
-    if (tile->has_opaque && (box.x_from >= box.x_to || box_hidden(tile, &box)))
+    struct target target;
+    if (!begin_target(tile, s, &box, covers, &target))
         return;
-    struct target target = {.tile = tile, .s = s};
     make_brush(tile, cells, s, kind, deep, mixed, &target.brush);
     struct batch batch;
     if (!deep && box.x_to - box.x_from <= UNIT)
@@ -463,9 +510,9 @@ static void draw_in_floats(struct kiln_tile *tile, const struct kiln_cells_conte
                            const struct kiln_sprite *s)
 {
     const struct box box = box_in(tile, s);
-    if (tile->has_opaque && (box.x_from >= box.x_to || box_hidden(tile, &box)))
+    struct target d;
+    if (!begin_target(tile, s, &box, (s->flags & KILN_SPRITE_COVERS) != 0, &d))
         return;
-    struct target d = {.tile = tile, .s = s};
     make_brush(tile, cells, s, (enum kiln_sprite_shade)s->shade, false,
                (s->flags & KILN_SPRITE_MIXED) != 0, &d.brush);
     d.brush.sampled = 1.0f / 255.0f;
@@ -540,7 +587,7 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
         covering += (s->flags & KILN_SPRITE_COVERS) != 0;
         if (covering == COVER_CHECK_INTERVAL && tile->over) {
             covering = 0;
-            if (!find_transparent(tile))
+            if (!find_transparent(tile) && !tile->adds_apart)
                 return;
         }
     }

@@ -113,11 +113,13 @@ SIMD vi units_seen(const struct kiln_tile *tile, size_t vector, vi columns)
     return (bits << (31 - (columns & 31))) < 0;
 }
 
-/* Lists the units of all rows and returns their number. Hidden units are left out. It lists the
- * first unit of each row, then the second of each row, and so on, so that there is no branch to
- * predict. */
+/* Names units: all; those of which some pixel is visible; the others. */
+enum units_choice { UNITS_ALL, UNITS_SEEN, UNITS_HIDDEN };
+
+/* Lists the chosen units of all rows and returns their number. It lists the first unit of each row,
+ * then the second of each row, and so on, so that there is no branch to predict. */
 SIMD int list_units(const struct kiln_tile *tile, const struct rows *rows, const struct box *box,
-                    const float steps[3], bool deep, struct units *units)
+                    const float steps[3], bool deep, enum units_choice choice, struct units *units)
 {
     int count = 0;
     const int most = (box->x_to - box->x_from + UNIT - 1) / UNIT;
@@ -126,8 +128,8 @@ SIMD int list_units(const struct kiln_tile *tile, const struct rows *rows, const
         const float right = (float)(UNIT * k);
         for (int i = 0; i < ROW_VECTORS; i++) {
             vi columns = rows->from[i] + UNIT * k, listed = rows->units[i] > k;
-            if (tile->has_opaque)
-                listed &= units_seen(tile, (size_t)i, columns);
+            if (choice != UNITS_ALL)
+                listed &= units_seen(tile, (size_t)i, columns) ^ -(choice == UNITS_HIDDEN);
             const struct selection selection = selection_of(listed);
             vi at = columns + (numbers + i * LANES) * (KILN_TILE_PLANES * KILN_TILE_PITCH);
             vi_compress(units->at + count, selection, at);
