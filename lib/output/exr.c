@@ -2,43 +2,39 @@
  * channels: R, G, B, A for the beauty, "fire.R" and so on for the others, Z for the depth. Pixels
  * are linear, premultiplied and ZIP-compressed in blocks of 16 lines. Alpha and colour are half or
  * float as asked; depth is always float. */
-#include <math.h>
 #include <openexr.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "output/exr_rows.h"
 #include "output/formats.h"
-#include "output/libdeflate.h"
+#include "output/zip.h"
 
 enum {
     MAX_CHANNELS = KILN_MAX_LAYERS * 4,
     CHANNEL_NAME_SIZE = 32,
-    ZIP_LEVEL = 1, /* of libdeflate */
 };
-
-/* The largest half: a larger value would read back as infinity. */
-static const float half_max = 65504.0f;
 
 struct exr_encoder {
     const struct kiln_output_params *params;
     struct kiln_temporary *file;
     exr_context_t context;
-    exr_encode_pipeline_t pipeline;
-    bool pipeline_used;
-    float *block; /* the lines of one chunk, channel after channel */
-    struct kiln_compressor *compressor;
-    /* A chunk's bytes, sorted; their differences; the chunk as it is written. */
-    uint8_t *sorted, *differences, *compressed;
-    size_t chunk_room; /* bytes of each of them */
+    const struct kiln_exr_loops *loops;
+    kiln_zip_run *zip;
+    struct kiln_zip_scratch *scratch;
+    struct kiln_zip_layout layout; /* of all chunks */
+    /* A line's low bytes, then its high bytes; a chunk's bytes, as they are compressed; the chunk
+     * as it is written. */
+    uint8_t *line, *differences, *compressed;
 };
 
 /* A channel of the file, and the samples that it comes from. */
 struct channel {
     char name[CHANNEL_NAME_SIZE];
     const struct kiln_layer *layer;
-    uint32_t component;
     exr_pixel_type_t type;
+    size_t row; /* its first row of a line (struct kiln_zip_layout) */
 };
 
 static struct kiln_output_needs needs(const struct kiln_output_params *params)
@@ -54,7 +50,7 @@ static bool check(const struct kiln_output_params *params, struct kiln_error *er
             error, KILN_USAGE,
             "found %u bits a channel for an EXR; allowed are 16 (half) or 32 (float)",
             params->exr_bits);
-    return kiln_libdeflate_open(error);
+    return true;
 }
 
 /* Ignores OpenEXR's message; without a handler, OpenEXR would print it. The returned code is
@@ -93,21 +89,21 @@ static bool fail(const struct exr_encoder *encoder, exr_result_t code, struct ki
 static void close_encoder(void *opaque)
 {
     struct exr_encoder *encoder = opaque;
-    if (encoder->pipeline_used)
-        exr_encoding_destroy(encoder->context, &encoder->pipeline);
     if (encoder->context)
         exr_finish(&encoder->context);
-    kiln_compressor_destroy(&encoder->compressor);
-    free(encoder->sorted);
+    free(encoder->line);
     free(encoder->differences);
     free(encoder->compressed);
-    free(encoder->block);
+    free(encoder->scratch);
     free(encoder);
 }
 
 static void *open_encoder(const struct kiln_output_params *params, struct kiln_temporary *file,
                           struct kiln_error *error)
 {
+    enum kiln_simd simd;
+    if (!kiln_simd_choose(&simd, error))
+        return NULL;
     struct exr_encoder *encoder = calloc(1, sizeof *encoder);
     if (!encoder) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the EXR encoder",
@@ -116,12 +112,8 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
     }
     encoder->params = params;
     encoder->file = file;
-    encoder->compressor = kiln_compressor_create(ZIP_LEVEL);
-    if (!encoder->compressor) {
-        fail(encoder, EXR_ERR_OUT_OF_MEMORY, error);
-        close_encoder(encoder);
-        return NULL;
-    }
+    encoder->loops = KILN_SIMD_PICK(kiln_exr_loops, simd);
+    encoder->zip = KILN_SIMD_PICK(kiln_zip, simd);
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.user_data = encoder;
     initializer.error_handler_fn = on_failure;
@@ -148,7 +140,6 @@ static uint32_t list_channels(const struct exr_encoder *encoder, const struct ki
         for (uint32_t c = 0; c < layer->channels && c < 4; c++) {
             struct channel *channel = &channels[count++];
             channel->layer = layer;
-            channel->component = c;
             channel->type =
                 depth || encoder->params->exr_bits == 32 ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF;
             snprintf(channel->name, sizeof channel->name, "%.29s%s%c", bare ? "" : layer->name,
@@ -209,8 +200,7 @@ static exr_result_t write_header(const struct exr_encoder *encoder,
 
 /* ---- The pixels --------------------------------------------------------------------------- */
 
-static const struct channel *find_channel(const struct channel *channels, uint32_t count,
-                                          const char *name)
+static struct channel *find_channel(struct channel *channels, uint32_t count, const char *name)
 {
     for (uint32_t i = 0; i < count; i++) {
         if (strcmp(channels[i].name, name) == 0)
@@ -219,108 +209,106 @@ static const struct channel *find_channel(const struct channel *channels, uint32
     return NULL;
 }
 
-/* Gathers the lines from y on of one channel, in order; halves are kept finite. */
-static void gather(const struct channel *channel, const struct kiln_picture *picture, uint32_t y,
-                   uint32_t lines, float *out)
+/* Gives the channels their rows, in the order of the file. */
+static exr_result_t place_channels(struct exr_encoder *encoder, const struct kiln_picture *picture,
+                                   struct channel *channels, uint32_t channel_count)
 {
-    uint32_t step = channel->layer->channels;
-    const float *in =
-        channel->layer->pixels + (size_t)y * picture->width * step + channel->component;
-    size_t count = (size_t)lines * picture->width;
-    bool half = channel->type == EXR_PIXEL_HALF;
-    for (size_t i = 0; i < count; i++, in += step)
-        out[i] = half && fabsf(*in) > half_max ? copysignf(half_max, *in) : *in;
-}
-
-static bool reserve_chunk(struct exr_encoder *encoder, size_t size)
-{
-    if (size <= encoder->chunk_room)
-        return true;
-    free(encoder->sorted);
-    free(encoder->differences);
-    free(encoder->compressed);
-    encoder->sorted = malloc(size);
-    encoder->differences = malloc(size);
-    encoder->compressed = malloc(size);
-    const bool ok = encoder->sorted && encoder->differences && encoder->compressed;
-    encoder->chunk_room = ok ? size : 0;
-    return ok;
-}
-
-/* Compresses a chunk as OpenEXR's ZIP does (ImfZip.cpp): bytes at even places come first, then
- * those at odd ones; then each byte but the first becomes its difference to the one before, plus
- * 128. A chunk that gets no smaller is stored as it is. OpenEXR 3.1 would call zlib, which takes
- * three times as long. */
-static exr_result_t compress_chunk(exr_encode_pipeline_t *pipeline)
-{
-    struct exr_encoder *encoder = pipeline->encoding_user_data;
-    const size_t size = pipeline->packed_bytes, half = (size + 1) / 2;
-    const uint8_t *packed = pipeline->packed_buffer;
-    if (!reserve_chunk(encoder, size))
-        return EXR_ERR_OUT_OF_MEMORY;
-    uint8_t *sorted = encoder->sorted, *differences = encoder->differences;
-    for (size_t i = 0; i < size / 2; i++) {
-        sorted[i] = packed[2 * i];
-        sorted[half + i] = packed[2 * i + 1];
+    struct kiln_zip_layout *layout = &encoder->layout;
+    const exr_attr_chlist_t *list = NULL;
+    const exr_result_t code = exr_get_channels(encoder->context, 0, &list);
+    if (code != EXR_ERR_SUCCESS)
+        return code;
+    *layout = (struct kiln_zip_layout){.row_bytes = picture->width};
+    for (int i = 0; i < list->num_channels; i++) {
+        struct channel *channel = find_channel(channels, channel_count, list->entries[i].name.str);
+        if (!channel)
+            return EXR_ERR_INVALID_ARGUMENT;
+        const size_t rows = channel->type == EXR_PIXEL_HALF ? 1 : 2;
+        channel->row = layout->rows;
+        if (channel->layer->channels == 1) {
+            layout->depth_from = layout->rows;
+            layout->depth_rows = rows;
+        }
+        layout->rows += rows;
     }
-    if (size % 2)
-        sorted[half - 1] = packed[size - 1];
-    differences[0] = sorted[0];
-    for (size_t i = 1; i < size; i++)
-        differences[i] = (uint8_t)(sorted[i] - sorted[i - 1] + 128);
-    size_t written =
-        kiln_compressor_run(encoder->compressor, differences, size, encoder->compressed, size);
-    if (written == 0 || written >= size) {
-        memcpy(encoder->compressed, packed, size);
-        written = size;
-    }
-    pipeline->compressed_buffer = encoder->compressed;
-    pipeline->compressed_bytes = written;
-    pipeline->compressed_alloc_size = 0;
     return EXR_ERR_SUCCESS;
 }
 
-/* Runs the pipeline, to which the compressed bytes are lent. */
-static exr_result_t run_pipeline(struct exr_encoder *encoder)
+/* Makes room for chunks of so many lines. */
+static exr_result_t make_buffers(struct exr_encoder *encoder, size_t lines)
 {
-    exr_encode_pipeline_t *pipeline = &encoder->pipeline;
-    pipeline->encoding_user_data = encoder;
-    pipeline->compress_fn = compress_chunk;
-    const exr_result_t code = exr_encoding_run(encoder->context, 0, pipeline);
-    pipeline->compressed_buffer = NULL;
-    return code;
+    const size_t line = 2 * encoder->layout.rows * encoder->layout.row_bytes;
+    encoder->line = malloc(line);
+    encoder->differences = malloc(lines * line);
+    encoder->compressed = malloc(kiln_zip_room(lines * line));
+    encoder->scratch = malloc(sizeof *encoder->scratch);
+    const bool ok =
+        encoder->line && encoder->differences && encoder->compressed && encoder->scratch;
+    return ok ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
 }
 
-static exr_result_t write_chunk(struct exr_encoder *encoder, const struct kiln_picture *picture,
-                                const struct channel *channels, uint32_t channel_count, uint32_t y)
+static void pack_line(const struct exr_encoder *encoder, const struct kiln_picture *picture,
+                      const struct channel *channels, uint32_t channel_count, size_t y)
 {
-    exr_chunk_info_t chunk;
-    exr_encode_pipeline_t *pipeline = &encoder->pipeline;
-    exr_result_t code = exr_write_scanline_chunk_info(encoder->context, 0, (int)y, &chunk);
-    if (code == EXR_ERR_SUCCESS)
-        code = encoder->pipeline_used
-                   ? exr_encoding_update(encoder->context, 0, &chunk, pipeline)
-                   : exr_encoding_initialize(encoder->context, 0, &chunk, pipeline);
-    if (code != EXR_ERR_SUCCESS)
-        return code;
-    size_t plane = (size_t)picture->width * (size_t)chunk.height;
-    for (int i = 0; i < pipeline->channel_count; i++) {
-        exr_coding_channel_info_t *target = &pipeline->channels[i];
-        const struct channel *source = find_channel(channels, channel_count, target->channel_name);
-        if (!source)
-            return EXR_ERR_INVALID_ARGUMENT;
-        float *out = encoder->block + plane * (size_t)i;
-        gather(source, picture, y, (uint32_t)chunk.height, out);
-        target->user_data_type = EXR_PIXEL_FLOAT;
-        target->user_bytes_per_element = sizeof(float);
-        target->user_pixel_stride = sizeof(float);
-        target->user_line_stride = (int32_t)(picture->width * sizeof(float));
-        target->encode_from_ptr = (const uint8_t *)out;
+    const size_t width = picture->width;
+    uint8_t *high = encoder->line + encoder->layout.rows * width;
+    for (uint32_t i = 0; i < channel_count;) {
+        const struct kiln_layer *layer = channels[i].layer;
+        const bool half = channels[i].type == EXR_PIXEL_HALF;
+        struct kiln_exr_row rows[4];
+        for (uint32_t c = 0; c < layer->channels; c++, i++) {
+            const size_t at = channels[i].row * width;
+            rows[c] = (struct kiln_exr_row){encoder->line + at, high + at};
+        }
+        encoder->loops->pack(layer->pixels + y * width * layer->channels, layer->channels, width,
+                             half, rows);
     }
-    if (!encoder->pipeline_used)
-        code = exr_encoding_choose_default_routines(encoder->context, 0, pipeline);
-    encoder->pipeline_used = true;
-    return code == EXR_ERR_SUCCESS ? run_pipeline(encoder) : code;
+}
+
+/* Writes a chunk's bytes as OpenEXR's ZIP compresses them: those at even places, then those at odd
+ * ones, each but the first as its difference to the one before. Returns their number. */
+static size_t make_differences(const struct exr_encoder *encoder,
+                               const struct kiln_picture *picture, const struct channel *channels,
+                               uint32_t channel_count, uint32_t y, uint32_t lines)
+{
+    const size_t line = encoder->layout.rows * picture->width, plane = lines * line;
+    const uint8_t *low = encoder->line, *high = encoder->line + line;
+    uint8_t *differences = encoder->differences, before[2] = {128, 0};
+    for (uint32_t i = 0; i < lines; i++) {
+        pack_line(encoder, picture, channels, channel_count, y + i);
+        encoder->loops->subtract(low, before[0], line, differences + i * line);
+        encoder->loops->subtract(high, before[1], line, differences + plane + i * line);
+        before[0] = low[line - 1];
+        before[1] = high[line - 1];
+    }
+    differences[plane] = (uint8_t)(differences[plane] - before[0]);
+    return 2 * plane;
+}
+
+/* Writes a chunk's bytes as they are without compression. */
+static void undo_differences(const uint8_t *differences, size_t size, uint8_t *out)
+{
+    uint8_t byte = 128;
+    for (size_t i = 0; i < size; i++) {
+        byte = (uint8_t)(byte + differences[i] - 128);
+        out[i < size / 2 ? 2 * i : 2 * (i - size / 2) + 1] = byte;
+    }
+}
+
+/* A chunk that gets no smaller is stored as it is. OpenEXR's C core would pack the pixels in more
+ * passes, and compress them by zlib, which takes ten times as long. */
+static exr_result_t write_chunk(struct exr_encoder *encoder, const struct kiln_picture *picture,
+                                const struct channel *channels, uint32_t channel_count, uint32_t y,
+                                uint32_t lines)
+{
+    const size_t size = make_differences(encoder, picture, channels, channel_count, y, lines);
+    size_t written = encoder->zip(encoder->differences, size, &encoder->layout, encoder->compressed,
+                                  encoder->scratch);
+    if (written >= size) {
+        undo_differences(encoder->differences, size, encoder->compressed);
+        written = size;
+    }
+    return exr_write_scanline_chunk(encoder->context, 0, (int)y, encoder->compressed, written);
 }
 
 static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)
@@ -331,16 +319,18 @@ static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln
     if (channel_count == 0)
         return fail(encoder, EXR_ERR_INVALID_ARGUMENT, error);
     exr_result_t code = write_header(encoder, picture, channels, channel_count);
-    int32_t lines = 1;
+    int32_t most = 1;
     if (code == EXR_ERR_SUCCESS)
-        code = exr_get_scanlines_per_chunk(encoder->context, 0, &lines);
-    if (code == EXR_ERR_SUCCESS) {
-        encoder->block =
-            malloc((size_t)lines * picture->width * channel_count * sizeof *encoder->block);
-        code = encoder->block ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
+        code = exr_get_scanlines_per_chunk(encoder->context, 0, &most);
+    if (code == EXR_ERR_SUCCESS)
+        code = place_channels(encoder, picture, channels, channel_count);
+    if (code == EXR_ERR_SUCCESS)
+        code = make_buffers(encoder, (size_t)most);
+    for (uint32_t y = 0; y < picture->height && code == EXR_ERR_SUCCESS; y += (uint32_t)most) {
+        const uint32_t left = picture->height - y;
+        const uint32_t lines = left < (uint32_t)most ? left : (uint32_t)most;
+        code = write_chunk(encoder, picture, channels, channel_count, y, lines);
     }
-    for (uint32_t y = 0; y < picture->height && code == EXR_ERR_SUCCESS; y += (uint32_t)lines)
-        code = write_chunk(encoder, picture, channels, channel_count, y);
     return code == EXR_ERR_SUCCESS || fail(encoder, code, error);
 }
 
@@ -349,9 +339,6 @@ static bool finish(void *opaque, const struct kiln_caller *caller, struct kiln_e
 {
     (void)caller;
     struct exr_encoder *encoder = opaque;
-    if (encoder->pipeline_used)
-        exr_encoding_destroy(encoder->context, &encoder->pipeline);
-    encoder->pipeline_used = false;
     exr_result_t code = exr_finish(&encoder->context);
     encoder->context = NULL;
     return (code == EXR_ERR_SUCCESS && !encoder->file->failure) || fail(encoder, code, error);
