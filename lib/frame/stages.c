@@ -553,14 +553,19 @@ uint32_t kiln_stages_layers(const char *names[KILN_MAX_LAYERS], uint32_t channel
     return count;
 }
 
-static bool copy_layer(struct kiln_threads *threads, struct kiln_image *image,
+/* Gives a layer the pixels of an image: the memory itself where each frame draws the image anew. */
+static bool read_layer(struct kiln_stages *s, struct kiln_image *image, bool drawn_anew,
                        struct kiln_layer *layer, struct kiln_error *error)
 {
     const float *pixels = kiln_image_host(image, KILN_READ, error);
     if (!pixels)
         return false;
+    if (drawn_anew && !image->device) {
+        kiln_image_exchange(image, &layer->pixels);
+        return true;
+    }
     size_t floats = (size_t)image->width * image->height * layer->channels;
-    return kiln_threads_copy(threads, layer->pixels, pixels, floats * sizeof(float), error);
+    return kiln_threads_copy(s->threads, layer->pixels, pixels, floats * sizeof(float), error);
 }
 
 static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
@@ -572,10 +577,11 @@ static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
         sources[2] = kiln_shutter_image(s->shutter, KILN_SHUTTER_FIRE);
         sources[3] = kiln_shutter_image(s->shutter, KILN_SHUTTER_SMOKE);
     }
-    if (!kiln_composite_read_beauty(s->composite, picture->layers[0].pixels, error))
+    if (!kiln_composite_take_beauty(s->composite, &picture->layers[0].pixels, error))
         return false;
     for (uint32_t i = 1; i < picture->layer_count; i++) {
-        if (!copy_layer(s->threads, sources[i], &picture->layers[i], error))
+        const bool drawn_anew = !s->shutter && i > 1; /* depths may be kept for the next frame */
+        if (!read_layer(s, sources[i], drawn_anew, &picture->layers[i], error))
             return false;
     }
     return true;

@@ -29,6 +29,13 @@ void kiln_image_finish(struct kiln_image *image)
     *image = (struct kiln_image){.device = NULL};
 }
 
+void kiln_image_exchange(struct kiln_image *image, float **pixels)
+{
+    float *host = image->host;
+    image->host = *pixels;
+    *pixels = host;
+}
+
 static bool refuse_memory(const struct kiln_image *image, const char *place,
                           struct kiln_error *error)
 {

@@ -22,4 +22,8 @@ void kiln_image_finish(struct kiln_image *image);
 float *kiln_image_host(struct kiln_image *image, enum kiln_access access, struct kiln_error *error);
 GLuint kiln_image_gl(struct kiln_image *image, enum kiln_access access, struct kiln_error *error);
 
+/* Exchanges the pixels of an image that is on the host alone for those at *pixels: memory of the
+ * same size, which free() frees. */
+void kiln_image_exchange(struct kiln_image *image, float **pixels);
+
 #endif

@@ -56,10 +56,11 @@ bool kiln_composite_read_display(struct kiln_composite_stage *stage, void *pixel
     return kiln_composite_cpu_read_display(stage->cpu, pixels, error);
 }
 
-bool kiln_composite_read_beauty(struct kiln_composite_stage *stage, float *pixels,
+bool kiln_composite_take_beauty(struct kiln_composite_stage *stage, float **pixels,
                                 struct kiln_error *error)
 {
     if (!stage->cpu)
-        return kiln_composite_gl_read_beauty(stage->gl, pixels, error);
-    return kiln_composite_cpu_read_beauty(stage->cpu, pixels, error);
+        return kiln_composite_gl_read_beauty(stage->gl, *pixels, error);
+    kiln_composite_cpu_exchange_beauty(stage->cpu, pixels);
+    return true;
 }

@@ -16,7 +16,7 @@ struct kiln_composite_params {
     enum kiln_composite_technique technique;
     struct kiln_threads *threads; /* for KILN_COMPOSITE_CPU */
     uint32_t bits;                /* bits a channel of the display picture: 8 or 16 */
-    bool beauty;                  /* whether kiln_composite_read_beauty will be called */
+    bool beauty;                  /* whether kiln_composite_take_beauty will be called */
     /* false: alpha times the display's values of a colour shows it over black, as viewers blend;
      * true: alpha times its light does, as renderers blend textures */
     bool texture;
@@ -44,11 +44,12 @@ bool kiln_composite_run(struct kiln_composite_stage *stage,
                         const struct kiln_composite_inputs *inputs, struct kiln_error *error);
 
 /* kiln_composite_read_display copies the display picture to the host (sRGB, RGBA, not
- * premultiplied, 8 or 16 bits a channel, rows from the top). kiln_composite_read_beauty copies the
- * scene-linear, premultiplied picture (float RGBA). */
+ * premultiplied, 8 or 16 bits a channel, rows from the top). kiln_composite_take_beauty gives
+ * the scene-linear, premultiplied picture (float RGBA) once: it writes *pixels, or exchanges that
+ * memory, which free() frees, for the picture's. */
 bool kiln_composite_read_display(struct kiln_composite_stage *stage, void *pixels,
                                  struct kiln_error *error);
-bool kiln_composite_read_beauty(struct kiln_composite_stage *stage, float *pixels,
+bool kiln_composite_take_beauty(struct kiln_composite_stage *stage, float **pixels,
                                 struct kiln_error *error);
 
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/pages.h"
 #include "post/composite_rows.h"
 #include "shared/exact.h"
 
@@ -34,7 +35,7 @@ struct kiln_composite_cpu *kiln_composite_cpu_create(const struct kiln_scene *sc
                                              .bits = params->bits,
                                              .texture = params->texture};
         stage->display = malloc(pixels * 4 * (params->bits / 8));
-        stage->beauty = params->beauty ? malloc(pixels * 4 * sizeof(float)) : NULL;
+        stage->beauty = params->beauty ? kiln_alloc_pages(pixels * 4 * sizeof(float)) : NULL;
     }
     if (!stage || !stage->display || (params->beauty && !stage->beauty)) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "composite: out of memory");
@@ -101,10 +102,9 @@ bool kiln_composite_cpu_read_display(const struct kiln_composite_cpu *stage, voi
                              error);
 }
 
-bool kiln_composite_cpu_read_beauty(const struct kiln_composite_cpu *stage, float *pixels,
-                                    struct kiln_error *error)
+void kiln_composite_cpu_exchange_beauty(struct kiln_composite_cpu *stage, float **pixels)
 {
-    size_t channels = (size_t)stage->scene->width * stage->scene->height * 4;
-    return kiln_threads_copy(stage->threads, pixels, stage->beauty, channels * sizeof(float),
-                             error);
+    float *beauty = stage->beauty;
+    stage->beauty = *pixels;
+    *pixels = beauty;
 }

@@ -16,7 +16,6 @@ bool kiln_composite_cpu_run(struct kiln_composite_cpu *stage,
                             const struct kiln_composite_inputs *inputs, struct kiln_error *error);
 bool kiln_composite_cpu_read_display(const struct kiln_composite_cpu *stage, void *pixels,
                                      struct kiln_error *error);
-bool kiln_composite_cpu_read_beauty(const struct kiln_composite_cpu *stage, float *pixels,
-                                    struct kiln_error *error);
+void kiln_composite_cpu_exchange_beauty(struct kiln_composite_cpu *stage, float **pixels);
 
 #endif

@@ -91,7 +91,7 @@ static struct composed compose(void *device, const struct kiln_scene *scene,
     assert_non_null(stage);
     assert_true(kiln_composite_run(stage, inputs, &error));
     assert_true(kiln_composite_read_display(stage, out.display, &error));
-    assert_true(kiln_composite_read_beauty(stage, out.beauty, &error));
+    assert_true(kiln_composite_take_beauty(stage, &out.beauty, &error));
     kiln_composite_destroy(&stage);
     kiln_threads_destroy(&workers);
     return out;

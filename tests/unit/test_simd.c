@@ -134,7 +134,7 @@ static void *compose(struct fixture *f, const struct kiln_scene *scene, uint32_t
     assert_true(kiln_composite_read_display(stage, bytes, &error));
     float *beauty = malloc(FLOATS * sizeof(float));
     assert_non_null(beauty);
-    assert_true(kiln_composite_read_beauty(stage, beauty, &error));
+    assert_true(kiln_composite_take_beauty(stage, &beauty, &error));
     for (size_t i = 0; i < FLOATS; i++)
         beauty[i] = isnan(beauty[i]) ? NAN : beauty[i]; /* which of two it comes from is open */
     memcpy(bytes + display, beauty, FLOATS * sizeof(float));
