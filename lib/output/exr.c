@@ -225,11 +225,12 @@ static exr_result_t place_channels(struct exr_encoder *encoder, const struct kil
             return EXR_ERR_INVALID_ARGUMENT;
         const size_t rows = channel->type == EXR_PIXEL_HALF ? 1 : 2;
         channel->row = layout->rows;
-        if (channel->layer->channels == 1) {
-            layout->depth_from = layout->rows;
-            layout->depth_rows = rows;
-        }
         layout->rows += rows;
+        if (channel->type != EXR_PIXEL_FLOAT)
+            continue;
+        if (layout->float_rows == 0)
+            layout->float_from = channel->row;
+        layout->float_rows = layout->rows - layout->float_from;
     }
     return EXR_ERR_SUCCESS;
 }
@@ -296,7 +297,7 @@ static void undo_differences(const uint8_t *differences, size_t size, uint8_t *o
 }
 
 /* A chunk that gets no smaller is stored as it is. OpenEXR's C core would pack the pixels in more
- * passes, and compress them by zlib, which takes ten times as long. */
+ * passes, and compress them by zlib, which takes several times as long. */
 static exr_result_t write_chunk(struct exr_encoder *encoder, const struct kiln_picture *picture,
                                 const struct channel *channels, uint32_t channel_count, uint32_t y,
                                 uint32_t lines)

@@ -61,9 +61,10 @@ SIMD void store_samples(const struct kiln_exr_row *row, size_t x, vf samples, bo
 
 SIMD void pack_fours(const float *pixels, size_t x, bool half, const struct kiln_exr_row *rows)
 {
-    const float *at = pixels + 4 * x;
-    const struct columns colors = columns_transpose(
-        vf_load(at), vf_load(at + LANES), vf_load(at + 2 * LANES), vf_load(at + 3 * LANES));
+    vf lying[4];
+    for (size_t i = 0; i < 4; i++)
+        lying[i] = vf_load(pixels + 4 * x + i * LANES);
+    const struct columns colors = columns_transpose(lying[0], lying[1], lying[2], lying[3]);
     for (int c = 0; c < 4; c++)
         store_samples(&rows[c], x, row_order(colors.c[c]), half);
 }

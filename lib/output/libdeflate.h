@@ -1,6 +1,6 @@
-/* A kiln_compressor makes zlib streams by libdeflate: at its highest level for small PNG files,
- * whose lower levels are slower than output/deflate.h and give larger files, and at a low one for
- * EXR. The library is opened when such a file is written, so that no other run waits for it. */
+/* A kiln_compressor makes zlib streams by libdeflate, at its highest level for small PNG files. Its
+ * lower levels are slower than output/deflate.h and give larger files. The library is opened when
+ * such a file is written, so that no other run waits for it. */
 #ifndef KILN_OUTPUT_LIBDEFLATE_H
 #define KILN_OUTPUT_LIBDEFLATE_H
 

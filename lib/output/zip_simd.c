@@ -8,7 +8,8 @@
  *   eighth of a row, which finds long repeats of whole rows. Matches then grow in both directions.
  * - In a plane whose bytes are mostly the same, as high bytes are, a literal takes two or three
  *   bits, so that only long repeats pay. There every eighth byte is enough from the start.
- * - Rows of depths get a search at every byte: floats of a slope have short repeats.
+ * - Rows of floats get a search at nearly every byte: they have short repeats, as depths of a slope
+ *   do.
  * - A hash has one place, that of the latest bytes.
  * - Only a third of the literals is counted for the codes. Every literal has a code.
  * - The file is compiled for each level of vectors: AVX2 brings shifts by a register that are three
@@ -36,7 +37,7 @@ struct manner {
     unsigned same, least, patience, noted;
 };
 
-static const struct manner SPARSE = {8, 16, 0, 8}, USUAL = {6, 6, 3, 4}, DENSE = {4, 4, 6, 1};
+static const struct manner SPARSE = {8, 16, 0, 8}, USUAL = {6, 6, 4, 2}, DENSE = {4, 4, 6, 1};
 
 struct search {
     const uint8_t *bytes;
@@ -309,8 +310,8 @@ static void compress_plane(struct search *s, size_t begin, const struct kiln_zip
     s->count = 0;
     for (size_t row = begin; row < s->end; row += layout->row_bytes) {
         const size_t row_end = row + layout->row_bytes;
-        const bool deep = number - layout->depth_from < layout->depth_rows;
-        while (!(deep     ? search_dense(s, row, row_end)
+        const bool floats = number - layout->float_from < layout->float_rows;
+        while (!(floats   ? search_dense(s, row, row_end)
                  : uneven ? search_sparse(s, row, row_end)
                           : search_usual(s, row, row_end))) {
             write_block(bits, s->bytes + block, s, false);
