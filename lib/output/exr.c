@@ -232,7 +232,7 @@ static exr_result_t place_channels(struct exr_encoder *encoder, const struct kil
             layout->float_from = channel->row;
         layout->float_rows = layout->rows - layout->float_from;
     }
-    return EXR_ERR_SUCCESS;
+    return layout->rows > 0 && layout->row_bytes > 0 ? EXR_ERR_SUCCESS : EXR_ERR_INVALID_ARGUMENT;
 }
 
 /* Makes room for chunks of so many lines. */
