@@ -97,16 +97,16 @@ SIMD vf vf_gather(const float *from, vi index)
 
 SIMD struct vi_pair vi_gather_pair(const int32_t *from, vi index)
 {
-    typedef long long pairs __attribute__((vector_size(32)));
     const long long *at = (const long long *)(const void *)from;
     const __m128i lower = _mm256_castsi256_si128((__m256i)index);
-    const pairs a = (pairs)_mm256_i32gather_epi64(at, lower, 4);
-    const pairs b =
-        (pairs)_mm256_i32gather_epi64(at, _mm256_extracti128_si256((__m256i)index, 1), 4);
-    return (struct vi_pair){
-        __builtin_shuffle((vi)a, (vi)b, (vi){0, 2, 4, 6, 8, 10, 12, 14}),
-        __builtin_shuffle((vi)a, (vi)b, (vi){1, 3, 5, 7, 9, 11, 13, 15}),
-    };
+    const __m128i upper = _mm256_extracti128_si256((__m256i)index, 1);
+    const __m256 a = (__m256)_mm256_i32gather_epi64(at, lower, 4);
+    const __m256 b = (__m256)_mm256_i32gather_epi64(at, upper, 4);
+    /* Shuffles take the lower two of a, then of b, and then the upper ones. */
+    const __m256i first = (__m256i)_mm256_shuffle_ps(a, b, 0x88);
+    const __m256i second = (__m256i)_mm256_shuffle_ps(a, b, 0xdd);
+    return (struct vi_pair){(vi)_mm256_permute4x64_epi64(first, 0xd8),
+                            (vi)_mm256_permute4x64_epi64(second, 0xd8)};
 }
 
 #else

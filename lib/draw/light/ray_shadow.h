@@ -74,9 +74,10 @@ SIMD struct shadow_sample read_shadow_level(const struct shadow_map *map,
     const vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
     const int32_t pitch = KILN_SHADOW_PITCH(map->edge);
     const vi at = (level->start + vi_of(top) * pitch + vi_of(left)) * map->words;
+    const size_t texel = (size_t)map->words, below = (size_t)pitch * texel;
     struct shadow_sample sum = {{0}, {0}, {0}, {0}};
     for (int i = 0; i < 2; i++) {
-        const int32_t *row = (const int32_t *)map->texels + i * pitch * map->words;
+        const int32_t *row = (const int32_t *)map->texels + (i ? below : 0);
         const vf height = i ? down : 1.0f - down, weights[2] = {1.0f - right, right};
         if (map->words == 1) {
             const struct vi_pair texels = vi_gather_pair(row, at);
@@ -85,7 +86,7 @@ SIMD struct shadow_sample read_shadow_level(const struct shadow_map *map,
             continue;
         }
         for (int k = 0; k < 2; k++) {
-            const struct vi_pair words = vi_gather_pair(row + k * map->words, at);
+            const struct vi_pair words = vi_gather_pair(row + (k ? texel : 0), at);
             add_texel(&sum, weights[k] * height, words.first);
             add_second_word(&sum, weights[k] * height, words.second);
         }
