@@ -37,7 +37,7 @@ REAL_FN real sun_penumbra(real along, real spread, real radius)
  * ball's centre from the plane, m; radius: 0 for a point. */
 REAL_FN real cover_side(real distance, real radius)
 {
-    return real_clamp01(0.5f + 0.5f * distance / real_max(radius, real_all(1e-6f)));
+    return real_clamp01(0.5f + distance * (0.5f / real_max(radius, real_all(1e-6f))));
 }
 
 /* ---- boxes ----------------------------------------------------------------------------------- */

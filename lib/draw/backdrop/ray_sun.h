@@ -29,16 +29,45 @@ SIMD vi sun_may_be_hidden(const struct kiln_ray_frame *frame, const struct sun_r
     return receiver->active & (t > -size) & (vf3_dot(across, across) < wide * wide);
 }
 
+/* Returns the lanes where a cylinder or a capsule may hide a part of the sun. size: the radius of
+ * its bounding sphere, m. */
+SIMD vi axis_may_hide_sun(const struct kiln_ray_frame *frame, const struct sun_receiver *receiver,
+                          float4 shape, float4 axis, float size)
+{
+    const struct vf3 towards = vf3_towards(shape, receiver->origin);
+    const vi near = sun_may_be_hidden(frame, receiver, towards, size);
+    if (!any(near))
+        return near;
+    return near & cone_meets_axis(vf_all(0.0f), vf_all(frame->shapes->sun_right.w), towards,
+                                  shape.w, axis, vf3_all(frame->backdrop->sun_direction));
+}
+
+/* Return what is left of the visible part of the sun behind an object, in the lanes where it may
+ * hide some: by the part that it covers, or by where a ray to the middle of the sun crosses it. */
+SIMD vf hide_sun(vf visible, vi near, vf cover)
+{
+    return visible * (1.0f - vf_where(near, cover));
+}
+
+SIMD vf block_sun(vf visible, vi near, struct ray_interval crossed)
+{
+    return vf_where(~(near & ray_is_blocked(crossed)), visible);
+}
+
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
 /* m: more than rounding displaces a ray, less than the 1e-3 m that rays start off surfaces. */
 #define BOX_EDGE 1e-4f
 
-SIMD vf box_cover(const struct ray_slabs *s, const struct sun_edges *edges, float spread)
+/* Returns what a box leaves of the visible part of the sun. s: where the rays cross its slabs. */
+SIMD vf sun_past_box(const struct kiln_ray_frame *frame, vf visible, vi near,
+                     const struct ray_slabs *s, const struct sun_edges *edges)
 {
-    const struct box_hidden hidden =
-        box_cross(*s, box_outline_all(*edges), BOX_EDGE, vf_all(spread), vf_all(0.0f));
-    return vf_where(hidden.exit_distance > 0.0f, hidden.cover);
+    if (!frame->soft_sun)
+        return block_sun(visible, near, ray_slabs_interval(*s));
+    const struct box_hidden hidden = box_cross(*s, box_outline_all(*edges), BOX_EDGE,
+                                               vf_all(frame->shapes->sun_right.w), vf_all(0.0f));
+    return hide_sun(visible, near & (hidden.exit_distance > 0.0f), hidden.cover);
 }
 
 SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,
@@ -46,121 +75,116 @@ SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     const struct sun_edges *edges = &frame->shapes->edges;
-    const struct vf3 inverses = vf3_all(edges->inverse);
+    const struct vf3 inverses = vf3_all(edges->inverse), way = vf3_all(b->sun_direction);
+    const vf spread = vf_all(frame->shapes->sun_right.w);
     vf visible = vf_all(1.0f);
     for (uint32_t i = 0; i < b->counts.x; i++) {
+        const float4 half = b->box_half[i];
         const struct vf3 towards = vf3_towards(b->box_center[i], receiver->origin);
-        vi near = sun_may_be_hidden(frame, receiver, towards, lamp_box_size(b->box_half[i]));
+        vi near = sun_may_be_hidden(frame, receiver, towards, lamp_box_size(half));
         if (!any(near))
             continue;
-        struct ray_slabs s = ray_cross_slabs(towards, b->box_half[i], inverses);
-        const vf grow = cone_at_box(vf_all(0.0f), vf_all(frame->shapes->sun_right.w), towards,
-                                    b->box_half[i], vf3_all(b->sun_direction));
+        const struct ray_slabs s = ray_cross_slabs(towards, half, inverses);
+        const vf grow = cone_at_box(vf_all(0.0f), spread, towards, half, way);
         const struct box_crossing crossing = cross_grown_box(&s, inverses, grow);
         near &= (crossing.enters <= crossing.leaves) & (crossing.leaves >= 0.0f);
-        if (!any(near))
-            continue;
-        if (!frame->soft_sun) {
-            vi hidden = near & ray_is_blocked(ray_slabs_interval(s));
-            visible = vf_where(~hidden, visible);
-        } else {
-            vf cover = box_cover(&s, edges, frame->shapes->sun_right.w);
-            visible *= 1.0f - vf_where(near, cover);
-        }
+        if (any(near))
+            visible = sun_past_box(frame, visible, near, &s, edges);
     }
     return visible;
 }
 
 /* ---- spheres and cylinders ------------------------------------------------------------------- */
 
-SIMD vf cylinder_of_sun(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
-{
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    const float4 cylinder = shapes->cylinders[i];
-    return cylinder_cover(vf3_towards(cylinder, origin), cylinder.w, shapes->cylinder_axis[i],
-                          vf3_all(frame->backdrop->sun_direction), cover_band_all(shapes->bands[i]),
-                          vf_all(shapes->sun_right.w), vf_all(0.0f))
-        .cover;
-}
-
-SIMD vf round_sun_visibility(const struct kiln_ray_frame *frame,
-                             const struct sun_receiver *receiver)
+SIMD vf spheres_sun_visibility(const struct kiln_ray_frame *frame,
+                               const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
+    const vf spread = vf_all(shapes->sun_right.w), point = vf_all(0.0f);
     vf visible = vf_all(1.0f);
-    for (int i = 0; i < (int)shapes->counts.x; i++) {
+    for (uint32_t i = 0; i < shapes->counts.x; i++) {
         const float4 sphere = shapes->spheres[i];
         const struct vf3 towards = vf3_towards(sphere, receiver->origin);
-        if (!any(sun_may_be_hidden(frame, receiver, towards, sphere.w)))
+        const vi near = sun_may_be_hidden(frame, receiver, towards, sphere.w);
+        if (!any(near))
             continue;
-        if (frame->soft_sun)
-            visible *=
-                1.0f -
-                ball_cover(towards, sphere.w, way, vf_all(shapes->sun_right.w), vf_all(0.0f)).cover;
-        else
-            visible =
-                vf_where(~ray_is_blocked(ray_cross_ball(sphere, receiver->origin, way)), visible);
+        visible =
+            frame->soft_sun
+                ? hide_sun(visible, near, ball_cover(towards, sphere.w, way, spread, point).cover)
+                : block_sun(visible, near, ray_cross_ball(sphere, receiver->origin, way));
     }
-    for (int i = 0; i < (int)shapes->counts.y; i++) {
-        if (!any(sun_may_be_hidden(frame, receiver,
-                                   vf3_towards(shapes->cylinders[i], receiver->origin),
-                                   cylinder_size(shapes->cylinders[i], shapes->cylinder_axis[i]))))
+    return visible;
+}
+
+SIMD vf cylinders_sun_visibility(const struct kiln_ray_frame *frame,
+                                 const struct sun_receiver *receiver)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
+    const vf spread = vf_all(shapes->sun_right.w), point = vf_all(0.0f);
+    vf visible = vf_all(1.0f);
+    for (uint32_t i = 0; i < shapes->counts.y; i++) {
+        const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
+        const vi near =
+            axis_may_hide_sun(frame, receiver, cylinder, axis, cylinder_size(cylinder, axis));
+        if (!any(near))
             continue;
-        if (frame->soft_sun) {
-            visible *= 1.0f - cylinder_of_sun(frame, i, receiver->origin);
-        } else {
-            struct ray_cylinder c = ray_cross_cylinder(
-                shapes->cylinders[i], shapes->cylinder_axis[i], receiver->origin, way);
-            visible = vf_where(~ray_is_blocked(c.interval), visible);
+        if (!frame->soft_sun) {
+            visible = block_sun(visible, near,
+                                ray_cross_cylinder(cylinder, axis, receiver->origin, way).interval);
+            continue;
         }
+        const struct cover_at at =
+            cylinder_cover(vf3_towards(cylinder, receiver->origin), cylinder.w, axis, way,
+                           cover_band_all(shapes->bands[i]), spread, point);
+        visible = hide_sun(visible, near, at.cover);
     }
     return visible;
 }
 
 /* ---- capsules and oriented boxes ------------------------------------------------------------- */
 
-SIMD vf capsule_cover(const struct kiln_ray_frame *frame, int i, struct vf3 origin)
-{
-    const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
-    const float4 capsule = frame->shapes->capsules[i];
-    const struct vf3 towards =
-        capsule_nearest(vf3_towards(capsule, origin), frame->shapes->capsule_axis[i], way);
-    const vf spread = vf_all(frame->shapes->sun_right.w);
-    return ball_cover(towards, capsule.w, way, spread, vf_all(0.0f)).cover;
-}
-
-SIMD vf oriented_sun_visibility(const struct kiln_ray_frame *frame,
+SIMD vf capsules_sun_visibility(const struct kiln_ray_frame *frame,
                                 const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
+    const vf spread = vf_all(shapes->sun_right.w), point = vf_all(0.0f);
     vf visible = vf_all(1.0f);
-    for (int i = 0; i < (int)shapes->oriented_counts.x; i++) {
-        const float4 capsule = shapes->capsules[i];
-        if (!any(sun_may_be_hidden(frame, receiver, vf3_towards(capsule, receiver->origin),
-                                   capsule.w + shapes->capsule_axis[i].w)))
+    for (uint32_t i = 0; i < shapes->oriented_counts.x; i++) {
+        const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
+        const vi near = axis_may_hide_sun(frame, receiver, capsule, axis, capsule.w + axis.w);
+        if (!any(near))
             continue;
-        if (frame->soft_sun)
-            visible *= 1.0f - capsule_cover(frame, i, receiver->origin);
-        else
+        if (!frame->soft_sun) {
             visible =
-                vf_where(~ray_is_blocked(ray_cross_capsule(
-                             shapes->capsules[i], shapes->capsule_axis[i], receiver->origin, way)),
-                         visible);
+                block_sun(visible, near, ray_cross_capsule(capsule, axis, receiver->origin, way));
+            continue;
+        }
+        const struct vf3 nearest =
+            capsule_nearest(vf3_towards(capsule, receiver->origin), axis, way);
+        visible = hide_sun(visible, near, ball_cover(nearest, capsule.w, way, spread, point).cover);
     }
-    for (int i = 0; i < (int)shapes->oriented_counts.y; i++) {
+    return visible;
+}
+
+SIMD vf oriented_boxes_sun_visibility(const struct kiln_ray_frame *frame,
+                                      const struct sun_receiver *receiver)
+{
+    const struct kiln_draw_shapes *shapes = frame->shapes;
+    vf visible = vf_all(1.0f);
+    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
         const struct sun_edges *edges = &shapes->oriented_edges[i];
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
-        if (!any(sun_may_be_hidden(frame, receiver, vf3_towards(box->center, receiver->origin),
-                                   lamp_box_size(box->half_size))))
+        const vi near =
+            sun_may_be_hidden(frame, receiver, vf3_towards(box->center, receiver->origin),
+                              lamp_box_size(box->half_size));
+        if (!any(near))
             continue;
-        struct ray_slabs s = cross_oriented_box(&shapes->oriented_boxes[i], receiver->origin,
-                                                vf3_all(edges->inverse));
-        if (frame->soft_sun)
-            visible *= 1.0f - box_cover(&s, edges, shapes->sun_right.w);
-        else
-            visible = vf_where(~ray_is_blocked(ray_slabs_interval(s)), visible);
+        const struct ray_slabs s =
+            cross_oriented_box(box, receiver->origin, vf3_all(edges->inverse));
+        visible = sun_past_box(frame, visible, near, &s, edges);
     }
     return visible;
 }
@@ -368,10 +392,10 @@ SIMD vf sun_past_objects(const struct kiln_ray_frame *frame, const struct sun_re
         return vf_all(0.0f);
     const struct kiln_draw_shapes *shapes = frame->shapes;
     vf visible = boxes_sun_visibility(frame, receiver);
-    if (shapes->counts.x + shapes->counts.y > 0)
-        visible *= round_sun_visibility(frame, receiver);
-    if (shapes->oriented_counts.x + shapes->oriented_counts.y > 0)
-        visible *= oriented_sun_visibility(frame, receiver);
+    visible *= spheres_sun_visibility(frame, receiver);
+    visible *= cylinders_sun_visibility(frame, receiver);
+    visible *= capsules_sun_visibility(frame, receiver);
+    visible *= oriented_boxes_sun_visibility(frame, receiver);
     for (int i = 0; i < (int)shapes->counts.z; i++)
         visible *= 1.0f - mesh_cover(frame, i, receiver);
     return vf_where(receiver->active, visible);

@@ -90,6 +90,21 @@ SIMD vi lamp_meets_box(struct vf3 towards, float4 half, struct vf3 direction,
            (c.enters <= way->reach + way->radius);
 }
 
+/* Returns the lanes where a cone of light may meet a cylinder or a capsule, however long: those in
+ * which the distance between its axis and the middle of the cone is no more than their radii.
+ * towards: the way to the middle of the shape; axis: its direction and half of its height, without
+ * the ends of a capsule; the others as for cone_at_box. */
+SIMD vi cone_meets_axis(vf lit, vf spread, struct vf3 towards, float radius, float4 axis,
+                        struct vf3 direction)
+{
+    const vf climb = vf_abs(vf3_dot_all(direction, axis));
+    const vf far = vf_max(vf3_dot(towards, direction) + climb * axis.w + radius, vf_all(0.0f));
+    const vf wide = lit + vf_max(spread, vf_all(0.0f)) * far + (radius + 1e-3f);
+    const struct vf3 across = real3_cross(vf3_all(axis), direction);
+    const vf apart = vf3_dot(towards, across);
+    return apart * apart <= wide * wide * vf3_dot(across, across);
+}
+
 SIMD void hide_lamp(struct lamp_receiver *r, vi near, vf cover)
 {
     r->visible *= 1.0f - vf_where(near, cover);
@@ -125,7 +140,10 @@ SIMD void hide_lamp_by_round(const struct kiln_draw_shapes *shapes, uint32_t sph
         const int i = __builtin_ctz(cylinders);
         const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
         const struct vf3 towards = vf3_towards(cylinder, r->origin);
-        const vi near = lamp_may_be_hidden(r, towards, cylinder_size(cylinder, axis));
+        vi near = lamp_may_be_hidden(r, towards, cylinder_size(cylinder, axis));
+        if (any(near))
+            near &= cone_meets_axis(r->way.lit, r->way.spread, towards, cylinder.w, axis,
+                                    r->way.direction);
         if (any(near))
             hide_lamp(r, near, lamp_cylinder_cover(towards, cylinder.w, axis, r->way));
     }
@@ -138,7 +156,10 @@ SIMD void hide_lamp_by_oriented(const struct kiln_draw_shapes *shapes, uint32_t 
         const int i = __builtin_ctz(capsules);
         const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
         const struct vf3 towards = vf3_towards(capsule, r->origin);
-        const vi near = lamp_may_be_hidden(r, towards, capsule.w + axis.w);
+        vi near = lamp_may_be_hidden(r, towards, capsule.w + axis.w);
+        if (any(near))
+            near &= cone_meets_axis(r->way.lit, r->way.spread, towards, capsule.w, axis,
+                                    r->way.direction);
         if (any(near))
             hide_lamp(r, near, lamp_capsule_cover(towards, capsule.w, axis, r->way));
     }
