@@ -95,11 +95,11 @@ $ kiln render scenes/tiny.yaml -q -o out/%02d.png --limits output=20kB --threads
 = 1
 $ kiln render scenes/tiny.yaml -q -o out.mp4 --limits output=3kB; kiln render scenes/tiny.yaml -q -o - --limits output=10kB | wc -c
 1|7002
-2|kiln: out.mp4: 3.912 KiB of output, and the limit `output` is 2.93 KiB
+2|kiln: out.mp4: 3.984 KiB of output, and the limit `output` is 2.93 KiB
 2|kiln: standard output: 10.22 KiB of output, and the limit `output` is 9.766 KiB
 $ kiln render scenes/tiny.yaml -q -o out.gif --resume --limits output=3kB; kiln encode out -o out.mkv --limits output=1kB
-2|kiln: out.gif.parts/00000.part: 273.1 KiB of output, and the limit `output` is 2.93 KiB
-2|kiln: out.mkv: 5.752 KiB of output, and the limit `output` is 1000 bytes
+2|kiln: out.gif.parts/00000.part: 273.5 KiB of output, and the limit `output` is 2.93 KiB
+2|kiln: out.mkv: 5.753 KiB of output, and the limit `output` is 1000 bytes
 = 8
 $ ls -d out*
 1|out
