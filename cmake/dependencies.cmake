@@ -11,7 +11,7 @@ pkg_check_modules(KILN_EGL egl)
 pkg_check_modules(KILN_ASSIMP assimp>=5)
 # Headers only: libseccomp is loaded when a process confines itself (lib/base/confine.c).
 pkg_check_modules(KILN_SECCOMP libseccomp)
-# Headers only: libdeflate is loaded when a small PNG is written (lib/output/png_small.c). Tests link it.
+# Headers only: libdeflate is loaded when a small PNG is written (lib/output/libdeflate.c). Tests link it.
 pkg_check_modules(KILN_DEFLATE IMPORTED_TARGET libdeflate)
 # Headers only: FFmpeg is loaded when a clip is encoded or decoded (lib/base/ffmpeg.c). Tests link it.
 pkg_check_modules(KILN_FFMPEG IMPORTED_TARGET libavcodec libavformat libavutil libswscale)

@@ -14,9 +14,10 @@
 
 /* Bytes of the program, and bytes for one of each thing that a scene has many of. */
 enum {
-    PROGRAM_BYTES = 26 << 20,
-    ANY_MESH_BYTES = 6 << 20,
+    PROGRAM_BYTES = 38 << 20,
+    MESH_BYTES = 6373472, /* a mesh of the backdrop: its shadow map for the sun */
     PIXEL_BYTES = 68,
+    HIT_BYTES = 20,   /* a pixel where the backdrop has meshes: what its samples hit */
     CACHE_BYTES = 80, /* a pixel of the cache of surfaces, which a camera that stands still has */
     SLOT_BYTES = 100,
     CELL_BYTES = 150000, /* a cell of an atlas, including what is needed while it is made */
@@ -27,8 +28,8 @@ enum {
     BACKDROP_BYTES = 15,  /* a pixel of a picture of floor or sky: half floats, with mip levels */
     ATLAS_BYTES = 6,      /* a pixel of an atlas's picture; pictures are loaded one at a time */
     LIGHT_BYTES = 147456, /* a light that casts shadows: its map of smoke */
-    LIGHT_MAP_BYTES = 2097144,   /* its maps of meshes */
-    LIGHT_SOLID_BYTES = 4194288, /* its maps of solid particles */
+    LIGHT_MAP_BYTES = 2464224,   /* its maps of meshes */
+    LIGHT_SOLID_BYTES = 4928448, /* its maps of solid particles */
 };
 
 /* ---- counts ---------------------------------------------------------------------------------- */
@@ -88,6 +89,14 @@ static uint64_t count_triangles(const struct kiln_scene *scene)
             triangles += look->mesh.shown->triangle_count;
     }
     return triangles;
+}
+
+static uint64_t count_meshes(const struct kiln_scene *scene)
+{
+    uint64_t meshes = 0;
+    for (uint32_t i = 0; i < scene->backdrop.object_count; i++)
+        meshes += kiln_object_is_mesh(&scene->backdrop.objects[i]);
+    return meshes;
 }
 
 static uint64_t count_texels(const struct kiln_scene *scene)
@@ -174,11 +183,12 @@ static uint64_t light_bytes(const struct kiln_scene *scene, bool meshes)
  * each lamp that casts shadows has a number. */
 static uint64_t pixel_bytes(const struct kiln_scene *scene)
 {
+    const uint64_t bytes = PIXEL_BYTES + (count_meshes(scene) > 0 ? HIT_BYTES : 0);
     if (!kiln_scene_view_stands(scene) || scene->frames < 2)
-        return PIXEL_BYTES;
+        return bytes;
     const bool gloss = kiln_scene_value_max(scene, &scene->backdrop.floor_gloss) > 0.0f;
     const uint64_t lamps = sizeof(float) * kiln_scene_shadow_lights(scene);
-    return PIXEL_BYTES + (gloss ? 2 : 1) * (CACHE_BYTES + lamps);
+    return bytes + (gloss ? 2 : 1) * (CACHE_BYTES + lamps);
 }
 
 static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
@@ -192,8 +202,7 @@ static void list_terms(const struct kiln_scene *scene, struct term terms[TERMS])
         {pixel_bytes(scene) * scene->width * scene->height, "output.size", NULL},
         {slot_bytes(scene) * kiln_work_particles(scene), NULL, NULL},
         {CELL_BYTES * count_cells(scene), "systems", NULL},
-        {TRIANGLE_BYTES * triangles + (triangles > 0 ? ANY_MESH_BYTES : 0), "backdrop.objects",
-         NULL},
+        {TRIANGLE_BYTES * triangles + MESH_BYTES * count_meshes(scene), "backdrop.objects", NULL},
         {TEXEL_BYTES * count_texels(scene), "backdrop.objects", NULL},
         {GROUND_BYTES * count_ground(scene), "backdrop.objects", NULL},
         {SAMPLE_BYTES * scene->samples, "backdrop.objects", NULL},

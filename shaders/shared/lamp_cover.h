@@ -69,7 +69,8 @@ REAL_FN truth lamp_meets(real3 towards, float size, S(lamp_way) way)
     real t = real3_dot(towards, way.direction);
     real3 across = real3_add_scaled(towards, way.direction, -t);
     real along = real_clamp01((t + size) / way.reach);
-    real wide = size + real_mix(way.lit, way.radius, along) + 1e-3f;
+    real disc = real_max(real_mix(way.lit, way.radius, along), way.lit);
+    real wide = size + disc + 1e-3f;
     return truth_and(truth_and(t > -size - way.lit, t < way.reach + way.radius + size),
                      real3_dot(across, across) < wide * wide);
 }
@@ -104,12 +105,6 @@ REAL_FN real lamp_cylinder_cover(real3 towards, float radius, float4 axis, S(lam
     S(cover_at) at =
         cylinder_cover(towards, radius, axis, way.direction, band, way.spread, way.lit);
     return at.cover * lamp_part_beyond(way, at.distance);
-}
-
-/* Returns the radius of a box's bounding sphere, m. halves: of its size. */
-FN float lamp_box_size(float4 halves)
-{
-    return SQRT(halves.x * halves.x + halves.y * halves.y + halves.z * halves.z);
 }
 
 /* Returns the cover of a box. towards: the way to its centre; halves: of its size; direction: to

@@ -9,9 +9,9 @@
 /* The most fetches along the longer edge of the part of the floor that a pixel covers. */
 #define FLOOR_TAPS 8
 
-/* The footprint of a pixel on the floor, a parallelogram. So many fetches, a whole number, lie
- * along its longer edge, m, that none is farther from the next than a texel of their level is wide;
- * its shorter edge chooses the level. */
+/* The footprint of a pixel on the floor, a parallelogram. Its shorter edge chooses the level that
+ * is fetched. The fetches lie along its longer edge, m, one for each texel of the level that the
+ * edge is long; `taps` is their number, a whole one. */
 struct floor_footprint {
     real longer_x, longer_z, level, taps;
 };

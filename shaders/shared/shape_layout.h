@@ -38,9 +38,9 @@
 
 /* Numbers of surfaces that a ray hits; pixels with different numbers have an edge between them. The
  * sky has -1, the floor 0. Each object of a kind follows after the one before: spheres, capsules
- * and planes take one number each; a cylinder takes 3, for its side and its two ends; so
- * does a mesh. A box takes 27, of which its faces
- * use six: KILN_SURFACE_BOX is the middle one, to which ray_face_number, -13 to 13, is added. */
+ * and planes take one number each; a cylinder takes 3, for its side and its two ends; a mesh has
+ * one out of 4. A box takes 27, of which its faces use six: KILN_SURFACE_BOX is the middle one, to
+ * which ray_face_number, -13 to 13, is added. */
 #define KILN_SURFACE_BOX(first, i) ((first) + 14 + 27 * (i))
 #define KILN_SURFACE_BOXES         0
 #define KILN_SURFACE_SPHERES       1000

@@ -42,6 +42,12 @@ REAL_FN real cover_side(real distance, real radius)
 
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
+/* Returns the radius of a box's bounding sphere, m. halves: of its size. */
+FN float box_radius(float4 halves)
+{
+    return SQRT(halves.x * halves.x + halves.y * halves.y + halves.z * halves.z);
+}
+
 /* The outline of a box as seen along a ray. It is a hexagon, the intersection of three strips. The
  * two edges of a strip are edges of the box that lie along one axis. At each, a face that light
  * enters, of one of the other two axes, meets a face that light leaves, of the other. */

@@ -70,6 +70,37 @@ static void turned_shapes_match_c(void **state)
     finish(&p);
 }
 
+/* Light along a capsule passes all of its axis at the same distance, of which rounding leaves
+ * anything. */
+static void capsules_along_the_sun_match_c(void **state)
+{
+    static const double lengths[] = {3, 5, 7};
+    for (int i = 0; i < 3; i++) {
+        const double k = lengths[i];
+        const struct vec sun = unit((struct vec){{-0.31 * k, 0.77 * k, 0.53 * k}});
+        const struct shape shapes[] = {
+            {.kind = FLOOR, .albedo = {{0.6, 0.5, 0.4}}},
+            {.kind = CAPSULE,
+             .center = {{0.2, 1.2, 0.2}},
+             .axis = sun,
+             .radius = 0.3,
+             .half_height = 0.4,
+             .albedo = {{0.8}}},
+        };
+        struct expected e = {.shapes = shapes, .count = 2, .sun = sun, .tolerance = 0.03};
+        char text[1024];
+        snprintf(text, sizeof text,
+                 HEAD "  sun: {direction: [-0.31, 0.77, 0.53], color: 3.14159265}\n"
+                      "  objects:\n"
+                      "    - capsule: {center: [0.2, 1.2, 0.2], axis: [%.2f, %.2f, %.2f],\n"
+                      "                radius: 0.3 m, height: 0.8 m, color: 0.8}\n",
+                 -0.31 * k, 0.77 * k, 0.53 * k);
+        struct picture p = draw(*state, text);
+        compare(&p, &e, 1);
+        finish(&p);
+    }
+}
+
 static void soft_shadows_match_c(void **state)
 {
     struct shape shapes[8];
@@ -111,6 +142,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         test_on_device(turned_shapes_match_c),
         test_on_device(soft_shadows_match_c),
+        test_on_device(capsules_along_the_sun_match_c),
         test_on_device(planes_hide_the_sun),
     };
     int failed = 0;

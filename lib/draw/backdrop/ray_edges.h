@@ -28,7 +28,8 @@ static inline const float *surface_row(const struct kiln_backdrop_picture *p, in
     return p->surfaces + (size_t)within(y, p->height) * p->width;
 }
 
-/* The numbers of a strip's pixels and of those around it, which repeat at the picture's border. */
+/* Holds the numbers of a strip's pixels and of those around it, which repeat at the picture's
+ * border. */
 struct around {
     float rows[TILE + 2][STRIP + 2]; /* from (x - 1, y - 1) on */
 };

@@ -3,9 +3,9 @@
  * the sky is all around. The picture is divided into strips of blocks of GRID_STEP x GRID_STEP
  * pixels. What is seen is computed at the blocks' corners, the nodes of a grid. A pixel takes it
  * from its block's corners where no shadow can be missed: the corners and the pixel lie on one
- * smooth piece of surface, what is seen hardly bends between nodes, and every object that may hide
- * a lamp has a penumbra wider than the block. All other pixels compute it. Blocks do not depend on
- * the width of vectors, so neither does the picture. */
+ * smooth piece of surface, what is seen hardly bends between nodes, and for a lamp, every object
+ * that may hide it has a penumbra wider than the block. All other pixels compute it. Blocks do not
+ * depend on the width of vectors, so neither does the picture. */
 #ifndef KILN_DRAW_BACKDROP_RAY_GRID_H
 #define KILN_DRAW_BACKDROP_RAY_GRID_H
 

@@ -16,7 +16,7 @@ enum { KILN_LAMP_SOLID_WORDS = 2 };
 /* Holds the maps of one moment; they are valid until the next run. */
 struct kiln_lamp_solid_maps {
     uint32_t count; /* lamps that have maps */
-    /* For each lamp its faces (shadow_levels.h). NULL: there are none. */
+    /* For each lamp its faces, each with all levels (shadow_levels.h). NULL: there are none. */
     const uint32_t *texels;
     /* Each face of each lamp has a number that grows when the face is drawn. */
     const uint64_t *changes;

@@ -91,7 +91,8 @@ SIMD vi lamp_meets_box(struct vf3 towards, float4 half, struct vf3 direction,
 }
 
 /* Returns the lanes where a cone of light may meet a cylinder or a capsule, however long: those in
- * which the distance between its axis and the middle of the cone is no more than their radii.
+ * which the distance between its axis and the middle of the cone is no more than their radii. A
+ * cone that shrinks towards the lamp is wider behind its start, where the ball that is lit begins.
  * towards: the way to the middle of the shape; axis: its direction and half of its height, without
  * the ends of a capsule; the others as for cone_at_box. */
 SIMD vi cone_meets_axis(vf lit, vf spread, struct vf3 towards, float radius, float4 axis,
@@ -99,10 +100,14 @@ SIMD vi cone_meets_axis(vf lit, vf spread, struct vf3 towards, float radius, flo
 {
     const vf climb = vf_abs(vf3_dot_all(direction, axis));
     const vf far = vf_max(vf3_dot(towards, direction) + climb * axis.w + radius, vf_all(0.0f));
-    const vf wide = lit + vf_max(spread, vf_all(0.0f)) * far + (radius + 1e-3f);
+    const vf grow = vf_max(spread, vf_all(0.0f)) * far,
+             shrink = vf_max(-spread, vf_all(0.0f)) * lit;
+    const vf wide = lit + grow + shrink + (radius + 1e-3f);
     const struct vf3 across = real3_cross(vf3_all(axis), direction);
     const vf apart = vf3_dot(towards, across);
-    return apart * apart <= wide * wide * vf3_dot(across, across);
+    /* Where the axis is along the light, `across` is what rounding leaves. */
+    const vf noise = 1e-12f * vf3_dot(towards, towards);
+    return apart * apart <= wide * wide * vf3_dot(across, across) + noise;
 }
 
 SIMD void hide_lamp(struct lamp_receiver *r, vi near, vf cover)
@@ -117,7 +122,7 @@ SIMD void hide_lamp_by_boxes(const struct kiln_lamp_objects *objects, uint32_t b
         const int i = __builtin_ctz(boxes);
         const float4 half = objects->box_half[i];
         const struct vf3 towards = vf3_towards(objects->box_center[i], r->origin);
-        vi near = lamp_may_be_hidden(r, towards, lamp_box_size(half));
+        vi near = lamp_may_be_hidden(r, towards, box_radius(half));
         if (!any(near))
             continue;
         near &= lamp_meets_box(towards, half, r->way.direction, &r->way);
@@ -166,7 +171,7 @@ SIMD void hide_lamp_by_oriented(const struct kiln_draw_shapes *shapes, uint32_t 
     for (; boxes; boxes &= boxes - 1) {
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[__builtin_ctz(boxes)];
         const struct vf3 towards = vf3_towards(box->center, r->origin);
-        vi near = lamp_may_be_hidden(r, towards, lamp_box_size(box->half_size));
+        vi near = lamp_may_be_hidden(r, towards, box_radius(box->half_size));
         if (!any(near))
             continue;
         const struct vf3 to_box = into_box(box, towards);

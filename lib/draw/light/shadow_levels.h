@@ -16,13 +16,14 @@
  * light and 1 farthest from it. */
 enum { KILN_SHADOW_ONE = 65535 };
 
-/* The texels of a row of a map, and of a whole map, of such an edge (a power of two) and so many
- * levels. The empty column on the right of a row is the one on the left of the next. */
+/* KILN_SHADOW_PITCH gives the texels of a row of all levels, KILN_SHADOW_MAP_TEXELS those of the
+ * whole array. edge: of the finest level, texels, a power of two. The empty column on the right of
+ * a row is the one on the left of the next row. */
 #define KILN_SHADOW_PITCH(edge)              ((edge) + (edge) / 2 + 2)
 #define KILN_SHADOW_MAP_TEXELS(edge, levels) (KILN_SHADOW_PITCH(edge) * ((edge) + (levels) + 1))
 
-/* The row and the column of the first texel of a coarser level than the finest, whose first texel
- * is in row 1 and column 1. width: the edge of that level. */
+/* These give the row and the column of the first texel of a level that is not the finest. The first
+ * texel of the finest level is in row 1 and column 1. width: the edge of the level, texels. */
 #define KILN_SHADOW_COARSE_ROW(edge, level, width) ((edge)-2 * (width) + (level))
 #define KILN_SHADOW_COARSE_COLUMN(edge)            ((edge) + 2)
 

@@ -30,8 +30,9 @@ bool is_edge(ivec2 pixel)
     return is_marked(number) || largest_step > KILN_EDGE_THRESHOLD;
 }
 
-/* Returns whether a tile may have pixels at edges: one is marked, or two neighbours in the tile or
- * in the pixels around it differ. first: the tile's top left pixel. */
+/* Returns whether a tile may have pixels at edges: one is marked, or two neighbours in a row or a
+ * column of the tile or of the pixels around it differ by half of the threshold, since two such steps
+ * lead to a diagonal neighbour. first: the tile's top left pixel. */
 bool has_edges(ivec2 first)
 {
     float largest_step = 0.0;
@@ -49,5 +50,5 @@ bool has_edges(ivec2 first)
             above[x] = before = own;
         }
     }
-    return marked || largest_step > KILN_EDGE_THRESHOLD;
+    return marked || largest_step > 0.5 * KILN_EDGE_THRESHOLD;
 }

@@ -1,6 +1,5 @@
 /* Draws a point for each tile of the picture, for the second pass of backdrop.frag. The point
- * covers the tile if two neighbouring pixels hit different surfaces; otherwise it lies outside of
- * the picture. */
+ * covers the tile if it may have pixels at edges; otherwise it lies outside of the picture. */
 #include "shared/draw_layout.h"
 
 #include "draw/backdrop/backdrop_edges.glsl"
