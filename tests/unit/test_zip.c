@@ -143,7 +143,7 @@ static void large_chunks_come_back(void **state)
     assert_true(check_kind(EMPTY, &wide, 16) < 8000);
 }
 
-/* What repeats a few rows away takes few bytes, and noise hardly grows. */
+/* Rows that repeat a few rows away take few bytes, and noise hardly grows. */
 static void sizes_are_as_they_should_be(void **state)
 {
     (void)state;

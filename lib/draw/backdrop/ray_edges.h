@@ -83,7 +83,9 @@ static int list_edges(const struct kiln_backdrop_picture *p, uint32_t x, uint32_
     for (int j = 0; j < (int)(rows_from(p, y) - y); j++) {
         for (int first = 0; first < columns; first += LANES) {
             const vi edge = find_edges(&around, first, j) & (vi_count() < columns - first);
-            for (int i = 0; i < LANES && any(edge); i++) {
+            if (!any(edge))
+                continue;
+            for (int i = 0; i < LANES; i++) {
                 at[0][count] = (int32_t)x + first + i;
                 at[1][count] = (int32_t)y + j;
                 count += edge[i] != 0;

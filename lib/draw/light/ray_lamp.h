@@ -105,7 +105,7 @@ SIMD vi cone_meets_axis(vf lit, vf spread, struct vf3 towards, float radius, flo
     const vf wide = lit + grow + shrink + (radius + 1e-3f);
     const struct vf3 across = real3_cross(vf3_all(axis), direction);
     const vf apart = vf3_dot(towards, across);
-    /* Where the axis is along the light, `across` is what rounding leaves. */
+    /* Rounding alone decides `across` where the axis is along the light. */
     const vf noise = 1e-12f * vf3_dot(towards, towards);
     return apart * apart <= wide * wide * vf3_dot(across, across) + noise;
 }
