@@ -333,7 +333,8 @@ FN S(collide_hit) collide_first(SIM_PARAM S(collide_state) s, float3 end, float 
 #endif
     for (uint i = 0u; i < AROUND(collider_count); i++) {
 #ifndef GL_core_profile
-        if (whole && AROUND(colliders[i].kind) != COLLIDER_PLANE &&
+        if ((whole ? AROUND(colliders[i].kind) != COLLIDER_PLANE
+                   : collide_stands(&AROUND(colliders[i]))) &&
             !collide_may_meet(&AROUND(colliders[i]), radius, s.position, end))
             continue;
 #endif

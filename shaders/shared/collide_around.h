@@ -128,6 +128,15 @@ FN_CLOSE uint collide_is_within(const S(kiln_collider) *c, float r, float gap, f
                               (c->max.z + r) + gap, (c->max_end.z + r) + gap);
 }
 
+/* Returns whether a collider is a box or a round shape that stands still in the step, so that
+ * collide_may_meet holds for a way through any part of the step. */
+FN_CLOSE bool collide_stands(const S(kiln_collider) *c)
+{
+    return c->kind <= COLLIDER_CYLINDER && c->min.x == c->min_end.x && c->min.y == c->min_end.y &&
+           c->min.z == c->min_end.z && c->max.x == c->max_end.x && c->max.y == c->max_end.y &&
+           c->max.z == c->max_end.z && c->axis.w == c->half_height_end;
+}
+
 /* Returns whether a ball's way through the whole step may meet a collider of any kind but a plane.
  * It is a test before the exact one. */
 FN_CLOSE bool collide_may_meet(const S(kiln_collider) *c, float radius, float3 a, float3 b)
