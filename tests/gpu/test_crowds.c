@@ -8,7 +8,7 @@
 #include "support/device.h"
 #include "support/drawing.h"
 
-enum { WIDTH = 600, HEIGHT = 400, VALUES = WIDTH * HEIGHT * 4, STEP = 30, MOST = 300000 };
+enum { WIDTH = 600, HEIGHT = 400, VALUES = WIDTH * HEIGHT * 4, STEP = 30, MOST = 1100000 };
 
 /* The camera looks along -z. System b makes the program the one that knows all shapes. */
 static const char SCENE[] =

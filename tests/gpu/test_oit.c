@@ -150,7 +150,11 @@ static const char CROWD[] =
     "  lines:\n"
     "    emit: {rate: 0, bursts: {0 s: 40}, life: 9 s, speed: [1, 2]}\n"
     "    collide: none\n"
-    "    look: {shape: line, stretch: 0.2 s, line: {width: 2 px}, color: [0.1, 0.4, 0.8]}\n";
+    "    look: {shape: line, stretch: 0.2 s, line: {width: 2 px}, color: [0.1, 0.4, 0.8]}\n"
+    "  unseen: # behind the camera\n"
+    "    emit: {rate: 0, bursts: {0 s: 1}, life: 9 s, speed: 0,\n"
+    "           from: {point: {origin: [0, 1, 90]}}}\n"
+    "    look: {atlas: 'builtin:puff', opacity: 0.2, shadow: 0, lit: 0}\n";
 
 static void techniques_agree(void **state)
 {
@@ -309,6 +313,20 @@ static void any_number_of_threads_makes_the_same(void **state)
     kiln_picture_destroy(&b);
 }
 
+/* With more sprites than are made at a time, raster=cpu draws some tiles of all sprites after the
+ * others. */
+static void more_than_are_made_at_a_time(void **state)
+{
+    static const char *const many = "systems.unseen.emit.bursts={0 s: 1100000}";
+    const struct frame_setting few = {{OIT}, 1, FRAME_CPU, 0},
+                               more = {{OIT, many}, 2, FRAME_CPU, 0};
+    struct kiln_picture *a = frame_draw(*state, CROWD, STEPS, &few);
+    struct kiln_picture *b = frame_draw(*state, CROWD, STEPS, &more);
+    assert_same_pixels(a, b);
+    kiln_picture_destroy(&a);
+    kiln_picture_destroy(&b);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
@@ -319,6 +337,7 @@ int main(void)
         test_on_device(small_storage_blocks_are_respected),
         test_on_device(lists_do_not_outgrow_their_counts),
         test_on_device(any_number_of_threads_makes_the_same),
+        test_on_device(more_than_are_made_at_a_time),
     };
     return cmocka_run_group_tests_name("oit", tests, test_device_open, test_device_close);
 }

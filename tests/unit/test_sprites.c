@@ -194,26 +194,49 @@ static void close_scene(struct fixture *f)
     free(f);
 }
 
-/* What of a sprite does not matter where nothing of it is seen. */
-static void assert_same(const struct kiln_sprite *a, const struct kiln_sprite *b, size_t count)
+static struct kiln_sprites alloc_sprites(void)
 {
-    for (size_t i = 0; i < count; i++) {
-        bool seen = a[i].x_from < a[i].x_to;
-        assert_true(seen == (b[i].x_from < b[i].x_to));
+    struct kiln_sprites sprites = {aligned_alloc(64, COUNT * sizeof *sprites.sprites),
+                                   aligned_alloc(64, COUNT * sizeof *sprites.extras)};
+    assert_true(sprites.sprites && sprites.extras);
+    return sprites;
+}
+
+/* Fills sprites with bits that none of them has. */
+static void spoil(struct kiln_sprites sprites)
+{
+    memset(sprites.sprites, 0xff, COUNT * sizeof *sprites.sprites);
+    memset(sprites.extras, 0xff, COUNT * sizeof *sprites.extras);
+}
+
+static void free_sprites(struct kiln_sprites sprites)
+{
+    free(sprites.sprites);
+    free(sprites.extras);
+}
+
+/* A sprite of which nothing is seen may have any data, as may an extra that its sprite does not
+ * need. */
+static void assert_same(struct kiln_sprites a, struct kiln_sprites b)
+{
+    for (size_t i = 0; i < COUNT; i++) {
+        const struct kiln_sprite *one = &a.sprites[i], *other = &b.sprites[i];
+        bool seen = one->x_from < one->x_to;
+        assert_true(seen == (other->x_from < other->x_to));
         if (seen)
-            assert_memory_equal(&a[i], &b[i], sizeof *a);
+            assert_memory_equal(one, other, sizeof *one);
+        if (seen && kiln_sprite_has_extra(one))
+            assert_memory_equal(&a.extras[i], &b.extras[i], sizeof *a.extras);
     }
 }
 
 static void compare_levels(struct fixture *f)
 {
-    const size_t bytes = COUNT * sizeof(struct kiln_sprite);
-    struct kiln_sprite *plain = aligned_alloc(64, bytes), *other = aligned_alloc(64, bytes);
-    assert_true(plain && other);
+    const struct kiln_sprites plain = alloc_sprites(), other = alloc_sprites();
     KILN_SIMD_PICK(kiln_sprites_make, KILN_SIMD_NARROWEST)(&f->pass, f->entries, COUNT, plain);
     size_t seen = 0;
     for (size_t i = 0; i < COUNT; i++)
-        seen += plain[i].x_from < plain[i].x_to;
+        seen += plain.sprites[i].x_from < plain.sprites[i].x_to;
     assert_true(seen > COUNT / 8 && seen < COUNT);
     for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
         if (!kiln_simd_has(simd)) {
@@ -221,16 +244,17 @@ static void compare_levels(struct fixture *f)
             continue;
         }
         kiln_sprites_make *make = KILN_SIMD_PICK(kiln_sprites_make, simd);
-        memset(other, 0xff, bytes);
+        spoil(other);
         make(&f->pass, f->entries, COUNT, other);
-        assert_same(plain, other, COUNT);
-        memset(other, 0xff, bytes);
+        assert_same(plain, other);
+        spoil(other);
         for (size_t i = 0; i < COUNT; i += 1 + i % 23) /* other particles beside them */
-            make(&f->pass, f->entries + i, COUNT - i < 23 ? COUNT - i : 1 + i % 23, other + i);
-        assert_same(plain, other, COUNT);
+            make(&f->pass, f->entries + i, COUNT - i < 23 ? COUNT - i : 1 + i % 23,
+                 kiln_sprites_from(other, i));
+        assert_same(plain, other);
     }
-    free(plain);
-    free(other);
+    free_sprites(plain);
+    free_sprites(other);
 }
 
 static void every_width_makes_the_same_sprites(void **state)

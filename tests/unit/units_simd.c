@@ -6,7 +6,7 @@
 void KILN_SIMD_NAME(units_list)(const struct kiln_tile *tile, const struct units_spans *spans,
                                 struct units_listed *listed)
 {
-    struct rows rows;
+    struct rows rows = {.top = 0, .vectors = ROW_VECTORS};
     for (int i = 0; i < ROW_VECTORS; i++) {
         rows.u[i] = vf_load(spans->u + i * LANES);
         rows.v[i] = vf_load(spans->v + i * LANES);

@@ -10,15 +10,19 @@
 #include "base/pages.h"
 #include "draw/sprites/packets.h"
 
-enum { TILE_PIXELS = KILN_TILE_WIDTH * KILN_TILE_HEIGHT, LEAST_LANES = 4 };
+enum {
+    ROWS_AT_A_TIME = 16, /* the first-level cache holds so many beside packets */
+    PIXELS_AT_A_TIME = KILN_TILE_WIDTH * ROWS_AT_A_TIME,
+    LEAST_LANES = 4
+};
 
 struct kiln_fragments {
     const struct kiln_packet_code *code;
     struct kiln_tile *scratch; /* some rows of the tile, with one sprite at a time */
     struct kiln_packets packets;
-    size_t room;                                   /* greatest number of packets */
-    uint32_t *lists;                               /* numbers of packets, list by list */
-    uint32_t list_ends[TILE_PIXELS / LEAST_LANES]; /* end of the list of each vector of pixels */
+    size_t room; /* greatest number of packets */
+    /* numbers of packets, list by list, and the end of the list of each vector of pixels */
+    uint32_t *lists, list_ends[PIXELS_AT_A_TIME / LEAST_LANES];
 };
 
 struct kiln_fragments *kiln_fragments_create(enum kiln_simd simd)
@@ -138,12 +142,12 @@ static void drop_nearer(struct kiln_fragments *f)
  * for: the farthest of those that have not been blended yet. Returns false if several rows together
  * have too many fragments. */
 static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct kiln_tile *tile,
-                   int y, int rows, const struct kiln_sprite *sprites,
-                   const struct kiln_cells *cells, const uint32_t *list, size_t count)
+                   int y, int rows, struct kiln_sprites sprites, const struct kiln_cells *cells,
+                   const uint32_t *list, size_t count)
 {
     begin_rows(f, tile, y, rows);
     for (size_t i = 0; i < count; i++) {
-        const struct kiln_sprite *s = &sprites[list[i]];
+        const struct kiln_sprite *s = &sprites.sprites[list[i]];
         const struct kiln_packet_box box = find_box(f->scratch, s);
         if (box.y_from >= box.y_to)
             continue;
@@ -153,7 +157,7 @@ static bool gather(struct kiln_fragments *f, kiln_tile_draw *draw, const struct 
         if (most > f->room)
             drop_nearer(f);
         draw(f->scratch, sprites, cells, &list[i], 1);
-        f->code->add(&f->packets, f->scratch, &box, s, (uint32_t)i);
+        f->code->add(&f->packets, f->scratch, &box, s, &sprites.extras[list[i]], (uint32_t)i);
     }
     return true;
 }
@@ -193,12 +197,12 @@ static void blend_rows(struct kiln_fragments *f, struct kiln_tile *tile, int y, 
 }
 
 void kiln_fragments_draw(struct kiln_fragments *fragments, kiln_tile_draw *draw,
-                         struct kiln_tile *tile, const struct kiln_sprite *sprites,
+                         struct kiln_tile *tile, struct kiln_sprites sprites,
                          const struct kiln_cells *cells, const uint32_t *list, size_t count)
 {
     struct kiln_fragments *f = fragments;
     struct kiln_packets *p = &f->packets;
-    int rows = tile->height;
+    int rows = ROWS_AT_A_TIME;
     p->first_key = 0;
     for (int y = 0; y < tile->height;) {
         rows = rows < tile->height - y ? rows : tile->height - y;

@@ -16,7 +16,7 @@ void kiln_fragments_destroy(struct kiln_fragments **fragments);
  * allocates no memory: if the fragments do not fit, it draws the sprites again for fewer rows or,
  * in a single row, again for the next nearer fragments. */
 void kiln_fragments_draw(struct kiln_fragments *fragments, kiln_tile_draw *draw,
-                         struct kiln_tile *tile, const struct kiln_sprite *sprites,
+                         struct kiln_tile *tile, struct kiln_sprites sprites,
                          const struct kiln_cells *cells, const uint32_t *list, size_t count);
 
 #endif

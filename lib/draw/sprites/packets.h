@@ -31,10 +31,10 @@ struct kiln_packet_box {
 };
 
 /* Adds the packets of a sprite, which alone is drawn in the scratch tile, and empties that again.
- * order: the number of the sprite in the list. */
+ * extra: set if kiln_sprite_has_extra; order: the number of the sprite in the list. */
 typedef void kiln_packets_add(struct kiln_packets *packets, struct kiln_tile *scratch,
                               const struct kiln_packet_box *box, const struct kiln_sprite *s,
-                              uint32_t order);
+                              const struct kiln_sprite_extra *extra, uint32_t order);
 
 /* Returns the least key of a packet that is gathered now, or KILN_PACKET_KEYS_END. */
 typedef uint64_t kiln_packets_least_key(const struct kiln_packets *packets, size_t number);

@@ -44,14 +44,15 @@ SIMD vi depth_word(vf depth, vi drawn)
 }
 
 /* Sets the depths of the pixels from x, y, px, on. Returns which of them have two sheets. */
-SIMD vi put_depths(struct packet *packet, const struct kiln_sprite *s, float x, float y, vi drawn)
+SIMD vi put_depths(struct packet *packet, const struct kiln_sprite *s,
+                   const struct kiln_sprite_extra *extra, float x, float y, vi drawn)
 {
     const vf dx = vf_count() + x - s->x;
     const float dy = y - s->y;
     vf u = s->u + s->u_x * dx + s->u_y * dy, v = s->v + s->v_x * dx + s->v_y * dy;
     vf depth = vf_all(s->depth), half = vf_all(0.0f);
     if (s->flags & KILN_SPRITE_DEEP) {
-        depth = 1.0f / (s->q + s->q_x * dx + s->q_y * dy);
+        depth = 1.0f / (extra->q + extra->q_x * dx + extra->q_y * dy);
         u *= depth;
         v *= depth;
     }
@@ -113,7 +114,8 @@ static bool gathers_all(const struct kiln_packets *packets)
 }
 
 static void add(struct kiln_packets *packets, struct kiln_tile *scratch,
-                const struct kiln_packet_box *box, const struct kiln_sprite *s, uint32_t order)
+                const struct kiln_packet_box *box, const struct kiln_sprite *s,
+                const struct kiln_sprite_extra *extra, uint32_t order)
 {
     struct packet *to = (struct packet *)packets->packets + packets->count;
     const bool all = gathers_all(packets);
@@ -126,7 +128,7 @@ static void add(struct kiln_packets *packets, struct kiln_tile *scratch,
             const vi drawn = take_pixels(scratch->pixels[y], x, box->x_to, planes);
             if (!any(drawn))
                 continue;
-            const vi thick = put_depths(to, s, (float)(scratch->x + x) + 0.5f,
+            const vi thick = put_depths(to, s, extra, (float)(scratch->x + x) + 0.5f,
                                         (float)(scratch->y + y) + 0.5f, drawn);
             to->order = order;
             if (!all && !any(gathered(packets, to, 0) | gathered(packets, to, 1)))

@@ -13,7 +13,7 @@
 #include "draw/sprites/stream.h"
 
 enum {
-    SPRITES_AT_A_TIME = 1 << 18, /* sprites of a piece */
+    SPRITES_AT_A_TIME = 1 << 20, /* sprites of a piece */
     SPRITES_OF_A_TILE = 1 << 22, /* most sprites of one tile in a scene with post.compose: oit */
     GRAIN = 512                  /* particles of which a thread makes sprites at once */
 };
@@ -23,7 +23,7 @@ struct kiln_raster_cpu {
     struct kiln_threads *threads;
     struct kiln_cells *cells;
     struct kiln_bins bins;
-    struct kiln_sprite *sprites;
+    struct kiln_sprites sprites;
     uint32_t sprite_room;
     struct kiln_tile *tiles;           /* one for each thread */
     struct kiln_fragments **fragments; /* one for each thread; NULL unless post.compose is oit */
@@ -34,6 +34,26 @@ struct kiln_raster_cpu {
 static bool out_of_memory(struct kiln_error *error)
 {
     return kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+}
+
+static void free_sprites(struct kiln_sprites *sprites)
+{
+    free(sprites->sprites);
+    free(sprites->extras);
+    *sprites = (struct kiln_sprites){0};
+}
+
+/* Allocates sprites. Returns false when memory is short, with no sprites. */
+static bool alloc_sprites(struct kiln_sprites *sprites, size_t count)
+{
+    /* Tiles read sprites at scattered addresses; with small pages, a quarter of the drawing time is
+     * spent on address translation. */
+    sprites->sprites = kiln_alloc_pages(count * sizeof *sprites->sprites);
+    sprites->extras = kiln_alloc_pages(count * sizeof *sprites->extras);
+    if (sprites->sprites && sprites->extras)
+        return true;
+    free_sprites(sprites);
+    return false;
 }
 
 static bool create_fragments(struct kiln_raster_cpu *tiles, enum kiln_simd simd)
@@ -89,7 +109,7 @@ void kiln_raster_cpu_destroy(struct kiln_raster_cpu **tiles)
     for (uint32_t i = 0; t->fragments && i < kiln_threads_count(t->threads); i++)
         kiln_fragments_destroy(&t->fragments[i]);
     free((void *)t->fragments);
-    free(t->sprites);
+    free_sprites(&t->sprites);
     free(t->tiles);
     free(t);
     *tiles = NULL;
@@ -101,7 +121,7 @@ struct sprite_job {
     kiln_sprites_make *make;
     const struct kiln_sprite_pass *pass;
     const uint32_t *entries;
-    struct kiln_sprite *sprites;
+    struct kiln_sprites sprites;
     const struct kiln_bins *bins;
 };
 
@@ -109,20 +129,17 @@ static void make_sprites(void *context, size_t begin, size_t end, uint32_t worke
 {
     (void)worker;
     const struct sprite_job *job = context;
-    job->make(job->pass, job->entries + begin, end - begin, job->sprites + begin);
-    kiln_bins_note(job->bins, job->sprites, begin, end);
+    job->make(job->pass, job->entries + begin, end - begin, kiln_sprites_from(job->sprites, begin));
+    kiln_bins_note(job->bins, job->sprites.sprites, begin, end);
 }
 
 static bool make_room(struct kiln_raster_cpu *tiles, uint32_t count, struct kiln_error *error)
 {
     if (count <= tiles->sprite_room)
         return true;
-    free(tiles->sprites);
-    /* Tiles read sprites at scattered addresses; with small pages, a quarter of the drawing time is
-     * spent on address translation. */
-    tiles->sprites = kiln_alloc_pages(count * sizeof *tiles->sprites);
-    tiles->sprite_room = tiles->sprites ? count : 0;
-    return tiles->sprites || out_of_memory(error);
+    free_sprites(&tiles->sprites);
+    tiles->sprite_room = alloc_sprites(&tiles->sprites, count) ? count : 0;
+    return tiles->sprite_room >= count || out_of_memory(error);
 }
 
 /* ---- tiles ----------------------------------------------------------------------------------- */
@@ -316,7 +333,7 @@ struct sorted_pass {
     uint32_t count;
     size_t *totals;               /* number of sprites of each tile */
     bool *is_selected;            /* by sprite of a piece: it touches the present tiles */
-    struct kiln_sprite *selected; /* the sprites of all pieces that touch the present tiles */
+    struct kiln_sprites selected; /* the sprites of all pieces that touch the present tiles */
     uint32_t selected_count;
 };
 
@@ -357,6 +374,16 @@ static bool count_tiles(const struct sorted_pass *s, size_t tile_count, struct k
     return kiln_cells_mix(s->tiles->cells, s->tiles->threads, error);
 }
 
+/* Keeps sprite i of a piece. */
+static void select_sprite(struct sorted_pass *s, uint32_t i)
+{
+    const struct kiln_sprites *from = &s->tiles->sprites;
+    s->selected.sprites[s->selected_count] = from->sprites[i];
+    if (kiln_sprite_has_extra(&from->sprites[i]))
+        s->selected.extras[s->selected_count] = from->extras[i];
+    s->selected_count++;
+}
+
 /* Makes all sprites again, piece by piece, and keeps those that touch some tiles, in order. */
 static bool select_sprites(struct sorted_pass *s, size_t first_tile, size_t end_tile,
                            struct kiln_error *error)
@@ -372,7 +399,7 @@ static bool select_sprites(struct sorted_pass *s, size_t first_tile, size_t end_
             s->is_selected[bins->list[i]] = true;
         for (uint32_t i = 0; i < count; i++) {
             if (s->is_selected[i])
-                s->selected[s->selected_count++] = s->tiles->sprites[i];
+                select_sprite(s, i);
         }
     }
     return true;
@@ -384,11 +411,11 @@ static bool draw_some_tiles(struct sorted_pass *s, struct tile_job *job, size_t 
     struct kiln_raster_cpu *tiles = s->tiles;
     if (!select_sprites(s, first_tile, end_tile, error))
         return false;
-    struct kiln_sprite *piece = tiles->sprites;
+    const struct kiln_sprites piece = tiles->sprites;
     tiles->sprites = s->selected;
     bool ok = kiln_bins_begin(&tiles->bins, s->selected_count, error);
     if (ok)
-        kiln_bins_note(&tiles->bins, s->selected, 0, s->selected_count);
+        kiln_bins_note(&tiles->bins, s->selected.sprites, 0, s->selected_count);
     ok = ok && kiln_bins_fill(&tiles->bins, s->selected_count, tiles->threads, error);
     job->first_tile = first_tile;
     ok = ok && kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, job, error);
@@ -408,8 +435,7 @@ static bool draw_sorted(struct sorted_pass *s, struct tile_job *job, struct kiln
     ok = ok && count_tiles(s, tile_count, error);
     for (size_t tile = 0; ok && tile < tile_count; tile++)
         most = s->totals[tile] > most ? s->totals[tile] : most;
-    s->selected = ok ? kiln_alloc_pages(most * sizeof *s->selected) : NULL;
-    if (ok && !s->selected)
+    if (ok && !alloc_sprites(&s->selected, most))
         ok = out_of_memory(error);
     for (size_t first = 0, end; ok && first < tile_count; first = end) {
         size_t total = s->totals[first];
@@ -417,7 +443,7 @@ static bool draw_sorted(struct sorted_pass *s, struct tile_job *job, struct kiln
             total += s->totals[end];
         ok = draw_some_tiles(s, job, first, end, error);
     }
-    free(s->selected);
+    free_sprites(&s->selected);
     free(s->is_selected);
     free(s->totals);
     return ok;

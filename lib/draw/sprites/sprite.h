@@ -1,4 +1,4 @@
-/* A kiln_sprite is a particle projected to the picture, with all data that its pixels need. The CPU
+/* A kiln_sprite is a particle projected to the picture, with the data that its pixels need. The CPU
  * rasteriser draws it (tile_draw.h). Its texture coordinates u and v are linear functions of the
  * pixel's position. For a sprite that is not parallel to the picture, u / depth, v / depth
  * and q = 1 / depth are linear instead, and stored. */
@@ -32,25 +32,39 @@ enum {
     KILN_SPRITE_FINE = 64,   /* its cells have no motion and are sampled in floats */
 };
 
+/* A sprite takes two lines of the cache. The sprites of a tile are far apart in memory, so that
+ * each line costs time. What not all sprites need is in struct kiln_sprite_extra. */
 struct kiln_sprite {
     _Alignas(64) uint32_t cell;     /* number of its cell in the pass's cells; unused if plain */
     uint32_t next_cell;             /* number of the next cell; unused if mixed */
     float part, motion;             /* weight of the next cell; a full move in texels */
     float x, y;                     /* the pixel position where u, v and q are constants, px */
     float u, u_x, u_y, v, v_x, v_y; /* texels; plain: px from the sprite's middle */
-    float q, q_x, q_y;              /* 1/m */
     float edge_u, edge_v;           /* edge of the cell, texels; plain: half the size, px */
     float rim_u, rim_v;             /* pixels a texel; 0: hard edges (struct billboard_rim) */
     float depth;                    /* view depth, m; unused if deep */
-    float soft, distance;           /* soft fade, 1/m; distance from the eye, m */
+    float soft;                     /* soft fade, 1/m */
     float opacity;
     float bulge; /* half the thickness in its middle, m */
     float base[3], slope[3];
-    float light[4][3]; /* light times albedo: constant; factors of the normal: right, up, viewer */
     float bloom[3];
     int16_t x_from, y_from, x_to, y_to; /* pixels that it may touch; *_to is one past the last */
     uint16_t pitch;                     /* texels in a row of its cell */
     uint8_t shade, flags;               /* enum kiln_sprite_shade; KILN_SPRITE_* */
+};
+
+/* Holds the data of a sprite that only some sprites need: see kiln_sprite_has_extra. */
+struct kiln_sprite_extra {
+    _Alignas(64) float light[4][3]; /* of KILN_SHADE_LIT: light times albedo: constant; factors of
+                                       the normal: right, up, viewer */
+    float q, q_x, q_y;              /* if deep: 1/m */
+    float distance;                 /* if literal: from the eye, m */
+};
+
+/* Names sprites and their extras, which are two arrays of the same length. */
+struct kiln_sprites {
+    struct kiln_sprite *sprites;
+    struct kiln_sprite_extra *extras; /* set where kiln_sprite_has_extra */
 };
 
 /* Holds the data that all sprites of a pass share. */
@@ -67,11 +81,23 @@ struct kiln_sprite_pass {
     bool fire_covers; /* true: additive particles cover, too, or their alpha is summed */
 };
 
-/* Makes the sprites of draw entries and calls kiln_cells_request for their cells. Invisible sprites
- * touch no pixels (x_from = x_to). */
+/* Makes the sprites of draw entries, and their extras, and calls kiln_cells_request for their
+ * cells. Invisible sprites touch no pixels (x_from = x_to). */
 typedef void kiln_sprites_make(const struct kiln_sprite_pass *pass, const uint32_t *entries,
-                               size_t count, struct kiln_sprite *sprites);
+                               size_t count, struct kiln_sprites to);
 
 KILN_SIMD_DECLARE(kiln_sprites_make, kiln_sprites_make);
+
+/* Returns whether a sprite has an extra. */
+static inline bool kiln_sprite_has_extra(const struct kiln_sprite *s)
+{
+    return s->shade == KILN_SHADE_LIT || (s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_LITERAL)) != 0;
+}
+
+/* Returns the sprites from number i on. */
+static inline struct kiln_sprites kiln_sprites_from(struct kiln_sprites sprites, size_t i)
+{
+    return (struct kiln_sprites){sprites.sprites + i, sprites.extras + i};
+}
 
 #endif

@@ -11,10 +11,14 @@
 #include "draw/vector/particle_math.h"
 #include "shared/billboard.h"
 
-enum { SPRITE_WORDS = sizeof(struct kiln_sprite) / sizeof(float) };
+enum {
+    SPRITE_WORDS = sizeof(struct kiln_sprite) / sizeof(float),
+    EXTRA_WORDS = sizeof(struct kiln_sprite_extra) / sizeof(float),
+};
 
-/* The index of the word of a sprite in which a field lies. */
-#define WORD_OF(field) (offsetof(struct kiln_sprite, field) / sizeof(float))
+/* The index of the word of a sprite, or of its extra, in which a field lies. */
+#define WORD_OF(field)       (offsetof(struct kiln_sprite, field) / sizeof(float))
+#define EXTRA_WORD_OF(field) (offsetof(struct kiln_sprite_extra, field) / sizeof(float))
 
 struct sprite_lanes {
     const struct kiln_sprite_pass *pass;
@@ -41,6 +45,8 @@ struct sprite_lanes {
     struct columns hull_from, hull_to;   /* hulls of the cells */
     vi shade, flags;                     /* as in struct kiln_sprite */
     _Alignas(64) vf words[SPRITE_WORDS]; /* the sprites, word by word */
+    _Alignas(64) vf extra[EXTRA_WORDS];  /* the sprites' extras */
+    bool has_extras;                     /* some of the sprites that were made last have an extra */
 };
 
 /* Returns a row of the look at the particles' age. */

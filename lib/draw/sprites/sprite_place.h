@@ -43,9 +43,9 @@ SIMD void put_place(struct sprite_lanes *p, const struct billboard_place *place)
     p->words[WORD_OF(v)] = place->v.at;
     p->words[WORD_OF(v_x)] = place->v.x;
     p->words[WORD_OF(v_y)] = place->v.y;
-    p->words[WORD_OF(q)] = place->q.at;
-    p->words[WORD_OF(q_x)] = place->q.x;
-    p->words[WORD_OF(q_y)] = place->q.y;
+    p->extra[EXTRA_WORD_OF(q)] = place->q.at;
+    p->extra[EXTRA_WORD_OF(q_x)] = place->q.x;
+    p->extra[EXTRA_WORD_OF(q_y)] = place->q.y;
 }
 
 /* Filters the edges of small billboards, stores the rows, and returns the rims. */

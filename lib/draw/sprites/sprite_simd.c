@@ -106,10 +106,10 @@ static void color_sprites(struct sprite_lanes *p)
         p->words[WORD_OF(slope) + c] = slope;
         if (!some_lit)
             continue;
-        p->words[WORD_OF(light) + c] = vf_where(lit, channel->all * albedo);
-        p->words[WORD_OF(light) + 3 + c] = vf_where(lit, channel->along.x * albedo);
-        p->words[WORD_OF(light) + 6 + c] = vf_where(lit, channel->along.y * albedo);
-        p->words[WORD_OF(light) + 9 + c] = vf_where(lit, channel->along.z * albedo);
+        p->extra[EXTRA_WORD_OF(light) + c] = vf_where(lit, channel->all * albedo);
+        p->extra[EXTRA_WORD_OF(light) + 3 + c] = vf_where(lit, channel->along.x * albedo);
+        p->extra[EXTRA_WORD_OF(light) + 6 + c] = vf_where(lit, channel->along.y * albedo);
+        p->extra[EXTRA_WORD_OF(light) + 9 + c] = vf_where(lit, channel->along.z * albedo);
     }
     p->flags |= emits & KILN_SPRITE_EMITS;
     p->shade = vi_select(glows & ~heated, vi_all(KILN_SHADE_ALPHA), p->shade);
@@ -196,15 +196,18 @@ static void finish_sprites(struct sprite_lanes *p)
     if (p->look->form.x == 0)
         pitch = vi_of(p->words[WORD_OF(edge_u)]) + KILN_CELL_MARGIN;
     p->words[WORD_OF(pitch)] = (vf)(pitch | p->shade << 16 | p->flags << 24);
+    p->has_extras =
+        any(p->visible & ((p->shade == KILN_SHADE_LIT) |
+                          ((p->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_LITERAL)) != 0)));
     if (p->look->flags.z != 0)
-        p->words[WORD_OF(distance)] = vf_sqrt(vf3_dot(p->center, p->center));
+        p->extra[EXTRA_WORD_OF(distance)] = vf_sqrt(vf3_dot(p->center, p->center));
 }
 
 /* Holds the entries of a piece, and in `order` their numbers sorted by system; entries of one
  * system keep their order. */
 struct piece {
     const uint32_t *entries;
-    struct kiln_sprite *sprites;
+    struct kiln_sprites to;
     uint32_t count;
     uint16_t order[PIECE_SIZE];
 };
@@ -226,10 +229,11 @@ static void order_piece(struct piece *piece, uint32_t first[KILN_MAX_SYSTEMS + 1
 }
 
 /* Prefetches records and sprites, since neighbours in depth are far apart in memory, and the
- * sprites' memory is too large for the caches. The function is inline because gcc drops calls of a
- * function that only prefetches, as one without effect. */
+ * sprites' memory is too large for the caches. extras: true: prefetches the sprites' extras, too.
+ * The function is inline because gcc drops calls of a function that only prefetches, as one without
+ * effect. */
 SIMD void fetch(const struct kiln_sprite_pass *pass, const struct piece *piece, uint32_t from,
-                uint32_t to)
+                uint32_t to, bool extras)
 {
     const float *sunlit = pass->lighting->sunlit;
     for (uint32_t i = from; i < to && i < piece->count; i++) {
@@ -237,9 +241,11 @@ SIMD void fetch(const struct kiln_sprite_pass *pass, const struct piece *piece, 
         __builtin_prefetch(&pass->records[slot]);
         if (sunlit)
             __builtin_prefetch(&sunlit[slot]);
-        const char *sprite = (const char *)&piece->sprites[piece->order[i]];
-        for (size_t line = 0; line < sizeof *piece->sprites; line += 64)
+        const char *sprite = (const char *)&piece->to.sprites[piece->order[i]];
+        for (size_t line = 0; line < sizeof *piece->to.sprites; line += 64)
             __builtin_prefetch(sprite + line, 1);
+        if (extras)
+            __builtin_prefetch(&piece->to.extras[piece->order[i]], 1);
     }
 }
 
@@ -250,7 +256,9 @@ static void make_vector(struct sprite_lanes *p, const struct piece *piece,
     for (int i = 0; i < LANES; i++)
         p->slots[i] = (int32_t)KILN_ENTRY_SLOT(piece->entries[lanes[i]]);
     memset(p->words, 0, sizeof p->words);
+    memset(p->extra, 0, sizeof p->extra);
     p->flags = vi_all(0);
+    p->has_extras = false;
     read_particles(p);
     fade_particles(p);
     if (any(p->visible))
@@ -259,18 +267,21 @@ static void make_vector(struct sprite_lanes *p, const struct piece *piece,
         color_sprites(p);
         finish_sprites(p);
     }
-    float *sprites = (float *)(void *)piece->sprites;
+    float *sprites = (float *)(void *)piece->to.sprites;
     for (int line = 0; line < SPRITE_WORDS; line += LINE_FLOATS)
         vf_store_lines(p->words + line, sprites + line, SPRITE_WORDS, lanes);
+    if (p->has_extras)
+        vf_store_lines(p->extra, (float *)(void *)piece->to.extras, EXTRA_WORDS, lanes);
 }
 
 static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
 {
     uint32_t first[KILN_MAX_SYSTEMS + 1];
     order_piece(piece, first);
-    fetch(pass, piece, 0, PREFETCH_DISTANCE);
+    fetch(pass, piece, 0, PREFETCH_DISTANCE, false);
     struct sprite_lanes p;
     p.pass = pass;
+    p.has_extras = false;
     for (uint32_t system = 0; system < KILN_MAX_SYSTEMS; system++) {
         p.look = &pass->looks[system];
         p.rows = &pass->table[(size_t)system * KILN_LOOK_ROWS * KILN_LOOK_SAMPLES].x;
@@ -282,18 +293,18 @@ static void make_piece(const struct kiln_sprite_pass *pass, struct piece *piece)
             uint16_t rest[LANES]; /* the last entries, padded with the last one */
             for (uint32_t k = 0; end - i < LANES && k < LANES; k++)
                 rest[k] = piece->order[i + k < end ? i + k : end - 1];
-            fetch(pass, piece, i + PREFETCH_DISTANCE, i + PREFETCH_DISTANCE + LANES);
+            fetch(pass, piece, i + PREFETCH_DISTANCE, i + PREFETCH_DISTANCE + LANES, p.has_extras);
             make_vector(&p, piece, end - i < LANES ? rest : piece->order + i);
         }
     }
 }
 
 void KILN_SIMD_NAME(kiln_sprites_make)(const struct kiln_sprite_pass *pass, const uint32_t *entries,
-                                       size_t count, struct kiln_sprite *sprites)
+                                       size_t count, struct kiln_sprites to)
 {
     for (size_t i = 0; i < count; i += PIECE_SIZE) {
         struct piece piece = {.entries = entries + i,
-                              .sprites = sprites + i,
+                              .to = kiln_sprites_from(to, i),
                               .count = count - i < PIECE_SIZE ? (uint32_t)(count - i) : PIECE_SIZE};
         make_piece(pass, &piece);
     }

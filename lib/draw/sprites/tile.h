@@ -8,7 +8,7 @@
 
 enum {
     KILN_TILE_WIDTH = 64,
-    KILN_TILE_HEIGHT = 16,
+    KILN_TILE_HEIGHT = 32,
     KILN_TILE_PITCH = KILN_TILE_WIDTH + 8, /* a unit of 8 pixels may reach beyond the right edge */
 };
 
@@ -49,8 +49,8 @@ struct kiln_tile {
      */
     uint64_t transparent[KILN_TILE_HEIGHT];
     /* a bit for each pixel: it or one of the seven after it is transparent; the left and the right
-     * half of each row; valid if has_opaque */
-    _Alignas(64) int32_t seen[2][KILN_TILE_HEIGHT];
+     * half of each row; valid if has_opaque; rows beyond the tile are read, but do not matter */
+    _Alignas(64) int32_t seen[2][2 * KILN_TILE_HEIGHT];
     bool has_opaque; /* true: some pixels hide the sprites behind them */
     bool adds_apart; /* true: `added` is drawn, too */
     bool over;       /* true: sprites cover those behind them; false: alpha is summed */
@@ -59,7 +59,7 @@ struct kiln_tile {
 /* Draws sprites into the tile. The list has the farthest sprite first. Sprites are drawn from the
  * nearest to the farthest, so that each only adds to the pixels the part that nearer sprites let
  * through. Their cells must exist (kiln_cells_mix). */
-typedef void kiln_tile_draw(struct kiln_tile *tile, const struct kiln_sprite *sprites,
+typedef void kiln_tile_draw(struct kiln_tile *tile, struct kiln_sprites sprites,
                             const struct kiln_cells *cells, const uint32_t *list, size_t count);
 
 KILN_SIMD_DECLARE(kiln_tile_draw, kiln_tile_draw);

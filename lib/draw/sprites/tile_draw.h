@@ -43,8 +43,7 @@ SIMD void add_apart(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const v
 /* Holds a vector of pixels, whose units may lie anywhere in the tile. */
 struct pixels {
     vf u, v, q;
-    vi inside;         /* mask: the pixel is drawn */
-    int32_t at[UNITS]; /* offsets in kiln_tile.pixels */
+    vi inside; /* mask: the pixel is drawn */
 };
 
 enum { BATCH = 16 };
@@ -58,13 +57,14 @@ struct batch {
     struct vf4 cells[BATCH];
     vf u[BATCH], v[BATCH], depth[BATCH]; /* u, v: of plain sprites; depth: of deep sprites */
     vf rim[BATCH];                       /* rim_cover; unset unless brush.rim */
-    int32_t at[BATCH][UNITS];
+    int32_t at[BATCH][UNITS];            /* offsets of the units in kiln_tile.pixels */
 };
 
 /* Holds the sprite that is drawn, and its tile. */
 struct target {
     struct kiln_tile *tile;
     const struct kiln_sprite *s;
+    const struct kiln_sprite_extra *extra; /* set if kiln_sprite_has_extra */
     struct brush brush;
     float (*added)[KILN_TILE_PITCH]; /* the tile's, or NULL if the sprite is not added apart */
     bool hidden;                     /* true: it is only added apart, since opaque pixels hide it */
@@ -84,6 +84,7 @@ SIMD void put_rim(struct batch *batch, const struct kiln_sprite *s, int i, vf u,
     batch->rim[i] = rim_cover(s, u * texels, v * texels);
 }
 
+/* Puts all data of vector i of a batch except its offsets. */
 SIMD void put_pixels(struct batch *batch, int i, const struct target *d, struct pixels p,
                      enum kiln_sprite_shade kind, bool deep, bool mixed)
 {
@@ -120,7 +121,6 @@ SIMD void put_pixels(struct batch *batch, int i, const struct target *d, struct 
         batch->v[i] = p.v;
     }
     batch->inside[i] = inside;
-    memcpy(batch->at[i], p.at, sizeof p.at);
 }
 
 /* Follows the motion of two cells to the time between them. Places are clamped to the centres of
@@ -199,7 +199,8 @@ SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, 
     vf left = vf_where(batch->inside[i], vf_all(s->opacity)), before = vf_all(0.0f);
     if (!d->brush.unfaded) {
         vf depth = deep ? batch->depth[i] : vf_all(s->depth);
-        left = fade(s, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
+        left =
+            fade(s, d->extra, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
     }
     if (s->flags & KILN_SPRITE_LITERAL) /* equation 3.3 has no bound: limits alpha to 1 */
         left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
@@ -240,7 +241,7 @@ SIMD void draw_batch(struct batch *batch, int count, const struct target *d,
             batch->cells[i].c[c] = cell.c[c];
     }
     for (int i = 0; i < count; i++) {
-        struct shaded c = textured ? shade_cell(s, b, kind, batch->cells[i])
+        struct shaded c = textured ? shade_cell(s, d->extra, b, kind, batch->cells[i])
                                    : shade_plain(s, batch->u[i], batch->v[i]);
         draw_vector(batch, i, d, c, kind == KILN_SHADE_COLOR, deep, covers);
     }
@@ -270,7 +271,7 @@ SIMD void draw_units(const struct target *d, const struct rows *rows, const stru
                 if (deep)
                     p.q = vf_units(units.q + i) + lane * steps[2];
                 for (int k = 0; k < UNITS; k++)
-                    p.at[k] = units.at[i + k] + part * LANES;
+                    batch->at[drawn][k] = units.at[i + k] + part * LANES;
                 put_pixels(batch, drawn++, d, p, kind, deep, mixed);
             }
         }
@@ -285,14 +286,14 @@ SIMD void draw_wide(struct target *d, const struct kiln_cell_hull *hull, const s
     const struct kiln_sprite *s = d->s;
     struct rows rows;
     bool textured = kind != KILN_SHADE_PLAIN;
-    find_rows(d->tile, s, box, !deep && textured ? hull : NULL, &rows);
+    find_rows(d->tile, s, deep ? d->extra : NULL, box, !deep && textured ? hull : NULL, &rows);
     float scale = textured ? (float)PLACE_STEPS : 1.0f;
     float margin = textured && !deep ? PLACE_MIDDLE : 0.0f;
-    for (int i = 0; i < ROW_VECTORS && textured; i++) {
+    for (int i = 0; i < rows.vectors && textured; i++) {
         rows.u[i] = rows.u[i] * scale + margin;
         rows.v[i] = rows.v[i] * scale + margin;
     }
-    const float steps[3] = {s->u_x * scale, s->v_x * scale, s->q_x};
+    const float steps[3] = {s->u_x * scale, s->v_x * scale, deep ? d->extra->q_x : 0.0f};
     enum units_choice choice = d->tile->has_opaque && !d->hidden ? UNITS_SEEN : UNITS_ALL;
     for (;;) {
         draw_units(d, &rows, box, steps, choice, batch, kind, deep, covers, mixed);
@@ -330,7 +331,7 @@ SIMD void draw_narrow(const struct target *d, const struct box *box, struct batc
                                .v = v[part] + from_anchor * v_row,
                                .inside = row < end};
             for (int k = 0; k < UNITS; k++)
-                p.at[k] = at + k * KILN_TILE_PLANES * KILN_TILE_PITCH + part * LANES;
+                batch->at[count][k] = at + k * KILN_TILE_PLANES * KILN_TILE_PITCH + part * LANES;
             put_pixels(batch, count++, d, p, kind, false, mixed);
         }
         at += UNITS * KILN_TILE_PLANES * KILN_TILE_PITCH;
@@ -402,10 +403,11 @@ SIMD bool box_hidden(const struct kiln_tile *tile, const struct box *box)
 }
 
 /* Begins to draw a sprite in a box. Returns false if there is nothing to draw. */
-SIMD bool begin_target(struct kiln_tile *tile, const struct kiln_sprite *s, const struct box *box,
-                       bool covers, struct target *d)
+SIMD bool begin_target(struct kiln_tile *tile, const struct kiln_sprite *s,
+                       const struct kiln_sprite_extra *extra, const struct box *box, bool covers,
+                       struct target *d)
 {
-    *d = (struct target){.tile = tile, .s = s};
+    *d = (struct target){.tile = tile, .s = s, .extra = extra};
     if (!covers && tile->adds_apart)
         d->added = tile->added[0];
     if (!tile->has_opaque)
@@ -442,12 +444,12 @@ static bool find_transparent(struct kiln_tile *tile)
 }
 
 SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *cells,
-                      const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
-                      bool covers, bool mixed)
+                      const struct kiln_sprite *s, const struct kiln_sprite_extra *extra,
+                      enum kiln_sprite_shade kind, bool deep, bool covers, bool mixed)
 {
     const struct box box = box_in(tile, s);
     struct target target;
-    if (!begin_target(tile, s, &box, covers, &target))
+    if (!begin_target(tile, s, extra, &box, covers, &target))
         return;
     make_brush(tile, cells, s, kind, deep, mixed, &target.brush);
     struct batch batch;
@@ -501,17 +503,17 @@ SIMD void draw_floats(const struct target *d, struct batch *batch, vf u, vf v)
         for (size_t c = first; c < 4; c++)
             cell.c[c] += (next.c[c] - cell.c[c]) * s->part;
     }
-    struct shaded c = shade_cell(s, b, (enum kiln_sprite_shade)s->shade, cell);
+    struct shaded c = shade_cell(s, d->extra, b, (enum kiln_sprite_shade)s->shade, cell);
     draw_vector(batch, 0, d, c, s->shade == KILN_SHADE_COLOR, false,
                 (s->flags & KILN_SPRITE_COVERS) != 0);
 }
 
 static void draw_in_floats(struct kiln_tile *tile, const struct kiln_cells_content *cells,
-                           const struct kiln_sprite *s)
+                           const struct kiln_sprite *s, const struct kiln_sprite_extra *extra)
 {
     const struct box box = box_in(tile, s);
     struct target d;
-    if (!begin_target(tile, s, &box, (s->flags & KILN_SPRITE_COVERS) != 0, &d))
+    if (!begin_target(tile, s, extra, &box, (s->flags & KILN_SPRITE_COVERS) != 0, &d))
         return;
     make_brush(tile, cells, s, (enum kiln_sprite_shade)s->shade, false,
                (s->flags & KILN_SPRITE_MIXED) != 0, &d.brush);
@@ -531,13 +533,13 @@ static void draw_in_floats(struct kiln_tile *tile, const struct kiln_cells_conte
 }
 
 typedef void drawing(struct kiln_tile *tile, const struct kiln_cells_content *cells,
-                     const struct kiln_sprite *s);
+                     const struct kiln_sprite *s, const struct kiln_sprite_extra *extra);
 
 #define DRAW(name, kind, deep, covers, mixed)                                                      \
     static void name(struct kiln_tile *tile, const struct kiln_cells_content *cells,               \
-                     const struct kiln_sprite *s)                                                  \
+                     const struct kiln_sprite *s, const struct kiln_sprite_extra *extra)           \
     {                                                                                              \
-        draw_sprite(tile, cells, s, kind, deep, covers, mixed);                                    \
+        draw_sprite(tile, cells, s, extra, kind, deep, covers, mixed);                             \
     }
 #define DRAW_FORMS(name, kind, mixed)                                                              \
     DRAW(name##_flat_adds, kind, false, false, mixed)                                              \
@@ -555,14 +557,24 @@ DRAW_FORMS(mixed_alpha, KILN_SHADE_ALPHA, true)
 DRAW_FORMS(mixed_lit, KILN_SHADE_LIT, true)
 DRAW_FORMS(mixed_color, KILN_SHADE_COLOR, true)
 
+/* Prefetches a sprite, since neighbours in a list are far apart in memory, and its extra. */
+SIMD void prefetch(struct kiln_sprites sprites, uint32_t number, bool extra)
+{
+    const char *sprite = (const char *)&sprites.sprites[number];
+    for (size_t line = 0; line < sizeof *sprites.sprites; line += 64)
+        __builtin_prefetch(sprite + line);
+    if (extra)
+        __builtin_prefetch(&sprites.extras[number]);
+}
+
 /* Lists functions indexed by the flags KILN_SPRITE_DEEP and KILN_SPRITE_COVERS. */
 #define ROW(name)                                                                                  \
     {                                                                                              \
         name##_flat_adds, name##_deep_adds, name##_flat_covers, name##_deep_covers                 \
     }
 
-void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
-               const struct kiln_cells *cells, const uint32_t *list, size_t count)
+void TILE_DRAW(struct kiln_tile *tile, struct kiln_sprites sprites, const struct kiln_cells *cells,
+               const uint32_t *list, size_t count)
 {
     static drawing *const draw[2][KILN_SHADES][4] = {
         {ROW(glow), ROW(alpha), ROW(lit), ROW(color), ROW(plain)},
@@ -572,18 +584,16 @@ void TILE_DRAW(struct kiln_tile *tile, const struct kiln_sprite *sprites,
     tile->has_opaque = false;
     uint32_t covering = 0;
     for (size_t i = count; i-- > 0;) {
-        const struct kiln_sprite *s = &sprites[list[i]];
-        if (i >= PREFETCH_DISTANCE) { /* neighbours in a list are far apart in memory */
-            const char *next = (const char *)&sprites[list[i - PREFETCH_DISTANCE]];
-            for (size_t line = 0; line < sizeof *s; line += 64)
-                __builtin_prefetch(next + line);
-        }
+        const struct kiln_sprite *s = &sprites.sprites[list[i]];
+        const struct kiln_sprite_extra *extra = &sprites.extras[list[i]];
+        if (i >= PREFETCH_DISTANCE)
+            prefetch(sprites, list[i - PREFETCH_DISTANCE], kiln_sprite_has_extra(s));
         bool mixed = (s->flags & KILN_SPRITE_MIXED) != 0;
         uint32_t form = s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_COVERS);
         if (s->flags & KILN_SPRITE_FINE)
-            draw_in_floats(tile, &content, s);
+            draw_in_floats(tile, &content, s, extra);
         else
-            draw[mixed][s->shade][form](tile, &content, s);
+            draw[mixed][s->shade][form](tile, &content, s, extra);
         covering += (s->flags & KILN_SPRITE_COVERS) != 0;
         if (covering == COVER_CHECK_INTERVAL && tile->over) {
             covering = 0;

@@ -60,9 +60,10 @@ SIMD void clip_columns(vf place, float pixels_a_step, float least, float most, f
     *to = vf_min(vf_max(one, other) + 2.0f, *to);
 }
 
-/* Holds the span of a sprite in each row of a tile. */
+/* Holds the span of a sprite in each row of a tile that it may touch. */
 struct rows {
-    vf u[ROW_VECTORS], v[ROW_VECTORS], q[ROW_VECTORS]; /* at the first column */
+    int top, vectors; /* the first row; number of vectors of rows */
+    vf u[ROW_VECTORS], v[ROW_VECTORS], q[ROW_VECTORS]; /* at the first column; q if deep */
     vi from[ROW_VECTORS], units[ROW_VECTORS];          /* first column; number of units */
 };
 
@@ -71,16 +72,20 @@ struct box {
     int x_from, x_to, y_from, y_to;
 };
 
-/* Finds the spans of a sprite. hull: the visible part of its cell, or NULL. */
+/* Finds the spans of a sprite. hull: the visible part of its cell, or NULL. deep: NULL unless the
+ * sprite is deep. */
 SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
-                    const struct box *box, const struct kiln_cell_hull *hull, struct rows *rows)
+                    const struct kiln_sprite_extra *deep, const struct box *box,
+                    const struct kiln_cell_hull *hull, struct rows *rows)
 {
     struct limits limits = {.least = {0}};
     if (hull)
         find_limits(s, hull, &limits);
     float offset = s->x - 0.5f - (float)tile->x;
-    for (int i = 0; i < ROW_VECTORS; i++) {
-        vf row = vf_count() + (float)(i * LANES);
+    rows->top = box->y_from;
+    rows->vectors = (box->y_to - box->y_from + LANES - 1) / LANES;
+    for (int i = 0; i < rows->vectors; i++) {
+        vf row = vf_count() + (float)(rows->top + i * LANES);
         vf y = row + ((float)tile->y + 0.5f) - s->y;
         vf u = s->u + s->u_y * y, v = s->v + s->v_y * y;
         vf from = vf_all((float)box->x_from), to = vf_all((float)box->x_to);
@@ -90,24 +95,26 @@ SIMD void find_rows(const struct kiln_tile *tile, const struct kiln_sprite *s,
                 clip_columns(places[k], limits.pixels_a_step[k], limits.least[k], limits.most[k],
                              offset, &from, &to);
         }
-        vi any = (from < to) & (row >= (float)box->y_from) & (row < (float)box->y_to);
+        vi any = (from < to) & (row < (float)box->y_to);
         vi first = vi_of(vf_where(any, from));
         vi end = vi_of(vf_where(any, to));
         vf x = __builtin_convertvector(first, vf) - offset;
         rows->u[i] = u + s->u_x * x;
         rows->v[i] = v + s->v_x * x;
-        rows->q[i] = (s->q + s->q_y * y) + s->q_x * x;
+        if (deep)
+            rows->q[i] = (deep->q + deep->q_y * y) + deep->q_x * x;
         rows->from[i] = first;
         rows->units[i] = (end - first + (UNIT - 1)) >> 3;
     }
 }
 
-/* Returns a mask of the units at the columns, one in each row, of which some pixel is visible. */
-SIMD vi units_seen(const struct kiln_tile *tile, size_t vector, vi columns)
+/* Returns a mask of the units at the columns, one in each row from `row` on, of which some pixel is
+ * visible. */
+SIMD vi units_seen(const struct kiln_tile *tile, int row, vi columns)
 {
     vi left, right;
-    memcpy(&left, tile->seen[0] + vector * LANES, sizeof left);
-    memcpy(&right, tile->seen[1] + vector * LANES, sizeof right);
+    memcpy(&left, tile->seen[0] + row, sizeof left);
+    memcpy(&right, tile->seen[1] + row, sizeof right);
     vi is_right = columns > 31;
     vi bits = (left & ~is_right) | (right & is_right);
     return (bits << (31 - (columns & 31))) < 0;
@@ -126,12 +133,13 @@ SIMD int list_units(const struct kiln_tile *tile, const struct rows *rows, const
     const vi numbers = __builtin_convertvector(vf_count(), vi);
     for (int k = 0; k < most; k++) {
         const float right = (float)(UNIT * k);
-        for (int i = 0; i < ROW_VECTORS; i++) {
+        for (int i = 0; i < rows->vectors; i++) {
+            const int row = rows->top + i * LANES;
             vi columns = rows->from[i] + UNIT * k, listed = rows->units[i] > k;
             if (choice != UNITS_ALL)
-                listed &= units_seen(tile, (size_t)i, columns) ^ -(choice == UNITS_HIDDEN);
+                listed &= units_seen(tile, row, columns) ^ -(choice == UNITS_HIDDEN);
             const struct selection selection = selection_of(listed);
-            vi at = columns + (numbers + i * LANES) * (KILN_TILE_PLANES * KILN_TILE_PITCH);
+            vi at = columns + (numbers + row) * (KILN_TILE_PLANES * KILN_TILE_PITCH);
             vi_compress(units->at + count, selection, at);
             vf_compress(units->u + count, selection, rows->u[i] + right * steps[0]);
             vf_compress(units->v + count, selection, rows->v[i] + right * steps[1]);

@@ -51,7 +51,8 @@ SIMD struct shaded shade_alpha(const struct kiln_sprite *s, const struct brush *
                            cell.c[3] * b->sampled + SAMPLED_ZERO};
 }
 
-SIMD struct shaded shade_lit(const struct kiln_sprite *s, const struct brush *b, struct vf4 cell)
+SIMD struct shaded shade_lit(const struct kiln_sprite *s, const struct kiln_sprite_extra *extra,
+                             const struct brush *b, struct vf4 cell)
 {
     struct shaded shaded = {.alpha = cell.c[3] * b->sampled + SAMPLED_ZERO};
     float twice = 2.0f * b->sampled, zeros = 2.0f * SAMPLED_ZERO - 1.0f;
@@ -59,8 +60,8 @@ SIMD struct shaded shade_lit(const struct kiln_sprite *s, const struct brush *b,
     vf zero = vf_all(0.0f);
     vf z = vf_sqrt(vf_max(1.0f - (x * x + y * y), zero));
     for (int c = 0; c < 3; c++) {
-        vf light =
-            (s->light[0][c] + s->light[1][c] * x) + (s->light[2][c] * y + s->light[3][c] * z);
+        vf light = (extra->light[0][c] + extra->light[1][c] * x) +
+                   (extra->light[2][c] * y + extra->light[3][c] * z);
         shaded.rgb[c] = vf_max(light, zero);
     }
     if (b->emits) {
@@ -83,10 +84,10 @@ SIMD struct shaded shade_color(const struct kiln_sprite *s, const struct brush *
 }
 
 /* Shades pixels by their sampled channels, for any shade but plain. */
-SIMD struct shaded shade_cell(const struct kiln_sprite *s, const struct brush *b,
-                              enum kiln_sprite_shade kind, struct vf4 cell)
+SIMD struct shaded shade_cell(const struct kiln_sprite *s, const struct kiln_sprite_extra *extra,
+                              const struct brush *b, enum kiln_sprite_shade kind, struct vf4 cell)
 {
-    return kind == KILN_SHADE_LIT     ? shade_lit(s, b, cell)
+    return kind == KILN_SHADE_LIT     ? shade_lit(s, extra, b, cell)
            : kind == KILN_SHADE_GLOW  ? shade_glow(s, b, cell)
            : kind == KILN_SHADE_ALPHA ? shade_alpha(s, b, cell)
                                       : shade_color(s, b, cell);
@@ -113,13 +114,14 @@ SIMD vf rim_cover(const struct kiln_sprite *s, vf u, vf v)
 }
 
 /* Returns the opacity of a sprite before the scene: equation 3.3, clamped or as printed. */
-SIMD vf fade(const struct kiln_sprite *s, vf scene, vf depth, vi inside)
+SIMD vf fade(const struct kiln_sprite *s, const struct kiln_sprite_extra *extra, vf scene, vf depth,
+             vi inside)
 {
     vi visible = inside & (depth <= scene);
     if (s->soft <= 0.0f)
         return vf_where(visible, vf_all(s->opacity));
     if (s->flags & KILN_SPRITE_LITERAL)
-        return vf_where(visible, vf_abs(scene - s->distance) * s->soft * s->opacity);
+        return vf_where(visible, vf_abs(scene - extra->distance) * s->soft * s->opacity);
     return vf_where(inside, vf_clamp01((scene - depth) * s->soft) * s->opacity);
 }
 
