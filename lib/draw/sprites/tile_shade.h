@@ -1,12 +1,14 @@
-/* This header shades pixels of sprites for tile_draw.h: it computes their colour from a sampled
- * cell, the part of a pixel that they cover, and their opacity before the scene. The operations are
- * those of shaders/draw/sprites/shade.glsl. */
+/* This header shades pixels of sprites for tile_draw.h. It gathers what all pixels of a sprite
+ * share (struct brush), and computes their colour from a sampled cell, the part of a pixel that
+ * they cover, and their opacity before the scene. The operations are those of
+ * shaders/draw/sprites/shade.glsl. */
 #ifndef KILN_DRAW_SPRITES_TILE_SHADE_H
 #define KILN_DRAW_SPRITES_TILE_SHADE_H
 
 #include "base/real.h"
 #include "draw/sprites/sprite.h"
 #include "draw/sprites/texels.h"
+#include "draw/sprites/tile.h"
 #include "shared/billboard_place.h"
 
 /* Holds the data that all pixels of a sprite share. */
@@ -28,6 +30,52 @@ struct brush {
 static inline float least(float a, float b)
 {
     return a < b ? a : b;
+}
+
+/* Returns the form of cells that a shade reads. */
+SIMD enum kiln_cell_form form_of(enum kiln_sprite_shade kind)
+{
+    return kind == KILN_SHADE_ALPHA  ? KILN_CELL_ALPHA
+           : kind == KILN_SHADE_GLOW ? KILN_CELL_HEAT_ALPHA
+                                     : KILN_CELL_RGBA;
+}
+
+/* Makes the brush of a sprite. kind, deep, mixed: those of the sprite. */
+SIMD void make_brush(const struct kiln_tile *tile, const struct kiln_cells_content *cells,
+                     const struct kiln_sprite *s, enum kiln_sprite_shade kind, bool deep,
+                     bool mixed, struct brush *b)
+{
+    bool glows = s->bloom[0] != 0.0f || s->bloom[1] != 0.0f || s->bloom[2] != 0.0f;
+    bool apart = glows && tile->glow == KILN_TILE_GLOW_APART;
+    *b = (struct brush){
+        .layer = apart ? KILN_TILE_GLOW_RED : KILN_TILE_RED,
+        .weighted_glow = glows && tile->glow == KILN_TILE_GLOW_WEIGHED,
+    };
+    b->unfaded = !deep && !(s->flags & KILN_SPRITE_LITERAL) && tile->nearest >= s->depth &&
+                 (tile->nearest - s->depth) * s->soft >= (s->soft > 0.0f ? 1.0f : 0.0f);
+    if (kind == KILN_SHADE_PLAIN)
+        return;
+    const enum kiln_cell_form form = form_of(kind);
+    b->cell = cells->texels[s->cell].forms[form];
+    b->texel = 2 * (int32_t)kiln_cell_channels(form);
+    b->pitch = b->texel * s->pitch;
+    b->edge = (s->pitch - KILN_CELL_MARGIN) * PLACE_ONE;
+    b->sampled = SAMPLED_UNIT;
+    b->emits = (s->flags & KILN_SPRITE_EMITS) != 0;
+    b->rim = s->rim_u > 0.0f;
+    if (mixed)
+        return;
+    b->sampled = SAMPLED_UNIT / (float)PART_ONE;
+    b->next = cells->texels[s->next_cell].forms[form];
+    b->part = (int32_t)(s->part * (float)PART_ONE + 0.5f);
+    b->moves = s->motion > 0.0f ? kiln_cells_moves(cells, s->cell) : NULL;
+    float full = s->motion * (float)PLACE_ONE * (32768.0f / WAY_ONE);
+    b->cell_move = (int32_t)least(full * s->part + 0.5f, 32767.0f);
+    b->next_move = (int32_t)least(full * (1.0f - s->part) + 0.5f, 32767.0f);
+    b->move_shift = 0;
+    for (int32_t edge = b->edge / PLACE_ONE; edge > KILN_ATLAS_MOTION; edge >>= 1)
+        b->move_shift++;
+    b->move_mask = (0xffff >> b->move_shift) | (int32_t)(0xffffu >> b->move_shift << 16);
 }
 
 /* Holds the shade of a vector of pixels: the colour, not yet multiplied by alpha except for colour
