@@ -6,14 +6,6 @@
 #include "draw/light/sun_cover.h"
 #include "draw/moment/sun_outline.h"
 
-/* Returns the factor by which a shape's cover counts for a ball that is partly inside the shape.
- * exit_distance: from the ball's centre towards the sun until it leaves the shape, m. The factor is
- * 1 at a distance of the ball's radius or more, and falls to 0 with it. */
-static inline float kiln_sun_inside_factor(float exit_distance, struct kiln_ball ball)
-{
-    return exact_clamp(exit_distance / exact_max(ball.radius, 1e-4f), 0.0f, 1.0f);
-}
-
 struct kiln_sun_box {
     float3 center;
     float4 half_size;

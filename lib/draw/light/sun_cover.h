@@ -27,12 +27,18 @@ static inline bool kiln_sun_cover_is_zero(float3 center, float size, struct kiln
     return (ahead < -size) | (away > reach);
 }
 
+/* Returns the factor by which a shape's cover counts for a ball that is partly inside the shape.
+ * exit_distance: from the ball's centre towards the sun until it leaves the shape, m. The factor is
+ * 1 at a distance of the ball's radius or more, and falls to 0 with it. */
+static inline float kiln_sun_inside_factor(float exit_distance, struct kiln_ball ball)
+{
+    return exact_clamp(exit_distance / exact_max(ball.radius, 1e-4f), 0.0f, 1.0f);
+}
+
 /* Return the part of the sun that a shape hides from a ball, 0 to 1. Inside of the shape, this part
  * falls to 0 within a ball's radius of the side towards the sun. */
 float kiln_sphere_sun_cover(float3 center, float radius, struct kiln_ball ball,
                             const struct kiln_sun_frame *sun);
-float kiln_cylinder_sun_cover(float3 center, float radius, float3 axis, float half_height,
-                              struct kiln_ball ball, const struct kiln_sun_frame *sun);
 float kiln_capsule_sun_cover(float3 center, float radius, float3 axis, float half_height,
                              struct kiln_ball ball, const struct kiln_sun_frame *sun);
 

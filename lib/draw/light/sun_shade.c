@@ -25,8 +25,9 @@ struct kiln_sun_shade {
     const struct kiln_draw_shapes *shapes;
     uint32_t box_count;
     struct kiln_sun_box boxes[KILN_MAX_OBJECTS];
-    struct oriented_box oriented[KILN_MAX_OBJECTS]; /* shapes->oriented_counts.y of them */
-    float *visible;                                 /* by slot, whole rows of KILN_SUN_SHADE_ROW */
+    struct kiln_sun_cylinder cylinders[KILN_MAX_OBJECTS]; /* shapes->counts.y of them */
+    struct oriented_box oriented[KILN_MAX_OBJECTS];       /* shapes->oriented_counts.y of them */
+    float *visible; /* by slot, whole rows of KILN_SUN_SHADE_ROW */
 };
 
 bool kiln_sun_shade_concerns(const struct kiln_scene *scene, uint32_t system)
@@ -110,6 +111,11 @@ static void place_objects(struct kiln_sun_shade *shade, const struct kiln_moment
         shade->boxes[shade->box_count++] =
             kiln_sun_box_at(kiln_scene_value3(scene, &object->center, time_s), half, &shade->sun);
     }
+    for (uint32_t i = 0; i < shade->shapes->counts.y; i++) {
+        const float4 cylinder = shade->shapes->cylinders[i], axis = shade->shapes->cylinder_axis[i];
+        shade->cylinders[i] =
+            kiln_sun_cylinder_at(xyz(cylinder), cylinder.w, xyz(axis), axis.w, &shade->sun);
+    }
     for (uint32_t i = 0; i < shade->shapes->oriented_counts.y; i++)
         shade->oriented[i] = oriented_box_at(&shade->shapes->oriented_boxes[i], &shade->sun);
     for (uint32_t i = 0; i < shade->shapes->counts.z; i++)
@@ -143,7 +149,8 @@ static float oriented_visibility(const struct kiln_sun_shade *shade, struct kiln
     return visible;
 }
 
-/* Returns the part of the sun that a ball sees past all objects except boxes along the axes. */
+/* Returns the part of the sun that a ball sees past all objects except boxes along the axes and
+ * cylinders. */
 static float others_visibility(const struct kiln_sun_shade *shade, struct kiln_ball ball)
 {
     const struct kiln_draw_shapes *shapes = shade->shapes;
@@ -152,21 +159,17 @@ static float others_visibility(const struct kiln_sun_shade *shade, struct kiln_b
     for (uint32_t i = 0; i < shapes->counts.x; i++)
         visible *=
             1.0f - kiln_sphere_sun_cover(xyz(shapes->spheres[i]), shapes->spheres[i].w, ball, sun);
-    for (uint32_t i = 0; i < shapes->counts.y; i++)
-        visible *= 1.0f - kiln_cylinder_sun_cover(xyz(shapes->cylinders[i]), shapes->cylinders[i].w,
-                                                  xyz(shapes->cylinder_axis[i]),
-                                                  shapes->cylinder_axis[i].w, ball, sun);
     for (uint32_t i = 0; i < shapes->counts.z; i++)
         visible *= 1.0f - kiln_sun_mesh_cover(&shade->maps[i], ball);
     return visible * oriented_visibility(shade, ball);
 }
 
-/* Returns whether any object except boxes along the axes may hide the sun. */
+/* Returns whether any object except boxes along the axes and cylinders may hide the sun. */
 static bool has_others(const struct kiln_sun_shade *shade)
 {
     const struct kiln_draw_shapes *shapes = shade->shapes;
     const uint4 counts = shapes->counts, oriented = shapes->oriented_counts;
-    return counts.x > 0 || counts.y > 0 || counts.z > 0 || oriented.x > 0 || oriented.y > 0;
+    return counts.x > 0 || counts.z > 0 || oriented.x > 0 || oriented.y > 0;
 }
 
 /* Computes the shade of a block of particles. The parts that objects let through are multiplied, as
@@ -179,7 +182,9 @@ static void shade_block(const struct shade_job *job, uint32_t first)
     job->find(&job->system, first, &block);
     for (uint32_t i = 0; i < KILN_LANES; i++)
         visible[i] = 1.0f;
-    job->loops->shade(&block, shade->boxes, shade->box_count, &shade->sun, visible);
+    const struct kiln_sun_shapes shapes = {shade->boxes, shade->cylinders, shade->box_count,
+                                           shade->shapes->counts.y};
+    job->loops->shade(&block, &shapes, &shade->sun, visible);
     if (has_others(shade)) {
         for (uint32_t i = 0; i < KILN_LANES; i++) {
             const struct kiln_ball ball = {kiln_get3(&block.position, i), block.radius[i]};
