@@ -32,7 +32,7 @@ static const struct {
     {KILN_RASTER_TILED, "tiled"},
     {KILN_RASTER_CPU, "cpu"},
 };
-enum { TECHNIQUE_COUNT = sizeof TECHNIQUES / sizeof *TECHNIQUES };
+enum { TECHNIQUE_COUNT = sizeof TECHNIQUES / sizeof *TECHNIQUES, CPU = TECHNIQUE_COUNT - 1 };
 
 /* Particles, the farthest first. */
 struct crowd {
@@ -214,6 +214,25 @@ static void boxes_that_are_mostly_empty(void **state)
     assert_true(check(*state, &crowd) > 0.9);
 }
 
+/* Sprites that fill the picture, so many that raster=cpu draws them in parts, since lists of all
+ * would be long. The nearest hide the others. */
+static void lists_that_are_split(void **state)
+{
+    enum { COUNT = 70000, NEAREST = 200 };
+    struct crowd crowd = {.overrides = {"systems.a.look.size=60 m", "systems.a.look.soft=0"},
+                          .override_count = 2,
+                          .wall_m = 40};
+    scatter(&crowd, COUNT, (float3){1, 1, 0}, -9, 5);
+    struct crowd nearest = crowd;
+    nearest.count = NEAREST;
+    nearest.particles += COUNT - NEAREST;
+    float *expected = render(*state, &nearest, CPU), *found = render(*state, &crowd, CPU);
+    compare(expected, found, "cpu");
+    free(expected);
+    free(found);
+    free(crowd.particles);
+}
+
 /* Makes the technique with another size of its work groups, and as for another kind of device. */
 static float *render_in_groups(struct kiln_device *device, const struct crowd *crowd,
                                size_t technique, uint32_t size, bool software)
@@ -261,6 +280,7 @@ int main(void)
         test_on_device(opaque_ones_in_one_place),
         test_on_device(more_than_are_drawn_at_a_time),
         test_on_device(boxes_that_are_mostly_empty),
+        test_on_device(lists_that_are_split),
         test_on_device(tiles_are_the_same_by_any_work_group),
     };
     return cmocka_run_group_tests_name("crowds", tests, test_device_open, test_device_close);

@@ -151,9 +151,9 @@ static const char CROWD[] =
     "    emit: {rate: 0, bursts: {0 s: 40}, life: 9 s, speed: [1, 2]}\n"
     "    collide: none\n"
     "    look: {shape: line, stretch: 0.2 s, line: {width: 2 px}, color: [0.1, 0.4, 0.8]}\n"
-    "  unseen: # behind the camera\n"
+    "  unseen: # beside the picture, as far as the others\n"
     "    emit: {rate: 0, bursts: {0 s: 1}, life: 9 s, speed: 0,\n"
-    "           from: {point: {origin: [0, 1, 90]}}}\n"
+    "           from: {box: {origin: [90, 1, 0], size: [1, 1, 9]}}}\n"
     "    look: {atlas: 'builtin:puff', opacity: 0.2, shadow: 0, lit: 0}\n";
 
 static void techniques_agree(void **state)
@@ -313,8 +313,8 @@ static void any_number_of_threads_makes_the_same(void **state)
     kiln_picture_destroy(&b);
 }
 
-/* With more sprites than are made at a time, raster=cpu draws some tiles of all sprites after the
- * others. */
+/* With more sprites than are made at a time, raster=cpu keeps those of each piece that touch the
+ * tiles that it draws. */
 static void more_than_are_made_at_a_time(void **state)
 {
     static const char *const many = "systems.unseen.emit.bursts={0 s: 1100000}";

@@ -27,7 +27,9 @@ static void fill_spans(struct units_spans *s, uint32_t *stream)
     s->x_to = s->x_from + 1 + (int)(next_random(stream) % (uint32_t)(KILN_TILE_WIDTH - s->x_from));
     for (int c = 0; c < 3; c++)
         s->steps[c] = random_float(stream);
-    for (int y = 0; y < KILN_TILE_HEIGHT; y++) {
+    s->top = (int)(next_random(stream) % KILN_TILE_HEIGHT);
+    s->rows = 1 + (int)(next_random(stream) % (uint32_t)(KILN_TILE_HEIGHT - s->top));
+    for (int y = 0; y < s->rows; y++) {
         const uint32_t width = (uint32_t)(s->x_to - s->x_from);
         const uint32_t offset = next_random(stream) % width;
         const uint32_t length = next_random(stream) % (width - offset + 1);
@@ -62,12 +64,12 @@ static int list_plainly(const struct kiln_tile *tile, const struct units_spans *
 {
     int count = 0;
     memset(by_place, 0, sizeof *by_place);
-    for (int y = 0; y < KILN_TILE_HEIGHT; y++) {
+    for (int y = 0; y < s->rows; y++) {
         for (int k = 0; k < s->units[y]; k++) {
-            const int column = s->from[y] + 8 * k, place = y * UNITS_A_ROW + k;
-            if (tile->has_opaque && (tile->transparent[y] >> column & 0xff) == 0)
+            const int row = s->top + y, column = s->from[y] + 8 * k, place = y * UNITS_A_ROW + k;
+            if (tile->has_opaque && (tile->transparent[row] >> column & 0xff) == 0)
                 continue;
-            by_place->at[place] = 1 + y * ROW_FLOATS + column;
+            by_place->at[place] = 1 + row * ROW_FLOATS + column;
             by_place->u[place] = s->u[y] + (float)(8 * k) * s->steps[0];
             by_place->v[place] = s->v[y] + (float)(8 * k) * s->steps[1];
             by_place->q[place] = s->deep ? s->q[y] + (float)(8 * k) * s->steps[2] : 0.0f;
@@ -81,8 +83,8 @@ static void check_units(const struct units_spans *s, struct units_listed *expect
                         const struct units_listed *found)
 {
     for (int i = 0; i < found->count; i++) {
-        const int y = found->at[i] / ROW_FLOATS, column = found->at[i] % ROW_FLOATS;
-        assert_in_range(y, 0, KILN_TILE_HEIGHT - 1);
+        const int y = found->at[i] / ROW_FLOATS - s->top, column = found->at[i] % ROW_FLOATS;
+        assert_in_range(y, 0, s->rows - 1);
         const int place = y * UNITS_A_ROW + (column - s->from[y]) / 8;
         assert_int_equal(found->at[i] + 1, expected->at[place]);
         expected->at[place] = 0; /* no unit may be listed twice */

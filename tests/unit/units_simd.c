@@ -6,15 +6,15 @@
 void KILN_SIMD_NAME(units_list)(const struct kiln_tile *tile, const struct units_spans *spans,
                                 struct units_listed *listed)
 {
-    struct rows rows = {.top = 0, .vectors = ROW_VECTORS};
-    for (int i = 0; i < ROW_VECTORS; i++) {
+    struct rows rows = {.top = spans->top, .vectors = (spans->rows + LANES - 1) / LANES};
+    for (int i = 0; i < rows.vectors; i++) {
         rows.u[i] = vf_load(spans->u + i * LANES);
         rows.v[i] = vf_load(spans->v + i * LANES);
         rows.q[i] = vf_load(spans->q + i * LANES);
         memcpy(&rows.from[i], spans->from + i * LANES, sizeof rows.from[i]);
         memcpy(&rows.units[i], spans->units + i * LANES, sizeof rows.units[i]);
     }
-    const struct box box = {spans->x_from, spans->x_to, 0, KILN_TILE_HEIGHT};
+    const struct box box = {spans->x_from, spans->x_to, spans->top, spans->top + spans->rows};
     struct units units;
     memset(&units, 0, sizeof units);
     listed->count = list_units(tile, &rows, &box, spans->steps, spans->deep,

@@ -11,8 +11,9 @@ enum {
     UNITS_MOST = UNITS_A_ROW * KILN_TILE_HEIGHT + 32, /* with room that may be written */
 };
 
-/* Holds the spans of a sprite in the rows of a tile. */
+/* Holds the spans of a sprite in some rows of a tile, from `top` on. */
 struct units_spans {
+    int top, rows;
     int32_t from[KILN_TILE_HEIGHT], units[KILN_TILE_HEIGHT]; /* first column; number of units */
     float u[KILN_TILE_HEIGHT], v[KILN_TILE_HEIGHT], q[KILN_TILE_HEIGHT]; /* at the first column */
     float steps[3]; /* changes of u, v and q a column */

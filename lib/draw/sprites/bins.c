@@ -83,7 +83,7 @@ void kiln_bins_measure(struct kiln_bins *bins, const float *depth, uint32_t widt
 
 struct filling {
     struct kiln_bins *bins;
-    uint32_t count;
+    uint32_t begin, end; /* sprites */
 };
 
 bool kiln_bins_begin(struct kiln_bins *bins, uint32_t count, struct kiln_error *error)
@@ -120,8 +120,8 @@ static void visit_piece(const struct filling *f, size_t piece, uint32_t *list)
     const struct kiln_bins *bins = f->bins;
     size_t tiles = (size_t)bins->columns * bins->rows;
     uint32_t *counts = bins->counts + piece * tiles;
-    uint32_t begin = (uint32_t)piece * PIECE;
-    uint32_t end = f->count - begin < PIECE ? f->count : begin + PIECE;
+    uint32_t begin = f->begin + (uint32_t)piece * PIECE;
+    uint32_t end = f->end - begin < PIECE ? f->end : begin + PIECE;
     for (uint32_t i = begin; i < end; i++) {
         const struct kiln_bin_box *s = &bins->boxes[i];
         if (s->x_from >= s->x_to)
@@ -160,9 +160,8 @@ static void write_pieces(void *context, size_t begin, size_t end, uint32_t worke
         visit_piece(f, piece, f->bins->list);
 }
 
-/* Turns counts into places by a prefix sum, tile by tile. Returns false when a place would not fit
- * 32 bits. */
-static bool scan(struct kiln_bins *bins, size_t pieces, size_t *total)
+/* Turns counts into places by a prefix sum, tile by tile. Returns the number of all places. */
+static size_t scan(struct kiln_bins *bins, size_t pieces)
 {
     size_t tiles = (size_t)bins->columns * bins->rows, place = 0;
     for (size_t tile = 0; tile < tiles; tile++) {
@@ -172,12 +171,9 @@ static bool scan(struct kiln_bins *bins, size_t pieces, size_t *total)
             *count = (uint32_t)place;
             place += was;
         }
-        if (place > UINT32_MAX)
-            return false;
     }
     bins->first[tiles] = (uint32_t)place;
-    *total = place;
-    return true;
+    return place;
 }
 
 /* Makes room for `count` elements; earlier contents are lost. Returns false when memory is short.
@@ -194,16 +190,31 @@ static bool make_room(uint32_t **array, size_t *room, size_t count)
     return *array != NULL;
 }
 
-bool kiln_bins_fill(struct kiln_bins *bins, uint32_t count, struct kiln_threads *threads,
-                    struct kiln_error *error)
+static size_t pieces_of(uint32_t begin, uint32_t end)
 {
-    struct filling filling = {bins, count};
-    size_t tiles = (size_t)bins->columns * bins->rows, pieces = (count + PIECE - 1) / PIECE;
+    return (end - begin + PIECE - 1) / PIECE;
+}
+
+bool kiln_bins_count(struct kiln_bins *bins, uint32_t begin, uint32_t end,
+                     struct kiln_threads *threads, uint64_t *total, struct kiln_error *error)
+{
+    struct filling filling = {bins, begin, end};
+    const size_t tiles = (size_t)bins->columns * bins->rows, pieces = pieces_of(begin, end);
     if (!make_room(&bins->counts, &bins->count_room, pieces * tiles))
         return out_of_memory(error);
     kiln_threads_for(threads, pieces, 1, count_pieces, &filling);
-    size_t total = 0;
-    if (!scan(bins, pieces, &total) || !make_room(&bins->list, &bins->list_room, total))
+    *total = 0;
+    for (size_t i = 0; i < pieces * tiles; i++)
+        *total += bins->counts[i];
+    return true;
+}
+
+bool kiln_bins_fill(struct kiln_bins *bins, uint32_t begin, uint32_t end,
+                    struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct filling filling = {bins, begin, end};
+    const size_t pieces = pieces_of(begin, end), total = scan(bins, pieces);
+    if (total > UINT32_MAX || !make_room(&bins->list, &bins->list_room, total))
         return out_of_memory(error);
     kiln_threads_for(threads, pieces, 1, write_pieces, &filling);
     return true;

@@ -11,7 +11,7 @@
 #include "draw/sprites/packets.h"
 
 enum {
-    ROWS_AT_A_TIME = 16, /* the first-level cache holds so many beside packets */
+    ROWS_AT_A_TIME = 16, /* this many fit into the first-level cache beside packets */
     PIXELS_AT_A_TIME = KILN_TILE_WIDTH * ROWS_AT_A_TIME,
     LEAST_LANES = 4
 };

@@ -14,6 +14,9 @@
 
 enum {
     SPRITES_AT_A_TIME = 1 << 20, /* sprites of a piece */
+    SORTED_AT_A_TIME = 1 << 18,  /* the same in a scene with post.compose: oit */
+    ENTRIES_AT_A_TIME = 1 << 23, /* most sprites of all tiles together, of pieces that are split */
+    LEAST_SPLIT = 1 << 12,       /* no piece of so many sprites or fewer is split */
     SPRITES_OF_A_TILE = 1 << 22, /* most sprites of one tile in a scene with post.compose: oit */
     GRAIN = 512                  /* particles of which a thread makes sprites at once */
 };
@@ -306,6 +309,22 @@ static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
 
 /* ---- a pass ---------------------------------------------------------------------------------- */
 
+/* Makes the lists of tiles of the sprites from `begin` to *end, or, where they would be too long,
+ * of fewer sprites. Sets *end to that of the listed sprites. */
+static bool list_sprites(struct kiln_raster_cpu *tiles, bool splits, uint32_t begin, uint32_t *end,
+                         struct kiln_error *error)
+{
+    for (;;) {
+        uint64_t total;
+        if (!kiln_bins_count(&tiles->bins, begin, *end, tiles->threads, &total, error))
+            return false;
+        const uint32_t count = *end - begin;
+        if (!splits || total <= ENTRIES_AT_A_TIME || count <= LEAST_SPLIT)
+            return kiln_bins_fill(&tiles->bins, begin, *end, tiles->threads, error);
+        *end = begin + count / 2;
+    }
+}
+
 static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_pass *pass,
                        const uint32_t *entries, uint32_t count, struct tile_job *tile_job,
                        struct kiln_error *error)
@@ -314,11 +333,20 @@ static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_p
     if (!kiln_bins_begin(&tiles->bins, count, error))
         return false;
     kiln_threads_for(tiles->threads, count, GRAIN, make_sprites, &job);
-    if (!kiln_cells_mix(tiles->cells, tiles->threads, error) ||
-        !kiln_bins_fill(&tiles->bins, count, tiles->threads, error))
+    if (!kiln_cells_mix(tiles->cells, tiles->threads, error))
         return false;
-    size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
-    return kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, tile_job, error);
+    const size_t tile_count = (size_t)tiles->bins.columns * tiles->bins.rows;
+    uint32_t begin = 0, most = count;
+    do { /* at least once, to clear the picture if there are no particles */
+        uint32_t end = count - begin < most ? count : begin + most;
+        if (!list_sprites(tiles, !tile_job->by_fragment, begin, &end, error) ||
+            !kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, tile_job, error))
+            return false;
+        most = end - begin;
+        begin = end;
+        tile_job->first = false;
+    } while (begin < count);
+    return true;
 }
 
 /* ---- sorted pixels with more sprites than a piece -------------------------------------------- */
@@ -341,14 +369,14 @@ struct sorted_pass {
 static uint32_t make_piece(const struct sorted_pass *s, uint32_t first, struct kiln_error *error)
 {
     const uint32_t left = s->count - first;
-    const uint32_t count = left < SPRITES_AT_A_TIME ? left : SPRITES_AT_A_TIME;
+    const uint32_t count = left < SORTED_AT_A_TIME ? left : SORTED_AT_A_TIME;
     struct kiln_bins *bins = &s->tiles->bins;
     struct sprite_job job = {s->tiles->make, s->pass, s->entries + first, s->tiles->sprites, bins};
     if (!kiln_bins_begin(bins, count, error))
         return 0;
     kiln_threads_for(s->tiles->threads, count, GRAIN, make_sprites, &job);
-    bool ok = kiln_bins_fill(bins, count, s->tiles->threads, error);
-    return ok ? count : 0;
+    uint32_t end = count;
+    return list_sprites(s->tiles, false, 0, &end, error) ? count : 0;
 }
 
 /* Counts the sprites of each tile, and mixes the cells that they want. Returns false with an error
@@ -416,7 +444,8 @@ static bool draw_some_tiles(struct sorted_pass *s, struct tile_job *job, size_t 
     bool ok = kiln_bins_begin(&tiles->bins, s->selected_count, error);
     if (ok)
         kiln_bins_note(&tiles->bins, s->selected.sprites, 0, s->selected_count);
-    ok = ok && kiln_bins_fill(&tiles->bins, s->selected_count, tiles->threads, error);
+    uint32_t end = s->selected_count;
+    ok = ok && list_sprites(tiles, false, 0, &end, error);
     job->first_tile = first_tile;
     ok = ok && kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, job, error);
     tiles->sprites = piece;
@@ -426,9 +455,9 @@ static bool draw_some_tiles(struct sorted_pass *s, struct tile_job *job, size_t 
 static bool draw_sorted(struct sorted_pass *s, struct tile_job *job, struct kiln_error *error)
 {
     const size_t tile_count = (size_t)s->tiles->bins.columns * s->tiles->bins.rows;
-    size_t most = SPRITES_AT_A_TIME;
+    size_t most = SORTED_AT_A_TIME;
     s->totals = calloc(tile_count, sizeof *s->totals);
-    s->is_selected = calloc(SPRITES_AT_A_TIME, sizeof *s->is_selected);
+    s->is_selected = calloc(SORTED_AT_A_TIME, sizeof *s->is_selected);
     bool ok = s->totals && s->is_selected;
     if (!ok)
         out_of_memory(error);
@@ -530,7 +559,7 @@ static bool open_images(const struct kiln_particles_draw *draw, struct tile_job 
 bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_particles_draw *draw,
                          struct kiln_error *error)
 {
-    const uint32_t most = SPRITES_AT_A_TIME;
+    const uint32_t most = draw->by_fragment ? SORTED_AT_A_TIME : SPRITES_AT_A_TIME;
     struct tile_job job = {.tiles = tiles,
                            .keep_bloom = draw->keep_bloom,
                            .sum = draw->sum_alpha,
@@ -560,9 +589,9 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
         return draw_sorted(&sorted, &job, error);
     }
     uint32_t done = 0;
+    job.first = true;
     do { /* at least once, to clear the picture if there are no particles */
         uint32_t count = draw->count - done < most ? draw->count - done : most;
-        job.first = done == 0;
         if (!draw_piece(tiles, &pass, entries + done, count, &job, error))
             return false;
         done += count;

@@ -5,6 +5,8 @@
 #ifndef KILN_DRAW_SPRITES_SPRITE_H
 #define KILN_DRAW_SPRITES_SPRITE_H
 
+#include <assert.h>
+
 #include "base/simd.h"
 #include "draw/light/lighting.h"
 #include "draw/moment/view.h"
@@ -61,10 +63,13 @@ struct kiln_sprite_extra {
     float distance;                 /* if literal: from the eye, m */
 };
 
+static_assert(sizeof(struct kiln_sprite) == 128 && sizeof(struct kiln_sprite_extra) == 64,
+              "a sprite is two lines of the cache, an extra is one");
+
 /* Names sprites and their extras, which are two arrays of the same length. */
 struct kiln_sprites {
     struct kiln_sprite *sprites;
-    struct kiln_sprite_extra *extras; /* set where kiln_sprite_has_extra */
+    struct kiln_sprite_extra *extras; /* set for visible sprites where kiln_sprite_has_extra */
 };
 
 /* Holds the data that all sprites of a pass share. */

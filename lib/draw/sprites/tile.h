@@ -1,5 +1,6 @@
-/* A kiln_tile is a part of the picture that stays in the first-level cache while all sprites that
- * touch it are drawn, in order. Every width of vectors draws the same bits. */
+/* A kiln_tile is a part of the picture that stays in the second-level cache while all sprites that
+ * touch it are drawn, in order; the first-level cache has the rows of the last sprites. Every width
+ * of vectors draws the same bits. */
 #ifndef KILN_DRAW_SPRITES_TILE_H
 #define KILN_DRAW_SPRITES_TILE_H
 

@@ -512,7 +512,8 @@ DRAW_FORMS(mixed_alpha, KILN_SHADE_ALPHA, true)
 DRAW_FORMS(mixed_lit, KILN_SHADE_LIT, true)
 DRAW_FORMS(mixed_color, KILN_SHADE_COLOR, true)
 
-/* Prefetches a sprite, since neighbours in a list are far apart in memory, and its extra. */
+/* Prefetches a sprite, since neighbours in a list are far apart in memory, and, if `extra`, the
+ * sprite's extra. */
 SIMD void prefetch(struct kiln_sprites sprites, uint32_t number, bool extra)
 {
     const char *sprite = (const char *)&sprites.sprites[number];
