@@ -1,6 +1,8 @@
 /* This file rasterises triangles into a mask of bits, in rows of words. */
 #include "draw/light/bit_mask.h"
 
+#include <assert.h>
+
 #include "shared/exact.h"
 
 /* Returns the first bit whose centre is at or after x. */
@@ -48,13 +50,24 @@ void kiln_bit_mask_add(const struct kiln_bit_mask *mask, const float p[3][2])
     }
 }
 
+/* Returns the number of bits that are 1. For __builtin_popcountll, gcc calls a function that looks
+ * bytes up in a table, since not every x86-64 processor has the instruction. */
+static uint32_t count_bits(uint64_t x)
+{
+    const uint64_t pairs = x - (x >> 1 & 0x5555555555555555u);
+    const uint64_t fours = (pairs & 0x3333333333333333u) + (pairs >> 2 & 0x3333333333333333u);
+    const uint64_t bytes = (fours + (fours >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+    return (uint32_t)(bytes * 0x0101010101010101u >> 56);
+}
+
 float kiln_bit_mask_part(const struct kiln_bit_mask *mask, size_t x, size_t y)
 {
-    int count = 0;
+    static_assert(KILN_BIT_CELL * KILN_BIT_CELL <= 64, "a cell fits into a word");
+    const size_t bit = x * KILN_BIT_CELL;
+    uint64_t cell = 0;
     for (size_t i = 0; i < KILN_BIT_CELL; i++) {
-        const size_t bit = x * KILN_BIT_CELL;
         const uint64_t word = mask->rows[(y * KILN_BIT_CELL + i) * mask->words + bit / 64];
-        count += __builtin_popcountll(word >> bit % 64 & ((1 << KILN_BIT_CELL) - 1));
+        cell = cell << KILN_BIT_CELL | (word >> bit % 64 & ((1u << KILN_BIT_CELL) - 1));
     }
-    return (float)count / (KILN_BIT_CELL * KILN_BIT_CELL);
+    return (float)count_bits(cell) / (KILN_BIT_CELL * KILN_BIT_CELL);
 }
