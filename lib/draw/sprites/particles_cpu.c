@@ -16,7 +16,7 @@ enum {
     SPRITES_AT_A_TIME = 1 << 20, /* sprites of a piece */
     SORTED_AT_A_TIME = 1 << 18,  /* the same in a scene with post.compose: oit */
     ENTRIES_AT_A_TIME = 1 << 23, /* most sprites of all tiles together, of pieces that are split */
-    LEAST_SPLIT = 1 << 12,       /* no piece of so many sprites or fewer is split */
+    LEAST_SPLIT = 1 << 9,        /* no piece of so many sprites or fewer is split */
     SPRITES_OF_A_TILE = 1 << 22, /* most sprites of one tile in a scene with post.compose: oit */
     GRAIN = 512                  /* particles of which a thread makes sprites at once */
 };

@@ -35,7 +35,7 @@ enum {
 };
 
 /* A sprite takes two lines of the cache. The sprites of a tile are far apart in memory, so that
- * each line costs time. What not all sprites need is in struct kiln_sprite_extra. */
+ * each line costs time. Data that only some sprites need is in struct kiln_sprite_extra. */
 struct kiln_sprite {
     _Alignas(64) uint32_t cell;     /* number of its cell in the pass's cells; unused if plain */
     uint32_t next_cell;             /* number of the next cell; unused if mixed */
