@@ -10,7 +10,12 @@
 #include "base/error.h"
 #include "base/pages.h"
 
-enum { PIECE = 4096 }; /* sprites of a piece */
+enum {
+    PIECE = 4096,          /* sprites of a piece */
+    MOST_LISTED = 1 << 23, /* sprites of all lists of kiln_bins_fill_some, where it lists more than
+                              LEAST_FILLED */
+    LEAST_FILLED = 512     /* sprites, which it lists together whatever the lists need */
+};
 
 static bool out_of_memory(struct kiln_error *error)
 {
@@ -84,6 +89,7 @@ void kiln_bins_measure(struct kiln_bins *bins, const float *depth, uint32_t widt
 struct filling {
     struct kiln_bins *bins;
     uint32_t begin, end; /* sprites */
+    uint64_t total;      /* of all counts */
 };
 
 bool kiln_bins_begin(struct kiln_bins *bins, uint32_t count, struct kiln_error *error)
@@ -160,8 +166,8 @@ static void write_pieces(void *context, size_t begin, size_t end, uint32_t worke
         visit_piece(f, piece, f->bins->list);
 }
 
-/* Turns counts into places by a prefix sum, tile by tile. Returns the number of all places. */
-static size_t scan(struct kiln_bins *bins, size_t pieces)
+/* Turns counts into places by a prefix sum, tile by tile. */
+static void scan(struct kiln_bins *bins, size_t pieces)
 {
     size_t tiles = (size_t)bins->columns * bins->rows, place = 0;
     for (size_t tile = 0; tile < tiles; tile++) {
@@ -173,7 +179,6 @@ static size_t scan(struct kiln_bins *bins, size_t pieces)
         }
     }
     bins->first[tiles] = (uint32_t)place;
-    return place;
 }
 
 /* Makes room for `count` elements; earlier contents are lost. Returns false when memory is short.
@@ -190,32 +195,54 @@ static bool make_room(uint32_t **array, size_t *room, size_t count)
     return *array != NULL;
 }
 
-static size_t pieces_of(uint32_t begin, uint32_t end)
+static size_t count_of_pieces(const struct filling *f)
 {
-    return (end - begin + PIECE - 1) / PIECE;
+    return (f->end - f->begin + PIECE - 1) / PIECE;
 }
 
-bool kiln_bins_count(struct kiln_bins *bins, uint32_t begin, uint32_t end,
-                     struct kiln_threads *threads, uint64_t *total, struct kiln_error *error)
+/* Counts the sprites of each tile, piece by piece, and those of all tiles. */
+static bool count(struct filling *f, struct kiln_threads *threads, struct kiln_error *error)
 {
-    struct filling filling = {bins, begin, end};
-    const size_t tiles = (size_t)bins->columns * bins->rows, pieces = pieces_of(begin, end);
-    if (!make_room(&bins->counts, &bins->count_room, pieces * tiles))
+    struct kiln_bins *bins = f->bins;
+    const size_t pieces = count_of_pieces(f), counts = pieces * bins->columns * bins->rows;
+    if (!make_room(&bins->counts, &bins->count_room, counts))
         return out_of_memory(error);
-    kiln_threads_for(threads, pieces, 1, count_pieces, &filling);
-    *total = 0;
-    for (size_t i = 0; i < pieces * tiles; i++)
-        *total += bins->counts[i];
+    kiln_threads_for(threads, pieces, 1, count_pieces, f);
+    f->total = 0;
+    for (size_t i = 0; i < counts; i++)
+        f->total += bins->counts[i];
+    return true;
+}
+
+/* Writes the lists of the counted sprites. */
+static bool write_lists(struct filling *f, struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct kiln_bins *bins = f->bins;
+    if (f->total > UINT32_MAX || !make_room(&bins->list, &bins->list_room, f->total))
+        return out_of_memory(error);
+    scan(bins, count_of_pieces(f));
+    kiln_threads_for(threads, count_of_pieces(f), 1, write_pieces, f);
     return true;
 }
 
 bool kiln_bins_fill(struct kiln_bins *bins, uint32_t begin, uint32_t end,
                     struct kiln_threads *threads, struct kiln_error *error)
 {
-    struct filling filling = {bins, begin, end};
-    const size_t pieces = pieces_of(begin, end), total = scan(bins, pieces);
-    if (total > UINT32_MAX || !make_room(&bins->list, &bins->list_room, total))
-        return out_of_memory(error);
-    kiln_threads_for(threads, pieces, 1, write_pieces, &filling);
-    return true;
+    struct filling filling = {.bins = bins, .begin = begin, .end = end};
+    return count(&filling, threads, error) && write_lists(&filling, threads, error);
+}
+
+bool kiln_bins_fill_some(struct kiln_bins *bins, uint32_t begin, uint32_t *end,
+                         struct kiln_threads *threads, struct kiln_error *error)
+{
+    struct filling filling = {.bins = bins, .begin = begin, .end = *end};
+    if (!count(&filling, threads, error))
+        return false;
+    while (filling.total > MOST_LISTED && filling.end - begin > LEAST_FILLED) {
+        filling.end = begin + (filling.end - begin) / 2;
+        if (!count(&filling, threads, error))
+            return false;
+    }
+    *end = filling.end;
+    return write_lists(&filling, threads, error);
 }

@@ -49,14 +49,15 @@ bool kiln_bins_begin(struct kiln_bins *bins, uint32_t count, struct kiln_error *
 void kiln_bins_note(const struct kiln_bins *bins, const struct kiln_sprite *sprites, size_t begin,
                     size_t end);
 
-/* Counts the sprites of each tile, of those from `begin` to `end`, whose boxes are noted. A sprite
- * without pixels (x_from = x_to) is in no tile. A tile does not count sprites that are farther than
- * the scene everywhere in it. Sets *total to the sum of all tiles. Returns false with an error. */
-bool kiln_bins_count(struct kiln_bins *bins, uint32_t begin, uint32_t end,
-                     struct kiln_threads *threads, uint64_t *total, struct kiln_error *error);
-
-/* Makes the lists of the sprites that kiln_bins_count counted last. Returns false with an error. */
+/* Makes the lists of the sprites from `begin` to `end`, whose boxes are noted. A sprite without
+ * pixels (x_from = x_to) is in no list. A tile does not list sprites that are farther than the
+ * scene everywhere in it. Returns false with an error. */
 bool kiln_bins_fill(struct kiln_bins *bins, uint32_t begin, uint32_t end,
                     struct kiln_threads *threads, struct kiln_error *error);
+
+/* Makes the lists of the sprites from `begin` to *end or, where they would need much memory, of
+ * fewer. Sets *end to that of the listed sprites. */
+bool kiln_bins_fill_some(struct kiln_bins *bins, uint32_t begin, uint32_t *end,
+                         struct kiln_threads *threads, struct kiln_error *error);
 
 #endif

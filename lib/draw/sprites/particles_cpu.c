@@ -15,8 +15,6 @@
 enum {
     SPRITES_AT_A_TIME = 1 << 20, /* sprites of a piece */
     SORTED_AT_A_TIME = 1 << 18,  /* the same in a scene with post.compose: oit */
-    ENTRIES_AT_A_TIME = 1 << 23, /* most sprites of all tiles together, of pieces that are split */
-    LEAST_SPLIT = 1 << 9,        /* no piece of so many sprites or fewer is split */
     SPRITES_OF_A_TILE = 1 << 22, /* most sprites of one tile in a scene with post.compose: oit */
     GRAIN = 512                  /* particles of which a thread makes sprites at once */
 };
@@ -309,20 +307,12 @@ static void draw_tiles(void *context, size_t begin, size_t end, uint32_t worker)
 
 /* ---- a pass ---------------------------------------------------------------------------------- */
 
-/* Makes the lists of tiles of the sprites from `begin` to *end, or, where they would be too long,
- * of fewer sprites. Sets *end to that of the listed sprites. */
-static bool list_sprites(struct kiln_raster_cpu *tiles, bool splits, uint32_t begin, uint32_t *end,
-                         struct kiln_error *error)
+/* Lists the sprites from `begin` to *end, or fewer where pixels need not all sprites at once. */
+static bool list_sprites(struct kiln_raster_cpu *tiles, bool by_fragment, uint32_t begin,
+                         uint32_t *end, struct kiln_error *error)
 {
-    for (;;) {
-        uint64_t total;
-        if (!kiln_bins_count(&tiles->bins, begin, *end, tiles->threads, &total, error))
-            return false;
-        const uint32_t count = *end - begin;
-        if (!splits || total <= ENTRIES_AT_A_TIME || count <= LEAST_SPLIT)
-            return kiln_bins_fill(&tiles->bins, begin, *end, tiles->threads, error);
-        *end = begin + count / 2;
-    }
+    return by_fragment ? kiln_bins_fill(&tiles->bins, begin, *end, tiles->threads, error)
+                       : kiln_bins_fill_some(&tiles->bins, begin, end, tiles->threads, error);
 }
 
 static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_pass *pass,
@@ -339,7 +329,7 @@ static bool draw_piece(struct kiln_raster_cpu *tiles, const struct kiln_sprite_p
     uint32_t begin = 0, most = count;
     do { /* at least once, to clear the picture if there are no particles */
         uint32_t end = count - begin < most ? count : begin + most;
-        if (!list_sprites(tiles, !tile_job->by_fragment, begin, &end, error) ||
+        if (!list_sprites(tiles, tile_job->by_fragment, begin, &end, error) ||
             !kiln_threads_try(tiles->threads, tile_count, 1, draw_tiles, tile_job, error))
             return false;
         most = end - begin;
@@ -375,8 +365,7 @@ static uint32_t make_piece(const struct sorted_pass *s, uint32_t first, struct k
     if (!kiln_bins_begin(bins, count, error))
         return 0;
     kiln_threads_for(s->tiles->threads, count, GRAIN, make_sprites, &job);
-    uint32_t end = count;
-    return list_sprites(s->tiles, false, 0, &end, error) ? count : 0;
+    return kiln_bins_fill(bins, 0, count, s->tiles->threads, error) ? count : 0;
 }
 
 /* Counts the sprites of each tile, and mixes the cells that they want. Returns false with an error
@@ -444,8 +433,7 @@ static bool draw_some_tiles(struct sorted_pass *s, struct tile_job *job, size_t 
     bool ok = kiln_bins_begin(&tiles->bins, s->selected_count, error);
     if (ok)
         kiln_bins_note(&tiles->bins, s->selected.sprites, 0, s->selected_count);
-    uint32_t end = s->selected_count;
-    ok = ok && list_sprites(tiles, false, 0, &end, error);
+    ok = ok && kiln_bins_fill(&tiles->bins, 0, s->selected_count, tiles->threads, error);
     job->first_tile = first_tile;
     ok = ok && kiln_threads_try(tiles->threads, end_tile - first_tile, 1, draw_tiles, job, error);
     tiles->sprites = piece;
@@ -561,6 +549,7 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
 {
     const uint32_t most = draw->by_fragment ? SORTED_AT_A_TIME : SPRITES_AT_A_TIME;
     struct tile_job job = {.tiles = tiles,
+                           .first = true,
                            .keep_bloom = draw->keep_bloom,
                            .sum = draw->sum_alpha,
                            .by_fragment = draw->by_fragment};
@@ -585,11 +574,9 @@ bool kiln_raster_cpu_run(struct kiln_raster_cpu *tiles, const struct kiln_partic
     if (draw->by_fragment && draw->count > most) {
         struct sorted_pass sorted = {
             .tiles = tiles, .pass = &pass, .entries = entries, .count = draw->count};
-        job.first = true;
         return draw_sorted(&sorted, &job, error);
     }
     uint32_t done = 0;
-    job.first = true;
     do { /* at least once, to clear the picture if there are no particles */
         uint32_t count = draw->count - done < most ? draw->count - done : most;
         if (!draw_piece(tiles, &pass, entries + done, count, &job, error))

@@ -196,7 +196,7 @@ static void finish_sprites(struct sprite_lanes *p)
     if (p->look->form.x == 0)
         pitch = vi_of(p->words[WORD_OF(edge_u)]) + KILN_CELL_MARGIN;
     p->words[WORD_OF(pitch)] = (vf)(pitch | p->shade << 16 | p->flags << 24);
-    p->has_extras =
+    p->has_extras = /* as kiln_sprite_has_extra */
         any(p->visible & ((p->shade == KILN_SHADE_LIT) |
                           ((p->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_LITERAL)) != 0)));
     if (p->look->flags.z != 0)
