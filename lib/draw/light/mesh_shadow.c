@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/matrix.h"
 #include "base/pages.h"
+#include "draw/vector/mesh_project.h"
 #include "shared/exact.h"
 
 enum { EDGE = KILN_SHADOW_EDGE, ROWS_AT_A_TIME = 32 };
@@ -74,13 +75,6 @@ static void edge_plane(struct corner a, struct corner b, float plane[3])
     plane[2] = (y * from.x - x * from.y) * sign;
 }
 
-static struct kiln_row_range pixels_between(float low, float high)
-{
-    const float last = (float)EDGE;
-    return (struct kiln_row_range){(int16_t)exact_clamp(low - 1.0f, 0.0f, last),
-                                   (int16_t)exact_clamp(high + 2.0f, 0.0f, last)};
-}
-
 static void project_triangle(const struct corner c[3], struct kiln_projected_triangle *t)
 {
     *t = (struct kiln_projected_triangle){.y = {0, 0}};
@@ -95,10 +89,11 @@ static void project_triangle(const struct corner c[3], struct kiln_projected_tri
             t->edges[k][i] *= sign;
         }
     }
-    t->x = pixels_between(exact_min(exact_min(c[0].x, c[1].x), c[2].x),
-                          exact_max(exact_max(c[0].x, c[1].x), c[2].x));
-    t->y = pixels_between(exact_min(exact_min(c[0].y, c[1].y), c[2].y),
-                          exact_max(exact_max(c[0].y, c[1].y), c[2].y));
+    const float low[2] = {exact_min(exact_min(c[0].x, c[1].x), c[2].x),
+                          exact_min(exact_min(c[0].y, c[1].y), c[2].y)};
+    const float high[2] = {exact_max(exact_max(c[0].x, c[1].x), c[2].x),
+                           exact_max(exact_max(c[0].y, c[1].y), c[2].y)};
+    kiln_mesh_bound(low, high, (float)EDGE, (float)EDGE, t);
 }
 
 static void project_triangles(void *context, size_t begin, size_t end, uint32_t worker)

@@ -4,6 +4,12 @@
 
 #include "shared/exact.h"
 
+/* Rounding displaces corners and edges by less than this, px. */
+#define MARGIN 0.0625f
+
+/* The same where a triangle reaches the eye, px. */
+#define NEAREST_MARGIN 2.0f
+
 /* Returns the normal of the pyramid's side through an edge. For the opposite direction of the edge
  * it is exactly the negative, since the ends are ordered first. */
 static float3 side_of(float3 a, float3 b)
@@ -21,37 +27,74 @@ static void set_plane(float plane[3], float3 normal)
     plane[2] = -normal.z;
 }
 
+/* Returns the pixels that have samples between two positions, out of `size` pixels. */
 static struct kiln_row_range pixels_between(float low, float high, float size)
 {
-    return (struct kiln_row_range){(int16_t)exact_clamp(low - 1.0f, 0.0f, size),
-                                   (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
+    return (struct kiln_row_range){(int16_t)exact_clamp(low, 0.0f, size),
+                                   (int16_t)exact_clamp(high + 1.0f, 0.0f, size)};
 }
 
-/* Bounds the pixels that a triangle may touch: all of them if part of it is behind the eye, none if
- * all of it is. */
+void kiln_mesh_bound(const float low[2], const float high[2], float width, float height,
+                     struct kiln_projected_triangle *flat)
+{
+    flat->top = low[1] - MARGIN;
+    flat->bottom = high[1] + MARGIN;
+    flat->x = pixels_between(low[0] - MARGIN, high[0] + MARGIN, width);
+    flat->y = pixels_between(flat->top, flat->bottom, height);
+}
+
+/* Holds the least and the greatest x and y of points in a picture, px. */
+struct extent {
+    float low[2], high[2];
+};
+
+/* Adds a point in view space, which is in front of the eye. */
+static void extend(struct extent *e, float4 frustum, float4 principal, float3 p)
+{
+    const float depth = -p.z;
+    const float at[2] = {principal.x + p.x / (depth * frustum.x) * 0.5f * frustum.z,
+                         principal.y - p.y / (depth * frustum.y) * 0.5f * frustum.w};
+    for (int i = 0; i < 2; i++) {
+        e->low[i] = exact_min(e->low[i], at[i]);
+        e->high[i] = exact_max(e->high[i], at[i]);
+    }
+}
+
+/* Returns where the line from a point in front of the eye to one that is not has the nearest depth
+ * that is drawn. */
+static float3 where_nearest(float3 front, float3 behind)
+{
+    const float3 way = float3_sub(behind, front);
+    const float part = (front.z + KILN_MESH_NEAREST) / -way.z;
+    float3 at = float3_add(front, float3_scale(way, part));
+    at.z = -KILN_MESH_NEAREST;
+    return at;
+}
+
+/* Bounds the pixels that a triangle may touch; none if all of it is behind the eye. */
 static void find_bounds(float4 frustum, float4 principal, const float3 p[3],
                         struct kiln_projected_triangle *flat)
 {
-    const float width = frustum.z, height = frustum.w;
-    float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
-    int in_front = 0;
+    struct extent e = {{1e9f, 1e9f}, {-1e9f, -1e9f}};
+    bool crosses_eye = false;
     for (int k = 0; k < 3; k++) {
-        float depth = -p[k].z;
-        if (depth < KILN_MESH_NEAREST)
-            continue;
-        in_front++;
-        float x = principal.x + p[k].x / (depth * frustum.x) * 0.5f * width;
-        float y = principal.y - p[k].y / (depth * frustum.y) * 0.5f * height;
-        low[0] = exact_min(low[0], x);
-        high[0] = exact_max(high[0], x);
-        low[1] = exact_min(low[1], y);
-        high[1] = exact_max(high[1], y);
+        const float3 other = p[(k + 1) % 3];
+        const bool front = -p[k].z >= KILN_MESH_NEAREST;
+        if (front)
+            extend(&e, frustum, principal, p[k]);
+        if (front != (-other.z >= KILN_MESH_NEAREST)) {
+            crosses_eye = true;
+            extend(&e, frustum, principal,
+                   front ? where_nearest(p[k], other) : where_nearest(other, p[k]));
+        }
     }
-    if (in_front == 0)
+    if (e.low[0] > e.high[0])
         return;
-    bool crosses_eye = in_front < 3;
-    flat->x = pixels_between(crosses_eye ? 0.0f : low[0], crosses_eye ? width : high[0], width);
-    flat->y = pixels_between(crosses_eye ? 0.0f : low[1], crosses_eye ? height : high[1], height);
+    for (int i = 0; i < 2 && crosses_eye; i++) {
+        e.low[i] -= NEAREST_MARGIN;
+        e.high[i] += NEAREST_MARGIN;
+    }
+    kiln_mesh_bound(e.low, e.high, frustum.z, frustum.w, flat);
 }
 
 bool kiln_mesh_project(const float3 corner[3], float4 frustum, float4 principal,

@@ -22,6 +22,7 @@ struct kiln_projected_triangle {
     float edges[3][3];
     float nearness[3];          /* the nearest triangle has the greatest value */
     struct kiln_row_range x, y; /* pixels that the triangle may touch */
+    float top, bottom;          /* samples of a pixel above or below these are outside, px */
 };
 
 /* Describes KILN_MESH_ROWS rows of a picture, in several layers. Each layer samples pixels at its

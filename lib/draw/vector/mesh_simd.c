@@ -16,7 +16,10 @@ static inline void draw_row(const struct kiln_mesh_strip *s,
                             const struct kiln_projected_triangle *t, int32_t number, uint32_t row,
                             uint32_t layer)
 {
-    float v = s->v + ((float)(s->y + row) + s->offsets[layer][1]) * s->v_step;
+    const float y = (float)(s->y + row) + s->offsets[layer][1];
+    if (y < t->top || y > t->bottom)
+        return;
+    float v = s->v + y * s->v_step;
     struct plane_row edges[3], nearness = cut(t->nearness, v);
     for (int i = 0; i < 3; i++)
         edges[i] = cut(t->edges[i], v);
