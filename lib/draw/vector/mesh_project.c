@@ -40,7 +40,8 @@ void kiln_mesh_bound(const float low[2], const float high[2], float width, float
     flat->top = low[1] - MARGIN;
     flat->bottom = high[1] + MARGIN;
     flat->x = pixels_between(low[0] - MARGIN, high[0] + MARGIN, width);
-    flat->y = pixels_between(flat->top, flat->bottom, height);
+    if (flat->x.from < flat->x.to) /* else it is beside the picture */
+        flat->y = pixels_between(flat->top, flat->bottom, height);
 }
 
 /* Holds the least and the greatest x and y of points in a picture, px. */
