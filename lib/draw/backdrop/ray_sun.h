@@ -4,6 +4,7 @@
 #ifndef KILN_DRAW_BACKDROP_RAY_SUN_H
 #define KILN_DRAW_BACKDROP_RAY_SUN_H
 
+#include "base/transpose.h"
 #include "draw/backdrop/ray_oriented.h"
 #include "draw/light/ray_lamp.h"
 #include "draw/light/ray_shadow.h"
@@ -298,17 +299,15 @@ struct ray_entry {
 
 SIMD struct ray_entry read_entry(const struct kiln_solid_bins *solids, vi entry, vi active)
 {
-    const float *list = (const float *)solids->list, *tiles = (const float *)solids->tiles;
     const vi at = vi_select(active, 4 * entry, vi_all(0));
-    struct ray_entry e = {
-        .center = {vf_gather(list, at), vf_gather(list + 1, at), vf_gather(list + 2, at)},
-        .size = vf_gather(list + 3, at),
-        .at = at};
+    const struct lane_offsets places = lane_offsets_of(at);
+    const struct columns ball = columns_load(&solids->list->x, &places);
+    struct ray_entry e = {.center = {ball.c[0], ball.c[1], ball.c[2]}, .size = ball.c[3], .at = at};
     e.reach = e.size;
-    if (tiles) {
-        const vf edge = vf_gather(tiles + 3, at);
-        e.edge = vi_of(edge);
-        e.reach = vf_select(edge > 0.0f, vf_gather(tiles + 2, at), e.size);
+    if (solids->tiles) {
+        const struct columns tile = columns_load(&solids->tiles->x, &places);
+        e.edge = vi_of(tile.c[3]);
+        e.reach = vf_select(tile.c[3] > 0.0f, tile.c[2], e.size);
     }
     return e;
 }
