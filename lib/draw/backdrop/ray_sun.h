@@ -341,8 +341,32 @@ SIMD vf entry_cover(const struct kiln_ray_frame *frame, const struct ray_entry *
     return vf_select(has, silhouette_cover(frame, e->center, &tile, origin, ball), ball);
 }
 
-/* Returns the part of the sun that solid particles let through. Each lane first skips to the next
- * entry of its list that is near, so that few lanes wait for others. */
+/* Number of entries of a list whose nearness is found before the near ones hide the sun. */
+enum { ENTRIES_AT_A_TIME = 24 };
+
+/* Returns a bit for each of the next entries of each lane's list that is near. count: entries that
+ * are left in the list. */
+SIMD vi find_near_entries(const struct kiln_ray_frame *frame, struct vf3 origin, vi first, vi count)
+{
+    vi bits = vi_all(0);
+    for (int i = 0; i < ENTRIES_AT_A_TIME; i++) {
+        const vi pending = count > i;
+        if (!any(pending))
+            break;
+        const struct ray_entry e = read_entry(&frame->solids, first + i, pending);
+        bits |= pending & entry_is_near(frame, &e, origin) & (1 << i);
+    }
+    return bits;
+}
+
+/* Returns the number of the lowest bit that is set; any number where none is. */
+SIMD vi lowest_bit(vi bits)
+{
+    return ((vi)vf_of(bits & -bits) >> 23) - 127;
+}
+
+/* Returns the part of the sun that solid particles let through. Each lane first finds which entries
+ * of its list are near, so that few lanes wait for others. */
 SIMD vf particles_sun_visibility(const struct kiln_ray_frame *frame,
                                  const struct sun_receiver *receiver)
 {
@@ -357,24 +381,15 @@ SIMD vf particles_sun_visibility(const struct kiln_ray_frame *frame,
         return visible;
     vi bin = vi_of(vf_where(inside, y)) * (int32_t)shapes->counts.w + vi_of(vf_where(inside, x));
     vi entry = vi_gather(bins, 2 * bin), count = inside & vi_gather(bins, 2 * bin + 1);
-    for (;;) {
-        vi found = vi_all(0), pending = count > 0;
-        while (any(pending)) {
-            const struct ray_entry e = read_entry(&frame->solids, entry, pending);
-            const vi near = pending & entry_is_near(frame, &e, receiver->origin);
-            found |= near;
-            pending &= ~near;
-            entry -= pending; /* a mask's lane is -1 where it is set */
-            count += pending;
-            pending &= count > 0;
+    for (; any(count > 0); entry += ENTRIES_AT_A_TIME, count -= ENTRIES_AT_A_TIME) {
+        vi bits = find_near_entries(frame, receiver->origin, entry, count);
+        for (vi found = bits != 0; any(found); bits &= bits - 1, found = bits != 0) {
+            const struct ray_entry e =
+                read_entry(&frame->solids, entry + lowest_bit(bits), found);
+            visible *= 1.0f - vf_where(found, entry_cover(frame, &e, receiver->origin));
         }
-        if (!any(found))
-            return visible;
-        const struct ray_entry e = read_entry(&frame->solids, entry, found);
-        visible *= 1.0f - vf_where(found, entry_cover(frame, &e, receiver->origin));
-        entry -= found;
-        count += found;
     }
+    return visible;
 }
 
 /* ---- all objects and particles --------------------------------------------------------------- */
