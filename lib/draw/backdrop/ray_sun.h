@@ -384,8 +384,7 @@ SIMD vf particles_sun_visibility(const struct kiln_ray_frame *frame,
     for (; any(count > 0); entry += ENTRIES_AT_A_TIME, count -= ENTRIES_AT_A_TIME) {
         vi bits = find_near_entries(frame, receiver->origin, entry, count);
         for (vi found = bits != 0; any(found); bits &= bits - 1, found = bits != 0) {
-            const struct ray_entry e =
-                read_entry(&frame->solids, entry + lowest_bit(bits), found);
+            const struct ray_entry e = read_entry(&frame->solids, entry + lowest_bit(bits), found);
             visible *= 1.0f - vf_where(found, entry_cover(frame, &e, receiver->origin));
         }
     }
