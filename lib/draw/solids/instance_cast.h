@@ -40,12 +40,14 @@ static inline float3 cast_corner(const struct kiln_drawn_instance *instance, flo
                     rows[2][0] * at.x + rows[2][1] * at.y + rows[2][2] * at.z + rows[2][3]};
 }
 
-/* Returns the range of pixels between two positions, widened by a pixel and clamped to 0 ..
- * size. */
+/* Rounding displaces edges by less than this, px. */
+#define CAST_MARGIN 0.0625f
+
+/* Returns the range of pixels that have samples between two positions, clamped to 0 .. size. */
 static inline struct kiln_row_range cast_range(float low, float high, float size)
 {
-    return (struct kiln_row_range){(int16_t)exact_clamp(low - 1.0f, 0.0f, size),
-                                   (int16_t)exact_clamp(high + 2.0f, 0.0f, size)};
+    return (struct kiln_row_range){(int16_t)exact_clamp(low - CAST_MARGIN, 0.0f, size),
+                                   (int16_t)exact_clamp(high + (1.0f + CAST_MARGIN), 0.0f, size)};
 }
 
 /* Rounds a position to the subpixel grid on which GL places corners (GL_SUBPIXEL_BITS). Otherwise,
