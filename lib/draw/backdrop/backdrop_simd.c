@@ -314,13 +314,12 @@ static void fill_grids(const struct kiln_backdrop_picture *p,
 }
 
 /* Returns the numbers of the surfaces that rays hit, by which edges are found. */
-SIMD vf mark_surfaces(const struct kiln_ray_frame *frame, const struct eye_rays *eye, vf surface,
-                      const struct cached_rays *cached)
+SIMD vf mark_surfaces(const struct kiln_ray_frame *frame, const struct eye_rays *eye,
+                      const struct ray_hit *first, const struct cached_rays *cached)
 {
     if (is_filled(cached))
         return read_cached(cached, KILN_CACHE_MARKED);
-    if (frame->meshes)
-        surface = mark_mesh_edges(frame, &eye->place, surface);
+    const vf surface = frame->meshes ? mark_mesh_edges(frame, &eye->place, first) : first->surface;
     fill_cached(cached, KILN_CACHE_MARKED, surface);
     return surface;
 }
@@ -342,7 +341,7 @@ SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_r
     const struct cached_rays *cached = p->cache ? &planes : NULL;
     const struct ray_help help = {grid_row, cached};
     const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, &help);
-    const vf surface = 4.0f * mark_surfaces(frame, &eye, shaded.first.surface, cached);
+    const vf surface = 4.0f * mark_surfaces(frame, &eye, &shaded.first, cached);
     store_colors(p->color + 4 * first, &shaded.color, count);
     store_numbers(p->depth + first, shaded.first.t, count);
     store_numbers(p->surfaces + first, surface + shaded.light, count);

@@ -108,6 +108,12 @@ SIMD struct vf3 add_paint(const struct kiln_ray_frame *frame, const struct ray_p
     return albedo;
 }
 
+/* Returns the number of a mesh as a surface. */
+SIMD vf surface_of_mesh(vi mesh)
+{
+    return vf_of(mesh * 4 + KILN_SURFACE_MESHES);
+}
+
 SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_place *at,
                        struct ray_hit *nearest)
 {
@@ -122,8 +128,7 @@ SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_plac
     const int stride = (int)(sizeof frame->shapes->meshes[0] / sizeof(float));
     vi index = found.mesh * stride;
     nearest->t = vf_select(nearer, found.depth, nearest->t);
-    nearest->surface =
-        vf_select(nearer, vf_of(found.mesh * 4 + KILN_SURFACE_MESHES), nearest->surface);
+    nearest->surface = vf_select(nearer, surface_of_mesh(found.mesh), nearest->surface);
     nearest->normal = vf3_select(nearer, found.normal, nearest->normal);
     struct vf3 albedo = {vf_gather(colors, index), vf_gather(colors + 1, index),
                          vf_gather(colors + 2, index)};
@@ -149,14 +154,16 @@ SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const str
     return (struct ray_place){at->u + right, at->v - down, at->hit, 1 + sample};
 }
 
-/* Marks edges inside a mesh, where it hides itself or bends, in the surface's number. */
-SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at, vf surface)
+/* Marks edges inside a mesh, where it hides itself or bends, in the surface's number, and returns
+ * that. middle: what the rays through the centres of pixels hit. */
+SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at,
+                        const struct ray_hit *middle)
 {
+    const vf surface = middle->surface;
     vi seen = surface >= (float)KILN_SURFACE_MESHES;
     if (!any(seen))
         return surface;
     vi center = read_hit(frame->meshes, at, 0), edge = vi_all(0);
-    const struct ray_mesh_hit middle = find_mesh(frame->meshes, center, at);
     for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
         const struct ray_place aside = sample_place(frame, at, s);
         vi triangle = read_hit(frame->meshes, &aside, aside.layer);
@@ -164,9 +171,9 @@ SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_pla
         if (!any(other))
             continue;
         const struct ray_mesh_hit hit = find_mesh(frame->meshes, triangle, &aside);
-        edge |= other & ((triangle < 0) | (hit.mesh != middle.mesh) |
-                         (vf_abs(hit.depth - middle.depth) > 0.01f * middle.depth) |
-                         (vf3_dot(hit.normal, middle.normal) < 0.95f));
+        edge |= other & ((triangle < 0) | (surface_of_mesh(hit.mesh) != surface) |
+                         (vf_abs(hit.depth - middle->t) > 0.01f * middle->t) |
+                         (vf3_dot(hit.normal, middle->normal) < 0.95f));
     }
     return surface + vf_where(edge, vf_all(0.25f * KILN_EDGE_MARK));
 }
