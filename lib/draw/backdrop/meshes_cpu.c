@@ -73,13 +73,14 @@ static bool allocate(struct kiln_meshes_cpu *m, struct kiln_threads *threads)
     canvas->pitch = pitch;
     canvas->strip = (size_t)KILN_MESH_ROWS * KILN_HIT_LAYERS * pitch;
     canvas->triangles = calloc(triangles, sizeof *canvas->triangles);
+    canvas->ranges = calloc(triangles, sizeof *canvas->ranges);
     canvas->nearness =
         malloc(kiln_threads_count(threads) * canvas->strip * sizeof *canvas->nearness);
     if (m->empty)
         memset(m->empty, 1, bands * sizeof *m->empty);
     return m->view_positions && m->world_normals && m->triangles &&
            (m->uvs || !m->meshes->painted) && m->hits && m->empty && canvas->triangles &&
-           canvas->nearness;
+           canvas->ranges && canvas->nearness;
 }
 
 struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
@@ -130,6 +131,7 @@ void kiln_meshes_cpu_destroy(struct kiln_meshes_cpu **meshes)
     free(m->hits);
     free(m->empty);
     free(m->canvas.triangles);
+    free(m->canvas.ranges);
     free(m->canvas.nearness);
     kiln_row_lists_finish(&m->canvas.lists);
     free(m);
@@ -150,10 +152,11 @@ struct mesh_projection {
     const struct kiln_draw_mesh *draw_mesh;
     const struct kiln_mesh *mesh;
     int32_t number;
-    float3 *view_positions, *world_normals; /* of this mesh, as are triangles, uvs, flat */
+    float3 *view_positions, *world_normals; /* of this mesh, as is what follows */
     struct kiln_mesh_triangle *triangles;
     struct kiln_mesh_uvs *uvs; /* NULL: the mesh takes no paint */
     struct kiln_projected_triangle *flat;
+    struct kiln_row_range *ranges;
 };
 
 static void transform_vertices(void *context, size_t begin, size_t end, uint32_t worker)
@@ -199,7 +202,10 @@ static void project_triangle(const struct mesh_projection *p, size_t i)
                               p->view_positions[corners[2]]};
     float3 face;
     float volume;
-    if (!kiln_mesh_project(corner, p->view->frustum, p->view->principal, flat, &face, &volume))
+    const bool seen =
+        kiln_mesh_project(corner, p->view->frustum, p->view->principal, flat, &face, &volume);
+    p->ranges[i] = kiln_rows_of_triangle(flat, p->view->frustum.w);
+    if (!seen)
         return;
     const float sign = volume < 0.0f ? -1.0f : 1.0f;
     memset(t->normal, 0, sizeof t->normal);
@@ -246,6 +252,7 @@ static void project_meshes(struct kiln_meshes_cpu *m, const struct kiln_view *vi
             .triangles = m->triangles + triangle,
             .uvs = mesh->uvs ? m->uvs + triangle : NULL,
             .flat = m->canvas.triangles + triangle,
+            .ranges = m->canvas.ranges + triangle,
         };
         struct kiln_threads *threads = m->canvas.threads;
         kiln_threads_for(threads, mesh->vertex_count, GRAIN, transform_vertices, &projection);
@@ -317,8 +324,8 @@ bool kiln_meshes_cpu_run(struct kiln_meshes_cpu *meshes, const struct kiln_view 
     }
     project_meshes(m, view, shapes);
     uint32_t triangles = (uint32_t)triangles_before(m->meshes, m->meshes->count);
-    if (!kiln_row_lists_fill(&m->canvas.lists, &m->canvas.triangles->y, sizeof *m->canvas.triangles,
-                             triangles, m->height, KILN_MESH_ROWS, error))
+    if (!kiln_row_lists_fill(&m->canvas.lists, m->canvas.ranges, triangles, m->height,
+                             KILN_MESH_ROWS, error))
         return false;
     struct raster_job job = {m, view};
     return kiln_threads_try(m->canvas.threads, m->canvas.lists.bands, 1, rasterise_bands, &job,

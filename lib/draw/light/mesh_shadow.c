@@ -77,7 +77,7 @@ static void edge_plane(struct corner a, struct corner b, float plane[3])
 
 static void project_triangle(const struct corner c[3], struct kiln_projected_triangle *t)
 {
-    *t = (struct kiln_projected_triangle){.y = {0, 0}};
+    *t = (struct kiln_projected_triangle){.x = {0, 0}};
     float area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
     if (!(exact_abs(area) > 1e-6f))
         return;
@@ -93,7 +93,7 @@ static void project_triangle(const struct corner c[3], struct kiln_projected_tri
                           exact_min(exact_min(c[0].y, c[1].y), c[2].y)};
     const float high[2] = {exact_max(exact_max(c[0].x, c[1].x), c[2].x),
                            exact_max(exact_max(c[0].y, c[1].y), c[2].y)};
-    kiln_mesh_bound(low, high, (float)EDGE, (float)EDGE, t);
+    kiln_mesh_bound(low, high, (float)EDGE, t);
 }
 
 static void project_triangles(void *context, size_t begin, size_t end, uint32_t worker)
@@ -107,6 +107,7 @@ static void project_triangles(void *context, size_t begin, size_t end, uint32_t 
         for (int k = 0; k < 3; k++)
             corners[k] = project(d->shadow, to_world, d->mesh->vertices[d->mesh->triangles[i][k]]);
         project_triangle(corners, &d->canvas->triangles[i]);
+        d->canvas->ranges[i] = kiln_rows_of_triangle(&d->canvas->triangles[i], (float)EDGE);
     }
 }
 
@@ -180,9 +181,8 @@ bool kiln_mesh_shadow_update(struct kiln_mesh_shadow *shadow, struct kiln_mesh_c
     shadow->sun = sun;
     struct shadow_job job = {shadow, canvas, mesh, 0};
     kiln_threads_for(canvas->threads, mesh->triangle_count, 512, project_triangles, &job);
-    shadow->drawn =
-        kiln_row_lists_fill(&canvas->lists, &canvas->triangles->y, sizeof *canvas->triangles,
-                            mesh->triangle_count, EDGE, KILN_MESH_ROWS, error);
+    shadow->drawn = kiln_row_lists_fill(&canvas->lists, canvas->ranges, mesh->triangle_count, EDGE,
+                                        KILN_MESH_ROWS, error);
     if (!shadow->drawn)
         return false;
     kiln_threads_for(canvas->threads, canvas->lists.bands, 1, draw_bands, &job);

@@ -26,6 +26,7 @@ struct kiln_mesh_canvas {
     struct kiln_threads *threads;
     const struct kiln_mesh_rows *rows;
     struct kiln_projected_triangle *triangles; /* at least as many as the largest mesh has */
+    struct kiln_row_range *ranges;             /* rows of each triangle */
     struct kiln_row_lists lists;
     float *nearness;     /* of each thread: KILN_MESH_ROWS rows of `pitch` floats in every layer */
     size_t strip, pitch; /* floats of a thread; at least KILN_SHADOW_EDGE + KILN_MESH_PAD */

@@ -363,8 +363,8 @@ bool kiln_solids_cpu_draw(struct kiln_solids_cpu *stage, const struct kiln_momen
                             .patterned = kiln_looks_patterned(stage->scene),
                             .width = stage->scene->width,
                             .pitch = stage->pitch}};
-    if (!kiln_row_lists_fill(&stage->lists, stage->ranges, sizeof *stage->ranges, count,
-                             stage->scene->height, KILN_SOLID_ROWS, error) ||
+    if (!kiln_row_lists_fill(&stage->lists, stage->ranges, count, stage->scene->height,
+                             KILN_SOLID_ROWS, error) ||
         !open_images(&stage->targets, &job.strip, error))
         return false;
     return kiln_threads_try(stage->threads, stage->lists.bands, 1, draw_bands, &job, error);

@@ -27,21 +27,12 @@ static void set_plane(float plane[3], float3 normal)
     plane[2] = -normal.z;
 }
 
-/* Returns the pixels that have samples between two positions, out of `size` pixels. */
-static struct kiln_row_range pixels_between(float low, float high, float size)
-{
-    return (struct kiln_row_range){(int16_t)exact_clamp(low, 0.0f, size),
-                                   (int16_t)exact_clamp(high + 1.0f, 0.0f, size)};
-}
-
-void kiln_mesh_bound(const float low[2], const float high[2], float width, float height,
+void kiln_mesh_bound(const float low[2], const float high[2], float width,
                      struct kiln_projected_triangle *flat)
 {
     flat->top = low[1] - MARGIN;
     flat->bottom = high[1] + MARGIN;
-    flat->x = pixels_between(low[0] - MARGIN, high[0] + MARGIN, width);
-    if (flat->x.from < flat->x.to) /* else it is beside the picture */
-        flat->y = pixels_between(flat->top, flat->bottom, height);
+    flat->x = kiln_row_range_between(low[0] - MARGIN, high[0] + MARGIN, width);
 }
 
 /* Holds the least and the greatest x and y of points in a picture, px. */
@@ -95,24 +86,27 @@ static void find_bounds(float4 frustum, float4 principal, const float3 p[3],
         e.low[i] -= NEAREST_MARGIN;
         e.high[i] += NEAREST_MARGIN;
     }
-    kiln_mesh_bound(e.low, e.high, frustum.z, frustum.w, flat);
+    kiln_mesh_bound(e.low, e.high, frustum.z, flat);
 }
 
 bool kiln_mesh_project(const float3 corner[3], float4 frustum, float4 principal,
                        struct kiln_projected_triangle *flat, float3 *face, float *volume)
 {
-    *flat = (struct kiln_projected_triangle){.y = {0, 0}};
+    *flat = (struct kiln_projected_triangle){.x = {0, 0}};
     *face = float3_cross(float3_sub(corner[1], corner[0]), float3_sub(corner[2], corner[0]));
     *volume = float3_dot(corner[0], *face);
     /* A triangle seen edge-on has no pixels and no depth. */
     const float size2 = float3_dot(*face, *face) * float3_dot(corner[0], corner[0]);
     if (!(*volume * *volume > 1e-10f * size2))
         return false;
+    find_bounds(frustum, principal, corner, flat);
+    const struct kiln_row_range rows = kiln_rows_of_triangle(flat, frustum.w);
+    if (rows.from >= rows.to)
+        return false;
     const float sign = *volume < 0.0f ? -1.0f : 1.0f;
     set_plane(flat->nearness, float3_scale(*face, 1.0f / *volume));
     for (int k = 0; k < 3; k++)
         set_plane(flat->edges[k],
                   float3_scale(side_of(corner[(k + 1) % 3], corner[(k + 2) % 3]), sign));
-    find_bounds(frustum, principal, corner, flat);
     return true;
 }

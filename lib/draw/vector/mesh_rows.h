@@ -20,10 +20,20 @@ enum {
  * have the same plane for it with opposite signs, so that no position lies between them. */
 struct kiln_projected_triangle {
     float edges[3][3];
-    float nearness[3];          /* the nearest triangle has the greatest value */
-    struct kiln_row_range x, y; /* pixels that the triangle may touch */
-    float top, bottom;          /* samples of a pixel above or below these are outside, px */
+    float nearness[3];       /* the nearest triangle has the greatest value */
+    struct kiln_row_range x; /* columns of pixels that the triangle may touch */
+    float top, bottom;       /* samples above and below these rows are outside, px */
 };
+
+/* Returns the rows of pixels that a triangle may touch; none where it is beside the picture.
+ * height: of the picture, px. */
+static inline struct kiln_row_range
+kiln_rows_of_triangle(const struct kiln_projected_triangle *triangle, float height)
+{
+    if (triangle->x.from >= triangle->x.to)
+        return (struct kiln_row_range){0, 0};
+    return kiln_row_range_between(triangle->top, triangle->bottom, height);
+}
 
 /* Describes KILN_MESH_ROWS rows of a picture, in several layers. Each layer samples pixels at its
  * own offset. */

@@ -47,11 +47,11 @@ static void draw_triangles(const struct kiln_mesh_strip *strip,
                            const struct kiln_projected_triangle *triangles, const uint32_t *list,
                            size_t count)
 {
-    int32_t top = (int32_t)strip->y, bottom = top + (int32_t)strip->rows;
+    const int32_t top = (int32_t)strip->y, bottom = top + (int32_t)strip->rows;
     for (size_t i = 0; i < count; i++) {
         const struct kiln_projected_triangle *t = &triangles[list[i]];
-        int32_t from = t->y.from > top ? t->y.from : top, to = t->y.to < bottom ? t->y.to : bottom;
-        for (int32_t y = from; y < to; y++) {
+        const struct kiln_row_range rows = kiln_rows_of_triangle(t, (float)bottom);
+        for (int32_t y = rows.from > top ? rows.from : top; y < rows.to; y++) {
             for (uint32_t layer = 0; layer < strip->layers; layer++)
                 draw_row(strip, t, (int32_t)list[i] + 1, (uint32_t)(y - top), layer);
         }

@@ -34,7 +34,7 @@ static bool make_room(struct kiln_row_lists *lists, size_t entries)
 }
 
 bool kiln_row_lists_fill(struct kiln_row_lists *lists, const struct kiln_row_range *ranges,
-                         size_t stride, uint32_t count, uint32_t height, uint32_t band_height,
+                         uint32_t count, uint32_t height, uint32_t band_height,
                          struct kiln_error *error)
 {
     uint32_t bands = (height + band_height - 1) / band_height;
@@ -42,10 +42,8 @@ bool kiln_row_lists_fill(struct kiln_row_lists *lists, const struct kiln_row_ran
         return out_of_memory(error);
     size_t *first = lists->first;
     memset(first, 0, ((size_t)bands + 2) * sizeof *first);
-    const char *next = (const char *)ranges;
-    for (uint32_t i = 0; i < count; i++, next += stride) {
-        struct kiln_row_range rows;
-        memcpy(&rows, next, sizeof rows);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct kiln_row_range rows = ranges[i];
         for (int band = rows.from / (int)band_height; band * (int)band_height < rows.to; band++)
             first[band + 2] += rows.from < rows.to;
     }
@@ -55,10 +53,8 @@ bool kiln_row_lists_fill(struct kiln_row_lists *lists, const struct kiln_row_ran
         return out_of_memory(error);
     /* Filling a list moves its entry in `first` from the list's beginning to its end, where the
      * next list begins. */
-    next = (const char *)ranges;
-    for (uint32_t i = 0; i < count; i++, next += stride) {
-        struct kiln_row_range rows;
-        memcpy(&rows, next, sizeof rows);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct kiln_row_range rows = ranges[i];
         for (int band = rows.from / (int)band_height;
              rows.from < rows.to && band * (int)band_height < rows.to; band++)
             lists->list[first[band + 1]++] = i;

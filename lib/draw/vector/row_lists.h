@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "kiln.h"
+#include "shared/exact.h"
 
 /* Holds the rows, or the columns, from .. to - 1. */
 struct kiln_row_range {
@@ -20,11 +21,18 @@ struct kiln_row_lists {
     size_t room, band_room;
 };
 
-/* Lists `count` items by bands of band_height rows. ranges: the rows of the first item; those of
- * the next are `stride` bytes on. All rows are within the picture; an item with an empty range is
- * in no list. The lists start as zeros and may be filled again. False with an error: no memory. */
+/* Returns the rows that have samples between two positions, out of `size` rows. */
+static inline struct kiln_row_range kiln_row_range_between(float low, float high, float size)
+{
+    return (struct kiln_row_range){(int16_t)exact_clamp(low, 0.0f, size),
+                                   (int16_t)exact_clamp(high + 1.0f, 0.0f, size)};
+}
+
+/* Lists `count` items by bands of band_height rows. ranges: the rows of each item, all within the
+ * picture; an item with an empty range is in no list. The lists start as zeros and may be filled
+ * again. False with an error: no memory. */
 bool kiln_row_lists_fill(struct kiln_row_lists *lists, const struct kiln_row_range *ranges,
-                         size_t stride, uint32_t count, uint32_t height, uint32_t band_height,
+                         uint32_t count, uint32_t height, uint32_t band_height,
                          struct kiln_error *error);
 void kiln_row_lists_finish(struct kiln_row_lists *lists);
 
