@@ -109,16 +109,32 @@ void kiln_sun_mesh_update(struct kiln_sun_mesh *map, const struct kiln_mesh *mes
     average_levels(map->height);
 }
 
-/* Interpolates linearly between the centres of four cells; cells beside the map are empty. */
-static float read_level(const float *cells, int edge, float x, float y)
+static inline int floor_of(float x)
 {
-    float left = floorf(x - 0.5f), top = floorf(y - 0.5f), sum = 0.0f;
+    const int whole = (int)x;
+    return whole - ((float)whole > x);
+}
+
+/* Holds the cover of a place in the map, and the mean height there times the cover. */
+struct reading {
+    float cover, height;
+};
+
+/* Interpolates linearly between the centres of four cells of a level; cells beside the map are
+ * empty. first: the level's first cell; edge: its width in cells. */
+static struct reading read_level(const struct kiln_sun_mesh *map, size_t first, int edge, float x,
+                                 float y)
+{
+    const int left = floor_of(x - 0.5f), top = floor_of(y - 0.5f);
+    struct reading sum = {0.0f, 0.0f};
     for (int i = 0; i < 4; i++) {
-        float cx = left + (float)(i & 1), cy = top + (float)(i >> 1);
-        if (cx < 0.0f || cy < 0.0f || cx >= (float)edge || cy >= (float)edge)
+        const int cx = left + (i & 1), cy = top + (i >> 1);
+        if (cx < 0 || cy < 0 || cx >= edge || cy >= edge)
             continue;
-        float weight = (1.0f - fabsf(x - 0.5f - cx)) * (1.0f - fabsf(y - 0.5f - cy));
-        sum += weight * cells[(int)cy * edge + (int)cx];
+        const size_t cell = first + (size_t)(cy * edge + cx);
+        float weight = (1.0f - fabsf(x - 0.5f - (float)cx)) * (1.0f - fabsf(y - 0.5f - (float)cy));
+        sum.cover += weight * map->cover[cell];
+        sum.height += weight * map->height[cell];
     }
     return sum;
 }
@@ -144,10 +160,12 @@ float kiln_sun_mesh_cover(const struct kiln_sun_mesh *map, struct kiln_ball ball
     for (int i = 0; i < 4; i++) {
         float x = (at.x + (i & 1 ? aside : -aside)) * scale;
         float y = (at.y + (i & 2 ? aside : -aside)) * scale;
-        float covered = read_level(map->cover + first, edge, x, y);
-        float top = read_level(map->height + first, edge, x, y) / fmaxf(covered, 1e-4f);
+        const struct reading found = read_level(map, first, edge, x, y);
+        if (found.cover == 0.0f)
+            continue;
+        float top = found.height / fmaxf(found.cover, 1e-4f);
         float way = (top - at.height) / fmaxf(ball.radius, 2.0f * size / EDGE);
-        cover += 0.25f * covered * exact_clamp(way, 0.0f, 1.0f);
+        cover += 0.25f * found.cover * exact_clamp(way, 0.0f, 1.0f);
     }
     return cover;
 }
