@@ -112,11 +112,11 @@ REAL_FN real lamp_cylinder_cover(real3 towards, float radius, float4 axis, S(lam
 REAL_FN real lamp_box_cover(real3 towards, float4 halves, real3 direction, S(lamp_way) way)
 {
     real3 inverse = ray_inverse3(direction);
-    S(box_hidden) hidden =
-        box_cross(ray_cross_slabs(towards, halves, inverse), box_outline_of(direction, inverse),
-                  LAMP_BOX_EDGE, way.spread, way.lit);
-    return hidden.cover * cover_side(hidden.exit_distance, way.lit) *
-           lamp_part_beyond(way, hidden.enter_distance);
+    S(ray_slabs) slabs = ray_cross_slabs(towards, halves, inverse);
+    S(box_outline) outline = box_outline_of(direction, inverse);
+    S(box_span) span = box_span_of(slabs, outline, LAMP_BOX_EDGE);
+    return box_cover(slabs, outline, way.spread, way.lit) * cover_side(span.exit, way.lit) *
+           lamp_part_beyond(way, span.enter);
 }
 
 /* Returns the part of a lamp that a plane hides from all places above it. height: of the lamp's

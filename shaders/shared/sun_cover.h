@@ -128,24 +128,24 @@ REAL_FN S(box_outline) box_outline_all(S(sun_edges) edges)
     return o;
 }
 
-struct box_crossed {
-    real cover;
-    real outside; /* how far the ray passes the strip, m; below 0: within it */
-};
+/* Returns how far the ray passes a strip, m; below 0: within it. near_a to far_b: the t at which
+ * light enters and leaves the slabs of the strip's two axes. */
+REAL_FN real box_strip_outside(S(box_strip) strip, real near_a, real near_b, real far_a, real far_b)
+{
+    real one = (far_b - near_a) * strip.root, other = (far_a - near_b) * strip.root;
+    return -real_min(one, other);
+}
 
-/* near_a to far_b: the t at which light enters and leaves the slabs of the strip's two axes. */
-REAL_FN S(box_crossed) box_cross_strip(S(box_strip) strip, real near_a, real near_b, real far_a,
-                                       real far_b, real spread, real radius)
+/* Returns the cover of a strip. near_a to far_b: as for box_strip_outside. */
+REAL_FN real box_strip_cover(S(box_strip) strip, real near_a, real near_b, real far_a, real far_b,
+                             real spread, real radius)
 {
     real one = (far_b - near_a) * strip.root, other = (far_a - near_b) * strip.root;
     real one_at = (near_a * strip.second + far_b * strip.first) * strip.inverse;
     real other_at = (near_b * strip.first + far_a * strip.second) * strip.inverse;
     real cover = disc_cover(one / sun_penumbra(one_at, spread, radius)) +
                  disc_cover(other / sun_penumbra(other_at, spread, radius)) - 1.0f;
-    S(box_crossed) crossed;
-    crossed.cover = real_max(cover, real_all(0.0f));
-    crossed.outside = -real_min(one, other);
-    return crossed;
+    return real_max(cover, real_all(0.0f));
 }
 
 /* Combines the covers of two strips. At a corner of the outline they are multiplied; but where the
@@ -155,29 +155,34 @@ REAL_FN real both_strips(real a, real b, real alike)
     return a * b + (real_min(a, b) - a * b) * alike;
 }
 
-struct box_hidden {
-    real cover;
-    real enter_distance, exit_distance; /* how far light goes until it enters and leaves, m */
+struct box_span {
+    real enter, exit; /* how far light goes until it enters and leaves, m */
 };
 
-/* Computes the cover of a box from where the light's ray crosses its slabs. For a ray that passes
- * beside the outline, the way is that of a ray through the outline's edge and `margin` metres
- * further inside, which leaves the slabs later by at most `later` for each metre. */
-REAL_FN S(box_hidden) box_cross(S(ray_slabs) s, S(box_outline) o, float margin, real spread,
-                                real radius)
+/* Finds where light crosses a box, from where its ray crosses the box's slabs. For a ray that
+ * passes beside the outline, the way is that of a ray through the outline's edge and `margin`
+ * metres further inside, which leaves the slabs later by at most `later` for each metre. */
+REAL_FN S(box_span) box_span_of(S(ray_slabs) s, S(box_outline) o, float margin)
 {
-    S(box_crossed) xy = box_cross_strip(o.xy, s.near.x, s.near.y, s.far.x, s.far.y, spread, radius);
-    S(box_crossed) yz = box_cross_strip(o.yz, s.near.y, s.near.z, s.far.y, s.far.z, spread, radius);
-    S(box_crossed) xz = box_cross_strip(o.xz, s.near.x, s.near.z, s.far.x, s.far.z, spread, radius);
-    real outside = real_max(real_max(xy.outside, real_all(0.0f)), real_max(yz.outside, xz.outside));
+    real xy = box_strip_outside(o.xy, s.near.x, s.near.y, s.far.x, s.far.y);
+    real yz = box_strip_outside(o.yz, s.near.y, s.near.z, s.far.y, s.far.z);
+    real xz = box_strip_outside(o.xz, s.near.x, s.near.z, s.far.x, s.far.z);
+    real outside = real_max(real_max(xy, real_all(0.0f)), real_max(yz, xz));
     real aside = outside + margin;
     real3 later = REAL3(aside * o.later.x, aside * o.later.y, aside * o.later.z);
-    S(box_hidden) box;
-    box.cover = both_strips(both_strips(yz.cover, xz.cover, o.alike_xy), xy.cover, o.alike_z);
-    box.enter_distance =
-        real_max(real_max(s.near.x - later.x, s.near.y - later.y), s.near.z - later.z);
-    box.exit_distance = real_min(real_min(s.far.x + later.x, s.far.y + later.y), s.far.z + later.z);
-    return box;
+    S(box_span) span;
+    span.enter = real_max(real_max(s.near.x - later.x, s.near.y - later.y), s.near.z - later.z);
+    span.exit = real_min(real_min(s.far.x + later.x, s.far.y + later.y), s.far.z + later.z);
+    return span;
+}
+
+/* Returns the cover of a box, from where the light's ray crosses its slabs. */
+REAL_FN real box_cover(S(ray_slabs) s, S(box_outline) o, real spread, real radius)
+{
+    real xy = box_strip_cover(o.xy, s.near.x, s.near.y, s.far.x, s.far.y, spread, radius);
+    real yz = box_strip_cover(o.yz, s.near.y, s.near.z, s.far.y, s.far.z, spread, radius);
+    real xz = box_strip_cover(o.xz, s.near.x, s.near.z, s.far.x, s.far.z, spread, radius);
+    return both_strips(both_strips(yz, xz, o.alike_xy), xy, o.alike_z);
 }
 
 /* ---- round shapes ---------------------------------------------------------------------------- */

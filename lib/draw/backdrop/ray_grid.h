@@ -198,7 +198,9 @@ SIMD vi box_casts_smoothly(const struct lamp_way *way, float4 half, struct vf3 t
                            struct vf3 to_lamp, struct vf3 normal)
 {
     const struct vf3 direction = vf3_scale(to_lamp, 1.0f / way->reach);
-    return ~lamp_meets_box(towards, half, direction, way) |
+    const struct vf3 inverse = ray_inverse3(direction);
+    const struct ray_slabs s = ray_cross_slabs(towards, half, inverse);
+    return ~lamp_meets_box(&s, towards, half, direction, inverse, way) |
            has_wide_penumbra(way, distance_to_box(towards, half)) |
            is_beside(half, towards, to_lamp, normal, way->lit);
 }

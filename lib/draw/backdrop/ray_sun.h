@@ -66,9 +66,13 @@ SIMD vf sun_past_box(const struct kiln_ray_frame *frame, vf visible, vi near,
 {
     if (!frame->soft_sun)
         return block_sun(visible, near, ray_slabs_interval(*s));
-    const struct box_hidden hidden = box_cross(*s, box_outline_all(*edges), BOX_EDGE,
-                                               vf_all(frame->shapes->sun_right.w), vf_all(0.0f));
-    return hide_sun(visible, near & (hidden.exit_distance > 0.0f), hidden.cover);
+    const struct box_outline outline = box_outline_all(*edges);
+    near &= box_span_of(*s, outline, BOX_EDGE).exit > 0.0f;
+    if (!any(near))
+        return visible;
+    return hide_sun(
+        visible, near,
+        ray_box_cover(s, &outline, near, vf_all(frame->shapes->sun_right.w), vf_all(0.0f)));
 }
 
 SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,

@@ -9,6 +9,7 @@
 #include "draw/light/lamp_map.h"
 #include "draw/light/lamp_solids.h"
 #include "draw/light/lamps.h"
+#include "draw/light/ray_box.h"
 #include "draw/light/ray_shadow.h"
 #include "shared/lamp_cover.h"
 #include "shared/lamp_map.h"
@@ -79,13 +80,11 @@ SIMD struct box_crossing cross_grown_box(const struct ray_slabs *s, struct vf3 i
  * the box after it is grown by the cone of light. A box is mostly much smaller than its bounding
  * sphere. towards: the way to the box's centre; direction: to the lamp; both are along the box's
  * axes. */
-SIMD vi lamp_meets_box(struct vf3 towards, float4 half, struct vf3 direction,
-                       const struct lamp_way *way)
+SIMD vi lamp_meets_box(const struct ray_slabs *s, struct vf3 towards, float4 half,
+                       struct vf3 direction, struct vf3 inverse, const struct lamp_way *way)
 {
-    const struct vf3 inverse = ray_inverse3(direction);
-    const struct ray_slabs s = ray_cross_slabs(towards, half, inverse);
     const vf grow = cone_at_box(way->lit, way->spread, towards, half, direction);
-    const struct box_crossing c = cross_grown_box(&s, inverse, grow);
+    const struct box_crossing c = cross_grown_box(s, inverse, grow);
     return (c.enters <= c.leaves) & (c.leaves >= -way->lit) &
            (c.enters <= way->reach + way->radius);
 }
@@ -115,19 +114,35 @@ SIMD void hide_lamp(struct lamp_receiver *r, vi near, vf cover)
     r->visible *= 1.0f - vf_where(near, cover);
 }
 
+/* Returns the lanes where the bounding sphere of a box may hide a part of a lamp. */
+SIMD vi lamp_meets_box_sphere(const struct kiln_lamp_objects *objects, int i,
+                              const struct lamp_receiver *r)
+{
+    return lamp_may_be_hidden(r, vf3_towards(objects->box_center[i], r->origin),
+                              box_radius(objects->box_half[i]));
+}
+
+/* Hides a lamp by boxes along the axes, all of which have one outline as seen from a point. */
 SIMD void hide_lamp_by_boxes(const struct kiln_lamp_objects *objects, uint32_t boxes,
                              struct lamp_receiver *r)
 {
+    while (boxes && !any(lamp_meets_box_sphere(objects, __builtin_ctz(boxes), r)))
+        boxes &= boxes - 1;
+    if (!boxes)
+        return;
+    const struct vf3 direction = r->way.direction, inverse = ray_inverse3(direction);
+    const struct box_outline outline = box_outline_of(direction, inverse);
     for (; boxes; boxes &= boxes - 1) {
         const int i = __builtin_ctz(boxes);
-        const float4 half = objects->box_half[i];
-        const struct vf3 towards = vf3_towards(objects->box_center[i], r->origin);
-        vi near = lamp_may_be_hidden(r, towards, box_radius(half));
+        vi near = lamp_meets_box_sphere(objects, i, r);
         if (!any(near))
             continue;
-        near &= lamp_meets_box(towards, half, r->way.direction, &r->way);
+        const float4 half = objects->box_half[i];
+        const struct vf3 towards = vf3_towards(objects->box_center[i], r->origin);
+        const struct ray_slabs s = ray_cross_slabs(towards, half, inverse);
+        near &= lamp_meets_box(&s, towards, half, direction, inverse, &r->way);
         if (any(near))
-            hide_lamp(r, near, lamp_box_cover(towards, half, r->way.direction, r->way));
+            hide_lamp(r, near, ray_lamp_box_cover(&s, &outline, near, &r->way));
     }
 }
 
@@ -176,9 +191,13 @@ SIMD void hide_lamp_by_oriented(const struct kiln_draw_shapes *shapes, uint32_t 
             continue;
         const struct vf3 to_box = into_box(box, towards);
         const struct vf3 direction = into_box(box, r->way.direction);
-        near &= lamp_meets_box(to_box, box->half_size, direction, &r->way);
-        if (any(near))
-            hide_lamp(r, near, lamp_box_cover(to_box, box->half_size, direction, r->way));
+        const struct vf3 inverse = ray_inverse3(direction);
+        const struct ray_slabs s = ray_cross_slabs(to_box, box->half_size, inverse);
+        near &= lamp_meets_box(&s, to_box, box->half_size, direction, inverse, &r->way);
+        if (!any(near))
+            continue;
+        const struct box_outline outline = box_outline_of(direction, inverse);
+        hide_lamp(r, near, ray_lamp_box_cover(&s, &outline, near, &r->way));
     }
 }
 

@@ -30,9 +30,10 @@ static inline float kiln_sun_box_cover(const struct kiln_sun_box *box, struct ki
     bool misses = kiln_sun_cover_is_zero(box->center, box->size, ball, sun);
     const struct ray_slabs slabs = ray_cross_slabs(float3_sub(box->center, ball.center),
                                                    box->half_size, real3_all(box->edges.inverse));
-    const struct box_hidden hidden =
-        box_cross(slabs, box_outline_all(box->edges), 1e-3f * box->size, sun->spread, ball.radius);
-    float seen = hidden.cover * kiln_sun_inside_factor(hidden.exit_distance, ball);
+    const struct box_outline outline = box_outline_all(box->edges);
+    const struct box_span span = box_span_of(slabs, outline, 1e-3f * box->size);
+    float seen = box_cover(slabs, outline, sun->spread, ball.radius) *
+                 kiln_sun_inside_factor(span.exit, ball);
     return misses ? 0.0f : seen;
 }
 

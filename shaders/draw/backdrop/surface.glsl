@@ -54,9 +54,9 @@ float box_sun_visibility(ray_slabs slabs, sun_edges edges)
     /* The margin exceeds the rounding error of a ray's position. It stays below the 1e-3 m by which
      * rays start off their surface (sun_visibility). */
     const float margin = 1e-4, lit_radius = 0.0; /* m; a point is lit, not a ball */
-    box_hidden hidden =
-        box_cross(slabs, box_outline_all(edges), margin, shapes.sun_right.w, lit_radius);
-    return hidden.exit_distance > 0.0 ? 1.0 - hidden.cover : 1.0;
+    box_outline outline = box_outline_all(edges);
+    float cover = box_cover(slabs, outline, shapes.sun_right.w, lit_radius);
+    return box_span_of(slabs, outline, margin).exit > 0.0 ? 1.0 - cover : 1.0;
 #else
     return ray_is_blocked(ray_slabs_interval(slabs)) ? 0.0 : 1.0;
 #endif
