@@ -122,7 +122,7 @@ struct kiln_draw_backdrop {
     /* boxes; lights; 1 if the background is transparent; 1 if there is smoke in the grids */
     uint4 counts;
     float4 box_center[KILN_MAX_OBJECTS];
-    float4 box_half[KILN_MAX_OBJECTS];
+    float4 box_half[KILN_MAX_OBJECTS]; /* w: radius of the bounding sphere, m */
     float4 box_color[KILN_MAX_OBJECTS];
     S(kiln_draw_light) lights[KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS];
     float4 sun_to_grid[3]; /* rows: world positions to the grids of smoke (smoke_shadow.glsl) */

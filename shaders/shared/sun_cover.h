@@ -43,9 +43,9 @@ REAL_FN real cover_side(real distance, real radius)
 /* ---- boxes ----------------------------------------------------------------------------------- */
 
 /* Returns the radius of a box's bounding sphere, m. halves: of its size. */
-FN float box_radius(float4 halves)
+FN float box_radius(float3 halves)
 {
-    return SQRT(halves.x * halves.x + halves.y * halves.y + halves.z * halves.z);
+    return SQRT(float3_dot(halves, halves));
 }
 
 /* The outline of a box as seen along a ray. It is a hexagon, the intersection of three strips. The

@@ -86,7 +86,7 @@ SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,
     for (uint32_t i = 0; i < b->counts.x; i++) {
         const float4 half = b->box_half[i];
         const struct vf3 towards = vf3_towards(b->box_center[i], receiver->origin);
-        vi near = sun_may_be_hidden(frame, receiver, towards, box_radius(half));
+        vi near = sun_may_be_hidden(frame, receiver, towards, half.w);
         if (!any(near))
             continue;
         const struct ray_slabs s = ray_cross_slabs(towards, half, inverses);
@@ -184,7 +184,7 @@ SIMD vf oriented_boxes_sun_visibility(const struct kiln_ray_frame *frame,
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
         const vi near =
             sun_may_be_hidden(frame, receiver, vf3_towards(box->center, receiver->origin),
-                              box_radius(box->half_size));
+                              box->half_size.w);
         if (!any(near))
             continue;
         const struct ray_slabs s =

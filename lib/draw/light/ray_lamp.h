@@ -125,7 +125,7 @@ SIMD vi lamp_meets_box_sphere(const struct kiln_lamp_objects *objects, int i,
                               const struct lamp_receiver *r)
 {
     return lamp_may_be_hidden(r, vf3_towards(objects->box_center[i], r->origin),
-                              box_radius(objects->box_half[i]));
+                              objects->box_half[i].w);
 }
 
 /* Hides a lamp by boxes along the axes, all of which have one outline as seen from a point. */
@@ -192,7 +192,7 @@ SIMD void hide_lamp_by_oriented(const struct kiln_draw_shapes *shapes, uint32_t 
     for (; boxes; boxes &= boxes - 1) {
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[__builtin_ctz(boxes)];
         const struct vf3 towards = vf3_towards(box->center, r->origin);
-        vi near = lamp_may_be_hidden(r, towards, box_radius(box->half_size));
+        vi near = lamp_may_be_hidden(r, towards, box->half_size.w);
         if (!any(near))
             continue;
         const struct vf3 to_box = into_box(box, towards);

@@ -186,6 +186,13 @@ static void fill_paint(const struct kiln_scene *scene, struct kiln_draw_shapes *
     }
 }
 
+/* Returns half of a box's size; w: the radius of its bounding sphere, m. */
+static float4 half_of_box(float3 size)
+{
+    const float3 half = {0.5f * size.x, 0.5f * size.y, 0.5f * size.z};
+    return with_w(half, box_radius(half));
+}
+
 static void fill_oriented_box(const struct kiln_scene *scene, const struct kiln_object *object,
                               float time_s, struct kiln_draw_oriented_box *out)
 {
@@ -195,7 +202,7 @@ static void fill_oriented_box(const struct kiln_scene *scene, const struct kiln_
         out->rows[i] = (float4){rotation[i][0], rotation[i][1], rotation[i][2], 0.0f};
     float3 size = kiln_scene_value3(scene, &object->size, time_s);
     out->center = with_w(kiln_scene_value3(scene, &object->center, time_s), 0.0f);
-    out->half_size = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
+    out->half_size = half_of_box(size);
     out->color = with_w(kiln_scene_value3(scene, &object->color, time_s), 0.0f);
 }
 
@@ -233,7 +240,7 @@ uint32_t kiln_boxes_fill(const struct kiln_scene *scene, float time_s, float4 *c
             continue;
         const float3 size = kiln_scene_value3(scene, &box->size, time_s);
         centers[count] = with_w(kiln_scene_value3(scene, &box->center, time_s), 0.0f);
-        halves[count] = (float4){0.5f * size.x, 0.5f * size.y, 0.5f * size.z, 0.0f};
+        halves[count] = half_of_box(size);
         if (colors)
             colors[count] = with_w(kiln_scene_value3(scene, &box->color, time_s), 0.0f);
         count++;

@@ -141,7 +141,7 @@ float oriented_lamp_visibility(inout uint casters, vec3 origin, lamp_way way)
     for (int i = 0; i < boxes; i++) {
         vec3 towards = shapes.oriented_boxes[i].center.xyz - origin;
         vec4 halves = shapes.oriented_boxes[i].half_size;
-        if (take_caster(casters) && lamp_meets(towards, box_radius(halves), way))
+        if (take_caster(casters) && lamp_meets(towards, halves.w, way))
             visible *= 1.0 - lamp_box_cover(into_box(i, towards), halves,
                                             into_box(i, way.direction), way);
     }

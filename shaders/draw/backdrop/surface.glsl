@@ -189,7 +189,7 @@ float lamp_visibility(int i, vec3 point, vec3 normal)
     int boxes = casters == 0u ? 0 : int(backdrop.counts.x);
     for (int k = 0; k < boxes; k++) {
         vec3 towards = backdrop.box_center[k].xyz - origin;
-        if (take_caster(casters) && lamp_meets(towards, box_radius(backdrop.box_half[k]), way))
+        if (take_caster(casters) && lamp_meets(towards, backdrop.box_half[k].w, way))
             visible *= 1.0 - lamp_box_cover(towards, backdrop.box_half[k], way.direction, way);
     }
 #ifdef ROUND
