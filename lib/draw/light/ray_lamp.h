@@ -118,6 +118,7 @@ SIMD vi cone_meets_axis(vf lit, vf spread, struct vf3 towards, float radius, flo
 SIMD void hide_lamp(struct lamp_receiver *r, vi near, vf cover)
 {
     r->visible *= 1.0f - vf_where(near, cover);
+    r->active &= r->visible > 0.0f;
 }
 
 /* Returns the lanes where the bounding sphere of a box may hide a part of a lamp. */
