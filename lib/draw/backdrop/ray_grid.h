@@ -192,17 +192,20 @@ SIMD vi is_beside(float4 half, struct vf3 towards, struct vf3 to_lamp, struct vf
     return beside;
 }
 
-/* Returns what casts_smoothly does, for a box and a block of a surface. towards, to_lamp, normal:
- * as for is_beside. */
+/* Returns what casts_smoothly does, for a box and a block of a surface, in the lanes of a mask; 0
+ * in other lanes. towards, to_lamp, normal: as for is_beside. */
 SIMD vi box_casts_smoothly(const struct lamp_way *way, float4 half, struct vf3 towards,
-                           struct vf3 to_lamp, struct vf3 normal)
+                           struct vf3 to_lamp, struct vf3 normal, vi mask)
 {
     const struct vf3 direction = vf3_scale(to_lamp, 1.0f / way->reach);
     const struct vf3 inverse = ray_inverse3(direction);
     const struct ray_slabs s = ray_cross_slabs(towards, half, inverse);
-    return ~lamp_meets_box(&s, towards, half, direction, inverse, way) |
-           has_wide_penumbra(way, distance_to_box(towards, half)) |
-           is_beside(half, towards, to_lamp, normal, way->lit);
+    vi sharp = mask & lamp_meets_box(&s, towards, half, direction, inverse, way);
+    if (any(sharp))
+        sharp &= ~has_wide_penumbra(way, distance_to_box(towards, half));
+    if (any(sharp))
+        sharp &= ~is_beside(half, towards, to_lamp, normal, way->lit);
+    return mask & ~sharp;
 }
 
 /* Returns the lanes where all shapes cast smooth shadows on a block of a surface. size: of the
@@ -220,7 +223,7 @@ SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
         const float4 center = objects->box_center[__builtin_ctz(of)];
         const float4 half = objects->box_half[__builtin_ctz(of)];
         const struct vf3 towards = vf3_towards(center, at);
-        smooth &= box_casts_smoothly(&way, half, towards, to_lamp, normal);
+        smooth = box_casts_smoothly(&way, half, towards, to_lamp, normal, smooth);
     }
     for (uint32_t of = take_bits(&casters, shapes->counts.x); of; of &= of - 1) {
         const float4 sphere = shapes->spheres[__builtin_ctz(of)];
@@ -245,8 +248,8 @@ SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[__builtin_ctz(of)];
         const struct vf3 towards = vf3_towards(box->center, at);
         const struct vf3 to_box = into_box(box, towards);
-        smooth &= box_casts_smoothly(&way, box->half_size, to_box, into_box(box, to_lamp),
-                                     into_box(box, normal));
+        smooth = box_casts_smoothly(&way, box->half_size, to_box, into_box(box, to_lamp),
+                                    into_box(box, normal), smooth);
     }
     return smooth;
 }
