@@ -90,7 +90,7 @@ struct kiln_draw_mesh {
 /* A box that does not lie along the axes. */
 struct kiln_draw_oriented_box {
     float4 center;
-    float4 rows[3]; /* axes of the world in its frame */
+    float4 rows[3];   /* axes of the world in its frame */
     float4 half_size; /* w: radius of its bounding sphere, m */
     float4 color;
 };

@@ -182,9 +182,8 @@ SIMD vf oriented_boxes_sun_visibility(const struct kiln_ray_frame *frame,
     for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
         const struct sun_edges *edges = &shapes->oriented_edges[i];
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
-        const vi near =
-            sun_may_be_hidden(frame, receiver, vf3_towards(box->center, receiver->origin),
-                              box->half_size.w);
+        const vi near = sun_may_be_hidden(
+            frame, receiver, vf3_towards(box->center, receiver->origin), box->half_size.w);
         if (!any(near))
             continue;
         const struct ray_slabs s =

@@ -8,6 +8,8 @@
 #include "base/real.h"
 #include "shared/lamp_cover.h"
 
+/* Returns what box_strip_cover does in the lanes of a mask. Where each of these lanes is beyond the
+ * penumbras of both edges, the cover is 0 or 1 and needs no division. */
 SIMD vf ray_strip_cover(const struct box_strip *strip, vf near_a, vf near_b, vf far_a, vf far_b,
                         vi near, vf spread, vf radius)
 {
@@ -26,15 +28,18 @@ SIMD vf ray_box_cover(const struct ray_slabs *s, const struct box_outline *o, vi
                       vf radius)
 {
     const vf none = vf_all(0.0f);
-    const vf yz = ray_strip_cover(&o->yz, s->near.y, s->near.z, s->far.y, s->far.z, near, spread, radius);
+    const vf yz =
+        ray_strip_cover(&o->yz, s->near.y, s->near.z, s->far.y, s->far.z, near, spread, radius);
     near &= yz != 0.0f;
     if (!any(near))
         return none;
-    const vf xz = ray_strip_cover(&o->xz, s->near.x, s->near.z, s->far.x, s->far.z, near, spread, radius);
+    const vf xz =
+        ray_strip_cover(&o->xz, s->near.x, s->near.z, s->far.x, s->far.z, near, spread, radius);
     near &= xz != 0.0f;
     if (!any(near))
         return none;
-    const vf xy = ray_strip_cover(&o->xy, s->near.x, s->near.y, s->far.x, s->far.y, near, spread, radius);
+    const vf xy =
+        ray_strip_cover(&o->xy, s->near.x, s->near.y, s->far.x, s->far.y, near, spread, radius);
     return vf_where(near, both_strips(both_strips(yz, xz, o->alike_xy), xy, o->alike_z));
 }
 

@@ -45,14 +45,15 @@ SIMD struct vf3 into_box(const struct kiln_draw_oriented_box *box, struct vf3 v)
 }
 
 /* Returns the lanes where a shape with such a bounding sphere may hide a part of the lamp. Most
- * shapes are farther from the ways to the lamp than its cones are wide, which costs no division. */
+ * shapes are farther from the ways to the lamp than a cone of light is wide anywhere; this is found
+ * without the division in lamp_meets. */
 SIMD vi lamp_may_be_hidden(const struct lamp_receiver *r, struct vf3 towards, float size)
 {
     const vf t = vf3_dot(towards, r->way.direction);
     const struct vf3 across = vf3_add_scaled(towards, r->way.direction, -t);
     const vf widest = size + vf_max(r->way.radius, r->way.lit) + 2e-3f;
-    const vi near = r->active & (t > -size - r->way.lit) &
-                    (vf3_dot(across, across) < widest * widest);
+    const vi near =
+        r->active & (t > -size - r->way.lit) & (vf3_dot(across, across) < widest * widest);
     return any(near) ? near & lamp_meets(towards, size, r->way) : near;
 }
 
@@ -85,7 +86,7 @@ SIMD struct box_crossing cross_grown_box(const struct ray_slabs *s, struct vf3 i
 /* Returns the lanes where a box may hide a part of a lamp: those in which the way to the lamp meets
  * the box after it is grown by the cone of light. A box is mostly much smaller than its bounding
  * sphere. towards: the way to the box's centre; direction: to the lamp; both are along the box's
- * axes. */
+ * axes. inverse: ray_inverse3 of the direction; s: where the ways cross the box's slabs. */
 SIMD vi lamp_meets_box(const struct ray_slabs *s, struct vf3 towards, float4 half,
                        struct vf3 direction, struct vf3 inverse, const struct lamp_way *way)
 {
@@ -115,6 +116,7 @@ SIMD vi cone_meets_axis(vf lit, vf spread, struct vf3 towards, float radius, flo
     return apart * apart <= wide * wide * vf3_dot(across, across) + noise;
 }
 
+/* Hides a part of a lamp in the lanes of a mask. Lanes that no longer see the lamp drop out. */
 SIMD void hide_lamp(struct lamp_receiver *r, vi near, vf cover)
 {
     r->visible *= 1.0f - vf_where(near, cover);
