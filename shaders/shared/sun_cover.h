@@ -249,6 +249,24 @@ REAL_FN S(cover_band) cover_band_all(S(sun_band) shared_by_all)
     return band;
 }
 
+/* Holds the parts of a point or a ball that are past a cylinder, whose light only leads away from
+ * it: beyond an end, and beside the cylinder. */
+struct cylinder_past {
+    real beyond, beside;
+};
+
+REAL_FN S(cylinder_past) cylinder_past_of(real3 towards, float radius, float4 axis, real3 way,
+                                          real climb, real lit)
+{
+    real height = -real3_dot_all(towards, axis);
+    real3 aside = real3_add_scaled(towards, real3_all(axis), height);
+    S(cylinder_past) past;
+    past.beyond = real_where(height * climb > 0.0f, cover_side(real_abs(height) - axis.w, lit));
+    past.beside =
+        cover_side(real3_length(aside) - radius, lit) * cover_side(-real3_dot(aside, way), lit);
+    return past;
+}
+
 /* Returns the cover of a capped cylinder. towards: the way to its middle; axis: w: half of its
  * height; way: unit, to the light; spread, lit: as for ball_cover. */
 REAL_FN S(cover_at) cylinder_cover(real3 towards, float radius, float4 axis, real3 way,
@@ -262,15 +280,9 @@ REAL_FN S(cover_at) cylinder_cover(real3 towards, float radius, float4 axis, rea
     real disc = t * spread + lit;
     real sides = strip_cover(radius - real_abs(x), radius + real_abs(x), disc);
     real ends = strip_cover(end - real_abs(y), end + real_abs(y), disc);
-    /* Light that starts beside the cylinder or beyond an end may only lead away from it. */
-    real height = -real3_dot_all(towards, axis);
-    real3 aside = real3_add_scaled(towards, real3_all(axis), height);
-    real beyond =
-        real_where(height * band.climb > 0.0f, cover_side(real_abs(height) - axis.w, lit));
-    real beside =
-        cover_side(real3_length(aside) - radius, lit) * cover_side(-real3_dot(aside, way), lit);
+    S(cylinder_past) past = cylinder_past_of(towards, radius, axis, way, band.climb, lit);
     S(cover_at) at;
-    at.cover = sides * ends * (1.0f - beyond) * (1.0f - beside);
+    at.cover = sides * ends * (1.0f - past.beyond) * (1.0f - past.beside);
     at.distance = t;
     return at;
 }

@@ -155,6 +155,16 @@ SIMD void hide_lamp_by_boxes(const struct kiln_lamp_objects *objects, uint32_t b
     }
 }
 
+/* Returns the lanes where light to the lamp does not only lead away from a cylinder. */
+SIMD vi lamp_faces_cylinder(struct vf3 towards, float radius, float4 axis,
+                            const struct lamp_way *way)
+{
+    const vf climb = vf3_dot_all(way->direction, axis);
+    const struct cylinder_past past =
+        cylinder_past_of(towards, radius, axis, way->direction, climb, way->lit);
+    return (past.beyond != 1.0f) & (past.beside != 1.0f);
+}
+
 SIMD void hide_lamp_by_round(const struct kiln_draw_shapes *shapes, uint32_t spheres,
                              uint32_t cylinders, struct lamp_receiver *r)
 {
@@ -173,6 +183,8 @@ SIMD void hide_lamp_by_round(const struct kiln_draw_shapes *shapes, uint32_t sph
         if (any(near))
             near &= cone_meets_axis(r->way.lit, r->way.spread, towards, cylinder.w, axis,
                                     r->way.direction);
+        if (any(near))
+            near &= lamp_faces_cylinder(towards, cylinder.w, axis, &r->way);
         if (any(near))
             hide_lamp(r, near, lamp_cylinder_cover(towards, cylinder.w, axis, r->way));
     }
