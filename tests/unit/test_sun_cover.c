@@ -58,7 +58,7 @@ static bool hides(enum kind kind, float3 from, float3 direction)
     return false;
 }
 
-static float box_cover(struct kiln_ball ball, const struct kiln_sun_frame *sun)
+static float cover_of_box(struct kiln_ball ball, const struct kiln_sun_frame *sun)
 {
     const struct kiln_sun_box box = kiln_sun_box_at(CENTER, HALF, sun);
     return kiln_sun_box_cover(&box, ball, sun);
@@ -75,7 +75,7 @@ static float cylinder_cover_at(float3 along, float half_height, struct kiln_ball
 static float cover(enum kind kind, struct kiln_ball ball, const struct kiln_sun_frame *sun)
 {
     if (kind == BOX)
-        return box_cover(ball, sun);
+        return cover_of_box(ball, sun);
     if (kind == SPHERE)
         return kiln_sphere_sun_cover(CENTER, RADIUS, ball, sun);
     if (kind == CAPSULE)
@@ -214,7 +214,7 @@ static void a_mesh_shades_as_the_box_that_it_is(void **state)
             at = float3_add_scaled(at, sun.up, within(-1.5f, 1.5f));
             at = float3_add_scaled(at, sun.towards, i % 4 ? -2.0f : 2.0f);
             const struct kiln_ball ball = {at, within(0.05f, 0.4f)};
-            float expected = box_cover(ball, &sun);
+            float expected = cover_of_box(ball, &sun);
             float found = kiln_sun_mesh_cover(map, ball);
             sum += fabsf(found - expected);
             if (fabsf(found - expected) > 0.3f) /* at corners */
