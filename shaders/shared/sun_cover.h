@@ -249,12 +249,13 @@ REAL_FN S(cover_band) cover_band_all(S(sun_band) shared_by_all)
     return band;
 }
 
-/* Holds the parts of a point or a ball that are past a cylinder, whose light only leads away from
- * it: beyond an end, and beside the cylinder. */
+/* Holds the parts of a lit point or ball from which the way to the light leads away from a
+ * cylinder: the part that lies beyond an end of it, and the part beside it. */
 struct cylinder_past {
     real beyond, beside;
 };
 
+/* towards, axis, way, lit: as for cylinder_cover; climb: the cosine between way and axis. */
 REAL_FN S(cylinder_past) cylinder_past_of(real3 towards, float radius, float4 axis, real3 way,
                                           real climb, real lit)
 {

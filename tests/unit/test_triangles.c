@@ -1,5 +1,6 @@
 /* The rasteriser of triangles against rays that are cast at them one by one, in doubles: triangles
- * before the eye, around it and behind it, large and far smaller than a pixel, at every level. */
+ * before the eye, around it and behind it, large and far smaller than a pixel, at every level. The
+ * picture is drawn in strips. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,11 +10,22 @@
 #include "shared/random.h"
 #include "support/cmocka.h"
 
-enum { WIDTH = 61, HEIGHT = 40, PITCH = WIDTH + KILN_MESH_PAD, LAYERS = 2, TRIANGLES = 4000 };
+enum { LAYERS = 2, MOST_WIDTH = 1500, MOST_HEIGHT = 40 };
 
-static const float4 FRUSTUM = {0.8f, 0.5f, WIDTH, HEIGHT};
-static const float4 PRINCIPAL = {0.5f * WIDTH, 0.5f * HEIGHT, 0.0f, 0.0f};
+#define U 0.8f /* of rays through the right edge of the picture */
+#define V 0.5f
+
 static const float OFFSETS[LAYERS][2] = {{0.5f, 0.5f}, {0.875f, 0.375f}};
+
+struct picture {
+    int width, height, pitch;
+    float nearness[LAYERS * MOST_HEIGHT * (MOST_WIDTH + KILN_MESH_PAD)];
+};
+
+static size_t size_of(const struct picture *p)
+{
+    return (size_t)(LAYERS * p->height * p->pitch) * sizeof *p->nearness;
+}
 
 static float between(uint32_t *seed, float low, float high)
 {
@@ -68,30 +80,40 @@ static double cast(const float3 corner[3], double u, double v)
     return least > 0.0 && nearness > 0.0 && nearness < nearest ? nearness : 0.0;
 }
 
-static const struct kiln_mesh_strip STRIP = {
-    .width = WIDTH,
-    .rows = HEIGHT,
-    .u = -0.8f,
-    .v = 0.5f,
-    .u_step = 2.0f * 0.8f / WIDTH,
-    .v_step = -2.0f * 0.5f / HEIGHT,
-    .layers = LAYERS,
-    .offsets = {{0.5f, 0.5f}, {0.875f, 0.375f}},
-    .nearness_max = 1.0f / KILN_MESH_NEAREST,
-    .pitch = PITCH,
-};
+/* Draws a triangle, strip by strip. */
+static void draw(const struct kiln_projected_triangle *flat, enum kiln_simd simd,
+                 struct picture *picture)
+{
+    struct kiln_mesh_strip strip = {
+        .width = (uint32_t)picture->width,
+        .rows = KILN_MESH_ROWS,
+        .u = -U,
+        .v = V,
+        .u_step = 2.0f * U / (float)picture->width,
+        .v_step = -2.0f * V / (float)picture->height,
+        .layers = LAYERS,
+        .nearness_max = 1.0f / KILN_MESH_NEAREST,
+        .pitch = (size_t)picture->pitch,
+    };
+    memcpy(strip.offsets, OFFSETS, sizeof OFFSETS);
+    memset(picture->nearness, 0, size_of(picture));
+    for (; strip.y < (uint32_t)picture->height; strip.y += KILN_MESH_ROWS) {
+        strip.nearness = picture->nearness + strip.y * LAYERS * strip.pitch;
+        KILN_SIMD_PICK(kiln_mesh_rows, simd)->draw(&strip, flat, &(uint32_t){0}, 1);
+    }
+}
 
 /* Checks each sample of a picture of one triangle. Returns how many it covers. */
-static int check(const float3 corner[3], const float *nearness)
+static int check(const float3 corner[3], const struct picture *p)
 {
     int covered = 0;
-    for (int y = 0; y < HEIGHT; y++) {
-        for (int i = 0; i < LAYERS * WIDTH; i++) {
-            const int layer = i / WIDTH, x = i % WIDTH;
-            const double u = ((x + (double)OFFSETS[layer][0]) * 2.0 / WIDTH - 1.0) * 0.8;
-            const double v = (1.0 - (y + (double)OFFSETS[layer][1]) * 2.0 / HEIGHT) * 0.5;
+    for (int y = 0; y < p->height; y++) {
+        for (int i = 0; i < LAYERS * p->width; i++) {
+            const int layer = i / p->width, x = i % p->width;
+            const double u = ((x + (double)OFFSETS[layer][0]) * 2.0 / p->width - 1.0) * (double)U;
+            const double v = (1.0 - (y + (double)OFFSETS[layer][1]) * 2.0 / p->height) * (double)V;
             const double expected = cast(corner, u, v);
-            const double drawn = (double)nearness[(y * LAYERS + layer) * PITCH + x];
+            const double drawn = (double)p->nearness[(y * LAYERS + layer) * p->pitch + x];
             covered += drawn > 0.0;
             if (expected >= 0.0 && fabs(drawn - expected) > 1e-3 * expected)
                 fail_msg("pixel (%d, %d), layer %d: nearness %g, not %g; corners (%g, %g, %g), "
@@ -105,34 +127,42 @@ static int check(const float3 corner[3], const float *nearness)
     return covered;
 }
 
-/* Draws TRIANGLES triangles one by one at all levels. Returns how many have covered a sample. */
-static int draw_all(float size, float aside)
+/* Draws a triangle at all levels, and checks it. Returns how many samples it covers. */
+static int draw_and_check(const float3 corner[3], struct picture *picture)
 {
-    static float nearness[LAYERS * HEIGHT * PITCH], first[LAYERS * HEIGHT * PITCH];
+    static struct picture other;
+    const float width = (float)picture->width, height = (float)picture->height;
+    struct kiln_projected_triangle flat;
+    float3 face;
+    float volume;
+    other.width = picture->width;
+    other.height = picture->height;
+    other.pitch = picture->pitch;
+    kiln_mesh_project(corner, (float4){U, V, width, height},
+                      (float4){0.5f * width, 0.5f * height, 0.0f, 0.0f}, &flat, &face, &volume);
+    draw(&flat, kiln_simd_has(KILN_SIMD_PLAIN) ? KILN_SIMD_PLAIN : KILN_SIMD_NEON, picture);
+    for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
+        if (!kiln_simd_has(simd))
+            continue;
+        draw(&flat, simd, &other);
+        assert_memory_equal(other.nearness, picture->nearness, size_of(picture));
+    }
+    return check(corner, picture);
+}
+
+/* Draws triangles one by one. Returns how many have covered a sample. */
+static int draw_all(int width, int height, int count, float size, float aside)
+{
+    static struct picture picture;
+    picture.width = width;
+    picture.height = height;
+    picture.pitch = width + KILN_MESH_PAD;
     uint32_t seed = 1;
     int seen = 0;
-    for (int i = 0; i < TRIANGLES; i++) {
-        float3 corner[3], face;
-        float volume;
-        struct kiln_projected_triangle flat;
+    for (int i = 0; i < count; i++) {
+        float3 corner[3];
         make_triangle(&seed, size, aside, corner);
-        const bool drawn = kiln_mesh_project(corner, FRUSTUM, PRINCIPAL, &flat, &face, &volume);
-        bool is_first = true;
-        for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
-            if (!kiln_simd_has(simd))
-                continue;
-            memset(nearness, 0, sizeof nearness);
-            struct kiln_mesh_strip strip = STRIP;
-            strip.nearness = nearness;
-            if (drawn)
-                KILN_SIMD_PICK(kiln_mesh_rows, simd)->draw(&strip, &flat, &(uint32_t){0}, 1);
-            if (is_first)
-                memcpy(first, nearness, sizeof first);
-            is_first = false;
-            for (size_t k = 0; k < sizeof first / sizeof *first; k++)
-                assert_true(nearness[k] == first[k] || k % PITCH >= WIDTH);
-        }
-        seen += check(corner, nearness) > 0;
+        seen += draw_and_check(corner, &picture) > 0;
     }
     return seen;
 }
@@ -140,19 +170,38 @@ static int draw_all(float size, float aside)
 static void before_and_around_the_eye(void **state)
 {
     (void)state;
-    assert_in_range(draw_all(1.5f, 3.0f), TRIANGLES / 10, TRIANGLES / 2);
+    assert_in_range(draw_all(61, MOST_HEIGHT, 4000, 1.5f, 3.0f), 400, 2000);
 }
 
 static void around_the_eye_and_huge(void **state)
 {
     (void)state;
-    assert_in_range(draw_all(20.0f, 1.0f), TRIANGLES / 4, TRIANGLES);
+    assert_in_range(draw_all(61, MOST_HEIGHT, 4000, 20.0f, 1.0f), 1000, 4000);
 }
 
 static void smaller_than_a_pixel(void **state)
 {
     (void)state;
-    assert_in_range(draw_all(0.03f, 1.0f), 20, TRIANGLES / 2);
+    assert_in_range(draw_all(61, MOST_HEIGHT, 4000, 0.03f, 1.0f), 20, 2000);
+}
+
+static void kilometres_away_in_a_wide_picture(void **state)
+{
+    (void)state;
+    assert_in_range(draw_all(MOST_WIDTH, 2 * KILN_MESH_ROWS, 100, 3000.0f, 1.0f), 20, 100);
+}
+
+/* Its edge from 1 mm beside the eye to 5.6 km away meets the nearest depth near the right edge. */
+static void one_that_reaches_the_eye_from_afar(void **state)
+{
+    (void)state;
+    static struct picture picture;
+    picture.width = MOST_WIDTH;
+    picture.height = MOST_HEIGHT;
+    picture.pitch = MOST_WIDTH + KILN_MESH_PAD;
+    const float3 corner[3] = {
+        {-1.0f, 1.0f, -2.0f}, {2500.0f, 0.0f, -5000.0f}, {0.001f, 0.0f, 0.0f}};
+    assert_in_range(draw_and_check(corner, &picture), 1000, LAYERS * MOST_WIDTH * MOST_HEIGHT);
 }
 
 int main(void)
@@ -161,6 +210,8 @@ int main(void)
         cmocka_unit_test(before_and_around_the_eye),
         cmocka_unit_test(around_the_eye_and_huge),
         cmocka_unit_test(smaller_than_a_pixel),
+        cmocka_unit_test(kilometres_away_in_a_wide_picture),
+        cmocka_unit_test(one_that_reaches_the_eye_from_afar),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

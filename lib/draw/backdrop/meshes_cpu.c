@@ -152,7 +152,8 @@ struct mesh_projection {
     const struct kiln_draw_mesh *draw_mesh;
     const struct kiln_mesh *mesh;
     int32_t number;
-    float3 *view_positions, *world_normals; /* of this mesh, as is what follows */
+    /* All that follow are of this mesh alone. */
+    float3 *view_positions, *world_normals;
     struct kiln_mesh_triangle *triangles;
     struct kiln_mesh_uvs *uvs; /* NULL: the mesh takes no paint */
     struct kiln_projected_triangle *flat;

@@ -208,17 +208,16 @@ SIMD vi box_casts_smoothly(const struct lamp_way *way, float4 half, struct vf3 t
     return mask & ~sharp;
 }
 
-/* Returns the lanes where all shapes cast smooth shadows on a block of a surface. size: of the
- * block, m. */
+/* Returns the lanes of a mask where all shapes cast smooth shadows on a block of a surface. size:
+ * of the block, m. */
 SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
                              const struct kiln_draw_light *lamp, struct vf3 at, struct vf3 normal,
-                             vf size)
+                             vf size, vi smooth)
 {
     const struct kiln_draw_shapes *shapes = objects->shapes;
     const struct vf3 to_lamp = vf3_towards(lamp->position_radius2, at);
     const struct lamp_way way = lamp_way_of(to_lamp, lamp->color.w, size);
     uint32_t casters = lamp->casters.x;
-    vi smooth = ~vi_all(0);
     for (uint32_t of = take_bits(&casters, objects->box_count); of; of &= of - 1) {
         const float4 center = objects->box_center[__builtin_ctz(of)];
         const float4 half = objects->box_half[__builtin_ctz(of)];
@@ -318,7 +317,8 @@ SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, uint32_t
         const struct kiln_draw_light *lamp = &b->lights[i];
         vi smooth = alike;
         if (lamp->casters.x && any(smooth))
-            smooth &= shapes_cast_smoothly(&frame->lamp_objects, lamp, at, normal, vf_sqrt(size2));
+            smooth = shapes_cast_smoothly(&frame->lamp_objects, lamp, at, normal, vf_sqrt(size2),
+                                          smooth);
         memcpy(grid->smooth[i] + first, &smooth, sizeof smooth);
     }
 }

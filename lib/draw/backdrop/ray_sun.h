@@ -344,7 +344,8 @@ SIMD vf entry_cover(const struct kiln_ray_frame *frame, const struct ray_entry *
     return vf_select(has, silhouette_cover(frame, e->center, &tile, origin, ball), ball);
 }
 
-/* Number of entries of a list whose nearness is found before the near ones hide the sun. */
+/* Number of entries of a list whose nearness is found before the near ones hide the sun. Each has a
+ * bit, of which lowest_bit allows 31; most lists are shorter than 24. */
 enum { ENTRIES_AT_A_TIME = 24 };
 
 /* Returns a bit for each of the next entries of each lane's list that is near. count: entries that
@@ -362,7 +363,8 @@ SIMD vi find_near_entries(const struct kiln_ray_frame *frame, struct vf3 origin,
     return bits;
 }
 
-/* Returns the number of the lowest bit that is set; any number where none is. */
+/* Returns the number of the lowest of 31 bits that is set; any number where none is. A float's
+ * exponent tells it. */
 SIMD vi lowest_bit(vi bits)
 {
     return ((vi)vf_of(bits & -bits) >> 23) - 127;

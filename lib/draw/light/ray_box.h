@@ -23,7 +23,7 @@ SIMD vf ray_strip_cover(const struct box_strip *strip, vf near_a, vf near_b, vf 
     return vf_max(cover, vf_all(0.0f));
 }
 
-/* Returns what box_cover does in the lanes of a mask where no strip's cover is 0; 0 elsewhere. */
+/* Returns what box_cover does in the lanes of a mask; 0 in other lanes. */
 SIMD vf ray_box_cover(const struct ray_slabs *s, const struct box_outline *o, vi near, vf spread,
                       vf radius)
 {

@@ -155,7 +155,8 @@ SIMD void hide_lamp_by_boxes(const struct kiln_lamp_objects *objects, uint32_t b
     }
 }
 
-/* Returns the lanes where light to the lamp does not only lead away from a cylinder. */
+/* Returns the lanes where a cylinder may hide the lamp: those that do not lie wholly beyond an end
+ * or beside the cylinder, with the lamp on the same side. */
 SIMD vi lamp_faces_cylinder(struct vf3 towards, float radius, float4 axis,
                             const struct lamp_way *way)
 {
@@ -242,7 +243,7 @@ SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct ki
     const float radius = lamp->color.w, far = lamp->maps.x;
     const struct lamp_place place =
         lamp_place_of(vf3_scale(r->way.direction, -r->way.reach), normal, far);
-    vi near = r->active & (r->visible > 0.0f);
+    vi near = r->active;
     if (!any(near))
         return vf_all(0.0f);
 
@@ -279,7 +280,7 @@ SIMD vf lamp_solid_cover(const struct kiln_lamp_objects *objects,
                          struct vf3 normal, const struct vf3 *middle)
 {
     const float radius = lamp->color.w, far = lamp->maps.w;
-    vi near = r->active & (r->visible > 0.0f);
+    vi near = r->active;
     if (!any(near))
         return vf_all(0.0f);
     const struct lamp_solid_place to = lamp_solid_place_of(

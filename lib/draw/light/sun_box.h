@@ -18,7 +18,7 @@ static inline struct kiln_sun_box kiln_sun_box_at(float3 center, float3 half_siz
 {
     return (struct kiln_sun_box){.center = center,
                                  .half_size = {half_size.x, half_size.y, half_size.z, 0.0f},
-                                 .size = sqrtf(float3_dot(half_size, half_size)),
+                                 .size = box_radius(half_size),
                                  .edges = kiln_sun_edges_of(sun->towards)};
 }
 

@@ -149,9 +149,9 @@ float kiln_sun_mesh_cover(const struct kiln_sun_mesh *map, struct kiln_ball ball
         return 0.0f;
     float spread = map->sun.spread * fmaxf(-at.height, 0.0f);
     float width = (ball.radius + spread) * 0.5f * EDGE / size; /* cells */
-    if (fabsf(at.x - 0.5f * EDGE) > 0.5f * EDGE + 2.0f * width ||
-        fabsf(at.y - 0.5f * EDGE) > 0.5f * EDGE + 2.0f * width)
-        return 0.0f;
+    const float reach = 0.5f * EDGE + 2.0f * width;
+    if (!(fabsf(at.x - 0.5f * EDGE) <= reach && fabsf(at.y - 0.5f * EDGE) <= reach))
+        return 0.0f; /* also where the ball is nowhere, so that all below are numbers */
     size_t first = 0;
     int edge = EDGE;
     for (; edge > 1 && (float)(4 * EDGE / edge) <= width; edge /= 2)

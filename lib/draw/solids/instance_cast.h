@@ -40,16 +40,6 @@ static inline float3 cast_corner(const struct kiln_drawn_instance *instance, flo
                     rows[2][0] * at.x + rows[2][1] * at.y + rows[2][2] * at.z + rows[2][3]};
 }
 
-/* Rounding displaces edges by less than this, px. */
-#define CAST_MARGIN 0.0625f
-
-/* Returns the range of pixels that have samples between two positions, clamped to 0 .. size. */
-static inline struct kiln_row_range cast_range(float low, float high, float size)
-{
-    return (struct kiln_row_range){(int16_t)exact_clamp(low - CAST_MARGIN, 0.0f, size),
-                                   (int16_t)exact_clamp(high + (1.0f + CAST_MARGIN), 0.0f, size)};
-}
-
 /* Rounds a position to the subpixel grid on which GL places corners (GL_SUBPIXEL_BITS). Otherwise,
  * for objects a few pixels large, one sample in a hundred would be covered here and not in GL.
  * place: px from the principal point, which is on that grid; floats are finest near 0. */
@@ -82,10 +72,10 @@ static inline void cast_bounds(const struct kiln_view *view, float3 p[3], struct
         corners_beyond++;
     }
     bool crosses_near = corners_beyond > 0 && corners_beyond < 3;
-    t->x =
-        crosses_near ? cast_range(0.0f, frustum.z, frustum.z) : cast_range(x[0], x[1], frustum.z);
-    t->y =
-        crosses_near ? cast_range(0.0f, frustum.w, frustum.w) : cast_range(y[0], y[1], frustum.w);
+    /* A triangle that reaches the near plane may be anywhere in the picture. */
+    const float margin = crosses_near ? 1e9f : KILN_RANGE_MARGIN;
+    t->x = kiln_row_range_between(x[0] - margin, x[1] + margin, frustum.z);
+    t->y = kiln_row_range_between(y[0] - margin, y[1] + margin, frustum.w);
     if (corners_beyond == 0)
         t->y = (struct kiln_row_range){0, 0};
 }
@@ -132,7 +122,7 @@ SIMD void cast_pixels(const struct kiln_solid_strip *s, const struct cast_triang
     vf b = vf_max(cast_edge(t->edges[1], middle.x, middle.y), zero);
     vf c = vf_max(cast_edge(t->edges[2], middle.x, middle.y), zero), sum = a + b + c;
     vf depth = (a * t->depth[0] + b * t->depth[1] + c * t->depth[2]) / vf_max(sum, vf_all(1e-30f));
-    vi visible = (sum > 0.0f) & (depth >= s->frame->view->eye.w);
+    vi visible = (sum > 0.0f) & (depth >= s->frame->view->eye.w) & (column < (float)t->x.to);
     size_t at = (size_t)row * KILN_SOLID_SAMPLES * s->pitch + (size_t)x;
     for (int k = 0; k < KILN_SOLID_SAMPLES && any(visible); k++, at += s->pitch) {
         const struct vf3 ray =

@@ -4,10 +4,8 @@
 
 #include "shared/exact.h"
 
-/* Rounding displaces corners and edges by less than this, px. */
-#define MARGIN 0.0625f
-
-/* The same where a triangle reaches the eye, px. */
+/* How far a triangle's bounds are widened where it is cut at the nearest depth, px: there a
+ * millimetre is many pixels. */
 #define NEAREST_MARGIN 2.0f
 
 /* Returns the normal of the pyramid's side through an edge. For the opposite direction of the edge
@@ -30,9 +28,10 @@ static void set_plane(float plane[3], float3 normal)
 void kiln_mesh_bound(const float low[2], const float high[2], float width,
                      struct kiln_projected_triangle *flat)
 {
-    flat->top = low[1] - MARGIN;
-    flat->bottom = high[1] + MARGIN;
-    flat->x = kiln_row_range_between(low[0] - MARGIN, high[0] + MARGIN, width);
+    flat->top = low[1] - KILN_RANGE_MARGIN;
+    flat->bottom = high[1] + KILN_RANGE_MARGIN;
+    flat->x =
+        kiln_row_range_between(low[0] - KILN_RANGE_MARGIN, high[0] + KILN_RANGE_MARGIN, width);
 }
 
 /* Holds the least and the greatest x and y of points in a picture, px. */
@@ -53,14 +52,14 @@ static void extend(struct extent *e, float4 frustum, float4 principal, float3 p)
 }
 
 /* Returns where the line from a point in front of the eye to one that is not has the nearest depth
- * that is drawn. */
+ * that is drawn. It takes doubles, since the coordinates of distant corners nearly cancel there. */
 static float3 where_nearest(float3 front, float3 behind)
 {
-    const float3 way = float3_sub(behind, front);
-    const float part = (front.z + KILN_MESH_NEAREST) / -way.z;
-    float3 at = float3_add(front, float3_scale(way, part));
-    at.z = -KILN_MESH_NEAREST;
-    return at;
+    const double part =
+        -((double)front.z + (double)KILN_MESH_NEAREST) / ((double)behind.z - (double)front.z);
+    return (float3){(float)((double)front.x + ((double)behind.x - (double)front.x) * part),
+                    (float)((double)front.y + ((double)behind.y - (double)front.y) * part),
+                    -KILN_MESH_NEAREST};
 }
 
 /* Bounds the pixels that a triangle may touch; none if all of it is behind the eye. */

@@ -22,7 +22,7 @@ struct kiln_projected_triangle {
     float edges[3][3];
     float nearness[3];       /* the nearest triangle has the greatest value */
     struct kiln_row_range x; /* columns of pixels that the triangle may touch */
-    float top, bottom;       /* samples above and below these rows are outside, px */
+    float top, bottom;       /* samples above and below these places are outside, px */
 };
 
 /* Returns the rows of pixels that a triangle may touch; none where it is beside the picture.

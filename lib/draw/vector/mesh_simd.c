@@ -26,8 +26,9 @@ static inline void draw_row(const struct kiln_mesh_strip *s,
     size_t at = (row * s->layers + layer) * s->pitch;
     float *near = s->nearness + at;
     for (int32_t x = t->x.from; x < t->x.to; x += LANES) {
-        vf u = s->u + (vf_count() + ((float)x + s->offsets[layer][0])) * s->u_step;
-        vi inside = (edges[0].u * u + edges[0].rest >= 0.0f) &
+        const vf column = vf_count() + ((float)x + s->offsets[layer][0]);
+        vf u = s->u + column * s->u_step;
+        vi inside = (column < (float)t->x.to) & (edges[0].u * u + edges[0].rest >= 0.0f) &
                     (edges[1].u * u + edges[1].rest >= 0.0f) &
                     (edges[2].u * u + edges[2].rest >= 0.0f);
         vf here = nearness.u * u + nearness.rest, before = vf_load(near + x);

@@ -21,7 +21,10 @@ struct kiln_row_lists {
     size_t room, band_room;
 };
 
-/* Returns the rows that have samples between two positions, out of `size` rows. */
+/* How far the bounds of a triangle are widened, px. Rounding displaces corners by less. */
+#define KILN_RANGE_MARGIN 0.0625f
+
+/* Returns the rows, or the columns, that have samples between two positions, out of `size`. */
 static inline struct kiln_row_range kiln_row_range_between(float low, float high, float size)
 {
     return (struct kiln_row_range){(int16_t)exact_clamp(low, 0.0f, size),
