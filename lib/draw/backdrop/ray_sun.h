@@ -358,7 +358,7 @@ SIMD vi find_near_entries(const struct kiln_ray_frame *frame, struct vf3 origin,
         if (!any(pending))
             break;
         const struct ray_entry e = read_entry(&frame->solids, first + i, pending);
-        bits |= pending & entry_is_near(frame, &e, origin) & (1 << i);
+        bits |= pending & entry_is_near(frame, &e, origin) & vi_all(1 << i);
     }
     return bits;
 }
