@@ -3,43 +3,67 @@
 #include "base/lane_math.h"
 #include "draw/vector/mesh_rows.h"
 
-struct plane_row {
-    float u, rest; /* factor of u; value at u = 0 */
-};
-
-static inline struct plane_row cut(const float plane[3], float v)
+/* Returns what a plane has in a row, without its part that changes with u. */
+static inline float rest_of(const float plane[3], float v)
 {
-    return (struct plane_row){plane[0], plane[1] * v + plane[2]};
+    return plane[1] * v + plane[2];
 }
 
-static inline void draw_row(const struct kiln_mesh_strip *s,
-                            const struct kiln_projected_triangle *t, int32_t number, uint32_t row,
-                            uint32_t layer)
+/* Holds what a triangle's planes have in a vector of columns in every row: factor of u times u. */
+struct across {
+    vf edges[3], nearness;
+    vi within; /* mask: columns that the triangle may touch */
+};
+
+static inline struct across across_columns(const struct kiln_mesh_strip *s,
+                                           const struct kiln_projected_triangle *t, int32_t x,
+                                           uint32_t layer)
 {
-    const float y = (float)(s->y + row) + s->offsets[layer][1];
-    if (y < t->top || y > t->bottom)
-        return;
-    float v = s->v + y * s->v_step;
-    struct plane_row edges[3], nearness = cut(t->nearness, v);
-    for (int i = 0; i < 3; i++)
-        edges[i] = cut(t->edges[i], v);
-    size_t at = (row * s->layers + layer) * s->pitch;
+    const vf column = vf_count() + ((float)x + s->offsets[layer][0]);
+    const vf u = s->u + column * s->u_step;
+    return (struct across){
+        .edges = {t->edges[0][0] * u, t->edges[1][0] * u, t->edges[2][0] * u},
+        .nearness = t->nearness[0] * u,
+        .within = column < (float)t->x.to,
+    };
+}
+
+/* Draws a vector of pixels of a triangle. Half of the vectors have none of its pixels; storing them
+ * all the same costs less than a branch that is often foreseen wrongly. at: the first pixel in the
+ * strip's arrays; number: of the triangle, plus 1. */
+static inline void draw_pixels(const struct kiln_mesh_strip *s,
+                               const struct kiln_projected_triangle *t, const struct across *across,
+                               float v, size_t at, int32_t number)
+{
     float *near = s->nearness + at;
+    vi inside = across->within;
+    for (int i = 0; i < 3; i++)
+        inside &= across->edges[i] + rest_of(t->edges[i], v) >= 0.0f;
+    const vf here = across->nearness + rest_of(t->nearness, v), before = vf_load(near);
+    inside &= (here > before) & (here <= s->nearness_max);
+    vf_store(near, vf_select(inside, here, before));
+    if (s->triangles) {
+        float *numbers = (float *)(void *)(s->triangles + at);
+        const vf seen = vf_load(numbers);
+        vf_store(numbers, (vf)vi_select(inside, vi_all(number), (vi)seen));
+    }
+}
+
+/* Draws a triangle in a layer, column by column of vectors, since most triangles are narrower than
+ * a vector. */
+static inline void draw_layer(const struct kiln_mesh_strip *s,
+                              const struct kiln_projected_triangle *t, uint32_t layer,
+                              int32_t number)
+{
+    const float down = s->offsets[layer][1], end = (float)(s->y + s->rows);
+    const int32_t from = (int32_t)exact_clamp(t->top - down + 1.0f, (float)s->y, end);
+    const int32_t to = (int32_t)exact_clamp(t->bottom - down + 1.0f, (float)s->y, end);
     for (int32_t x = t->x.from; x < t->x.to; x += LANES) {
-        const vf column = vf_count() + ((float)x + s->offsets[layer][0]);
-        vf u = s->u + column * s->u_step;
-        vi inside = (column < (float)t->x.to) & (edges[0].u * u + edges[0].rest >= 0.0f) &
-                    (edges[1].u * u + edges[1].rest >= 0.0f) &
-                    (edges[2].u * u + edges[2].rest >= 0.0f);
-        vf here = nearness.u * u + nearness.rest, before = vf_load(near + x);
-        inside &= (here > before) & (here <= s->nearness_max);
-        if (!any(inside))
-            continue;
-        vf_store(near + x, vf_select(inside, here, before));
-        if (s->triangles) {
-            float *numbers = (float *)(void *)(s->triangles + at + x);
-            vf seen = vf_load(numbers);
-            vf_store(numbers, (vf)vi_select(inside, vi_all(number), (vi)seen));
+        const struct across across = across_columns(s, t, x, layer);
+        for (int32_t y = from; y < to; y++) {
+            const size_t line = ((size_t)y - s->y) * s->layers + layer;
+            draw_pixels(s, t, &across, s->v + ((float)y + down) * s->v_step,
+                        line * s->pitch + (size_t)x, number);
         }
     }
 }
@@ -48,14 +72,10 @@ static void draw_triangles(const struct kiln_mesh_strip *strip,
                            const struct kiln_projected_triangle *triangles, const uint32_t *list,
                            size_t count)
 {
-    const int32_t top = (int32_t)strip->y, bottom = top + (int32_t)strip->rows;
     for (size_t i = 0; i < count; i++) {
-        const struct kiln_projected_triangle *t = &triangles[list[i]];
-        const struct kiln_row_range rows = kiln_rows_of_triangle(t, (float)bottom);
-        for (int32_t y = rows.from > top ? rows.from : top; y < rows.to; y++) {
-            for (uint32_t layer = 0; layer < strip->layers; layer++)
-                draw_row(strip, t, (int32_t)list[i] + 1, (uint32_t)(y - top), layer);
-        }
+        const uint32_t number = list[i];
+        for (uint32_t layer = 0; layer < strip->layers; layer++)
+            draw_layer(strip, &triangles[number], layer, (int32_t)number + 1);
     }
 }
 
