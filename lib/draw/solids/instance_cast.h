@@ -111,7 +111,8 @@ SIMD vf cast_edge(const float plane[3], vf u, vf v)
     return plane[0] * u + (plane[1] * v + plane[2]);
 }
 
-/* Updates the samples of LANES pixels of a row, from column x on, where the triangle is nearest. */
+/* Updates the samples of LANES pixels of a row, from column x on, where the triangle is nearest.
+ * Samples that it does not change are stored, too: a branch would often be foreseen wrongly. */
 SIMD void cast_pixels(const struct kiln_solid_strip *s, const struct cast_triangle *t,
                       int32_t number, int32_t triangle, uint32_t row, int32_t x)
 {
@@ -124,15 +125,15 @@ SIMD void cast_pixels(const struct kiln_solid_strip *s, const struct cast_triang
     vf depth = (a * t->depth[0] + b * t->depth[1] + c * t->depth[2]) / vf_max(sum, vf_all(1e-30f));
     vi visible = (sum > 0.0f) & (depth >= s->frame->view->eye.w) & (column < (float)t->x.to);
     size_t at = (size_t)row * KILN_SOLID_SAMPLES * s->pitch + (size_t)x;
-    for (int k = 0; k < KILN_SOLID_SAMPLES && any(visible); k++, at += s->pitch) {
+    if (!any(visible))
+        return;
+    for (int k = 0; k < KILN_SOLID_SAMPLES; k++, at += s->pitch) {
         const struct vf3 ray =
             view_ray(s->frame, column + SAMPLE_OFFSETS[k][0], vf_all(line + SAMPLE_OFFSETS[k][1]));
         vf before = vf_load(s->samples + at);
         vi nearer = visible & (depth < before) & (cast_edge(t->edges[0], ray.x, ray.y) >= 0.0f) &
                     (cast_edge(t->edges[1], ray.x, ray.y) >= 0.0f) &
                     (cast_edge(t->edges[2], ray.x, ray.y) >= 0.0f);
-        if (!any(nearer))
-            continue;
         float *numbers = (float *)(void *)(s->nearest + at);
         float *triangles = (float *)(void *)(s->triangles + at);
         vf_store(s->samples + at, vf_select(nearer, depth, before));
