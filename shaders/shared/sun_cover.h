@@ -128,23 +128,51 @@ REAL_FN S(box_outline) box_outline_all(S(sun_edges) edges)
     return o;
 }
 
-/* Returns how far the ray passes a strip, m; below 0: within it. near_a to far_b: the t at which
- * light enters and leaves the slabs of the strip's two axes. */
-REAL_FN real box_strip_outside(S(box_strip) strip, real near_a, real near_b, real far_a, real far_b)
+/* The two edges of a strip: how far inside of each the ray passes, m, below 0 outside; and how far
+ * along the ray it passes them, m. */
+struct box_edges {
+    real one, other, one_at, other_at;
+};
+
+/* near_a to far_b: the t at which light enters and leaves the slabs of the strip's two axes. */
+REAL_FN S(box_edges) box_edges_of(S(box_strip) strip, real near_a, real near_b, real far_a,
+                                  real far_b)
 {
-    real one = (far_b - near_a) * strip.root, other = (far_a - near_b) * strip.root;
-    return -real_min(one, other);
+    S(box_edges) edges;
+    edges.one = (far_b - near_a) * strip.root;
+    edges.other = (far_a - near_b) * strip.root;
+    edges.one_at = (near_a * strip.second + far_b * strip.first) * strip.inverse;
+    edges.other_at = (near_b * strip.first + far_a * strip.second) * strip.inverse;
+    return edges;
 }
 
-/* Returns the cover of a strip. near_a to far_b: as for box_strip_outside. */
-REAL_FN real box_strip_cover(S(box_strip) strip, real near_a, real near_b, real far_a, real far_b,
-                             real spread, real radius)
+/* Return the edges of each strip of a box, from where the light's ray crosses the box's slabs. */
+REAL_FN S(box_edges) box_edges_xy(S(ray_slabs) s, S(box_outline) o)
 {
-    real one = (far_b - near_a) * strip.root, other = (far_a - near_b) * strip.root;
-    real one_at = (near_a * strip.second + far_b * strip.first) * strip.inverse;
-    real other_at = (near_b * strip.first + far_a * strip.second) * strip.inverse;
-    real cover = disc_cover(one / sun_penumbra(one_at, spread, radius)) +
-                 disc_cover(other / sun_penumbra(other_at, spread, radius)) - 1.0f;
+    return box_edges_of(o.xy, s.near.x, s.near.y, s.far.x, s.far.y);
+}
+
+REAL_FN S(box_edges) box_edges_yz(S(ray_slabs) s, S(box_outline) o)
+{
+    return box_edges_of(o.yz, s.near.y, s.near.z, s.far.y, s.far.z);
+}
+
+REAL_FN S(box_edges) box_edges_xz(S(ray_slabs) s, S(box_outline) o)
+{
+    return box_edges_of(o.xz, s.near.x, s.near.z, s.far.x, s.far.z);
+}
+
+/* Returns how far the ray passes outside of a strip, m; below 0: within it. */
+REAL_FN real box_strip_outside(S(box_edges) edges)
+{
+    return -real_min(edges.one, edges.other);
+}
+
+/* Returns the cover of a strip. */
+REAL_FN real box_strip_cover(S(box_edges) edges, real spread, real radius)
+{
+    real cover = disc_cover(edges.one / sun_penumbra(edges.one_at, spread, radius)) +
+                 disc_cover(edges.other / sun_penumbra(edges.other_at, spread, radius)) - 1.0f;
     return real_max(cover, real_all(0.0f));
 }
 
@@ -164,9 +192,9 @@ struct box_span {
  * metres further inside, which leaves the slabs later by at most `later` for each metre. */
 REAL_FN S(box_span) box_span_of(S(ray_slabs) s, S(box_outline) o, float margin)
 {
-    real xy = box_strip_outside(o.xy, s.near.x, s.near.y, s.far.x, s.far.y);
-    real yz = box_strip_outside(o.yz, s.near.y, s.near.z, s.far.y, s.far.z);
-    real xz = box_strip_outside(o.xz, s.near.x, s.near.z, s.far.x, s.far.z);
+    real xy = box_strip_outside(box_edges_xy(s, o));
+    real yz = box_strip_outside(box_edges_yz(s, o));
+    real xz = box_strip_outside(box_edges_xz(s, o));
     real outside = real_max(real_max(xy, real_all(0.0f)), real_max(yz, xz));
     real aside = outside + margin;
     real3 later = REAL3(aside * o.later.x, aside * o.later.y, aside * o.later.z);
@@ -179,9 +207,9 @@ REAL_FN S(box_span) box_span_of(S(ray_slabs) s, S(box_outline) o, float margin)
 /* Returns the cover of a box, from where the light's ray crosses its slabs. */
 REAL_FN real box_cover(S(ray_slabs) s, S(box_outline) o, real spread, real radius)
 {
-    real xy = box_strip_cover(o.xy, s.near.x, s.near.y, s.far.x, s.far.y, spread, radius);
-    real yz = box_strip_cover(o.yz, s.near.y, s.near.z, s.far.y, s.far.z, spread, radius);
-    real xz = box_strip_cover(o.xz, s.near.x, s.near.z, s.far.x, s.far.z, spread, radius);
+    real xy = box_strip_cover(box_edges_xy(s, o), spread, radius);
+    real yz = box_strip_cover(box_edges_yz(s, o), spread, radius);
+    real xz = box_strip_cover(box_edges_xz(s, o), spread, radius);
     return both_strips(both_strips(yz, xz, o.alike_xy), xy, o.alike_z);
 }
 

@@ -10,17 +10,13 @@
 
 /* Returns what box_strip_cover does in the lanes of a mask. Where each of these lanes is beyond the
  * penumbras of both edges, the cover is 0 or 1 and needs no division. */
-SIMD vf ray_strip_cover(const struct box_strip *strip, vf near_a, vf near_b, vf far_a, vf far_b,
-                        vi near, vf spread, vf radius)
+SIMD vf ray_strip_cover(struct box_edges edges, vi near, vf spread, vf radius)
 {
-    const vf one = (far_b - near_a) * strip->root, other = (far_a - near_b) * strip->root;
-    const vf one_at = (near_a * strip->second + far_b * strip->first) * strip->inverse;
-    const vf other_at = (near_b * strip->first + far_a * strip->second) * strip->inverse;
-    const vf p = sun_penumbra(one_at, spread, radius), q = sun_penumbra(other_at, spread, radius);
-    if (!any(near & ((vf_abs(one) < p) | (vf_abs(other) < q))))
-        return vf_where((one > 0.0f) & (other > 0.0f), vf_all(1.0f));
-    const vf cover = disc_cover(one / p) + disc_cover(other / q) - 1.0f;
-    return vf_max(cover, vf_all(0.0f));
+    const vi blurred = (vf_abs(edges.one) < sun_penumbra(edges.one_at, spread, radius)) |
+                       (vf_abs(edges.other) < sun_penumbra(edges.other_at, spread, radius));
+    if (any(near & blurred))
+        return box_strip_cover(edges, spread, radius);
+    return vf_where((edges.one > 0.0f) & (edges.other > 0.0f), vf_all(1.0f));
 }
 
 /* Returns what box_cover does in the lanes of a mask; 0 in other lanes. */
@@ -28,18 +24,15 @@ SIMD vf ray_box_cover(const struct ray_slabs *s, const struct box_outline *o, vi
                       vf radius)
 {
     const vf none = vf_all(0.0f);
-    const vf yz =
-        ray_strip_cover(&o->yz, s->near.y, s->near.z, s->far.y, s->far.z, near, spread, radius);
+    const vf yz = ray_strip_cover(box_edges_yz(*s, *o), near, spread, radius);
     near &= yz != 0.0f;
     if (!any(near))
         return none;
-    const vf xz =
-        ray_strip_cover(&o->xz, s->near.x, s->near.z, s->far.x, s->far.z, near, spread, radius);
+    const vf xz = ray_strip_cover(box_edges_xz(*s, *o), near, spread, radius);
     near &= xz != 0.0f;
     if (!any(near))
         return none;
-    const vf xy =
-        ray_strip_cover(&o->xy, s->near.x, s->near.y, s->far.x, s->far.y, near, spread, radius);
+    const vf xy = ray_strip_cover(box_edges_xy(*s, *o), near, spread, radius);
     return vf_where(near, both_strips(both_strips(yz, xz, o->alike_xy), xy, o->alike_z));
 }
 

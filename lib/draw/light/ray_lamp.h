@@ -135,6 +135,7 @@ SIMD vi lamp_meets_box_sphere(const struct kiln_lamp_objects *objects, int i,
 SIMD void hide_lamp_by_boxes(const struct kiln_lamp_objects *objects, uint32_t boxes,
                              struct lamp_receiver *r)
 {
+    /* mostly no box is near, and the outline is not needed */
     while (boxes && !any(lamp_meets_box_sphere(objects, __builtin_ctz(boxes), r)))
         boxes &= boxes - 1;
     if (!boxes)

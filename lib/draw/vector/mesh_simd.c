@@ -55,6 +55,7 @@ static inline void draw_layer(const struct kiln_mesh_strip *s,
                               const struct kiln_projected_triangle *t, uint32_t layer,
                               int32_t number)
 {
+    /* from the first row whose samples are below the triangle's top to the last above its bottom */
     const float down = s->offsets[layer][1], end = (float)(s->y + s->rows);
     const int32_t from = (int32_t)exact_clamp(t->top - down + 1.0f, (float)s->y, end);
     const int32_t to = (int32_t)exact_clamp(t->bottom - down + 1.0f, (float)s->y, end);
