@@ -10,14 +10,44 @@ typedef uint16_t shorts_of_lanes __attribute__((vector_size(2 * LANES)));
 /* Bits of floats. */
 enum {
     FLOAT_INFINITY = 0x7f800000,
+    UNDEFINED = 0x7fc00000,
     HALF_MOST = 0x477fe000,   /* 65504, the largest half: a larger one would read as infinity */
     HALF_NORMAL = 0x38800000, /* 2^-14, the least half of full precision */
     HALF_STEP = 0x3f000000,   /* 1/2, whose last bit is worth 2^-24, the least half */
     REBIASED = (int32_t)((uint32_t)(15 - 127) << 23)
 };
 
-/* Returns the bits of the nearest halves; of two, that with an even last bit. What is too large
- * becomes the largest half. */
+SIMD void store_bytes(uint8_t *to, vi x)
+{
+    const bytes_of_lanes bytes = __builtin_convertvector(x, bytes_of_lanes);
+    memcpy(to, &bytes, sizeof bytes);
+}
+
+SIMD void store_shorts(uint8_t *to, vi x)
+{
+    const shorts_of_lanes shorts = __builtin_convertvector(x, shorts_of_lanes);
+    memcpy(to, &shorts, sizeof shorts);
+}
+
+/* store_halves stores the bytes of the nearest halves; of two, that with an even last bit. What is
+ * too large becomes the largest half. */
+
+#if KILN_SIMD_LEVEL == 3
+
+SIMD void store_halves(const struct kiln_exr_row *row, size_t x, vf samples)
+{
+    const vi sign = (vi)samples & INT32_MIN, undefined = samples != samples;
+    const vf size = vf_min(vf_abs(samples), (vf)vi_all(HALF_MOST));
+    const vi kept = vi_select(undefined, vi_all(UNDEFINED), (vi)size) | sign;
+    const __m256i halves = _mm512_cvtps_ph((__m512)kept, _MM_FROUND_TO_NEAREST_INT);
+    const __m128i low = _mm256_cvtepi16_epi8(halves);
+    const __m128i high = _mm256_cvtepi16_epi8(_mm256_srli_epi16(halves, 8));
+    memcpy(row->low + x, &low, sizeof low);
+    memcpy(row->high + x, &high, sizeof high);
+}
+
+#else
+
 SIMD vi half_bits(vf x)
 {
     const vi sign = (vi)x & INT32_MIN;
@@ -33,25 +63,20 @@ SIMD vi half_bits(vf x)
     return half | (vi)((vu)sign >> 16);
 }
 
-SIMD void store_bytes(uint8_t *to, vi x)
+SIMD void store_halves(const struct kiln_exr_row *row, size_t x, vf samples)
 {
-    const bytes_of_lanes bytes = __builtin_convertvector(x, bytes_of_lanes);
-    memcpy(to, &bytes, sizeof bytes);
+    const vi bits = half_bits(samples);
+    store_bytes(row->low + x, bits & 0xff);
+    store_bytes(row->high + x, bits >> 8);
 }
 
-SIMD void store_shorts(uint8_t *to, vi x)
-{
-    const shorts_of_lanes shorts = __builtin_convertvector(x, shorts_of_lanes);
-    memcpy(to, &shorts, sizeof shorts);
-}
+#endif
 
 /* Stores a vector of samples, the pixels from x on. */
 SIMD void store_samples(const struct kiln_exr_row *row, size_t x, vf samples, bool half)
 {
     if (half) {
-        const vi bits = half_bits(samples);
-        store_bytes(row->low + x, bits & 0xff);
-        store_bytes(row->high + x, bits >> 8);
+        store_halves(row, x, samples);
     } else {
         const vi bits = (vi)samples;
         store_shorts(row->low + 2 * x, (bits & 0xff) | ((bits >> 8) & 0xff00));

@@ -7,7 +7,7 @@
  * - Repeats are looked for at some bytes only: at fewer the longer none was found, at last at every
  *   eighth of a row, which finds long repeats of whole rows. Matches then grow in both directions.
  * - In a plane whose bytes are mostly the same, as high bytes are, a literal takes two or three
- *   bits, so that only long repeats pay. There every eighth byte is enough from the start.
+ *   bits, so that only long repeats pay. There every sixteenth byte is enough from the start.
  * - Rows of floats get a search at nearly every byte: they have short repeats, as depths of a slope
  *   do.
  * - A hash has one place, that of the latest bytes.
@@ -32,12 +32,14 @@ enum {
 
 /* How repeats are looked for: the first bytes that must be the same, the bytes of the shortest
  * match, how often nothing is found (as a power of two) until the step doubles, and the step at
- * which the bytes of a match are noted. */
+ * which the bytes of a match are noted. A step is at most 2^most_step bytes. Without patience it
+ * is always that. */
 struct manner {
-    unsigned same, least, patience, noted;
+    unsigned same, least, patience, noted, most_step;
 };
 
-static const struct manner SPARSE = {8, 16, 0, 8}, USUAL = {6, 6, 4, 2}, DENSE = {4, 4, 6, 1};
+static const struct manner SPARSE = {8, 16, 0, 8, 4}, USUAL = {6, 6, 4, 2, 3},
+                           DENSE = {4, 4, 6, 1, 3};
 
 struct search {
     const uint8_t *bytes;
@@ -119,23 +121,24 @@ INLINE bool search_row(struct search *s, size_t row, size_t row_end, const struc
     size_t at = s->literals > row ? s->literals : row;
     const size_t words = s->end < WORD ? 0 : s->end - WORD + 1; /* the first place without one */
     const size_t end = row_end < words ? row_end : words;
-    unsigned misses = how.patience ? s->misses : 3;
+    const size_t most_step = (size_t)1 << how.most_step;
+    unsigned misses = how.patience ? s->misses : how.most_step;
     if (how.patience == 0)
-        at = align(row, at, WORD);
+        at = align(row, at, most_step);
     while (at < end) {
         const size_t distance = find_repeat(s, at, how.same);
         const size_t least = distance == 1 ? SHORTEST_RUN : how.least;
         if (distance == 0 || !add_match(s, at, distance, least)) {
             misses++;
             const unsigned doubled = misses >> how.patience;
-            const size_t step = (size_t)1 << (doubled < 3 ? doubled : 3);
+            const size_t step = doubled < how.most_step ? (size_t)1 << doubled : most_step;
             at = align(row, at + 1, step);
             continue;
         }
         for (size_t i = align(row, at + 1, how.noted);
              distance != 1 && i < s->literals && i + WORD <= s->end; i += how.noted)
             *place_of(s, first_bytes(s->bytes + i, how.same)) = (uint16_t)i;
-        at = how.patience ? s->literals : align(row, s->literals, WORD);
+        at = how.patience ? s->literals : align(row, s->literals, most_step);
         misses = how.patience ? 0 : misses;
         if (s->count == KILN_ZIP_SEQUENCES)
             return false;
