@@ -40,6 +40,13 @@ SIMD vf vf_load(const float *from)
     return *(const vf_unaligned *)from;
 }
 
+SIMD vi vi_load(const int32_t *from)
+{
+    vi x;
+    memcpy(&x, from, sizeof x);
+    return x;
+}
+
 SIMD void vf_store(float *to, vf x)
 {
     *(vf_unaligned *)to = x;

@@ -23,8 +23,15 @@
  * part of the light that it gets, -1 to 1; with KILN_EDGE_MARK added where its samples show that
  * it is at an edge inside a mesh. Marks aside, the threshold is the greatest difference between
  * neighbours that is no edge. Light changes by this much a pixel in a penumbra four pixels wide. */
-#define KILN_EDGE_THRESHOLD 0.25f
-#define KILN_EDGE_MARK      32768.0f
+#define KILN_EDGE_THRESHOLD  0.25f
+#define KILN_EDGE_MOST_LIGHT 2.0f /* the greatest difference on one surface */
+#define KILN_EDGE_MARK       32768.0f
+
+/* The samples of a pixel that lie on one smooth piece of surface share their light. The least
+ * cosine between normals on such a piece, and how far its points may lie off its plane, as a part
+ * of their distance from each other. */
+#define KILN_PIECE_COSINE 0.995f
+#define KILN_PIECE_SLOPE  0.15f
 
 /* Edge in pixels of an atlas's cells. */
 #define KILN_ATLAS_CELL 128

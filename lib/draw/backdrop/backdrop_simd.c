@@ -3,198 +3,10 @@
 #include <assert.h>
 
 #include "draw/backdrop/backdrop_rows.h"
-#include "draw/backdrop/ray_edges.h"
-#include "draw/backdrop/ray_floor.h"
-#include "draw/backdrop/ray_mesh.h"
-#include "shared/edge_mean.h"
+#include "draw/backdrop/ray_samples.h"
 
 static_assert((int)TILE == (int)GRID_HEIGHT && (int)STRIP == (int)GRID_WIDTH,
               "a strip of the picture has a grid");
-
-/* Holds rays from the eye through pixels. */
-struct eye_rays {
-    struct ray ray;
-    struct ray_place place;
-};
-
-SIMD struct eye_rays rays_at(const struct kiln_ray_frame *frame, const struct ray_place *place)
-{
-    const float4 *rows = frame->view->world_to_view;
-    vf u = place->u, v = place->v;
-    return (struct eye_rays){
-        .ray = {.origin = vf3_all(frame->view->eye),
-                .direction = {rows[0].x * u + rows[1].x * v - rows[2].x,
-                              rows[0].y * u + rows[1].y * v - rows[2].y,
-                              rows[0].z * u + rows[1].z * v - rows[2].z}},
-        .place = *place,
-    };
-}
-
-/* Returns the rays through the centres of pixels. */
-SIMD struct eye_rays rays_through_pixels(const struct kiln_ray_frame *frame, vi column, vi row)
-{
-    const float4 frustum = frame->view->frustum, principal = frame->view->principal;
-    vf x = vf_of(column) + 0.5f, y = vf_of(row) + 0.5f;
-    struct ray_place place = {
-        .u = (x * (2.0f / frustum.z) - 1.0f) * frustum.x - principal.z,
-        .v = (1.0f - y * (2.0f / frustum.w)) * frustum.y - principal.w,
-    };
-    if (frame->meshes)
-        place.hit = row * (int32_t)(KILN_HIT_LAYERS * frame->meshes->pitch) + column;
-    return rays_at(frame, &place);
-}
-
-/* Finds the first hit of each ray. floor: the t at which each ray meets the floor; the albedo of
- * hits on the floor is left unset. */
-SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
-                          const struct kiln_ray_objects *objects, const struct ray *ray, vf floor,
-                          const struct ray_place *place)
-{
-    struct ray_hit nearest = {.t = vf_all(RAY_FAR),
-                              .surface = vf_all(-1.0f),
-                              .normal = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)},
-                              .albedo = {{0}, {0}, {0}}};
-    trace_boxes(frame, objects->boxes, ray, &nearest);
-    trace_spheres(frame, objects->spheres, ray, &nearest);
-    trace_cylinders(frame, objects->cylinders, ray, &nearest);
-    trace_capsules(frame, objects->capsules, ray, &nearest);
-    trace_oriented_boxes(frame, objects->oriented_boxes, ray, &nearest);
-    trace_planes(frame, objects->planes, ray, &nearest);
-    if (frame->meshes && place->layer >= 0)
-        trace_meshes(frame, place, &nearest);
-    vi below = floor < nearest.t;
-    const struct vf3 up = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)};
-    nearest.t = vf_select(below, floor, nearest.t);
-    nearest.surface = vf_where(~below, nearest.surface);
-    nearest.normal = vf3_select(below, up, nearest.normal);
-    return nearest;
-}
-
-/* Holds the colours and the first hits of rays. */
-struct shaded_rays {
-    struct ray_color color;
-    struct ray_hit first;
-    vf arrives; /* part of the sun that arrives at the hit through smoke */
-    vf light;   /* part of the sun that the hit sees past objects, less the part of its other light
-                 * that shadows of lamps take; -1 to 1 */
-    struct ray_reflection mirror; /* of a glossy floor */
-    struct vf3 reflected;         /* light of the lamps that it reflects to the eye */
-};
-
-/* Describes pixels of a row whose rays are cast. */
-struct grid_row {
-    const struct light_grid *grid, *mirrored; /* of their strip, and of its reflections or NULL */
-    uint32_t column, row;                     /* of the first pixel, in the strip */
-};
-
-/* Describes what helps to shade rays; members are NULL where there is no such help. */
-struct ray_help {
-    const struct grid_row *row;
-    const struct cached_rays *cached;
-};
-
-/* Computes the light that arrives at the hits, and their colours. */
-SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, bool glossy,
-                     const struct ray_help *help, struct shaded_rays *shaded)
-{
-    const struct ray_hit *hit = &shaded->first;
-    const struct ray_point point = {ray_at(ray, hit->t), hit->normal, hit->surface >= 0.0f};
-    struct arrived arrived = {.irradiance = {{0}, {0}, {0}}};
-    if (any(point.active)) {
-        const vf sunlit = sun_seen(frame, &point, facing_sun(frame, &point), help->cached);
-        const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
-        shaded->arrives =
-            sunlit * smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
-        glossy = glossy && any(hit->surface == 0.0f);
-        if (glossy)
-            shaded->mirror = floor_reflection_along(frame, ray);
-        struct lit_surface surface = {
-            .point = point, .gloss = glossy ? &shaded->mirror.at : NULL, .cached = help->cached};
-        struct grid_place place;
-        if (help->row) {
-            const struct grid_row *row = help->row;
-            place = grid_place_of(row->grid, row->column, row->row, hit, point.at);
-            surface.grid = &place;
-        }
-        arrived = light_without_sun(frame, &surface);
-        shaded->light = sunlit - arrived.hidden / vf_max(arrived.all, vf_all(1e-6f));
-        shaded->reflected = arrived.reflected;
-    }
-    const struct hit_light light = {arrived.irradiance, shaded->arrives};
-    shaded->color = radiance_or_sky(frame, hit, ray->direction, &light, help->cached);
-}
-
-/* Finds what rays from the eye, or reflected ones, hit. place->layer is -1 for the latter. */
-SIMD struct ray_hit find_hit(const struct kiln_ray_frame *frame,
-                             const struct kiln_ray_objects *objects, const struct ray *ray,
-                             const struct ray_place *place, const struct cached_rays *cached)
-{
-    if (is_filled(cached))
-        return read_cached_hit(cached);
-    const vf floor = place->layer < 0 ? vf_all(2.0f * RAY_FAR) : find_floor(frame, ray);
-    struct ray_hit hit = trace(frame, objects, ray, floor, place);
-    const vi below = hit.surface == 0.0f;
-    if (any(below))
-        hit.albedo = vf3_select(below, floor_albedo(frame, ray, hit.t, below), hit.albedo);
-    if (cached)
-        fill_cached_hit(cached, &hit);
-    return hit;
-}
-
-/* glossy: whether reflections of a glossy floor are wanted. */
-SIMD struct shaded_rays shade_rays(const struct kiln_ray_frame *frame,
-                                   const struct kiln_ray_objects *objects, const struct ray *ray,
-                                   const struct ray_place *place, bool glossy,
-                                   const struct ray_help *help)
-{
-    struct shaded_rays shaded = {.first = find_hit(frame, objects, ray, place, help->cached)};
-    light_hits(frame, ray, glossy, help, &shaded);
-    return shaded;
-}
-
-/* Adds the reflection of a glossy floor by following the reflected ray. eye: what helps with the
- * ray from the eye. */
-SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *ray,
-                         const struct ray_help *eye, struct shaded_rays *shaded)
-{
-    vi floor = shaded->first.surface == 0.0f;
-    if (!any(floor))
-        return;
-    const struct kiln_ray_objects objects = all_objects(frame);
-    const struct ray_reflection *m = &shaded->mirror;
-    const struct ray reflected = {ray_at(ray, shaded->first.t), m->at.direction};
-    const struct ray_place nowhere = {.layer = -1};
-    struct ray_help help = {NULL, NULL};
-    struct cached_rays planes;
-    if (eye->cached) {
-        planes = cached_reflections(eye->cached);
-        help.cached = &planes;
-    }
-    struct grid_row row;
-    if (eye->row && eye->row->mirrored) {
-        row = (struct grid_row){eye->row->mirrored, NULL, eye->row->column, eye->row->row};
-        help.row = &row;
-    }
-    const struct shaded_rays reflection =
-        shade_rays(frame, &objects, &reflected, &nowhere, false, &help);
-    struct vf3 more = vf3_scale(shaded->reflected, m->part);
-    more = vf3_add_scaled(more, m->sun, shaded->arrives);
-    more = vf3_add_scaled(more, reflection.color.rgb, m->part * m->at.reflectance);
-    shaded->color.rgb = vf3_select(floor, vf3_add(shaded->color.rgb, more), shaded->color.rgb);
-}
-
-SIMD struct shaded_rays shade_eye_rays(const struct kiln_ray_frame *frame,
-                                       const struct kiln_ray_objects *objects,
-                                       const struct eye_rays *eye, const struct ray_help *help)
-{
-    struct shaded_rays shaded =
-        shade_rays(frame, objects, &eye->ray, &eye->place, frame->floor_gloss, help);
-    shaded.color.rgb =
-        add_sun_disc(frame, shaded.color.rgb, eye->ray.direction, shaded.first.surface < 0.0f);
-    if (frame->floor_gloss)
-        add_reflection(frame, &eye->ray, help, &shaded);
-    return shaded;
-}
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
@@ -224,19 +36,6 @@ static struct kiln_ray_objects find_objects(const struct kiln_backdrop_picture *
         objects_overlapping(p->oriented_boxes, frame->shapes->oriented_counts.y, left, top,
                             columns),
         first_bits(frame->shapes->oriented_counts.z)};
-}
-
-SIMD void store_colors(float *to, const struct ray_color *color, uint32_t count)
-{
-    _Alignas(64) float channels[4][LANES];
-    vf_store(channels[0], color->rgb.x);
-    vf_store(channels[1], color->rgb.y);
-    vf_store(channels[2], color->rgb.z);
-    vf_store(channels[3], color->alpha);
-    for (uint32_t i = 0; i < count; i++, to += 4) {
-        for (int c = 0; c < 4; c++)
-            to[c] = channels[c][i];
-    }
 }
 
 SIMD void store_numbers(float *to, vf numbers, uint32_t count)
@@ -340,7 +139,8 @@ SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_r
         planes = cached_centers(p->cache, x, y);
     const struct cached_rays *cached = p->cache ? &planes : NULL;
     const struct ray_help help = {grid_row, cached};
-    const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, &help);
+    const struct ray_hit hit = find_hit(frame, objects, &eye.ray, &eye.place, cached);
+    const struct shaded_rays shaded = shade_hits(frame, &eye.ray, &hit, &help);
     const vf surface = 4.0f * mark_surfaces(frame, &eye, &shaded.first, cached);
     store_colors(p->color + 4 * first, &shaded.color, count);
     store_numbers(p->depth + first, shaded.first.t, count);
@@ -367,44 +167,6 @@ static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
             }
         }
     }
-}
-
-/* ---- edges ----------------------------------------------------------------------------------- */
-
-/* Stores the colours of pixels in the lanes of a mask. */
-SIMD void store_pixels(const struct kiln_backdrop_picture *p, const struct ray_color *color,
-                       vi pixel, vi active)
-{
-    _Alignas(64) float channels[4 * LANES];
-    store_colors(channels, color, LANES);
-    for (int i = 0; i < LANES; i++) {
-        if (active[i])
-            memcpy(p->color + 4 * (size_t)pixel[i], channels + 4 * (size_t)i, 4 * sizeof *channels);
-    }
-}
-
-/* Casts the rays of pixels at edges, and writes the mean of each, in the lanes of a mask. cached:
- * of the first sample, or NULL. */
-SIMD void antialias_pixels(const struct kiln_backdrop_picture *p,
-                           const struct kiln_ray_objects *objects, vi column, vi row, vi active,
-                           const struct cached_rays *cached)
-{
-    const struct kiln_ray_frame *frame = p->frame;
-    const struct eye_rays center = rays_through_pixels(frame, column, row);
-    const vf part = vf_all(1.0f / (float)KILN_EDGE_SAMPLES);
-    struct edge_sum sum = edge_sum_none();
-    for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
-        const struct ray_place place = sample_place(frame, &center.place, s);
-        const struct eye_rays eye = rays_at(frame, &place);
-        struct cached_rays planes;
-        if (cached)
-            planes = cached_sample(cached, s);
-        const struct ray_help help = {.cached = cached ? &planes : NULL};
-        const struct shaded_rays shaded = shade_eye_rays(frame, objects, &eye, &help);
-        sum = edge_add(sum, shaded.color.rgb, shaded.color.alpha, part, frame->view->exposure.x);
-    }
-    const struct ray_color mean = {edge_mean(sum), sum.alpha};
-    store_pixels(p, &mean, row * (int32_t)p->width + column, active);
 }
 
 /* ---- edges in the cache ---------------------------------------------------------------------- */
@@ -456,7 +218,7 @@ static void light_cached_edges(const struct kiln_backdrop_picture *p,
         if (!any(edge))
             continue;
         const struct cached_rays cached = cached_samples(cache, edges, k, true);
-        antialias_pixels(p, &none, column, row, edge, &cached);
+        antialias_cached(p, &none, column, row, edge, &cached);
     }
 }
 
@@ -480,14 +242,17 @@ static void antialias_listed(const struct kiln_backdrop_picture *p, uint32_t x, 
         at[0][count - 1 + i] = at[0][count - 1];
         at[1][count - 1 + i] = at[1][count - 1];
     }
-    for (int i = 0; i < count; i += LANES) {
-        vi column, row;
-        memcpy(&column, at[0] + i, sizeof column);
-        memcpy(&row, at[1] + i, sizeof row);
-        struct cached_rays cached;
-        const bool is_cached = edges && add_to_cache(p->cache, edges, column, row, &cached);
-        antialias_pixels(p, &objects, column, row, vi_count() < count - i,
-                         is_cached ? &cached : NULL);
+    int i = 0;
+    struct cached_rays cached;
+    for (; i < count && edges; i += LANES) {
+        const vi column = vi_load(at[0] + i), row = vi_load(at[1] + i);
+        if (!add_to_cache(p->cache, edges, column, row, &cached))
+            break;
+        antialias_cached(p, &objects, column, row, vi_count() < count - i, &cached);
+    }
+    for (; i < count; i += SAMPLED_PIXELS) {
+        const int some = count - i < SAMPLED_PIXELS ? count - i : SAMPLED_PIXELS;
+        antialias_together(p, &objects, some, at[0] + i, at[1] + i);
     }
 }
 

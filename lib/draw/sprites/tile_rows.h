@@ -3,7 +3,7 @@
 #ifndef KILN_DRAW_SPRITES_TILE_ROWS_H
 #define KILN_DRAW_SPRITES_TILE_ROWS_H
 
-#include "draw/sprites/compress.h"
+#include "base/compress.h"
 #include "draw/sprites/tile.h"
 
 enum {

@@ -6,9 +6,10 @@
  * FLOOR_IMAGE, FLOOR_GLOSS, SKY_IMAGE, SOFT_SUN.
  *
  * lib/draw/backdrop/backdrop_gl.c runs two passes. The first casts one ray through the centre of
- * each pixel and notes which surface it hits. The second casts SAMPLES rays a pixel at edges, which
- * are where neighbouring pixels hit different surfaces: backdrop_edges.vert finds the tiles that
- * have edges, this shader their pixels. */
+ * each pixel and notes which surface it hits. The second casts SAMPLES rays more a pixel at edges,
+ * which are where neighbouring pixels hit different surfaces: backdrop_edges.vert finds the tiles
+ * that have edges, this shader their pixels. It computes light once for those rays of a pixel that
+ * hit one smooth piece of surface, unless a shadow parts the pixel. */
 // variant: SAMPLES=1
 // variant: SAMPLES=4
 // variant: SAMPLES=1 ROUND=1
@@ -115,6 +116,47 @@ hit trace(vec3 origin, vec3 direction, vec4 ground, int layer)
     return nearest;
 }
 
+#if SAMPLES == 1
+
+bool needs_light(int ray, hit h, vec3 point)
+{
+    return true;
+}
+
+#else
+
+/* Rays of the pixel: 0: that through its centre; then its samples. The piece of surface that each
+ * hits has the number of the first ray that hits it; where the pixel is not lit evenly, each sample
+ * has a piece of its own. */
+hit ray_hits[1 + SAMPLES];
+vec3 ray_points[1 + SAMPLES];
+int ray_pieces[1 + SAMPLES];
+bool lit_evenly;
+
+bool on_one_piece(int ray, hit h, vec3 point)
+{
+    vec3 way = point - ray_points[ray];
+    float off = dot(way, ray_hits[ray].normal);
+    bool smooth_piece = dot(ray_hits[ray].normal, h.normal) >= KILN_PIECE_COSINE &&
+                        off * off <= KILN_PIECE_SLOPE * KILN_PIECE_SLOPE * dot(way, way);
+    return ray_hits[ray].surface == h.surface && (h.surface < 0 || smooth_piece);
+}
+
+/* Notes what a ray hits, and returns whether light must be computed there. The centre needs it only
+ * for samples on the same piece. */
+bool needs_light(int ray, hit h, vec3 point)
+{
+    ray_hits[ray] = h;
+    ray_points[ray] = point;
+    ray_pieces[ray] = ray;
+    for (int before = ray - 1; before >= 0; before--)
+        ray_pieces[ray] = on_one_piece(before, h, point) ? ray_pieces[before] : ray_pieces[ray];
+    ray_pieces[ray] = lit_evenly ? ray_pieces[ray] : ray;
+    return ray_pieces[ray] == ray && (ray > 0 || lit_evenly);
+}
+
+#endif
+
 /* Holds the colour of a ray from the eye and its first hit. */
 struct shaded_ray {
     vec4 color;
@@ -123,10 +165,10 @@ struct shaded_ray {
     float hidden; /* part of its other light that shadows of lamps take */
 };
 
-/* Follows a ray from the eye and, where it hits a glossy floor, the reflected ray. Both run in one
- * loop, since compilers take minutes over a second copy of this code. The loop has its test at the
- * end, since software GL runs the body of a loop with its test at the start once more than
- * needed. */
+/* Follows a ray from the eye and, where it hits a glossy floor, the reflected ray. The colour is
+ * unset where no light is needed. Both rays run in one loop, since compilers take minutes over a
+ * second copy of this code. The loop has its test at the end, since software GL runs the body of a
+ * loop with its test at the start once more than needed. layer: as for trace; 0 is the centre. */
 shaded_ray shade_eye_ray(vec3 direction, int layer)
 {
     shaded_ray shaded;
@@ -139,6 +181,8 @@ shaded_ray shade_eye_ray(vec3 direction, int layer)
     do {
         hit h = trace(origin, direction, ground, first ? layer : -1);
         vec3 point = origin + direction * h.t;
+        if (first && !needs_light(layer, h, point))
+            break;
         float sunlit = sun_visibility(point, h.normal);
         float arriving = sunlit * sunlight_through_smoke(point);
         arrived light = skylight(h, point);
@@ -198,10 +242,16 @@ void main()
 {
     if (!is_edge(ivec2(gl_FragCoord.xy)))
         discard;
+    lit_evenly = is_lit_evenly(ivec2(gl_FragCoord.xy));
+    vec4 colors[1 + SAMPLES];
+    for (int ray = 0; ray <= SAMPLES; ray++) {
+        vec2 offset = ray == 0 ? vec2(0.5) : SAMPLE_OFFSETS[ray - 1];
+        vec2 place = floor(gl_FragCoord.xy) + offset;
+        colors[ray] = shade_eye_ray(ray_direction(place), ray).color;
+    }
     edge_sum sum = edge_sum_none();
-    for (int s = 0; s < SAMPLES; s++) {
-        vec2 place = floor(gl_FragCoord.xy) + SAMPLE_OFFSETS[s];
-        vec4 color = shade_eye_ray(ray_direction(place), 1 + s).color;
+    for (int ray = 1; ray <= SAMPLES; ray++) {
+        vec4 color = colors[ray_pieces[ray]];
         sum = edge_add(sum, color.rgb, color.a, 1.0 / float(SAMPLES), view.exposure.x);
     }
     out_color = vec4(edge_mean(sum), sum.alpha);

@@ -30,6 +30,24 @@ bool is_edge(ivec2 pixel)
     return is_marked(number) || largest_step > KILN_EDGE_THRESHOLD;
 }
 
+/* Returns whether no edge of light passes between a pixel and those around it: no two neighbours of
+ * these nine are on one surface and differ. */
+bool is_lit_evenly(ivec2 pixel)
+{
+    float numbers[9];
+    bool even = true;
+    for (int k = 0; k < 9; k++) {
+        numbers[k] = without_mark(edge_number(pixel + ivec2(k % 3, k / 3) - 1));
+        for (int other = 0; other < k; other++) {
+            bool neighbors = k / 3 - other / 3 <= 1 && abs(k % 3 - other % 3) <= 1;
+            float change = abs(numbers[k] - numbers[other]);
+            even = even && (!neighbors || change <= KILN_EDGE_THRESHOLD ||
+                            change > KILN_EDGE_MOST_LIGHT);
+        }
+    }
+    return even;
+}
+
 /* Returns whether a tile may have pixels at edges: one is marked, or two neighbours in a row or a
  * column of the tile or of the pixels around it differ by half of the threshold, since two such steps
  * lead to a diagonal neighbour. first: the tile's top left pixel. */

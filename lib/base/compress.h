@@ -1,7 +1,7 @@
-/* This header moves the lanes of a vector that a mask selects together, for tile_rows.h. AVX-512
- * has an instruction for it; SSE4.1, AVX2 and NEON permute lanes by a table. */
-#ifndef KILN_DRAW_SPRITES_COMPRESS_H
-#define KILN_DRAW_SPRITES_COMPRESS_H
+/* This header moves the lanes of a vector that a mask selects together. AVX-512 has an instruction
+ * for it; SSE4.1, AVX2 and NEON permute lanes by a table. */
+#ifndef KILN_BASE_COMPRESS_H
+#define KILN_BASE_COMPRESS_H
 
 #include "base/lanes.h"
 
