@@ -22,6 +22,8 @@ struct kiln_backdrop_cpu {
     struct kiln_meshes_cpu *meshes;               /* NULL: the scene has none */
     float *surfaces;
     struct kiln_surface_cache *cache; /* NULL: the camera moves */
+    struct kiln_caster_bounds caster_bounds;
+    struct kiln_casters casters;
     struct kiln_ray_frame frame;
 };
 
@@ -101,11 +103,12 @@ void kiln_backdrop_cpu_pictures(const struct kiln_backdrop_cpu *cpu,
 
 /* ---- objects that rays may hit --------------------------------------------------------------- */
 
-static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
+static struct kiln_ray_frame make_frame(struct kiln_backdrop_cpu *cpu,
                                         const struct kiln_backdrop_inputs *inputs,
                                         const struct kiln_lighting *lighting)
 {
     const struct kiln_shape_features features = kiln_shape_features(cpu->scene);
+    kiln_casters_find(inputs, &cpu->caster_bounds, &cpu->casters);
     struct kiln_ray_frame frame = {
         .view = &inputs->view,
         .backdrop = &inputs->block,
@@ -122,6 +125,9 @@ static struct kiln_ray_frame make_frame(const struct kiln_backdrop_cpu *cpu,
                          .shapes = &inputs->shapes,
                          .maps = lighting->lamp_maps,
                          .solid_maps = lighting->lamp_solids.texels},
+        .caster_bounds = &cpu->caster_bounds,
+        .all_casters = &cpu->casters,
+        .casters = &cpu->casters,
         .lamp_smoke = lighting->lamp_smoke,
         .floor_gloss = features.floor_gloss && inputs->block.floor_params.x > 0.0f,
         .soft_sun = features.soft_sun,

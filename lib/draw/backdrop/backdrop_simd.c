@@ -3,6 +3,7 @@
 #include <assert.h>
 
 #include "draw/backdrop/backdrop_rows.h"
+#include "draw/backdrop/ray_casters.h"
 #include "draw/backdrop/ray_samples.h"
 
 static_assert((int)TILE == (int)GRID_HEIGHT && (int)STRIP == (int)GRID_WIDTH,
@@ -50,8 +51,9 @@ SIMD void store_numbers(float *to, vf numbers, uint32_t count)
         to[i] = all[i];
 }
 
-/* Returns the lights that objects hide and whose shadows are not in the cache. */
-static struct grid_lights find_shadow_lights(const struct kiln_backdrop_picture *p)
+/* Returns the lights that objects may hide and whose shadows are not in the cache. */
+static struct grid_lights find_shadow_lights(const struct kiln_backdrop_picture *p,
+                                             const struct kiln_casters *casters)
 {
     const struct kiln_draw_backdrop *b = p->frame->backdrop;
     const struct kiln_draw_shapes *s = p->frame->shapes;
@@ -59,7 +61,7 @@ static struct grid_lights find_shadow_lights(const struct kiln_backdrop_picture 
                              s->oriented_counts.x + s->oriented_counts.y;
     struct grid_lights lights = {.sky = objects > 0};
     for (uint32_t i = 0; i < b->counts.y; i++) {
-        if (b->lights[i].casters.x | b->lights[i].casters.y)
+        if (casters->lamps[i] | b->lights[i].casters.y)
             lights.lamps |= 1u << i;
     }
     if (p->cache && p->cache->use == KILN_CACHE_FILLED)
@@ -85,11 +87,10 @@ SIMD void place_mirrored_nodes(const struct kiln_ray_frame *frame, int first, co
     place_nodes(first, &seen, ray_at(&reflected, seen.t), floor, mirrored);
 }
 
-/* Fills the grids of the strip at (x, y) and of its reflections (NULL: none). */
-static void fill_grids(const struct kiln_backdrop_picture *p,
-                       const struct kiln_ray_objects *objects, uint32_t x, uint32_t y,
-                       struct grid_lights lights, struct light_grid *grid,
-                       struct light_grid *mirrored)
+/* Places the nodes of the strip at (x, y), and of its reflections (NULL: none). */
+static void place_grids(const struct kiln_backdrop_picture *p,
+                        const struct kiln_ray_objects *objects, uint32_t x, uint32_t y,
+                        struct light_grid *grid, struct light_grid *mirrored)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const vi width = vi_all((int32_t)p->width), height = vi_all((int32_t)p->height);
@@ -107,9 +108,6 @@ static void fill_grids(const struct kiln_backdrop_picture *p,
         if (mirrored)
             place_mirrored_nodes(frame, i, &eye.ray, &hit, within, mirrored);
     }
-    judge_grid(frame, lights, grid);
-    if (mirrored)
-        judge_grid(frame, lights, mirrored);
 }
 
 /* Returns the numbers of the surfaces that rays hit, by which edges are found. */
@@ -123,49 +121,108 @@ SIMD vf mark_surfaces(const struct kiln_ray_frame *frame, const struct eye_rays 
     return surface;
 }
 
-/* Casts the rays of up to LANES pixels of a row, from (x, y) on. row: NULL without a grid. */
-SIMD void cast_pixels(const struct kiln_backdrop_picture *p, const struct kiln_ray_objects *objects,
-                      uint32_t x, uint32_t y, const struct grid_row *grid_row)
-{
-    const struct kiln_ray_frame *frame = p->frame;
-    uint32_t left = p->width - x, count = left < LANES ? left : LANES;
-    size_t first = (size_t)y * p->width + x;
-    vi column = vi_count() + (int32_t)x;
-    vi last = vi_all((int32_t)p->width - 1);
-    column = vi_select(column < last, column, last);
-    const struct eye_rays eye = rays_through_pixels(frame, column, vi_all((int32_t)y));
+/* Holds what the rays through the centres of a strip's pixels hit, by vector. */
+struct strip_hits {
+    struct ray_hit hits[TILE][STRIP / LANES];
+};
+
+/* Holds the rays of up to LANES pixels of a row. */
+struct strip_pixels {
+    uint32_t x, y, count;
+    struct eye_rays eye;
     struct cached_rays planes;
-    if (p->cache)
-        planes = cached_centers(p->cache, x, y);
-    const struct cached_rays *cached = p->cache ? &planes : NULL;
-    const struct ray_help help = {grid_row, cached};
-    const struct ray_hit hit = find_hit(frame, objects, &eye.ray, &eye.place, cached);
-    const struct shaded_rays shaded = shade_hits(frame, &eye.ray, &hit, &help);
-    const vf surface = 4.0f * mark_surfaces(frame, &eye, &shaded.first, cached);
-    store_colors(p->color + 4 * first, &shaded.color, count);
-    store_numbers(p->depth + first, shaded.first.t, count);
-    store_numbers(p->surfaces + first, surface + shaded.light, count);
+    const struct cached_rays *cached; /* NULL: nothing is kept */
+};
+
+SIMD void begin_pixels(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
+                       struct strip_pixels *pixels)
+{
+    const uint32_t left = p->width - x;
+    const vi last = vi_all((int32_t)p->width - 1), column = vi_count() + (int32_t)x;
+    pixels->x = x;
+    pixels->y = y;
+    pixels->count = left < LANES ? left : LANES;
+    pixels->eye =
+        rays_through_pixels(p->frame, vi_select(column < last, column, last), vi_all((int32_t)y));
+    pixels->cached = NULL;
+    if (p->cache) {
+        pixels->planes = cached_centers(p->cache, x, y);
+        pixels->cached = &pixels->planes;
+    }
 }
 
-static void cast_rows(const struct kiln_backdrop_picture *p, uint32_t y)
+/* Finds what the pixels of the strip at (x, y) show. Returns a box around it and the grid's nodes
+ * (NULL: none). */
+static struct lit_box trace_strip(const struct kiln_backdrop_picture *p,
+                                  const struct kiln_ray_objects *objects, uint32_t x, uint32_t y,
+                                  const struct light_grid *grid, struct strip_hits *strip)
 {
-    const uint32_t y_to = rows_from(p, y);
-    const struct grid_lights lights = find_shadow_lights(p);
-    const bool has_grid = lights.lamps || lights.sky;
-    struct light_grid grid, reflections;
-    struct light_grid *mirrored = p->frame->floor_gloss ? &reflections : NULL;
-    for (uint32_t strip = 0; strip < p->width; strip += STRIP) {
-        /* with a column and a row more, for the nodes */
-        const struct kiln_ray_objects objects = find_objects(p, strip, y, STRIP + 1);
-        if (has_grid)
-            fill_grids(p, &objects, strip, y, lights, &grid, mirrored);
-        uint32_t x_to = strip + STRIP < p->width ? strip + STRIP : p->width;
-        for (uint32_t row = y; row < y_to; row++) {
-            for (uint32_t x = strip; x < x_to; x += LANES) {
-                const struct grid_row at = {&grid, mirrored, x - strip, row - y};
-                cast_pixels(p, &objects, x, row, has_grid ? &at : NULL);
-            }
+    const uint32_t x_to = x + STRIP < p->width ? x + STRIP : p->width, y_to = rows_from(p, y);
+    struct lit_vectors lit = no_lit_vectors();
+    for (int i = 0; grid && i < GRID_NODES; i += LANES)
+        add_lit(&lit, load_vector(grid->at, i),
+                (vf_load(grid->surface + i) >= 0.0f) & (vi_count() + i < GRID_NODES));
+    for (uint32_t row = y; row < y_to; row++) {
+        for (uint32_t column = x; column < x_to; column += LANES) {
+            struct strip_pixels pixels;
+            begin_pixels(p, column, row, &pixels);
+            const struct ray_hit hit =
+                find_hit(p->frame, objects, &pixels.eye.ray, &pixels.eye.place, pixels.cached);
+            add_lit(&lit, ray_at(&pixels.eye.ray, hit.t), hit.surface >= 0.0f);
+            strip->hits[row - y][(column - x) / LANES] = hit;
         }
+    }
+    return lit_box_of(&lit);
+}
+
+/* Lights what the pixels of the strip at (x, y) show. grid, mirrored: or NULL. */
+static void light_strip(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
+                        const struct light_grid *grid, const struct light_grid *mirrored,
+                        const struct strip_hits *strip)
+{
+    const struct kiln_ray_frame *frame = p->frame;
+    const uint32_t x_to = x + STRIP < p->width ? x + STRIP : p->width, y_to = rows_from(p, y);
+    for (uint32_t row = y; row < y_to; row++) {
+        for (uint32_t column = x; column < x_to; column += LANES) {
+            struct strip_pixels pixels;
+            begin_pixels(p, column, row, &pixels);
+            const struct grid_row grid_row = {grid, mirrored, column - x, row - y};
+            const struct ray_help help = {grid ? &grid_row : NULL, pixels.cached};
+            const struct ray_hit *hit = &strip->hits[row - y][(column - x) / LANES];
+            const struct shaded_rays shaded = shade_hits(frame, &pixels.eye.ray, hit, &help);
+            const vf surface = mark_surfaces(frame, &pixels.eye, hit, pixels.cached);
+            const size_t first = (size_t)row * p->width + column;
+            store_colors(p->color + 4 * first, &shaded.color, pixels.count);
+            store_numbers(p->depth + first, hit->t, pixels.count);
+            store_numbers(p->surfaces + first, 4.0f * surface + shaded.light, pixels.count);
+        }
+    }
+}
+
+static void cast_rows(const struct kiln_backdrop_picture *whole, uint32_t y)
+{
+    struct kiln_backdrop_picture picture = *whole; /* with the casters of a strip */
+    struct kiln_ray_frame frame = *whole->frame;
+    picture.frame = &frame;
+    const struct grid_lights all = find_shadow_lights(whole, frame.all_casters);
+    const bool has_grid = all.lamps || all.sky;
+    struct light_grid grid, reflections;
+    struct light_grid *mirrored = has_grid && frame.floor_gloss ? &reflections : NULL;
+    struct strip_hits strip;
+    for (uint32_t x = 0; x < whole->width; x += STRIP) {
+        /* with a column and a row more, for the nodes */
+        const struct kiln_ray_objects objects = find_objects(whole, x, y, STRIP + 1);
+        if (has_grid)
+            place_grids(whole, &objects, x, y, &grid, mirrored);
+        const struct lit_box lit =
+            trace_strip(whole, &objects, x, y, has_grid ? &grid : NULL, &strip);
+        const struct kiln_casters casters = find_casters(whole->frame, &lit);
+        frame.casters = &casters;
+        if (has_grid)
+            judge_grid(&frame, find_shadow_lights(&picture, &casters), &grid);
+        if (mirrored)
+            judge_grid(whole->frame, all, mirrored);
+        light_strip(&picture, x, y, has_grid ? &grid : NULL, mirrored, &strip);
     }
 }
 

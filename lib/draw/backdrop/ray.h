@@ -5,6 +5,7 @@
 #define KILN_DRAW_BACKDROP_RAY_H
 
 #include "asset/image/pyramid.h"
+#include "draw/backdrop/casters.h"
 #include "draw/backdrop/mesh_view.h"
 #include "draw/light/lamps.h"
 #include "draw/light/lighting.h"
@@ -20,7 +21,10 @@ struct kiln_ray_frame {
     struct kiln_solid_bins solids;
     const struct kiln_mesh_view *meshes; /* NULL: none */
     struct kiln_lamp_objects lamp_objects;
-    const float *lamp_smoke; /* of struct kiln_lighting */
+    const struct kiln_caster_bounds *caster_bounds;
+    const struct kiln_casters *all_casters; /* that may hide lights from anything */
+    const struct kiln_casters *casters;     /* ...and from what is lit; mostly all */
+    const float *lamp_smoke;                /* of struct kiln_lighting */
     bool floor_gloss, soft_sun;
 };
 

@@ -97,7 +97,7 @@ SIMD void light_nodes(const struct kiln_ray_frame *frame, uint32_t i, int first,
         (vf_load(grid->surface + first) >= 0.0f) & (lamp_irradiance(*lamp, towards, normal) > 0.0f);
     struct lamp_receiver lit = {.visible = vf_all(1.0f), .blur = vf_all(0.0f)};
     if (any(faces))
-        lit = lamp_receiver_of(&frame->lamp_objects, lamp,
+        lit = lamp_receiver_of(&frame->lamp_objects, lamp, frame->casters->lamps[i],
                                vf3_add_scaled(at, normal, vf_all(LAMP_START)), normal, NULL,
                                vf_all(0.0f), faces);
     vf_store(grid->seen[i] + first, vf_select(faces, lit.visible, vf_all(-1.0f)));
@@ -208,16 +208,15 @@ SIMD vi box_casts_smoothly(const struct lamp_way *way, float4 half, struct vf3 t
     return mask & ~sharp;
 }
 
-/* Returns the lanes of a mask where all shapes cast smooth shadows on a block of a surface. size:
- * of the block, m. */
+/* Returns the lanes of a mask where all shapes cast smooth shadows on a block of a surface.
+ * casters: those that may hide the lamp; size: of the block, m. */
 SIMD vi shapes_cast_smoothly(const struct kiln_lamp_objects *objects,
-                             const struct kiln_draw_light *lamp, struct vf3 at, struct vf3 normal,
-                             vf size, vi smooth)
+                             const struct kiln_draw_light *lamp, uint32_t casters, struct vf3 at,
+                             struct vf3 normal, vf size, vi smooth)
 {
     const struct kiln_draw_shapes *shapes = objects->shapes;
     const struct vf3 to_lamp = vf3_towards(lamp->position_radius2, at);
     const struct lamp_way way = lamp_way_of(to_lamp, lamp->color.w, size);
-    uint32_t casters = lamp->casters.x;
     for (uint32_t of = take_bits(&casters, objects->box_count); of; of &= of - 1) {
         const float4 center = objects->box_center[__builtin_ctz(of)];
         const float4 half = objects->box_half[__builtin_ctz(of)];
@@ -316,9 +315,10 @@ SIMD void judge_surfaces(const struct kiln_ray_frame *frame, int first, uint32_t
             continue;
         const struct kiln_draw_light *lamp = &b->lights[i];
         vi smooth = alike;
-        if (lamp->casters.x && any(smooth))
-            smooth = shapes_cast_smoothly(&frame->lamp_objects, lamp, at, normal, vf_sqrt(size2),
-                                          smooth);
+        const uint32_t casters = frame->casters->lamps[i];
+        if (casters && any(smooth))
+            smooth = shapes_cast_smoothly(&frame->lamp_objects, lamp, casters, at, normal,
+                                          vf_sqrt(size2), smooth);
         memcpy(grid->smooth[i] + first, &smooth, sizeof smooth);
     }
 }

@@ -64,7 +64,7 @@ SIMD vf find_lamp_seen(const struct kiln_ray_frame *frame, uint32_t i, const str
     if (!any(active))
         return seen;
     const struct ray_point *p = &s->point;
-    const vf found = lamp_visibility(&frame->lamp_objects, lamp,
+    const vf found = lamp_visibility(&frame->lamp_objects, lamp, frame->casters->lamps[i],
                                      vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)),
                                      p->normal, s->middle, vf_all(0.0f), active);
     return vf_select(known, seen, found);
@@ -101,7 +101,7 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, uint32_t i, const struct 
     vf seen = cone;
     if (frame->lamp_smoke && lamp->casters.z)
         seen *= smoke_transmittance(lamp_smoke_depth(frame->lamp_smoke, lamp, &lit));
-    if (lamp->casters.x | lamp->casters.y && any(lit.active))
+    if (frame->casters->lamps[i] | lamp->casters.y && any(lit.active))
         seen *= lamp_seen(frame, i, s, lit.active);
     const vf all = (lamp->color.x + lamp->color.y + lamp->color.z) * part;
     arrived->all += all;

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "base/compress.h"
+#include "draw/backdrop/ray_casters.h"
 #include "draw/backdrop/ray_edges.h"
 #include "draw/backdrop/ray_shade.h"
 #include "shared/edge_mean.h"
@@ -243,6 +244,7 @@ static void antialias_together(const struct kiln_backdrop_picture *p,
                                const int32_t *columns, const int32_t *rows)
 {
     struct shared_samples all;
+    struct lit_vectors lit = no_lit_vectors();
     all.count = 0;
     for (int i = 0; i < count; i += LANES) {
         const vi column = vi_load(columns + i), row = vi_load(rows + i);
@@ -251,10 +253,17 @@ static void antialias_together(const struct kiln_backdrop_picture *p,
         struct sample_pieces *pieces = &all.pieces[i / LANES];
         *pieces = trace_samples(p->frame, objects, &center, samples);
         part_pieces(are_lit_evenly(p, column, row), pieces);
-        for (int s = 0; s < SAMPLES; s++)
-            add_samples(&all, &samples[s], s, i, needs_light(pieces, s));
+        for (int s = 0; s < SAMPLES; s++) {
+            const vi needed = needs_light(pieces, s);
+            add_lit(&lit, samples[s].at, needed & (samples[s].hit.surface >= 0.0f));
+            add_samples(&all, &samples[s], s, i, needed);
+        }
     }
-    light_samples(p->frame, &all);
+    const struct lit_box box = lit_box_of(&lit);
+    const struct kiln_casters casters = find_casters(p->frame, &box);
+    struct kiln_ray_frame frame = *p->frame;
+    frame.casters = &casters;
+    light_samples(&frame, &all);
     for (int i = 0; i < count; i += LANES) {
         const vi pixel = vi_load(rows + i) * (int32_t)p->width + vi_load(columns + i);
         struct ray_color colors[1 + SAMPLES] = {load_centers(p, pixel)};

@@ -150,6 +150,8 @@ SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *r
     vi floor = shaded->first.surface == 0.0f;
     if (!any(floor))
         return;
+    struct kiln_ray_frame all = *frame;
+    all.casters = frame->all_casters;
     const struct kiln_ray_objects objects = all_objects(frame);
     const struct ray_reflection *m = &shaded->mirror;
     const struct ray reflected = {ray_at(ray, shaded->first.t), m->at.direction};
@@ -166,8 +168,8 @@ SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *r
         help.row = &row;
     }
     struct shaded_rays reflection = {
-        .first = find_hit(frame, &objects, &reflected, &nowhere, help.cached)};
-    light_hits(frame, &reflected, false, &help, &reflection);
+        .first = find_hit(&all, &objects, &reflected, &nowhere, help.cached)};
+    light_hits(&all, &reflected, false, &help, &reflection);
     struct vf3 more = vf3_scale(shaded->reflected, m->part);
     more = vf3_add_scaled(more, m->sun, shaded->arrives);
     more = vf3_add_scaled(more, reflection.color.rgb, m->part * m->at.reflectance);

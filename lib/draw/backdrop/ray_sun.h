@@ -75,7 +75,7 @@ SIMD vf sun_past_box(const struct kiln_ray_frame *frame, vf visible, vi near,
         ray_box_cover(s, &outline, near, vf_all(frame->shapes->sun_right.w), vf_all(0.0f)));
 }
 
-SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,
+SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame, uint32_t boxes,
                              const struct sun_receiver *receiver)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
@@ -83,7 +83,8 @@ SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,
     const struct vf3 inverses = vf3_all(edges->inverse), way = vf3_all(b->sun_direction);
     const vf spread = vf_all(frame->shapes->sun_right.w);
     vf visible = vf_all(1.0f);
-    for (uint32_t i = 0; i < b->counts.x; i++) {
+    for (; boxes; boxes &= boxes - 1) {
+        const int i = __builtin_ctz(boxes);
         const float4 half = b->box_half[i];
         const struct vf3 towards = vf3_towards(b->box_center[i], receiver->origin);
         vi near = sun_may_be_hidden(frame, receiver, towards, half.w);
@@ -101,14 +102,15 @@ SIMD vf boxes_sun_visibility(const struct kiln_ray_frame *frame,
 
 /* ---- spheres and cylinders ------------------------------------------------------------------- */
 
-SIMD vf spheres_sun_visibility(const struct kiln_ray_frame *frame,
+SIMD vf spheres_sun_visibility(const struct kiln_ray_frame *frame, uint32_t spheres,
                                const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
     const vf spread = vf_all(shapes->sun_right.w), point = vf_all(0.0f);
     vf visible = vf_all(1.0f);
-    for (uint32_t i = 0; i < shapes->counts.x; i++) {
+    for (; spheres; spheres &= spheres - 1) {
+        const int i = __builtin_ctz(spheres);
         const float4 sphere = shapes->spheres[i];
         const struct vf3 towards = vf3_towards(sphere, receiver->origin);
         const vi near = sun_may_be_hidden(frame, receiver, towards, sphere.w);
@@ -122,14 +124,15 @@ SIMD vf spheres_sun_visibility(const struct kiln_ray_frame *frame,
     return visible;
 }
 
-SIMD vf cylinders_sun_visibility(const struct kiln_ray_frame *frame,
+SIMD vf cylinders_sun_visibility(const struct kiln_ray_frame *frame, uint32_t cylinders,
                                  const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
     const vf spread = vf_all(shapes->sun_right.w), point = vf_all(0.0f);
     vf visible = vf_all(1.0f);
-    for (uint32_t i = 0; i < shapes->counts.y; i++) {
+    for (; cylinders; cylinders &= cylinders - 1) {
+        const int i = __builtin_ctz(cylinders);
         const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
         const vi near =
             axis_may_hide_sun(frame, receiver, cylinder, axis, cylinder_size(cylinder, axis));
@@ -150,14 +153,15 @@ SIMD vf cylinders_sun_visibility(const struct kiln_ray_frame *frame,
 
 /* ---- capsules and oriented boxes ------------------------------------------------------------- */
 
-SIMD vf capsules_sun_visibility(const struct kiln_ray_frame *frame,
+SIMD vf capsules_sun_visibility(const struct kiln_ray_frame *frame, uint32_t capsules,
                                 const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     const struct vf3 way = vf3_all(frame->backdrop->sun_direction);
     const vf spread = vf_all(shapes->sun_right.w), point = vf_all(0.0f);
     vf visible = vf_all(1.0f);
-    for (uint32_t i = 0; i < shapes->oriented_counts.x; i++) {
+    for (; capsules; capsules &= capsules - 1) {
+        const int i = __builtin_ctz(capsules);
         const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
         const vi near = axis_may_hide_sun(frame, receiver, capsule, axis, capsule.w + axis.w);
         if (!any(near))
@@ -174,12 +178,13 @@ SIMD vf capsules_sun_visibility(const struct kiln_ray_frame *frame,
     return visible;
 }
 
-SIMD vf oriented_boxes_sun_visibility(const struct kiln_ray_frame *frame,
+SIMD vf oriented_boxes_sun_visibility(const struct kiln_ray_frame *frame, uint32_t boxes,
                                       const struct sun_receiver *receiver)
 {
     const struct kiln_draw_shapes *shapes = frame->shapes;
     vf visible = vf_all(1.0f);
-    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
+    for (; boxes; boxes &= boxes - 1) {
+        const int i = __builtin_ctz(boxes);
         const struct sun_edges *edges = &shapes->oriented_edges[i];
         const struct kiln_draw_oriented_box *box = &shapes->oriented_boxes[i];
         const vi near = sun_may_be_hidden(
@@ -408,14 +413,16 @@ SIMD vf sun_past_objects(const struct kiln_ray_frame *frame, const struct sun_re
 {
     if (!any(receiver->active))
         return vf_all(0.0f);
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    vf visible = boxes_sun_visibility(frame, receiver);
-    visible *= spheres_sun_visibility(frame, receiver);
-    visible *= cylinders_sun_visibility(frame, receiver);
-    visible *= capsules_sun_visibility(frame, receiver);
-    visible *= oriented_boxes_sun_visibility(frame, receiver);
-    for (int i = 0; i < (int)shapes->counts.z; i++)
-        visible *= 1.0f - mesh_cover(frame, i, receiver);
+    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
+    uint32_t objects = frame->casters->sun_objects, meshes = frame->casters->sun_meshes;
+    vf visible =
+        boxes_sun_visibility(frame, take_bits(&objects, frame->backdrop->counts.x), receiver);
+    visible *= spheres_sun_visibility(frame, take_bits(&objects, round.x), receiver);
+    visible *= cylinders_sun_visibility(frame, take_bits(&objects, round.y), receiver);
+    visible *= capsules_sun_visibility(frame, take_bits(&objects, oriented.x), receiver);
+    visible *= oriented_boxes_sun_visibility(frame, take_bits(&objects, oriented.y), receiver);
+    for (; meshes; meshes &= meshes - 1)
+        visible *= 1.0f - mesh_cover(frame, __builtin_ctz(meshes), receiver);
     return vf_where(receiver->active, visible);
 }
 

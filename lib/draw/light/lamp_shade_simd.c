@@ -28,7 +28,8 @@ void KILN_SIMD_NAME(kiln_lamp_shade_block)(const struct kiln_lamp_objects *objec
             vf seen = vf_all(1.0f);
             if (lamp->casters.x | lamp->casters.y && any(alive)) {
                 const struct vf3 towards = vf3_normalize(vf3_towards(lamp->position_radius2, at));
-                seen = lamp_visibility(objects, lamp, at, towards, NULL, radius, alive);
+                seen = lamp_visibility(objects, lamp, lamp->casters.x, at, towards, NULL, radius,
+                                       alive);
             }
             word |= vi_of(seen * (float)KILN_LAMP_SHADE_ONE + 0.5f) << (int32_t)(8 * i);
         }

@@ -327,15 +327,14 @@ SIMD uint32_t take_bits(uint32_t *bits, uint32_t count)
     return taken;
 }
 
-/* Computes what points or balls see of a lamp: `visible`, 0 to 1. normal: of the surface, unit;
- * middle: of the solid particles that the points are on, or NULL; lit: radius of the balls, m; 0
- * for points. */
+/* Computes what points or balls see of a lamp: `visible`, 0 to 1. casters: the objects that may
+ * hide it from them, some or all of lamp->casters.x; normal: of the surface, unit; middle: of the
+ * solid particles that the points are on, or NULL; lit: radius of the balls, m; 0 for points. */
 SIMD struct lamp_receiver lamp_receiver_of(const struct kiln_lamp_objects *objects,
-                                           const struct kiln_draw_light *lamp, struct vf3 origin,
-                                           struct vf3 normal, const struct vf3 *middle, vf lit,
-                                           vi active)
+                                           const struct kiln_draw_light *lamp, uint32_t casters,
+                                           struct vf3 origin, struct vf3 normal,
+                                           const struct vf3 *middle, vf lit, vi active)
 {
-    uint32_t casters = lamp->casters.x;
     const struct kiln_draw_shapes *shapes = objects->shapes;
     struct lamp_receiver r = {
         .origin = origin, .active = active, .visible = vf_all(1.0f), .blur = vf_all(1e6f)};
@@ -355,10 +354,10 @@ SIMD struct lamp_receiver lamp_receiver_of(const struct kiln_lamp_objects *objec
 }
 
 SIMD vf lamp_visibility(const struct kiln_lamp_objects *objects, const struct kiln_draw_light *lamp,
-                        struct vf3 origin, struct vf3 normal, const struct vf3 *middle, vf lit,
-                        vi active)
+                        uint32_t casters, struct vf3 origin, struct vf3 normal,
+                        const struct vf3 *middle, vf lit, vi active)
 {
-    return lamp_receiver_of(objects, lamp, origin, normal, middle, lit, active).visible;
+    return lamp_receiver_of(objects, lamp, casters, origin, normal, middle, lit, active).visible;
 }
 
 #endif

@@ -131,15 +131,15 @@ bool needs_light(int ray, hit h, vec3 point)
 hit ray_hits[1 + SAMPLES];
 vec3 ray_points[1 + SAMPLES];
 int ray_pieces[1 + SAMPLES];
-bool lit_evenly;
+bool lit_evenly = false;
 
-bool on_one_piece(int ray, hit h, vec3 point)
+bool on_one_piece(hit a, vec3 at, hit b, vec3 other)
 {
-    vec3 way = point - ray_points[ray];
-    float off = dot(way, ray_hits[ray].normal);
-    bool smooth_piece = dot(ray_hits[ray].normal, h.normal) >= KILN_PIECE_COSINE &&
+    vec3 way = other - at;
+    float off = dot(way, a.normal);
+    bool bends_little = dot(a.normal, b.normal) >= KILN_PIECE_COSINE &&
                         off * off <= KILN_PIECE_SLOPE * KILN_PIECE_SLOPE * dot(way, way);
-    return ray_hits[ray].surface == h.surface && (h.surface < 0 || smooth_piece);
+    return a.surface == b.surface && (a.surface < 0 || bends_little);
 }
 
 /* Notes what a ray hits, and returns whether light must be computed there. The centre needs it only
@@ -149,8 +149,10 @@ bool needs_light(int ray, hit h, vec3 point)
     ray_hits[ray] = h;
     ray_points[ray] = point;
     ray_pieces[ray] = ray;
-    for (int before = ray - 1; before >= 0; before--)
-        ray_pieces[ray] = on_one_piece(before, h, point) ? ray_pieces[before] : ray_pieces[ray];
+    for (int before = ray - 1; before >= 0; before--) {
+        bool same = on_one_piece(ray_hits[before], ray_points[before], h, point);
+        ray_pieces[ray] = same ? ray_pieces[before] : ray_pieces[ray];
+    }
     ray_pieces[ray] = lit_evenly ? ray_pieces[ray] : ray;
     return ray_pieces[ray] == ray && (ray > 0 || lit_evenly);
 }
