@@ -57,10 +57,17 @@ REAL_FN S(floor_footprint) floor_footprint_of(real3 direction, real t, float4 ri
     return footprint;
 }
 
-/* Returns where fetch i lies along the longer edge, as a part of it from the middle. */
-REAL_FN real floor_tap_of(S(floor_footprint) footprint, int i)
+/* Returns where fetch i lies along the longer edge, as a part of it from the middle. part: one of
+ * the fetches from a level. */
+REAL_FN real floor_tap_of(real part, int i)
 {
-    return (FLOAT(i) + 0.5f) / footprint.taps - 0.5f;
+    return (FLOAT(i) + 0.5f) * part - 0.5f;
+}
+
+/* Returns the number of fetches from the coarser level, whose texels are twice as large. */
+REAL_FN real floor_coarse_taps(real taps)
+{
+    return real_floor(0.5f * taps + 0.5f);
 }
 
 /* Texture coordinates. */

@@ -158,24 +158,39 @@ SIMD struct vf3 gather_picture(const struct kiln_pyramid *p, const struct ray_le
 
 /* ---- the floor ------------------------------------------------------------------------------- */
 
+/* Returns the mean of fetches from a level along the footprint. taps: of each lane. */
+SIMD struct vf3 floor_level(const struct kiln_ray_frame *frame,
+                            const struct floor_footprint *footprint, const struct ray_level *level,
+                            vf taps, vf x, vf z, vi active)
+{
+    const float4 map = frame->shapes->floor_map;
+    const vf part = 1.0f / taps, needed = vf_where(active, taps);
+    struct vf3 sum = {{0}, {0}, {0}};
+    for (int i = 0; any(needed > (float)i); i++) {
+        const vf way = floor_tap_of(part, i);
+        const vf u = (x + footprint->longer_x * way) * map.x;
+        const vf v = (z + footprint->longer_z * way) * map.y;
+        const struct vf3 color =
+            gather_level(frame->floor_image, level, vf_where(active, u - vf_floor(u)),
+                         vf_where(active, v - vf_floor(v)), true);
+        sum = vf3_add_scaled(sum, color, vf_where(needed > (float)i, part));
+    }
+    return sum;
+}
+
 /* Reads the floor's picture at (x, z) on the floor, m. */
 SIMD struct vf3 floor_picture(const struct kiln_ray_frame *frame,
                               const struct floor_footprint *footprint, vf x, vf z, vi active)
 {
-    const struct kiln_pyramid *picture = frame->floor_image;
-    const float4 map = frame->shapes->floor_map;
-    const struct ray_level_pair levels = level_pair(picture, vf_where(active, footprint->level));
-    const vf taps = vf_where(active, footprint->taps);
-    struct vf3 sum = {{0}, {0}, {0}};
-    for (int i = 0; any(taps > (float)i); i++) {
-        const vf way = floor_tap_of(*footprint, i);
-        const vf u = (x + footprint->longer_x * way) * map.x;
-        const vf v = (z + footprint->longer_z * way) * map.y;
-        const struct vf3 color = gather_picture(picture, &levels, vf_where(active, u - vf_floor(u)),
-                                                vf_where(active, v - vf_floor(v)), true);
-        sum = vf3_add_scaled(sum, color, vf_where(taps > (float)i, vf_all(1.0f)));
-    }
-    return vf3_scale(sum, 1.0f / footprint->taps);
+    const struct ray_level_pair levels =
+        level_pair(frame->floor_image, vf_where(active, footprint->level));
+    const struct vf3 fine =
+        floor_level(frame, footprint, &levels.fine, footprint->taps, x, z, active);
+    if (!levels.mixes)
+        return fine;
+    const struct vf3 coarse = floor_level(frame, footprint, &levels.coarse,
+                                          floor_coarse_taps(footprint->taps), x, z, active);
+    return mix_colors(fine, coarse, levels.part);
 }
 
 /* ---- the sky --------------------------------------------------------------------------------- */
