@@ -1,0 +1,266 @@
+/* lib/draw/backdrop/casters.c and ray_casters.h: no object that is left out reaches any of many
+ * random ways from a box of lit points to a lamp or to the sun. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/backdrop/ray_casters.h"
+#include "support/cmocka.h"
+
+enum {
+    EACH = 5,
+    KINDS = 5,
+    OBJECTS = EACH * KINDS,
+    LAMPS = 4,
+    TRIALS = 150,
+    WAYS = 150,
+    STEPS = 60
+};
+
+static const float SPREAD = 0.05f; /* of the sun's light, m per m */
+static const double FAR = 25.0;    /* m: beyond all objects */
+
+static double between(double low, double high)
+{
+    return low + (high - low) * rand() / RAND_MAX;
+}
+
+static float4 place(double reach, double w)
+{
+    return (float4){(float)between(-reach, reach), (float)between(-reach, reach),
+                    (float)between(-reach, reach), (float)w};
+}
+
+static void direction(double out[3])
+{
+    double square = 0.0;
+    while (square < 0.01 || square > 1.0) {
+        square = 0.0;
+        for (int k = 0; k < 3; k++) {
+            out[k] = between(-1.0, 1.0);
+            square += out[k] * out[k];
+        }
+    }
+    for (int k = 0; k < 3; k++)
+        out[k] /= sqrt(square);
+}
+
+static float4 axis(double half)
+{
+    double way[3];
+    direction(way);
+    return (float4){(float)way[0], (float)way[1], (float)way[2], (float)half};
+}
+
+/* Turns a box around a random axis. */
+static void turn(struct kiln_draw_oriented_box *box)
+{
+    double n[3];
+    direction(n);
+    const double angle = between(0.0, 3.0), s = sin(angle), c = cos(angle);
+    const double cross[3][3] = {{0, -n[2], n[1]}, {n[2], 0, -n[0]}, {-n[1], n[0], 0}};
+    for (int i = 0; i < 3; i++) {
+        float row[3];
+        for (int k = 0; k < 3; k++)
+            row[k] = (float)((i == k) * c + s * cross[i][k] + (1.0 - c) * n[i] * n[k]);
+        box->rows[i] = (float4){row[0], row[1], row[2], 0.0f};
+    }
+}
+
+static void place_objects(struct kiln_backdrop_inputs *inputs)
+{
+    struct kiln_draw_backdrop *b = &inputs->block;
+    struct kiln_draw_shapes *s = &inputs->shapes;
+    memset(inputs, 0, sizeof *inputs);
+    b->counts = (uint4){EACH, LAMPS, 0, 0};
+    s->counts = (uint4){EACH, EACH, 0, 0};
+    s->oriented_counts = (uint4){EACH, EACH, 0, 0};
+    s->sun_right.w = SPREAD;
+    b->sun_direction = axis(0.0);
+    for (int i = 0; i < EACH; i++) {
+        struct kiln_draw_oriented_box *box = &s->oriented_boxes[i];
+        b->box_center[i] = place(5.0, 0.0);
+        b->box_half[i] = (float4){(float)between(0.1, 1.0), (float)between(0.1, 1.0), 0.3f, 0.0f};
+        s->spheres[i] = place(5.0, between(0.1, 1.0));
+        s->cylinders[i] = place(5.0, between(0.1, 1.0));
+        s->cylinder_axis[i] = axis(between(0.1, 2.0));
+        s->capsules[i] = place(5.0, between(0.1, 0.6));
+        s->capsule_axis[i] = axis(between(0.1, 2.0));
+        box->center = place(5.0, 0.0);
+        box->half_size = (float4){(float)between(0.1, 2.0), 0.4f, 0.2f, 0.0f};
+        turn(box);
+    }
+    for (int i = 0; i < LAMPS; i++) {
+        b->lights[i].position_radius2 = place(5.0, 0.0);
+        b->lights[i].color.w = (float)between(0.01, 0.5);
+        b->lights[i].casters.x = (1u << OBJECTS) - 1;
+    }
+}
+
+/* ---- what objects contain -------------------------------------------------------------------- */
+
+static double dot(const double v[3], float4 other)
+{
+    return v[0] * (double)other.x + v[1] * (double)other.y + v[2] * (double)other.z;
+}
+
+static bool contains(const struct kiln_backdrop_inputs *inputs, int object, const double at[3])
+{
+    const struct kiln_draw_shapes *s = &inputs->shapes;
+    const struct kiln_draw_oriented_box *box = &s->oriented_boxes[object % EACH];
+    const float4 centers[KINDS] = {inputs->block.box_center[object % EACH],
+                                   s->spheres[object % EACH], s->cylinders[object % EACH],
+                                   s->capsules[object % EACH], box->center};
+    const float4 c = centers[object / EACH], half = inputs->block.box_half[object % EACH];
+    const double from[3] = {at[0] - (double)c.x, at[1] - (double)c.y, at[2] - (double)c.z};
+    const double square = from[0] * from[0] + from[1] * from[1] + from[2] * from[2];
+    const double radius = (double)c.w;
+    double along;
+    switch (object / EACH) {
+    case 0:
+        return fabs(from[0]) <= (double)half.x && fabs(from[1]) <= (double)half.y &&
+               fabs(from[2]) <= (double)half.z;
+    case 1:
+        return square <= radius * radius;
+    case 2:
+        along = dot(from, s->cylinder_axis[object % EACH]);
+        return fabs(along) <= (double)s->cylinder_axis[object % EACH].w &&
+               square - along * along <= radius * radius;
+    case 3: {
+        const double end = (double)s->capsule_axis[object % EACH].w;
+        along = dot(from, s->capsule_axis[object % EACH]);
+        const double middle = fmin(fmax(along, -end), end);
+        return square - along * along + (along - middle) * (along - middle) <= radius * radius;
+    }
+    default:
+        return fabs(dot(from, box->rows[0])) <= (double)box->half_size.x &&
+               fabs(dot(from, box->rows[1])) <= (double)box->half_size.y &&
+               fabs(dot(from, box->rows[2])) <= (double)box->half_size.z;
+    }
+}
+
+/* ---- ways to lights -------------------------------------------------------------------------- */
+
+/* Returns a bit for each object that holds a place on one of many ways from a box. lamp: NULL: to
+ * the sun. */
+static uint32_t met_on_ways(const struct kiln_backdrop_inputs *inputs, const struct lit_box *box,
+                            const struct kiln_draw_light *lamp)
+{
+    uint32_t met = 0;
+    for (int i = 0; i < WAYS; i++) {
+        double from[3], way[3], aside[3];
+        direction(aside);
+        const float4 sun = inputs->block.sun_direction;
+        const float4 at = lamp ? lamp->position_radius2 : sun;
+        const double ends[3] = {(double)at.x, (double)at.y, (double)at.z};
+        for (int k = 0; k < 3; k++) {
+            from[k] = between((double)box->from[k], (double)box->to[k]);
+            way[k] = lamp ? ends[k] + (double)lamp->color.w * aside[k] - from[k]
+                          : FAR * (ends[k] + (double)SPREAD * aside[k]);
+        }
+        for (int step = 0; step <= STEPS; step++) {
+            double place_on[3];
+            for (int k = 0; k < 3; k++)
+                place_on[k] = from[k] + way[k] * step / STEPS;
+            for (int object = 0; object < OBJECTS; object++)
+                met |= (uint32_t)contains(inputs, object, place_on) << object;
+        }
+    }
+    return met;
+}
+
+static void no_caster_is_left_out(void **state)
+{
+    (void)state;
+    static struct kiln_backdrop_inputs inputs;
+    int kept = 0, all = 0;
+    srand(7);
+    for (int trial = 0; trial < TRIALS; trial++) {
+        struct kiln_caster_bounds bounds;
+        struct kiln_casters everything;
+        place_objects(&inputs);
+        kiln_casters_find(&inputs, &bounds, &everything);
+        const struct kiln_ray_frame frame = {.backdrop = &inputs.block,
+                                             .shapes = &inputs.shapes,
+                                             .caster_bounds = &bounds,
+                                             .all_casters = &everything,
+                                             .casters = &everything};
+        struct lit_box box;
+        const float4 middle = place(4.0, 0.0);
+        const float middles[3] = {middle.x, middle.y, middle.z};
+        for (int k = 0; k < 3; k++) {
+            const float half = trial % 3 == k ? 0.0f : (float)between(0.0, 1.0);
+            box.from[k] = middles[k] - half;
+            box.to[k] = middles[k] + half;
+        }
+        const struct kiln_casters casters = find_casters(&frame, &box);
+        const uint32_t sun = met_on_ways(&inputs, &box, NULL);
+        assert_int_equal(sun & ~casters.sun_objects, 0);
+        for (int i = 0; i < LAMPS; i++) {
+            const uint32_t met = met_on_ways(&inputs, &box, &inputs.block.lights[i]);
+            assert_int_equal(met & ~casters.lamps[i], 0);
+            kept += __builtin_popcount(casters.lamps[i]);
+            all += OBJECTS;
+        }
+    }
+    assert_true(kept * 2 < all && kept > 0); /* most are left out */
+}
+
+/* The box around a turned box touches its corners. */
+static void bounds_touch_corners(void **state)
+{
+    (void)state;
+    static struct kiln_backdrop_inputs inputs;
+    struct kiln_caster_bounds bounds;
+    struct kiln_casters everything;
+    place_objects(&inputs);
+    kiln_casters_find(&inputs, &bounds, &everything);
+    for (int i = 0; i < EACH; i++) {
+        const struct kiln_draw_oriented_box *box = &inputs.shapes.oriented_boxes[i];
+        const float half[3] = {box->half_size.x, box->half_size.y, box->half_size.z};
+        float farthest[3] = {0};
+        for (int corner = 0; corner < 8; corner++) {
+            float at[3] = {0};
+            for (int k = 0; k < 3; k++) {
+                const float step = corner >> k & 1 ? half[k] : -half[k];
+                at[0] += step * box->rows[k].x;
+                at[1] += step * box->rows[k].y;
+                at[2] += step * box->rows[k].z;
+            }
+            for (int k = 0; k < 3; k++)
+                farthest[k] = fmaxf(farthest[k], at[k]);
+        }
+        for (int k = 0; k < 3; k++)
+            assert_float_equal(farthest[k], bounds.half[k][OBJECTS - EACH + i], 1e-5f);
+    }
+}
+
+static void nothing_hides_light_from_nothing(void **state)
+{
+    (void)state;
+    static struct kiln_backdrop_inputs inputs;
+    struct kiln_caster_bounds bounds;
+    struct kiln_casters everything;
+    place_objects(&inputs);
+    kiln_casters_find(&inputs, &bounds, &everything);
+    const struct kiln_ray_frame frame = {.backdrop = &inputs.block,
+                                         .shapes = &inputs.shapes,
+                                         .caster_bounds = &bounds,
+                                         .all_casters = &everything};
+    const struct lit_vectors none = no_lit_vectors();
+    const struct lit_box box = lit_box_of(&none);
+    const struct kiln_casters casters = find_casters(&frame, &box);
+    assert_int_equal(casters.sun_objects, 0);
+    for (int i = 0; i < LAMPS; i++)
+        assert_int_equal(casters.lamps[i], 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_caster_is_left_out),
+        cmocka_unit_test(bounds_touch_corners),
+        cmocka_unit_test(nothing_hides_light_from_nothing),
+    };
+    return cmocka_run_group_tests_name("casters", tests, NULL, NULL);
+}
