@@ -17,12 +17,6 @@ enum {
     REBIASED = (int32_t)((uint32_t)(15 - 127) << 23)
 };
 
-SIMD void store_bytes(uint8_t *to, vi x)
-{
-    const bytes_of_lanes bytes = __builtin_convertvector(x, bytes_of_lanes);
-    memcpy(to, &bytes, sizeof bytes);
-}
-
 SIMD void store_shorts(uint8_t *to, vi x)
 {
     const shorts_of_lanes shorts = __builtin_convertvector(x, shorts_of_lanes);
@@ -36,7 +30,7 @@ SIMD void store_shorts(uint8_t *to, vi x)
 
 SIMD void store_halves(const struct kiln_exr_row *row, size_t x, vf samples)
 {
-    const vi sign = (vi)samples & INT32_MIN, undefined = samples != samples;
+    const vi sign = (vi)samples & INT32_MIN, undefined = ((vi)samples & INT32_MAX) > FLOAT_INFINITY;
     const vf size = vf_min(vf_abs(samples), (vf)vi_all(HALF_MOST));
     const vi kept = vi_select(undefined, vi_all(UNDEFINED), (vi)size) | sign;
     const __m256i halves = _mm512_cvtps_ph((__m512)kept, _MM_FROUND_TO_NEAREST_INT);
@@ -47,6 +41,12 @@ SIMD void store_halves(const struct kiln_exr_row *row, size_t x, vf samples)
 }
 
 #else
+
+SIMD void store_bytes(uint8_t *to, vi x)
+{
+    const bytes_of_lanes bytes = __builtin_convertvector(x, bytes_of_lanes);
+    memcpy(to, &bytes, sizeof bytes);
+}
 
 SIMD vi half_bits(vf x)
 {

@@ -27,9 +27,9 @@
 #define KILN_EDGE_MOST_LIGHT 2.0f /* the greatest difference on one surface */
 #define KILN_EDGE_MARK       32768.0f
 
-/* The samples of a pixel that lie on one smooth piece of surface share their light. The least
- * cosine between normals on such a piece, and how far its points may lie off its plane, as a part
- * of their distance from each other. */
+/* The samples of a pixel that lie on one smooth piece of surface share a colour. The least cosine
+ * between normals on such a piece, and how far its points may lie off its plane, as a part of their
+ * distance from each other. */
 #define KILN_PIECE_COSINE 0.995f
 #define KILN_PIECE_SLOPE  0.15f
 

@@ -10,8 +10,8 @@
 #define FLOOR_TAPS 8
 
 /* The footprint of a pixel on the floor, a parallelogram. Its shorter edge chooses the level that
- * is fetched. The fetches lie along its longer edge, m, one for each texel of the level that the
- * edge is long; `taps` is their number, a whole one. */
+ * is fetched: one between two levels. The fetches from the finer one lie along its longer edge, m,
+ * one for each texel that the edge is long; `taps` is their number, a whole one. */
 struct floor_footprint {
     real longer_x, longer_z, level, taps;
 };
@@ -57,8 +57,8 @@ REAL_FN S(floor_footprint) floor_footprint_of(real3 direction, real t, float4 ri
     return footprint;
 }
 
-/* Returns where fetch i lies along the longer edge, as a part of it from the middle. part: one of
- * the fetches from a level. */
+/* Returns where fetch i from a level lies along the longer edge, as a part of it from the middle.
+ * part: 1 / the number of fetches. */
 REAL_FN real floor_tap_of(real part, int i)
 {
     return (FLOAT(i) + 0.5f) * part - 0.5f;

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "draw/backdrop/ray_casters.h"
+#include "draw/light/ray_lamp.h"
+#include "draw/light/ray_smoke.h"
 #include "support/cmocka.h"
 
 enum {
@@ -80,20 +82,25 @@ static void place_objects(struct kiln_backdrop_inputs *inputs)
     for (int i = 0; i < EACH; i++) {
         struct kiln_draw_oriented_box *box = &s->oriented_boxes[i];
         b->box_center[i] = place(5.0, 0.0);
-        b->box_half[i] = (float4){(float)between(0.1, 1.0), (float)between(0.1, 1.0), 0.3f, 0.0f};
+        b->box_half[i] = (float4){(float)between(0.1, 1.0), (float)between(0.1, 1.0), 0.3f, 1.5f};
         s->spheres[i] = place(5.0, between(0.1, 1.0));
         s->cylinders[i] = place(5.0, between(0.1, 1.0));
         s->cylinder_axis[i] = axis(between(0.1, 2.0));
         s->capsules[i] = place(5.0, between(0.1, 0.6));
         s->capsule_axis[i] = axis(between(0.1, 2.0));
         box->center = place(5.0, 0.0);
-        box->half_size = (float4){(float)between(0.1, 2.0), 0.4f, 0.2f, 0.0f};
+        box->half_size = (float4){(float)between(0.1, 2.0), 0.4f, 0.2f, 2.1f};
         turn(box);
     }
     for (int i = 0; i < LAMPS; i++) {
         b->lights[i].position_radius2 = place(5.0, 0.0);
         b->lights[i].color.w = (float)between(0.01, 0.5);
         b->lights[i].casters.x = (1u << OBJECTS) - 1;
+        if (i % 2 == 0)
+            continue;
+        b->lights[i].facing = axis(KILN_LAMP_RECTANGLE);
+        b->lights[i].right = (float4){0.7f, 0.1f, 0.0f, 0.0f};
+        b->lights[i].up = (float4){-0.1f, 0.7f, 0.3f, 0.0f};
     }
 }
 
@@ -143,8 +150,8 @@ static bool contains(const struct kiln_backdrop_inputs *inputs, int object, cons
 
 /* Returns a bit for each object that holds a place on one of many ways from a box. lamp: NULL: to
  * the sun. */
-static uint32_t met_on_ways(const struct kiln_backdrop_inputs *inputs, const struct lit_box *box,
-                            const struct kiln_draw_light *lamp)
+static uint32_t met_on_ways(const struct kiln_backdrop_inputs *inputs,
+                            const struct kiln_lit_box *box, const struct kiln_draw_light *lamp)
 {
     uint32_t met = 0;
     for (int i = 0; i < WAYS; i++) {
@@ -169,6 +176,18 @@ static uint32_t met_on_ways(const struct kiln_backdrop_inputs *inputs, const str
     return met;
 }
 
+/* Returns a box that has no width along one of the axes. */
+static struct kiln_lit_box random_box(int flat)
+{
+    struct kiln_lit_box box;
+    for (int k = 0; k < 3; k++) {
+        const double middle = between(-4.0, 4.0), half = flat % 3 == k ? 0.0 : between(0.0, 1.0);
+        box.from[k] = (float)(middle - half);
+        box.to[k] = (float)(middle + half);
+    }
+    return box;
+}
+
 static void no_caster_is_left_out(void **state)
 {
     (void)state;
@@ -176,23 +195,16 @@ static void no_caster_is_left_out(void **state)
     int kept = 0, all = 0;
     srand(7);
     for (int trial = 0; trial < TRIALS; trial++) {
-        struct kiln_caster_bounds bounds;
+        struct kiln_object_bounds bounds;
         struct kiln_casters everything;
         place_objects(&inputs);
         kiln_casters_find(&inputs, &bounds, &everything);
         const struct kiln_ray_frame frame = {.backdrop = &inputs.block,
                                              .shapes = &inputs.shapes,
-                                             .caster_bounds = &bounds,
+                                             .object_bounds = &bounds,
                                              .all_casters = &everything,
                                              .casters = &everything};
-        struct lit_box box;
-        const float4 middle = place(4.0, 0.0);
-        const float middles[3] = {middle.x, middle.y, middle.z};
-        for (int k = 0; k < 3; k++) {
-            const float half = trial % 3 == k ? 0.0f : (float)between(0.0, 1.0);
-            box.from[k] = middles[k] - half;
-            box.to[k] = middles[k] + half;
-        }
+        const struct kiln_lit_box box = random_box(trial);
         const struct kiln_casters casters = find_casters(&frame, &box);
         const uint32_t sun = met_on_ways(&inputs, &box, NULL);
         assert_int_equal(sun & ~casters.sun_objects, 0);
@@ -206,12 +218,73 @@ static void no_caster_is_left_out(void **state)
     assert_true(kept * 2 < all && kept > 0); /* most are left out */
 }
 
+/* Returns points in a box, and normals there. */
+static struct ray_point random_points(const struct kiln_lit_box *box)
+{
+    struct ray_point points = {.active = vi_all(-1)};
+    vf *const at[3] = {&points.at.x, &points.at.y, &points.at.z};
+    vf *const normal[3] = {&points.normal.x, &points.normal.y, &points.normal.z};
+    for (int lane = 0; lane < LANES; lane++) {
+        double way[3];
+        direction(way);
+        for (int k = 0; k < 3; k++) {
+            (*at[k])[lane] = (float)between((double)box->from[k], (double)box->to[k]);
+            (*normal[k])[lane] = (float)way[k];
+        }
+    }
+    return points;
+}
+
+/* Computes what points see of a lamp that they face. Not inline: the compiler would warn that there
+ * are no maps to read. */
+static __attribute__((noinline)) void see_lamp(const struct kiln_lamp_objects *objects,
+                                               const struct kiln_draw_light *lamp, uint32_t casters,
+                                               const struct ray_point *p, vf *seen)
+{
+    const struct vf3 towards = vf3_towards(lamp->position_radius2, p->at);
+    const vi away = vf3_dot(p->normal, towards) < 0.0f;
+    const struct vf3 normal = vf3_scale(p->normal, vf_select(away, vf_all(-1.0f), vf_all(1.0f)));
+    *seen = lamp_visibility(objects, lamp, casters, p->at, normal, NULL, vf_all(0.0f), p->active);
+}
+
+static void what_is_seen_of_lamps_stays(void **state)
+{
+    (void)state;
+    static struct kiln_backdrop_inputs inputs;
+    srand(11);
+    for (int trial = 0; trial < TRIALS; trial++) {
+        struct kiln_object_bounds bounds;
+        struct kiln_casters everything;
+        place_objects(&inputs);
+        kiln_casters_find(&inputs, &bounds, &everything);
+        const struct kiln_ray_frame frame = {.backdrop = &inputs.block,
+                                             .shapes = &inputs.shapes,
+                                             .object_bounds = &bounds,
+                                             .all_casters = &everything};
+        const struct kiln_lamp_objects objects = {.box_count = EACH,
+                                                  .box_center = inputs.block.box_center,
+                                                  .box_half = inputs.block.box_half,
+                                                  .shapes = &inputs.shapes};
+        const struct kiln_lit_box box = random_box(trial);
+        const struct kiln_casters casters = find_casters(&frame, &box);
+        for (int i = 0; i < LAMPS * WAYS; i++) {
+            const struct kiln_draw_light *lamp = &inputs.block.lights[i % LAMPS];
+            const struct ray_point p = random_points(&box);
+            vf all, found;
+            see_lamp(&objects, lamp, everything.lamps[i % LAMPS], &p, &all);
+            see_lamp(&objects, lamp, casters.lamps[i % LAMPS], &p, &found);
+            for (int lane = 0; lane < LANES; lane++)
+                assert_float_equal(all[lane], found[lane], 1e-6f);
+        }
+    }
+}
+
 /* The box around a turned box touches its corners. */
 static void bounds_touch_corners(void **state)
 {
     (void)state;
     static struct kiln_backdrop_inputs inputs;
-    struct kiln_caster_bounds bounds;
+    struct kiln_object_bounds bounds;
     struct kiln_casters everything;
     place_objects(&inputs);
     kiln_casters_find(&inputs, &bounds, &everything);
@@ -239,16 +312,16 @@ static void nothing_hides_light_from_nothing(void **state)
 {
     (void)state;
     static struct kiln_backdrop_inputs inputs;
-    struct kiln_caster_bounds bounds;
+    struct kiln_object_bounds bounds;
     struct kiln_casters everything;
     place_objects(&inputs);
     kiln_casters_find(&inputs, &bounds, &everything);
     const struct kiln_ray_frame frame = {.backdrop = &inputs.block,
                                          .shapes = &inputs.shapes,
-                                         .caster_bounds = &bounds,
+                                         .object_bounds = &bounds,
                                          .all_casters = &everything};
     const struct lit_vectors none = no_lit_vectors();
-    const struct lit_box box = lit_box_of(&none);
+    const struct kiln_lit_box box = lit_box_of(&none);
     const struct kiln_casters casters = find_casters(&frame, &box);
     assert_int_equal(casters.sun_objects, 0);
     for (int i = 0; i < LAMPS; i++)
@@ -259,6 +332,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_caster_is_left_out),
+        cmocka_unit_test(what_is_seen_of_lamps_stays),
         cmocka_unit_test(bounds_touch_corners),
         cmocka_unit_test(nothing_hides_light_from_nothing),
     };

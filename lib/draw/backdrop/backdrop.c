@@ -211,7 +211,7 @@ static bool shadow_lists_fit_loops(const struct kiln_backdrop_stage *stage,
                                    const struct kiln_solid_bins *solids, struct kiln_error *error)
 {
     const uint32_t readings =
-        KILN_EDGE_SAMPLES * (kiln_shape_features(stage->scene).floor_gloss ? 2 : 1);
+        (1 + KILN_EDGE_SAMPLES) * (kiln_shape_features(stage->scene).floor_gloss ? 2 : 1);
     const uint32_t most = KILN_SOFTWARE_ITERATIONS / 2 / readings * (uint32_t)KILN_SOLIDS_AT_A_TIME;
     if (!stage->device->info.software || solids->longest <= most)
         return true;

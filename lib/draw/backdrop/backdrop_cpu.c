@@ -22,7 +22,7 @@ struct kiln_backdrop_cpu {
     struct kiln_meshes_cpu *meshes;               /* NULL: the scene has none */
     float *surfaces;
     struct kiln_surface_cache *cache; /* NULL: the camera moves */
-    struct kiln_caster_bounds caster_bounds;
+    struct kiln_object_bounds object_bounds;
     struct kiln_casters casters;
     struct kiln_ray_frame frame;
 };
@@ -108,7 +108,7 @@ static struct kiln_ray_frame make_frame(struct kiln_backdrop_cpu *cpu,
                                         const struct kiln_lighting *lighting)
 {
     const struct kiln_shape_features features = kiln_shape_features(cpu->scene);
-    kiln_casters_find(inputs, &cpu->caster_bounds, &cpu->casters);
+    kiln_casters_find(inputs, &cpu->object_bounds, &cpu->casters);
     struct kiln_ray_frame frame = {
         .view = &inputs->view,
         .backdrop = &inputs->block,
@@ -125,7 +125,7 @@ static struct kiln_ray_frame make_frame(struct kiln_backdrop_cpu *cpu,
                          .shapes = &inputs->shapes,
                          .maps = lighting->lamp_maps,
                          .solid_maps = lighting->lamp_solids.texels},
-        .caster_bounds = &cpu->caster_bounds,
+        .object_bounds = &cpu->object_bounds,
         .all_casters = &cpu->casters,
         .casters = &cpu->casters,
         .lamp_smoke = lighting->lamp_smoke,
@@ -142,8 +142,10 @@ static int32_t pixel_within(float x, float size)
     return (int32_t)exact_clamp(x, 0.0f, size);
 }
 
-/* Returns the pixels that an axis-aligned box may cover, with a margin of a few pixels. */
-static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 center, float3 half)
+/* Returns the pixels that an object may cover, with a margin of a few pixels. number: among the
+ * bounds. */
+static struct kiln_pixel_box cover_bounds(const struct kiln_view *view,
+                                          const struct kiln_object_bounds *bounds, uint32_t number)
 {
     const float near = 0.01f, margin = 3.0f, width = view->frustum.z, height = view->frustum.w;
     float low[2] = {1e9f, 1e9f}, high[2] = {-1e9f, -1e9f};
@@ -151,8 +153,11 @@ static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 cent
     mat4 world_to_view;
     kiln_matrix_from_rows(view->world_to_view, world_to_view);
     for (int i = 0; i < 8; i++) {
-        vec3 at = {center.x + (i & 1 ? half.x : -half.x), center.y + (i & 2 ? half.y : -half.y),
-                   center.z + (i & 4 ? half.z : -half.z)};
+        vec3 at;
+        for (int k = 0; k < 3; k++) {
+            const float half = bounds->half[k][number];
+            at[k] = bounds->center[k][number] + (i >> k & 1 ? half : -half);
+        }
         glm_mat4_mulv3(world_to_view, at, 1.0f, at);
         if (-at[2] < near)
             continue;
@@ -172,61 +177,24 @@ static struct kiln_pixel_box cover_box(const struct kiln_view *view, float4 cent
         pixel_within(low[1] - margin, height), pixel_within(high[1] + margin, height)};
 }
 
-static float reach_along(float axis, float half_height, float radius)
-{
-    return half_height * exact_abs(axis) + radius * sqrtf(exact_max(1.0f - axis * axis, 0.0f)) +
-           1e-4f * radius;
-}
-
-static void find_oriented_boxes(struct kiln_backdrop_picture *picture)
-{
-    const struct kiln_view *view = picture->frame->view;
-    const struct kiln_draw_shapes *shapes = picture->frame->shapes;
-    for (uint32_t i = 0; i < shapes->oriented_counts.x; i++) {
-        const float4 capsule = shapes->capsules[i], axis = shapes->capsule_axis[i];
-        const float radius = 1.0001f * capsule.w;
-        const float3 half = {radius + axis.w * exact_abs(axis.x),
-                             radius + axis.w * exact_abs(axis.y),
-                             radius + axis.w * exact_abs(axis.z)};
-        picture->capsules[i] = cover_box(view, capsule, half);
-    }
-    for (uint32_t i = 0; i < shapes->oriented_counts.y; i++) {
-        const float4 *rows = shapes->oriented_boxes[i].rows,
-                     half_size = shapes->oriented_boxes[i].half_size;
-        const float halves[3] = {half_size.x, half_size.y, half_size.z};
-        float3 half = {0.0f, 0.0f, 0.0f};
-        for (int k = 0; k < 3; k++) {
-            half.x += exact_abs(rows[k].x) * halves[k];
-            half.y += exact_abs(rows[k].y) * halves[k];
-            half.z += exact_abs(rows[k].z) * halves[k];
-        }
-        picture->oriented_boxes[i] = cover_box(view, shapes->oriented_boxes[i].center, half);
-    }
-}
-
 static void find_boxes(struct kiln_backdrop_picture *picture)
 {
     const struct kiln_ray_frame *frame = picture->frame;
-    const struct kiln_draw_backdrop *block = frame->backdrop;
-    const struct kiln_draw_shapes *shapes = frame->shapes;
-    for (uint32_t i = 0; i < block->counts.x; i++) {
-        const float4 half = block->box_half[i];
-        picture->boxes[i] =
-            cover_box(frame->view, block->box_center[i], (float3){half.x, half.y, half.z});
+    const struct kiln_object_bounds *bounds = frame->object_bounds;
+    const uint4 round = frame->shapes->counts, oriented = frame->shapes->oriented_counts;
+    const struct {
+        uint32_t count;
+        struct kiln_pixel_box *boxes;
+    } kinds[] = {{frame->backdrop->counts.x, picture->boxes}, /* in the order of the bounds */
+                 {round.x, picture->spheres},
+                 {round.y, picture->cylinders},
+                 {oriented.x, picture->capsules},
+                 {oriented.y, picture->oriented_boxes}};
+    uint32_t number = 0;
+    for (size_t kind = 0; kind < sizeof kinds / sizeof *kinds; kind++) {
+        for (uint32_t i = 0; i < kinds[kind].count; i++)
+            kinds[kind].boxes[i] = cover_bounds(frame->view, bounds, number++);
     }
-    for (uint32_t i = 0; i < shapes->counts.x; i++) {
-        const float4 sphere = shapes->spheres[i];
-        picture->spheres[i] =
-            cover_box(frame->view, sphere, (float3){sphere.w, sphere.w, sphere.w});
-    }
-    for (uint32_t i = 0; i < shapes->counts.y; i++) {
-        const float4 cylinder = shapes->cylinders[i], axis = shapes->cylinder_axis[i];
-        const float3 half = {reach_along(axis.x, axis.w, cylinder.w),
-                             reach_along(axis.y, axis.w, cylinder.w),
-                             reach_along(axis.z, axis.w, cylinder.w)};
-        picture->cylinders[i] = cover_box(frame->view, cylinder, half);
-    }
-    find_oriented_boxes(picture);
 }
 
 /* ---- the picture ----------------------------------------------------------------------------- */

@@ -128,7 +128,7 @@ struct strip_hits {
 
 /* Holds the rays of up to LANES pixels of a row. */
 struct strip_pixels {
-    uint32_t x, y, count;
+    uint32_t count;
     struct eye_rays eye;
     struct cached_rays planes;
     const struct cached_rays *cached; /* NULL: nothing is kept */
@@ -139,8 +139,6 @@ SIMD void begin_pixels(const struct kiln_backdrop_picture *p, uint32_t x, uint32
 {
     const uint32_t left = p->width - x;
     const vi last = vi_all((int32_t)p->width - 1), column = vi_count() + (int32_t)x;
-    pixels->x = x;
-    pixels->y = y;
     pixels->count = left < LANES ? left : LANES;
     pixels->eye =
         rays_through_pixels(p->frame, vi_select(column < last, column, last), vi_all((int32_t)y));
@@ -153,9 +151,10 @@ SIMD void begin_pixels(const struct kiln_backdrop_picture *p, uint32_t x, uint32
 
 /* Finds what the pixels of the strip at (x, y) show. Returns a box around it and the grid's nodes
  * (NULL: none). */
-static struct lit_box trace_strip(const struct kiln_backdrop_picture *p,
-                                  const struct kiln_ray_objects *objects, uint32_t x, uint32_t y,
-                                  const struct light_grid *grid, struct strip_hits *strip)
+static struct kiln_lit_box trace_strip(const struct kiln_backdrop_picture *p,
+                                       const struct kiln_ray_objects *objects, uint32_t x,
+                                       uint32_t y, const struct light_grid *grid,
+                                       struct strip_hits *strip)
 {
     const uint32_t x_to = x + STRIP < p->width ? x + STRIP : p->width, y_to = rows_from(p, y);
     struct lit_vectors lit = no_lit_vectors();
@@ -172,7 +171,13 @@ static struct lit_box trace_strip(const struct kiln_backdrop_picture *p,
             strip->hits[row - y][(column - x) / LANES] = hit;
         }
     }
-    return lit_box_of(&lit);
+    if (!p->cache)
+        return lit_box_of(&lit);
+    /* Kept, since the nodes need not be placed any more when the cache is filled. */
+    struct kiln_lit_box *kept = &p->cache->strips[((size_t)y / TILE * p->cache->width + x) / STRIP];
+    if (p->cache->use == KILN_CACHE_TO_FILL)
+        *kept = lit_box_of(&lit);
+    return *kept;
 }
 
 /* Lights what the pixels of the strip at (x, y) show. grid, mirrored: or NULL. */
@@ -214,7 +219,7 @@ static void cast_rows(const struct kiln_backdrop_picture *whole, uint32_t y)
         const struct kiln_ray_objects objects = find_objects(whole, x, y, STRIP + 1);
         if (has_grid)
             place_grids(whole, &objects, x, y, &grid, mirrored);
-        const struct lit_box lit =
+        const struct kiln_lit_box lit =
             trace_strip(whole, &objects, x, y, has_grid ? &grid : NULL, &strip);
         const struct kiln_casters casters = find_casters(whole->frame, &lit);
         frame.casters = &casters;

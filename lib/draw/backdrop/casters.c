@@ -4,11 +4,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "draw/backdrop/ray.h"
+
+/* As a part of a radius: more than a direction differs from a unit vector. */
+#define ROUNDING 1e-4f
+
 /* Texels of a mesh's shadow map by which its shadow may be wider than the mesh. */
 #define MAP_MARGIN 8.0f
 
 /* Adds a box. half: half of its edges, m. */
-static void put(struct kiln_caster_bounds *bounds, uint32_t number, float4 center,
+static void put(struct kiln_object_bounds *bounds, uint32_t number, float4 center,
                 const float half[3])
 {
     const float centers[3] = {center.x, center.y, center.z};
@@ -20,7 +25,7 @@ static void put(struct kiln_caster_bounds *bounds, uint32_t number, float4 cente
 
 /* Adds the box around a cylinder, or around a capsule: around balls at its ends. radii: of the
  * bounds around each end along the axes of the world, m. */
-static void put_around_axis(struct kiln_caster_bounds *bounds, uint32_t number, float4 center,
+static void put_around_axis(struct kiln_object_bounds *bounds, uint32_t number, float4 center,
                             float4 axis, const float radii[3])
 {
     const float half[3] = {fabsf(axis.x) * axis.w + radii[0], fabsf(axis.y) * axis.w + radii[1],
@@ -28,12 +33,13 @@ static void put_around_axis(struct kiln_caster_bounds *bounds, uint32_t number, 
     put(bounds, number, center, half);
 }
 
+/* along: of the disc's unit normal. */
 static float disc_extent(float radius, float along)
 {
-    return radius * sqrtf(fmaxf(1.0f - along * along, 0.0f));
+    return radius * sqrtf(fmaxf(1.0f - along * along, 0.0f)) + ROUNDING * radius;
 }
 
-static uint32_t put_round(struct kiln_caster_bounds *bounds, uint32_t number,
+static uint32_t put_round(struct kiln_object_bounds *bounds, uint32_t number,
                           const struct kiln_draw_shapes *s)
 {
     for (uint32_t i = 0; i < s->counts.x; i++) {
@@ -50,11 +56,11 @@ static uint32_t put_round(struct kiln_caster_bounds *bounds, uint32_t number,
     return number;
 }
 
-static uint32_t put_oriented(struct kiln_caster_bounds *bounds, uint32_t number,
+static uint32_t put_oriented(struct kiln_object_bounds *bounds, uint32_t number,
                              const struct kiln_draw_shapes *s)
 {
     for (uint32_t i = 0; i < s->oriented_counts.x; i++) {
-        const float radius = s->capsules[i].w;
+        const float radius = (1.0f + ROUNDING) * s->capsules[i].w;
         put_around_axis(bounds, number++, s->capsules[i], s->capsule_axis[i],
                         (float[]){radius, radius, radius});
     }
@@ -72,23 +78,18 @@ static uint32_t put_oriented(struct kiln_caster_bounds *bounds, uint32_t number,
     return number;
 }
 
-static void put_meshes(struct kiln_caster_bounds *bounds, const struct kiln_draw_shapes *s)
+static void put_meshes(struct kiln_object_bounds *bounds, const struct kiln_draw_shapes *s)
 {
     for (uint32_t i = 0; i < s->counts.z; i++) {
         const float4 center = s->meshes[i].center, half = s->meshes[i].half_size;
         const float texel = 2.0f * center.w * (1.0f + KILN_SHADOW_MARGIN) / (float)KILN_SHADOW_EDGE;
         const float more = MAP_MARGIN * texel;
-        put(bounds, KILN_CASTER_MESHES + i, center,
+        put(bounds, KILN_BOUNDS_MESHES + i, center,
             (float[]){half.x + more, half.y + more, half.z + more});
     }
 }
 
-static uint32_t bits_of(uint32_t count)
-{
-    return (uint32_t)((1ull << count) - 1);
-}
-
-void kiln_casters_find(const struct kiln_backdrop_inputs *inputs, struct kiln_caster_bounds *bounds,
+void kiln_casters_find(const struct kiln_backdrop_inputs *inputs, struct kiln_object_bounds *bounds,
                        struct kiln_casters *casters)
 {
     const struct kiln_draw_backdrop *b = &inputs->block;
@@ -102,8 +103,8 @@ void kiln_casters_find(const struct kiln_backdrop_inputs *inputs, struct kiln_ca
     count = put_oriented(bounds, count, &inputs->shapes);
     put_meshes(bounds, &inputs->shapes);
     memset(casters, 0, sizeof *casters);
-    casters->sun_objects = bits_of(count);
-    casters->sun_meshes = bits_of(inputs->shapes.counts.z);
+    casters->sun_objects = first_bits(count);
+    casters->sun_meshes = first_bits(inputs->shapes.counts.z);
     for (uint32_t i = 0; i < b->counts.y; i++)
         casters->lamps[i] = b->lights[i].casters.x;
 }

@@ -1,5 +1,5 @@
-/* Says which objects may hide lights from what rays hit, and where these objects are. A strip of
- * the picture leaves out those that are beside all ways from its surfaces to a light
+/* Says where the backdrop's objects are, and which of them may hide lights from what rays hit. A
+ * strip of the picture leaves out those that are beside all ways from its surfaces to a light
  * (ray_casters.h). */
 #ifndef KILN_DRAW_BACKDROP_CASTERS_H
 #define KILN_DRAW_BACKDROP_CASTERS_H
@@ -15,19 +15,24 @@ struct kiln_casters {
 };
 
 enum {
-    KILN_CASTER_MESHES = KILN_MAX_OBJECTS, /* the first mesh among the bounds */
-    KILN_CASTER_ROOM = 48,                 /* whole vectors */
+    KILN_BOUNDS_MESHES = KILN_MAX_OBJECTS, /* the first mesh among the bounds */
+    KILN_BOUNDS_ROOM = 48,                 /* whole vectors */
 };
 
-static_assert(KILN_MAX_OBJECTS + KILN_MAX_MESHES <= KILN_CASTER_ROOM, "all casters have room");
+static_assert(KILN_MAX_OBJECTS + KILN_MAX_MESHES <= KILN_BOUNDS_ROOM, "all casters have room");
+
+/* A box around points that get light, m; from > to: there are none. */
+struct kiln_lit_box {
+    float from[3], to[3];
+};
 
 /* Holds boxes along the axes of the world around objects and meshes, m. */
-struct kiln_caster_bounds {
-    float center[3][KILN_CASTER_ROOM], half[3][KILN_CASTER_ROOM];
+struct kiln_object_bounds {
+    float center[3][KILN_BOUNDS_ROOM], half[3][KILN_BOUNDS_ROOM];
 };
 
 /* Finds the bounds of all objects, and those that may hide a light from anything. */
-void kiln_casters_find(const struct kiln_backdrop_inputs *inputs, struct kiln_caster_bounds *bounds,
+void kiln_casters_find(const struct kiln_backdrop_inputs *inputs, struct kiln_object_bounds *bounds,
                        struct kiln_casters *casters);
 
 #endif

@@ -21,9 +21,9 @@ struct kiln_ray_frame {
     struct kiln_solid_bins solids;
     const struct kiln_mesh_view *meshes; /* NULL: none */
     struct kiln_lamp_objects lamp_objects;
-    const struct kiln_caster_bounds *caster_bounds;
-    const struct kiln_casters *all_casters; /* that may hide lights from anything */
-    const struct kiln_casters *casters;     /* ...and from what is lit; mostly all */
+    const struct kiln_object_bounds *object_bounds;
+    const struct kiln_casters *all_casters; /* what may hide lights from anything */
+    const struct kiln_casters *casters;     /* what may hide them from the surfaces that are lit */
     const float *lamp_smoke;                /* of struct kiln_lighting */
     bool floor_gloss, soft_sun;
 };

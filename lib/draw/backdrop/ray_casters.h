@@ -1,7 +1,7 @@
 /* This header leaves out the objects that hide no light from the surfaces in a strip of the
  * picture. These surfaces lie in a box along the axes of the world. The box is swept towards a
- * light, and what the swept box does not meet, hides nothing. All bounds are generous, so that
- * nothing changes but time. */
+ * light, and what the swept box does not meet, hides nothing. The bounds are generous: what is left
+ * out hides no more of a light than rounding would. */
 #ifndef KILN_DRAW_BACKDROP_RAY_CASTERS_H
 #define KILN_DRAW_BACKDROP_RAY_CASTERS_H
 
@@ -12,13 +12,16 @@
 #define CASTER_MARGIN   0.01f
 #define CASTER_ROUNDING 1e-5f
 
-/* How many times as wide as the sun a mesh's penumbra may be, which is blurred. */
-#define CASTER_BLUR 4.0f
+/* How much wider than a light's disc its cone is taken to be. Strips that bound the covers of
+ * shapes cross beside their corners, and maps of meshes are blurred. */
+#define CASTER_WIDER      1.5f
+#define CASTER_MESH_WIDER 4.0f
 
-/* A box around points that get light, m; from > to: there are none. */
-struct lit_box {
-    float from[3], to[3];
-};
+/* Lamps: half of the edges of the box in which the cone from a place ends, which is at least
+ * CASTER_NEAR away, as a part of the lamp's extent. The cone goes on behind the lamp's middle, and
+ * still widens there, as far as parts of the lamp do. */
+#define CASTER_END  3.2f
+#define CASTER_NEAR 3.0f
 
 /* A box that moves, and grows, towards a light: at t its middle is center + t * way, and half of
  * its edges are half + t * grow. */
@@ -48,11 +51,11 @@ SIMD void add_lit(struct lit_vectors *lit, struct vf3 at, vi active)
     lit->to = vf3_select(active, to, lit->to);
 }
 
-static struct lit_box lit_box_of(const struct lit_vectors *lit)
+static struct kiln_lit_box lit_box_of(const struct lit_vectors *lit)
 {
     const vf from[3] = {lit->from.x, lit->from.y, lit->from.z};
     const vf to[3] = {lit->to.x, lit->to.y, lit->to.z};
-    struct lit_box box;
+    struct kiln_lit_box box;
     for (int k = 0; k < 3; k++) {
         box.from[k] = from[k][0];
         box.to[k] = to[k][0];
@@ -64,7 +67,7 @@ static struct lit_box lit_box_of(const struct lit_vectors *lit)
     return box;
 }
 
-static struct swept_box swept_from(const struct lit_box *box)
+static struct swept_box swept_from(const struct kiln_lit_box *box)
 {
     struct swept_box swept = {.last = 1.0f};
     for (int k = 0; k < 3; k++) {
@@ -75,22 +78,45 @@ static struct swept_box swept_from(const struct lit_box *box)
     return swept;
 }
 
+/* Returns how far parts of a lamp are from its centre, m; of a rectangle, also where its disc is
+ * lifted above a horizon (lamp_way_to). */
+static float lamp_extent(const struct kiln_draw_light *lamp)
+{
+    const float4 right = lamp->right, up = lamp->up;
+    if (lamp->facing.w != KILN_LAMP_RECTANGLE)
+        return lamp->color.w;
+    return lamp->color.w + sqrtf(right.x * right.x + right.y * right.y + right.z * right.z) +
+           sqrtf(up.x * up.x + up.y * up.y + up.z * up.z);
+}
+
+/* Returns whether a lamp is so near to a box that its light comes from everywhere. */
+static bool is_near_lamp(const struct kiln_lit_box *box, float4 lamp, float extent)
+{
+    const float at[3] = {lamp.x, lamp.y, lamp.z};
+    float square = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        const float aside = fmaxf(fmaxf(box->from[k] - at[k], at[k] - box->to[k]), 0.0f);
+        square += aside * aside;
+    }
+    const float near = CASTER_NEAR * extent + CASTER_MARGIN;
+    return square <= near * near;
+}
+
 /* Returns the way to a lamp, where the box ends as one around the lamp. */
-static struct swept_box sweep_to_lamp(const struct lit_box *box, const struct kiln_draw_light *lamp)
+static struct swept_box sweep_to_lamp(const struct kiln_lit_box *box, float4 lamp, float extent)
 {
     struct swept_box swept = swept_from(box);
-    const float4 at = lamp->position_radius2;
-    const float to[3] = {at.x, at.y, at.z};
+    const float to[3] = {lamp.x, lamp.y, lamp.z};
     for (int k = 0; k < 3; k++) {
         swept.way[k] = to[k] - swept.center[k];
         swept.grow[k] =
-            lamp->color.w + CASTER_MARGIN + CASTER_ROUNDING * fabsf(to[k]) - swept.half[k];
+            CASTER_END * extent + CASTER_MARGIN + CASTER_ROUNDING * fabsf(to[k]) - swept.half[k];
     }
     return swept;
 }
 
 /* Returns the way to the sun. spread: by which the box grows, m per m. */
-static struct swept_box sweep_to_sun(const struct lit_box *box, float4 direction, float spread)
+static struct swept_box sweep_to_sun(const struct kiln_lit_box *box, float4 direction, float spread)
 {
     struct swept_box swept = swept_from(box);
     const float way[3] = {direction.x, direction.y, direction.z};
@@ -104,7 +130,7 @@ static struct swept_box sweep_to_sun(const struct lit_box *box, float4 direction
 
 /* Returns the lanes of bounds, from `first` on, that a swept box meets. On each axis and at each
  * side, they meet where t * speed >= gap. */
-SIMD vi sweep_meets(const struct swept_box *swept, const struct kiln_caster_bounds *bounds,
+SIMD vi sweep_meets(const struct swept_box *swept, const struct kiln_object_bounds *bounds,
                     int first)
 {
     vf from = vf_all(0.0f), to = vf_all(swept->last);
@@ -128,7 +154,7 @@ SIMD vi sweep_meets(const struct swept_box *swept, const struct kiln_caster_boun
 }
 
 /* Returns a bit for each of some bounds that a swept box meets. begin, end: multiples of 16. */
-SIMD uint32_t find_met(const struct swept_box *swept, const struct kiln_caster_bounds *bounds,
+SIMD uint32_t find_met(const struct swept_box *swept, const struct kiln_object_bounds *bounds,
                        int begin, int end)
 {
     uint32_t met = 0;
@@ -138,29 +164,34 @@ SIMD uint32_t find_met(const struct swept_box *swept, const struct kiln_caster_b
 }
 
 /* Finds what may hide lights from points in a box. */
-SIMD struct kiln_casters find_casters(const struct kiln_ray_frame *frame, const struct lit_box *box)
+SIMD struct kiln_casters find_casters(const struct kiln_ray_frame *frame,
+                                      const struct kiln_lit_box *box)
 {
     struct kiln_casters casters = {.sun_objects = 0};
     if (!(box->from[0] <= box->to[0]))
         return casters;
     const struct kiln_draw_backdrop *b = frame->backdrop;
     const struct kiln_casters *all = frame->all_casters;
-    const struct kiln_caster_bounds *bounds = frame->caster_bounds;
+    const struct kiln_object_bounds *bounds = frame->object_bounds;
     const float spread = frame->shapes->sun_right.w;
     if (all->sun_objects) {
-        const struct swept_box swept = sweep_to_sun(box, b->sun_direction, spread);
-        casters.sun_objects = all->sun_objects & find_met(&swept, bounds, 0, KILN_CASTER_MESHES);
+        const struct swept_box swept = sweep_to_sun(box, b->sun_direction, CASTER_WIDER * spread);
+        casters.sun_objects = all->sun_objects & find_met(&swept, bounds, 0, KILN_BOUNDS_MESHES);
     }
     if (all->sun_meshes) {
-        const struct swept_box swept = sweep_to_sun(box, b->sun_direction, CASTER_BLUR * spread);
+        const struct swept_box swept =
+            sweep_to_sun(box, b->sun_direction, CASTER_MESH_WIDER * spread);
         casters.sun_meshes =
-            all->sun_meshes & find_met(&swept, bounds, KILN_CASTER_MESHES, KILN_CASTER_ROOM);
+            all->sun_meshes & find_met(&swept, bounds, KILN_BOUNDS_MESHES, KILN_BOUNDS_ROOM);
     }
     for (uint32_t i = 0; i < b->counts.y; i++) {
-        if (!all->lamps[i])
+        const float4 lamp = b->lights[i].position_radius2;
+        const float extent = lamp_extent(&b->lights[i]);
+        casters.lamps[i] = all->lamps[i];
+        if (!all->lamps[i] || is_near_lamp(box, lamp, extent))
             continue;
-        const struct swept_box swept = sweep_to_lamp(box, &b->lights[i]);
-        casters.lamps[i] = all->lamps[i] & find_met(&swept, bounds, 0, KILN_CASTER_MESHES);
+        const struct swept_box swept = sweep_to_lamp(box, lamp, extent);
+        casters.lamps[i] &= find_met(&swept, bounds, 0, KILN_BOUNDS_MESHES);
     }
     return casters;
 }

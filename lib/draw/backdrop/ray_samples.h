@@ -1,14 +1,13 @@
 /* This header computes the colours of pixels at edges from KILN_EDGE_SAMPLES samples of each. All
- * samples are traced, but light is computed once for those of a pixel that lie on one smooth piece
- * of surface, and not at all for those on the piece at its centre, whose colour is known. Where a
- * shadow parts a pixel, each sample gets light of its own. */
+ * samples are traced, but those of a pixel that lie on one smooth piece of surface share a colour,
+ * and those on the piece at its centre have that of the centre, which is known. Where a shadow
+ * parts a pixel, each sample has a colour of its own. */
 #ifndef KILN_DRAW_BACKDROP_RAY_SAMPLES_H
 #define KILN_DRAW_BACKDROP_RAY_SAMPLES_H
 
 #include <stdlib.h>
 
 #include "base/compress.h"
-#include "draw/backdrop/ray_casters.h"
 #include "draw/backdrop/ray_edges.h"
 #include "draw/backdrop/ray_shade.h"
 #include "shared/edge_mean.h"
@@ -45,7 +44,7 @@ SIMD struct placed_hit trace_place(const struct kiln_ray_frame *frame,
     return placed;
 }
 
-SIMD vi on_one_piece(const struct placed_hit *a, const struct placed_hit *b)
+SIMD vi share_piece(const struct placed_hit *a, const struct placed_hit *b)
 {
     const struct vf3 way = vf3_sub(b->at, a->at);
     const vf off = vf3_dot(way, a->hit.normal), square = vf3_dot(way, way);
@@ -68,9 +67,8 @@ SIMD struct sample_pieces trace_samples(const struct kiln_ray_frame *frame,
         samples[s] = trace_place(frame, objects, &place);
         vi piece = vi_all(s + 1);
         for (int before = s - 1; before >= 0; before--)
-            piece =
-                vi_select(on_one_piece(&samples[before], &samples[s]), pieces.of[before], piece);
-        pieces.of[s] = vi_select(on_one_piece(&middle, &samples[s]), vi_all(0), piece);
+            piece = vi_select(share_piece(&samples[before], &samples[s]), pieces.of[before], piece);
+        pieces.of[s] = vi_select(share_piece(&middle, &samples[s]), vi_all(0), piece);
     }
     return pieces;
 }
@@ -244,7 +242,6 @@ static void antialias_together(const struct kiln_backdrop_picture *p,
                                const int32_t *columns, const int32_t *rows)
 {
     struct shared_samples all;
-    struct lit_vectors lit = no_lit_vectors();
     all.count = 0;
     for (int i = 0; i < count; i += LANES) {
         const vi column = vi_load(columns + i), row = vi_load(rows + i);
@@ -253,17 +250,10 @@ static void antialias_together(const struct kiln_backdrop_picture *p,
         struct sample_pieces *pieces = &all.pieces[i / LANES];
         *pieces = trace_samples(p->frame, objects, &center, samples);
         part_pieces(are_lit_evenly(p, column, row), pieces);
-        for (int s = 0; s < SAMPLES; s++) {
-            const vi needed = needs_light(pieces, s);
-            add_lit(&lit, samples[s].at, needed & (samples[s].hit.surface >= 0.0f));
-            add_samples(&all, &samples[s], s, i, needed);
-        }
+        for (int s = 0; s < SAMPLES; s++)
+            add_samples(&all, &samples[s], s, i, needs_light(pieces, s));
     }
-    const struct lit_box box = lit_box_of(&lit);
-    const struct kiln_casters casters = find_casters(p->frame, &box);
-    struct kiln_ray_frame frame = *p->frame;
-    frame.casters = &casters;
-    light_samples(&frame, &all);
+    light_samples(p->frame, &all);
     for (int i = 0; i < count; i += LANES) {
         const vi pixel = vi_load(rows + i) * (int32_t)p->width + vi_load(columns + i);
         struct ray_color colors[1 + SAMPLES] = {load_centers(p, pixel)};
@@ -303,8 +293,8 @@ SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame,
     return pieces;
 }
 
-/* Antialiases LANES pixels of which all samples are in the cache, or get into it. first: planes of
- * the first sample. */
+/* Antialiases LANES pixels of which all samples are in the cache, or get into it. All get light, so
+ * that their planes are filled. first: planes of the first sample. */
 SIMD void antialias_cached(const struct kiln_backdrop_picture *p,
                            const struct kiln_ray_objects *objects, vi column, vi row, vi active,
                            const struct cached_rays *first)

@@ -31,10 +31,13 @@ struct kiln_surface_cache *kiln_surface_cache_create(const struct kiln_scene *sc
         cache->rays = kiln_shape_features(scene).floor_gloss ? 2 : 1;
         cache->flags = calloc((size_t)cache->width * cache->height, sizeof *cache->flags);
         cache->edges = calloc(tiles_of(cache), sizeof *cache->edges);
+        cache->strips =
+            calloc((size_t)tiles_of(cache) * (cache->width / STRIP), sizeof *cache->strips);
         cache->shown = calloc(1, sizeof *cache->shown);
         cache->lights = calloc(MOST_LIGHTS, sizeof *cache->lights);
     }
-    if (!cache || !cache->flags || !cache->edges || !cache->shown || !cache->lights) {
+    if (!cache || !cache->flags || !cache->edges || !cache->strips || !cache->shown ||
+        !cache->lights) {
         kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
         kiln_surface_cache_destroy(&cache);
     }
@@ -58,6 +61,7 @@ void kiln_surface_cache_destroy(struct kiln_surface_cache **cache)
         return;
     free_edges(c);
     free(c->edges);
+    free(c->strips);
     free(c->centers);
     free(c->flags);
     free(c->shown);

@@ -7,6 +7,7 @@
 #define KILN_DRAW_BACKDROP_SURFACE_CACHE_H
 
 #include "draw/backdrop/backdrop_inputs.h"
+#include "draw/backdrop/casters.h"
 
 /* Numbers of the planes of a vector of rays. A plane holds a float for each ray. */
 enum {
@@ -49,6 +50,7 @@ struct kiln_surface_cache {
     uint32_t has_plane, lamps;
     float *centers;
     uint8_t *flags;                     /* of pixels */
+    struct kiln_lit_box *strips;        /* around what strips show (casters.h), by row */
     struct kiln_cached_edges *edges;    /* of each KILN_EDGE_TILE rows */
     struct kiln_backdrop_inputs *shown; /* of the picture before, of its surfaces alone */
     struct kiln_draw_light *lights;     /* of the picture before, as far as shadows go */

@@ -8,8 +8,8 @@
  * lib/draw/backdrop/backdrop_gl.c runs two passes. The first casts one ray through the centre of
  * each pixel and notes which surface it hits. The second casts SAMPLES rays more a pixel at edges,
  * which are where neighbouring pixels hit different surfaces: backdrop_edges.vert finds the tiles
- * that have edges, this shader their pixels. It computes light once for those rays of a pixel that
- * hit one smooth piece of surface, unless a shadow parts the pixel. */
+ * that have edges, this shader their pixels. Those rays of a pixel that hit one smooth piece of
+ * surface share a colour, unless a shadow parts the pixel. */
 // variant: SAMPLES=1
 // variant: SAMPLES=4
 // variant: SAMPLES=1 ROUND=1
@@ -133,7 +133,7 @@ vec3 ray_points[1 + SAMPLES];
 int ray_pieces[1 + SAMPLES];
 bool lit_evenly = false;
 
-bool on_one_piece(hit a, vec3 at, hit b, vec3 other)
+bool share_piece(hit a, vec3 at, hit b, vec3 other)
 {
     vec3 way = other - at;
     float off = dot(way, a.normal);
@@ -150,7 +150,7 @@ bool needs_light(int ray, hit h, vec3 point)
     ray_points[ray] = point;
     ray_pieces[ray] = ray;
     for (int before = ray - 1; before >= 0; before--) {
-        bool same = on_one_piece(ray_hits[before], ray_points[before], h, point);
+        bool same = share_piece(ray_hits[before], ray_points[before], h, point);
         ray_pieces[ray] = same ? ray_pieces[before] : ray_pieces[ray];
     }
     ray_pieces[ray] = lit_evenly ? ray_pieces[ray] : ray;
