@@ -157,6 +157,10 @@ static struct kiln_lit_box trace_strip(const struct kiln_backdrop_picture *p,
                                        struct strip_hits *strip)
 {
     const uint32_t x_to = x + STRIP < p->width ? x + STRIP : p->width, y_to = rows_from(p, y);
+    struct kiln_lit_box *kept =
+        p->cache ? &p->cache->strips[((size_t)y / TILE * p->cache->width + x) / STRIP] : NULL;
+    if (kept && p->cache->use == KILN_CACHE_FILLED)
+        return *kept; /* the hits are in the cache, too */
     struct lit_vectors lit = no_lit_vectors();
     for (int i = 0; grid && i < GRID_NODES; i += LANES)
         add_lit(&lit, load_vector(grid->at, i),
@@ -171,13 +175,10 @@ static struct kiln_lit_box trace_strip(const struct kiln_backdrop_picture *p,
             strip->hits[row - y][(column - x) / LANES] = hit;
         }
     }
-    if (!p->cache)
-        return lit_box_of(&lit);
-    /* Kept, since the nodes need not be placed any more when the cache is filled. */
-    struct kiln_lit_box *kept = &p->cache->strips[((size_t)y / TILE * p->cache->width + x) / STRIP];
-    if (p->cache->use == KILN_CACHE_TO_FILL)
-        *kept = lit_box_of(&lit);
-    return *kept;
+    const struct kiln_lit_box box = lit_box_of(&lit);
+    if (kept)
+        *kept = box;
+    return box;
 }
 
 /* Lights what the pixels of the strip at (x, y) show. grid, mirrored: or NULL. */
@@ -193,12 +194,14 @@ static void light_strip(const struct kiln_backdrop_picture *p, uint32_t x, uint3
             begin_pixels(p, column, row, &pixels);
             const struct grid_row grid_row = {grid, mirrored, column - x, row - y};
             const struct ray_help help = {grid ? &grid_row : NULL, pixels.cached};
-            const struct ray_hit *hit = &strip->hits[row - y][(column - x) / LANES];
-            const struct shaded_rays shaded = shade_hits(frame, &pixels.eye.ray, hit, &help);
-            const vf surface = mark_surfaces(frame, &pixels.eye, hit, pixels.cached);
+            const struct ray_hit hit = is_filled(pixels.cached)
+                                           ? read_cached_hit(pixels.cached)
+                                           : strip->hits[row - y][(column - x) / LANES];
+            const struct shaded_rays shaded = shade_hits(frame, &pixels.eye.ray, &hit, &help);
+            const vf surface = mark_surfaces(frame, &pixels.eye, &hit, pixels.cached);
             const size_t first = (size_t)row * p->width + column;
             store_colors(p->color + 4 * first, &shaded.color, pixels.count);
-            store_numbers(p->depth + first, hit->t, pixels.count);
+            store_numbers(p->depth + first, hit.t, pixels.count);
             store_numbers(p->surfaces + first, 4.0f * surface + shaded.light, pixels.count);
         }
     }

@@ -293,8 +293,8 @@ SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame,
     return pieces;
 }
 
-/* Antialiases LANES pixels of which all samples are in the cache, or get into it. All get light, so
- * that their planes are filled. first: planes of the first sample. */
+/* Antialiases LANES pixels whose samples are in the cache, or get into it; then each gets light, so
+ * that its planes are filled. first: planes of the first sample. */
 SIMD void antialias_cached(const struct kiln_backdrop_picture *p,
                            const struct kiln_ray_objects *objects, vi column, vi row, vi active,
                            const struct cached_rays *first)
@@ -306,6 +306,8 @@ SIMD void antialias_cached(const struct kiln_backdrop_picture *p,
     part_pieces(are_lit_evenly(p, column, row), &pieces);
     struct ray_color colors[1 + SAMPLES] = {load_centers(p, pixel)};
     for (int s = 0; s < SAMPLES; s++) {
+        if (first->filled && !any(needs_light(&pieces, s) & active))
+            continue;
         const struct ray_place place = sample_place(frame, &center, s);
         const struct ray ray = rays_at(frame, &place).ray;
         const struct cached_rays planes = cached_sample(first, s);
