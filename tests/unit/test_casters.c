@@ -104,6 +104,24 @@ static void place_objects(struct kiln_backdrop_inputs *inputs)
     }
 }
 
+/* A scene of random objects and lamps, and what rays know of it. */
+struct scene {
+    struct kiln_backdrop_inputs inputs;
+    struct kiln_object_bounds bounds;
+    struct kiln_casters all;
+    struct kiln_ray_frame frame;
+};
+
+static void open_scene(struct scene *scene)
+{
+    place_objects(&scene->inputs);
+    kiln_casters_find(&scene->inputs, &scene->bounds, &scene->all);
+    scene->frame = (struct kiln_ray_frame){.backdrop = &scene->inputs.block,
+                                           .shapes = &scene->inputs.shapes,
+                                           .object_bounds = &scene->bounds,
+                                           .all_casters = &scene->all};
+}
+
 /* ---- what objects contain -------------------------------------------------------------------- */
 
 static double dot(const double v[3], float4 other)
@@ -191,25 +209,17 @@ static struct kiln_lit_box random_box(int flat)
 static void no_caster_is_left_out(void **state)
 {
     (void)state;
-    static struct kiln_backdrop_inputs inputs;
+    static struct scene scene;
     int kept = 0, all = 0;
     srand(7);
     for (int trial = 0; trial < TRIALS; trial++) {
-        struct kiln_object_bounds bounds;
-        struct kiln_casters everything;
-        place_objects(&inputs);
-        kiln_casters_find(&inputs, &bounds, &everything);
-        const struct kiln_ray_frame frame = {.backdrop = &inputs.block,
-                                             .shapes = &inputs.shapes,
-                                             .object_bounds = &bounds,
-                                             .all_casters = &everything,
-                                             .casters = &everything};
+        open_scene(&scene);
         const struct kiln_lit_box box = random_box(trial);
-        const struct kiln_casters casters = find_casters(&frame, &box);
-        const uint32_t sun = met_on_ways(&inputs, &box, NULL);
+        const struct kiln_casters casters = find_casters(&scene.frame, &box);
+        const uint32_t sun = met_on_ways(&scene.inputs, &box, NULL);
         assert_int_equal(sun & ~casters.sun_objects, 0);
         for (int i = 0; i < LAMPS; i++) {
-            const uint32_t met = met_on_ways(&inputs, &box, &inputs.block.lights[i]);
+            const uint32_t met = met_on_ways(&scene.inputs, &box, &scene.inputs.block.lights[i]);
             assert_int_equal(met & ~casters.lamps[i], 0);
             kept += __builtin_popcount(casters.lamps[i]);
             all += OBJECTS;
@@ -250,28 +260,21 @@ static __attribute__((noinline)) void see_lamp(const struct kiln_lamp_objects *o
 static void what_is_seen_of_lamps_stays(void **state)
 {
     (void)state;
-    static struct kiln_backdrop_inputs inputs;
+    static struct scene scene;
     srand(11);
     for (int trial = 0; trial < TRIALS; trial++) {
-        struct kiln_object_bounds bounds;
-        struct kiln_casters everything;
-        place_objects(&inputs);
-        kiln_casters_find(&inputs, &bounds, &everything);
-        const struct kiln_ray_frame frame = {.backdrop = &inputs.block,
-                                             .shapes = &inputs.shapes,
-                                             .object_bounds = &bounds,
-                                             .all_casters = &everything};
+        open_scene(&scene);
         const struct kiln_lamp_objects objects = {.box_count = EACH,
-                                                  .box_center = inputs.block.box_center,
-                                                  .box_half = inputs.block.box_half,
-                                                  .shapes = &inputs.shapes};
+                                                  .box_center = scene.inputs.block.box_center,
+                                                  .box_half = scene.inputs.block.box_half,
+                                                  .shapes = &scene.inputs.shapes};
         const struct kiln_lit_box box = random_box(trial);
-        const struct kiln_casters casters = find_casters(&frame, &box);
+        const struct kiln_casters casters = find_casters(&scene.frame, &box);
         for (int i = 0; i < LAMPS * WAYS; i++) {
-            const struct kiln_draw_light *lamp = &inputs.block.lights[i % LAMPS];
+            const struct kiln_draw_light *lamp = &scene.inputs.block.lights[i % LAMPS];
             const struct ray_point p = random_points(&box);
             vf all, found;
-            see_lamp(&objects, lamp, everything.lamps[i % LAMPS], &p, &all);
+            see_lamp(&objects, lamp, scene.all.lamps[i % LAMPS], &p, &all);
             see_lamp(&objects, lamp, casters.lamps[i % LAMPS], &p, &found);
             for (int lane = 0; lane < LANES; lane++)
                 assert_float_equal(all[lane], found[lane], 1e-6f);
@@ -283,13 +286,10 @@ static void what_is_seen_of_lamps_stays(void **state)
 static void bounds_touch_corners(void **state)
 {
     (void)state;
-    static struct kiln_backdrop_inputs inputs;
-    struct kiln_object_bounds bounds;
-    struct kiln_casters everything;
-    place_objects(&inputs);
-    kiln_casters_find(&inputs, &bounds, &everything);
+    static struct scene scene;
+    open_scene(&scene);
     for (int i = 0; i < EACH; i++) {
-        const struct kiln_draw_oriented_box *box = &inputs.shapes.oriented_boxes[i];
+        const struct kiln_draw_oriented_box *box = &scene.inputs.shapes.oriented_boxes[i];
         const float half[3] = {box->half_size.x, box->half_size.y, box->half_size.z};
         float farthest[3] = {0};
         for (int corner = 0; corner < 8; corner++) {
@@ -304,25 +304,18 @@ static void bounds_touch_corners(void **state)
                 farthest[k] = fmaxf(farthest[k], at[k]);
         }
         for (int k = 0; k < 3; k++)
-            assert_float_equal(farthest[k], bounds.half[k][OBJECTS - EACH + i], 1e-5f);
+            assert_float_equal(farthest[k], scene.bounds.half[k][OBJECTS - EACH + i], 1e-5f);
     }
 }
 
 static void nothing_hides_light_from_nothing(void **state)
 {
     (void)state;
-    static struct kiln_backdrop_inputs inputs;
-    struct kiln_object_bounds bounds;
-    struct kiln_casters everything;
-    place_objects(&inputs);
-    kiln_casters_find(&inputs, &bounds, &everything);
-    const struct kiln_ray_frame frame = {.backdrop = &inputs.block,
-                                         .shapes = &inputs.shapes,
-                                         .object_bounds = &bounds,
-                                         .all_casters = &everything};
+    static struct scene scene;
+    open_scene(&scene);
     const struct lit_vectors none = no_lit_vectors();
     const struct kiln_lit_box box = lit_box_of(&none);
-    const struct kiln_casters casters = find_casters(&frame, &box);
+    const struct kiln_casters casters = find_casters(&scene.frame, &box);
     assert_int_equal(casters.sun_objects, 0);
     for (int i = 0; i < LAMPS; i++)
         assert_int_equal(casters.lamps[i], 0);

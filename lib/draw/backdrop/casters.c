@@ -6,7 +6,7 @@
 
 #include "draw/backdrop/ray.h"
 
-/* As a part of a radius: more than a direction differs from a unit vector. */
+/* Bounds are larger by this part of a radius, since directions are not exactly unit vectors. */
 #define ROUNDING 1e-4f
 
 /* Texels of a mesh's shadow map by which its shadow may be wider than the mesh. */

@@ -44,6 +44,7 @@ SIMD struct placed_hit trace_place(const struct kiln_ray_frame *frame,
     return placed;
 }
 
+/* Returns the lanes where two hits lie on one smooth piece of surface, or both on the sky. */
 SIMD vi share_piece(const struct placed_hit *a, const struct placed_hit *b)
 {
     const struct vf3 way = vf3_sub(b->at, a->at);
