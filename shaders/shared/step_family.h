@@ -1,11 +1,13 @@
 /* Runs one step of one slot for systems whose particles have children, are children, paint meshes,
  * or die of an impact. A family is a parent system and the systems of its children (family.h). This
  * header does more than step.h: it computes births from the parents' traces, makes traces
- * (trace.h), and lets a particle's motion end when its life ends within the step. Other systems use
- * step.h alone, since this would slow them down.
+ * (trace.h), and lets a particle's motion end when its life ends within the step. For other systems
+ * it gives the bits of step.h.
  *
- * The kernels of all GPU techniques call step_family_slot through shaders/sim/step/slot.glsl; the
- * host calls it in lib/sim/step/slots_simd.c. Both run the slots of a parent system before those of
+ * The kernels of all GPU techniques call step_family_slot through shaders/sim/step/slot.glsl, for
+ * families alone, since it would slow other systems down. The host steps blocks of slots
+ * (lib/sim/step/slots_simd.c), and calls it for births, impacts and ends of lives that leave a
+ * trace. Both run the slots of a parent system before those of
  * its children. Host and GPU must get the same bits (docs/determinism.md). So every local that
  * holds floats is EXACT (platform.h); a kiln_particle holds their bits as integers. The order of
  * operations must stay as it is. SIM, SIM_PARAM, STEP and AROUND give access to the parameters of

@@ -1,5 +1,6 @@
-/* lib/sim/step/slots_simd.c: stepping slots in blocks gives the bits of step_slot, at every width
- * of vectors and for any stretch of slots. */
+/* lib/sim/step/slots_simd.c: stepping slots in blocks gives the bits of step_slot, and for families
+ * those of step_family_slot and their traces, at every width of vectors and for any stretch of
+ * slots. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -8,6 +9,7 @@
 #include "sim/world/params.h"
 #include "support/balls.h"
 #include "support/cmocka.h"
+#include "support/family_fixture.h"
 
 static struct scene_fixture fixture; /* too large for a stack */
 
@@ -26,17 +28,32 @@ static void add_limited(struct scene_fixture *f)
     fixture_add_force(s, KILN_FORCE_LIMIT)->strength = fixture_keys(f, KILN_CLOCK_LIFE, 20, points);
 }
 
-static void step_in_blocks(const struct kiln_slots_step *loops, struct kiln_slots *slots)
+static void step_in_blocks(kiln_slots_step *step_slots, struct kiln_slots *slots)
 {
     const uint32_t used = slots->sim.step->used;
     for (uint32_t first = 0; first < used; first += STRETCH)
-        loops->alone(slots, first, used - first < STRETCH ? used : first + STRETCH, 0);
+        step_slots(slots, first, used - first < STRETCH ? used : first + STRETCH, 0);
 }
 
-static void step_slots(struct kiln_slots *slots)
+static void step_one_by_one(struct kiln_slots *slots)
 {
     for (uint32_t slot = 0; slot < slots->sim.step->used; slot++)
         slots->records[slot] = step_slot(&slots->sim, slot, slots->records[slot]);
+}
+
+static void step_family_one_by_one(struct kiln_slots *slots)
+{
+    const struct kiln_family_params *family = &slots->sim.step->family;
+    for (uint32_t slot = 0; slot < slots->sim.step->used; slot++) {
+        struct kiln_trace parent = trace_nothing();
+        if (family->born_of != BORN_OF_CLOCK)
+            parent = slots->traces[family_parent_trace(&slots->sim, slot)];
+        const struct step_result after =
+            step_family_slot(&slots->sim, slot, slots->records[slot], parent);
+        slots->records[slot] = after.particle;
+        if (family->traced)
+            slots->traces[family->traces + slot] = after.trace;
+    }
 }
 
 /* How particles turn, twice; NULL where none does. */
@@ -57,15 +74,38 @@ static struct spins make_spins(uint32_t slots)
     return spins;
 }
 
+/* Traces of all systems, twice. */
+struct traces {
+    struct kiln_trace *all, *copy;
+    uint32_t count;
+};
+
+/* Nothing is left of the step before: each slot of a system that is traced writes its trace. */
+static void forget_traces(struct traces *traces)
+{
+    memset(traces->all, 0xa5, traces->count * sizeof *traces->all);
+    memset(traces->copy, 0x5a, traces->count * sizeof *traces->copy);
+}
+
+static void compare_traces(const struct kiln_step_params *step, struct traces *traces)
+{
+    const struct kiln_family_params *family = &step->family;
+    if (!family->traced)
+        return;
+    assert_memory_equal(traces->copy + family->traces, traces->all + family->traces,
+                        step->used * sizeof *traces->all);
+}
+
 /* Steps all systems slot by slot, and each from the same state in blocks. Returns the living. */
-static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln_sim_params *params,
+static uint32_t step_both(kiln_slots_step *step_slots, const struct kiln_sim_params *params,
                           const float4 *words, const float4 *pushes, const float4 *planes,
                           struct kiln_particle *records, struct kiln_particle *copy,
-                          struct spins *spins)
+                          struct spins *spins, struct traces *traces)
 {
     uint32_t alive = 0;
+    forget_traces(traces);
     for (uint32_t k = 0; k < params->system_count; k++) {
-        const struct kiln_step_params *step = &params->systems[k];
+        const struct kiln_step_params *step = &params->systems[params->order[k]];
         struct kiln_slots slots = {
             .sim = {.step = step,
                     .surroundings = &params->surroundings,
@@ -75,16 +115,22 @@ static uint32_t step_both(const struct kiln_slots_step *loops, const struct kiln
                     .spin_words = spins->words,
                     .volume_words = planes},
             .records = records + step->base,
+            .traces = traces->all,
         };
         if (spins->words)
             memcpy(spins->copy, spins->words, spins->bytes);
         const size_t bytes = step->used * sizeof *records;
         memcpy(copy, slots.records, bytes);
-        step_slots(&slots);
+        if (kiln_sim_is_family(step))
+            step_family_one_by_one(&slots);
+        else
+            step_one_by_one(&slots);
         slots.records = copy;
+        slots.traces = traces->copy;
         slots.sim.spin_words = spins->copy;
-        step_in_blocks(loops, &slots);
+        step_in_blocks(step_slots, &slots);
         assert_memory_equal(copy, records + step->base, bytes);
+        compare_traces(step, traces);
         if (spins->words)
             assert_memory_equal(spins->words, spins->copy, spins->bytes);
         for (uint32_t i = 0; i < step->used; i++)
@@ -123,13 +169,17 @@ static void run_level(enum kiln_simd simd)
     kiln_sim_params_init(params, &fixture.scene, &grids);
     float4 *pushes = make_pushes(params->push_count);
     struct spins spins = make_spins(params->spin_count);
+    struct traces traces = {.count = params->trace_count};
+    traces.all = calloc((size_t)traces.count + 1, sizeof *traces.all);
+    traces.copy = calloc((size_t)traces.count + 1, sizeof *traces.copy);
+    assert_true(traces.all && traces.copy);
     uint32_t most = 0;
     for (uint32_t step = 1; step <= STEPS; step++) {
         assert_true(kiln_volumes_step(&grids.volumes, &fixture.scene, step, run.threads, &error));
         const float4 *planes = kiln_buffer_host(&grids.volumes.words, KILN_READ, &error);
         assert_true(kiln_sim_params_step(params, &fixture.scene, &run.pool, step, &error));
         uint32_t alive = step_both(KILN_SIMD_PICK(kiln_slots_step, simd), params, words, pushes,
-                                   planes, records, copy, &spins);
+                                   planes, records, copy, &spins, &traces);
         most = alive > most ? alive : most;
     }
     assert_true(most > 1000);
@@ -137,6 +187,8 @@ static void run_level(enum kiln_simd simd)
     free(pushes);
     free(spins.words);
     free(spins.copy);
+    free(traces.all);
+    free(traces.copy);
     free(copy);
     free(params);
     simulation_end(&run);
@@ -251,6 +303,33 @@ static void whirls(void **state)
     }
 }
 
+/* Births, deaths and bounces of parents, with each integrator. */
+static void families(void **state)
+{
+    (void)state;
+    for (int order = 0; order < 4; order++) {
+        fixture_family(&fixture, (enum kiln_integration)order);
+        fixture_finish(&fixture, STEPS);
+        run_levels();
+    }
+}
+
+/* Families whose particles push each other, spin, and bounce off what turns. */
+static void pushed_families(void **state)
+{
+    (void)state;
+    fixture_family(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT);
+    fixture_finish(&fixture, STEPS);
+    fixture_add_oriented(&fixture);
+    for (uint32_t i = 0; i < fixture.scene.system_count; i++) {
+        fixture_add_collisions(&fixture.scene.systems[i], 0.05f);
+        struct kiln_interaction *turning = &fixture.scene.systems[i].interactions[0];
+        turning->spins = i % 2 == 0;
+        turning->turning = fixture_range(1.0f, 40.0f);
+    }
+    run_levels();
+}
+
 static void each_force_alone(void **state)
 {
     (void)state;
@@ -275,6 +354,8 @@ int main(void)
         cmocka_unit_test(pushed_among_colliders),
         cmocka_unit_test(clamped_among_turning_colliders),
         cmocka_unit_test(whirls),
+        cmocka_unit_test(families),
+        cmocka_unit_test(pushed_families),
         cmocka_unit_test(each_force_alone),
     };
     return cmocka_run_group_tests_name("slots", tests, NULL, NULL);

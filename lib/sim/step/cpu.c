@@ -8,7 +8,7 @@
 
 enum { SLOTS_AT_A_TIME = 2048 };
 
-bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads *threads,
+bool kiln_sim_cpu_step(kiln_slots_step *step_slots, struct kiln_threads *threads,
                        const struct kiln_sim_params *params, const float4 *value_keys,
                        struct kiln_pool *pool, struct kiln_buffer *traces,
                        struct kiln_buffer *pushes, struct kiln_error *error)
@@ -41,8 +41,7 @@ bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads 
             .records = records + step->base,
             .traces = scratch,
         };
-        kiln_threads_for(threads, step->used, SLOTS_AT_A_TIME,
-                         kiln_sim_is_family(step) ? loops->family : loops->alone, &slots);
+        kiln_threads_for(threads, step->used, SLOTS_AT_A_TIME, step_slots, &slots);
     }
     return true;
 }

@@ -8,8 +8,8 @@
 #include "sim/world/params.h"
 
 /* Runs a step. traces: struct kiln_trace [params->trace_count], scratch memory. pushes have been
- * computed. loops: the loops for this processor. */
-bool kiln_sim_cpu_step(const struct kiln_slots_step *loops, struct kiln_threads *threads,
+ * computed. step_slots: the loop for this processor. */
+bool kiln_sim_cpu_step(kiln_slots_step *step_slots, struct kiln_threads *threads,
                        const struct kiln_sim_params *params, const float4 *value_keys,
                        struct kiln_pool *pool, struct kiln_buffer *traces,
                        struct kiln_buffer *pushes, struct kiln_error *error);

@@ -30,8 +30,8 @@ struct kiln_simulate {
     struct kiln_interact interact;
     struct kiln_paint paint;
     struct kiln_newborn newborn;
-    /* the loops for this processor's width of vectors; only for technique `cpu` */
-    const struct kiln_slots_step *loops;
+    /* the loop for this processor's width of vectors; only for technique `cpu` */
+    kiln_slots_step *step_slots;
     /* the following two are for all techniques in GL */
     struct kiln_sim_blocks blocks;
     struct kiln_sim_hash hash;
@@ -69,12 +69,12 @@ static bool init_on_device(struct kiln_simulate *s, struct kiln_device *device,
     return false;
 }
 
-static bool choose_loops(struct kiln_simulate *s, struct kiln_error *error)
+static bool choose_loop(struct kiln_simulate *s, struct kiln_error *error)
 {
     enum kiln_simd simd;
     if (!kiln_simd_choose(&simd, error))
         return false;
-    s->loops = KILN_SIMD_PICK(kiln_slots_step, simd);
+    s->step_slots = KILN_SIMD_PICK(kiln_slots_step, simd);
     return true;
 }
 
@@ -100,7 +100,7 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
     ok = ok &&
          kiln_interact_init(&simulate->interact, side, scene, &simulate->params, threads, error) &&
          kiln_paint_init(&simulate->paint, scene, threads, error);
-    ok = ok && (technique == KILN_SIMULATE_CPU ? choose_loops(simulate, error)
+    ok = ok && (technique == KILN_SIMULATE_CPU ? choose_loop(simulate, error)
                                                : init_on_device(simulate, device, error));
     if (!ok)
         kiln_simulate_destroy(&simulate);
@@ -145,8 +145,8 @@ static bool move_particles(struct kiln_simulate *s, struct kiln_pool *pool, uint
         return false;
     switch (s->technique) {
     case KILN_SIMULATE_CPU:
-        return kiln_sim_cpu_step(s->loops, s->threads, &s->params, s->scene->keys, pool, &s->traces,
-                                 pushes, error);
+        return kiln_sim_cpu_step(s->step_slots, s->threads, &s->params, s->scene->keys, pool,
+                                 &s->traces, pushes, error);
     case KILN_SIMULATE_INPLACE:
         return kiln_inplace_step(&s->inplace, &s->blocks, &s->params, pool, error);
     case KILN_SIMULATE_PINGPONG:

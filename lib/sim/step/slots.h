@@ -1,4 +1,4 @@
-/* Declares the loops that simulate=cpu runs over slots. */
+/* Declares the loop that simulate=cpu runs over slots. */
 #ifndef KILN_SIM_STEP_SLOTS_H
 #define KILN_SIM_STEP_SLOTS_H
 
@@ -11,13 +11,9 @@ struct kiln_slots {
     struct kiln_trace *traces;     /* traces of all systems */
 };
 
-/* Steps slots begin to end - 1, for kiln_threads_for; context points to a kiln_slots. */
-typedef void kiln_slots_run(void *context, size_t begin, size_t end, uint32_t worker);
-
-struct kiln_slots_step {
-    kiln_slots_run *alone;  /* for systems without relations */
-    kiln_slots_run *family; /* for families; the slots of parents have been stepped before */
-};
-KILN_SIMD_DECLARE(const struct kiln_slots_step, kiln_slots_step);
+/* Steps slots begin to end - 1, for kiln_threads_for; context points to a kiln_slots. The slots of
+ * a system's parent must have been stepped before. */
+typedef void kiln_slots_step(void *context, size_t begin, size_t end, uint32_t worker);
+KILN_SIMD_DECLARE(kiln_slots_step, kiln_slots_step);
 
 #endif

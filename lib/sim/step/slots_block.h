@@ -15,11 +15,13 @@ struct stages_lanes {
 enum alone {
     ALONE_NOT,
     ALONE_TOUCHES, /* it may have met a collider on its way */
-    ALONE_BORN,    /* step_slot has to step it, since it is born */
+    ALONE_BORN,    /* it is born in this step */
+    ALONE_LEAVES,  /* its life ends, and it leaves a trace */
 };
 
 struct block {
     struct kiln_lanes lanes;
+    uint32_t born[KILN_LANES];        /* 1: a particle is born in the slot in this step */
     uint32_t alone[KILN_LANES];       /* one of enum alone */
     uint32_t touching[KILN_LANES];    /* 1: the lane may touch the present collider */
     uint32_t lost[KILN_LANES];        /* 1: the particle is in a place where it dies */

@@ -1,9 +1,13 @@
 /* This file steps slots on the host in blocks of vectors. Most particles fly and touch nothing in a
  * step; they are stepped stage by stage for a whole block, in loops over arrays that compilers
- * vectorise. The stages are the functions of shaders/shared, so the bits are those of step_slot.
- * Births, and particles that may have met a collider, are stepped alone. */
+ * vectorise. The stages are the functions of shaders/shared, so the bits are those of
+ * step_family_slot, which for systems without relations are those of step_slot. Births,
+ * particles that may have met a collider, and ends of lives that leave a trace are stepped alone.
+ */
 #include "sim/step/slots.h"
 #include "sim/step/slots_touching.h"
+
+#define STEP_SLOTS KILN_SIMD_NAME(kiln_slots_step)
 
 static inline void find_values(const struct kiln_sim *sim, struct kiln_value v,
                                const struct block *b, float *y)
@@ -302,19 +306,20 @@ static inline void find_lost(const struct kiln_sim *sim, struct block *b)
     }
 }
 
-/* Finds the slots to step alone: living particles that may touch something, and births. */
-static inline void find_alone(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+/* Finds the slots to step alone: living particles that may touch something, births, and ends of
+ * lives that leave a trace. */
+static inline void find_alone(const struct kiln_sim *sim, struct block *b)
 {
     memset(b->alone, 0, sizeof b->alone);
     if (sim->step->collide != COLLIDE_OFF)
         find_touching_any(sim, b);
-    const uint32_t births = sim->step->birth_count;
+    const uint32_t traced = sim->step->family.traced != 0;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
-        uint32_t alive =
-            particle_is_alive(record_at(b, i)) & (b->lanes.age_s[i] < b->lanes.life_s[i]);
-        uint32_t born = step_birth_index(sim, first_slot + i) < births;
-        const uint32_t touches = b->alone[i] & (0u - alive);
-        b->alone[i] = born ? ALONE_BORN : touches;
+        const uint32_t alive = particle_is_alive(record_at(b, i));
+        const uint32_t ends = b->lanes.age_s[i] >= b->lanes.life_s[i];
+        const uint32_t touches = b->alone[i] & (0u - (alive & (1u ^ ends)));
+        const uint32_t leaves = (alive & ends & traced) ? ALONE_LEAVES : touches;
+        b->alone[i] = b->born[i] ? ALONE_BORN : leaves;
     }
 }
 
@@ -373,6 +378,50 @@ static inline void turn(const struct kiln_sim *sim, struct block *b, uint32_t fi
     }
 }
 
+/* ---- births ---------------------------------------------------------------------------------- */
+
+/* Marks the slots, of the first `count`, that particles are born in. Returns whether there are any.
+ */
+static inline bool find_births(const struct kiln_sim *sim, uint32_t first_slot, uint32_t count,
+                               struct block *b)
+{
+    const uint32_t births = sim->step->birth_count;
+    uint32_t any = 0;
+    for (uint32_t i = 0; i < KILN_LANES; i++) {
+        b->born[i] = i < count && step_birth_index(sim, first_slot + i) < births;
+        any |= b->born[i];
+    }
+    return any != 0;
+}
+
+/* Returns whether particles are born of others. */
+static inline bool is_child(const struct kiln_sim *sim)
+{
+    return sim->step->family.born_of != BORN_OF_CLOCK;
+}
+
+/* Returns the trace of the parent of a slot's child. */
+static inline const struct kiln_trace *parent_of(const struct kiln_slots *slots, uint32_t slot)
+{
+    return &slots->traces[family_parent_trace(&slots->sim, slot)];
+}
+
+/* Marks the slots whose child is born of its parent. Returns whether there are any. */
+static bool find_children(const struct kiln_slots *slots, uint32_t first_slot, uint32_t count,
+                          struct block *b)
+{
+    const struct kiln_sim *sim = &slots->sim;
+    uint32_t any = 0;
+    memset(b->born, 0, sizeof b->born);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t slot = first_slot + i;
+        b->born[i] =
+            family_event_of(sim, *parent_of(slots, slot), slot % sim->step->family.slots).happens;
+        any |= b->born[i];
+    }
+    return any != 0;
+}
+
 /* ---- loops ----------------------------------------------------------------------------------- */
 
 /* Steps a block. `records` points to the record of first_slot, which those of the block follow. */
@@ -388,25 +437,31 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
         fly(sim, b);
     push_on(sim, b, first_slot);
     find_lost(sim, b);
-    find_alone(sim, b, first_slot);
+    find_alone(sim, b);
     move(b);
     if (sim->step->spins)
         turn(sim, b, first_slot);
     kiln_lanes_store(&b->lanes, records);
 }
 
-/* Continues step_particle for a particle that has flown and may touch something. */
-static struct kiln_particle step_touching(const struct kiln_sim *sim, const struct block *b,
-                                          uint32_t i, uint32_t slot, struct kiln_particle p)
+/* Returns the way that the particle of lane i has flown. p: as it was before the step. */
+static inline struct step_way flown_way(const struct block *b, uint32_t i, struct kiln_particle p)
 {
-    struct step_way way = {
+    return (struct step_way){
         .start = {.position = particle_position(p), .velocity = kiln_get3(&b->start, i)},
         .end = {.position = kiln_get3(&b->position, i),
                 .velocity = kiln_get3(&b->velocity, i),
                 .since = 1.0f},
         .first = collide_no_touch(),
-        .lost = true,
     };
+}
+
+/* Continues step_particle for a particle that has flown and may touch something. */
+static struct kiln_particle step_touching(const struct kiln_sim *sim, const struct block *b,
+                                          uint32_t i, uint32_t slot, struct kiln_particle p)
+{
+    struct step_way way = flown_way(b, i, p);
+    way.lost = true;
     if (sim->step->spins)
         way.start.spin = way.end.spin = step_spin(sim, p, slot);
     way = step_meet(sim, p, way, push_of(sim, slot), b->life[i]);
@@ -417,48 +472,76 @@ static struct kiln_particle step_touching(const struct kiln_sim *sim, const stru
     return step_with_motion(p, way.end.position, way.end.velocity);
 }
 
-static void step_alone(void *context, size_t begin, size_t end, uint32_t worker)
+/* Returns the trace of a particle that has flown. p: as it was before the step. */
+static struct kiln_trace trace_flight(const struct kiln_sim *sim, const struct block *b, uint32_t i,
+                                      struct kiln_particle p)
 {
-    (void)worker;
-    const struct kiln_slots *slots = context;
-    const struct kiln_sim *sim = &slots->sim;
-    struct block block;
-    for (size_t first = begin; first < end; first += KILN_LANES) {
-        struct kiln_particle rest[KILN_LANES] = {0}, *records = slots->records + first;
-        const size_t count = end - first < KILN_LANES ? end - first : KILN_LANES;
-        if (count < KILN_LANES)
-            memcpy(rest, records, count * sizeof *records);
-        step_block(sim, (uint32_t)first, count < KILN_LANES ? rest : records, &block);
-        if (count < KILN_LANES)
-            memcpy(records, rest, count * sizeof *records);
-        for (size_t i = 0; i < count; i++) {
-            if (block.alone[i] == ALONE_TOUCHES)
-                records[i] =
-                    step_touching(sim, &block, (uint32_t)i, (uint32_t)(first + i), records[i]);
-            else if (block.alone[i] == ALONE_BORN)
-                records[i] = step_slot(sim, (uint32_t)(first + i), records[i]);
-        }
-    }
+    const float life_s = b->lanes.life_s[i];
+    return step_trace(sim, p, flown_way(b, i, p), TRACE_ALIVE, life_s,
+                      particle_progress(b->lanes.age_s[i], life_s));
 }
 
-static void step_family(void *context, size_t begin, size_t end, uint32_t worker)
+/* Finishes the step of lane i, whose block has been stepped. before: the record before the step. */
+static void finish_slot(const struct kiln_slots *slots, const struct block *b, uint32_t i,
+                        uint32_t slot, struct kiln_particle before)
 {
-    (void)worker;
-    const struct kiln_slots *slots = context;
     const struct kiln_sim *sim = &slots->sim;
     const struct kiln_family_params *family = &sim->step->family;
-    for (size_t slot = begin; slot < end; slot++) {
-        struct kiln_trace parent = trace_nothing();
-        if (family->born_of != BORN_OF_CLOCK)
-            parent = slots->traces[family_parent_trace(sim, (uint)slot)];
-        struct step_result after = step_family_slot(sim, (uint)slot, slots->records[slot], parent);
-        slots->records[slot] = after.particle;
-        if (family->traced)
-            slots->traces[family->traces + slot] = after.trace;
+    struct kiln_particle *record = &slots->records[slot];
+    struct kiln_trace trace = trace_nothing();
+    if (b->alone[i] == ALONE_TOUCHES && !family->traced && !family->dies) {
+        *record = step_touching(sim, b, i, slot, before);
+    } else if (b->alone[i] != ALONE_NOT) {
+        const struct kiln_trace *parent = is_child(sim) ? parent_of(slots, slot) : &trace;
+        const struct step_result after = step_family_slot(sim, slot, before, *parent);
+        *record = after.particle;
+        trace = after.trace;
+    } else if (family->traced && particle_is_alive(*record)) {
+        trace = trace_flight(sim, b, i, before);
+    }
+    if (family->traced)
+        slots->traces[family->traces + slot] = trace;
+}
+
+/* Steps `count` slots, at most KILN_LANES, from first_slot on. */
+static void step_and_finish(const struct kiln_slots *slots, uint32_t first_slot, uint32_t count,
+                            struct block *b)
+{
+    const bool traced = slots->sim.step->family.traced != 0;
+    struct kiln_particle before[KILN_LANES] = {0}, after[KILN_LANES];
+    memcpy(before, slots->records + first_slot, count * sizeof *before);
+    memcpy(after, before, sizeof after);
+    step_block(&slots->sim, first_slot, after, b);
+    memcpy(slots->records + first_slot, after, count * sizeof *after);
+    for (uint32_t i = 0; i < count; i++) {
+        if (traced || b->alone[i] != ALONE_NOT)
+            finish_slot(slots, b, i, first_slot + i, before[i]);
     }
 }
 
-const struct kiln_slots_step KILN_SIMD_NAME(kiln_slots_step) = {
-    .alone = step_alone,
-    .family = step_family,
-};
+static bool are_some_alive(const struct kiln_particle *records, uint32_t count)
+{
+    bool alive = false;
+    for (uint32_t i = 0; i < count; i++)
+        alive |= particle_is_alive(records[i]);
+    return alive;
+}
+
+void STEP_SLOTS(void *context, size_t begin, size_t end, uint32_t worker)
+{
+    (void)worker;
+    const struct kiln_slots *slots = context;
+    const struct kiln_family_params *family = &slots->sim.step->family;
+    struct block block;
+    for (uint32_t first = (uint32_t)begin; first < end; first += KILN_LANES) {
+        const uint32_t left = (uint32_t)end - first, count = left < KILN_LANES ? left : KILN_LANES;
+        const bool born = is_child(&slots->sim) ? find_children(slots, first, count, &block)
+                                                : find_births(&slots->sim, first, count, &block);
+        if (born || are_some_alive(slots->records + first, count)) {
+            step_and_finish(slots, first, count, &block);
+            continue;
+        }
+        for (uint32_t i = 0; i < count && family->traced; i++)
+            slots->traces[family->traces + first + i] = trace_nothing();
+    }
+}
