@@ -417,20 +417,41 @@ SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *c
 
 /* ---- small sprites of systems with few slots ------------------------------------------------- */
 
-/* Samples a cell in floats at u, v, texels, for the channels from `first` to 3. */
+/* Interpolates down between two rows. Each lane's word has a channel of a row in the signed byte at
+ * bit `from`, and that of the row below in the next byte. */
+SIMD vf between_rows(vi word, int from, vf down)
+{
+    const vi above = word << (24 - from) >> 24, below = word << (16 - from) >> 24;
+    return vf_of(above) + vf_of(below - above) * down;
+}
+
+/* Samples a cell in floats at u, v, texels, for the channels from `first` to 3. A word of 4 bytes
+ * has two channels. In a cell of alpha alone it has two columns, and begins at any second byte. */
 SIMD struct vf4 sample_floats(const struct brush *b, const uint8_t *cell, size_t first, vf u, vf v)
 {
+    const vi column = vi_of(u), row = vi_of(v);
+    const vf right = u - vf_of(column), down = v - vf_of(row);
+    const vi at = row * b->pitch + column * b->texel;
     struct vf4 sampled = {{{0}}};
-    for (int i = 0; i < LANES; i++) {
-        const int32_t column = (int32_t)u[i], row = (int32_t)v[i];
-        const float right = u[i] - (float)column, down = v[i] - (float)row;
-        const int8_t *texel =
-            (const int8_t *)cell + (ptrdiff_t)row * b->pitch + (ptrdiff_t)column * b->texel;
-        const int8_t *next = texel + b->texel;
-        for (size_t c = first; c < 4; c++, texel += 2, next += 2) {
-            float left_side = (float)texel[0] + (float)(texel[1] - texel[0]) * down;
-            float right_side = (float)next[0] + (float)(next[1] - next[0]) * down;
-            sampled.c[c][i] = left_side + (right_side - left_side) * right;
+    if (first == 3) {
+        vi word;
+        for (int i = 0; i < LANES; i++) {
+            int32_t texels;
+            memcpy(&texels, cell + at[i], sizeof texels);
+            word[i] = texels;
+        }
+        const vf left_side = between_rows(word, 0, down), right_side = between_rows(word, 16, down);
+        sampled.c[3] = left_side + (right_side - left_side) * right;
+        return sampled;
+    }
+    const int32_t *texels = (const int32_t *)(const void *)cell;
+    for (size_t c = first; c < 4; c += 2) {
+        const vi word = (at >> 2) + (int32_t)((c - first) / 2);
+        const vi left = vi_gather(texels, word), next = vi_gather(texels, word + b->texel / 4);
+        for (int k = 0; k < 2; k++) {
+            const vf left_side = between_rows(left, 16 * k, down);
+            const vf right_side = between_rows(next, 16 * k, down);
+            sampled.c[c + (size_t)k] = left_side + (right_side - left_side) * right;
         }
     }
     return sampled;
