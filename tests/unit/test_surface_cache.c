@@ -9,7 +9,7 @@
 
 #define CAMERA                                                                                     \
     "camera: {position: [0.6, 1.7, 4.5], target: [0, 0.6, 0], fov: 45 deg, roll: 4 deg}\n"
-#define HEAD "kiln: 1\noutput: {size: [150, 84], frames: 12, fps: 30}\n" CAMERA
+#define HEAD "kiln: 1\noutput: {size: [150, 85], frames: 12, fps: 30}\n" CAMERA
 #define OBJECTS                                                                                    \
     "  objects:\n"                                                                                 \
     "    - mesh: {file: meshes/pot.obj, position: [-0.6, 0.2, 0.5], scale: 1.5}\n"                 \
@@ -52,6 +52,12 @@ static const struct {
      "backdrop:\n  objects:\n    - box: {center: {keys: {0 s: [0, 0.4, 0], 0.12 s: [0.5, 0.4, 0],\n"
      "            0.3 s: [0.5, 0.4, 0], 0.4 s: [0, 0.4, 0]}}, size: [1, 0.8, 0.4]}\n" LAMPS,
      NULL},
+    {"smoke that comes over a floor later",
+     HEAD "systems:\n  smoke:\n"
+          "    emit: {rate: {keys: {0 s: 0, 0.12 s: 0, 0.14 s: 900}}, life: 2 s, speed: 1,\n"
+          "           from: {sphere: {origin: [0, 0.5, 0]}}}\n"
+          "    look: {size: 0.5 m, opacity: 0.9, color: 0.2, lit: 1, shadow: 1}\n",
+     NULL},
     {"a sun that flickers",
      HEAD
      "backdrop:\n  sun: {color: {keys: {0 s: 1, 0.2 s: 0, 0.3 s: 0, 0.4 s: 2}}}\n" OBJECTS LAMPS,
@@ -59,7 +65,7 @@ static const struct {
     {"a shutter", HEAD "backdrop:\n" OBJECTS LAMPS, "camera.shutter.samples=3"},
 };
 
-enum { CLIP_COUNT = sizeof CLIPS / sizeof *CLIPS, FRAMES = 12, WIDTH = 150, HEIGHT = 84 };
+enum { CLIP_COUNT = sizeof CLIPS / sizeof *CLIPS, FRAMES = 12, WIDTH = 150, HEIGHT = 85 };
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 

@@ -1,6 +1,7 @@
 /* This file casts the rays of the backdrop's picture for technique backdrop=cpu, a vector of rays
  * at a time. */
 #include <assert.h>
+#include <string.h>
 
 #include "draw/backdrop/backdrop_rows.h"
 #include "draw/backdrop/ray_casters.h"
@@ -8,6 +9,7 @@
 
 static_assert((int)TILE == (int)GRID_HEIGHT && (int)STRIP == (int)GRID_WIDTH,
               "a strip of the picture has a grid");
+static_assert((int)KILN_CACHE_COLUMNS == (int)GRID_STEP, "the cache has the vectors of strips");
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
@@ -37,18 +39,6 @@ static struct kiln_ray_objects find_objects(const struct kiln_backdrop_picture *
         objects_overlapping(p->oriented_boxes, frame->shapes->oriented_counts.y, left, top,
                             columns),
         first_bits(frame->shapes->oriented_counts.z)};
-}
-
-SIMD void store_numbers(float *to, vf numbers, uint32_t count)
-{
-    if (count == LANES) {
-        vf_store(to, numbers);
-        return;
-    }
-    _Alignas(64) float all[LANES];
-    vf_store(all, numbers);
-    for (uint32_t i = 0; i < count; i++)
-        to[i] = all[i];
 }
 
 /* Returns the lights that objects may hide and whose shadows are not in the cache. */
@@ -121,32 +111,64 @@ SIMD vf mark_surfaces(const struct kiln_ray_frame *frame, const struct eye_rays 
     return surface;
 }
 
+enum { STRIP_VECTORS = TILE * STRIP / LANES };
+
 /* Holds what the rays through the centres of a strip's pixels hit, by vector. */
 struct strip_hits {
-    struct ray_hit hits[TILE][STRIP / LANES];
+    struct ray_hit hits[STRIP_VECTORS];
 };
 
-/* Holds the rays of up to LANES pixels of a row. */
+/* Holds the rays of a vector of pixels. */
 struct strip_pixels {
-    uint32_t count;
+    uint32_t x, y;          /* of the first pixel */
+    uint32_t columns, rows; /* that are in the picture */
     struct eye_rays eye;
     struct cached_rays planes;
     const struct cached_rays *cached; /* NULL: nothing is kept */
 };
 
-SIMD void begin_pixels(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y,
+/* Begins with vector i of the strip at (x, y). Returns false if it is beside the picture. */
+SIMD bool begin_pixels(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y, uint32_t i,
                        struct strip_pixels *pixels)
 {
-    const uint32_t left = p->width - x;
-    const vi last = vi_all((int32_t)p->width - 1), column = vi_count() + (int32_t)x;
-    pixels->count = left < LANES ? left : LANES;
+    x += i % GRID_BLOCKS_A_ROW * GRID_STEP;
+    y += i / GRID_BLOCKS_A_ROW * GRID_VECTOR_ROWS;
+    if (x >= p->width || y >= p->height)
+        return false;
+    const uint32_t columns = p->width - x, rows = p->height - y;
+    const vi column = grid_lane_columns() + (int32_t)x, row = grid_lane_rows() + (int32_t)y;
+    const vi last_column = vi_all((int32_t)p->width - 1), last_row = vi_all((int32_t)p->height - 1);
+    pixels->x = x;
+    pixels->y = y;
+    pixels->columns = columns < GRID_STEP ? columns : GRID_STEP;
+    pixels->rows = rows < GRID_VECTOR_ROWS ? rows : GRID_VECTOR_ROWS;
     pixels->eye =
-        rays_through_pixels(p->frame, vi_select(column < last, column, last), vi_all((int32_t)y));
+        rays_through_pixels(p->frame, vi_select(column < last_column, column, last_column),
+                            vi_select(row < last_row, row, last_row));
     pixels->cached = NULL;
     if (p->cache) {
         pixels->planes = cached_centers(p->cache, x, y);
         pixels->cached = &pixels->planes;
     }
+    return true;
+}
+
+/* Stores numbers of a vector of pixels, `size` floats each, into a picture. */
+SIMD void store_pixels(const struct kiln_backdrop_picture *p, const struct strip_pixels *pixels,
+                       const float *numbers, size_t size, float *picture)
+{
+    float *to = picture + ((size_t)pixels->y * p->width + pixels->x) * size;
+    const size_t columns = pixels->columns * size;
+    for (uint32_t row = 0; row < pixels->rows; row++)
+        memcpy(to + row * p->width * size, numbers + row * GRID_STEP * size, columns * sizeof *to);
+}
+
+/* Returns where the cache keeps the box around what the strip at (x, y) shows; NULL without a
+ * cache. */
+static struct kiln_lit_box *box_in_cache(const struct kiln_surface_cache *cache, uint32_t x,
+                                         uint32_t y)
+{
+    return cache ? &cache->strips[((size_t)y / TILE * cache->width + x) / STRIP] : NULL;
 }
 
 /* Finds what the pixels of the strip at (x, y) show. Returns a box around it and the grid's nodes
@@ -156,29 +178,20 @@ static struct kiln_lit_box trace_strip(const struct kiln_backdrop_picture *p,
                                        uint32_t y, const struct light_grid *grid,
                                        struct strip_hits *strip)
 {
-    const uint32_t x_to = x + STRIP < p->width ? x + STRIP : p->width, y_to = rows_from(p, y);
-    struct kiln_lit_box *kept =
-        p->cache ? &p->cache->strips[((size_t)y / TILE * p->cache->width + x) / STRIP] : NULL;
-    if (kept && p->cache->use == KILN_CACHE_FILLED)
-        return *kept; /* the hits are in the cache, too */
     struct lit_vectors lit = no_lit_vectors();
     for (int i = 0; grid && i < GRID_NODES; i += LANES)
         add_lit(&lit, load_vector(grid->at, i),
                 (vf_load(grid->surface + i) >= 0.0f) & (vi_count() + i < GRID_NODES));
-    for (uint32_t row = y; row < y_to; row++) {
-        for (uint32_t column = x; column < x_to; column += LANES) {
-            struct strip_pixels pixels;
-            begin_pixels(p, column, row, &pixels);
-            const struct ray_hit hit =
-                find_hit(p->frame, objects, &pixels.eye.ray, &pixels.eye.place, pixels.cached);
-            add_lit(&lit, ray_at(&pixels.eye.ray, hit.t), hit.surface >= 0.0f);
-            strip->hits[row - y][(column - x) / LANES] = hit;
-        }
+    for (uint32_t i = 0; i < STRIP_VECTORS; i++) {
+        struct strip_pixels pixels;
+        if (!begin_pixels(p, x, y, i, &pixels))
+            continue;
+        const struct ray_hit hit =
+            find_hit(p->frame, objects, &pixels.eye.ray, &pixels.eye.place, pixels.cached);
+        add_lit(&lit, ray_at(&pixels.eye.ray, hit.t), hit.surface >= 0.0f);
+        strip->hits[i] = hit;
     }
-    const struct kiln_lit_box box = lit_box_of(&lit);
-    if (kept)
-        *kept = box;
-    return box;
+    return lit_box_of(&lit);
 }
 
 /* Lights what the pixels of the strip at (x, y) show. grid, mirrored: or NULL. */
@@ -187,23 +200,23 @@ static void light_strip(const struct kiln_backdrop_picture *p, uint32_t x, uint3
                         const struct strip_hits *strip)
 {
     const struct kiln_ray_frame *frame = p->frame;
-    const uint32_t x_to = x + STRIP < p->width ? x + STRIP : p->width, y_to = rows_from(p, y);
-    for (uint32_t row = y; row < y_to; row++) {
-        for (uint32_t column = x; column < x_to; column += LANES) {
-            struct strip_pixels pixels;
-            begin_pixels(p, column, row, &pixels);
-            const struct grid_row grid_row = {grid, mirrored, column - x, row - y};
-            const struct ray_help help = {grid ? &grid_row : NULL, pixels.cached};
-            const struct ray_hit hit = is_filled(pixels.cached)
-                                           ? read_cached_hit(pixels.cached)
-                                           : strip->hits[row - y][(column - x) / LANES];
-            const struct shaded_rays shaded = shade_hits(frame, &pixels.eye.ray, &hit, &help);
-            const vf surface = mark_surfaces(frame, &pixels.eye, &hit, pixels.cached);
-            const size_t first = (size_t)row * p->width + column;
-            store_colors(p->color + 4 * first, &shaded.color, pixels.count);
-            store_numbers(p->depth + first, hit.t, pixels.count);
-            store_numbers(p->surfaces + first, 4.0f * surface + shaded.light, pixels.count);
-        }
+    for (uint32_t i = 0; i < STRIP_VECTORS; i++) {
+        struct strip_pixels pixels;
+        if (!begin_pixels(p, x, y, i, &pixels))
+            continue;
+        const struct grid_pixels in_grid = {grid, mirrored, pixels.x - x, pixels.y - y};
+        const struct ray_help help = {grid ? &in_grid : NULL, pixels.cached};
+        const struct ray_hit hit =
+            is_filled(pixels.cached) ? read_cached_hit(pixels.cached) : strip->hits[i];
+        const struct shaded_rays shaded = shade_hits(frame, &pixels.eye.ray, &hit, &help);
+        const vf surface = mark_surfaces(frame, &pixels.eye, &hit, pixels.cached);
+        _Alignas(64) float colors[4 * LANES], depths[LANES], surfaces[LANES];
+        store_colors(colors, &shaded.color);
+        vf_store(depths, hit.t);
+        vf_store(surfaces, 4.0f * surface + shaded.light);
+        store_pixels(p, &pixels, colors, 4, p->color);
+        store_pixels(p, &pixels, depths, 1, p->depth);
+        store_pixels(p, &pixels, surfaces, 1, p->surfaces);
     }
 }
 
@@ -213,23 +226,35 @@ static void cast_rows(const struct kiln_backdrop_picture *whole, uint32_t y)
     struct kiln_ray_frame frame = *whole->frame;
     picture.frame = &frame;
     const struct grid_lights all = find_shadow_lights(whole, frame.all_casters);
-    const bool has_grid = all.lamps || all.sky;
+    const bool shadows = all.lamps || all.sky;
     struct light_grid grid, reflections;
-    struct light_grid *mirrored = has_grid && frame.floor_gloss ? &reflections : NULL;
     struct strip_hits strip;
     for (uint32_t x = 0; x < whole->width; x += STRIP) {
+        struct kiln_lit_box *kept = box_in_cache(whole->cache, x, y);
+        const bool filled = kept && whole->cache->use == KILN_CACHE_FILLED;
+        /* A box that is kept has nodes in it, since smoke may come later. What is reflected may be
+         * beside the box. */
+        const bool has_grid = shadows || (kept && !filled) ||
+                              is_smoky(&frame, filled && !frame.floor_gloss ? kept : NULL);
+        struct light_grid *mirrored = has_grid && frame.floor_gloss ? &reflections : NULL;
         /* with a column and a row more, for the nodes */
         const struct kiln_ray_objects objects = find_objects(whole, x, y, STRIP + 1);
         if (has_grid)
             place_grids(whole, &objects, x, y, &grid, mirrored);
         const struct kiln_lit_box lit =
-            trace_strip(whole, &objects, x, y, has_grid ? &grid : NULL, &strip);
+            filled ? *kept : trace_strip(whole, &objects, x, y, has_grid ? &grid : NULL, &strip);
+        if (kept)
+            *kept = lit;
         const struct kiln_casters casters = find_casters(whole->frame, &lit);
         frame.casters = &casters;
-        if (has_grid)
+        if (has_grid) {
             judge_grid(&frame, find_shadow_lights(&picture, &casters), &grid);
-        if (mirrored)
+            judge_smoke(&frame, &lit, &grid);
+        }
+        if (mirrored) {
             judge_grid(whole->frame, all, mirrored);
+            judge_smoke(whole->frame, NULL, mirrored);
+        }
         light_strip(&picture, x, y, has_grid ? &grid : NULL, mirrored, &strip);
     }
 }

@@ -75,11 +75,12 @@ SIMD struct cached_rays cached_reflections(const struct cached_rays *rays)
     return reflections;
 }
 
-/* Returns the planes of the vector at a pixel of a row. */
+/* Returns the planes of the vector whose first pixel is at (x, y). */
 SIMD struct cached_rays cached_centers(const struct kiln_surface_cache *cache, uint32_t x,
                                        uint32_t y)
 {
-    const size_t vector = ((size_t)y * cache->width + x) / LANES;
+    const uint32_t rows = LANES / KILN_CACHE_COLUMNS;
+    const size_t vector = ((size_t)(y / rows) * cache->width + x) / KILN_CACHE_COLUMNS;
     return (struct cached_rays){cache, cache->centers + vector * kiln_cache_ray(cache),
                                 cache->use == KILN_CACHE_FILLED};
 }

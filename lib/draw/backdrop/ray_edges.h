@@ -73,15 +73,17 @@ SIMD vi find_edges(const struct around *around, int i, int j)
     return edge;
 }
 
-/* Adds the pixels of a strip at edges to a list. Returns its new length. at: columns, then rows. */
+/* Adds the pixels of a strip at edges to a list. Returns its new length. at: columns, then rows.
+ * The list goes down columns of LANES pixels, so that pixels that share vectors are near each
+ * other; its order changes no pixel. */
 static int list_edges(const struct kiln_backdrop_picture *p, uint32_t x, uint32_t y, int count,
                       int32_t at[2][EDGE_ROOM])
 {
     struct around around;
     look_around(p, (int32_t)x, (int32_t)y, &around);
     const int columns = x + STRIP < p->width ? STRIP : (int)(p->width - x);
-    for (int j = 0; j < (int)(rows_from(p, y) - y); j++) {
-        for (int first = 0; first < columns; first += LANES) {
+    for (int first = 0; first < columns; first += LANES) {
+        for (int j = 0; j < (int)(rows_from(p, y) - y); j++) {
             const vi edge = find_edges(&around, first, j) & (vi_count() < columns - first);
             if (!any(edge))
                 continue;

@@ -1,13 +1,17 @@
-/* This header interpolates the parts of the sky and of each lamp that surfaces see past objects. A
+/* This header interpolates the parts of the sky and of each lamp that surfaces see past objects;
+ * ray_grid_smoke.h does the same with what smoke lets through. A
  * lamp fills a disc of the sky, so its shadows are blurred, and mostly wider than a few pixels;
  * the sky is all around. The picture is divided into strips of blocks of GRID_STEP x GRID_STEP
  * pixels. What is seen is computed at the blocks' corners, the nodes of a grid. A pixel takes it
  * from its block's corners where no shadow can be missed: the corners and the pixel lie on one
  * smooth piece of surface, what is seen hardly bends between nodes, and for a lamp, every object
  * that may hide it has a penumbra wider than the block. All other pixels compute it. Blocks do not
- * depend on the width of vectors, so neither does the picture. */
+ * depend on the width of vectors, so neither does the picture; the pixels of a vector are in one
+ * block. */
 #ifndef KILN_DRAW_BACKDROP_RAY_GRID_H
 #define KILN_DRAW_BACKDROP_RAY_GRID_H
+
+#include <assert.h>
 
 #include "draw/backdrop/ray_shapes.h"
 #include "draw/backdrop/ray_sky.h"
@@ -25,6 +29,10 @@ enum {
     GRID_BLOCKS_A_ROW = GRID_WIDTH / GRID_STEP,
     GRID_BLOCKS = GRID_BLOCKS_A_ROW * (GRID_HEIGHT / GRID_STEP),
     GRID_LAMPS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS,
+    /* Numbers of lights after those of lamps, and of all lights that smoke may hide. */
+    GRID_SUN = GRID_LAMPS,
+    GRID_SKY,
+    GRID_SMOKY,
 };
 
 /* The least cosine between normals of one smooth piece of surface, and how far its points may lie
@@ -52,11 +60,15 @@ struct light_grid {
     float seen[GRID_LAMPS][GRID_NODE_ROOM]; /* of each lamp; -1: the node faces away from it */
     float blur[GRID_LAMPS][GRID_NODE_ROOM]; /* of shadows from maps, m */
     float sky[GRID_NODE_ROOM];              /* the part that is seen; -1: no surface */
+    /* the part of each light that smoke lets through, if there is any; -1: no surface */
+    float past_smoke[GRID_SMOKY][GRID_NODE_ROOM];
+    bool smoky[GRID_SMOKY]; /* false: no smoke hides the light from the pixels */
     /* by block */
     int32_t alike[GRID_BLOCKS];              /* mask: the corners lie on one smooth piece */
     int32_t smooth[GRID_LAMPS][GRID_BLOCKS]; /* mask: what they see of a lamp may be interpolated */
     int32_t sky_smooth[GRID_BLOCKS];         /* mask: the same of the sky */
-    float size2[GRID_BLOCKS];                /* square of the extent of the corners, m2 */
+    int32_t smoke_smooth[GRID_SMOKY][GRID_BLOCKS]; /* mask: the same of past_smoke */
+    float size2[GRID_BLOCKS];                      /* square of the extent of the corners, m2 */
 };
 
 SIMD struct vf3 gather_vector(const float (*from)[GRID_NODE_ROOM], vi node)
@@ -343,19 +355,27 @@ SIMD void judge_seen(uint32_t lamp, int first, struct light_grid *grid)
     memcpy(grid->smooth[lamp] + first, &smooth, sizeof smooth);
 }
 
+/* Finds the blocks, among those of a mask, around which numbers of nodes bend by no more than
+ * `most`. */
+SIMD void judge_bend(const float *values, float most, const int32_t blocks[GRID_BLOCKS],
+                     int32_t smooth[GRID_BLOCKS])
+{
+    for (int first = 0; first < GRID_BLOCKS; first += LANES) {
+        const struct grid_blocks at = grid_blocks_from(first);
+        const vf bend = bend_around(values, at.node, at.column, at.row);
+        vi mask;
+        memcpy(&mask, blocks + first, sizeof mask);
+        mask &= bend <= most;
+        memcpy(smooth + first, &mask, sizeof mask);
+    }
+}
+
 /* Finds the blocks whose corners see alike parts of the sky. */
 SIMD void judge_sky(const struct kiln_ray_frame *frame, struct light_grid *grid)
 {
     for (int first = 0; first < GRID_NODES; first += LANES)
         light_nodes_by_sky(frame, first, grid);
-    for (int first = 0; first < GRID_BLOCKS; first += LANES) {
-        const struct grid_blocks blocks = grid_blocks_from(first);
-        const vf bend = bend_around(grid->sky, blocks.node, blocks.column, blocks.row);
-        vi smooth;
-        memcpy(&smooth, grid->alike + first, sizeof smooth);
-        smooth &= bend <= GRID_SKY_BEND;
-        memcpy(grid->sky_smooth + first, &smooth, sizeof smooth);
-    }
+    judge_bend(grid->sky, GRID_SKY_BEND, grid->alike, grid->sky_smooth);
 }
 
 static inline bool are_some(const int32_t masks[GRID_BLOCKS])
@@ -389,31 +409,52 @@ SIMD void judge_grid(const struct kiln_ray_frame *frame, struct grid_lights ligh
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
 
-/* Holds where pixels lie in a grid. */
+/* The pixels of a vector: GRID_STEP columns, and this many rows. */
+enum { GRID_VECTOR_ROWS = LANES / GRID_STEP };
+static_assert(GRID_VECTOR_ROWS * GRID_STEP == LANES && GRID_STEP % GRID_VECTOR_ROWS == 0,
+              "the pixels of a vector are in one block");
+
+/* Return where each lane lies among the pixels of a vector. */
+SIMD vi grid_lane_columns(void)
+{
+    return vi_count() & (GRID_STEP - 1);
+}
+
+SIMD vi grid_lane_rows(void)
+{
+    return vi_count() / GRID_STEP;
+}
+
+/* Holds where the pixels of a vector lie in a grid. */
 struct grid_place {
     const struct light_grid *grid;
-    vi block, node;
+    uint32_t block, node;
     vf right, down; /* part of the way between the block's corners */
     vi alike;       /* mask: the pixel lies on the smooth piece of its block */
 };
 
-/* Returns the places of pixels of a row of a strip, from its column on. */
+SIMD struct vf3 node_vector(const float (*from)[GRID_NODE_ROOM], uint32_t node)
+{
+    return (struct vf3){vf_all(from[0][node]), vf_all(from[1][node]), vf_all(from[2][node])};
+}
+
+/* Returns the places of the pixels of a vector, the first of which is at (column, row) in the
+ * strip. */
 SIMD struct grid_place grid_place_of(const struct light_grid *grid, uint32_t column, uint32_t row,
                                      const struct ray_hit *hit, struct vf3 at)
 {
-    const vi x = vi_count() + (int32_t)column, across = x >> 2;
-    const int32_t above = (int32_t)(row / GRID_STEP);
+    const uint32_t across = column / GRID_STEP, above = row / GRID_STEP;
     struct grid_place place = {.grid = grid};
     place.block = across + above * GRID_BLOCKS_A_ROW;
     place.node = across + above * GRID_COLUMNS;
-    place.right = vf_of(x & (GRID_STEP - 1)) * (1.0f / GRID_STEP);
-    place.down = vf_all((float)(row % GRID_STEP) * (1.0f / GRID_STEP));
-    place.alike = vi_gather(grid->alike, place.block);
-    if (any(place.alike))
-        place.alike &= (vf_gather(grid->surface, place.node) == hit->surface) &
-                       on_same_piece(gather_vector(grid->at, place.node),
-                                     gather_vector(grid->normal, place.node), at, hit->normal,
-                                     vf_gather(grid->size2, place.block));
+    place.right = vf_of(grid_lane_columns()) * (1.0f / GRID_STEP);
+    place.down = vf_of(grid_lane_rows() + (int32_t)(row % GRID_STEP)) * (1.0f / GRID_STEP);
+    place.alike = vi_all(grid->alike[place.block]);
+    if (grid->alike[place.block])
+        place.alike &=
+            (grid->surface[place.node] == hit->surface) &
+            on_same_piece(node_vector(grid->at, place.node), node_vector(grid->normal, place.node),
+                          at, hit->normal, vf_all(grid->size2[place.block]));
     return place;
 }
 
@@ -421,15 +462,14 @@ SIMD struct grid_place grid_place_of(const struct light_grid *grid, uint32_t col
 SIMD vi grid_between(const struct grid_place *place, const float *from,
                      const int32_t smooth[GRID_BLOCKS], vf *seen)
 {
-    const vi known = place->alike & vi_gather(smooth, place->block);
-    if (!any(known))
-        return known;
-    const vf a = vf_gather(from, place->node), b = vf_gather(from + 1, place->node);
-    const vf c = vf_gather(from + GRID_COLUMNS, place->node);
-    const vf d = vf_gather(from + GRID_COLUMNS + 1, place->node);
+    if (!smooth[place->block] || !any(place->alike))
+        return vi_all(0);
+    from += place->node;
+    const vf a = vf_all(from[0]), b = vf_all(from[1]);
+    const vf c = vf_all(from[GRID_COLUMNS]), d = vf_all(from[GRID_COLUMNS + 1]);
     const vf above = a + (b - a) * place->right, below = c + (d - c) * place->right;
     *seen = above + (below - above) * place->down;
-    return known;
+    return place->alike;
 }
 
 /* Return the lanes where what is seen of lamp i, or of the sky, is interpolated, and what that is.

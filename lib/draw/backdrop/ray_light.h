@@ -4,11 +4,10 @@
 #define KILN_DRAW_BACKDROP_RAY_LIGHT_H
 
 #include "draw/backdrop/ray_cache.h"
-#include "draw/backdrop/ray_grid.h"
+#include "draw/backdrop/ray_grid_smoke.h"
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_sun.h"
 #include "draw/light/ray_lamp.h"
-#include "draw/light/ray_smoke.h"
 #include "shared/floor.h"
 #include "shared/lamp.h"
 
@@ -62,7 +61,7 @@ SIMD vf find_lamp_seen(const struct kiln_ray_frame *frame, uint32_t i, const str
         known = grid_lamp_seen(s->grid, i, &seen);
     active &= ~known;
     if (!any(active))
-        return seen;
+        return vf_select(known, seen, vf_all(1.0f));
     const struct ray_point *p = &s->point;
     const vf found = lamp_visibility(&frame->lamp_objects, lamp, frame->casters->lamps[i],
                                      vf3_add_scaled(p->at, p->normal, vf_all(LAMP_START)),
@@ -98,9 +97,7 @@ SIMD void add_lamp(const struct kiln_ray_frame *frame, uint32_t i, const struct 
         return;
     const vf cone = lamp_cone(*lamp, towards);
     const struct ray_point lit = {p->at, p->normal, faces & (cone > 0.0f)};
-    vf seen = cone;
-    if (frame->lamp_smoke && lamp->casters.z)
-        seen *= smoke_transmittance(lamp_smoke_depth(frame->lamp_smoke, lamp, &lit));
+    vf seen = cone * past_smoke(frame, i, &lit, s->grid);
     if (frame->casters->lamps[i] | lamp->casters.y && any(lit.active))
         seen *= lamp_seen(frame, i, s, lit.active);
     const vf all = (lamp->color.x + lamp->color.y + lamp->color.z) * part;
@@ -130,7 +127,7 @@ SIMD struct arrived light_without_sun(const struct kiln_ray_frame *frame,
         sky = find_sky_seen(frame, s);
         fill_cached(s->cached, KILN_CACHE_SKY, sky);
     }
-    sky *= smoke_lets_through(frame->smoke_to_sky, b->sky_to_grid, p);
+    sky *= past_smoke(frame, GRID_SKY, p, s->grid);
     const struct vf3 ambient = sky_ambient(b->sky_horizon, b->sky_top, p->normal);
     struct arrived arrived = {.irradiance = vf3_scale(ambient, RAY_PI * sky)};
     arrived.all = arrived.irradiance.x + arrived.irradiance.y + arrived.irradiance.z;

@@ -152,7 +152,7 @@ SIMD void store_means(const struct kiln_backdrop_picture *p, vi pixel, vi active
     }
     const struct ray_color mean = {edge_mean(sum), sum.alpha};
     _Alignas(64) float channels[4 * LANES];
-    store_colors(channels, &mean, LANES);
+    store_colors(channels, &mean);
     for (int i = 0; i < LANES; i++) {
         if (active[i])
             memcpy(p->color + 4 * (size_t)pixel[i], channels + 4 * (size_t)i, 4 * sizeof *channels);

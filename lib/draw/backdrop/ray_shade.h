@@ -75,15 +75,15 @@ struct shaded_rays {
     struct vf3 reflected;         /* light of the lamps that it reflects to the eye */
 };
 
-/* Describes pixels of a row whose rays are cast. */
-struct grid_row {
+/* Describes the pixels of a vector whose rays are cast. */
+struct grid_pixels {
     const struct light_grid *grid, *mirrored; /* of their strip, and of its reflections or NULL */
     uint32_t column, row;                     /* of the first pixel, in the strip */
 };
 
 /* Describes what helps to shade rays; members are NULL where there is no such help. */
 struct ray_help {
-    const struct grid_row *row;
+    const struct grid_pixels *pixels;
     const struct cached_rays *cached;
 };
 
@@ -95,21 +95,23 @@ SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, 
     const struct ray_point point = {ray_at(ray, hit->t), hit->normal, hit->surface >= 0.0f};
     struct arrived arrived = {.irradiance = {{0}, {0}, {0}}};
     if (any(point.active)) {
+        struct grid_place place;
+        const struct grid_place *in_grid = NULL;
+        if (help->pixels) {
+            const struct grid_pixels *pixels = help->pixels;
+            place = grid_place_of(pixels->grid, pixels->column, pixels->row, hit, point.at);
+            in_grid = &place;
+        }
         const vf sunlit = sun_seen(frame, &point, facing_sun(frame, &point), help->cached);
         const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
-        shaded->arrives =
-            sunlit * smoke_lets_through(frame->smoke_to_sun, frame->backdrop->sun_to_grid, &sunny);
+        shaded->arrives = sunlit * past_smoke(frame, GRID_SUN, &sunny, in_grid);
         glossy = glossy && any(hit->surface == 0.0f);
         if (glossy)
             shaded->mirror = floor_reflection_along(frame, ray);
-        struct lit_surface surface = {
-            .point = point, .gloss = glossy ? &shaded->mirror.at : NULL, .cached = help->cached};
-        struct grid_place place;
-        if (help->row) {
-            const struct grid_row *row = help->row;
-            place = grid_place_of(row->grid, row->column, row->row, hit, point.at);
-            surface.grid = &place;
-        }
+        const struct lit_surface surface = {.point = point,
+                                            .gloss = glossy ? &shaded->mirror.at : NULL,
+                                            .grid = in_grid,
+                                            .cached = help->cached};
         arrived = light_without_sun(frame, &surface);
         shaded->light = sunlit - arrived.hidden / vf_max(arrived.all, vf_all(1e-6f));
         shaded->reflected = arrived.reflected;
@@ -162,10 +164,11 @@ SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *r
         planes = cached_reflections(eye->cached);
         help.cached = &planes;
     }
-    struct grid_row row;
-    if (eye->row && eye->row->mirrored) {
-        row = (struct grid_row){eye->row->mirrored, NULL, eye->row->column, eye->row->row};
-        help.row = &row;
+    struct grid_pixels pixels;
+    if (eye->pixels && eye->pixels->mirrored) {
+        pixels = (struct grid_pixels){eye->pixels->mirrored, NULL, eye->pixels->column,
+                                      eye->pixels->row};
+        help.pixels = &pixels;
     }
     struct shaded_rays reflection = {
         .first = find_hit(&all, &objects, &reflected, &nowhere, help.cached)};
@@ -197,14 +200,14 @@ SIMD void store_channels(float channels[4][LANES], const struct ray_color *color
     vf_store(channels[3], color->alpha);
 }
 
-/* Stores the first colours by pixel. */
-SIMD void store_colors(float *to, const struct ray_color *color, uint32_t count)
+/* Stores colours by pixel. */
+SIMD void store_colors(float to[4 * LANES], const struct ray_color *color)
 {
     _Alignas(64) float channels[4][LANES];
     store_channels(channels, color);
-    for (uint32_t i = 0; i < count; i++, to += 4) {
+    for (int i = 0; i < LANES; i++) {
         for (int c = 0; c < 4; c++)
-            to[c] = channels[c][i];
+            to[4 * i + c] = channels[c][i];
     }
 }
 

@@ -9,7 +9,7 @@
 #include "base/pages.h"
 
 enum {
-    STRIP = 64, /* px; rows are stored in whole strips, which all widths of vectors divide */
+    STRIP = 64, /* px; rows are stored in whole strips */
     /* Pixels at edges that have room, as a multiple of a row's, for each KILN_EDGE_TILE rows. */
     EDGE_ROWS = 2,
     MOST_LIGHTS = KILN_MAX_LIGHTS + KILN_MAX_FIRE_LIGHTS,
@@ -151,7 +151,9 @@ static bool reserve_edges(struct kiln_surface_cache *cache)
 /* Makes room for the planes that a picture needs. */
 static bool reserve(struct kiln_surface_cache *cache)
 {
-    const size_t floats = (size_t)cache->rays * cache->planes * cache->width * cache->height;
+    const uint32_t tall = cache->lanes / KILN_CACHE_COLUMNS; /* rows of a vector */
+    const uint32_t rows = (cache->height + tall - 1) / tall * tall;
+    const size_t floats = (size_t)cache->rays * cache->planes * cache->width * rows;
     if (floats == cache->floats)
         return true;
     free(cache->centers);

@@ -9,6 +9,9 @@
 #include "draw/backdrop/backdrop_inputs.h"
 #include "draw/backdrop/casters.h"
 
+/* Pixels of a row that are in one vector of rays; the others of it are in the rows below. */
+enum { KILN_CACHE_COLUMNS = 4 };
+
 /* Numbers of the planes of a vector of rays. A plane holds a float for each ray. */
 enum {
     KILN_CACHE_T,
@@ -40,7 +43,7 @@ enum { KILN_PIXEL_IS_CACHED = 1, KILN_PIXEL_IS_EDGE = 2 };
 
 struct kiln_surface_cache {
     enum kiln_cache_use use;
-    uint32_t width, height; /* px; the width in whole vectors of any size */
+    uint32_t width, height; /* px; the width in whole strips */
     uint32_t lanes;
     uint32_t rays;       /* for a ray from the eye: itself, and its reflection in a glossy floor */
     uint32_t planes;     /* of a vector of rays */
