@@ -160,7 +160,8 @@ SIMD void store_pixels(const struct kiln_backdrop_picture *p, const struct strip
     float *to = picture + ((size_t)pixels->y * p->width + pixels->x) * size;
     const size_t columns = pixels->columns * size;
     for (uint32_t row = 0; row < pixels->rows; row++)
-        memcpy(to + row * p->width * size, numbers + row * GRID_STEP * size, columns * sizeof *to);
+        memcpy(to + (size_t)row * p->width * size, numbers + (size_t)row * GRID_STEP * size,
+               columns * sizeof *to);
 }
 
 /* Returns where the cache keeps the box around what the strip at (x, y) shows; NULL without a
@@ -220,22 +221,29 @@ static void light_strip(const struct kiln_backdrop_picture *p, uint32_t x, uint3
     }
 }
 
+/* Returns whether a strip needs a grid although no shadow is interpolated. kept: its box in the
+ * cache, or NULL; filled: the box holds. A box that is kept has nodes in it, since smoke may come
+ * later. */
+static bool needs_grid(const struct kiln_ray_frame *frame, const struct kiln_lit_box *kept,
+                       bool filled)
+{
+    if (kept && !filled)
+        return true;
+    return is_smoky(frame, frame->floor_gloss ? NULL : kept); /* reflections lie beside the box */
+}
+
 static void cast_rows(const struct kiln_backdrop_picture *whole, uint32_t y)
 {
     struct kiln_backdrop_picture picture = *whole; /* with the casters of a strip */
     struct kiln_ray_frame frame = *whole->frame;
     picture.frame = &frame;
     const struct grid_lights all = find_shadow_lights(whole, frame.all_casters);
-    const bool shadows = all.lamps || all.sky;
     struct light_grid grid, reflections;
     struct strip_hits strip;
     for (uint32_t x = 0; x < whole->width; x += STRIP) {
         struct kiln_lit_box *kept = box_in_cache(whole->cache, x, y);
         const bool filled = kept && whole->cache->use == KILN_CACHE_FILLED;
-        /* A box that is kept has nodes in it, since smoke may come later. What is reflected may be
-         * beside the box. */
-        const bool has_grid = shadows || (kept && !filled) ||
-                              is_smoky(&frame, filled && !frame.floor_gloss ? kept : NULL);
+        const bool has_grid = all.lamps || all.sky || needs_grid(&frame, kept, filled);
         struct light_grid *mirrored = has_grid && frame.floor_gloss ? &reflections : NULL;
         /* with a column and a row more, for the nodes */
         const struct kiln_ray_objects objects = find_objects(whole, x, y, STRIP + 1);
