@@ -1,13 +1,12 @@
 /* This header interpolates the parts of the sky and of each lamp that surfaces see past objects;
- * ray_grid_smoke.h does the same with what smoke lets through. A
- * lamp fills a disc of the sky, so its shadows are blurred, and mostly wider than a few pixels;
- * the sky is all around. The picture is divided into strips of blocks of GRID_STEP x GRID_STEP
- * pixels. What is seen is computed at the blocks' corners, the nodes of a grid. A pixel takes it
- * from its block's corners where no shadow can be missed: the corners and the pixel lie on one
- * smooth piece of surface, what is seen hardly bends between nodes, and for a lamp, every object
- * that may hide it has a penumbra wider than the block. All other pixels compute it. Blocks do not
- * depend on the width of vectors, so neither does the picture; the pixels of a vector are in one
- * block. */
+ * ray_grid_smoke.h does the same with what smoke lets through. A lamp fills a disc of the sky, so
+ * its shadows are blurred, and mostly wider than a few pixels; the sky is all around. The picture
+ * is divided into strips of blocks of GRID_STEP x GRID_STEP pixels. What is seen is computed at the
+ * blocks' corners, the nodes of a grid. A pixel takes it from its block's corners where no shadow
+ * can be missed: the corners and the pixel lie on one smooth piece of surface, what is seen hardly
+ * bends between nodes, and for a lamp, every object that may hide it has a penumbra wider than the
+ * block. All other pixels compute it. Blocks do not depend on the width of vectors, so neither does
+ * the picture; the pixels of a vector are in one block. */
 #ifndef KILN_DRAW_BACKDROP_RAY_GRID_H
 #define KILN_DRAW_BACKDROP_RAY_GRID_H
 

@@ -507,15 +507,21 @@ static void finish_slot(const struct kiln_slots *slots, const struct block *b, u
 static void step_and_finish(const struct kiln_slots *slots, uint32_t first_slot, uint32_t count,
                             struct block *b)
 {
-    const bool traced = slots->sim.step->family.traced != 0;
-    struct kiln_particle before[KILN_LANES] = {0}, after[KILN_LANES];
-    memcpy(before, slots->records + first_slot, count * sizeof *before);
-    memcpy(after, before, sizeof after);
-    step_block(&slots->sim, first_slot, after, b);
-    memcpy(slots->records + first_slot, after, count * sizeof *after);
+    const bool traced = slots->sim.step->family.traced != 0, whole = count == KILN_LANES;
+    struct kiln_particle *records = slots->records + first_slot, before[KILN_LANES];
+    struct kiln_particle rest[KILN_LANES]; /* the slots and empty ones, unless they are a block */
+    if (traced)
+        memcpy(before, records, count * sizeof *before);
+    if (!whole) {
+        memset(rest, 0, sizeof rest);
+        memcpy(rest, records, count * sizeof *rest);
+    }
+    step_block(&slots->sim, first_slot, whole ? records : rest, b);
+    if (!whole)
+        memcpy(records, rest, count * sizeof *rest);
     for (uint32_t i = 0; i < count; i++) {
         if (traced || b->alone[i] != ALONE_NOT)
-            finish_slot(slots, b, i, first_slot + i, before[i]);
+            finish_slot(slots, b, i, first_slot + i, traced ? before[i] : records[i]);
     }
 }
 
