@@ -15,7 +15,7 @@
 /* Bytes of the program, and bytes for one of each thing that a scene has many of. */
 enum {
     PROGRAM_BYTES = 38 << 20,
-    MESH_BYTES = 6373472, /* a mesh of the backdrop: its shadow map for the sun */
+    MESH_BYTES = 12746944, /* a mesh of the backdrop: its shadow map for the sun */
     PIXEL_BYTES = 68,
     HIT_BYTES = 20,   /* a pixel where the backdrop has meshes: what its samples hit */
     CACHE_BYTES = 80, /* a pixel of the cache of surfaces, which a camera that stands still has */
@@ -28,8 +28,8 @@ enum {
     BACKDROP_BYTES = 15,  /* a pixel of a picture of floor or sky: half floats, with mip levels */
     ATLAS_BYTES = 6,      /* a pixel of an atlas's picture; pictures are loaded one at a time */
     LIGHT_BYTES = 147456, /* a light that casts shadows: its map of smoke */
-    LIGHT_MAP_BYTES = 2464224,   /* its maps of meshes */
-    LIGHT_SOLID_BYTES = 4928448, /* its maps of solid particles */
+    LIGHT_MAP_BYTES = 4928448,   /* its maps of meshes */
+    LIGHT_SOLID_BYTES = 9856896, /* its maps of solid particles */
 };
 
 /* ---- counts ---------------------------------------------------------------------------------- */

@@ -30,6 +30,8 @@
 
 static const char LAMP[] = SCENE("point: {position: [0, 0, 0], radius: 0.01 m}");
 
+enum { ENTRY = KILN_SHADOW_PAIR * KILN_LAMP_SOLID_TEXEL };
+
 struct fixture {
     struct placed placed;
     struct kiln_lamp_solids *solids;
@@ -80,15 +82,14 @@ static uint64_t drawn(const struct fixture *f)
 static const uint32_t *level_of(const struct fixture *f, size_t face, uint32_t level)
 {
     return f->maps.texels +
-           KILN_LAMP_SOLID_WORDS *
-               (face * KILN_LAMP_TEXELS + kiln_shadow_level_start(KILN_LAMP_EDGE, level));
+           ENTRY * (face * KILN_LAMP_ENTRIES + kiln_shadow_level_start(KILN_LAMP_EDGE, level));
 }
 
 /* Returns texel i, row by row, of the finest level of a face. */
 static const uint32_t *texel_of(const uint32_t *finest, int i)
 {
     const int row = i / KILN_LAMP_EDGE, column = i % KILN_LAMP_EDGE;
-    return finest + KILN_LAMP_SOLID_WORDS * (row * KILN_SHADOW_PITCH(KILN_LAMP_EDGE) + column);
+    return finest + ENTRY * (row * KILN_SHADOW_PITCH(KILN_LAMP_EDGE) + column);
 }
 
 /* Returns the solid angle that solids cover in the direct part of all faces, sr. Each texel is
@@ -181,8 +182,7 @@ static void maps_are_kept_while_nothing_moves(void **state)
     add_ball(&f, 1, 0, 0);
     run(&f);
     const uint64_t first = drawn(&f);
-    const size_t bytes =
-        (size_t)KILN_LAMP_FACES * KILN_LAMP_TEXELS * KILN_LAMP_SOLID_WORDS * sizeof *f.maps.texels;
+    const size_t bytes = (size_t)KILN_LAMP_FACES * KILN_LAMP_SOLID_WORDS * sizeof *f.maps.texels;
     uint32_t *texels = malloc(bytes);
     assert_non_null(texels);
     memcpy(texels, f.maps.texels, bytes);
@@ -295,8 +295,7 @@ static void threads_do_not_change_maps(void **state)
     (void)state;
     struct kiln_error error = {0};
     struct fixture f[2];
-    const size_t bytes =
-        (size_t)KILN_LAMP_FACES * KILN_LAMP_TEXELS * KILN_LAMP_SOLID_WORDS * sizeof(uint32_t);
+    const size_t bytes = (size_t)KILN_LAMP_FACES * KILN_LAMP_SOLID_WORDS * sizeof(uint32_t);
     for (int i = 0; i < 2; i++) {
         set_up(&f[i], LAMP, NULL);
         kiln_lamp_solids_destroy(&f[i].solids);

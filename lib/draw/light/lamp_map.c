@@ -42,6 +42,7 @@ struct kiln_lamp_maps {
     struct canvas *canvases; /* one for each thread */
     uint32_t *texels;
     uint32_t room; /* lamps that `texels` has room for */
+    struct kiln_shadow_span spans[KILN_LAMP_MAPS * KILN_LAMP_FACES][2 * EDGE]; /* of each face */
     uint64_t changes;
     struct shown shown[KILN_LAMP_MAPS];
     struct kiln_draw_mesh placed[KILN_MAX_MESHES]; /* the meshes that the maps show */
@@ -177,7 +178,7 @@ static uint32_t project_face(const struct kiln_lamp_maps *maps, const struct sho
     return count;
 }
 
-static void draw_face(const struct kiln_lamp_maps *maps, uint32_t number, uint32_t face,
+static void draw_face(struct kiln_lamp_maps *maps, uint32_t number, uint32_t face,
                       const struct canvas *canvas)
 {
     const struct shown *lamp = &maps->shown[number];
@@ -197,19 +198,22 @@ static void draw_face(const struct kiln_lamp_maps *maps, uint32_t number, uint32
         .pitch = PITCH,
     };
     maps->rows->draw(&strip, canvas->triangles, canvas->list, count);
-    uint32_t *texels = maps->texels + ((size_t)number * KILN_LAMP_FACES + face) * KILN_LAMP_TEXELS;
-    uint32_t *finest = texels + kiln_shadow_level_start(EDGE, 0);
+    uint32_t *texels = maps->texels + ((size_t)number * KILN_LAMP_FACES + face) * KILN_LAMP_WORDS;
+    uint32_t *finest = texels + KILN_SHADOW_PAIR * kiln_shadow_level_start(EDGE, 0);
+    const size_t pitch = KILN_SHADOW_PITCH(EDGE);
     const float inverse_far = 1.0f / lamp->far;
+    struct kiln_shadow_span *spans = maps->spans[(size_t)number * KILN_LAMP_FACES + face];
     for (size_t y = 0; y < EDGE; y++) {
-        for (size_t x = 0; x < EDGE; x++) {
+        kiln_shadow_find_span(&spans[y], canvas->nearness + y * PITCH, EDGE);
+        for (size_t x = spans[y].changed_from; x < spans[y].changed_to; x++) {
             const float nearness = canvas->nearness[y * PITCH + x];
             const float distance = exact_min(inverse_far / exact_max(nearness, 1e-6f), 1.0f);
-            finest[y * KILN_SHADOW_PITCH(EDGE) + x] =
-                nearness > 0.0f ? kiln_shadow_texel(distance) : 0;
+            const uint32_t texel = nearness > 0.0f ? kiln_shadow_texel(distance) : 0;
+            kiln_shadow_store(finest + KILN_SHADOW_PAIR * (y * pitch + x), pitch, &texel, 1);
         }
     }
     for (uint32_t level = 1; level < KILN_LAMP_LEVELS; level++)
-        kiln_shadow_shrink(texels, EDGE, level, 0, EDGE >> level);
+        kiln_shadow_shrink(texels, spans, EDGE, level, 0, EDGE >> level);
 }
 
 static void draw_faces(void *context, size_t begin, size_t end, uint32_t worker)
@@ -275,7 +279,7 @@ static bool reserve(struct kiln_lamp_maps *maps, uint32_t count, struct kiln_err
 {
     if (count <= maps->room)
         return true;
-    const size_t lamp = (size_t)KILN_LAMP_FACES * KILN_LAMP_TEXELS;
+    const size_t lamp = (size_t)KILN_LAMP_FACES * KILN_LAMP_WORDS;
     uint32_t *texels = kiln_alloc_pages(count * lamp * sizeof *texels);
     if (!texels)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of lamps: out of memory");

@@ -370,8 +370,7 @@ static void draw_face(struct kiln_lamp_solids *solids, uint32_t number, uint32_t
     kiln_solid_canvas_clear(painter->canvas, solids->far[number]);
     for (size_t i = 0; i < count; i++)
         draw_solid(solids, lamp, face, &painter->turns[i], painter->canvas);
-    kiln_solid_canvas_write(painter->canvas,
-                            solids->texels + at * KILN_LAMP_TEXELS * KILN_LAMP_SOLID_WORDS);
+    kiln_solid_canvas_write(painter->canvas, solids->texels + at * KILN_LAMP_SOLID_WORDS);
 }
 
 static void draw_faces(void *context, size_t begin, size_t end, uint32_t worker)
@@ -387,7 +386,7 @@ static void draw_faces(void *context, size_t begin, size_t end, uint32_t worker)
 /* Makes room for the maps of lamps, empty at first, and for the list of each thread. */
 static bool reserve(struct kiln_lamp_solids *solids, uint32_t count, struct kiln_error *error)
 {
-    const size_t lamp = (size_t)KILN_LAMP_FACES * KILN_LAMP_TEXELS * KILN_LAMP_SOLID_WORDS;
+    const size_t lamp = (size_t)KILN_LAMP_FACES * KILN_LAMP_SOLID_WORDS;
     bool ok = !solids->failed;
     if (ok && count > solids->room) {
         uint32_t *texels = realloc(solids->texels, count * lamp * sizeof *texels);

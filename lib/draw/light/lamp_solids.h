@@ -11,7 +11,11 @@
 /* Words of a texel. The first is that of shadow_levels.h. The second has the covered part times the
  * means of the squared distance (lower 16 bits) and of how narrow the solids are
  * (shared/lamp_map.h), in the same units. */
-enum { KILN_LAMP_SOLID_WORDS = 2 };
+enum {
+    KILN_LAMP_SOLID_TEXEL = 2,
+    KILN_LAMP_SOLID_WORDS =
+        KILN_LAMP_ENTRIES * KILN_SHADOW_PAIR * KILN_LAMP_SOLID_TEXEL /* of a face */
+};
 
 /* Holds the maps of one moment; they are valid until the next run. */
 struct kiln_lamp_solid_maps {

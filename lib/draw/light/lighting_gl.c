@@ -51,6 +51,8 @@ struct kiln_lighting_gl {
     uint64_t lamp_solid_changes[KILN_LAMP_MAPS * KILN_LAMP_FACES]; /* of faces in the texture */
     uint32_t lamp_smoke_count; /* lamps that their texture has room for */
     size_t lamp_shade_words;   /* of the texture */
+    /* of the level of a face that is sent */
+    uint32_t texels[KILN_LAMP_EDGE * KILN_LAMP_EDGE * KILN_LAMP_SOLID_TEXEL];
 };
 
 struct kiln_lighting_gl *kiln_lighting_gl_create(struct kiln_device *device)
@@ -194,21 +196,20 @@ static void send_lamp_maps(struct kiln_lighting_gl *gl, const struct kiln_lighti
     const GLenum target = GL_TEXTURE_2D_ARRAY;
     const GLsizei layers = (GLsizei)(lighting->lamp_map_count * KILN_LAMP_FACES);
     make_faces(gl, LAMP_MAPS);
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, KILN_SHADOW_PITCH(KILN_LAMP_EDGE));
     for (GLint level = 0; level < KILN_LAMP_LEVELS; level++) {
         const GLsizei edge = KILN_LAMP_EDGE >> level;
-        const uint32_t *texels =
-            lighting->lamp_maps + kiln_shadow_level_start(KILN_LAMP_EDGE, (uint32_t)level);
         if (gl->lamp_map_count < lighting->lamp_map_count)
             glTexImage3D(target, level, GL_RG16, edge, edge, layers, 0, GL_RG, GL_UNSIGNED_SHORT,
                          NULL);
-        for (GLsizei layer = 0; layer < layers; layer++)
+        for (GLsizei layer = 0; layer < layers; layer++) {
+            kiln_shadow_unpair(lighting->lamp_maps + (size_t)layer * KILN_LAMP_WORDS,
+                               KILN_LAMP_EDGE, 1, (uint32_t)level, gl->texels);
             glTexSubImage3D(target, level, 0, 0, layer, edge, edge, 1, GL_RG, GL_UNSIGNED_SHORT,
-                            texels + (size_t)layer * KILN_LAMP_TEXELS);
+                            gl->texels);
+        }
         gl->device->traffic.to_device +=
-            sizeof *texels * (size_t)edge * (size_t)edge * (size_t)layers;
+            sizeof *gl->texels * (size_t)edge * (size_t)edge * (size_t)layers;
     }
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     if (gl->lamp_map_count < lighting->lamp_map_count)
         gl->lamp_map_count = lighting->lamp_map_count;
     gl->lamp_map_changes = lighting->lamp_map_changes;
@@ -227,23 +228,20 @@ static void send_lamp_solids(struct kiln_lighting_gl *gl, const struct kiln_ligh
                      layers, 0, GL_RGBA, GL_UNSIGNED_SHORT, NULL);
     if (all)
         gl->lamp_solid_count = maps->count;
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, KILN_SHADOW_PITCH(KILN_LAMP_EDGE));
     for (GLsizei layer = 0; layer < layers; layer++) {
         if (!all && gl->lamp_solid_changes[layer] == maps->changes[layer])
             continue;
         gl->lamp_solid_changes[layer] = maps->changes[layer];
-        const uint32_t *face =
-            maps->texels + (size_t)layer * KILN_LAMP_TEXELS * KILN_LAMP_SOLID_WORDS;
+        const uint32_t *face = maps->texels + (size_t)layer * KILN_LAMP_SOLID_WORDS;
         for (uint32_t level = 0; level < KILN_LAMP_LEVELS; level++) {
             const GLsizei edge = KILN_LAMP_EDGE >> level;
-            const size_t start = kiln_shadow_level_start(KILN_LAMP_EDGE, level);
+            kiln_shadow_unpair(face, KILN_LAMP_EDGE, KILN_LAMP_SOLID_TEXEL, level, gl->texels);
             glTexSubImage3D(target, (GLint)level, 0, 0, layer, edge, edge, 1, GL_RGBA,
-                            GL_UNSIGNED_SHORT, face + KILN_LAMP_SOLID_WORDS * start);
+                            GL_UNSIGNED_SHORT, gl->texels);
             gl->device->traffic.to_device +=
-                sizeof *face * KILN_LAMP_SOLID_WORDS * (size_t)edge * (size_t)edge;
+                sizeof *face * KILN_LAMP_SOLID_TEXEL * (size_t)edge * (size_t)edge;
         }
     }
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
 static void send_lamp_smoke(struct kiln_lighting_gl *gl, const struct kiln_lighting *lighting)

@@ -19,17 +19,20 @@ static_assert(EDGE == 1 << (KILN_SHADOW_LEVELS - 1), "down to one texel");
 bool kiln_mesh_shadow_init(struct kiln_mesh_shadow *shadow, struct kiln_error *error)
 {
     *shadow = (struct kiln_mesh_shadow){.drawn = false};
-    shadow->texels = kiln_alloc_pages(KILN_SHADOW_TEXELS * sizeof *shadow->texels);
-    if (!shadow->texels)
+    shadow->texels = kiln_alloc_pages(KILN_SHADOW_WORDS * sizeof *shadow->texels);
+    shadow->spans = calloc(KILN_SHADOW_ROWS, sizeof *shadow->spans);
+    if (!shadow->texels || !shadow->spans)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
-    memset(shadow->texels, 0, KILN_SHADOW_TEXELS * sizeof *shadow->texels);
+    memset(shadow->texels, 0, KILN_SHADOW_WORDS * sizeof *shadow->texels);
     return true;
 }
 
 void kiln_mesh_shadow_finish(struct kiln_mesh_shadow *shadow)
 {
     free(shadow->texels);
+    free(shadow->spans);
     shadow->texels = NULL;
+    shadow->spans = NULL;
 }
 
 struct shadow_job {
@@ -133,13 +136,17 @@ static void draw_band(const struct shadow_job *d, uint32_t band, float *nearness
     };
     canvas->rows->draw(&strip, canvas->triangles, lists->list + lists->first[band],
                        lists->first[band + 1] - lists->first[band]);
+    const size_t pitch = KILN_SHADOW_PITCH(EDGE);
+    uint32_t *finest = d->shadow->texels + KILN_SHADOW_PAIR * kiln_shadow_level_start(EDGE, 0);
     for (uint32_t row = 0; row < KILN_MESH_ROWS; row++) {
         const float *from = nearness + row * canvas->pitch;
-        uint32_t *to = d->shadow->texels + kiln_shadow_level_start(EDGE, 0) +
-                       (size_t)(y + row) * KILN_SHADOW_PITCH(EDGE);
-        for (uint32_t x = 0; x < EDGE; x++) {
+        uint32_t *to = finest + (size_t)KILN_SHADOW_PAIR * pitch * (y + row);
+        struct kiln_shadow_span *span = &d->shadow->spans[y + row];
+        kiln_shadow_find_span(span, from, EDGE);
+        for (uint32_t x = span->changed_from; x < span->changed_to; x++) {
             const float distance = exact_clamp(1.0f - from[x], 0.0f, 1.0f);
-            to[x] = from[x] > 0.0f ? kiln_shadow_texel(distance) : 0;
+            const uint32_t texel = from[x] > 0.0f ? kiln_shadow_texel(distance) : 0;
+            kiln_shadow_store(to + (size_t)KILN_SHADOW_PAIR * x, pitch, &texel, 1);
         }
     }
 }
@@ -155,7 +162,7 @@ static void shrink_rows(void *context, size_t begin, size_t end, uint32_t worker
 {
     (void)worker;
     const struct shadow_job *d = context;
-    kiln_shadow_shrink(d->shadow->texels, EDGE, d->level, begin, end);
+    kiln_shadow_shrink(d->shadow->texels, d->shadow->spans, EDGE, d->level, begin, end);
 }
 
 static bool is_up_to_date(const struct kiln_mesh_shadow *shadow,

@@ -11,12 +11,15 @@
 
 enum {
     KILN_SHADOW_LEVELS = 11, /* each of half the edge of the one before, down to 1 texel */
-    KILN_SHADOW_TEXELS = KILN_SHADOW_MAP_TEXELS(KILN_SHADOW_EDGE, KILN_SHADOW_LEVELS),
+    KILN_SHADOW_ROWS = 2 * KILN_SHADOW_EDGE, /* of all levels */
+    KILN_SHADOW_WORDS =
+        KILN_SHADOW_MAP_ENTRIES(KILN_SHADOW_EDGE, KILN_SHADOW_LEVELS) * KILN_SHADOW_PAIR,
 };
 
 struct kiln_mesh_shadow {
-    uint32_t *texels;             /* KILN_SHADOW_TEXELS (shadow_levels.h) */
-    struct kiln_draw_mesh placed; /* the mesh that the map shows, and the sun at that time */
+    uint32_t *texels;               /* KILN_SHADOW_WORDS (shadow_levels.h) */
+    struct kiln_shadow_span *spans; /* KILN_SHADOW_ROWS */
+    struct kiln_draw_mesh placed;   /* the mesh that the map shows, and the sun at that time */
     float4 right, up, sun;
     bool drawn;
 };

@@ -250,7 +250,7 @@ SIMD vf lamp_mesh_cover(const struct kiln_lamp_objects *objects, const struct ki
 
     const struct shadow_map maps = {objects->maps, KILN_LAMP_EDGE, KILN_LAMP_LEVELS, 1};
     const vi face = vi_of(place.face) + (int32_t)(KILN_LAMP_FACES * (mesh_map_of(lamp) - 1));
-    const vi first = face * KILN_LAMP_TEXELS;
+    const vi first = face * KILN_LAMP_ENTRIES;
     const vf widest = lamp_widest(place, radius, r->way.lit), level = lamp_level(widest) + 1.0f;
     blur_lamp(r, near, widest);
     struct shadow_filter filter = shadow_filter_of(&maps, first, level);
@@ -289,9 +289,9 @@ SIMD vf lamp_solid_cover(const struct kiln_lamp_objects *objects,
         middle ? vf3_length(vf3_towards(lamp->position_radius2, *middle)) : vf_all(0.0f));
     const struct shadow_receiver at = to.at;
     const struct shadow_map maps = {objects->solid_maps, KILN_LAMP_EDGE, KILN_LAMP_LEVELS,
-                                    KILN_LAMP_SOLID_WORDS};
+                                    KILN_LAMP_SOLID_TEXEL};
     const vi face = vi_of(to.place.face) + (int32_t)(KILN_LAMP_FACES * (solid_map_of(lamp) - 1));
-    const vi first = face * KILN_LAMP_TEXELS;
+    const vi first = face * KILN_LAMP_ENTRIES;
     const vf widest = lamp_widest(to.place, radius, r->way.lit), level = lamp_level(widest) + 1.0f;
     blur_lamp(r, near, widest);
     struct shadow_filter filter = shadow_filter_of(&maps, first, level);

@@ -4,12 +4,13 @@
 #define KILN_DRAW_LIGHT_RAY_SHADOW_H
 
 #include "base/real.h"
+#include "base/transpose.h"
 #include "draw/light/shadow_levels.h"
 
 /* Describes maps of one size, one after another. */
 struct shadow_map {
-    const uint32_t *texels;
-    int32_t edge; /* of the finest level, texels */
+    const uint32_t *entries; /* as shadow_levels.h lays them out */
+    int32_t edge;            /* of the finest level, texels */
     int32_t levels;
     int32_t words; /* of a texel: 1, or 2 as in lamp_solids.h */
 };
@@ -21,7 +22,7 @@ struct shadow_sample {
     vf square, narrow; /* as in lamp_solids.h; 0 where texels have one word */
 };
 
-/* Describes a level of maps in each lane: its edge, texels, and where its first texel is. */
+/* Describes a level of maps in each lane: its edge, texels, and where its first entry is. */
 struct shadow_level {
     vf edge;
     vi start;
@@ -33,7 +34,7 @@ struct shadow_filter {
     vf part; /* of the way from the fine level to the coarse one */
 };
 
-/* first: where the map starts, in texels. */
+/* first: where the map starts, in entries. */
 SIMD struct shadow_level shadow_level_at(const struct shadow_map *map, vi first, vf level)
 {
     const vi number = vi_of(level), edge = vi_all(map->edge) >> number, finest = number <= 0;
@@ -52,16 +53,17 @@ SIMD struct shadow_filter shadow_filter_of(const struct shadow_map *map, vi firs
                                   shadow_level_at(map, first, coarse), level - fine};
 }
 
-SIMD void add_texel(struct shadow_sample *sum, vf weight, vi texel)
+/* Adds a texel to a sum. second: NULL unless texels have two words. */
+SIMD void add_texel(struct shadow_sample *sum, vf weight, vf first, const vf *second)
 {
-    sum->cover += weight * vf_of(texel & 0xffff);
-    sum->distance += weight * vf_of(texel >> 16 & 0xffff);
-}
-
-SIMD void add_second_word(struct shadow_sample *sum, vf weight, vi word)
-{
-    sum->square += weight * vf_of(word & 0xffff);
-    sum->narrow += weight * vf_of(word >> 16 & 0xffff);
+    const vi word = (vi)first;
+    sum->cover += weight * vf_of(word & 0xffff);
+    sum->distance += weight * vf_of(word >> 16 & 0xffff);
+    if (!second)
+        return;
+    const vi other = (vi)*second;
+    sum->square += weight * vf_of(other & 0xffff);
+    sum->narrow += weight * vf_of(other >> 16 & 0xffff);
 }
 
 /* Interpolates linearly between four texels of a level; texels beside the map are empty. Numbers
@@ -72,25 +74,26 @@ SIMD struct shadow_sample read_shadow_level(const struct shadow_map *map,
     const vf x = vf_min(vf_max(u * level->edge - 0.5f, vf_all(-1.0f)), level->edge);
     const vf y = vf_min(vf_max(v * level->edge - 0.5f, vf_all(-1.0f)), level->edge);
     const vf left = vf_floor(x), top = vf_floor(y), right = x - left, down = y - top;
-    const int32_t pitch = KILN_SHADOW_PITCH(map->edge);
-    const vi at = (level->start + vi_of(top) * pitch + vi_of(left)) * map->words;
-    const size_t texel = (size_t)map->words, below = (size_t)pitch * texel;
+    const int32_t pitch = KILN_SHADOW_PITCH(map->edge), entry = KILN_SHADOW_PAIR * map->words;
+    const vi at = (level->start + vi_of(top) * pitch + vi_of(left)) * entry;
+    const struct lane_offsets offsets = lane_offsets_of(at);
+    const float *words = (const float *)(const void *)map->entries;
+    const struct columns fetched = columns_load(words, &offsets);
+    const vf *c = fetched.c, above[2] = {(1.0f - right) * (1.0f - down), right * (1.0f - down)},
+             below[2] = {(1.0f - right) * down, right * down};
     struct shadow_sample sum = {{0}, {0}, {0}, {0}};
-    for (int i = 0; i < 2; i++) {
-        const int32_t *row = (const int32_t *)map->texels + (i ? below : 0);
-        const vf height = i ? down : 1.0f - down, weights[2] = {1.0f - right, right};
-        if (map->words == 1) {
-            const struct vi_pair texels = vi_gather_pair(row, at);
-            add_texel(&sum, weights[0] * height, texels.first);
-            add_texel(&sum, weights[1] * height, texels.second);
-            continue;
-        }
-        for (int k = 0; k < 2; k++) {
-            const struct vi_pair words = vi_gather_pair(row + (k ? texel : 0), at);
-            add_texel(&sum, weights[k] * height, words.first);
-            add_second_word(&sum, weights[k] * height, words.second);
-        }
+    if (map->words == 1) {
+        add_texel(&sum, above[0], c[0], NULL);
+        add_texel(&sum, above[1], c[2], NULL);
+        add_texel(&sum, below[0], c[1], NULL);
+        add_texel(&sum, below[1], c[3], NULL);
+        return sum;
     }
+    const struct columns next = columns_load(words + entry, &offsets);
+    add_texel(&sum, above[0], c[0], &c[1]);
+    add_texel(&sum, above[1], next.c[0], &next.c[1]);
+    add_texel(&sum, below[0], c[2], &c[3]);
+    add_texel(&sum, below[1], next.c[2], &next.c[3]);
     return sum;
 }
 

@@ -2,7 +2,9 @@
  * the one before, down to one texel, and holds means of four texels. All levels of a map lie in one
  * array of rows: the finest on the left, the others below each other on its right. An empty row or
  * column lies between any two of them and around them, so that a fetch between four texels needs
- * no test for a level's border. */
+ * no test for a level's border. The array has an entry for each texel: its words, then those of the
+ * texel below. So two neighbouring entries hold the four texels of a fetch, and are read at once.
+ */
 #ifndef KILN_DRAW_LIGHT_SHADOW_LEVELS_H
 #define KILN_DRAW_LIGHT_SHADOW_LEVELS_H
 
@@ -16,18 +18,21 @@
  * light and 1 farthest from it. */
 enum { KILN_SHADOW_ONE = 65535 };
 
-/* KILN_SHADOW_PITCH gives the texels of a row of all levels, KILN_SHADOW_MAP_TEXELS those of the
+/* Texels of an entry. */
+enum { KILN_SHADOW_PAIR = 2 };
+
+/* KILN_SHADOW_PITCH gives the entries of a row of all levels, KILN_SHADOW_MAP_ENTRIES those of the
  * whole array. edge: of the finest level, texels, a power of two. The empty column on the right of
  * a row is the one on the left of the next row. */
-#define KILN_SHADOW_PITCH(edge)              ((edge) + (edge) / 2 + 2)
-#define KILN_SHADOW_MAP_TEXELS(edge, levels) (KILN_SHADOW_PITCH(edge) * ((edge) + (levels) + 1))
+#define KILN_SHADOW_PITCH(edge)               ((edge) + (edge) / 2 + 2)
+#define KILN_SHADOW_MAP_ENTRIES(edge, levels) (KILN_SHADOW_PITCH(edge) * ((edge) + (levels) + 1))
 
 /* These give the row and the column of the first texel of a level that is not the finest. The first
  * texel of the finest level is in row 1 and column 1. width: the edge of the level, texels. */
 #define KILN_SHADOW_COARSE_ROW(edge, level, width) ((edge)-2 * (width) + (level))
 #define KILN_SHADOW_COARSE_COLUMN(edge)            ((edge) + 2)
 
-/* Returns where the first texel of a level is, in texels. */
+/* Returns where the first texel of a level is, in entries. */
 static inline size_t kiln_shadow_level_start(size_t edge, uint32_t level)
 {
     const size_t row = level ? KILN_SHADOW_COARSE_ROW(edge, level, edge >> level) : 1;
@@ -41,7 +46,48 @@ static inline uint32_t kiln_shadow_texel(float distance)
     return (uint32_t)(distance * (float)KILN_SHADOW_ONE + 0.5f) << 16 | KILN_SHADOW_ONE;
 }
 
-/* Fills rows of a level from the level before it. */
-void kiln_shadow_shrink(uint32_t *texels, size_t edge, uint32_t level, size_t begin, size_t end);
+/* Stores a texel of `words` words into its own entry and into that of the texel above. pitch: of
+ * the array, entries. */
+static inline void kiln_shadow_store(uint32_t *entry, size_t pitch, const uint32_t *texel,
+                                     size_t words)
+{
+    uint32_t *above = entry - KILN_SHADOW_PAIR * words * pitch;
+    for (size_t i = 0; i < words; i++) {
+        entry[i] = texel[i];
+        above[words + i] = texel[i];
+    }
+}
+
+/* Makes texels `from` to `to` of row y of a level from the level before it. words: of a texel, 1 or
+ * 2. Each half of a word becomes the mean of those of four texels. */
+void kiln_shadow_shrink_row(uint32_t *entries, size_t edge, size_t words, uint32_t level, size_t y,
+                            size_t from, size_t to);
+
+/* Holds the columns of a row of texels between which some are not empty, and those between which
+ * the last drawing may have changed some; the others need not be written. A map has one for each
+ * row of each level. Zeros stand for an empty map. */
+struct kiln_shadow_span {
+    uint16_t from, to;
+    uint16_t changed_from, changed_to;
+};
+
+/* Returns where the spans of a level start among the 2 * edge spans of a map. */
+static inline size_t kiln_shadow_spans_start(size_t edge, uint32_t level)
+{
+    return 2 * edge - 2 * (edge >> level);
+}
+
+/* Brings the span of a row of the finest level up to date. nearness: of what covers each texel now,
+ * 0 for nothing. The caller then stores the texels that may have changed. */
+void kiln_shadow_find_span(struct kiln_shadow_span *span, const float *nearness, size_t edge);
+
+/* Makes rows `begin` to `end` of a level, and their spans, where the level before it changed.
+ * Texels have one word. spans: of all levels. */
+void kiln_shadow_shrink(uint32_t *entries, struct kiln_shadow_span *spans, size_t edge,
+                        uint32_t level, size_t begin, size_t end);
+
+/* Copies the texels of a level, row by row and without those below them, to `texels`. */
+void kiln_shadow_unpair(const uint32_t *entries, size_t edge, size_t words, uint32_t level,
+                        uint32_t *texels);
 
 #endif

@@ -309,42 +309,22 @@ static uint32_t units_of(float part)
     return (uint32_t)(exact_clamp(part, 0.0f, 1.0f) * (float)KILN_SHADOW_ONE + 0.5f);
 }
 
-/* Makes rows of a level, which are means of four texels of the level before. */
-static void shrink(uint32_t *texels, uint32_t level, uint32_t first, uint32_t end)
-{
-    const size_t width = EDGE >> level, pitch = KILN_SHADOW_PITCH(EDGE);
-    const uint32_t *from =
-        texels + KILN_LAMP_SOLID_WORDS * kiln_shadow_level_start(EDGE, level - 1);
-    uint32_t *to = texels + KILN_LAMP_SOLID_WORDS * kiln_shadow_level_start(EDGE, level);
-    for (size_t y = first; y < end; y++) {
-        for (size_t x = 0; x < width; x++) {
-            uint32_t sums[4] = {2, 2, 2, 2}; /* so that the quotient is rounded */
-            for (size_t i = 0; i < 4; i++) {
-                const uint32_t *part =
-                    from + KILN_LAMP_SOLID_WORDS * ((2 * y + (i >> 1)) * pitch + 2 * x + (i & 1));
-                sums[0] += part[0] & 0xffffu;
-                sums[1] += part[0] >> 16;
-                sums[2] += part[1] & 0xffffu;
-                sums[3] += part[1] >> 16;
-            }
-            uint32_t *texel = to + KILN_LAMP_SOLID_WORDS * (y * pitch + x);
-            texel[0] = sums[1] / 4 << 16 | sums[0] / 4;
-            texel[1] = sums[3] / 4 << 16 | sums[2] / 4;
-        }
-    }
-}
-
 void kiln_solid_canvas_write(const struct kiln_solid_canvas *canvas, uint32_t *texels)
 {
-    memset(texels, 0, (size_t)KILN_LAMP_TEXELS * KILN_LAMP_SOLID_WORDS * sizeof *texels);
+    const size_t pitch = KILN_SHADOW_PITCH(EDGE), entry = KILN_SHADOW_PAIR * KILN_LAMP_SOLID_TEXEL;
+    memset(texels, 0, (size_t)KILN_LAMP_SOLID_WORDS * sizeof *texels);
     if (canvas->end <= canvas->first)
         return;
-    uint32_t *finest = texels + KILN_LAMP_SOLID_WORDS * kiln_shadow_level_start(EDGE, 0);
+    uint32_t *finest = texels + entry * kiln_shadow_level_start(EDGE, 0);
     for (size_t i = (size_t)canvas->first * EDGE; i < (size_t)canvas->end * EDGE; i++) {
-        uint32_t *to = finest + 2 * (i / EDGE * KILN_SHADOW_PITCH(EDGE) + i % EDGE);
-        to[0] = units_of(canvas->distance[i]) << 16 | units_of(1.0f - canvas->clear[i]);
-        to[1] = units_of(canvas->narrow[i]) << 16 | units_of(canvas->square[i]);
+        const uint32_t texel[KILN_LAMP_SOLID_TEXEL] = {
+            units_of(canvas->distance[i]) << 16 | units_of(1.0f - canvas->clear[i]),
+            units_of(canvas->narrow[i]) << 16 | units_of(canvas->square[i])};
+        kiln_shadow_store(finest + entry * (i / EDGE * pitch + i % EDGE), pitch, texel,
+                          KILN_LAMP_SOLID_TEXEL);
     }
-    for (uint32_t level = 1; level < KILN_LAMP_LEVELS; level++)
-        shrink(texels, level, canvas->first >> level, ((canvas->end - 1) >> level) + 1);
+    for (uint32_t level = 1; level < KILN_LAMP_LEVELS; level++) {
+        for (uint32_t y = canvas->first >> level; y <= (canvas->end - 1) >> level; y++)
+            kiln_shadow_shrink_row(texels, EDGE, KILN_LAMP_SOLID_TEXEL, level, y, 0, EDGE >> level);
+    }
 }
