@@ -3,8 +3,11 @@
 #ifndef KILN_DRAW_BACKDROP_RAY_MESH_H
 #define KILN_DRAW_BACKDROP_RAY_MESH_H
 
+#include "base/compress.h"
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_shapes.h"
+
+enum { SIDE_ROOM = (KILN_EDGE_SAMPLES + 1) * LANES };
 
 /* Describes rays from the eye that belong to one layer of hits. */
 struct ray_place {
@@ -154,27 +157,80 @@ SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const str
     return (struct ray_place){at->u + right, at->v - down, at->hit, 1 + sample};
 }
 
+/* Holds what samples beside the centres of LANES pixels hit, without gaps. */
+struct side_hits {
+    int count;
+    float u[SIDE_ROOM], v[SIDE_ROOM];
+    int32_t triangle[SIDE_ROOM], lane[SIDE_ROOM]; /* lane: of the pixel */
+};
+
+/* Adds the samples of a mask. */
+SIMD void add_side_hits(struct side_hits *hits, vi mask, vi triangle, const struct ray_place *at)
+{
+    const struct selection selected = selection_of(mask);
+    vf_compress(hits->u + hits->count, selected, at->u);
+    vf_compress(hits->v + hits->count, selected, at->v);
+    vi_compress(hits->triangle + hits->count, selected, triangle);
+    vi_compress(hits->lane + hits->count, selected, vi_count());
+    hits->count += selected.count;
+}
+
+/* Returns the pixels with a sample on another mesh than their centre, at another depth, or with
+ * another normal. middle: what the rays through the centres hit. */
+SIMD vi find_bends(const struct kiln_mesh_view *meshes, struct side_hits *hits,
+                   const struct ray_hit *middle)
+{
+    _Alignas(64) float t[LANES], surface[LANES], normal[3][LANES];
+    _Alignas(64) int32_t bends[LANES] = {0}, found[LANES];
+    vf_store(t, middle->t);
+    vf_store(surface, middle->surface);
+    vf_store(normal[0], middle->normal.x);
+    vf_store(normal[1], middle->normal.y);
+    vf_store(normal[2], middle->normal.z);
+    const vi none = vi_all(0); /* in the lanes of the last vector that have no sample */
+    memcpy(hits->triangle + hits->count, &none, sizeof none);
+    memcpy(hits->lane + hits->count, &none, sizeof none);
+    vf_store(hits->u + hits->count, vf_all(0.0f));
+    vf_store(hits->v + hits->count, vf_all(0.0f));
+    for (int i = 0; i < hits->count; i += LANES) {
+        const struct ray_place at = {.u = vf_load(hits->u + i), .v = vf_load(hits->v + i)};
+        const struct ray_mesh_hit hit = find_mesh(meshes, vi_load(hits->triangle + i), &at);
+        const vi lane = vi_load(hits->lane + i);
+        const vf depth = vf_gather(t, lane);
+        const struct vf3 of_middle = {vf_gather(normal[0], lane), vf_gather(normal[1], lane),
+                                      vf_gather(normal[2], lane)};
+        const vi bent = (surface_of_mesh(hit.mesh) != vf_gather(surface, lane)) |
+                        (vf_abs(hit.depth - depth) > 0.01f * depth) |
+                        (vf3_dot(hit.normal, of_middle) < 0.95f);
+        memcpy(found, &bent, sizeof found);
+        for (int k = 0; k < LANES && i + k < hits->count; k++)
+            bends[hits->lane[i + k]] |= found[k];
+    }
+    return vi_load(bends);
+}
+
 /* Marks edges inside a mesh, where it hides itself or bends, in the surface's number, and returns
  * that. middle: what the rays through the centres of pixels hit. */
 SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at,
                         const struct ray_hit *middle)
 {
     const vf surface = middle->surface;
-    vi seen = surface >= (float)KILN_SURFACE_MESHES;
+    const vi seen = surface >= (float)KILN_SURFACE_MESHES;
     if (!any(seen))
         return surface;
-    vi center = read_hit(frame->meshes, at, 0), edge = vi_all(0);
+    const vi center = read_hit(frame->meshes, at, 0);
+    vi edge = vi_all(0);
+    struct side_hits hits;
+    hits.count = 0;
     for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
         const struct ray_place aside = sample_place(frame, at, s);
-        vi triangle = read_hit(frame->meshes, &aside, aside.layer);
-        vi other = seen & (triangle != center);
-        if (!any(other))
-            continue;
-        const struct ray_mesh_hit hit = find_mesh(frame->meshes, triangle, &aside);
-        edge |= other & ((triangle < 0) | (surface_of_mesh(hit.mesh) != surface) |
-                         (vf_abs(hit.depth - middle->t) > 0.01f * middle->t) |
-                         (vf3_dot(hit.normal, middle->normal) < 0.95f));
+        const vi triangle = read_hit(frame->meshes, &aside, aside.layer);
+        const vi other = seen & (triangle != center);
+        edge |= other & (triangle < 0);
+        add_side_hits(&hits, other & (triangle >= 0), triangle, &aside);
     }
+    if (hits.count > 0)
+        edge |= find_bends(frame->meshes, &hits, middle);
     return surface + vf_where(edge, vf_all(0.25f * KILN_EDGE_MARK));
 }
 
