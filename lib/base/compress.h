@@ -94,7 +94,8 @@ SIMD struct selection selection_of(vi mask)
 SIMD void vf_compress(float *to, struct selection selection, vf x)
 {
     for (int i = 0; i < LANES; i++) {
-        *to = x[i];
+        const float lane = x[i];
+        memcpy(to, &lane, sizeof lane); /* `to` may point to integers (vi_compress) */
         to -= selection.mask[i];
     }
 }

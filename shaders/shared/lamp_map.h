@@ -3,8 +3,8 @@
  * meshes (lib/draw/light/lamp_map.c), and six that show solid particles
  * (lib/draw/light/lamp_solids.c). Each face shows more than its sixth of all directions, so that a
  * blurred shadow does not end at an edge of the cube. GL samples the maps as textures
- * (draw/backdrop/mesh_trace.glsl, draw/light/lamp_solids.glsl); the device `cpu` gathers their
- * texels (lib/draw/light/ray_lamp.h).
+ * (draw/backdrop/mesh_trace.glsl, draw/light/lamp_solids.glsl); the device `cpu` reads them by
+ * itself (lib/draw/light/ray_lamp.h).
  */
 #ifndef KILN_SHARED_LAMP_MAP_H
 #define KILN_SHARED_LAMP_MAP_H

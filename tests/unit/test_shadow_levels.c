@@ -31,7 +31,7 @@ static void draw(struct map *map, size_t left, size_t top, size_t right, size_t 
         for (size_t x = left; x < right && y >= top && y < bottom; x++)
             nearness[x] = part() < 0.8f ? part() : 0.0f;
         struct kiln_shadow_span *span = &map->spans[y];
-        kiln_shadow_find_span(span, nearness, EDGE);
+        kiln_shadow_update_span(span, nearness, EDGE);
         for (size_t x = span->changed_from; x < span->changed_to; x++) {
             const uint32_t texel = nearness[x] > 0.0f ? kiln_shadow_texel(nearness[x]) : 0;
             const size_t at = kiln_shadow_level_start(EDGE, 0) + y * PITCH + x;
@@ -109,7 +109,7 @@ static void texels_of_two_words_have_levels_too(void **state)
     }
     for (uint32_t level = 1; level < LEVELS; level++) {
         for (size_t y = 0; y < (size_t)EDGE >> level; y++)
-            kiln_shadow_shrink_row(map->entries, EDGE, 2, level, y, 0, EDGE >> level);
+            kiln_shadow_shrink_row(map->entries, EDGE, level, y);
     }
     check_pairs(map->entries, 2);
     check_means(map->entries, 2);

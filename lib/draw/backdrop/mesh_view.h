@@ -33,7 +33,7 @@ struct kiln_mesh_view {
     size_t pitch;        /* entries of a row of one layer */
     const struct kiln_mesh_uvs *uvs; /* of all triangles; NULL: no mesh takes paint */
     const struct kiln_pyramid *paint[KILN_MAX_MESHES]; /* NULL: the mesh takes no paint */
-    const uint32_t *shadows[KILN_MAX_MESHES]; /* of each mesh: texels of struct kiln_mesh_shadow */
+    const uint32_t *shadows[KILN_MAX_MESHES]; /* of each mesh: entries of its kiln_mesh_shadow */
 };
 
 #endif

@@ -7,6 +7,7 @@
 #include "draw/backdrop/ray_picture.h"
 #include "draw/backdrop/ray_shapes.h"
 
+/* The room for samples of LANES pixels; whole vectors are written behind the last one. */
 enum { SIDE_ROOM = (KILN_EDGE_SAMPLES + 1) * LANES };
 
 /* Describes rays from the eye that belong to one layer of hits. */
@@ -161,10 +162,11 @@ SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const str
 struct side_hits {
     int count;
     float u[SIDE_ROOM], v[SIDE_ROOM];
-    int32_t triangle[SIDE_ROOM], lane[SIDE_ROOM]; /* lane: of the pixel */
+    int32_t triangle[SIDE_ROOM];
+    int32_t lane[SIDE_ROOM]; /* number of the sample's pixel, 0 to LANES - 1 */
 };
 
-/* Adds the samples of a mask. */
+/* Adds a sample of each pixel in the lanes of a mask. */
 SIMD void add_side_hits(struct side_hits *hits, vi mask, vi triangle, const struct ray_place *at)
 {
     const struct selection selected = selection_of(mask);
@@ -187,7 +189,7 @@ SIMD vi find_bends(const struct kiln_mesh_view *meshes, struct side_hits *hits,
     vf_store(normal[0], middle->normal.x);
     vf_store(normal[1], middle->normal.y);
     vf_store(normal[2], middle->normal.z);
-    const vi none = vi_all(0); /* in the lanes of the last vector that have no sample */
+    const vi none = vi_all(0); /* fills the lanes of the last vector that have no sample */
     memcpy(hits->triangle + hits->count, &none, sizeof none);
     memcpy(hits->lane + hits->count, &none, sizeof none);
     vf_store(hits->u + hits->count, vf_all(0.0f));

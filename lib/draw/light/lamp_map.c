@@ -204,7 +204,7 @@ static void draw_face(struct kiln_lamp_maps *maps, uint32_t number, uint32_t fac
     const float inverse_far = 1.0f / lamp->far;
     struct kiln_shadow_span *spans = maps->spans[(size_t)number * KILN_LAMP_FACES + face];
     for (size_t y = 0; y < EDGE; y++) {
-        kiln_shadow_find_span(&spans[y], canvas->nearness + y * PITCH, EDGE);
+        kiln_shadow_update_span(&spans[y], canvas->nearness + y * PITCH, EDGE);
         for (size_t x = spans[y].changed_from; x < spans[y].changed_to; x++) {
             const float nearness = canvas->nearness[y * PITCH + x];
             const float distance = exact_min(inverse_far / exact_max(nearness, 1e-6f), 1.0f);

@@ -28,7 +28,7 @@ struct kiln_lamp_maps *kiln_lamp_maps_create(const struct kiln_moment *moment,
 void kiln_lamp_maps_destroy(struct kiln_lamp_maps **maps);
 
 /* Draws the maps of the lights whose `casters` is not 0, and sets their numbers and reach. A map
- * that already shows the same meshes from the same place is kept. Returns the texels: for each
+ * that already shows the same meshes from the same place is kept. Returns the entries: for each
  * number its faces, each with all levels (shadow_levels.h). *count becomes how many lamps have
  * maps. NULL with an error when memory is short. */
 const uint32_t *kiln_lamp_maps_run(struct kiln_lamp_maps *maps, const struct kiln_moment *moment,

@@ -8,13 +8,12 @@
 #include "draw/light/lamp_map.h"
 #include "draw/moment/moment.h"
 
-/* Words of a texel. The first is that of shadow_levels.h. The second has the covered part times the
- * means of the squared distance (lower 16 bits) and of how narrow the solids are
+/* A texel has two words. The first is that of shadow_levels.h. The second has the covered part
+ * times the means of the squared distance (lower 16 bits) and of how narrow the solids are
  * (shared/lamp_map.h), in the same units. */
 enum {
-    KILN_LAMP_SOLID_TEXEL = 2,
-    KILN_LAMP_SOLID_WORDS =
-        KILN_LAMP_ENTRIES * KILN_SHADOW_PAIR * KILN_LAMP_SOLID_TEXEL /* of a face */
+    KILN_LAMP_SOLID_TEXEL = 2,                                       /* words of a texel */
+    KILN_LAMP_SOLID_WORDS = KILN_LAMP_WORDS * KILN_LAMP_SOLID_TEXEL, /* of a face */
 };
 
 /* Holds the maps of one moment; they are valid until the next run. */

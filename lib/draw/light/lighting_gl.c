@@ -51,7 +51,7 @@ struct kiln_lighting_gl {
     uint64_t lamp_solid_changes[KILN_LAMP_MAPS * KILN_LAMP_FACES]; /* of faces in the texture */
     uint32_t lamp_smoke_count; /* lamps that their texture has room for */
     size_t lamp_shade_words;   /* of the texture */
-    /* of the level of a face that is sent */
+    /* room for a level of a face while it is sent */
     uint32_t texels[KILN_LAMP_EDGE * KILN_LAMP_EDGE * KILN_LAMP_SOLID_TEXEL];
 };
 

@@ -142,7 +142,7 @@ static void draw_band(const struct shadow_job *d, uint32_t band, float *nearness
         const float *from = nearness + row * canvas->pitch;
         uint32_t *to = finest + (size_t)KILN_SHADOW_PAIR * pitch * (y + row);
         struct kiln_shadow_span *span = &d->shadow->spans[y + row];
-        kiln_shadow_find_span(span, from, EDGE);
+        kiln_shadow_update_span(span, from, EDGE);
         for (uint32_t x = span->changed_from; x < span->changed_to; x++) {
             const float distance = exact_clamp(1.0f - from[x], 0.0f, 1.0f);
             const uint32_t texel = from[x] > 0.0f ? kiln_shadow_texel(distance) : 0;

@@ -17,7 +17,7 @@ enum {
 };
 
 struct kiln_mesh_shadow {
-    uint32_t *texels;               /* KILN_SHADOW_WORDS (shadow_levels.h) */
+    uint32_t *texels;               /* KILN_SHADOW_WORDS, the entries of shadow_levels.h */
     struct kiln_shadow_span *spans; /* KILN_SHADOW_ROWS */
     struct kiln_draw_mesh placed;   /* the mesh that the map shows, and the sun at that time */
     float4 right, up, sun;

@@ -78,21 +78,21 @@ SIMD struct shadow_sample read_shadow_level(const struct shadow_map *map,
     const vi at = (level->start + vi_of(top) * pitch + vi_of(left)) * entry;
     const struct lane_offsets offsets = lane_offsets_of(at);
     const float *words = (const float *)(const void *)map->entries;
-    const struct columns fetched = columns_load(words, &offsets);
-    const vf *c = fetched.c, above[2] = {(1.0f - right) * (1.0f - down), right * (1.0f - down)},
-             below[2] = {(1.0f - right) * down, right * down};
+    const vf above[2] = {(1.0f - right) * (1.0f - down), right * (1.0f - down)};
+    const vf below[2] = {(1.0f - right) * down, right * down};
     struct shadow_sample sum = {{0}, {0}, {0}, {0}};
-    if (map->words == 1) {
-        add_texel(&sum, above[0], c[0], NULL);
-        add_texel(&sum, above[1], c[2], NULL);
-        add_texel(&sum, below[0], c[1], NULL);
-        add_texel(&sum, below[1], c[3], NULL);
+    const struct columns first = columns_load(words, &offsets);
+    if (map->words == 1) { /* two entries: left above, left below, right above, right below */
+        add_texel(&sum, above[0], first.c[0], NULL);
+        add_texel(&sum, above[1], first.c[2], NULL);
+        add_texel(&sum, below[0], first.c[1], NULL);
+        add_texel(&sum, below[1], first.c[3], NULL);
         return sum;
     }
     const struct columns next = columns_load(words + entry, &offsets);
-    add_texel(&sum, above[0], c[0], &c[1]);
+    add_texel(&sum, above[0], first.c[0], &first.c[1]);
     add_texel(&sum, above[1], next.c[0], &next.c[1]);
-    add_texel(&sum, below[0], c[2], &c[3]);
+    add_texel(&sum, below[0], first.c[2], &first.c[3]);
     add_texel(&sum, below[1], next.c[2], &next.c[3]);
     return sum;
 }

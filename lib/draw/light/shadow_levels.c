@@ -1,10 +1,11 @@
-/* This file makes the coarser levels of shadow maps, which are means of four texels. */
+/* This file finds where shadow maps changed, makes their coarser levels there, and copies levels
+ * for GL. */
 #include "draw/light/shadow_levels.h"
 
 #include <string.h>
 
-/* Returns the mean of a word of four texels, each half for itself. words: from one texel's word to
- * the next one's. */
+/* Returns the mean of one word of four texels that lie one after another, each half for itself.
+ * words: of a texel. */
 static uint32_t mean_word(const uint32_t *four, size_t words)
 {
     uint32_t low = 2, high = 2; /* so that the quotients are rounded */
@@ -15,6 +16,8 @@ static uint32_t mean_word(const uint32_t *four, size_t words)
     return high / 4 << 16 | low / 4;
 }
 
+/* Makes the texels from `first` to one before `end` of row y. `words` is a constant, so that loops
+ * over words are unrolled. */
 static inline void shrink_row(uint32_t *entries, size_t edge, size_t words, uint32_t level,
                               size_t y, size_t first, size_t end)
 {
@@ -31,13 +34,9 @@ static inline void shrink_row(uint32_t *entries, size_t edge, size_t words, uint
     }
 }
 
-void kiln_shadow_shrink_row(uint32_t *entries, size_t edge, size_t words, uint32_t level, size_t y,
-                            size_t from, size_t to)
+void kiln_shadow_shrink_row(uint32_t *entries, size_t edge, uint32_t level, size_t y)
 {
-    if (words == 1) /* constants, so that loops over words are unrolled */
-        shrink_row(entries, edge, 1, level, y, from, to);
-    else
-        shrink_row(entries, edge, 2, level, y, from, to);
+    shrink_row(entries, edge, 2, level, y, 0, edge >> level);
 }
 
 /* Makes a span of columns cover another one; spans with from >= to are empty. */
@@ -50,7 +49,7 @@ static void cover_span(uint16_t *from, uint16_t *to, uint16_t other_from, uint16
     *to = empty || other_to > *to ? other_to : *to;
 }
 
-void kiln_shadow_find_span(struct kiln_shadow_span *span, const float *nearness, size_t edge)
+void kiln_shadow_update_span(struct kiln_shadow_span *span, const float *nearness, size_t edge)
 {
     size_t from = 0, to = edge;
     while (from < to && !(nearness[from] > 0.0f))

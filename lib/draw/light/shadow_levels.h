@@ -3,8 +3,7 @@
  * array of rows: the finest on the left, the others below each other on its right. An empty row or
  * column lies between any two of them and around them, so that a fetch between four texels needs
  * no test for a level's border. The array has an entry for each texel: its words, then those of the
- * texel below. So two neighbouring entries hold the four texels of a fetch, and are read at once.
- */
+ * texel below. So two neighbouring entries hold the four texels of a fetch. */
 #ifndef KILN_DRAW_LIGHT_SHADOW_LEVELS_H
 #define KILN_DRAW_LIGHT_SHADOW_LEVELS_H
 
@@ -18,8 +17,7 @@
  * light and 1 farthest from it. */
 enum { KILN_SHADOW_ONE = 65535 };
 
-/* Texels of an entry. */
-enum { KILN_SHADOW_PAIR = 2 };
+enum { KILN_SHADOW_PAIR = 2 /* texels of an entry */ };
 
 /* KILN_SHADOW_PITCH gives the entries of a row of all levels, KILN_SHADOW_MAP_ENTRIES those of the
  * whole array. edge: of the finest level, texels, a power of two. The empty column on the right of
@@ -46,8 +44,9 @@ static inline uint32_t kiln_shadow_texel(float distance)
     return (uint32_t)(distance * (float)KILN_SHADOW_ONE + 0.5f) << 16 | KILN_SHADOW_ONE;
 }
 
-/* Stores a texel of `words` words into its own entry and into that of the texel above. pitch: of
- * the array, entries. */
+/* Stores a texel of `words` words into its own entry and into that of the texel above. Threads may
+ * store texels of different rows at once, while no thread reads their level. pitch: of the array,
+ * entries. */
 static inline void kiln_shadow_store(uint32_t *entry, size_t pitch, const uint32_t *texel,
                                      size_t words)
 {
@@ -58,14 +57,15 @@ static inline void kiln_shadow_store(uint32_t *entry, size_t pitch, const uint32
     }
 }
 
-/* Makes texels `from` to `to` of row y of a level from the level before it. words: of a texel, 1 or
- * 2. Each half of a word becomes the mean of those of four texels. */
-void kiln_shadow_shrink_row(uint32_t *entries, size_t edge, size_t words, uint32_t level, size_t y,
-                            size_t from, size_t to);
+/* Makes row y of a level of texels of two words from the level before it: each half of a word is
+ * the mean of four texels. */
+void kiln_shadow_shrink_row(uint32_t *entries, size_t edge, uint32_t level, size_t y);
 
-/* Holds the columns of a row of texels between which some are not empty, and those between which
- * the last drawing may have changed some; the others need not be written. A map has one for each
- * row of each level. Zeros stand for an empty map. */
+/* Describes a row of texels of a level. All texels that are not empty lie in the columns from
+ * `from` to one before `to`; all that the last drawing may have changed lie in those of
+ * changed_from and changed_to, so that others need not be written. No column is meant where the end
+ * is not above the start. A map has one for each row of each level; zeros stand for an empty map.
+ * The edge of the finest level is below 2^16. */
 struct kiln_shadow_span {
     uint16_t from, to;
     uint16_t changed_from, changed_to;
@@ -79,10 +79,11 @@ static inline size_t kiln_shadow_spans_start(size_t edge, uint32_t level)
 
 /* Brings the span of a row of the finest level up to date. nearness: of what covers each texel now,
  * 0 for nothing. The caller then stores the texels that may have changed. */
-void kiln_shadow_find_span(struct kiln_shadow_span *span, const float *nearness, size_t edge);
+void kiln_shadow_update_span(struct kiln_shadow_span *span, const float *nearness, size_t edge);
 
-/* Makes rows `begin` to `end` of a level, and their spans, where the level before it changed.
- * Texels have one word. spans: of all levels. */
+/* Makes the rows from `begin` to one before `end` of a level, and their spans, where the level
+ * before it changed; that level must be complete. Texels have one word, of which each half becomes
+ * the mean of four texels. Threads may make different rows at once. spans: of all levels. */
 void kiln_shadow_shrink(uint32_t *entries, struct kiln_shadow_span *spans, size_t edge,
                         uint32_t level, size_t begin, size_t end);
 

@@ -325,6 +325,6 @@ void kiln_solid_canvas_write(const struct kiln_solid_canvas *canvas, uint32_t *t
     }
     for (uint32_t level = 1; level < KILN_LAMP_LEVELS; level++) {
         for (uint32_t y = canvas->first >> level; y <= (canvas->end - 1) >> level; y++)
-            kiln_shadow_shrink_row(texels, EDGE, KILN_LAMP_SOLID_TEXEL, level, y, 0, EDGE >> level);
+            kiln_shadow_shrink_row(texels, EDGE, level, y);
     }
 }

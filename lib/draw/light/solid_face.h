@@ -47,7 +47,7 @@ void kiln_solid_canvas_ball(struct kiln_solid_canvas *canvas, const struct kiln_
 void kiln_solid_canvas_mesh(struct kiln_solid_canvas *canvas, const struct kiln_seen_solid *solid,
                             const struct kiln_seen_mesh *mesh);
 
-/* Writes the texels of a face at all levels, KILN_LAMP_SOLID_WORDS. */
+/* Writes the entries of a face at all levels, KILN_LAMP_SOLID_WORDS words. */
 void kiln_solid_canvas_write(const struct kiln_solid_canvas *canvas, uint32_t *texels);
 
 #endif
