@@ -311,7 +311,8 @@ static uint32_t units_of(float part)
 
 void kiln_solid_canvas_write(const struct kiln_solid_canvas *canvas, uint32_t *texels)
 {
-    const size_t pitch = KILN_SHADOW_PITCH(EDGE), entry = KILN_SHADOW_PAIR * KILN_LAMP_SOLID_TEXEL;
+    const size_t pitch = KILN_SHADOW_PITCH(EDGE),
+                 entry = (size_t)KILN_SHADOW_PAIR * KILN_LAMP_SOLID_TEXEL;
     memset(texels, 0, (size_t)KILN_LAMP_SOLID_WORDS * sizeof *texels);
     if (canvas->end <= canvas->first)
         return;
