@@ -3,7 +3,9 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "build.h"
@@ -13,6 +15,7 @@
 #include "limits.h"
 #include "report.h"
 #include "sandbox.h"
+#include "signals.h"
 
 const struct command *const commands[] = {&render_command,
                                           &bake_command,
@@ -92,6 +95,34 @@ static void end_with_parent(void)
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (process != (uint64_t)getppid()) /* the parent has died already */
         raise(SIGTERM);
+}
+
+/* What the main thread's stack gets at the start. Rendering, which needs the most of it, takes less
+ * than 200 KiB. */
+enum { STACK_SIZE = 1 << 19 };
+
+/* Writes to the end of STACK_SIZE bytes. The system keeps a stack as large as it ever was. */
+__attribute__((noinline)) static void extend_stack(void)
+{
+    volatile char stack[STACK_SIZE];
+    stack[0] = 0;
+    (void)stack[0];
+}
+
+/* Takes the memory of the stack while its lack can be told. Later, a stack that cannot grow would
+ * end the program with SIGSEGV. */
+static int reserve_stack(void)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < 2 * STACK_SIZE)
+        return report(KILN_DEVICE_FAILED, "the stack may have %ju KiB (ulimit -s); needed are %d",
+                      (uintmax_t)limit.rlim_cur >> 10, 2 * STACK_SIZE >> 10);
+    void *room = mmap(NULL, STACK_SIZE, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (room == MAP_FAILED)
+        return report(KILN_DEVICE_FAILED, "no memory for a stack of %d KiB", STACK_SIZE >> 10);
+    munmap(room, STACK_SIZE);
+    extend_stack();
+    return 0;
 }
 
 static int check_operands(const struct command *command, const struct arguments *arguments)
@@ -175,6 +206,9 @@ int main(int argc, char **argv)
     signal(SIGCHLD, SIG_DFL); /* if it were ignored, the exit status of kiln-decode would be lost */
     signal(SIGPIPE, SIG_IGN); /* a failed write is reported instead */
     signal(SIGXFSZ, SIG_IGN); /* a write beyond the limit of a file's size, too */
+    signals_install_abort();
+    if (reserve_stack() != 0)
+        return KILN_DEVICE_FAILED;
     const char *name = argc > 1 ? argv[1] : "";
     if (argc < 2) {
         help_print_overview(stderr);

@@ -1,6 +1,6 @@
 /* Handles SIGINT, SIGTERM and SIGHUP: the first asks the job to stop, the second ends the program.
- * A handler can reach the state of the program only through variables of a file, so this file has
- * some. */
+ * SIGABRT ends it with a message. A handler can reach the state of the program only through
+ * variables of a file, so this file has some. */
 #include "signals.h"
 
 #include <errno.h>
@@ -71,6 +71,14 @@ static void on_grace_over(int number)
     exit_with_message(line, 128 + received);
 }
 
+static void on_abort(int number)
+{
+    (void)number;
+    exit_with_message("kiln: ended by SIGABRT, as libraries do where memory is short; unfinished "
+                      "files are discarded\n",
+                      KILN_DEVICE_FAILED);
+}
+
 /* Unblocks the signal, which may have been blocked when the program was started. */
 static void unblock(int number)
 {
@@ -95,6 +103,11 @@ static void install(void (*handler)(int))
     struct sigaction before;
     if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* not in nohup */
         install_one(SIGHUP, handler);
+}
+
+void signals_install_abort(void)
+{
+    install_one(SIGABRT, on_abort);
 }
 
 void signals_install(void)

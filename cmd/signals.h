@@ -1,11 +1,15 @@
 /* Handles SIGINT, SIGTERM and SIGHUP: the first asks the job to stop, the second ends the program
- * at once. */
+ * at once. SIGABRT ends it with a message. */
 #ifndef KILN_CMD_SIGNALS_H
 #define KILN_CMD_SIGNALS_H
 
 #include <stdbool.h>
 
-/* Installs the handlers. */
+/* Makes SIGABRT remove half-written files and end the program with a message and the exit code
+ * KILN_DEVICE_FAILED. FFmpeg and LLVM call abort() where some of their allocations fail. */
+void signals_install_abort(void);
+
+/* Installs the handlers of the other signals. */
 void signals_install(void);
 
 /* Installs the handlers for a job whose half-written files can be removed at any time. If it has

@@ -27,6 +27,21 @@ least() {
 }
 
 first=$(least "$kiln" help exit-codes)
+
+# Little below it, the main thread's stack has no memory, which the program says.
+said=
+for ((limit = (first - 2) << 10; limit < first << 10; limit += 64)); do
+    code=0
+    message=$(prlimit --as=$((limit << 10)) "$kiln" help exit-codes 2>&1 >/dev/null) || code=$?
+    case $code in
+    0 | 127) ;; # 127: the dynamic loader fails
+    5) [[ $message != 'kiln: no memory for a stack of '* ]] || said=yes ;;
+    *) problem "$limit KiB: exit code $code: $message" ;;
+    esac
+done
+[[ $said ]] || problem "nothing is said of the stack"
+settle "a stack"
+
 last=$(($(least "$kiln" "${command[@]}") + 8))
 for ((i = 0; i < tries; i++)); do
     limit=$(((first << 10) + (i * ((last - first) << 10) + RANDOM % ((last - first) << 10)) / tries))
