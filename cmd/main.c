@@ -97,9 +97,10 @@ static void end_with_parent(void)
         raise(SIGTERM);
 }
 
-/* What the main thread's stack gets at the start. Rendering, which needs the most of it, takes less
+/* Bytes that the main thread's stack gets at the start, and that its limit must allow it with the
+ * arguments and the environment, which it holds. Rendering, which needs the most of it, takes less
  * than 200 KiB. */
-enum { STACK_SIZE = 1 << 19 };
+enum { STACK_SIZE = 1 << 19, STACK_LIMIT = 1 << 20 };
 
 /* Writes to the end of STACK_SIZE bytes. The system keeps a stack as large as it ever was. */
 __attribute__((noinline)) static void extend_stack(void)
@@ -114,9 +115,9 @@ __attribute__((noinline)) static void extend_stack(void)
 static int reserve_stack(void)
 {
     struct rlimit limit;
-    if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < 2 * STACK_SIZE)
+    if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < STACK_LIMIT)
         return report(KILN_DEVICE_FAILED, "the stack may have %ju KiB (ulimit -s); needed are %d",
-                      (uintmax_t)limit.rlim_cur >> 10, 2 * STACK_SIZE >> 10);
+                      (uintmax_t)limit.rlim_cur >> 10, STACK_LIMIT >> 10);
     void *room = mmap(NULL, STACK_SIZE, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (room == MAP_FAILED)
         return report(KILN_DEVICE_FAILED, "no memory for a stack of %d KiB", STACK_SIZE >> 10);
