@@ -24,6 +24,9 @@
 #endif
 
 #define SIMD static inline __attribute__((always_inline))
+/* For large functions that several places call, or that are called seldom, with pointers alone:
+ * their code is there once, which takes the compiler less time. */
+#define SIMD_ONCE static __attribute__((noinline, unused))
 
 typedef float vf __attribute__((vector_size(4 * LANES)));
 typedef int32_t vi __attribute__((vector_size(4 * LANES)));

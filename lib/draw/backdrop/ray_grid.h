@@ -387,8 +387,8 @@ static inline bool are_some(const int32_t masks[GRID_BLOCKS])
 
 /* Finds what may be interpolated in a grid whose nodes have their places. Where no block is smooth
  * for a light, the nodes need not see it. lights: those that pixels will ask for. */
-SIMD void judge_grid(const struct kiln_ray_frame *frame, struct grid_lights lights,
-                     struct light_grid *grid)
+SIMD_ONCE void judge_grid(const struct kiln_ray_frame *frame, struct grid_lights lights,
+                          struct light_grid *grid)
 {
     const struct kiln_draw_backdrop *b = frame->backdrop;
     for (int first = 0; first < GRID_BLOCKS; first += LANES)

@@ -141,8 +141,8 @@ SIMD void judge_smoke_of(const struct kiln_ray_frame *frame, uint32_t light,
 
 /* Finds where what smoke lets through may be interpolated in a grid whose blocks are judged by
  * their surfaces. box: around what its pixels show; NULL: anywhere. */
-SIMD void judge_smoke(const struct kiln_ray_frame *frame, const struct kiln_lit_box *box,
-                      struct light_grid *grid)
+SIMD_ONCE void judge_smoke(const struct kiln_ray_frame *frame, const struct kiln_lit_box *box,
+                           struct light_grid *grid)
 {
     const bool alike = are_some(grid->alike);
     for (uint32_t light = 0; light < GRID_SMOKY; light++) {

@@ -296,9 +296,9 @@ SIMD struct sample_pieces find_cached_pieces(const struct kiln_ray_frame *frame,
 
 /* Antialiases LANES pixels whose samples are in the cache, or get into it; then each gets light, so
  * that its planes are filled. first: planes of the first sample. */
-SIMD void antialias_cached(const struct kiln_backdrop_picture *p,
-                           const struct kiln_ray_objects *objects, vi column, vi row, vi active,
-                           const struct cached_rays *first)
+SIMD_ONCE void antialias_cached(const struct kiln_backdrop_picture *p,
+                                const struct kiln_ray_objects *objects, vi column, vi row,
+                                vi active, const struct cached_rays *first)
 {
     const struct kiln_ray_frame *frame = p->frame;
     const vi pixel = row * (int32_t)p->width + column;

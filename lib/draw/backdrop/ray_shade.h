@@ -146,8 +146,8 @@ SIMD struct ray_hit find_hit(const struct kiln_ray_frame *frame,
 
 /* Adds the reflection of a glossy floor by following the reflected ray. eye: what helps with the
  * ray from the eye. */
-SIMD void add_reflection(const struct kiln_ray_frame *frame, const struct ray *ray,
-                         const struct ray_help *eye, struct shaded_rays *shaded)
+SIMD_ONCE void add_reflection(const struct kiln_ray_frame *frame, const struct ray *ray,
+                              const struct ray_help *eye, struct shaded_rays *shaded)
 {
     vi floor = shaded->first.surface == 0.0f;
     if (!any(floor))
