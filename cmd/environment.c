@@ -49,9 +49,9 @@ bool help_write_environment(FILE *out)
 {
     fputs("These are the variables of the environment that kiln reads. An option of the same "
           "purpose overrides\n"
-          "its variable. kiln-decode gets only variables that begin with KILN_ or LD_, LANG, and "
-          "those of\n"
-          "sanitizers.\n"
+          "its variable. kiln-decode gets only variables that begin with KILN_ or LD_, LANG, those "
+          "of sanitizers,\n"
+          "and GLIBC_TUNABLES, which kiln sets for it.\n"
           "\n",
           out);
     for (const struct variable *row = variables; row->name; row++) {

@@ -20,8 +20,8 @@ const struct exit_code exit_codes[] = {
      "no device is usable; or, for want of a device, every test was skipped or nothing was "
      "measured"},
     {5, MORE,
-     "the device was lost, memory ran out, a frame or test took longer than its limit, or a "
-     "test crashed"},
+     "the device was lost, memory ran out, a frame or test took longer than its limit, a test "
+     "crashed, or a library aborted"},
     {6, AGAIN, "reading or writing failed"},
     {7, NEVER, "a golden picture is missing, or its accepted hashes and limits are"},
     {8, MORE, "the job took more than its limits or --timeout allow"},

@@ -116,9 +116,10 @@ static int reserve_stack(void)
 {
     struct rlimit limit;
     if (getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < STACK_LIMIT)
-        return report(KILN_DEVICE_FAILED, "the stack may have %ju KiB (ulimit -s); needed are %d",
+        return report(KILN_DEVICE_FAILED,
+                      "the stack may have %ju KiB (ulimit -s); needed are %d KiB",
                       (uintmax_t)limit.rlim_cur >> 10, STACK_LIMIT >> 10);
-    void *room = mmap(NULL, STACK_SIZE, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    void *room = mmap(NULL, STACK_SIZE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (room == MAP_FAILED)
         return report(KILN_DEVICE_FAILED, "no memory for a stack of %d KiB", STACK_SIZE >> 10);
     munmap(room, STACK_SIZE);

@@ -74,7 +74,7 @@ static void on_grace_over(int number)
 static void on_abort(int number)
 {
     (void)number;
-    exit_with_message("kiln: ended by SIGABRT, as libraries do where memory is short; unfinished "
+    exit_with_message("kiln: ended by SIGABRT; perhaps the machine is short of memory; unfinished "
                       "files are discarded\n",
                       KILN_DEVICE_FAILED);
 }

@@ -24,6 +24,7 @@ _Noreturn static void run_child(const struct child *child)
 {
     setpgid(0, 0);
     signals_install_immediate();
+    signal(SIGABRT, SIG_DFL); /* the parent tells of a crash, and shows the end of the log */
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != child->parent) /* the parent has died already */
         _exit(128 + SIGTERM);

@@ -24,8 +24,8 @@
 #endif
 
 #define SIMD static inline __attribute__((always_inline))
-/* For large functions that several places call, or that are called seldom, with pointers alone:
- * their code is there once, which takes the compiler less time. */
+/* For large functions that are called seldom or from several places. Their code exists once, so
+ * that it compiles faster. Not every file that includes their header calls them. */
 #define SIMD_ONCE static __attribute__((noinline, unused))
 
 typedef float vf __attribute__((vector_size(4 * LANES)));

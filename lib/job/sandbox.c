@@ -96,6 +96,7 @@ static bool add_machine(struct places *places, char *library_path)
         {"/etc/ld.so.cache", KILN_MAY_READ},
         {"/proc/self", KILN_MAY_READ},
         {"/sys/devices/system/cpu", KILN_MAY_READ},
+        {"/sys/kernel/mm/transparent_hugepage", KILN_MAY_READ}, /* malloc of kiln-decode */
         {"/dev/null", KILN_MAY_READ | KILN_MAY_WRITE},
         {"/dev/full", KILN_MAY_READ | KILN_MAY_WRITE},
     };

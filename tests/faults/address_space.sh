@@ -28,7 +28,7 @@ least() {
 
 first=$(least "$kiln" help exit-codes)
 
-# Little below it, the main thread's stack has no memory, which the program says.
+# A little below it, the main thread's stack has no memory, which the program says.
 said=
 for ((limit = (first - 2) << 10; limit < first << 10; limit += 64)); do
     code=0

@@ -147,6 +147,12 @@ check_tidy() {
     [[ -z $left ]] || problem "half-written: $left"
 }
 
+# check_no_bug: the C library found no broken heap, and no assertion failed, before the end.
+check_no_bug() {
+    ! grep -qE 'free\(\)|malloc\(\)|realloc\(\)|double free|corrupted|smashing|Assertion `' "$work/messages" ||
+        problem "a bug ends it: $(<"$work/messages")"
+}
+
 # go_on FOLDER [WORD...]: runs the job there, behind such a program; `code` gets its exit code, the
 # file `messages` what it said.
 go_on() {
@@ -155,6 +161,7 @@ go_on() {
     code=0
     # The outer redirection takes what the shell says of a program that was killed.
     { (cd "$work/$folder" && "$@" "$kiln" "${command[@]}" >"$work/output" 2>"$work/messages") || code=$?; } 2>/dev/null
+    check_no_bug
 }
 
 # check_end FOLDER: going on ends with the bytes of the undisturbed job.

@@ -109,8 +109,8 @@ static const char *kind_name(enum kiln_decode_kind kind)
 
 /* Chooses the environment of the process: the folders of libraries, and the variables of kiln and
  * of sanitizers. Variables with keys and passwords of a service do not reach it. malloc is told to
- * use large pages, since Assimp takes and fills 16 MiB for every OBJ file (docs/speed-log.md,
- * "Start, memory, states"). The caller frees the array. */
+ * use large pages, for all kinds alike, since Assimp takes and fills 16 MiB for every OBJ file
+ * (docs/speed-log.md, "Start, memory, states"). The caller frees the array. */
 static char **choose_environment(void)
 {
     static char large_pages[] = "GLIBC_TUNABLES=glibc.malloc.hugetlb=1";

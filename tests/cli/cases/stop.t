@@ -38,16 +38,16 @@ $ mkdir hup && bash stop HUP hup/clip.mp4; code=$?; find hup -type f; exit $code
 2|kiln: scenes/tiny.yaml: stopped by SIGHUP after <n> frames
 = 129
 
-A library that ends the program leaves no unfinished file, either, and the message has a cause.
+A library that ends the program by abort() leaves no unfinished file, either, and the message names the signal.
 
 $ mkdir abort && bash stop ABRT abort/clip.mp4; code=$?; find abort -type f; exit $code
-2|kiln: ended by SIGABRT, as libraries do where memory is short; unfinished files are discarded
+2|kiln: ended by SIGABRT; perhaps the machine is short of memory; unfinished files are discarded
 = 5
 
 The stack gets its memory when the program starts, so that its lack has a message.
 
 $ (ulimit -s 512; kiln render scenes/tiny.yaml -o small_stack.png)
-2|kiln: the stack may have 512 KiB (ulimit -s); needed are 1024
+2|kiln: the stack may have 512 KiB (ulimit -s); needed are 1024 KiB
 = 5
 
 A job that cannot answer is ended half a second after the signal: here nobody reads its progress, so that

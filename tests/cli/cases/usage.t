@@ -442,7 +442,7 @@ $ kiln help exit-codes
 1|    4  again      no device is usable; or, for want of a device, every test was
 1|                  skipped or nothing was measured
 1|    5  with more  the device was lost, memory ran out, a frame or test took
-1|                  longer than its limit, or a test crashed
+1|                  longer than its limit, a test crashed, or a library aborted
 1|    6  again      reading or writing failed
 1|    7  never      a golden picture is missing, or its accepted hashes and limits
 1|                  are
