@@ -20,7 +20,7 @@ import texts
 
 # What every program opens, and kiln of its machine.
 COMMON = ("/usr/", "/lib/", "/lib64/", "/etc/ld.so.", "/proc/self/", "/proc/filesystems",
-          "/sys/devices/system/", "/dev/null")
+          "/sys/devices/system/", "/sys/kernel/mm/transparent_hugepage/", "/dev/null")
 CALL = re.compile(r'(?:open|openat|openat2|creat|connect|socket|bind|execve|mkdir|mkdirat|unlink|unlinkat|rename\w*'
                   r'|link\w*|symlink\w*|truncate|chmod|mknod\w*)\(')
 PATH = re.compile(r'"((?:[^"\\]|\\.)*)"')
