@@ -113,7 +113,7 @@ static const char *kind_name(enum kiln_decode_kind kind)
  * (docs/speed-log.md, "Start, memory, states"). The caller frees the array. */
 static char **choose_environment(void)
 {
-    static char large_pages[] = "GLIBC_TUNABLES=glibc.malloc.hugetlb=1";
+    static const char large_pages[] = "GLIBC_TUNABLES=glibc.malloc.hugetlb=1";
     static const char *const prefixes[] = {"LD_", "KILN_", "ASAN_", "LSAN_", "UBSAN_", "LANG="};
     size_t count = 0, chosen_count = 0;
     while (environ && environ[count])
@@ -126,7 +126,7 @@ static char **choose_environment(void)
         }
     }
     if (chosen)
-        chosen[chosen_count] = large_pages;
+        chosen[chosen_count] = (char *)large_pages;
     return chosen;
 }
 
