@@ -1,4 +1,4 @@
-/* Makes backdrops by the technique that a test has chosen. */
+/* Creates backdrops with the technique that a test has chosen, and draws them lit by lamps. */
 #include "support/backdrops.h"
 
 #include "draw/light/lamps.h"
@@ -6,7 +6,7 @@
 const enum kiln_backdrop_technique BACKDROPS[2] = {KILN_BACKDROP_GL, KILN_BACKDROP_CPU};
 enum kiln_backdrop_technique backdrop_technique = KILN_BACKDROP_GL;
 
-/* Returns the threads of all backdrops, which live until the program ends. */
+/* Returns the threads that all backdrops share. The threads live until the program ends. */
 static struct kiln_threads *backdrop_threads(void)
 {
     static struct kiln_threads *threads;

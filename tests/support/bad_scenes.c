@@ -1,4 +1,4 @@
-/* Loads tables of bad scenes and compares their error messages. */
+/* Loads the faulty scenes of a table, and compares their error messages with the expected ones. */
 #include "support/bad_scenes.h"
 
 #include <stdio.h>

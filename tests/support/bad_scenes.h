@@ -1,18 +1,20 @@
-/* Tests tables of bad scenes and their error messages. */
+/* Checks that faulty scenes are refused with the right error messages. A test lists its scenes and
+ * messages in a table. */
 #ifndef KILN_TESTS_BAD_SCENES_H
 #define KILN_TESTS_BAD_SCENES_H
 
 #include <stddef.h>
 
 struct bad {
-    const char *text;
-    const char *message; /* the error's message, without the name of the file before it */
+    const char *text;    /* the scene file */
+    const char *message; /* the expected message, without the file's name at its start */
 };
 
-/* Fails unless each scene is refused with KILN_INVALID_INPUT and its message. */
+/* Loads each scene of a table. Fails unless it is refused with KILN_INVALID_INPUT and exactly the
+ * expected message. */
 void expect_all(const struct bad *cases, size_t count);
 
-/* Defines a test bad_TABLE that expects all of a table. */
+/* Defines a cmocka test named bad_TABLE, which calls expect_all with the table. */
 #define BAD_TEST(table)                                                                            \
     static void bad_##table(void **state)                                                          \
     {                                                                                              \

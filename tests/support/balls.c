@@ -1,4 +1,4 @@
-/* Makes, places and sums up balls for tests of collisions among particles. */
+/* Makes a system of balls, places balls in it, and sums up their mass, momentum and energy. */
 #include "support/balls.h"
 
 #include "support/cmocka.h"

@@ -1,28 +1,33 @@
-/* Makes balls that a test places by hand: a system without births, and its records. */
+/* Makes a system of balls for tests of interactions between particles. The system emits nothing; a
+ * test writes the records of its balls instead, so that it knows their exact start. */
 #ifndef KILN_TESTS_BALLS_H
 #define KILN_TESTS_BALLS_H
 
 #include "support/scene_fixture.h"
 #include "support/simulation.h"
 
-enum { BALLS_FIRST_STEP = 1 }; /* the step after which the balls are placed */
+enum { BALLS_FIRST_STEP = 1 }; /* the step at whose end balls are placed */
 
-/* Makes a scene with a system for `count` balls of a radius, m, whose collisions keep all energy.
- * It has no forces and no colliders. Returns the interaction, which a test may change. */
+/* Makes a scene with one system, which has slots for `count` balls of a radius, m. The balls
+ * collide with each other without losing energy; there are no forces and no colliders. Before the
+ * first call, *f must be all zeros. Returns the interaction, which a test may change. */
 struct kiln_interaction *balls_init(struct scene_fixture *f, uint32_t count, float radius);
 
-/* Puts a living ball into a slot, and the run at BALLS_FIRST_STEP. */
+/* Puts a living ball into a slot, and sets the run to the end of step BALLS_FIRST_STEP. position:
+ * m; velocity: m/s. */
 void balls_place(struct simulation *run, uint32_t slot, float3 position, float3 velocity);
 
-/* Returns a random number from -1 to 1, the same sequence for the same seed. */
+/* Returns a pseudo-random number from -1 to 1 and changes the seed. Equal seeds give equal
+ * sequences. */
 float balls_random(uint32_t *seed);
 
-/* Sums over living balls, in double: the quantities that collisions keep. */
+/* Sums over living balls, in double precision. Elastic collisions conserve each of them. */
 struct balls_sums {
-    double mass, momentum[3], energy;
+    double mass, momentum[3], energy; /* the energy is kinetic */
 };
 
-/* Sums up the balls in slots 0 to count - 1. mass: the mass of a ball by its slot; NULL: 1. */
+/* Sums up the living balls in slots 0 to count - 1. mass: returns a ball's mass by its serial,
+ * which equals its slot; if it is NULL, each ball has mass 1. */
 struct balls_sums balls_sum(struct simulation *run, uint32_t count,
                             double (*mass)(uint32_t serial));
 

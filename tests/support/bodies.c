@@ -1,4 +1,4 @@
-/* Writes meshes of boxes and balls as OBJ files, and loads them. */
+/* Writes the vertices and faces of boxes and balls as OBJ files, and loads them as meshes. */
 #include "support/bodies.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Writes meshes for tests as OBJ files, and loads them. */
+/* Writes boxes and balls as OBJ files for tests of mesh colliders, and loads them. */
 #ifndef KILN_TESTS_BODIES_H
 #define KILN_TESTS_BODIES_H
 
@@ -9,27 +9,28 @@
 /* An OBJ file that is being written. */
 struct body {
     FILE *out;
-    int count; /* vertices of boxes so far */
+    int count; /* vertices of boxes so far; add_ball does not count its own */
 };
 
-/* Adds a box with its middle at (x, y, z) and edges of w, h and d. */
+/* Adds a box with its centre at (x, y, z) and edges of the lengths w, h and d along x, y and z. */
 void add_box(struct body *body, double x, double y, double z, double w, double h, double d);
 
 enum { RINGS = 40 };
 
-/* Adds a ball of radius 1 about the origin, with RINGS - 1 rings of 2 * RINGS points and two poles.
- * It must come first in its file. */
+/* Adds a ball of radius 1 about the origin: RINGS - 1 rings of 2 * RINGS vertices, and two poles.
+ * It must be the only body of its file, since its faces number the vertices from 1. */
 void add_ball(struct body *body);
 
-/* Opens a file to add bodies to; the caller closes its `out`. */
+/* Creates a file for bodies. The caller closes its `out`. */
 struct body begin(const char *path);
-/* Loads the mesh of a file, which the caller destroys. */
+
+/* Loads the mesh of an OBJ file. The caller destroys it. An error fails the test. */
 struct kiln_mesh *body_load(const char *path);
 
-/* Writes ball.obj with one ball, and loads it. */
+/* Writes one ball to ball.obj in the working directory, and loads it. */
 struct kiln_mesh *body_load_ball(void);
 
-/* Writes a file with one box about the origin. */
+/* Writes a file with one box about the origin, with edges of the lengths w, h and d. */
 void body_write_box(const char *path, double w, double h, double d);
 
 #endif

@@ -1,4 +1,5 @@
-/* Includes cmocka after the four headers of the C library that must come before it. */
+/* Includes cmocka.h after the four headers of the C library that it needs but does not include.
+ * Here clang-format cannot sort them into another order. */
 #ifndef KILN_TESTS_CMOCKA_H
 #define KILN_TESTS_CMOCKA_H
 

@@ -1,4 +1,4 @@
-/* Opens the device of a group of GPU tests. */
+/* Opens, checks and closes the device of a group of GPU tests. */
 #include "support/device.h"
 
 #include <stdio.h>

@@ -1,35 +1,39 @@
-/* Opens the device that GPU tests run on, once in each program, with a debug context. */
+/* Opens the device that GPU tests run on, and checks it for GL errors after each test. A test
+ * program opens one device, with a debug context, for its whole group. */
 #ifndef KILN_TESTS_DEVICE_H
 #define KILN_TESTS_DEVICE_H
 
 #include "gpu/device.h"
 #include "support/cmocka.h"
 
-/* A log callback that prints warnings only. */
+/* A log callback that prints only warnings, to stderr. */
 void test_log(void *user, enum kiln_log_level level, const char *line);
 
-/* Returns the device that the group opened, for tests whose state is not the device. */
+/* Returns the device that test_device_open opened, for tests whose *state is something else. */
 struct kiln_device *test_device(void);
 
-/* Returns how much a value in a frame's pictures may be rounded, relative to it: as a half float on
- * a GPU, as a float on software GL (lib/frame/stages.c). */
+/* Returns the largest relative rounding error of a value in a render target of a frame. A GPU has
+ * targets of half floats, which round by up to 2^-11; software GL has targets of 32-bit floats,
+ * which round by up to 2^-24 (lib/frame/stages.c). */
 double test_rounding(void);
 
-/* A group set-up of cmocka: *state becomes the device, the first with GL or the one that
- * KILN_TEST_DEVICE names. Ends the program as skipped (77) when there is none. */
+/* A group set-up for cmocka. It opens the device that KILN_TEST_DEVICE names, or else the first one
+ * with GL, and sets *state to it. If there is none, it ends the program with exit status 77, which
+ * means skipped. */
 int test_device_open(void **state);
 
-/* Does what test_device_open does, but sets *state to NULL: with a state of the group, cmocka would
- * ignore the states of its tests. */
+/* Does what test_device_open does, but sets *state to NULL. cmocka ignores the initial states of
+ * tests if their group has a state. */
 int test_device_open_alone(void **state);
 
-/* A group tear-down that closes the device. */
+/* A group tear-down for cmocka. It closes the device. */
 int test_device_close(void **state);
 
-/* A test's tear-down that fails if there is a GL error that was not reported. */
+/* A tear-down of a test for cmocka. It fails if GL had an error that the test did not report. */
 int test_device_is_clean(void **state);
 
-/* Defines a test of a group that was set up with test_device_open. */
+/* Makes an entry of a cmocka group whose test must leave no GL error behind. The group's set-up
+ * must be test_device_open or test_device_open_alone. */
 #define test_on_device(function) cmocka_unit_test_teardown(function, test_device_is_clean)
 
 #endif

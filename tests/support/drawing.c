@@ -1,4 +1,5 @@
-/* Makes a scene, its stages and its targets, and draws hand-made particles. */
+/* Makes a scene, its stages and its targets, and draws hand-made particles. The atlas is built
+ * here, so that each texel's colour tells its place. */
 #include "support/drawing.h"
 
 #include <math.h>
@@ -8,15 +9,16 @@
 #include "support/backdrops.h"
 #include "support/cmocka.h"
 
-enum { DRAWING_CELL = 128 };
+enum { DRAWING_CELL = 128 }; /* texels along an edge of the finest level */
 
 enum kiln_raster_technique drawing_technique = KILN_RASTER_GEOMETRY;
 uint32_t drawing_most = 32;
 uint32_t drawing_threads = 2;
 const char *drawing_asset_root;
 
-/* Fills a texture whose colour tells the place: red grows to the right, green grows downwards, and
- * blue is 1. */
+/* Fills a level of the texture: red grows to the right, green grows downwards, blue and alpha
+ * are 1. Texels hold square roots, since shaders square the texels of colour cells
+ * (KILN_CELL_COLOR). */
 static void drawing_fill_level(unsigned char *texels, int columns, int rows)
 {
     for (int i = 0; i < columns * rows; i++) {
@@ -172,7 +174,7 @@ void drawing_run(struct drawing *d, uint32_t count, float depth_m)
     assert_non_null(kiln_image_host(&d->bloom, KILN_READ, &error));
 }
 
-/* ---- vectors of the world in double ---------------------------------------------------------- */
+/* ---- vectors of the world in double precision ------------------------------------------------ */
 
 vec vec_of(float3 v)
 {

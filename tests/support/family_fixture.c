@@ -1,8 +1,9 @@
-/* Adds systems whose particles are born of other particles to a scene. */
+/* Builds a scene of rockets and rain, whose particles give birth to other particles. */
 #include "support/family_fixture.h"
 
-/* Adds the four generations of rockets. Children come before their parents in the list of systems.
- */
+/* Adds rockets, their stars, the glow that stars trail and the embers of that glow: four
+ * generations. Their numbers go from the youngest generation to the oldest, so that tests meet
+ * children that have lower numbers than their parents. The sparks that rockets trail follow. */
 static void fixture_family_fireworks(struct scene_fixture *f)
 {
     struct kiln_system *ember = fixture_add_child(f, "ember", FAMILY_GLOW, KILN_EVENT_DEATH, 2);
@@ -51,6 +52,7 @@ static void fixture_family_fireworks(struct scene_fixture *f)
     spark->emit.inherit = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.0f, 3.0f, 1.0f);
 }
 
+/* Adds rain that splashes where it first bounces and drips where it dies. */
 static void fixture_family_rain(struct scene_fixture *f)
 {
     struct kiln_system *rain = fixture_add_system(f, "rain", 200.0f);

@@ -1,12 +1,15 @@
-/* Makes a scene in which particles are born of other particles in every way that there is. */
+/* Makes a scene in which particles are born of other particles by every event that there is: death,
+ * bounce and trail. */
 #ifndef KILN_TESTS_FAMILY_FIXTURE_H
 #define KILN_TESTS_FAMILY_FIXTURE_H
 
 #include "support/scene_fixture.h"
 
+/* Numbers of systems of the scene. */
 enum { FAMILY_EMBER, FAMILY_GLOW, FAMILY_STAR, FAMILY_ROCKET, FAMILY_SPARK, FAMILY_RAIN };
 
-/* Adds the systems to a fixture. They have no slots until fixture_finish. */
+/* Makes the scene, with the colliders of fixture_zoo_backdrop. The caller then calls
+ * fixture_finish, which gives the systems their slots. */
 void fixture_family(struct scene_fixture *f, enum kiln_integration integration);
 
 #endif

@@ -1,4 +1,4 @@
-/* Makes temporary working directories and files for tests. */
+/* Makes and removes temporary working directories for tests, and writes and reads files. */
 #include "support/folders.h"
 
 #include <fcntl.h>

@@ -1,21 +1,22 @@
-/* Gives a test a working directory of its own, and writes and reads files in it. */
+/* Gives each test a temporary working directory of its own, so that tests cannot disturb each
+ * other, and writes and reads text files. */
 #ifndef KILN_TESTS_FOLDERS_H
 #define KILN_TESTS_FOLDERS_H
 
 struct test_place {
-    char folder[32]; /* path of the test's folder */
-    int before;      /* descriptor of the working directory before the test */
+    char folder[32]; /* path of the temporary folder */
+    int before;      /* file descriptor of the working directory before the test */
 };
 
-/* Set-up and tear-down of a test for cmocka: they make and enter the folder, and leave and remove
- * it. */
+/* Set-up and tear-down of a test for cmocka. The set-up makes the folder and enters it; the
+ * tear-down leaves it and removes it with all its files. */
 int test_enter_folder(void **state);
 int test_leave_folder(void **state);
 
-/* Writes a text file and the folders above it. */
+/* Writes a text file, and makes the folders of its path that are missing. */
 void test_write_file(const char *path, const char *text);
 
-/* Returns the text of a whole file, which the caller frees. */
+/* Returns the whole text of a file of less than 1 MiB, which the caller frees. */
 char *test_read_file(const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* Draws a frame of a scene by all stages. */
+/* Simulates a scene, draws one frame of it by all stages, and compares layers of two pictures. */
 #include "support/frame.h"
 
 #include <math.h>
@@ -12,6 +12,7 @@ const struct kiln_techniques FRAME_CPU = {
 const struct kiln_techniques FRAME_GL = {
     .raster = KILN_RASTER_GEOMETRY, .bloom = KILN_BLOOM_GL, .composite = KILN_COMPOSITE_GL};
 
+/* Simulates and draws the scene into a picture. Returns false with an error of drawing. */
 static bool frame_stage(struct kiln_device *device, const struct kiln_scene *scene,
                         const struct frame_setting *setting, uint32_t steps,
                         struct kiln_threads *threads, struct kiln_picture *picture,

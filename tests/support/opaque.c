@@ -1,4 +1,4 @@
-/* Makes the stage of solids and its targets, and draws opaque particles. */
+/* Creates the stage of solids and its targets, and draws opaque particles with it. */
 #include "support/opaque.h"
 
 #include "support/cmocka.h"

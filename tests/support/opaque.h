@@ -1,4 +1,5 @@
-/* Draws hand-made opaque particles into float images before a backdrop. */
+/* Draws hand-made opaque particles, which are spheres or meshes, in front of a backdrop into images
+ * of 32-bit floats. */
 #ifndef KILN_TESTS_OPAQUE_H
 #define KILN_TESTS_OPAQUE_H
 
@@ -7,7 +8,8 @@
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT };
 
-/* Images of WIDTH x HEIGHT pixels, which must be the size of the scene. */
+/* The stage of solids and its targets of WIDTH x HEIGHT pixels. The scene must ask for a picture of
+ * this size. */
 struct fixture {
     struct drawing drawing;
     struct kiln_image depth, color, bloom;
@@ -17,6 +19,8 @@ struct fixture {
 void opaque_init(struct fixture *f, struct kiln_device *device, const char *text,
                  const char *const *overrides, size_t count);
 void opaque_finish(struct fixture *f);
+
+/* Draws the first `count` particles of drawing_place, and fetches all images to the host. */
 void opaque_draw(struct fixture *f, uint32_t count);
 
 #endif

@@ -1,7 +1,9 @@
-# Tests source this file to use packages of npm. Only tools/setup fetches them: so a test needs no network, and
-# two tests do not fetch into one folder at the same time.
+# Checks that the npm packages of a test are installed. Tests source this file. It fetches nothing:
+# only tools/setup does, so that tests need no network, and no two tests fetch into the same folder
+# at the same time.
 
-# needs_packages SOURCE NAME...: ends the test as skipped if one of these packages is absent.
+# needs_packages SOURCE NAME...: ends the test as skipped (status 77) unless node and these packages
+# are installed. SOURCE is the root of the source tree.
 needs_packages() {
     local package
     if ! command -v node >/dev/null; then

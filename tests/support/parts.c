@@ -1,4 +1,4 @@
-/* Makes lists of tests, and runs the part of a list that the command line names. */
+/* Makes lists of cmocka tests, and runs the part of a list that the command line chooses. */
 #include "support/parts.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* Divides groups of tests that take long into parts. CTest runs each part in a process of its own,
- * so that several cores share them. */
+/* Splits groups of slow tests into parts. CTest runs each part in a process of its own, so that the
+ * parts run on several cores at once. */
 #ifndef KILN_TESTS_PARTS_H
 #define KILN_TESTS_PARTS_H
 
@@ -12,26 +12,27 @@ enum { TEST_LIST_SIZE = 256 };
 /* The state of a test that runs once for each scene. */
 struct test_scene {
     const char *path;
-    size_t number; /* index among all scenes, by name */
+    size_t number; /* index among all scene files, sorted by name */
 };
 
-/* A group of tests that is made at run time. */
+/* A group of cmocka tests that is put together at run time. */
 struct test_list {
     struct CMUnitTest tests[TEST_LIST_SIZE];
-    struct test_scene scenes[TEST_LIST_SIZE]; /* at the places of their tests */
+    struct test_scene scenes[TEST_LIST_SIZE]; /* scenes[i] is the state of tests[i] */
     size_t count;
-    glob_t files; /* owns the paths */
+    glob_t files; /* owns the paths of the scenes */
 };
 
+/* Appends copies of the tests to the list. */
 void test_list_add(struct test_list *list, const struct CMUnitTest *tests, size_t count);
 
-/* Adds a test for every stride-th scene of scenes/. The test has the scene's name, and its state is
- * a struct test_scene. Call it once for a list. */
+/* Appends a test for every stride-th scene file of scenes/, from the first on. The test has the
+ * file's name, and its *state is a struct test_scene. A list may have scenes from one call only. */
 void test_list_add_scenes(struct test_list *list, struct CMUnitTest test, size_t stride);
 
 /* Runs the group and frees the list. The program's argument "2/3" chooses the second of three
  * parts: the second test, the fifth, the eighth and so on, so that each test is in exactly one
- * part. */
+ * part. Without an argument all tests run. Returns the program's exit status. */
 int test_list_run(struct test_list *list, const char *name, int argc, char **argv,
                   CMFixtureFunction setup, CMFixtureFunction teardown);
 

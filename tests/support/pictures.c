@@ -1,4 +1,4 @@
-/* Makes pictures with known pixels, and temporary folders. */
+/* Makes pictures whose pixels follow from formulas, writes them, and makes temporary folders. */
 #include "support/pictures.h"
 
 #include <dirent.h>

@@ -1,4 +1,4 @@
-/* This file loads a scene and places particles in its pool, for tests of single stages. */
+/* Loads a scene and places particles in its pool, for tests of single stages of drawing. */
 #include "support/placed.h"
 
 #include "draw/moment/view.h"

@@ -1,12 +1,13 @@
-/* A scene's pool on the host, whose particles a test places. */
+/* Loads a scene and makes its pool on the host, in which a test places particles by hand. So a test
+ * of one stage of drawing needs no simulation. */
 #ifndef KILN_TESTS_PLACED_H
 #define KILN_TESTS_PLACED_H
 
 #include "draw/moment/moment.h"
 
-enum { PLACED_MOST = 4096 /* particles of a system */, PLACED_STEP = 30 };
+enum { PLACED_MOST = 4096 /* slots of each system */, PLACED_STEP = 30 /* step of the moment */ };
 
-/* The moment is the end of step PLACED_STEP. */
+/* A scene at the moment at the end of step PLACED_STEP. */
 struct placed {
     struct kiln_scene *scene;
     struct kiln_pool pool;
@@ -15,11 +16,13 @@ struct placed {
     struct kiln_threads *threads;
 };
 
-/* Loads a scene with one override, or none for NULL; tests fail here on errors. */
+/* Loads a scene from a text, with an override "KEY=VALUE" unless it is NULL. An error fails the
+ * test. */
 void placed_set_up(struct placed *f, const char *text, const char *override);
 void placed_tear_down(struct placed *f);
 
-/* Places a particle of a system, which is born in a step: its age is known by that. */
+/* Adds a particle at rest to a system, which must have fewer than PLACED_MOST. The particle was
+ * born at the start of step birth_step, from which its age follows. position: m. */
 void placed_add(struct placed *f, uint32_t system, float3 position, uint32_t birth_step);
 
 #endif

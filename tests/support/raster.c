@@ -1,4 +1,4 @@
-/* Makes the input of tests of `raster=cpu` on the host: atlas, targets, records and light. */
+/* Makes atlas, targets, records and light for tests of `raster=cpu`, and draws with them. */
 #include "support/raster.h"
 
 #include <stdlib.h>

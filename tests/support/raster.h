@@ -1,5 +1,6 @@
-/* Makes the input of `raster=cpu` on the host: the atlas of a scene, targets of its size, records
- * and entries that the test fills in, and the light of a sky. */
+/* Makes the input of the technique `raster=cpu`: the atlas of a scene, targets of the scene's size,
+ * the light of a plain sky, and records and draw entries, which the test fills in. All of it lies
+ * on the host, so that tests run without GL. */
 #ifndef KILN_TESTS_RASTER_H
 #define KILN_TESTS_RASTER_H
 
@@ -11,43 +12,46 @@ struct raster {
     struct kiln_threads *threads;
     struct kiln_atlas atlas;
     struct kiln_moment moment;
-    struct kiln_draw_backdrop light;
-    /* made by raster_add_targets */
-    struct kiln_image depth, color, bloom, added;
+    struct kiln_draw_backdrop light; /* the light on particles */
+    /* raster_add_targets makes these: */
+    struct kiln_image depth, color, bloom, added; /* added: additive particles alone */
     struct kiln_framebuffer framebuffer;
-    /* made by raster_add_particles */
+    /* raster_add_particles makes these: */
     struct kiln_pool pool;
     struct kiln_buffer entries;
-    uint32_t count;
+    uint32_t count; /* number of entries */
 };
 
+/* Returns a random number of rand() from `low` to `high`. */
 float raster_random(float low, float high);
 
-/* Returns a living particle with a random velocity of up to 2 m/s along each axis, born in a random
- * step from 1 to `steps`. */
+/* Returns a living particle at (x, y, z), m, with a random velocity of up to 2 m/s along each axis.
+ * It was born at the start of a random step from 1 to `steps`. */
 struct kiln_particle raster_random_particle(float x, float y, float z, uint32_t serial,
                                             uint32_t steps);
 
-/* Takes over the scene, and makes its atlas. A builtin flipbook gets columns x rows cells. The
- * camera is at its place at `step`. */
+/* Takes ownership of the scene, and makes its atlas and light. Builtin flipbooks get columns x rows
+ * cells. The camera is at its place at the end of `step`. */
 void raster_open(struct raster *r, struct kiln_scene *scene, uint32_t columns, uint32_t rows,
                  uint32_t step);
 
-/* Adds a sun and a row of lamps to the light. */
+/* Adds a sun and a row of lamps, 1 m apart, to the light. */
 void raster_add_lamps(struct raster *r, uint32_t lamps);
 
-/* Makes the targets. Returns the scene's depths, which are all those of the sky. */
+/* Makes the targets. Returns the depths of the scene, m, one a pixel. All are 1e9, which stands for
+ * the sky; a test may change them. */
 float *raster_add_targets(struct raster *r);
 
-/* Makes `capacity` slots for each system, and `count` entries. The test fills in *records and
- * *entries. */
+/* Makes `capacity` slots for each system, and `count` draw entries. The test then fills in the
+ * arrays *records and *entries. */
 void raster_add_particles(struct raster *r, uint32_t capacity, uint32_t count,
                           struct kiln_particle **records, uint32_t **entries);
 
-/* Returns a job that draws all entries. */
+/* Returns a job that draws all entries in the light of raster_open and raster_add_lamps, without
+ * shadows. */
 struct kiln_particles_draw raster_job(struct raster *r);
 
-/* Draws a job with `raster=cpu` on thread_count threads. */
+/* Draws a job with `raster=cpu` on thread_count threads. An error fails the test. */
 void raster_draw(struct raster *r, const struct kiln_particles_draw *job, uint32_t thread_count);
 
 void raster_close(struct raster *r);

@@ -1,4 +1,4 @@
-/* Traces rays through simple shapes in double precision, and compares pictures with the result. */
+/* Traces rays to simple shapes in double precision, draws backdrops, and compares the two. */
 #include "support/ray_caster.h"
 
 #include <stdlib.h>
@@ -16,19 +16,21 @@ static struct vec cross(struct vec a, struct vec b)
                          a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
 }
 
+/* The nearest hit of a ray so far: origin + t * direction, with t > 0. */
 struct found {
     double t;
     struct vec normal, albedo;
     bool any;
 };
 
+/* Replaces the hit by another one if that is in front of the origin and nearer. */
 static void keep(struct found *found, double t, struct vec normal, struct vec albedo)
 {
     if (t > 1e-6 && (!found->any || t < found->t))
         *found = (struct found){t, normal, albedo, true};
 }
 
-/* Returns v rotated about x, then y, then z; with `back`, by the inverse rotation. */
+/* Returns v rotated about x, then y, then z. With `back` set, returns the inverse rotation of v. */
 static struct vec rotated(struct vec v, struct vec angles, bool back)
 {
     for (int k = 0; k < 3; k++) {
@@ -97,8 +99,9 @@ static void hit_plane(const struct shape *s, struct vec o, struct vec d, struct 
         keep(found, dot(along(s->center, o, -1), s->axis) / climb, s->axis, s->albedo);
 }
 
-/* Finds the nearest hit of the capsule's side and of the balls at its ends; farther hits lie inside
- * of the capsule. */
+/* Finds the nearest of the hits of the capsule's side and of the balls at its ends. Parts of a
+ * ball's surface lie inside of the capsule, but the ray always meets the capsule's own surface
+ * first. */
 static void hit_capsule(const struct shape *s, struct vec o, struct vec d, struct found *found)
 {
     struct found outside = {.any = false};
@@ -120,6 +123,7 @@ static void hit_capsule(const struct shape *s, struct vec o, struct vec d, struc
         keep(found, outside.t, outside.normal, s->albedo);
 }
 
+/* Returns a vector of the mesh's file, scaled and then rotated about y by the shape's angle. */
 static struct vec turned(const struct shape *s, const float v[3], double scale)
 {
     double c = cos(s->angle), n = sin(s->angle);
@@ -186,8 +190,9 @@ struct vec pixel_ray(double px, double py)
     return along(d, up, (1 - 2 * py / HEIGHT) * tan_y);
 }
 
-/* Returns the part of the sun's disc that a point sees, by rays to places on rings of the disc, or
- * of a lamp's. radius: the angle of the radius, rad; reach: how far the light is, m. */
+/* Returns the part of the disc of the sun, or of a lamp, that a point sees. Traces rays to places
+ * on rings of the disc. sun: unit direction to the disc; radius: angle of the disc's radius, rad;
+ * reach: distance of the light, m, since what lies behind the light does not hide it. */
 static double sun_seen(const struct shape *shapes, int count, struct vec point, struct vec sun,
                        double radius, double reach)
 {
@@ -254,7 +259,7 @@ void finish(struct picture *p)
     kiln_scene_destroy(&p->scene);
 }
 
-/* Returns the part of its light that a spot sends in a direction from it. */
+/* Returns the part of its light, 0 to 1, that a spot sends in the direction `from` away from it. */
 static double cone_part(const struct expected *e, struct vec from)
 {
     if (e->lamp_outer <= 0)
@@ -265,8 +270,8 @@ static double cone_part(const struct expected *e, struct vec from)
     return part * part * (3 - 2 * part);
 }
 
-/* Returns the irradiance / pi of a point by a rectangle of radiance 1: the sum over small parts of
- * it, each with a ray of its own. */
+/* Returns 1 / pi of the irradiance at a point by a rectangle of radiance 1. Sums over PARTS x PARTS
+ * small parts of the rectangle, and traces a ray to each for shadows. */
 static double by_rectangle(const struct expected *e, struct vec point, struct vec normal)
 {
     enum { PARTS = 14 };

@@ -1,4 +1,5 @@
-/* Compares the backdrop of small scenes with a simple ray caster in double precision. */
+/* Casts rays at the simple shapes of small scenes in double precision, and compares the backdrop
+ * that kiln draws with the result. It is simple enough to be the reference for all techniques. */
 #ifndef KILN_TESTS_RAY_CASTER_H
 #define KILN_TESTS_RAY_CASTER_H
 
@@ -8,8 +9,9 @@
 
 enum { WIDTH = 128, HEIGHT = 72 };
 
-/* The beginning of the scenes. The sky is black, so all light is the sun's. The exposure is so low
- * that a pixel at an edge is the mean of its samples (shared/edge_mean.h). */
+/* The beginning of each scene's text: a picture of WIDTH x HEIGHT pixels, the camera and the floor.
+ * The sky is black, so all light is that of sun and lamps. The exposure is so low that the samples
+ * of a pixel at an edge weigh nearly the same and the pixel is their mean (shared/edge_mean.h). */
 #define HEAD                                                                                       \
     "kiln: 1\n"                                                                                    \
     "output: {size: [128, 72], frames: 1}\n"                                                       \
@@ -22,10 +24,12 @@ enum { WIDTH = 128, HEIGHT = 72 };
 
 /* ---- the reference --------------------------------------------------------------------------- */
 
+/* A vector x, y, z of the world. */
 struct vec {
     double v[3];
 };
 
+/* Returns o + t * d. */
 static inline struct vec along(struct vec o, struct vec d, double t)
 {
     return (struct vec){{o.v[0] + t * d.v[0], o.v[1] + t * d.v[1], o.v[2] + t * d.v[2]}};
@@ -42,23 +46,26 @@ static inline struct vec unit(struct vec a)
     return (struct vec){{a.v[0] / length, a.v[1] / length, a.v[2] / length}};
 }
 
+/* Kinds of shapes. A FLOOR is the plane y = 0. */
 enum kind { FLOOR, BOX, SPHERE, CYLINDER, MESH, CAPSULE, PLANE };
 
 struct shape {
     enum kind kind;
-    struct vec center, half_size, axis, albedo;
-    double radius, half_height;
-    struct vec angles;            /* rotation of a box about x, then y, then z, rad */
-    const struct kiln_mesh *mesh; /* scaled by `scale` and rotated about y by `angle`, rad */
+    struct vec center, half_size, axis, albedo; /* axis: unit */
+    double radius, half_height;                 /* half_height of a capsule: without its caps */
+    struct vec angles;            /* of a box: rotation about x, then y, then z, rad */
+    const struct kiln_mesh *mesh; /* scaled by `scale`, then rotated about y by `angle`, rad */
     double angle, scale;
 };
 
-/* The place of the camera of HEAD, and its ray through a place of the picture, px. */
+/* The place of the camera of HEAD, and the direction of its ray through a place of the picture, px
+ * from the top left. The point eye + t * direction has view depth t. */
 extern const struct vec eye;
 struct vec pixel_ray(double px, double py);
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
+/* A drawn backdrop, and all that was made to draw it. */
 struct picture {
     struct kiln_scene *scene;
     struct kiln_image color, depth;
@@ -66,34 +73,38 @@ struct picture {
     struct kiln_threads *threads;
     struct kiln_lighting_stage *lights;
     struct kiln_backdrop_stage *stage;
-    const float *colors, *depths;
+    const float *colors, *depths; /* RGBA; view depth, m */
 };
 
-/* Draw the backdrop of a scene. Assets lie below asset_root; `draw` takes those of scenes/. */
+/* Draw the backdrop of a scene, with the technique of backdrop_create (backdrops.h). The caller
+ * calls `finish`. draw_below finds assets below asset_root, `draw` below scenes/. */
 struct picture draw_below(void *device, const char *text, const char *asset_root);
 struct picture draw(void *device, const char *text);
 void finish(struct picture *p);
 
+/* What the ray caster draws: shapes in the light of the sun or of one lamp. */
 struct expected {
     const struct shape *shapes;
     int count;
-    struct vec sun;    /* unit, towards the sun */
-    double sun_radius; /* rad */
-    double tolerance;  /* of the colour, in parts of full sun */
-    /* A lamp in place of the sun: where it is, m; its radius, m; its colour, 0: none. */
+    struct vec sun;    /* unit direction towards the sun */
+    double sun_radius; /* angle of the disc's radius, rad */
+    double tolerance;  /* greatest difference of red light; white in full sun has 1 */
+    /* A lamp in place of the sun: its centre, m; its radius, m; its red light, 0: there is none. */
     struct vec lamp;
     double lamp_radius, lamp_color;
-    struct vec lamp_facing;         /* unit, where a spot or a rectangle shines */
-    double lamp_inner, lamp_outer;  /* angles of a spot's cones, rad; outer 0: no spot */
+    struct vec lamp_facing;         /* unit direction in which a spot or a rectangle shines */
+    double lamp_inner, lamp_outer;  /* half angles of a spot's cones, rad; outer 0: no spot */
     struct vec lamp_right, lamp_up; /* from a rectangle's centre to its edges, m; 0: no rectangle */
 };
 
-/* Returns the red light along the ray of a pixel, by the lamp or for an irradiance of pi by the
- * sun, and sets *depth to the distance t along the ray, or 1e9 for the sky. */
+/* Returns the red light that the surface at a place of the picture, px, sends to the eye. The lamp
+ * lights it or, if there is none, a sun of irradiance pi. Sets *depth to the view depth, m, or to
+ * 1e9 for the sky. */
 double light(const struct expected *e, double px, double py, double *depth);
 
-/* Compares every step-th pixel with the ray caster. Pixels over which the expected light or depth
- * changes much are left out; at least three quarters must be compared. */
+/* Compares every step-th pixel of every step-th row with the ray caster. Leaves out pixels within
+ * which the expected light or depth changes much, such as edges, where the picture is a mean of
+ * samples. Fails if a pixel differs, or if a quarter of the pixels or more are left out. */
 void compare(const struct picture *p, const struct expected *e, int step);
 
 /* Draws a scene and returns the sum of the picture's red light. */

@@ -1,5 +1,5 @@
-/* Writes results of a run that never took place. They have every status, and names and messages
- * that reports must escape. */
+/* Writes the results of a test run that never took place. The tests have every status, and names
+ * and messages with characters that reports must escape. */
 #include "support/results.h"
 
 #include <math.h>
@@ -7,13 +7,13 @@
 
 #include "suite/suite.h"
 
-/* A name with characters that end a string, a line, an element, a comment or a command in one of
- * the formats of reports. */
+/* A test's name with characters that would end a string, a line, an element, a comment or a command
+ * in one of the formats of reports if a report did not escape them. */
 #define TEST_NASTY_NAME "a&b<c>\"d'#e\\f%g:h,i]]>j{k}\x01\x1b[31m\nl\tm\r\xc3\xa9\xef\xbf\xbe"
 
 enum { TEST_RESULT_COUNT = 9, TEST_COLUMN_COUNT = 3 };
 
-/* The results, and the arrays that they point to. */
+/* The results of all tests, and the arrays that they point to. */
 struct test_results {
     struct kiln_result results[TEST_RESULT_COUNT];
     struct kiln_result_frame frames[TEST_RESULT_COUNT][2];
@@ -21,6 +21,7 @@ struct test_results {
     const char *notes[2];
 };
 
+/* Fills in result `index` with values that all tests share, and returns it. */
 static struct kiln_result *test_result(struct test_results *all, size_t index, const char *name,
                                        enum kiln_test_status status, const char *message)
 {
@@ -47,6 +48,8 @@ static struct kiln_result *test_result(struct test_results *all, size_t index, c
     return result;
 }
 
+/* Adds a frame to a result and returns it. flip: the mean FLIP error, from which the other metrics
+ * follow; below 0, the frame was not measured. */
 static struct kiln_result_frame *test_frame(struct kiln_result *result, uint32_t number,
                                             enum kiln_test_status status,
                                             enum kiln_judged_by judged_by, double flip)

@@ -1,11 +1,13 @@
-/* Writes the results of a run with tests of every status, for tests of reports. */
+/* Writes the files of a test run in which tests have every status, for tests of reports. Reports
+ * then need no device and no pictures. */
 #ifndef KILN_TESTS_RESULTS_H
 #define KILN_TESTS_RESULTS_H
 
 #include "kiln_program.h"
 
-/* Writes results into a folder: with `good`, those of tests that did not fail, else those of all
- * tests, among them a test "lost" that has no result. */
+/* Writes the results of a run into a folder. With `good` set, all its tests pass, warn or are
+ * skipped. Otherwise there are also tests of every other status, and a test "lost" without a
+ * result, as if its process had ended early. */
 bool test_write_run(const char *folder, bool good, struct kiln_error *error);
 
 #endif

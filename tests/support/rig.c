@@ -1,4 +1,4 @@
-/* Writes a chain of bones as a glTF file in memory, and loads it. */
+/* Writes a skinned mesh as a glTF file in memory, and loads it. */
 #include "support/rig.h"
 
 #include <math.h>
@@ -7,6 +7,10 @@
 
 #include "support/cmocka.h"
 
+/* The glTF file, a format for snprintf. Its arguments are second, skin, attributes and animations
+ * of struct variant, the buffer views, the buffer's size and the buffer in base64. Accessors 0 to 9
+ * are the members of struct rig, one for each joint's rotations; 10 and 11 are the first key frame
+ * alone of the times and of the first joint's rotations. */
 static const char JSON[] =
     "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 4]}],"
     " \"nodes\": [{\"name\": \"hips\", \"children\": [1]},"
@@ -42,7 +46,7 @@ const struct variant SOUND = {"chest", SKIN, ", \"WEIGHTS_0\": 1, \"JOINTS_0\": 
 static void to_base64(const void *data, size_t size, char *out)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned char *b = data; /* padded with zeros to a multiple of three bytes */
+    const unsigned char *b = data; /* the caller pads it with zeros to a multiple of three bytes */
     for (size_t i = 0; i < size; i += 3) {
         uint32_t bits = (uint32_t)b[i] << 16 | (uint32_t)b[i + 1] << 8 | b[i + 2];
         for (int k = 0; k < 4; k++)
@@ -108,6 +112,7 @@ void set_turn(float out[4], const double axis[3], double angle)
     out[3] = (float)cos(0.5 * angle);
 }
 
+/* Returns a pseudo-random number from 0 to 1. */
 static double chance(uint32_t *state)
 {
     *state = *state * 1664525u + 1013904223u;

@@ -1,4 +1,5 @@
-/* Makes glTF files of a chain of bones along y, each a metre long. */
+/* Makes glTF files of a mesh that follows a chain of three joints along y, a metre apart, for tests
+ * of lib/asset/geometry/skin.h. A variant of the file can have a fault that loading must refuse. */
 #ifndef KILN_TESTS_RIG_H
 #define KILN_TESTS_RIG_H
 
@@ -6,25 +7,30 @@
 
 enum { JOINTS = 3, KEYS = 4, VERTICES = 12, TRIANGLES = 4 };
 
+/* The numbers of the file. Its binary buffer is a copy of this struct, and each member is a buffer
+ * view. */
 struct rig {
     float positions[VERTICES][3];
     float weights[VERTICES][4];
-    float inverse[JOINTS][16]; /* bind matrices, by columns */
-    float times[KEYS];
-    float turns[JOINTS][KEYS][4];
-    float moves[KEYS][3]; /* places of the first joint, m */
+    float inverse[JOINTS][16];    /* inverse bind matrices, by columns */
+    float times[KEYS];            /* of the key frames, s */
+    float turns[JOINTS][KEYS][4]; /* rotations of the joints, quaternions */
+    float moves[KEYS][3];         /* translations of the first joint, m */
     uint16_t triangles[TRIANGLES][3];
     uint8_t joints[VERTICES][4];
 };
 
-/* Texts of the file. A test changes one of SOUND to get a faulty file. */
+/* Parts of the file's JSON. A test copies SOUND and changes a member to get another file, such as a
+ * faulty one. */
 struct variant {
-    const char *second; /* name of the second joint */
-    const char *skin, *attributes;
-    const char *animations; /* with one %s: the interpolation */
-    const char *interpolation;
+    const char *second;            /* name of the second joint */
+    const char *skin, *attributes; /* members of the mesh's node; of its vertices */
+    const char *animations;        /* the top-level member; one %s stands for the interpolation */
+    const char *interpolation;     /* "LINEAR" is the only one that kiln takes */
 };
 
+/* Channels and samplers that rotate the joints 0, `node` and 2, and move joint 0. `node` is a
+ * string, "1" in a sound file. */
 #define CHANNELS(node)                                                                             \
     "\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 0, \"path\": \"rotation\"}},"          \
     " {\"sampler\": 1, \"target\": {\"node\": " node ", \"path\": \"rotation\"}},"                 \
@@ -33,25 +39,30 @@ struct variant {
     " \"samplers\": [{\"input\": 3, \"output\": 4}, {\"input\": 3, \"output\": 5},"                \
     " {\"input\": 3, \"interpolation\" : \"%s\", \"output\": 6}, {\"input\": 3, \"output\": 7}]"
 
+/* The skin and the animation of a sound file. */
 #define SKIN ", \"skin\": 0"
 #define WAVE "\"animations\": [{\"name\": \"wave\", " CHANNELS("1") "}],"
 
+/* The variant without faults. */
 extern const struct variant SOUND;
 
-/* Returns the text of the glTF file, valid until the next call. */
+/* Returns the text of a glTF file. It is valid until the next call. */
 const char *to_gltf(const struct rig *rig, const struct variant *variant);
-/* Returns the skin of the file, which the caller destroys; an error fails the test. */
+
+/* Loads the skin of a glTF file. The caller destroys it. An error fails the test. */
 struct kiln_skin *parse(const struct rig *rig, const struct variant *variant);
-/* Fails unless the file is refused with a message that contains the reason. */
+
+/* Fails unless loading the file fails with KILN_INVALID_INPUT and a message that has `reason`. */
 void refuse(const struct rig *rig, const struct variant *variant, const char *reason);
 
-/* Sets a quaternion to the rotation by an angle, rad, about a unit axis. */
+/* Sets the quaternion `out` to the rotation by an angle, rad, about a unit axis. */
 void set_turn(float out[4], const double axis[3], double angle);
 
-/* Returns a rig that does not move, and whose vertices all follow the first bone. */
+/* Returns a rig whose joints keep still, and whose vertices all follow the first joint. */
 struct rig still_rig(void);
 
-/* Returns a rig in which all bones move; the last key equals the first. */
+/* Returns a rig whose joints all move at random, and whose vertices follow all joints with random
+ * weights. The last key frame equals the first. */
 struct rig waving_rig(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* Builds scenes in C: values, keys, emitters, forces, colliders, and a scene with everything. */
+/* Builds scenes in memory: values, key frames, systems, forces, colliders, and larger scenes. */
 #include "support/scene_fixture.h"
 
 #include <string.h>
@@ -37,7 +37,8 @@ struct kiln_value fixture_keys(struct scene_fixture *f, uint32_t clock, uint32_t
         float slope = 0.0f;
         if (i + 1 < count)
             slope = (points[i + 1][1] - points[i][1]) / (points[i + 1][0] - points[i][0]);
-        float area = points[0][0] * points[0][1]; /* the integral from 0 to the first key */
+        float area =
+            points[0][0] * points[0][1]; /* the integral of the value from 0 to the first key */
         for (uint32_t k = 1; k <= i; k++)
             area += (points[k][0] - points[k - 1][0]) * 0.5f * (points[k][1] + points[k - 1][1]);
         f->keys[f->scene.key_count++] = FLOAT4(points[i][0], points[i][1], slope, area);
@@ -249,7 +250,7 @@ void fixture_finish(struct scene_fixture *f, uint32_t steps)
     }
 }
 
-/* ---- one scene with everything in it -------------------------------------------------------- */
+/* ---- larger scenes --------------------------------------------------------------------------- */
 
 void fixture_zoo_backdrop(struct scene_fixture *f)
 {
@@ -501,7 +502,7 @@ uint32_t fixture_force_kinds(enum kiln_force_kind kinds[FIXTURE_MAX_FORCE_KINDS]
         for (uint32_t i = 0; i < count; i++)
             known = known || (int)kinds[i] == row->value;
         if (known)
-            continue; /* another way to write it */
+            continue; /* this row is another name of a kind in the list */
         assert_true(count < FIXTURE_MAX_FORCE_KINDS);
         kinds[count++] = (enum kiln_force_kind)row->value;
     }

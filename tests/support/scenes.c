@@ -1,4 +1,4 @@
-/* Loads scenes from texts and files. */
+/* Loads scenes from texts and files, and prints them, for tests. */
 #include "support/scenes.h"
 
 #include <stdio.h>

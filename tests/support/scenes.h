@@ -1,22 +1,22 @@
-/* Loads scenes from texts and files, for tests. */
+/* Loads scenes from texts and files for tests, and prints them. */
 #ifndef KILN_TESTS_SCENES_H
 #define KILN_TESTS_SCENES_H
 
 #include "kiln.h"
 
-/* The name of scenes from texts in messages. */
+/* The file name that messages about a scene from a text give. */
 #define SCENE_NAME "test.yaml"
 
-/* Returns the scene of a text, or NULL with the error. `overrides` is a list that ends with NULL,
- * or NULL. */
+/* Returns the scene of a text, which the caller destroys, or NULL with an error. overrides: a
+ * list of "KEY=VALUE" that ends with NULL, or NULL for none. */
 struct kiln_scene *try_scene(const char *text, const char *const *overrides,
                              struct kiln_error *error);
 
-/* Return the scene of a text or a file; an error fails the test. */
+/* Return the scene of a text or of a file, which the caller destroys. An error fails the test. */
 struct kiln_scene *load_scene(const char *text, const char *const *overrides);
 struct kiln_scene *load_scene_file(const char *path);
 
-/* Returns the text of kiln_scene_print, which the caller frees. */
+/* Returns the text that kiln_scene_print writes. The caller frees it. */
 char *print_scene(const struct kiln_scene *scene);
 
 #endif

@@ -1,4 +1,4 @@
-/* Runs the simulation of a scene. */
+/* Runs the simulation of a scene step by step, and hashes its states. */
 #include "support/simulation.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* Runs the simulation of a scene that a test has made. */
+/* Runs the simulation of a scene step by step, without drawing, so that tests can look at particles
+ * and state hashes after each step. */
 #ifndef KILN_TESTS_SIMULATION_H
 #define KILN_TESTS_SIMULATION_H
 
@@ -11,26 +12,32 @@ struct simulation {
     uint32_t step; /* steps done */
 };
 
-/* Starts a run with a technique. device: NULL for `cpu`. */
+/* Starts a run at step 0. device: NULL for the technique `cpu`; threads: number of worker threads.
+ * The scene must outlive the run, which the caller ends with simulation_end. */
 void simulation_start_with(struct simulation *run, const struct kiln_scene *scene,
                            struct kiln_device *device, enum kiln_simulate_technique technique,
                            uint32_t threads);
 
-/* Starts a run with the technique `inplace`, or `cpu` if the device is NULL. */
+/* Starts a run with the technique `inplace` on a device, or `cpu` if the device is NULL. */
 void simulation_start(struct simulation *run, const struct kiln_scene *scene,
                       struct kiln_device *device, uint32_t threads);
 
+/* Runs `steps` more steps. */
 void simulation_run(struct simulation *run, uint32_t steps);
+
+/* Returns the hash of the state, and sets *alive to the number of living particles. */
 struct kiln_state_hash simulation_hash(struct simulation *run, uint64_t *alive);
 
-/* Runs `steps` steps and returns a hash of the hashes of all their states. */
+/* Runs `steps` more steps, and returns a hash of the state hashes after each of them. */
 struct kiln_state_hash simulation_run_hashed(struct simulation *run, uint32_t steps);
 
+/* Returns the records of all slots on the host, valid until the next step. */
 const struct kiln_particle *simulation_records(struct simulation *run);
 void simulation_end(struct simulation *run);
 
-/* A group set-up that opens the device. It ends the program as skipped if the device does not
- * compute exactly; the test gpu.exact fails if the device should. */
+/* A group set-up for cmocka that opens the device. If the device does not compute exactly
+ * (shared/exact.h), it ends the program as skipped, since states would differ from those of the
+ * CPU; the test gpu.exact fails for a device that should compute exactly. */
 int simulation_device_open(void **state);
 
 #endif

@@ -1,4 +1,4 @@
-/* Makes keys that are hard to sort. */
+/* Makes lists of keys that are hard to sort, and compares pairs. */
 #include "support/sort_keys.h"
 
 #include "shared/random.h"
@@ -19,7 +19,7 @@ uint32_t key_of(enum pattern pattern, uint32_t i, uint32_t count)
         return random_mix(i) & 3u;
     case HIGH_BITS:
         return random_mix(i) & 0xc0000000u;
-    case FEW: /* few different keys, next to the borders of a radix sort's digits */
+    case FEW: /* keys at the borders of digits of 6, 8, 11, 12, 22 and 24 bits */
         return (const uint32_t[]){0,     63,     64,       255,      256,       0x7ff,
                                   0x800, 0x1000, 0x3fffff, 0x400000, 0x1000000, UINT32_MAX}
             [random_mix(i) % 12];

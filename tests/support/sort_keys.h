@@ -1,4 +1,5 @@
-/* Makes keys that are hard to sort, and compares pairs by the order that a sort must give. */
+/* Makes lists of keys that are hard to sort, and compares pairs of key and place, so that qsort
+ * gives the order that every sort of kiln must give. */
 #ifndef KILN_TESTS_SORT_KEYS_H
 #define KILN_TESTS_SORT_KEYS_H
 
@@ -9,18 +10,19 @@ enum pattern {
     SORTED,
     REVERSED,
     EQUAL,
-    LOW_BITS,
-    HIGH_BITS,
-    FEW,
-    LARGEST, /* the keys that pad a list, and their neighbours */
-    ONE_ODD_ONE,
+    LOW_BITS,    /* keys that differ only in the lowest two bits */
+    HIGH_BITS,   /* keys that differ only in the highest two bits */
+    FEW,         /* 12 different keys, at the borders of a radix sort's digits */
+    LARGEST,     /* UINT32_MAX, with which sorts pad a list, and the key below it */
+    ONE_ODD_ONE, /* equal keys, except for a smaller one in the middle */
     PATTERNS
 };
 
+/* Returns key i of a list of `count` keys. */
 uint32_t key_of(enum pattern pattern, uint32_t i, uint32_t count);
 
-/* Compares two pairs (kiln_sort_pair) for qsort: by key, then by place, which is the stable order.
- */
+/* Compares two values of kiln_sort_pair for qsort: by key, then by the lower word. If that is the
+ * place in the list, the order is stable. */
 int by_pair(const void *a, const void *b);
 
 #endif

@@ -1,4 +1,4 @@
-/* Makes the stages of drawing for tests. */
+/* Creates and destroys the stages that draw a frame, and their timer, for tests. */
 #include "support/stages.h"
 
 #include "support/cmocka.h"

@@ -1,4 +1,4 @@
-/* Writes, runs and updates a golden test of a few sparks, and changes its files. */
+/* Writes and runs a golden test of a few sparks, updates its goldens, and changes its files. */
 #include "support/suite.h"
 
 #include <stdio.h>
@@ -11,7 +11,7 @@
 #include "support/folders.h"
 #include "support/pictures.h"
 
-/* A few sparks before a grey wall, 48 x 32 pixels. Paths count from the test's own folder. */
+/* A scene of a few sparks, 48 x 32 pixels. */
 static const char spark_scene[] = "kiln: 1\n"
                                   "seed: 7\n"
                                   "output: {size: [48, 32], fps: 30, frames: 8}\n"
@@ -25,6 +25,7 @@ static const char spark_scene[] = "kiln: 1\n"
                                   "      speed: [0.5, 1]\n"
                                   "    look: {atlas: \"builtin:spark\", blend: add, size: 0.2}\n";
 
+/* The golden test of the scene. The path of the scene is relative to the test's own folder. */
 #define SPARK_TEST "kiln_test: 1\nscene: spark.yaml\nframes: [3, 5]\n"
 
 void spark_write(const char *more)

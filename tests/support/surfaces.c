@@ -1,4 +1,4 @@
-/* Adds one collider of each kind, with its top at the origin, to the scene of thrown.h. */
+/* Adds a collider of a chosen kind, with its top at the origin, to the scene of thrown.h. */
 #include "support/surfaces.h"
 
 #include <stdio.h>
@@ -48,7 +48,8 @@ static struct kiln_object *add_cylinder_side(void)
     return cylinder;
 }
 
-/* Adds a cylinder with an animated axis, whose direction stays the same. */
+/* Adds a cylinder with an animated axis, which kiln treats as an object that turns. The axis only
+ * grows longer, so the cylinder keeps its pose. */
 static struct kiln_object *add_turning_cylinder(void)
 {
     struct kiln_object *cylinder = add_cylinder_side();
@@ -63,7 +64,7 @@ static struct kiln_object *add_lying_capsule(void)
     return capsule;
 }
 
-/* Adds terrain with the heights of a black picture. */
+/* Adds level terrain, whose heights are those of a picture of one black pixel. */
 static struct kiln_object *add_flat_terrain(void)
 {
     static const uint8_t pixel[58] = {
@@ -77,12 +78,14 @@ static struct kiln_object *add_flat_terrain(void)
     return terrain;
 }
 
+/* Adds a mesh of a box, which collides by its distance field. */
 static struct kiln_object *add_slab(void)
 {
     body_write_box("slab.obj", 40, 2, 40);
     return fixture_add_mesh(&fixture, "slab.obj", 0, -1, 0);
 }
 
+/* Adds the same mesh, which collides by depth maps. */
 static struct kiln_object *add_mapped_slab(void)
 {
     struct kiln_object *slab = add_slab();

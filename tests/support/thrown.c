@@ -1,4 +1,4 @@
-/* Makes scenes of thrown particles, runs them, and tests where the particles are. */
+/* Makes scenes of thrown particles, runs them, and checks positions and velocities. */
 #include "support/thrown.h"
 
 #include <math.h>
@@ -118,6 +118,7 @@ void no_bounce_makes_faster(float nearest)
     simulation_end(&run);
 }
 
+/* Returns the number of objects that a particle is inside of at a time; 0 for a dead particle. */
 static uint32_t count_inside(const struct kiln_particle *p, float time_s, in_object *is_inside)
 {
     const struct kiln_scene *scene = &fixture.scene;

@@ -1,5 +1,5 @@
-/* Draws billboards in double precision: in the order of their entries, or by fragments that are
- * sorted in each pixel. */
+/* Draws particles in double precision: blends them in the order of their entries, or sorts the
+ * fragments of each pixel by depth and blends them then. */
 #include "support/true_billboards.h"
 
 #include <math.h>
@@ -8,7 +8,8 @@
 
 #include "support/cmocka.h"
 
-/* A fragment in the list of all pixels, which is sorted before it is blended. */
+/* A fragment of some pixel. One list holds the fragments of all pixels and is sorted before it is
+ * blended. order: the drawing order, which decides between fragments of equal depth. */
 struct true_fragment {
     double depth, rgba[4], glow[3];
     uint64_t order;
@@ -38,7 +39,8 @@ void true_picture_finish(struct true_picture *picture)
     free(picture->glow);
 }
 
-/* Blends rgba over a pixel, and rgba times the weights over its glow; with `sum`, adds both. */
+/* Blends premultiplied rgba over a pixel of the picture, and rgba times the bloom weights over its
+ * glow. With `sum` set, adds to both instead. */
 static void true_blend(struct true_picture *picture, size_t pixel, const double rgba[4],
                        const double weights[3], bool sum)
 {
@@ -50,6 +52,7 @@ static void true_blend(struct true_picture *picture, size_t pixel, const double 
     }
 }
 
+/* Appends a fragment to the list. */
 static void true_keep(struct true_fragments *list, const struct true_fragment *fragment)
 {
     if (list->count == list->room) {
@@ -60,8 +63,9 @@ static void true_keep(struct true_fragments *list, const struct true_fragment *f
     list->all[list->count++] = *fragment;
 }
 
-/* Adds a fragment to the list. A fragment of a round billboard is split into two sheets of half its
- * density (shared/fragment_layout.h). */
+/* Adds a fragment to the list. A fragment of a round billboard becomes two sheets of half its
+ * density, one in front of the billboard's plane and one behind it (shared/fragment_layout.h).
+ * number: place of the sprite in the drawing order. */
 static void true_split(struct true_fragments *list, const struct true_sprite *s,
                        const struct true_place *at, const double rgba[4], size_t pixel,
                        size_t number)
@@ -85,7 +89,7 @@ static void true_split(struct true_fragments *list, const struct true_sprite *s,
     true_keep(list, &f);
 }
 
-/* Compares fragments for qsort: by pixel, then the farthest first. */
+/* Compares fragments for qsort: by pixel, then the farthest first, then by drawing order. */
 static int true_compare(const void *a, const void *b)
 {
     const struct true_fragment *one = a, *other = b;
@@ -96,7 +100,7 @@ static int true_compare(const void *a, const void *b)
     return one->order < other->order ? -1 : 1;
 }
 
-/* The state of a pass that draws all entries. */
+/* The input and the results of a pass over all entries. depth: of the scene, m, for each pixel. */
 struct true_pass {
     const struct true_scene *scene;
     const struct kiln_particles_draw *draw;

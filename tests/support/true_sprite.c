@@ -1,4 +1,5 @@
-/* Makes a sprite of a particle, finds its place at a pixel and shades it, in double precision. */
+/* Makes the sprite of a particle, finds which place of it a pixel shows, and shades that place, in
+ * double precision. */
 #include "support/true_sprite.h"
 
 #include <math.h>
@@ -11,7 +12,8 @@
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-/* Interpolates trilinearly between the cells of a grid of smoke. */
+/* Reads a grid of the smoke's optical depth, trilinearly between its cells. at: 0 to 1 along each
+ * axis. */
 static double true_grid(const float *depth, const double at[3])
 {
     int cell[3], next[3];
@@ -36,7 +38,9 @@ static double true_grid(const float *depth, const double at[3])
     return sum;
 }
 
-/* Returns the optical depth of the smoke that the light of sun or sky crosses. */
+/* Returns the optical depth of the smoke that the light of the sun, or of the sky, crosses on its
+ * way to p. It is 0 for a place beside the smoke or in front of it. depth: the grid, or NULL for no
+ * smoke; to_grid: rows that map the world to the grid. */
 static double true_smoke(const float *depth, const float4 to_grid[3], dvec p)
 {
     if (!depth)
@@ -49,8 +53,9 @@ static double true_smoke(const float *depth, const float4 to_grid[3], dvec p)
     return true_grid(depth, at);
 }
 
-/* Returns the optical depth of the smoke that a lamp's light crosses: its map, interpolated between
- * the texels of the face that the place lies in (shared/lamp_smoke.h). */
+/* Returns the optical depth of the smoke that a lamp's light crosses. Reads the lamp's map
+ * trilinearly between texels of the cube's face that the place lies in, and between layers
+ * (shared/lamp_smoke.h). from: from the lamp to the place, m. */
 static double true_lamp_smoke(const struct kiln_lighting *l, const struct kiln_draw_light *lamp,
                               dvec from)
 {
@@ -89,7 +94,7 @@ static double true_lamp_smoke(const struct kiln_lighting *l, const struct kiln_d
     return sum;
 }
 
-/* Returns the part of light i that a particle sees past the backdrop. */
+/* Returns the part of lamp i, 0 to 1, that the backdrop does not hide from a particle. */
 static double true_lamp_part(const struct kiln_lighting *l, uint32_t i, uint32_t slot)
 {
     if (!l->lamplit)
@@ -98,8 +103,9 @@ static double true_lamp_part(const struct kiln_lighting *l, uint32_t i, uint32_t
     return (l->lamplit[i / 4 * plane + slot] >> (8 * (i % 4)) & 255) / 255.0;
 }
 
-/* Returns how fast scattered light falls off in smoke that reflects this part of the light
- * (smoke_diffusion). */
+/* Returns how fast light that smoke scatters falls off, as a part of how fast straight light does
+ * (smoke_diffusion in shared/smoke_grid.h). reflected: the part of the light that the smoke
+ * reflects. */
 static double true_diffusion(double reflected)
 {
     const double g = 0.4, part = fmin(fmax(reflected, 0), 1);
@@ -108,7 +114,9 @@ static double true_diffusion(double reflected)
     return fmin(sqrt(3 * (1 - albedo) * (1 - albedo * g)), 1);
 }
 
-/* Adds a light that arrives from all sides as `all`, and straight as `straight`. */
+/* Adds a light of a colour to a sprite. all, straight: the parts of it that arrive from all sides
+ * and straight from its direction, of which half each counts; axes: those of the billboard, view
+ * space. */
 static void true_add_light(const struct true_scene *t, struct true_sprite *s, float4 color,
                            double all, double straight, dvec direction, const dvec axes[3])
 {
@@ -121,6 +129,7 @@ static void true_add_light(const struct true_scene *t, struct true_sprite *s, fl
     }
 }
 
+/* Sums up the light of sky, sun and lamps on a sprite. cover: its row KILN_LOOK_COVER. */
 static void true_light(const struct true_scene *t, struct true_sprite *s, const double cover[4],
                        uint32_t slot, dvec position, const dvec axes[3])
 {
@@ -157,7 +166,7 @@ static void true_light(const struct true_scene *t, struct true_sprite *s, const 
 /* ---- form ------------------------------------------------------------------------------------ */
 
 /* Computes the axes of a billboard's plane: right, up and towards the viewer (Heinz 2019, 2.1.1).
- */
+ * facing: LOOK_*; axis: of an axial billboard, or the world's up, in the world. */
 static void true_plane(const struct true_scene *t, uint32_t facing, dvec axis, dvec center,
                        dvec axes[3])
 {
@@ -173,8 +182,9 @@ static void true_plane(const struct true_scene *t, uint32_t facing, dvec axis, d
     axes[2] = facing == LOOK_AXIAL ? dvec_cross(axes[0], upward) : normal;
 }
 
-/* Computes the direction of a billboard's upward edge in its plane. Returns the length by which
- * stretching extends half of the edge, m. */
+/* Computes the unit direction of a billboard's upward edge, along right and up of its plane.
+ * Returns the length by which a stretch, s, extends half of that edge, m. moving: velocity along
+ * right and up, m/s. */
 static double true_up(double angle, double stretch, const double moving[2], uint32_t facing,
                       double up[2])
 {
@@ -198,6 +208,8 @@ static double true_up(double angle, double stretch, const double moving[2], uint
     return 0.5 * speed * stretch;
 }
 
+/* Chooses the texture, two adjacent cells of it and their mix (Heinz 2019, equation 3.2), and the
+ * level of detail. passes: how often the particle has gone through its cells until now. */
 static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
                               const struct kiln_draw_look *look, uint32_t stream, float passes,
                               double width_px, double length_px)
@@ -222,6 +234,7 @@ static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
     s->motion = t->atlas->moves ? (double)BITS_FLOAT(texture.w) : 0;
 }
 
+/* Projects a position in view space to the picture, px from the top left. */
 static void true_pixel(const struct true_scene *t, dvec v, double pixel[2])
 {
     const float4 f = t->view->frustum;
@@ -229,7 +242,8 @@ static void true_pixel(const struct true_scene *t, dvec v, double pixel[2])
     pixel[1] = 0.5 * (double)f.w * (1 - v.y / (double)f.y / -v.z);
 }
 
-/* Makes a point or a line, a rectangle of the picture. */
+/* Makes the sprite a point or a line, which is a rectangle of the picture. width: px; way_m: from
+ * the head of a line, which is the centre, to its tail, view space. */
 static void true_make_plain(const struct true_scene *t, struct true_sprite *s,
                             const struct kiln_draw_look *look, double width, dvec way_m)
 {
@@ -255,14 +269,15 @@ static void true_make_plain(const struct true_scene *t, struct true_sprite *s,
     s->disc = !line && look->form.z != 0;
 }
 
+/* Returns corner i of a billboard, in order around it, view space. */
 static dvec true_corner(const struct true_sprite *s, int i)
 {
     double across = i == 1 || i == 2 ? 1 : -1, along = i < 2 ? 1 : -1;
     return dvec_add(dvec_add(s->center, s->right, across), s->up, along);
 }
 
-/* Finds where the ray through (x, y), px, meets a billboard's plane: its depth, m, and the place in
- * half edges from the middle. */
+/* Finds where the ray through a place of the picture (x, y), px, meets a billboard's plane. Returns
+ * the view depth, m, and sets `place` in half edges along right and up from the centre. */
 static double true_meet(const struct true_scene *t, const struct true_sprite *s, double x, double y,
                         double place[2])
 {
@@ -277,8 +292,9 @@ static double true_meet(const struct true_scene *t, const struct true_sprite *s,
     return depth;
 }
 
-/* Makes a billboard that is thinner than a pixel a pixel wide and fainter, and gives one of less
- * than four pixels filtered edges. Its width is that in its middle. */
+/* Draws a billboard that is thinner than a pixel a pixel wide and fainter by the same factor, and
+ * filters the edges of one that is narrower than BILLBOARD_RIM_MOST (billboard_rim_of in
+ * shared/billboard_place.h). Its widths, px, follow from the slopes of true_meet at its centre. */
 static void true_widen(const struct true_scene *t, struct true_sprite *s)
 {
     const double step = 1e-4;
@@ -302,7 +318,8 @@ static void true_widen(const struct true_scene *t, struct true_sprite *s)
     }
 }
 
-/* Computes the pixels that a sprite may touch: all pixels if a corner is behind the eye. */
+/* Computes the box of pixels that a sprite may touch: around its corners, with a margin for the
+ * rim, or the whole picture if a corner of a billboard is behind the eye. */
 static void true_bound(const struct true_scene *t, struct true_sprite *s)
 {
     const double size[2] = {(double)t->view->frustum.z, (double)t->view->frustum.w};
@@ -331,9 +348,10 @@ static void true_bound(const struct true_scene *t, struct true_sprite *s)
     }
 }
 
-/* ---- all of it ------------------------------------------------------------------------------- */
+/* ---- whole sprites --------------------------------------------------------------------------- */
 
-/* Values of a particle from which its sprite is made. */
+/* Values of a particle from which its sprite is made. row: of its look at its age; position: world,
+ * m; moving: velocity in view space, m/s; axes: of its billboard, view space. */
 struct true_subject {
     const struct kiln_draw_look *look;
     uint32_t stream;
@@ -343,13 +361,14 @@ struct true_subject {
     dvec position, moving, axes[3];
 };
 
-/* Returns the particle's random number for a purpose, from `least` to `most`. */
+/* Returns the particle's random number for a purpose (RANDOM_*), from `least` to `most`. */
 static double true_between(const struct true_subject *p, uint32_t purpose, double least,
                            double most)
 {
     return least + (most - least) * (double)random_unit(p->stream, purpose);
 }
 
+/* Computes the axes and half edges of a billboard from rotation, spin and stretch. */
 static void true_turn(const struct true_scene *t, struct true_subject *p, struct true_sprite *s)
 {
     const double *turn = p->row[KILN_LOOK_TURN], *axis = p->row[KILN_LOOK_AXIS];
@@ -466,7 +485,8 @@ bool true_place_of(const struct true_scene *t, const struct true_sprite *s, doub
     return inside;
 }
 
-/* Interpolates channel c bilinearly between texels of bytes, clamped at the edge of the texture. */
+/* Reads channel c of a texture of bytes bilinearly at (u, v), clamped at the texture's edges.
+ * has_sign: the bytes are signed and stand for -1 to 1; otherwise they stand for 0 to 1. */
 static double true_bilinear(const uint8_t *texels, int columns, int rows, int channels, int c,
                             double u, double v, bool has_sign)
 {
@@ -485,6 +505,8 @@ static double true_bilinear(const uint8_t *texels, int columns, int rows, int ch
     return upper + (lower - upper) * part_y;
 }
 
+/* Mixes the two cells of a sprite at a place. Follows the motion vectors back and forth, so that a
+ * detail of both cells meets itself. */
 static void true_cell(const struct true_scene *t, const struct true_sprite *s,
                       const struct true_place *at, double cell[4])
 {
@@ -506,6 +528,8 @@ static void true_cell(const struct true_scene *t, const struct true_sprite *s,
     }
 }
 
+/* Returns the factor on opacity where a sprite comes near the scene (Heinz 2019, equation 3.3).
+ * depth, scene: view depths of the sprite and of the scene, m. */
 static double true_soft(const struct true_sprite *s, double depth, double scene)
 {
     if (s->soft <= 0)
@@ -515,6 +539,7 @@ static double true_soft(const struct true_sprite *s, double depth, double scene)
     return fmin(fmax((scene - depth) * s->soft, 0), 1);
 }
 
+/* Returns the part of a pixel that lies within a billboard's filtered edges. */
 static double true_rim(const struct true_sprite *s, const struct true_place *at)
 {
     if (s->plain || !(s->rim[0] > 0))
@@ -523,6 +548,7 @@ static double true_rim(const struct true_sprite *s, const struct true_place *at)
            fmin(fmax((0.5 - fabs(at->v - 0.5)) * s->rim[1] + 0.5, 0), 1);
 }
 
+/* Returns the part of a pixel that a point or a line covers. */
 static double true_coverage(const struct true_sprite *s, const struct true_place *at)
 {
     if (s->disc)

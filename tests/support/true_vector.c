@@ -1,4 +1,4 @@
-/* Transforms points in double precision, and reads tables of looks. */
+/* Transforms points in double precision, and reads the table of the systems' looks. */
 #include "support/true_vector.h"
 
 #include "shared/look_layout.h"

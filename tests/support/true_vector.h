@@ -1,4 +1,5 @@
-/* Declares vectors in double precision, and conversions to them, for true_sprite.h. */
+/* Declares vectors in double precision for the reference rasteriser (true_sprite.h), and reads
+ * looks of systems with the same precision. */
 #ifndef KILN_TESTS_TRUE_VECTOR_H
 #define KILN_TESTS_TRUE_VECTOR_H
 
@@ -46,14 +47,16 @@ static inline dvec dvec_unit(dvec a)
     return dvec_scale(a, 1 / sqrt(dvec_dot(a, a)));
 }
 
-/* Applies a row of an affine map to a point. */
+/* Returns one coordinate of a point after an affine map. row: the map's row, with its offset in w.
+ */
 double dvec_row(float4 row, dvec p);
 
-/* Transform a point, and a direction, from the world to view space. */
+/* Transform a point (dvec_view) or a direction (dvec_turn) from the world to view space. */
 dvec dvec_view(const struct kiln_view *view, dvec p);
 dvec dvec_turn(const struct kiln_view *view, dvec v);
 
-/* Reads a row of a system's look (shared/look_layout.h) at a part of the life, 0 to 1. */
+/* Reads a row (KILN_LOOK_*) of a system's look at a part of the life, 0 to 1, from the table of
+ * shared/look_layout.h. Interpolates linearly between its samples. */
 void dvec_look(const float4 *table, uint32_t system, uint32_t row, float life, double out[4]);
 
 #endif
