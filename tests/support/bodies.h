@@ -12,7 +12,8 @@ struct body {
     int count; /* vertices of boxes so far; add_ball does not count its own */
 };
 
-/* Adds a box with its centre at (x, y, z) and edges of the lengths w, h and d along x, y and z. */
+/* Adds a box with its centre at (x, y, z) and edges of the lengths w, h and d along x, y and z. A
+ * negative length turns the box inside out. */
 void add_box(struct body *body, double x, double y, double z, double w, double h, double d);
 
 enum { RINGS = 40 };

@@ -1,6 +1,6 @@
 /* Draws hand-made particles: makes a scene from a text, takes the particles' records from the test,
- * and draws them into images of 32-bit floats. The test chooses the depth of the scene that hides
- * particles, so that it can compute each pixel that it expects. */
+ * and draws them into images of 32-bit floats. The test also chooses the depth of the scene, behind
+ * which particles are hidden. */
 #ifndef KILN_TESTS_DRAWING_H
 #define KILN_TESTS_DRAWING_H
 

@@ -5,7 +5,7 @@
 
 #include "support/scene_fixture.h"
 
-/* Numbers of systems of the scene. */
+/* Numbers of the first systems of the scene. */
 enum { FAMILY_EMBER, FAMILY_GLOW, FAMILY_STAR, FAMILY_ROCKET, FAMILY_SPARK, FAMILY_RAIN };
 
 /* Makes the scene, with the colliders of fixture_zoo_backdrop. The caller then calls

@@ -1,5 +1,5 @@
-/* Draws hand-made opaque particles, which are spheres or meshes, in front of a backdrop into images
- * of 32-bit floats. */
+/* Draws hand-made opaque particles, which are spheres or meshes, together with a backdrop into
+ * images of 32-bit floats. */
 #ifndef KILN_TESTS_OPAQUE_H
 #define KILN_TESTS_OPAQUE_H
 

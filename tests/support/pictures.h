@@ -21,7 +21,8 @@ struct kiln_output_params test_output_params(const char *path,
                                              const struct kiln_frame_range *range);
 
 /* Returns a picture of a frame in the form that an output needs, with the samples of test_level and
- * test_layer_value. 16-bit samples are level * 256 + x. The caller owns the picture. */
+ * test_layer_value. 16-bit samples are level * 256 + x. Alpha is opaque unless params->alpha is
+ * set. The caller owns the picture. */
 struct kiln_picture *test_picture(const struct kiln_output *output,
                                   const struct kiln_output_params *params, uint32_t frame);
 

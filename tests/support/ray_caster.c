@@ -100,8 +100,8 @@ static void hit_plane(const struct shape *s, struct vec o, struct vec d, struct 
 }
 
 /* Finds the nearest of the hits of the capsule's side and of the balls at its ends. Parts of a
- * ball's surface lie inside of the capsule, but the ray always meets the capsule's own surface
- * first. */
+ * ball's surface lie inside of the capsule, but a ray from outside always meets the capsule's own
+ * surface first. */
 static void hit_capsule(const struct shape *s, struct vec o, struct vec d, struct found *found)
 {
     struct found outside = {.any = false};

@@ -1,5 +1,5 @@
-/* Writes the files of a test run in which tests have every status, for tests of reports. Reports
- * then need no device and no pictures. */
+/* Writes the files of a test run in which tests have every status. So tests of reports need no
+ * device and render nothing. */
 #ifndef KILN_TESTS_RESULTS_H
 #define KILN_TESTS_RESULTS_H
 

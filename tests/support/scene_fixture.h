@@ -35,8 +35,8 @@ struct kiln_system *fixture_add_system(struct scene_fixture *f, const char *name
 struct kiln_force *fixture_add_force(struct kiln_system *system, enum kiln_force_kind kind);
 
 /* Adds a box along the axes with its centre at (x, y, z) and edges of width, height and depth, m.
- * Particles collide with it and with the objects below, with factors of restitution and friction of
- * 1. */
+ * Particles collide with it and with the objects of the functions below, whose factors of
+ * restitution and friction are 1. */
 struct kiln_object *fixture_add_box(struct scene_fixture *f, float x, float y, float z, float width,
                                     float height, float depth);
 
@@ -55,7 +55,8 @@ struct kiln_object *fixture_add_capsule(struct scene_fixture *f, float x, float 
 struct kiln_object *fixture_add_plane(struct scene_fixture *f, float x, float y, float z);
 
 /* Adds square terrain of noise about the y axis, with hills 0.5 m wide. y: its lowest height, m;
- * width: of the square, m; height: of the highest hills over y, m; samples: heights along x. */
+ * width: of the square, m; height: that hills rise over y at most, m; samples: along x, with about
+ * half as many along z. */
 struct kiln_object *fixture_add_terrain(struct scene_fixture *f, float y, float width, float height,
                                         uint32_t samples);
 
@@ -110,10 +111,10 @@ struct kiln_interaction *fixture_add_gravity(struct kiln_system *system, float s
 /* Makes the particles of a system a flock, in which each sees others up to a radius, m. */
 struct kiln_flock *fixture_add_flock(struct kiln_system *system, float radius);
 
-/* Makes a scene with many kinds of emitters, four kinds of forces, a floor and boxes, and values
- * that are constant or vary over time or life. One system is switched off. The systems get slots
- * for `steps` steps. A test may add other kinds, such as fixture_add_round, and then calls
- * fixture_finish again if it added systems. */
+/* Makes a scene with every emitter shape but the line; gravity, drag, wind and curl noise; the
+ * colliders of fixture_zoo_backdrop; and values that are constant or vary over time or life. One
+ * system is switched off. The systems get slots for `steps` steps. Tests add what else there is
+ * with the functions of this header. */
 void fixture_zoo(struct scene_fixture *f, enum kiln_integration integration, uint32_t steps);
 
 enum { FIXTURE_MAX_FORCE_KINDS = 64 };

@@ -42,7 +42,8 @@ bool spark_has_note(const struct spark_run *run, const char *part);
 size_t spark_expect(const struct kiln_test_params *params, enum kiln_test_status status,
                     enum kiln_judged_by judged_by);
 
-/* Runs the golden test so that it writes goldens, and fails unless it passes. */
+/* Runs the golden test so that it writes the goldens that `update` asks for. Fails unless it
+ * passes. */
 void spark_update(enum kiln_update update);
 
 /* Adds `levels` to red, green and blue in a rectangle of an 8-bit PNG. Where a value would exceed

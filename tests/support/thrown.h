@@ -38,9 +38,9 @@ void expect_mirror(const double from[3], const double v[3], const double normal[
 void a_crowd_around(uint32_t count, float speed, float gravity);
 
 /* Runs the scene of a_crowd_around, of at most 1000 particles without gravity, for 21 steps. Fails
- * if a particle gets faster, if a particle is within `nearest`, m, of the origin, or if at most 100
- * impacts take a tenth of a particle's speed or more, since then hardly any particle would have
- * been tested. */
+ * if a particle gets faster or comes within `nearest`, m, of the origin. Also fails unless more
+ * than 100 impacts take a tenth of a particle's speed or more, which shows that particles do hit
+ * something. */
 void no_bounce_makes_faster(float nearest);
 
 /* A function that returns whether a place p, m, is inside of an object at a time, s. */

@@ -39,8 +39,8 @@ static double true_grid(const float *depth, const double at[3])
 }
 
 /* Returns the optical depth of the smoke that the light of the sun, or of the sky, crosses on its
- * way to p. It is 0 for a place beside the smoke or in front of it. depth: the grid, or NULL for no
- * smoke; to_grid: rows that map the world to the grid. */
+ * way to p. It is 0 for a place beside the smoke, or between the smoke and the light. depth: the
+ * grid, or NULL for no smoke; to_grid: rows that map the world to the grid. */
 static double true_smoke(const float *depth, const float4 to_grid[3], dvec p)
 {
     if (!depth)

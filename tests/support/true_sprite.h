@@ -49,7 +49,7 @@ struct true_place {
     double u, v, depth;
 };
 
-/* Makes the sprite of a particle. Returns false if it is transparent or before the near plane.
+/* Makes the sprite of a particle. Returns false if it is transparent or nearer than the near plane.
  * entry: the particle's draw entry. */
 bool true_sprite_make(const struct true_scene *t, uint32_t entry,
                       const struct kiln_particle *record, struct true_sprite *s);
