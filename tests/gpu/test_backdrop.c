@@ -1,4 +1,7 @@
-/* lib/draw/backdrop/backdrop.c against a plain C ray caster. */
+/* Checks the backdrop (lib/draw/backdrop/backdrop.c) of small scenes by each of its techniques: its
+ * depth against a plain C ray caster, the light of sky and floor, pixels at bright edges, and when
+ * it is drawn again. If this fails, objects lie in the wrong place or have the wrong brightness, or
+ * the picture of an earlier frame stays. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -70,8 +73,8 @@ static void fixture_end(struct fixture *f)
     kiln_scene_destroy(&f->scene);
 }
 
-/* The ray through the centre of a pixel in world space, built from the camera itself: its parameter
- * is view depth. */
+/* Sets `direction` to that of the ray through a place of the picture, px, in the world, from the
+ * numbers of SCENE. The parameter along the ray is view depth, m. */
 static void camera_ray(double px, double py, const double eye[3], double direction[3])
 {
     const double target[3] = {0.5, 1, 0};
@@ -92,6 +95,7 @@ static void camera_ray(double px, double py, const double eye[3], double directi
         direction[i] = f[i] + x * right[i] + y * up[i];
 }
 
+/* Returns the parameter at which the ray o + t * d enters a box, or 1e9. */
 static double box_hit(const double center[3], const double size[3], const double o[3],
                       const double d[3])
 {
@@ -105,6 +109,7 @@ static double box_hit(const double center[3], const double size[3], const double
     return in <= out && in > 0 ? in : 1e9;
 }
 
+/* Returns the view depth of SCENE at a place of the picture, px, in m, or 1e9 for the sky. */
 static double scene_depth(const double eye[3], double px, double py)
 {
     static const double centers[2][3] = {{0, 0.75, 0}, {1.5, 0, -1}};
@@ -131,7 +136,8 @@ static void depth_matches_c(void **state)
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             double t = scene_depth(eye, x + 0.5, y + 0.5);
-            /* Where a hundredth of a pixel decides, the driver may decide otherwise. */
+            /* The pixel is skipped if the ray hits another surface 0.01 px away: rounding decides
+             * which of the two the driver draws. */
             double near = scene_depth(eye, x + 0.51, y + 0.51);
             double far = scene_depth(eye, x + 0.49, y + 0.49);
             if (fabs(near - t) > 0.05 * t || fabs(far - t) > 0.05 * t)
@@ -146,7 +152,7 @@ static void depth_matches_c(void **state)
     fixture_end(&f);
 }
 
-static void sky_floor_and_shadow_have_their_colors(void **state)
+static void sky_and_floor_have_their_colors(void **state)
 {
     struct kiln_error error = {0};
     struct fixture f = fixture_create();
@@ -156,7 +162,8 @@ static void sky_floor_and_shadow_have_their_colors(void **state)
     const float *color = kiln_image_host(&f.color, KILN_READ, &error);
     assert_non_null(color);
 
-    /* The nearest floor, far from the boxes: sky from above, and the sun from the zenith. */
+    /* The last row shows the nearest floor, far from the boxes: it is lit by the whole sky, of the
+     * colour of its top, and by the sun, which stands at the zenith. */
     const float *floor_pixel = color + 4 * ((HEIGHT - 1) * WIDTH + WIDTH - 3);
     const double pi = acos(-1.0);
     static const double albedo[3] = {0.5, 0.4, 0.3}, sun[3] = {2, 1, 0.5}, top[3] = {0.1, 0.2, 0.4};
@@ -164,7 +171,7 @@ static void sky_floor_and_shadow_have_their_colors(void **state)
         double expected = albedo[c] * (top[c] + sun[c] / pi);
         assert_true(fabs((double)floor_pixel[c] - expected) < 0.02 * expected);
     }
-    /* The sky reddens towards the horizon. */
+    /* The sky is redder and less blue towards the horizon. */
     const float *zenith = color, *lower = color + 4 * (8 * WIDTH);
     assert_true(zenith[0] < lower[0] && zenith[2] > lower[2]);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
@@ -172,9 +179,10 @@ static void sky_floor_and_shadow_have_their_colors(void **state)
     fixture_end(&f);
 }
 
-/* A black ball before a sky that is eight times as bright as white, two stops of exposure included:
- * on the ball's edge, pixels lie between the two on the display. Of the mean of light, a quarter
- * of the sky in a pixel would be twice as bright as white. */
+/* The edge of a black ball before a bright sky is antialiased on the display (shared/edge_mean.h).
+ * The sky is 8 times as bright as white: 2, exposed by two stops. A pixel of which a quarter shows
+ * such a sky would be white by the mean of its light, so the edge would be a stair. A pixel has
+ * four samples, so the edge has five steps. A sky sample has the weight 1 / (1 + 8). */
 static void bright_edges_have_all_steps(void **state)
 {
     static const char scene[] = "kiln: 1\n"
@@ -212,7 +220,8 @@ static void bright_edges_have_all_steps(void **state)
     fixture_end(&f);
 }
 
-/* The picture is kept while nothing changes, and drawn again when the camera moves. */
+/* The picture is kept while nothing changes, and drawn again when the camera moves. A depth of -1
+ * that the test writes into the picture shows whether it was drawn. */
 static void only_changes_are_drawn_again(void **state)
 {
     struct kiln_error error = {0};
@@ -239,7 +248,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(depth_matches_c),
-        test_on_device(sky_floor_and_shadow_have_their_colors),
+        test_on_device(sky_and_floor_have_their_colors),
         test_on_device(bright_edges_have_all_steps),
         test_on_device(only_changes_are_drawn_again),
     };

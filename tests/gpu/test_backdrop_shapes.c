@@ -1,5 +1,7 @@
-/* Spheres, cylinders, meshes, shadows and pictures of lib/draw/backdrop/backdrop.c against a plain
- * C ray caster in doubles. */
+/* Checks spheres, cylinders and meshes of the backdrop with their shadows against a ray caster in
+ * doubles, and images as floor and sky, by each of its techniques. If this fails, shapes and
+ * shadows have the wrong place, size or brightness, images are mirrored or rotated, or floors
+ * alias. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -14,7 +16,7 @@
 #include "support/pictures.h"
 #include "support/ray_caster.h"
 
-/* ---- tests ----------------------------------------------------------------------------------- */
+/* ---- shapes and their shadows ---------------------------------------------------------------- */
 
 #define ROUND_OBJECTS                                                                              \
     "  objects:\n"                                                                                 \
@@ -80,7 +82,8 @@ static void soft_shadows_match_c(void **state)
     finish(&p);
 }
 
-/* Depth, normals and shadows of a mesh, on itself, on the floor and on a box. */
+/* Compares a scene of MESH_OBJECTS with the ray caster: the depth of the mesh, its normals by the
+ * light on it, and its shadows on itself, the floor and the box. */
 static void check_mesh(void *device, const char *text, double sun_radius, double tolerance,
                        int step)
 {
@@ -125,6 +128,7 @@ static void meshes_match_c(void **state)
                0.08, 3);
 }
 
+/* Returns the mean of a channel over the pixels from (x0, y0) to before (x1, y1). */
 static double mean_of(const struct picture *p, int x0, int y0, int x1, int y1, int channel)
 {
     double sum = 0;
@@ -135,7 +139,8 @@ static double mean_of(const struct picture *p, int x0, int y0, int x1, int y1, i
     return sum / ((x1 - x0) * (y1 - y0));
 }
 
-/* A mesh's penumbra is wider, and as dark in sum. */
+/* A sun with a disc of 10 degrees softens the edges of a mesh's shadow: pixels there change, but
+ * the mean light of the picture stays that of a sun without a disc. */
 static void mesh_shadows_soften(void **state)
 {
     struct picture hard =
@@ -154,7 +159,7 @@ static void mesh_shadows_soften(void **state)
     finish(&soft);
 }
 
-/* ---- pictures as floor and sky --------------------------------------------------------------- */
+/* ---- images as floor and sky ----------------------------------------------------------------- */
 
 #define PICTURE "kiln: 1\noutput: {size: [128, 72], frames: 1}\n"
 #define DOWN    "camera: {position: [0, 2.5, 5], target: [0, 0.5, 0], fov: 40 deg}\nbackdrop:\n"
@@ -162,25 +167,25 @@ static void mesh_shadows_soften(void **state)
 
 enum { SKY_WIDTH = 64, SKY_HEIGHT = 32 };
 
-/* A BMP file of four colours: left and right, upper and lower half. */
+/* Writes a BMP file whose quarters have four colours: red and green above, blue and white below. */
 static void write_quarters(const char *path)
 {
     enum { ROW = SKY_WIDTH * 3, SIZE = 54 + ROW * SKY_HEIGHT };
     static unsigned char file[SIZE];
     static const unsigned char quarters[4][3] = {
-        {0, 0, 255}, {0, 255, 0}, {255, 0, 0}, {255, 255, 255}}; /* blue, green, red */
+        {0, 0, 255}, {0, 255, 0}, {255, 0, 0}, {255, 255, 255}}; /* in the order blue, green, red */
     memset(file, 0, sizeof file);
     file[0] = 'B';
     file[1] = 'M';
     file[2] = SIZE & 255;
     file[3] = SIZE >> 8;
-    file[10] = 54; /* of the pixels */
-    file[14] = 40; /* bytes of the second header */
+    file[10] = 54; /* offset of the pixels, bytes */
+    file[14] = 40; /* size of the second header, bytes */
     file[18] = SKY_WIDTH;
     file[22] = SKY_HEIGHT;
     file[26] = 1;
     file[28] = 24;
-    for (int y = 0; y < SKY_HEIGHT; y++) { /* from the bottom */
+    for (int y = 0; y < SKY_HEIGHT; y++) { /* rows from the bottom */
         for (int x = 0; x < SKY_WIDTH; x++) {
             int quarter = (y < SKY_HEIGHT / 2 ? 2 : 0) + (x < SKY_WIDTH / 2 ? 0 : 1);
             memcpy(file + 54 + y * ROW + x * 3, quarters[quarter], 3);
@@ -208,7 +213,8 @@ static void assert_color(const float *pixel, double red, double green, double bl
     }
 }
 
-/* Left of the middle of the picture lies left of -z, and it turns with its rotation. */
+/* The middle of a sky's image lies towards -z, its left half to the left of that, and `rotation`
+ * turns it. */
 static void skies_lie_where_they_should(void **state)
 {
     char folder[32], path[64];
@@ -216,17 +222,18 @@ static void skies_lie_where_they_should(void **state)
     snprintf(path, sizeof path, "%s/sky.bmp", folder);
     write_quarters(path);
     struct picture p = draw_in(*state, folder, LEVEL "  floor: none\n  sky: {image: sky.bmp}\n");
-    assert_color(p.colors + 4 * (1 * WIDTH + 2), 1, 0, 0); /* blue, green, red in the file */
+    assert_color(p.colors + 4 * (1 * WIDTH + 2), 1, 0, 0);
     assert_color(p.colors + 4 * (1 * WIDTH + WIDTH - 3), 0, 1, 0);
     assert_color(p.colors + 4 * ((HEIGHT - 2) * WIDTH + 2), 0, 0, 1);
     assert_color(p.colors + 4 * ((HEIGHT - 2) * WIDTH + WIDTH - 3), 1, 1, 1);
     finish(&p);
     p = draw_in(*state, folder,
                 LEVEL "  floor: none\n  sky: {image: sky.bmp, rotation: 90 deg, intensity: 0.5}\n");
-    assert_color(p.colors + 4 * (1 * WIDTH + 2), 0, 0.5, 0); /* what was to the right */
+    assert_color(p.colors + 4 * (1 * WIDTH + 2), 0, 0.5, 0); /* the upper right quarter, dimmed */
     finish(&p);
 
-    /* What faces up gets the mean of the upper half, and the band at the horizon that of both. */
+    /* A surface that faces up is lit by the upper half alone, red and green; the band at the
+     * horizon has the blue of the lower half, too. */
     struct kiln_error error = {0};
     struct kiln_sky_light light;
     assert_true(kiln_sky_light_measure(&light, NULL, path, &error));
@@ -235,8 +242,9 @@ static void skies_lie_where_they_should(void **state)
     test_remove_folder(folder);
 }
 
-/* The sky is black, so that a pixel shows the disc and the glow alone. Pixels of the disc's edge
- * are left out. */
+/* The sky is black, so a pixel shows the sun's disc and glow alone. `third` is the distance between
+ * unit vectors that are glow_size apart; about a third of the glow is left there. Pixels at the
+ * disc's edge are skipped. */
 static void sun_has_a_disc_and_a_glow(void **state)
 {
     const double degree = acos(-1.0) / 180, radius = 5 * degree, third = 2 * sin(4 * degree);
@@ -261,8 +269,9 @@ static void sun_has_a_disc_and_a_glow(void **state)
     finish(&p);
 }
 
-/* Near by, the picture itself, in its size; far away, where thousands of tiles share a pixel, its
- * mean without a pattern. */
+/* A floor whose tiles are 8 m wide shows its image in that size. A floor whose tiles are 2 mm wide
+ * shows the mean of its image without a moire pattern, since about a thousand tiles or more share a
+ * pixel. */
 static void floors_repeat_without_aliasing(void **state)
 {
     char folder[32], path[64];

@@ -1,5 +1,6 @@
-/* Capsules, planes and boxes of any direction of lib/draw/backdrop/backdrop.c, and their shadows,
- * against a plain C ray caster in doubles. */
+/* Checks capsules, planes and rotated boxes of the backdrop with their shadows against a ray caster
+ * in doubles, by each of its techniques. If this fails, such objects or their shadows have the
+ * wrong place, direction or brightness. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -70,8 +71,9 @@ static void turned_shapes_match_c(void **state)
     finish(&p);
 }
 
-/* Light along a capsule passes all of its axis at the same distance, of which rounding leaves
- * anything. */
+/* A ray towards the sun along a capsule's axis passes all points of the axis at the same distance.
+ * Which of them is nearest is then decided by rounding, so the shadow must not depend on it. The
+ * lengths of the axis vary the rounding. */
 static void capsules_along_the_sun_match_c(void **state)
 {
     static const double lengths[] = {3, 5, 7};
@@ -116,12 +118,13 @@ static void soft_shadows_match_c(void **state)
     finish(&p);
 }
 
-/* A sun that sets behind a plane. */
+/* A sun that sets behind a plane lights the floor by all of its disc, by half of it, then not at
+ * all. */
 static void planes_hide_the_sun(void **state)
 {
     static const struct {
         const char *direction;
-        double light; /* of the floor */
+        double light; /* of the floor: albedo 0.6 times the cosine times the visible part */
     } suns[] = {{"[0, 1, 0]", 0.6}, {"[0, 1, -0.5]", 0.268328}, {"[0, 1, -1]", 0}};
     for (int i = 0; i < 3; i++) {
         char text[512];

@@ -1,5 +1,7 @@
-/* The techniques of stage `backdrop` agree on every scene and on fixtures that have every feature;
- * those in C give the same bytes for any number of threads and every width of vectors. */
+/* Checks that the techniques of stage `backdrop`, in GL and in C, draw the same picture of every
+ * scene in scenes/ and of fixtures with every feature, and that the one in C gives the same bytes
+ * for any number of threads and any vector width. If this fails, a clip looks different on another
+ * machine. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -15,19 +17,20 @@
 
 enum { WIDTH = 384, HEIGHT = 216, PIXELS = WIDTH * HEIGHT, COLORS = 4 * PIXELS };
 
-/* The scene behind the billboards: backdrop and spheres. */
+/* Holds the picture before billboards are drawn: the backdrop and the solid particles. */
 struct picture {
     float color[COLORS], bloom[COLORS], depth[PIXELS];
 };
 
 /* ---- a moment of a scene --------------------------------------------------------------------- */
 
+/* Holds a scene and its particles after `step` steps. */
 struct moment {
     struct kiln_device *device;
     struct kiln_scene *scene;
     struct kiln_pool pool;
     uint32_t step;
-    uint32_t before; /* a step that is drawn beforehand; 0: none */
+    uint32_t before; /* a step whose moment the stages draw first; 0: none */
 };
 
 static void step_to(struct moment *m, uint32_t step)
@@ -45,7 +48,7 @@ static void step_to(struct moment *m, uint32_t step)
     kiln_threads_destroy(&threads);
 }
 
-enum { MOST_STEPS = 200 }; /* that a scene is taken: then every one is on its way */
+enum { MOST_STEPS = 200 }; /* limits the simulated steps of a scene, and the test's time */
 
 static void open_moment(struct moment *m, struct kiln_device *device, struct kiln_scene *scene,
                         uint32_t frame)
@@ -129,7 +132,7 @@ static struct picture *draw(struct moment *m, enum kiln_backdrop_technique techn
     return picture;
 }
 
-/* ---- how alike they are ---------------------------------------------------------------------- */
+/* ---- comparison ------------------------------------------------------------------------------ */
 
 static int ascending(const void *a, const void *b)
 {
@@ -137,13 +140,14 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Of values: the sum of all errors in parts of the sum of all values, and the relative error that
- * one in a thousand exceeds; what is less than a hundredth of the mean counts as that. */
+/* Holds `mean`, the sum of all errors divided by the sum of all values, and `most`, the relative
+ * error that one value in a thousand exceeds. */
 struct difference {
     double mean, most;
 };
 
-/* used: of so many channels, the first. */
+/* Compares two pictures by the first `used` of their channels. A hundredth of the mean value is
+ * added to each value that an error is relative to, so that dark pixels do not count too much. */
 static struct difference compare(const float *a, const float *b, int channels, int used)
 {
     double sum = 0, light = 1e-12;
@@ -163,7 +167,7 @@ static struct difference compare(const float *a, const float *b, int channels, i
     return (struct difference){sum / light, (double)errors[count - 1 - count / 1000]};
 }
 
-/* One over it: the sky is at 0. */
+/* Replaces a picture's depth by 1 / depth, 1/m, which is 0 for the sky. */
 static const float *nearness(struct picture *picture)
 {
     for (int p = 0; p < PIXELS; p++)
@@ -171,8 +175,9 @@ static const float *nearness(struct picture *picture)
     return picture->depth;
 }
 
-/* docs/determinism.md: mean relative error at most 1e-3, no more than one value in a thousand off
- * by more than 1 %: of all pixels, those at edges, too. */
+/* Compares both techniques by the limits of docs/determinism.md: a mean relative error of at most
+ * 1e-3, and at most one value in a thousand that is off by more than 1 %. Pixels at edges count,
+ * too. */
 static void check_agreement(struct moment *m, const char *name)
 {
     struct picture *gl = draw(m, KILN_BACKDROP_GL, 2), *cpu = draw(m, KILN_BACKDROP_CPU, 2);
@@ -306,8 +311,9 @@ static void techniques_agree_on_a_fixture(void **state)
     close_moment(&m);
 }
 
-/* What was drawn before leaves nothing behind. */
-static void what_moves_is_drawn_anew(void **state)
+/* A moving mesh at step 40 or 60 is drawn with the same bytes whether or not the stages drew the
+ * other step before. If this fails, the stages keep something of the earlier pose. */
+static void an_earlier_pose_of_a_mesh_leaves_no_trace(void **state)
 {
     (void)state;
     struct moment m;
@@ -329,6 +335,8 @@ static void what_moves_is_drawn_anew(void **state)
     close_moment(&m);
 }
 
+/* Fails unless the technique in C draws the expected bytes with a vector width and a number of
+ * threads. simd: NULL for the machine's own. */
 static void check_bytes(struct moment *m, const struct picture *expected, const char *simd,
                         uint32_t threads)
 {
@@ -340,7 +348,7 @@ static void check_bytes(struct moment *m, const struct picture *expected, const 
     unsetenv("KILN_SIMD");
 }
 
-static void a_fixture_is_the_same_bytes(void **state)
+static void threads_and_vectors_change_no_byte(void **state)
 {
     const struct fixture *given = *state;
     struct moment m;
@@ -367,8 +375,9 @@ static void add_fixtures(struct test_list *list, struct CMUnitTest test)
 
 int main(int argc, char **argv)
 {
-    static const struct CMUnitTest moves = test_on_device(what_moves_is_drawn_anew);
-    static const struct CMUnitTest same = test_on_device(a_fixture_is_the_same_bytes);
+    static const struct CMUnitTest moves =
+        test_on_device(an_earlier_pose_of_a_mesh_leaves_no_trace);
+    static const struct CMUnitTest same = test_on_device(threads_and_vectors_change_no_byte);
     static const struct CMUnitTest agree = test_on_device(techniques_agree_on_a_fixture);
     static const struct CMUnitTest scene = test_on_device(techniques_agree_on_a_scene);
     struct test_list list = {.count = 0};

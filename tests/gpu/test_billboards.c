@@ -1,5 +1,7 @@
-/* Billboards of every kind, points and lines (Heinz 2019, 2.1.1) before a rolled camera, against
- * planes, discs and segments that are worked out in the world. */
+/* Checks the place, direction, size and opacity of billboards of every facing, of points and of
+ * lines (Heinz 2019, 2.1.1) by each raster technique. A camera with a roll draws one particle,
+ * which is compared with a plane, disc or segment that this file computes in the world. If this
+ * fails, particles face or stretch the wrong way, or have the wrong size. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -9,8 +11,8 @@
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30 };
 
-/* With a wall at 10 m, alpha is (10 - depth) * 0.08. Nothing is drawn of system b, but with it the
- * program is the one that knows all shapes. */
+/* With a wall at 10 m, the soft fade makes alpha (10 - depth) * 0.08. Nothing is drawn of system b,
+ * but its shape `point` makes the techniques use their programs for all shapes. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [320, 240], fps: 30, frames: 100}\n"
@@ -26,11 +28,11 @@ static const double WALL_M = 10, SOFT = 0.08;
 static const float3 POSITION = {0.9f, 1.3f, 0.4f}, VELOCITY = {1.0f, 2.0f, -0.5f};
 
 struct billboard {
-    vec center, right, up, normal; /* right and up: half edges */
+    vec center, right, up, normal; /* m; right and up: unit vectors, then half edges */
     bool mirrored;
 };
 
-/* The plane of each facing, from the definitions of 2.1.1. */
+/* Returns the plane of a billboard by the definitions of Heinz 2019, 2.1.1. */
 static struct billboard plane_of(const struct drawing *d, enum kiln_facing facing, vec axis)
 {
     const vec y = {0, 1, 0};
@@ -50,7 +52,8 @@ static struct billboard plane_of(const struct drawing *d, enum kiln_facing facin
     return b;
 }
 
-/* Turns it by an angle, against the clock as the viewer sees it, and gives it its edges. */
+/* Rotates a billboard by an angle, rad, counterclockwise as the viewer sees it, and scales its unit
+ * vectors to half edges, m. */
 static void turn_and_scale(struct billboard *b, double angle, double half_width, double half_height)
 {
     vec up = vec_add((vec){0}, b->up, cos(angle) * half_height);
@@ -60,14 +63,17 @@ static void turn_and_scale(struct billboard *b, double angle, double half_width,
     b->right = vec_add(right, old_up, sin(angle) * half_width);
 }
 
-/* Which half of the billboards is mirrored is drawn with the sign of the spin. */
+/* Returns whether a billboard is mirrored: half of them are, those that spin backwards
+ * (billboard_side in shared/billboard.h). */
 static bool is_mirrored(const struct drawing *d, uint32_t serial)
 {
     uint32_t stream = random_stream(random_key(d->scene->seed, 0), serial);
     return random_unit(stream, RANDOM_SPIN + 1) < 0.5f;
 }
 
-/* Every pixel shows the place of the texture that its ray meets, as opaque as the depth there. */
+/* Checks that every pixel in a billboard shows the texel that its ray meets, with the alpha of the
+ * depth there, and that other pixels are clear. The texture's red grows to the right and its
+ * green downwards. */
 static void check_plane(const struct drawing *d, const struct billboard *b)
 {
     int inside = 0;
@@ -90,7 +96,7 @@ static void check_plane(const struct drawing *d, const struct billboard *b)
         double alpha = (WALL_M - depth) * SOFT;
         assert_true(fabs((double)pixel[3] - alpha) < 1e-3);
         double sideways = b->mirrored ? -x : x;
-        if (edge < 0.95) { /* the texture is clamped beyond */
+        if (edge < 0.95) { /* nearer to the edge, the filter clamps the texture */
             assert_true(fabs((double)pixel[0] / alpha - (0.5 + 0.5 * sideways)) < 0.02);
             assert_true(fabs((double)pixel[1] / alpha - (0.5 - 0.5 * y)) < 0.02);
         }
@@ -98,6 +104,9 @@ static void check_plane(const struct drawing *d, const struct billboard *b)
     assert_true(inside > 1000);
 }
 
+/* Checks billboards of a facing with eight serials, of which some are mirrored. angle: rotation,
+ * rad; stretch: s; all_shapes: whether system b makes the technique use its program for all shapes.
+ */
 static void check_facing(struct kiln_device *device, enum kiln_facing facing, double angle,
                          double stretch, bool all_shapes)
 {
@@ -119,9 +128,9 @@ static void check_facing(struct kiln_device *device, enum kiln_facing facing, do
         double along = hypot(vec_dot(vec_of(VELOCITY), b.right), vec_dot(vec_of(VELOCITY), b.up));
         if (facing == KILN_FACING_AXIAL) {
             along = fabs(vec_dot(vec_of(VELOCITY), b.up));
-            angle = 0; /* it would leave its axis */
+            angle = 0; /* an axial billboard does not rotate away from its axis */
         } else if (facing == KILN_FACING_VELOCITY) {
-            angle = 0; /* it would leave its way */
+            angle = 0; /* this facing does not rotate away from the velocity */
         } else if (stretch > 0) {
             angle = -atan2(vec_dot(vec_of(VELOCITY), b.right), vec_dot(vec_of(VELOCITY), b.up));
         }
@@ -145,8 +154,9 @@ static void billboards_face_as_defined(void **state)
     }
 }
 
-/* Where there is no up, the picture's right is the billboard's: nothing vanishes. */
-static void a_view_along_the_axis_has_a_picture(void **state)
+/* A camera that looks along the up direction of a billboard leaves its right direction undefined.
+ * The billboard takes the picture's right, and does not vanish. */
+static void a_billboard_seen_from_above_does_not_vanish(void **state)
 {
     static const char *const facings[] = {"viewplane", "viewpoint", "axial"};
     for (size_t i = 0; i < 3; i++) {
@@ -162,8 +172,9 @@ static void a_view_along_the_axis_has_a_picture(void **state)
         int covered = 0;
         for (int p = 0; p < PIXELS; p++)
             covered += d.color.host[4 * p + 3] > 0.0f;
-        double edge = 1.2 * HEIGHT / (2 * tan(acos(-1) / 6) * 4.7); /* px */
-        if (i < 2) /* an axial one is seen from its end */
+        double edge = 1.2 * HEIGHT / (2 * tan(acos(-1) / 6) * 4.7); /* px, at 4.7 m */
+        /* An axial billboard is seen from its end, as a line at most; the others fill a square. */
+        if (i < 2)
             assert_true(fabs(covered - edge * edge) < 4 * edge);
         else
             assert_true(covered < 4 * edge);
@@ -178,7 +189,8 @@ static double clamp_unit(double x)
     return fmin(fmax(x, 0), 1);
 }
 
-/* The part of a pixel at (x, y) px from the middle that a rectangle or a disc covers. */
+/* Returns the part of a pixel that a rectangle or a disc covers. (x, y): from the shape's centre to
+ * the pixel's; half_x, half_y: half of the shape's size; all px. */
 static double coverage(double x, double y, double half_x, double half_y, bool round)
 {
     if (round)
@@ -186,6 +198,8 @@ static double coverage(double x, double y, double half_x, double half_y, bool ro
     return clamp_unit(half_x + 0.5 - fabs(x)) * clamp_unit(half_y + 0.5 - fabs(y));
 }
 
+/* Checks that a point is a white disc or square. diameter_px: 0 for the size in metres of SCENE. A
+ * point smaller than a pixel covers one pixel, with an opacity that makes up for its area. */
 static void check_point(struct kiln_device *device, const char *const *overrides, size_t count,
                         double diameter_px, bool round)
 {
@@ -203,7 +217,7 @@ static void check_point(struct kiln_device *device, const char *const *overrides
             coverage(p % WIDTH + 0.5 - center.x, p / WIDTH + 0.5 - center.y, half, half, round);
         alpha *= thin * thin * (WALL_M - center.z) * SOFT;
         assert_true(fabs((double)d.color.host[4 * p + 3] - alpha) < 2e-3);
-        assert_true(d.color.host[4 * p] == d.color.host[4 * p + 3]); /* white: no texture */
+        assert_true(d.color.host[4 * p] == d.color.host[4 * p + 3]); /* a point has no texture */
         sum += alpha;
     }
     assert_true(sum > 0.01);
@@ -217,7 +231,7 @@ static void points_have_their_size(void **state)
                                          "systems.a.look.point.size=7.5 px"};
     static const char *const square[] = {"systems.a.look.shape=point",
                                          "systems.a.look.point={size: 7.5 px, round: false}",
-                                         "systems.a.look.facing=axial"}; /* has no say */
+                                         "systems.a.look.facing=axial"}; /* is ignored */
     static const char *const tiny[] = {
         "systems.a.look.shape=point",
         "systems.a.look.point={size: {life: {0: 0.1 px, 0.1: 0.9 px}}}"};
@@ -230,7 +244,8 @@ static void points_have_their_size(void **state)
     check_point(*state, scaled, 3, 15, true);
 }
 
-/* From the particle back to `tail`: square ends reach out by half of the width. */
+/* Checks a line from the particle to where it was `seconds` ago. Its square ends reach out by half
+ * of its width. */
 static void check_line(struct kiln_device *device, const char *const *overrides, size_t count,
                        float3 position, float3 velocity, double seconds, double width_px)
 {
@@ -252,7 +267,8 @@ static void check_line(struct kiln_device *device, const char *const *overrides,
         double depth = 1 / (1 / tail.z + (1 / head.z - 1 / tail.z) * part);
         double alpha = coverage(along, across, (length + width_px) / 2, width_px / 2, false) *
                        (WALL_M - depth) * SOFT;
-        double tolerance = fabs(part - 0.5) < 0.5 ? 4e-3 : 2e-2; /* ends share a depth */
+        /* The ends beyond head and tail have a constant depth, which `depth` does not follow. */
+        double tolerance = fabs(part - 0.5) < 0.5 ? 4e-3 : 2e-2;
         assert_true(fabs((double)d.color.host[4 * p + 3] - alpha) < tolerance);
         sum += alpha;
     }
@@ -260,7 +276,7 @@ static void check_line(struct kiln_device *device, const char *const *overrides,
     drawing_finish(&d);
 }
 
-static void lines_lie_along_the_way(void **state)
+static void lines_lie_along_the_velocity(void **state)
 {
     static const char *const back[] = {"systems.a.look.shape=line", "systems.a.look.stretch=0.4 s",
                                        "systems.a.look.line.width=3 px"};
@@ -268,11 +284,12 @@ static void lines_lie_along_the_way(void **state)
                                         "systems.a.look.line={width: 2 px, to: previous}"};
     static const float3 fast = {20.0f, 10.0f, -15.0f}, rest = {0.0f, 0.0f, 0.0f};
     check_line(*state, back, 3, POSITION, VELOCITY, 0.4, 3);
-    check_line(*state, back, 3, POSITION, rest, 0.4, 3); /* a dot */
+    check_line(*state, back, 3, POSITION, rest, 0.4, 3); /* a particle at rest is a dot */
     check_line(*state, frame, 3, POSITION, fast, 1.0 / 30, 2);
 }
 
-/* A line whose tail is behind the camera ends at the near plane, off the picture's edge. */
+/* A line whose tail is behind the camera is cut at the near plane, so it reaches the picture's edge
+ * and keeps its width. Without the cut, the tail would be projected to the wrong side. */
 static void lines_end_at_the_near_plane(void **state)
 {
     static const char *const overrides[] = {"systems.a.look.shape=line",
@@ -301,9 +318,9 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(billboards_face_as_defined),
-        test_on_device(a_view_along_the_axis_has_a_picture),
+        test_on_device(a_billboard_seen_from_above_does_not_vanish),
         test_on_device(points_have_their_size),
-        test_on_device(lines_lie_along_the_way),
+        test_on_device(lines_lie_along_the_velocity),
         test_on_device(lines_end_at_the_near_plane),
     };
     static const struct {

@@ -1,4 +1,7 @@
-/* lib/post/bloom*.c against a plain reference: each technique. */
+/* Checks the bloom (lib/post/bloom*.c) by each of its techniques: the thesis's and the pyramid
+ * against references in doubles, the width of the Gaussian, and the bright pass. If this fails, the
+ * glow has the wrong width or brightness, depends on the size of the picture, or spreads infinity.
+ */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -11,7 +14,7 @@
 
 static enum kiln_bloom_technique technique = KILN_BLOOM_GL;
 
-struct plane { /* RGBA in double */
+struct plane { /* an RGBA picture in doubles */
     int width, height;
     double *pixels;
 };
@@ -28,6 +31,7 @@ static int clamp(int x, int high)
     return x < 0 ? 0 : x > high ? high : x;
 }
 
+/* Returns a pixel; places outside give the nearest pixel at the edge. */
 static double *at(const struct plane *p, int x, int y)
 {
     return p->pixels +
@@ -35,6 +39,7 @@ static double *at(const struct plane *p, int x, int y)
                4;
 }
 
+/* Returns a picture whose pixels are means of factor x factor pixels; frees `from`. */
 static struct plane shrink(struct plane from, int factor)
 {
     struct plane to =
@@ -52,7 +57,9 @@ static struct plane shrink(struct plane from, int factor)
     return to;
 }
 
-/* The eleven weights straight from the normal distribution, sigma 2. */
+/* Blurs along (dx, dy) by eleven weights of a normal distribution with a sigma of 2 px; frees
+ * `from`.
+ */
 static struct plane blur(struct plane from, int dx, int dy)
 {
     struct plane to = plane_create(from.width, from.height);
@@ -72,13 +79,13 @@ static struct plane blur(struct plane from, int dx, int dy)
     return to;
 }
 
-/* A bloom stage for an image, and the scene that it reads. */
+/* Holds a bloom stage for an image, and the scene that it reads. */
 struct fixture {
     struct kiln_scene *scene;
     struct kiln_image source;
     struct kiln_threads *threads;
     struct kiln_bloom_stage *stage;
-    double scale; /* of the last result */
+    double scale; /* size of the last result divided by that of the source */
 };
 
 static struct kiln_scene *parse(const char *post)
@@ -92,7 +99,7 @@ static struct kiln_scene *parse(const char *post)
     return scene;
 }
 
-/* Returns the source's pixels, to be written before the first run. */
+/* Makes the stage. Returns the source's pixels, which the test writes before the first run. */
 static float *fixture_init(struct fixture *f, struct kiln_device *device, const char *post,
                            int width, int height, GLenum format)
 {
@@ -117,7 +124,7 @@ static void fixture_finish(struct fixture *f)
     kiln_scene_destroy(&f->scene);
 }
 
-/* Runs the stage; its result on the host. */
+/* Runs the stage and returns the pixels of its result on the host. */
 static const float *run(struct fixture *f, const struct kiln_bloom_inputs *inputs, uint32_t size[2])
 {
     struct kiln_error error = {0};
@@ -133,7 +140,7 @@ static const float *run(struct fixture *f, const struct kiln_bloom_inputs *input
     return got;
 }
 
-/* Mostly dark, with a few very bright sparks; the same in expected. */
+/* Fills both pictures with the same pixels: mostly dark, with a few very bright sparks. */
 static void scatter_sparks(float *pixels, struct plane *expected)
 {
     for (int i = 0; i < expected->width * expected->height * 4; i++) {
@@ -177,7 +184,8 @@ static void thesis_matches_c(void **state)
     }
 }
 
-/* Tents that reach into the neighbours. */
+/* Returns a picture of half the size. A pixel is a mean of 4 x 4 pixels, weighted by a tent that
+ * reaches into its neighbours. */
 static struct plane halve(const struct plane *from)
 {
     static const double weights[4] = {0.125, 0.375, 0.375, 0.125};
@@ -192,13 +200,14 @@ static struct plane halve(const struct plane *from)
     return to;
 }
 
-/* The quadratic B-spline, from its pieces. */
+/* Returns the quadratic B-spline at a distance in pixels. */
 static double spline(double x)
 {
     x = fabs(x);
     return x < 0.5 ? 0.75 - x * x : x < 1.5 ? 0.5 * (1.5 - x) * (1.5 - x) : 0;
 }
 
+/* Mixes a level with the next smaller one, enlarged by splines. radius: the part of the latter. */
 static void join(struct plane *level, const struct plane *below, double radius)
 {
     for (int y = 0; y < level->height; y++) {
@@ -218,14 +227,15 @@ static void join(struct plane *level, const struct plane *below, double radius)
     }
 }
 
-/* The area of a triangle of width 2 and height 1 left of x. */
+/* Returns the area of a triangle of width 2 and height 1 about 0, left of x. */
 static double triangle_left_of(double x)
 {
     x = x < -1 ? -1 : x > 1 ? 1 : x;
     return x < 0 ? (1 + x) * (1 + x) / 2 : 1 - (1 - x) * (1 - x) / 2;
 }
 
-/* Reduces by tents that are integrated over each pixel. */
+/* Returns a picture that is reduced by a ratio. Each pixel of the source is weighted by the
+ * integral of a tent over it. */
 static struct plane reduce(const struct plane *from, double ratio)
 {
     struct plane to =
@@ -250,8 +260,8 @@ static struct plane reduce(const struct plane *from, double ratio)
     return to;
 }
 
-/* From a level down: what comes out of the pyramid's upper end. missing: how many finer levels
- * there are in larger pictures. */
+/* Returns a level after it was joined with all levels below it. missing: the number of finer levels
+ * that larger pictures have. */
 static struct plane pyramid(struct plane level, int missing, int levels, double radius)
 {
     if (levels > 1) {
@@ -262,7 +272,8 @@ static struct plane pyramid(struct plane level, int missing, int levels, double 
     return level;
 }
 
-/* Sizes above, below and between those of levels, and such as have few of them. */
+/* The first level has 360, 180, 90, 45, 22.5 or 11.25 rows. The pictures have more rows than 360,
+ * fewer than 11.25, and numbers of rows between two levels; small pictures have few levels. */
 static void pyramid_matches_c(void **state)
 {
     static const struct {
@@ -298,14 +309,15 @@ static void pyramid_matches_c(void **state)
     }
 }
 
-/* The cubic B-spline by which the composite stage enlarges the glow, from its pieces. */
+/* Returns the cubic B-spline by which the composite stage enlarges the glow. */
 static double cubic_spline(double x)
 {
     x = fabs(x);
     return x < 1 ? (4 - 6 * x * x + 3 * x * x * x) / 6 : x < 2 ? pow(2 - x, 3) / 6 : 0;
 }
 
-/* The red channel of the enlarged glow at a place, in pixels of the frame. */
+/* Returns the red channel of the enlarged glow at a place, in pixels of the frame. ratio: the
+ * frame's size divided by that of the glow. */
 static double glow_at(const float *glow, const uint32_t size[2], double ratio, double x, double y)
 {
     double cx = (x + 0.5) / ratio - 0.5, cy = (y + 0.5) / ratio - 0.5, sum = 0;
@@ -318,11 +330,12 @@ static double glow_at(const float *glow, const uint32_t size[2], double ratio, d
     return sum;
 }
 
-enum { ROOM = 4 }; /* a picture is a ROOMth of its height wide on each side of its spot */
+enum { ROOM = 4 }; /* beside its spot, a picture is a ROOMth of its height wide on each side */
 
-/* The red channel of the glow of a square spot in the middle of a black picture: its values on a
- * line from the spot's middle to the right, at some distances. `spot` pixels wide, of brightness 1
- * for a thousandth of a square whose sides are the picture's height. */
+/* Measures the glow of a bright square in the middle of a black picture. values: the red channel at
+ * some distances to the right of the square's middle, in parts of the picture's height. height,
+ * spot: of the picture and the square, px. The square's light is that of height^2 / 1000 pixels of
+ * brightness 1. */
 static void measure_spot(struct kiln_device *device, const char *post, int height, int spot,
                          const double *distances, size_t count, double *values)
 {
@@ -344,8 +357,8 @@ static void measure_spot(struct kiln_device *device, const char *post, int heigh
     fixture_finish(&f);
 }
 
-/* One bright pixel becomes a Gaussian of the wanted standard deviation, in small pictures and in
- * large ones, by narrow and by wide ones. */
+/* One bright pixel becomes a Gaussian of the wanted standard deviation, sigma, in parts of the
+ * picture's height. Small and large pictures, narrow and wide Gaussians are tested. */
 static void gaussian_is_as_wide_as_asked(void **state)
 {
     static const struct {
@@ -373,8 +386,8 @@ static void gaussian_is_as_wide_as_asked(void **state)
     }
 }
 
-/* The largest difference of the glow of a spot in a picture of `height` rows from that of 720, as a
- * part of its peak there. The spot is a twentieth of the height. */
+/* Returns the largest difference of a spot's glow in a picture of `height` rows from that in one of
+ * 720 rows, as a part of the peak in the latter. The spot is a twentieth of the height wide. */
 static double size_error(struct kiln_device *device, const char *post, int height)
 {
     static const double distances[] = {0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.2};
@@ -397,11 +410,13 @@ static void glow_is_the_same_part_of_any_picture(void **state)
         if (gaussian > 0.01 || pyramid > 0.05)
             fail_msg("%d rows: gaussian differs by %g, pyramid by %g of the peak", heights[i],
                      gaussian, pyramid);
-        assert_true(thesis > 0.05); /* counted in pixels: the measure shows it */
+        /* The glow of the thesis has a width in pixels, so size_error must show a difference. */
+        assert_true(thesis > 0.05);
     }
 }
 
-/* What the bright pass lets through: the backdrop, too, and by its exposed light; fire over all. */
+/* The bright pass takes exposed light above the threshold. The scene's light counts, too, dimmed by
+ * particles before it and with fire added. */
 static void bright_pass_takes_what_is_bright(void **state)
 {
     enum { SIZE = 64 };
@@ -413,8 +428,9 @@ static void bright_pass_takes_what_is_bright(void **state)
                  SIZE, SIZE, GL_RGBA32F);
     struct kiln_image inputs[3];
     static const char *const labels[] = {"scene", "particles", "fire"};
-    /* After exposure the scene alone is 4 in green, beyond 3 by a quarter of itself; half covered
-     * by particles it is 2; with a fire of 1.5 over that, 5 in red. */
+    /* The exposure doubles light. The scene alone becomes 4 in green, which exceeds the threshold 3
+     * by a quarter of itself. Half covered by particles, it becomes 2. With a fire of 2 added, red
+     * becomes 2 * (0.5 + 2) = 5, which exceeds 3 by 0.4 of itself. */
     static const float colors[3][4] = {{1, 2, 0, 1}, {0, 0, 0, 0.5f}, {2, 0, 0, 0}};
     for (int i = 0; i < 3; i++) {
         kiln_image_init(&inputs[i], *state, SIZE, SIZE, GL_RGBA32F, labels[i]);
@@ -430,7 +446,7 @@ static void bright_pass_takes_what_is_bright(void **state)
     const struct kiln_bloom_inputs all = {&inputs[0], &inputs[1], &inputs[2], 0};
     uint32_t size[2];
     const float *got = run(&f, &all, size);
-    static const uint32_t places[3][2] = {{1, 1}, {1, 3}, {3, 3}}; /* in quarters */
+    static const uint32_t places[3][2] = {{1, 1}, {1, 3}, {3, 3}}; /* in quarters of the size */
     static const float expected[3][3] = {
         {0.25f, 0.5f, 0}, {0, 0, 0}, {2.5f * 0.4f, 1.0f * 0.4f, 0}};
     for (int i = 0; i < 3; i++) {
@@ -446,8 +462,9 @@ static void bright_pass_takes_what_is_bright(void **state)
 
 enum { EDGE = 240, MOST = EDGE };
 
-/* The red channel, spread in a format, of a black square with one bright pixel near its middle;
- * returns the edge of the result. *scale: its size divided by that of the source. */
+/* Blurs a black square picture with one bright pixel near its middle, with images of a format.
+ * Returns the edge of the result, px. red: its red channel; *scale: its size divided by that of the
+ * source. */
 static int spread_spark(struct kiln_device *device, const char *post, GLenum format,
                         float brightness, float red[MOST * MOST], double *scale)
 {
@@ -468,7 +485,8 @@ static const char *const KINDS[] = {"bloom: {kind: gaussian}", "bloom: {kind: th
                                     "bloom: {kind: pyramid, radius: 0.5}"};
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
-/* Blurring moves light, it makes none: inside a large picture the sum stays. */
+/* Blurring keeps the sum of the light as long as none leaves the picture. A pixel of the result is
+ * as large as 1 / scale^2 pixels of the source. */
 static void bloom_keeps_the_light(void **state)
 {
     static float red[MOST * MOST];
@@ -482,7 +500,8 @@ static void bloom_keeps_the_light(void **state)
     }
 }
 
-/* The targets of a GPU have 16 bits: a pixel that overflowed glows like a bright one. */
+/* A pixel that overflowed a half float to infinity glows like one with the largest half float,
+ * 65504. Otherwise infinity would spread over the picture. */
 static void infinity_does_not_spread(void **state)
 {
     static float red[MOST * MOST], bright[MOST * MOST];

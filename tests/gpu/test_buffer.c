@@ -1,4 +1,6 @@
-/* lib/gpu/buffer.h: the same bytes on both sides, whoever wrote them last. */
+/* Checks that a kiln_buffer (lib/gpu/buffer.h) shows the last written bytes on the host and in GL,
+ * copies no more than needed, counts what it copies, and reports a lack of memory. If this fails,
+ * stages read stale data, or copies slow down each step. */
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -9,13 +11,14 @@
 
 enum { COUNT = 1000 };
 
-/* Reads and writes GL memory without the buffer's knowledge. */
+/* Reads words of a GL buffer without telling the kiln_buffer. */
 static void peek(GLuint gl, uint32_t *words, size_t count)
 {
     glBindBuffer(GL_COPY_READ_BUFFER, gl);
     glGetBufferSubData(GL_COPY_READ_BUFFER, 0, (GLsizeiptr)(count * sizeof *words), words);
 }
 
+/* Writes words to a GL buffer without telling the kiln_buffer. */
 static void poke(GLuint gl, const uint32_t *words, size_t count)
 {
     glBindBuffer(GL_COPY_READ_BUFFER, gl);
@@ -47,7 +50,7 @@ static void contents_start_as_zeros(void **state)
     kiln_buffer_finish(&buffer);
 }
 
-static void bytes_move_to_whoever_asks(void **state)
+static void each_side_sees_the_last_write(void **state)
 {
     struct kiln_error error = {0};
     uint32_t words[COUNT];
@@ -62,7 +65,7 @@ static void bytes_move_to_whoever_asks(void **state)
     assert_int_equal(words[COUNT - 1], COUNT - 1);
     assert_true(buffer.host_valid && buffer.gl_valid);
 
-    /* GL writes: the host becomes stale, and fetches. */
+    /* After GL writes, the host is stale, and its next read fetches the bytes. */
     assert_int_equal(kiln_buffer_gl(&buffer, KILN_READ_WRITE, &error), gl);
     assert_false(buffer.host_valid);
     for (uint32_t i = 0; i < COUNT; i++)
@@ -72,7 +75,7 @@ static void bytes_move_to_whoever_asks(void **state)
     assert_int_equal(host[100], 700);
     assert_true(buffer.gl_valid);
 
-    /* The host writes: GL becomes stale, and is sent. */
+    /* After the host writes, GL is stale, and its next read is sent the bytes. */
     kiln_buffer_host(&buffer, KILN_READ_WRITE, &error);
     assert_false(buffer.gl_valid);
     host[3] = 333;
@@ -97,17 +100,18 @@ static void nothing_moves_without_need(void **state)
     kiln_buffer_init(&buffer, *state, sizeof in_gl, "lazy");
     uint32_t *host = kiln_buffer_host(&buffer, KILN_OVERWRITE, &error);
     *host = 1;
-    /* Both valid: a change behind the buffer's back is not seen, since nothing is fetched. */
+    /* While both sides are valid, the host fetches nothing, so a change behind the buffer's back is
+     * not seen. */
     GLuint gl = kiln_buffer_gl(&buffer, KILN_READ, &error);
     poke(gl, &in_gl, 1);
     kiln_buffer_host(&buffer, KILN_READ, &error);
     assert_int_equal(*host, 1);
-    /* GL written, host overwrites: not fetched either. */
+    /* When the host overwrites all bytes, it does not fetch those that GL wrote. */
     kiln_buffer_gl(&buffer, KILN_READ_WRITE, &error);
     poke(gl, &in_gl, 1);
     kiln_buffer_host(&buffer, KILN_OVERWRITE, &error);
     assert_int_equal(*host, 1);
-    /* Host written, GL overwrites: not sent. */
+    /* When GL overwrites all bytes, it is not sent those that the host wrote. */
     kiln_buffer_gl(&buffer, KILN_OVERWRITE, &error);
     uint32_t seen = 0;
     peek(gl, &seen, 1);
@@ -144,7 +148,8 @@ static void bytes_that_move_are_counted(void **state)
     assert_int_equal(device->traffic.to_device, before.to_device + 1000);
     assert_int_equal(device->traffic.to_host, before.to_host + 1000);
 
-    /* Of what the host writes, GL is sent the part that counts, until it writes again. */
+    /* GL is sent only as many bytes as kiln_buffer_set_content says, 24, and all 1000 after the
+     * next write. */
     for (int turn = 0; turn < 2; turn++) {
         assert_non_null(kiln_buffer_host(&buffer, KILN_READ_WRITE, &error));
         if (turn == 0)
@@ -179,7 +184,7 @@ static void too_much_memory_is_an_error(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        test_on_device(contents_start_as_zeros),     test_on_device(bytes_move_to_whoever_asks),
+        test_on_device(contents_start_as_zeros),     test_on_device(each_side_sees_the_last_write),
         test_on_device(nothing_moves_without_need),  test_on_device(size_zero_is_allowed),
         test_on_device(bytes_that_move_are_counted), test_on_device(too_much_memory_is_an_error),
     };

@@ -1,4 +1,7 @@
-/* Limits from measurements. */
+/* Checks kiln_test_calibrate (lib/suite/calibrate.c), which proposes limits of a golden test from
+ * the differences between renders with several thread counts and techniques. If this fails,
+ * proposed limits are too strict for another driver, too loose to find faults, or hide that the
+ * simulation changed. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -16,8 +19,8 @@
 struct calibrated {
     struct kiln_calibration calibration;
     struct kiln_error error;
-    char renders[8][128];
-    uint32_t told;
+    char renders[8][128]; /* the last renders that were reported: threads, techniques, device */
+    uint32_t told;        /* number of reported renders */
     bool ok;
 };
 
@@ -63,11 +66,11 @@ static void renders_differ_in_threads_and_techniques(void **state)
 {
     (void)state;
     const char *device;
-    /* Layers so faint that their sums depend on the rasteriser. */
+    /* Layers are so faint that their sums depend on the rounding of the rasteriser. */
     spark_write("set: [systems.sparks.look.size=1, systems.sparks.look.opacity=0.01, "
                 "systems.sparks.emit.rate=20000]\n");
     struct kiln_calibrate_params params = calibrate_params(&device);
-    params.renders = 8; /* enough for another rasteriser */
+    params.renders = 8; /* enough for the raster technique to change */
     struct calibrated seen = calibrate(&params);
     if (!seen.ok)
         fail_msg("%s", seen.error.message);
@@ -108,7 +111,8 @@ static void the_worst_value_is_measured_against_the_golden(void **state)
                 mean->proposed <= 3 * mean->worst * 1.1 + 1e-9);
     assert_true(metric(&seen, "flip.p99")->proposed <= 1);
 
-    /* What was written is in force: the painted golden passes now, and nothing is stale. */
+    /* The written limits are in force: the painted golden passes by the metrics, without a note
+     * about stale limits. */
     struct spark_run run = spark_run(NULL);
     if (run.summary.status != KILN_TEST_PASS)
         fail_msg("%s", run.summary.message);
@@ -124,7 +128,8 @@ static void the_worst_value_is_measured_against_the_golden(void **state)
     free(expect);
 }
 
-/* Changes the scene once it was read. */
+/* A stop callback that stops nothing. Before the second render it changes the scene's seed, as if
+ * the simulation were not deterministic. */
 static bool change_scene(void *user)
 {
     struct calibrated *seen = user;
@@ -158,7 +163,7 @@ static void states_that_differ_fail(void **state)
     assert_non_null(strstr(seen.error.message, "the simulation changed"));
 }
 
-static void requests_without_sense_are_refused(void **state)
+static void invalid_parameters_are_errors(void **state)
 {
     (void)state;
     const char *device;
@@ -183,7 +188,7 @@ int main(void)
         IN_FOLDER(renders_differ_in_threads_and_techniques),
         IN_FOLDER(the_worst_value_is_measured_against_the_golden),
         IN_FOLDER(states_that_differ_fail),
-        IN_FOLDER(requests_without_sense_are_refused),
+        IN_FOLDER(invalid_parameters_are_errors),
     };
     return cmocka_run_group_tests_name("calibrate", tests, spark_needs_device, NULL);
 }

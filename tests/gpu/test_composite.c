@@ -1,4 +1,6 @@
-/* lib/post/composite*.c against a plain reference: each technique. */
+/* Checks the composite stage (lib/post/composite*.c) by each of its techniques: composition,
+ * exposure and tone mapping against formulas in doubles, dither, and transparent pictures. If this
+ * fails, pictures have wrong colours, bands or holes, or lose light over another background. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -12,7 +14,7 @@
 enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
 
 static enum kiln_composite_technique technique = KILN_COMPOSITE_GL;
-static bool texture = false;
+static bool texture = false; /* kiln_composite_params.texture of the next fixtures */
 
 static struct kiln_scene *parse(const char *post)
 {
@@ -29,7 +31,8 @@ static struct kiln_scene *parse(const char *post)
     return scene;
 }
 
-/* An image whose pixels are random premultiplied colours; scale of the light, whether opaque. */
+/* Makes an image of random premultiplied colours. scale: the most light in a channel of an opaque
+ * pixel; opaque: whether all alphas are 1. */
 static void fill(struct kiln_image *image, void *device, const char *label, float scale,
                  bool opaque)
 {
@@ -44,6 +47,7 @@ static void fill(struct kiln_image *image, void *device, const char *label, floa
     }
 }
 
+/* Encodes display light, 0 to 1, as sRGB. */
 static double encode(double x)
 {
     return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
@@ -54,6 +58,7 @@ static double clamp01(double x)
     return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 
+/* Maps light in place by Stephen Hill's fit of the ACES tone mapping. */
 static void aces(double v[3])
 {
     static const double in[3][3] = {
@@ -71,7 +76,7 @@ static void aces(double v[3])
         v[i] = clamp01(out[i][0] * b[0] + out[i][1] * b[1] + out[i][2] * b[2]);
 }
 
-/* The picture as formulas, without bloom. */
+/* Computes the sRGB colour of a pixel without bloom. fire: NULL for none; exposure: stops. */
 static void reference(const float *scene, const float *particles, const float *fire,
                       double exposure, bool use_aces, double out[4])
 {
@@ -92,7 +97,7 @@ static void reference(const float *scene, const float *particles, const float *f
     out[3] = 1.0;
 }
 
-/* A stage for a scene, and its inputs; the tests say which of them take part. */
+/* Holds a stage for a scene and images, of which a test's `inputs` name those that take part. */
 struct fixture {
     struct kiln_scene *scene;
     struct kiln_threads *threads;
@@ -101,7 +106,8 @@ struct fixture {
     struct kiln_composite_inputs inputs;
 };
 
-/* The backdrop random and opaque, the particles random, or nothing for a light of 0. */
+/* Makes the stage. The backdrop is random and opaque. light: the `scale` of the random particles,
+ * or 0 for clear ones. bits: of a channel of the display picture. */
 static void fixture_init(struct fixture *f, void *device, const char *post, uint32_t bits,
                          float light)
 {
@@ -132,7 +138,7 @@ static void fixture_finish(struct fixture *f)
     kiln_scene_destroy(&f->scene);
 }
 
-/* The backdrop's pixels, to be written before the first run. */
+/* Returns the backdrop's pixels, which a test writes before the first run. */
 static float *backdrop_pixels(struct fixture *f)
 {
     struct kiln_error error = {0};
@@ -149,6 +155,7 @@ static void run(struct fixture *f, void *got)
     assert_true(kiln_composite_read_display(f->stage, got, &error));
 }
 
+/* Compares a picture of random inputs with `reference`. */
 static void check(void *device, const char *post, uint32_t bits, bool with_fire, double exposure,
                   bool use_aces)
 {
@@ -158,7 +165,7 @@ static void check(void *device, const char *post, uint32_t bits, bool with_fire,
     uint16_t got[PIXELS * 4];
     run(&f, got);
     double levels = bits == 16 ? 65535.0 : 255.0;
-    double tolerance = bits == 16 ? 6.0 : 1.0; /* levels: the driver's pow and log2 */
+    double tolerance = bits == 16 ? 6.0 : 1.0; /* levels, for the driver's pow and log2 */
     for (int i = 0; i < PIXELS; i++) {
         double expected[4];
         reference(f.back.host + 4 * i, f.particles.host + 4 * i,
@@ -188,8 +195,9 @@ static void aces_matches_c(void **state)
     check(*state, "tonemap: aces", 16, false, 0.0, true);
 }
 
-/* Published values of AgX's default look: mid grey stays near mid grey, white arrives late. */
-static void agx_keeps_grey_and_hue(void **state)
+/* AgX maps greys to greys that grow with the light: 0.18 to about the middle, ten stops below it to
+ * black, ten stops above it to white. */
+static void agx_keeps_greys_neutral(void **state)
 {
     struct fixture f;
     fixture_init(&f, *state, "tonemap: agx", 16, 0.0f);
@@ -206,15 +214,15 @@ static void agx_keeps_grey_and_hue(void **state)
                     abs(got[4 * i] - got[4 * i + 2]) < 200);
         assert_true(i == 0 || got[4 * i] + 2 >= got[4 * (i - 1)]);
     }
-    assert_true(got[0] < 1000);                      /* ten stops below: black */
-    assert_true(got[4 * (PIXELS - 1)] > 64000);      /* ten above: white */
-    double middle = got[4 * (PIXELS / 2)] / 65535.0; /* 0.18 */
+    assert_true(got[0] < 1000);
+    assert_true(got[4 * (PIXELS - 1)] > 64000);
+    double middle = got[4 * (PIXELS / 2)] / 65535.0; /* of light 0.18 */
     assert_true(middle > 0.42 && middle < 0.52);
     fixture_finish(&f);
 }
 
-/* Sums of light may reach what float cannot square, and 16-bit targets overflow to infinity: both
- * are white, not holes. */
+/* Light of 1e20, whose square overflows a float, and infinity, to which half floats overflow, are
+ * shown white. A NaN on the way would leave a dark hole. */
 static void any_brightness_is_white(void **state)
 {
     static const char *const posts[] = {"tonemap: none", "tonemap: agx", "tonemap: aces"};
@@ -232,7 +240,8 @@ static void any_brightness_is_white(void **state)
     }
 }
 
-/* Dither changes a level by one at most, keeps the mean, and differs from frame to frame only. */
+/* Dither changes a pixel by few levels and keeps the mean of the picture. The same frame is
+ * dithered alike each time, another frame differently. */
 static void dither_is_small_and_repeatable(void **state)
 {
     struct fixture f;
@@ -240,7 +249,7 @@ static void dither_is_small_and_repeatable(void **state)
     f.scene->post.dither = true;
     float *p = backdrop_pixels(&f);
     for (int i = 0; i < PIXELS * 4; i++)
-        p[i] = i % 4 == 3 ? 1.0f : 0.2160f; /* encodes to 128.3 levels */
+        p[i] = i % 4 == 3 ? 1.0f : 0.2160f; /* is encoded as 128.04 levels */
     f.inputs.frame = 5;
     uint8_t first[PIXELS * 4], again[PIXELS * 4], other[PIXELS * 4];
     run(&f, first);
@@ -258,7 +267,8 @@ static void dither_is_small_and_repeatable(void **state)
     fixture_finish(&f);
 }
 
-/* Over nothing, straight alpha times colour gives the light back. */
+/* A picture without a backdrop has straight alpha. Alpha times the encoded colour is the encoded
+ * light of the particles, as a viewer that blends over black shows it. */
 static void transparent_pictures_keep_the_light(void **state)
 {
     struct fixture f;
@@ -278,13 +288,14 @@ static void transparent_pictures_keep_the_light(void **state)
     fixture_finish(&f);
 }
 
+/* Decodes sRGB to display light, 0 to 1. */
 static double decode(double x)
 {
     return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
 }
 
-/* Textures are blended as light: alpha times the light of the colour is what the display shows over
- * black. */
+/* Renderers blend textures as light. In a picture made as a texture, alpha times the decoded colour
+ * is the light that the usual picture shows over black. */
 static void textures_keep_the_light(void **state)
 {
     static const char *const posts[] = {"tonemap: none", "tonemap: agx", "tonemap: aces"};
@@ -297,7 +308,7 @@ static void textures_keep_the_light(void **state)
             fixture_init(&f, *state, posts[k], 16, 0.9f);
             texture = false;
             memset(backdrop_pixels(&f), 0, sizeof(float) * PIXELS * 4);
-            for (int p = 0; p < PIXELS; p += 2) /* fire, of less alpha than light */
+            for (int p = 0; p < PIXELS; p += 2) /* like fire: more light than alpha */
                 f.particles.host[4 * p + 3] *= 0.1f;
             run(&f, got[i]);
             for (int p = 0; p < PIXELS && i == 1; p++) {
@@ -324,7 +335,7 @@ int main(void)
         test_on_device(merged_matches_c),
         test_on_device(separate_fire_matches_c),
         test_on_device(aces_matches_c),
-        test_on_device(agx_keeps_grey_and_hue),
+        test_on_device(agx_keeps_greys_neutral),
         test_on_device(any_brightness_is_white),
         test_on_device(dither_is_small_and_repeatable),
         test_on_device(transparent_pictures_keep_the_light),

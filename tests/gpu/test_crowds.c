@@ -1,5 +1,7 @@
-/* The techniques of stage `raster` agree where it is hard: on sprites larger than the picture,
- * thousands in one place, more than are drawn at a time, and on those that the camera is in. */
+/* Checks that the techniques of stage `raster` draw the same picture of crowds of sprites that
+ * strain them: sprites larger than the picture, around the camera, thousands in one place, or more
+ * than a technique draws at a time. If this fails, a technique loses, doubles or misorders sprites.
+ */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -10,7 +12,7 @@
 
 enum { WIDTH = 600, HEIGHT = 400, VALUES = WIDTH * HEIGHT * 4, STEP = 30, MOST = 1100000 };
 
-/* The camera looks along -z. System b makes the program the one that knows all shapes. */
+/* The camera looks along -z. System b is disabled and draws nothing. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [600, 400], fps: 30, frames: 100}\n"
@@ -27,20 +29,20 @@ static const struct {
     enum kiln_raster_technique technique;
     const char *name;
 } TECHNIQUES[] = {
-    {KILN_RASTER_GEOMETRY, "geometry"}, /* what the others are compared with */
+    {KILN_RASTER_GEOMETRY, "geometry"}, /* the reference of the other techniques */
     {KILN_RASTER_INSTANCED, "instanced"},
     {KILN_RASTER_TILED, "tiled"},
     {KILN_RASTER_CPU, "cpu"},
 };
 enum { TECHNIQUE_COUNT = sizeof TECHNIQUES / sizeof *TECHNIQUES, CPU = TECHNIQUE_COUNT - 1 };
 
-/* Particles, the farthest first. */
+/* Holds particles, the farthest first, before a wall. */
 struct crowd {
     const char *overrides[8];
     size_t override_count;
     uint32_t count;
     struct kiln_particle *particles;
-    float wall_m;
+    float wall_m; /* depth of the wall, m */
 };
 
 static float random_within(float low, float high)
@@ -48,7 +50,8 @@ static float random_within(float low, float high)
     return low + (high - low) * (float)(rand() % 10001) / 10000.0f;
 }
 
-/* Within a box about a place, from z_from to z_to. */
+/* Fills a crowd with particles in a box about the z axis, in the order of z from z_from to z_to, m.
+ * half: half of the box's width and height, m. */
 static void scatter(struct crowd *crowd, uint32_t count, float3 half, float z_from, float z_to)
 {
     srand(7);
@@ -63,7 +66,8 @@ static void scatter(struct crowd *crowd, uint32_t count, float3 half, float z_fr
     }
 }
 
-/* Colour and glow, one behind the other. */
+/* Draws a crowd by a technique. Returns the pixels of the colour, then those of the glow; the
+ * caller frees them. */
 static float *render(struct kiln_device *device, const struct crowd *crowd, size_t technique)
 {
     drawing_technique = TECHNIQUES[technique].technique;
@@ -80,8 +84,9 @@ static float *render(struct kiln_device *device, const struct crowd *crowd, size
     return values;
 }
 
-/* Mean and 99.9th percentile of the relative error, as docs/determinism.md states them; a tenth is
- * added to what the latter is relative to, as in test_particles.c. */
+/* Compares pictures by the limits of docs/determinism.md for the mean and the 99.9th percentile of
+ * the relative error. For the latter, a tenth is added to the value that an error is relative to,
+ * since drivers filter textures with 8-bit weights. */
 static void compare(const float *expected, const float *found, const char *name)
 {
     double error_sum = 0, light_sum = 1e-9;
@@ -99,7 +104,8 @@ static void compare(const float *expected, const float *found, const char *name)
     assert_true(off <= 2 * VALUES / 1000);
 }
 
-/* Returns the part of the picture that is covered. */
+/* Compares the pictures of a crowd by all techniques, and frees its particles. Returns the part of
+ * the picture that is covered. */
 static double check(struct kiln_device *device, struct crowd *crowd)
 {
     float *expected = render(device, crowd, 0);
@@ -116,7 +122,7 @@ static double check(struct kiln_device *device, struct crowd *crowd)
     return covered;
 }
 
-static void none_leave_a_clear_picture(void **state)
+static void no_particles_leave_a_clear_picture(void **state)
 {
     struct crowd crowd = {.wall_m = 20};
     scatter(&crowd, 0, (float3){1, 1, 1}, 0, 1);
@@ -139,7 +145,9 @@ static void sprites_larger_than_the_picture(void **state)
     }
 }
 
-/* Those behind the eye and before the near plane are not seen; nearly all of these are. */
+/* Sprites behind the eye, at z = 10, or nearer than the near plane, 0.1 m before it, are not drawn.
+ * Nearly all sprites of the first crowd lie there, and all of the second, which leaves the picture
+ * clear. */
 static void sprites_about_the_eye(void **state)
 {
     struct crowd crowd = {.overrides = {"systems.a.look.size=0.3 m", "systems.a.look.opacity=0.5",
@@ -163,7 +171,8 @@ static void thousands_in_one_place(void **state)
     assert_true(covered > 0 && covered < 0.01);
 }
 
-/* More than llvmpipe lets the loops of one invocation run; so faint that each of them counts. */
+/* There are more sprites than an invocation's loops may run on llvmpipe
+ * (KILN_SOFTWARE_ITERATIONS). They are so faint that none hides another, so each must be drawn. */
 static void tens_of_thousands_in_one_place(void **state)
 {
     struct crowd crowd = {
@@ -175,8 +184,9 @@ static void tens_of_thousands_in_one_place(void **state)
     assert_true(covered > 0 && covered < 0.01);
 }
 
-/* The nearest hide the others; or all add up, and none may be left out. */
-static void opaque_ones_in_one_place(void **state)
+/* The nearest of opaque sprites hide the others. Additive sprites of the same size hide nothing,
+ * and none may be left out. */
+static void opaque_sprites_in_one_place(void **state)
 {
     struct crowd crowd = {.overrides = {"systems.a.look.size=2 m", "systems.a.look.soft=0"},
                           .override_count = 2,
@@ -191,7 +201,8 @@ static void opaque_ones_in_one_place(void **state)
     assert_true(check(*state, &fire) > 0.02);
 }
 
-/* So faint that one which is there or not by the last bit of its place does not show. */
+/* There are more sprites than the techniques `tiled` and `cpu` draw at a time. They are so faint
+ * that one more or less at a pixel, by the rounding of its place, does not show. */
 static void more_than_are_drawn_at_a_time(void **state)
 {
     struct crowd crowd = {
@@ -202,7 +213,7 @@ static void more_than_are_drawn_at_a_time(void **state)
     assert_true(check(*state, &crowd) > 0.5);
 }
 
-/* Lines across the picture, whose boxes are all of it. */
+/* Thin lines cross the picture, so their bounding boxes touch tiles that the lines do not. */
 static void boxes_that_are_mostly_empty(void **state)
 {
     struct crowd crowd = {.overrides = {"systems.a.look.shape=line", "systems.a.look.stretch=10 s",
@@ -214,8 +225,9 @@ static void boxes_that_are_mostly_empty(void **state)
     assert_true(check(*state, &crowd) > 0.9);
 }
 
-/* Sprites that fill the picture, so many that raster=cpu draws them in parts, since lists of all
- * would be long. The nearest hide the others. */
+/* So many sprites fill the picture that raster=cpu draws them in parts, since the lists of all
+ * tiles would take too much memory. The nearest hide the others, so the picture is that of the
+ * nearest alone. */
 static void lists_that_are_split(void **state)
 {
     enum { COUNT = 70000, NEAREST = 200 };
@@ -233,7 +245,8 @@ static void lists_that_are_split(void **state)
     free(crowd.particles);
 }
 
-/* Makes the technique with another size of its work groups, and as for another kind of device. */
+/* Draws a crowd by a technique with work groups of a size, 0 for the usual one. software: true to
+ * work as on software GL, false as on a GPU. */
 static float *render_in_groups(struct kiln_device *device, const struct crowd *crowd,
                                size_t technique, uint32_t size, bool software)
 {
@@ -246,7 +259,7 @@ static float *render_in_groups(struct kiln_device *device, const struct crowd *c
     return values;
 }
 
-/* How a tile is cut among the invocations of a work group changes no bit of it. */
+/* The number of invocations that share a tile changes no bit of the picture. */
 static void tiles_are_the_same_by_any_work_group(void **state)
 {
     static const uint32_t sizes[] = {1, 48, 1024};
@@ -272,12 +285,12 @@ static void tiles_are_the_same_by_any_work_group(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        test_on_device(none_leave_a_clear_picture),
+        test_on_device(no_particles_leave_a_clear_picture),
         test_on_device(sprites_larger_than_the_picture),
         test_on_device(sprites_about_the_eye),
         test_on_device(thousands_in_one_place),
         test_on_device(tens_of_thousands_in_one_place),
-        test_on_device(opaque_ones_in_one_place),
+        test_on_device(opaque_sprites_in_one_place),
         test_on_device(more_than_are_drawn_at_a_time),
         test_on_device(boxes_that_are_mostly_empty),
         test_on_device(lists_that_are_split),

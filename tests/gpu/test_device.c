@@ -1,4 +1,6 @@
-/* lib/gpu/device.h: listing, choosing, opening, errors, dispatch. */
+/* Checks how devices are listed, chosen and opened (lib/gpu/device.h), how GL errors are reported,
+ * and the sizes of work groups. If this fails, a user gets the wrong device, cannot learn why there
+ * is none, or misses an error of GL. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -18,7 +20,7 @@ static struct kiln_device *open_named(const char *wanted, struct kiln_error *err
     return kiln_device_open(&params, error);
 }
 
-/* So that the list can fill them. */
+/* Prepares entries for kiln_device_list, which needs their size. */
 static void empty(struct kiln_device_info *infos, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -50,7 +52,7 @@ static void list_describes_usable_devices(void **state)
     }
     assert_true(usable >= 1);
 
-    /* The count is that of all devices, also when fewer are asked for. */
+    /* The list returns the number of all devices even if it fills in fewer. */
     struct kiln_device_info first = {.size = sizeof first, .index = 77};
     assert_int_equal(kiln_device_list(&first, sizeof(struct kiln_device_info), 1, NULL), count);
     assert_string_equal(first.name, infos[0].name);
@@ -102,7 +104,7 @@ static void a_device_is_chosen_by_number_and_name(void **state)
         kiln_device_close(&device);
         assert_null(device);
     }
-    /* The default is a GPU when there is one. */
+    /* The default device is a GPU if there is one, otherwise this machine without GL. */
     bool has_gpu = false;
     for (size_t i = 0; i < count && i < 32; i++)
         has_gpu = has_gpu || (infos[i].usable && !infos[i].software);
@@ -113,7 +115,7 @@ static void a_device_is_chosen_by_number_and_name(void **state)
     kiln_device_close(&device);
     kiln_device_close(&device);
 
-    /* With GL where it is asked for. */
+    /* A caller that asks for GL gets a device with GL. */
     struct kiln_device_params params = kiln_device_defaults();
     params.gl = true;
     device = kiln_device_open(&params, &error);
@@ -145,7 +147,7 @@ static void software_is_chosen_by_name(void **state)
     assert_true(kiln_device_make_current(*state, &error));
 }
 
-static void a_wrong_choice_names_what_there_is(void **state)
+static void a_wrong_choice_lists_the_devices(void **state)
 {
     struct kiln_error error;
     const char *name = kiln_device_get_info(*state)->name;
@@ -165,7 +167,8 @@ static void a_wrong_choice_names_what_there_is(void **state)
     assert_true(kiln_device_make_current(*state, &error));
 }
 
-/* The probe's verdict is the same wherever it is asked for; llvmpipe is known to be exact. */
+/* The open device, a new probe and the list agree on whether the device computes exactly. On
+ * llvmpipe it must. */
 static void exactness_is_probed(void **state)
 {
     const struct kiln_device_info *info = kiln_device_get_info(*state);
@@ -208,7 +211,7 @@ static void gl_errors_are_found_once(void **state)
     assert_non_null(strstr(error.message, "here: GL: invalid enum (0x0500)"));
     assert_true(kiln_device_check(device, "here", &error));
 
-    /* What the debug callback saw counts, also when somebody else took the GL error. */
+    /* An error that the debug callback received counts even if glGetError has cleared it. */
     glBindBuffer(GL_ARRAY_BUFFER, 0);
     glBufferData(GL_ARRAY_BUFFER, 16, NULL, GL_STATIC_DRAW);
     assert_int_equal(glGetError(), GL_INVALID_OPERATION);
@@ -252,8 +255,9 @@ static void out_of_memory_is_named(void **state)
     device->log = log;
 }
 
-/* Lists in a child process with one more environment variable, since drivers and libraries are
- * looked for once a process. */
+/* Fails unless a process with a changed environment variable finds no device and names a package in
+ * its advice. A process looks for drivers and libraries only once, so a child process runs this
+ * program with --list. */
 static void assert_explained(const char *variable, const char *value, const char *package)
 {
     int ends[2];
@@ -284,7 +288,7 @@ static void missing_drivers_are_explained(void **state)
     assert_explained("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", "libegl-mesa0");
 }
 
-/* A file that is no library hides the one behind it. */
+/* An empty file hides the library of the same name in a later folder of the search path. */
 static void missing_libraries_are_explained(void **state)
 {
     (void)state;
@@ -299,7 +303,8 @@ static void missing_libraries_are_explained(void **state)
     rmdir(dir);
 }
 
-/* What assert_explained runs. */
+/* Lists and opens devices in the child process of assert_explained, and prints the advice and the
+ * error. Returns the error's code. */
 static int list_and_open(void)
 {
     char advice[256];
@@ -323,7 +328,7 @@ int main(int argc, char **argv)
         test_on_device(list_leaves_the_current_context),
         test_on_device(a_device_is_chosen_by_number_and_name),
         test_on_device(software_is_chosen_by_name),
-        test_on_device(a_wrong_choice_names_what_there_is),
+        test_on_device(a_wrong_choice_lists_the_devices),
         test_on_device(exactness_is_probed),
         test_on_device(two_devices_live_side_by_side),
         test_on_device(gl_errors_are_found_once),
