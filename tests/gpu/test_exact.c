@@ -1,4 +1,6 @@
-/* The shared arithmetic in GLSL against C, bit for bit, on a million vectors. */
+/* Checks that the exact arithmetic of shaders/shared gives the same bits in GLSL as in C, in each
+ * shader stage that can simulate, on a million vectors. If this fails, a simulation on this device
+ * differs from that on other machines, and the probe at start may not notice. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -30,7 +32,7 @@ static void fragments_agree_with_c(void **state)
     vectors_agree_with_c(*state, KILN_PROBE_FRAGMENT);
 }
 
-/* Texels come in whole rows. */
+/* The fragment stage takes vectors as whole rows of texels, so a count may end within a row. */
 static void any_number_of_vectors_is_probed(void **state)
 {
     char reason[256];

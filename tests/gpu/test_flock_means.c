@@ -1,5 +1,6 @@
-/* Averages of a flock: by the sums of integers that decide states, and as the paper takes them,
- * from the last level of mip-maps of float textures (Drone 2007, 7.4.4.2), whose error is reported.
+/* Checks the mean position and velocity of a flock as the simulation computes them, by sums of
+ * integers, and as the paper does, by the last mip level of float textures (Drone 2007, 7.4.4.2).
+ * If this fails, a flock steers towards a wrong place or velocity. The errors of both are printed.
  */
 #include <math.h>
 #include <stddef.h>
@@ -14,12 +15,12 @@ enum { SIDE = 64, BIRDS = SIDE * SIDE };
 
 static struct scene_fixture fixture; /* too large for a stack */
 
-/* Positions, then velocities. */
+/* Holds the means of x, y and z of positions, m, then of velocities, m/s. */
 struct averages {
     double values[6];
 };
 
-/* A flock in flight about a place, a second after its birth. */
+/* Simulates a flock for a second about a place at x = far_m, m, and returns its birds. */
 static void fly(struct kiln_body *birds, float far_m)
 {
     balls_init(&fixture, BIRDS, 0.01f);
@@ -43,6 +44,7 @@ static void fly(struct kiln_body *birds, float far_m)
     simulation_end(&run);
 }
 
+/* Returns the averages in doubles, to compare with. */
 static struct averages in_double(const struct kiln_body *birds)
 {
     struct averages mean = {{0}};
@@ -66,7 +68,7 @@ static struct averages by_integers(const struct kiln_body *birds)
                               (double)means.velocity.y, (double)means.velocity.z}};
 }
 
-/* The last level of mip-maps of a texture with a bird a texel. */
+/* Sets mean to the last mip level, one texel, of a texture in which each texel is a bird. */
 static void mip_maps(const struct kiln_body *birds, GLenum format, bool velocities, double *mean)
 {
     static float texels[BIRDS][4];
@@ -96,7 +98,7 @@ static struct averages by_mip_maps(const struct kiln_body *birds, GLenum format)
     return mean;
 }
 
-/* Of positions (first 0) or velocities (3): the largest. */
+/* Returns the largest error in positions (first: 0) or velocities (first: 3). */
 static double error_of(const struct averages *found, const struct averages *expected, int first)
 {
     double largest = 0.0;

@@ -1,5 +1,6 @@
-/* lib/bench/force_splat.c: gravity as the blending unit adds it up (Drone 2007, 7.4.3.1), beside
- * the sums in a fixed order that decide states; both against sums in double. */
+/* Checks gravity as the blending unit adds it up (lib/bench/force_splat.c; Drone 2007, 7.4.3.1) and
+ * as the simulation does, in a fixed order, against sums in doubles. If this fails, the benchmark
+ * compares the simulation with a technique that computes something else. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -9,16 +10,16 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 
-enum { BODIES = 300 /* no multiple of a row of texels */, WAYS = 3 };
+enum { BODIES = 300 /* not a multiple of a row of texels */, WAYS = 3 };
 
 static const float SOFTENING_SQUARE = 0.0025f;
 
 struct sums {
     double x, y, z;
-    double size; /* of all that was added */
+    double size; /* sum of the magnitudes of all terms */
 };
 
-/* A cluster; every seventh pulls nobody, and two are in one place. */
+/* Makes a cluster of bodies. Every seventh attracts nothing, and two are in one place. */
 static void fill(float4 *sources)
 {
     uint32_t seed = 31;
@@ -67,7 +68,7 @@ static void by_blending(struct kiln_device *device, GLenum format, const float4 
         fail_msg("%s", error.message);
         return;
     }
-    for (int run = 0; run < 2; run++) /* nothing is left over from the first */
+    for (int run = 0; run < 2; run++) /* the second must not add to the sums of the first */
         if (!kiln_force_splat_run(splat, sources, BODIES, SOFTENING_SQUARE, &ms, &error))
             fail_msg("%s", error.message);
     const float4 *sums = kiln_force_splat_sums(splat, &error);
@@ -80,7 +81,7 @@ static void by_blending(struct kiln_device *device, GLenum format, const float4 
     assert_null(splat);
 }
 
-/* As a part of all that was added: the largest, and the root of the mean square. */
+/* Holds errors divided by the `size` of a sum: the largest, and the root of the mean square. */
 struct error_of {
     double largest, mean;
 };
@@ -100,8 +101,8 @@ static struct error_of compare(const float4 *sources, const float4 *found)
     return e;
 }
 
-/* A sum of n terms is off by at most n halves of a unit in the last place of what it adds; each
- * term by a few. */
+/* A sum of n terms is rounded n times, each time by at most 2^-24 of its size in floats or 2^-11 in
+ * half floats. The limits allow for 32 more such errors in the terms. */
 static void blending_adds_up_as_exactly_as_its_format(void **state)
 {
     static float4 sources[BODIES], found[BODIES];
@@ -122,7 +123,7 @@ static void blending_adds_up_as_exactly_as_its_format(void **state)
     assert_true(errors[2].largest <= (BODIES + 32) * 0x1p-11);
     assert_true(errors[0].mean < 2e-6 && errors[1].mean < 2e-6);
     assert_true(errors[2].mean < 0.05);
-    assert_true(errors[2].mean > 20.0 * errors[0].mean); /* halves were added */
+    assert_true(errors[2].mean > 20.0 * errors[0].mean); /* half floats were added */
 }
 
 int main(void)

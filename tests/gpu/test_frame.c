@@ -1,4 +1,6 @@
-/* lib/frame/loop.c: jobs beside each other in one process. */
+/* Checks the frame loop (lib/frame/loop.c) by jobs of one process that run beside each other, are
+ * stopped, skip frames, or go on from another job's particles. If this fails, a frame's bytes
+ * depend on what else is rendered or left out, or an unfinished clip stays behind. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -32,13 +34,14 @@ static const char FIRE[] =
 
 static const char *const ON_DEVICE[] = {"simulate=inplace"};
 
-/* What a job's caller does at each frame. */
+/* Says what a job's progress callback renders after each frame. */
 struct caller {
-    struct kiln_device *device; /* of the job beside; NULL: opens one of its own */
-    bool stays_away;            /* renders nothing beside */
-    int calls;
+    struct kiln_device *device; /* renders on this device; NULL: on one that it opens */
+    bool stays_away;            /* renders nothing */
+    int calls;                  /* number of calls so far */
 };
 
+/* A progress callback that renders another scene, of fire, while the job is under way. */
 static void render_beside(void *user, const struct kiln_progress *progress)
 {
     struct caller *caller = user;
@@ -67,7 +70,7 @@ static bool never(void *user)
     return false;
 }
 
-/* Renders the smoke with all layers into a folder. */
+/* Renders SMOKE with all layers into a folder, with a caller that renders beside. */
 static void render_smoke(struct kiln_device *device, struct caller *caller, const char *folder)
 {
     char path[160];
@@ -99,11 +102,11 @@ static size_t read_frame(const char *folder, int frame, char *bytes, size_t size
     return length;
 }
 
-/* Frames are the same bytes, whatever else the thread renders between them, and on which device. */
+/* Frames have the same bytes whether the thread renders nothing else between them, another job on
+ * the same device, or one on another device. */
 static void jobs_do_not_disturb_each_other(void **state)
 {
-    struct caller callers[] = {
-        {.stays_away = true}, {.device = *state}, {.device = NULL /* opens one */}};
+    struct caller callers[] = {{.stays_away = true}, {.device = *state}, {.device = NULL}};
     enum { JOBS = sizeof callers / sizeof *callers, MOST = 1 << 18 };
     char folders[JOBS][32];
     for (int i = 0; i < JOBS; i++) {
@@ -125,8 +128,9 @@ static void jobs_do_not_disturb_each_other(void **state)
         test_remove_folder(folders[i]);
 }
 
-/* More than the device takes is said before anything is drawn. */
-static void limits_are_told(void **state)
+/* A scene that exceeds a limit of the device, here of its textures or storage blocks, is an error
+ * that names the excess. */
+static void exceeded_device_limits_are_errors(void **state)
 {
     struct kiln_device *device = *state;
     const struct kiln_device_info info = device->info;
@@ -146,9 +150,9 @@ static void limits_are_told(void **state)
     kiln_scene_destroy(&scene);
 }
 
-/* How many frames are done, and after how many the caller wants no more. */
+/* Stops a job after a number of frames. */
 struct stopper {
-    uint32_t done, after;
+    uint32_t done, after; /* frames that are done; frames after which to stop */
 };
 
 static void count_frame(void *user, const struct kiln_progress *progress)
@@ -162,7 +166,8 @@ static bool is_enough(void *user)
     return stopper->done == stopper->after;
 }
 
-/* A caller can stop a clip at any time, also when all its frames are drawn and it is completed. */
+/* A caller can stop a clip after any frame, even when all its frames are drawn and the file is
+ * about to be completed. A stopped clip leaves no file. */
 static void clips_stop_until_they_are_complete(void **state)
 {
     struct kiln_scene *scene = load_scene(SMOKE, NULL);
@@ -186,7 +191,8 @@ static void clips_stop_until_they_are_complete(void **state)
     kiln_scene_destroy(&scene);
 }
 
-/* A camera that circles smoke: an order that is kept from frame to frame is always late. */
+/* A camera circles dark and light smoke, so that the order of particles changes with every frame,
+ * and a sort that is spread over frames is always late. */
 static const char ORBIT[] =
     "kiln: 1\n"
     "output: {size: [48, 32], fps: 30, frames: 16}\n"
@@ -204,6 +210,7 @@ static const char ORBIT[] =
 
 enum { ORBIT_FRAMES = 16, ORBIT_BYTES = 48 * 32 * 4 };
 
+/* A callback that copies a frame's picture to its place among those of the clip. */
 static void keep_picture(void *user, const struct kiln_frame_layer *layer)
 {
     memcpy((uint8_t *)user + (size_t)layer->frame * ORBIT_BYTES, layer->pixels, ORBIT_BYTES);
@@ -227,8 +234,8 @@ static void render_orbit(struct kiln_device *device, const char *sort,
     kiln_scene_destroy(&scene);
 }
 
-/* A sort that is spread over frames goes on in those that are not drawn: with any of them left out,
- * a frame is the same pixels. */
+/* A sort that is spread over frames goes on in frames that are not drawn, so a frame has the same
+ * pixels whichever frames are left out before it. Its pixels differ from those of an exact sort. */
 static void a_spread_sort_follows_undrawn_frames(void **state)
 {
     struct kiln_device *device = *state;
@@ -245,7 +252,7 @@ static void a_spread_sort_follows_undrawn_frames(void **state)
             assert_memory_equal(whole + frame * ORBIT_BYTES, part + frame * ORBIT_BYTES,
                                 ORBIT_BYTES);
     assert_memory_not_equal(whole + 9 * ORBIT_BYTES, exact + 9 * ORBIT_BYTES, ORBIT_BYTES);
-    /* In one frame, it is whole. */
+    /* Spread over one frame, the sort is complete and gives the pixels of an exact sort. */
     render_orbit(device, "sort=oddeven:1", some, 3, part);
     assert_memory_equal(part + 9 * ORBIT_BYTES, exact + 9 * ORBIT_BYTES, ORBIT_BYTES);
 }
@@ -264,7 +271,8 @@ static struct kiln_job *make_job(struct kiln_device *device, const struct kiln_s
     return job;
 }
 
-/* A job goes on from the particles of another one, and neither disturbs the other. */
+/* A job goes on from a copy of another job's particles, by another technique. All jobs then have
+ * the same states as a job that runs from the start. */
 static void jobs_go_on_from_each_other(void **state)
 {
     static const char *const flags[] = {"simulate=cpu", "simulate=inplace", "simulate=pingpong",
@@ -311,7 +319,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(jobs_do_not_disturb_each_other),
-        test_on_device(limits_are_told),
+        test_on_device(exceeded_device_limits_are_errors),
         test_on_device(clips_stop_until_they_are_complete),
         test_on_device(a_spread_sort_follows_undrawn_frames),
         test_on_device(jobs_go_on_from_each_other),

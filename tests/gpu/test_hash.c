@@ -1,4 +1,6 @@
-/* The state hash on the device against the host's, for sizes around those of work groups. */
+/* Checks that the device hashes a state like the host, for numbers of particles around the sizes of
+ * work groups, and that the hash notices each changed bit. If this fails, checks of the state hash
+ * report false differences, or miss real ones. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -10,12 +12,13 @@
 
 static struct scene_fixture fixture; /* too large for a stack */
 
+/* Fills records with arbitrary words. */
 static void fill(struct kiln_particle *records, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
         records[i] = (struct kiln_particle){
             .position_serial = {random_mix(i), i * 7, i * 11, i},
-            .velocity_birth = {i * 3, i * 5, ~i, random_mix(~i)}}; /* about half are alive */
+            .velocity_birth = {i * 3, i * 5, ~i, random_mix(~i)}}; /* about half are marked alive */
 }
 
 static void both_hashes_agree(void **state)
@@ -49,7 +52,8 @@ static void both_hashes_agree(void **state)
     }
 }
 
-/* One bit anywhere in one living particle changes both lanes; in a dead one, nothing. */
+/* Any changed bit of a living particle changes both lanes of the hash. A bit of a dead particle
+ * changes nothing, unless it makes the particle live. */
 static void every_bit_counts(void **state)
 {
     fixture_init(&fixture);
@@ -73,7 +77,7 @@ static void every_bit_counts(void **state)
         words[bit % 256 / 32] ^= 1u << bit % 32;
         memcpy(&records[slot], words, sizeof words);
         struct kiln_state_hash after = simulation_hash(&run, &alive);
-        bool revived = bit == 256 + 7 * 32; /* the bit that says who is alive */
+        bool revived = bit == 256 + 7 * 32; /* KILN_PARTICLE_ALIVE of the dead one */
         assert_int_equal(before.lane[0] != after.lane[0], slot == 0 || revived);
         assert_int_equal(before.lane[1] != after.lane[1], slot == 0 || revived);
     }

@@ -1,4 +1,7 @@
-/* lib/gpu/image.h: pixels on both sides, rows from the top. */
+/* Checks that a kiln_image (lib/gpu/image.h) keeps its pixels on their way to GL and back, with
+ * rows from the top, and reports impossible sizes. If this fails, pictures are flipped, sheared or
+ * stale.
+ */
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -7,9 +10,10 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 
-/* Odd sizes, so that a row alignment would show. */
+/* Sizes are odd, so that a copy that aligns rows would shift them. */
 enum { WIDTH = 37, HEIGHT = 11 };
 
+/* Clears rows of a texture from row y on to a colour, as drawing in GL does. */
 static void clear_texel_rows(GLuint gl, GLint y, GLsizei rows, const float color[4])
 {
     GLuint framebuffer = 0;
@@ -23,6 +27,7 @@ static void clear_texel_rows(GLuint gl, GLint y, GLsizei rows, const float color
     glDeleteFramebuffers(1, &framebuffer);
 }
 
+/* Erases the host's pixels while GL has the valid ones, so that they must come back from GL. */
 static void pixels_return_as_they_were(void **state)
 {
     static const GLenum formats[] = {GL_R32F, GL_RGBA16F, GL_RGBA32F};
@@ -35,7 +40,7 @@ static void pixels_return_as_they_were(void **state)
         assert_non_null(host);
         assert_int_equal((uintptr_t)host % 64, 0);
         for (size_t i = 0; i < count; i++)
-            host[i] = (float)i * 0.5f; /* exact in half floats, too: below 1024 */
+            host[i] = (float)i * 0.5f; /* exact in half floats, as it is below 1024 */
         assert_true(kiln_image_gl(&image, KILN_READ_WRITE, &error) != 0);
         memset(host, 0, count * sizeof *host);
         assert_false(image.host_valid);
@@ -46,7 +51,7 @@ static void pixels_return_as_they_were(void **state)
     }
 }
 
-static void what_gl_draws_is_fetched(void **state)
+static void pixels_drawn_by_gl_are_fetched(void **state)
 {
     struct kiln_error error = {0};
     struct kiln_image image;
@@ -105,7 +110,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(pixels_return_as_they_were),
-        test_on_device(what_gl_draws_is_fetched),
+        test_on_device(pixels_drawn_by_gl_are_fetched),
         test_on_device(bindings_are_left_alone),
         test_on_device(impossible_sizes_are_errors),
     };

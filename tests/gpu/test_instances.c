@@ -1,6 +1,7 @@
-/* Particles that are meshes (lib/draw/solids/solids.c) against triangles that are intersected in
- * double precision: how they lie, depth, silhouettes, light; that both techniques agree, and that
- * neither order, threads nor the width of vectors matter. */
+/* Checks particles that are meshes (lib/draw/solids/solids.c) against triangles that are
+ * intersected in doubles: their orientation, depth, silhouettes and light. Also checks that
+ * techniques agree, and that order, threads and vector width change nothing. If this fails, meshes
+ * fly sideways, have holes or wrong shading, or depend on the machine. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -56,13 +57,15 @@ static void place_cloud(struct fixture *f, struct kiln_particle *particles, uint
     drawing_place(&f->drawing, particles, count, STEP);
 }
 
-/* ---- in double --------------------------------------------------------------------------------
- */
+/* ---- the reference in doubles ---------------------------------------------------------------- */
 
+/* Holds a tetrahedron in the world, m. */
 struct solid {
     vec corners[4], middle;
 };
 
+/* Returns the tetrahedron of a particle. axes: the unit directions of the mesh's x, y and z. The
+ * middle of the mesh's bounding box, (0.5, 0.5, 0.5), lies at the particle. */
 static struct solid solid_of(vec at, const vec axes[3])
 {
     struct solid s = {.middle = at};
@@ -74,7 +77,8 @@ static struct solid solid_of(vec at, const vec axes[3])
     return s;
 }
 
-/* The depth at which the ray from the eye enters; 1e9 for a miss. side: the face's number. */
+/* Returns the depth, m, at which a ray from the eye enters a tetrahedron, or 1e9 for a miss. *side
+ * becomes the number of the face. */
 static double enter(const struct solid *s, vec eye, vec ray, int *side)
 {
     static const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -98,7 +102,9 @@ static double enter(const struct solid *s, vec eye, vec ray, int *side)
     return nearest;
 }
 
-/* Draws the one particle, and compares depths where a pixel is of one face or of none. */
+/* Draws one particle and compares it with its tetrahedron: depth and colour of the pixels in which
+ * all of 17 rays meet the same face or none, and the area that the particle covers in the picture.
+ */
 static void check_solid(struct fixture *f, const struct kiln_particle *particle, const vec axes[3])
 {
     const struct drawing *d = &f->drawing;
@@ -135,11 +141,11 @@ static void check_solid(struct fixture *f, const struct kiln_particle *particle,
 
 static const float3 PLACE = {0.7f, 1.1f, 0.9f};
 
-/* ---- how they lie ------------------------------------------------------------------------------
- */
+/* ---- orientation ----------------------------------------------------------------------------- */
 
-/* Ahead along the velocity, the right level; straight up, or at rest, as it is agreed. */
-static void ahead_is_where_they_go(void **state)
+/* A mesh's z axis points along the velocity, and its x axis is level. A mesh that moves straight up
+ * keeps the world's x axis, and one at rest the world's z axis. */
+static void meshes_point_along_the_velocity(void **state)
 {
     static const float3 velocities[] = {{0.0f, 0.0f, 3.0f},
                                         {1.0f, 0.3f, -0.5f},
@@ -158,7 +164,7 @@ static void ahead_is_where_they_go(void **state)
     opaque_finish(&f);
 }
 
-/* Rodrigues. */
+/* Returns a vector rotated about a unit axis by an angle, rad (Rodrigues' formula). */
 static vec turned(vec v, vec axis, double angle)
 {
     vec y = vec_add((vec){0}, v, cos(angle));
@@ -166,7 +172,9 @@ static vec turned(vec v, vec axis, double angle)
     return vec_add(y, axis, vec_dot(v, axis) * (1 - cos(angle)));
 }
 
-static void they_turn_about_an_axis(void **state)
+/* With the orientation `upright` a mesh rotates about y, with `spin` about a random axis, by its
+ * rotation and its spin since birth. */
+static void meshes_rotate_about_their_axis(void **state)
 {
     static const char *const overrides[] = {
         "systems.a.look.rotation=[40 deg, 40 deg]", "systems.a.look.spin=[90 deg/s, 90 deg/s]",
@@ -196,7 +204,8 @@ static void they_turn_about_an_axis(void **state)
     }
 }
 
-static void they_lie_as_collisions_have_turned_them(void **state)
+/* A mesh whose collisions make it spin has the orientation of the quaternion in the pool. */
+static void meshes_have_the_pose_of_their_collisions(void **state)
 {
     static const char *const overrides[] = {
         "systems.a.look.mesh.orient=spin",
@@ -223,12 +232,11 @@ static void they_lie_as_collisions_have_turned_them(void **state)
     opaque_finish(&f);
 }
 
-/* ---- light -------------------------------------------------------------------------------------
- */
+/* ---- light ----------------------------------------------------------------------------------- */
 
-/* A face that the sun shines on has no shadow of its own particle on it: the brightest pixel is as
- * bright as Lambert says, and no face is brighter. */
-static void the_sun_shines_on_them(void **state)
+/* A mesh casts no shadow on its own face that the sun shines on: the brightest pixel is as bright
+ * as Lambert's law makes the face along (1, 1, 1). */
+static void the_sun_lights_meshes(void **state)
 {
     static const char *const overrides[] = {
         "systems.a.look.lit=1",
@@ -253,10 +261,10 @@ static void the_sun_shines_on_them(void **state)
     opaque_finish(&f);
 }
 
-/* ---- pictures ----------------------------------------------------------------------------------
- */
+/* ---- pictures -------------------------------------------------------------------------------- */
 
-/* Colour, bloom and nearness, which the sky has, too. */
+/* Returns copies of colour, bloom and 1 / (1 + depth), which is finite for the sky, one behind the
+ * other. The caller frees them. */
 static float *copy_of(const struct fixture *f)
 {
     float *copy = malloc((size_t)PIXELS * 9 * sizeof *copy);
@@ -268,6 +276,7 @@ static float *copy_of(const struct fixture *f)
     return copy;
 }
 
+/* Meshes drawn in the reverse order give the same picture, except for the rounding of sums. */
 static void order_is_no_matter(void **state)
 {
     struct fixture f;
@@ -284,14 +293,14 @@ static void order_is_no_matter(void **state)
     opaque_draw(&f, COUNT);
     float *after = copy_of(&f);
     for (size_t i = 0; i < (size_t)PIXELS * 9; i++)
-        assert_true(fabsf(after[i] - before[i]) <= 1e-6f * (1.0f + fabsf(after[i]))); /* sums */
+        assert_true(fabsf(after[i] - before[i]) <= 1e-6f * (1.0f + fabsf(after[i])));
     free(after);
     free(before);
     opaque_finish(&f);
 }
 
-/* Behind the camera, shrunk to nothing, or none at all: the backdrop stays as it is. One that is
- * around the eye ends at the near plane. */
+/* A mesh behind the camera, one that its opacity shrinks to nothing, or no mesh at all leave the
+ * backdrop as it is. A mesh around the eye is cut at the near plane. */
 static void the_near_plane_cuts(void **state)
 {
     static const char *const gone[] = {"systems.a.look.opacity=0"};
@@ -321,11 +330,11 @@ static void the_near_plane_cuts(void **state)
     opaque_finish(&f);
 }
 
-/* ---- both techniques, and one of them in all ways -----------------------------------------------
- */
+/* ---- techniques, threads and memory ---------------------------------------------------------- */
 
 enum { CROWD = 400 };
 
+/* Returns copies of the images of a lit crowd by a technique, which the caller frees. */
 static float *draw_crowd(void *device, enum kiln_backdrop_technique technique)
 {
     static const char *const overrides[] = {"systems.a.look.lit=1", "systems.a.look.size=0.3 m"};
@@ -357,7 +366,7 @@ static void techniques_agree(void **state)
     free(cpu);
 }
 
-static void threads_and_vectors_are_no_matter(void **state)
+static void threads_and_vectors_change_no_byte(void **state)
 {
     float *first = draw_crowd(*state, KILN_BACKDROP_CPU);
     for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
@@ -374,7 +383,8 @@ static void threads_and_vectors_are_no_matter(void **state)
     free(first);
 }
 
-/* Memory goes with the particles, not with their triangles or pixels. */
+/* The technique `cpu` takes memory in proportion to the particles, not to their triangles or
+ * pixels: less than 64 MiB for 100000 meshes. */
 static void many_take_little_memory(void **state)
 {
     enum { MANY = 100000 };
@@ -401,16 +411,16 @@ static void many_take_little_memory(void **state)
 int main(void)
 {
     static const struct CMUnitTest each[] = {
-        test_on_device(ahead_is_where_they_go),
-        test_on_device(they_turn_about_an_axis),
-        test_on_device(they_lie_as_collisions_have_turned_them),
-        test_on_device(the_sun_shines_on_them),
+        test_on_device(meshes_point_along_the_velocity),
+        test_on_device(meshes_rotate_about_their_axis),
+        test_on_device(meshes_have_the_pose_of_their_collisions),
+        test_on_device(the_sun_lights_meshes),
         test_on_device(order_is_no_matter),
         test_on_device(the_near_plane_cuts),
     };
     static const struct CMUnitTest both[] = {
         test_on_device(techniques_agree),
-        test_on_device(threads_and_vectors_are_no_matter),
+        test_on_device(threads_and_vectors_change_no_byte),
         test_on_device(many_take_little_memory),
     };
     int failed = 0;

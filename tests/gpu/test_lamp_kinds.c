@@ -1,5 +1,6 @@
-/* Spots and rectangles of the backdrop, by both of its techniques, against a ray caster in doubles:
- * it sums a rectangle's light over small parts, each with a ray of its own. */
+/* Checks the light and shadows of spots and rectangles on the backdrop, by each of its techniques,
+ * against a ray caster in doubles, which sends a ray to each of many small parts of a rectangle. If
+ * this fails, such lamps light the wrong places, or too brightly or darkly. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -19,6 +20,7 @@ static const struct vec FLOOR_COLOR = {{0.6, 0.5, 0.4}};
 static const struct shape A_BOX = {
     .kind = BOX, .center = {{0, 0.6, 0}}, .half_size = {{0.4, 0.3, 0.25}}, .albedo = {{0.8}}};
 
+/* The place of lamps above the box, m. */
 static const struct vec ABOVE = {{1.2, 2.2, 0.8}};
 
 static double degrees(double angle)
@@ -26,7 +28,7 @@ static double degrees(double angle)
     return angle * acos(-1.0) / 180;
 }
 
-/* Compares a picture of a floor, a shape and a lamp with the ray caster. */
+/* Compares the picture of a scene, a floor with a shape and a lamp, with the ray caster. */
 static void check(void *device, const char *text, const struct shape *shape, struct expected e)
 {
     const struct shape shapes[] = {{.kind = FLOOR, .albedo = FLOOR_COLOR}, *shape};
@@ -43,6 +45,7 @@ static void check(void *device, const char *text, const struct shape *shape, str
     HEAD LIGHTS "    - spot: {position: [1.2, 2.2, 0.8], color: 4, direction: [-1.2, -2, -0.8]"    \
                 ", " more "}\n" BOX_TEXT
 
+/* Returns the reference for SPOT. radius: m; inner, outer: angles of the cones, degrees. */
 static struct expected spot(double radius, double inner, double outer)
 {
     return (struct expected){.lamp = ABOVE,
@@ -54,6 +57,7 @@ static struct expected spot(double radius, double inner, double outer)
                              .tolerance = 0.01};
 }
 
+/* Light fades from the outer cone, `angle`, inwards to the inner one, angle * (1 - softness). */
 static void a_spot_lights_its_cone(void **state)
 {
     check(*state, SPOT("radius: 0.001 m, angle: 25 deg, softness: 0.4"), &A_BOX,
@@ -67,7 +71,8 @@ static void a_spot_lights_its_cone(void **state)
     HEAD LIGHTS "    - spot: {direction: {keys: {0 s: " start ", 1 s: " end "}}, angle: {keys: "   \
                 "{0 s: 20 deg, 1 s: 60 deg}}, softness: {keys: {0 s: 0, 1 s: 1}}}\n"
 
-/* At 0 s, a spot with keys shines as one that has the values of 0 s. */
+/* A spot's direction, angle and softness may have key frames. In a frame at 0 s it shines like a
+ * spot with constant values of 0 s, or not at all if it then points up. */
 static void a_spot_has_keys_over_time(void **state)
 {
     const double still = sum_of_red(*state, HEAD LIGHTS "    - spot: {direction: [0.3, -1, 0], "
@@ -77,8 +82,9 @@ static void a_spot_has_keys_over_time(void **state)
     assert_true(still > 10 && fabs(keyed - still) <= 1e-5 * still && away == 0);
 }
 
-/* The edge of a cone without softness is drawn smoothly: some pixels on it have a part of the
- * light. The lamp is far above, so within the cone the light is almost even. */
+/* The edge of a cone without softness is antialiased: some pixels on it have a part of the light.
+ * The lamp is far above the floor, 30 m, so the light within the cone is almost even: the floor's
+ * albedo 0.6 times 1500 / 30^2. */
 static void the_edge_of_a_cone_is_antialiased(void **state)
 {
     struct picture p =
@@ -100,6 +106,7 @@ static void the_edge_of_a_cone_is_antialiased(void **state)
 
 #define PANEL(more) HEAD LIGHTS "    - rectangle: {color: 3, " more "}\n"
 
+/* Returns the reference for PANEL. right, up: from the centre to the edges, m. */
 static struct expected panel(struct vec center, struct vec facing, struct vec right, struct vec up)
 {
     return (struct expected){.lamp = center,
@@ -110,12 +117,12 @@ static struct expected panel(struct vec center, struct vec facing, struct vec ri
                              .tolerance = 0.004};
 }
 
-/* The box is so far away that it hides nothing and is not seen. */
+/* This box stands for no shape: it lies so far below that it hides nothing and is not seen. */
 static const struct shape NOTHING = {
     .kind = BOX, .center = {{0, -50, 0}}, .half_size = {{0.1, 0.1, 0.1}}, .albedo = {{0.8}}};
 
-/* A panel above, one that stands in the floor, whose lower half lights nothing, and a turned one.
- */
+/* A rectangle lights the floor as Lambert's law says: from above, rotated, and halfway below the
+ * floor, where its lower half lights nothing. */
 static void a_rectangle_lights_as_lambert_says(void **state)
 {
     check(*state, PANEL("center: [0.3, 1.5, 0], width: 1.5 m, height: 0.5 m"), &NOTHING,
@@ -150,7 +157,8 @@ static void a_box_hides_a_rectangle(void **state)
     PANEL("center: [0, 0.8, -1], direction: [0, 0, 1], width: 1 m, height: 0.6 m")                 \
     "  objects:\n    - box: {center: [0, 0.8, " wall "], size: [3, 3, 0.2], color: 0}\n"
 
-/* A wall hides nothing of the panel that hangs on it; a wall before it hides the panel. */
+/* A wall that touches a rectangle from behind does not hide its light. A wall just before the
+ * rectangle does. */
 static void a_wall_carries_a_rectangle(void **state)
 {
     const double alone = sum_of_red(*state, ON_A_WALL("-9"));
@@ -159,7 +167,8 @@ static void a_wall_carries_a_rectangle(void **state)
     assert_true(alone > 50 && carried > 0.9 * alone && hidden < 0.02 * alone);
 }
 
-/* The floor hides the part of a panel below it, and from the floor up a panel is whole. */
+/* A rectangle below the floor lights nothing. The floor hides no part of one that stands on it or
+ * lies in it, which lights as much as one without shadows. */
 static void the_floor_hides_rectangles_below_it(void **state)
 {
     static const char *const texts[] = {

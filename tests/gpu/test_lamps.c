@@ -1,5 +1,6 @@
-/* Shadows of lamps, by both techniques of the backdrop, against a plain C ray caster in doubles
- * that sends rays to all parts of the lamp. */
+/* Checks shadows of objects under lamps, by each technique of the backdrop, against a ray caster in
+ * doubles that sends rays to all parts of a lamp. If this fails, shadows of lamps have the wrong
+ * place or softness, or an object hides a lamp that it should not. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -18,7 +19,8 @@
 
 static const struct vec FLOOR_COLOR = {{0.6, 0.5, 0.4}};
 
-/* Compares a picture of a floor, a shape and a lamp with the ray caster. */
+/* Compares the picture of a scene, a floor with a shape and a lamp, with the ray caster. lamp,
+ * radius: m; tolerance: of the light; step: every step-th pixel is compared. */
 static void check(void *device, const char *text, const struct shape *shape, struct vec lamp,
                   double radius, double tolerance, int step)
 {
@@ -34,6 +36,7 @@ static void check(void *device, const char *text, const struct shape *shape, str
     finish(&p);
 }
 
+/* The place of lamps above the shapes, m. */
 static const struct vec ABOVE = {{1.2, 2.2, 0.8}};
 
 static void a_box_hides_a_lamp(void **state)
@@ -99,7 +102,7 @@ static void round_shapes_hide_a_lamp(void **state)
           &capsule, ABOVE, 0.2, 0.04, 3);
 }
 
-/* The lamp stands between the shape and the floor: what is behind it hides nothing. */
+/* The lamp is between the floor and a shape above it, which hides nothing from the floor. */
 static void a_shape_behind_a_lamp_hides_nothing(void **state)
 {
     const struct shape box = {
@@ -111,7 +114,8 @@ static void a_shape_behind_a_lamp_hides_nothing(void **state)
           &box, (struct vec){{0, 1.2, -0.6}}, 0.1, 0.01, 3);
 }
 
-/* Through maps, on itself and on the floor: the lamp beside the mesh, and above it. */
+/* A mesh shadows itself and the floor by shadow maps, under a small lamp and under a large one,
+ * whose shadow is soft. */
 static void a_mesh_hides_a_lamp(void **state)
 {
     struct kiln_error error = {0};
@@ -143,9 +147,9 @@ static void a_mesh_hides_a_lamp(void **state)
 #define GLOBE "    - sphere: {center: [0, 1.2, 0], radius: 0.3 m, color: 0}\n"
 #define LID   "    - box: {center: [0, 0.8, 0], size: [0.6, 0.05, 0.6], color: 0}\n"
 
-/* The globe around a lamp lets its light out, a lid below it does not, and a lamp without shadows
- * shines through both. */
-static void what_contains_a_lamp_lets_its_light_out(void **state)
+/* A globe around a lamp lets its light out, and a lid below the globe hides a part of it. A lamp
+ * without shadows shines through both. */
+static void a_shape_around_a_lamp_does_not_hide_it(void **state)
 {
     const double globe =
         sum_of_red(*state, HEAD LAMP("[0, 1.2, 0]", "0.05", "") "  objects:\n" GLOBE);
@@ -158,7 +162,8 @@ static void what_contains_a_lamp_lets_its_light_out(void **state)
 
 #define POST "  objects:\n    - box: {center: [0.8, 0.5, -0.5], size: [0.5, 1, 0.5]}\n"
 
-/* A lamp half below the floor sends half of its light above it, and one below it none. */
+/* A lamp halfway below the floor gives half of the light of one without shadows. A lamp that is
+ * wholly below the floor gives none. */
 static void the_floor_hides_lamps_below_it(void **state)
 {
     const double half = sum_of_red(*state, HEAD LAMP("[0, 0, 0]", "0.5", "") POST);
@@ -176,7 +181,7 @@ int main(void)
         test_on_device(round_shapes_hide_a_lamp),
         test_on_device(a_shape_behind_a_lamp_hides_nothing),
         test_on_device(a_mesh_hides_a_lamp),
-        test_on_device(what_contains_a_lamp_lets_its_light_out),
+        test_on_device(a_shape_around_a_lamp_does_not_hide_it),
         test_on_device(the_floor_hides_lamps_below_it),
     };
     int failed = 0;

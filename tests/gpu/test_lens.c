@@ -1,5 +1,6 @@
-/* Depth of field and filtered pixels in pictures: every technique draws the same, and what is out
- * of focus is as wide as a thin lens makes it. */
+/* Checks depth of field and several samples a pixel: the techniques draw the same picture, and
+ * objects out of focus are as blurred as by a thin lens. If this fails, blur depends on the
+ * technique, or a lens of a given aperture blurs too much or too little. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -15,8 +16,9 @@
 
 enum { WIDTH = 96, HEIGHT = 64, VALUES = WIDTH * HEIGHT * 4 };
 
-/* All that is drawn in a way of its own: a box, a mesh, a floor, spheres, meshes as particles,
- * billboards in the picture's plane and in others, points and lines. */
+/* This scene has one of each kind of object that has its own drawing code: a box, a mesh, a floor,
+ * spheres, meshes as particles, billboards in the picture's plane and in others, points and lines.
+ */
 static const char ALL[] =
     "kiln: 1\n"
     "output: {size: [96, 64], frames: 30, fps: 30, samples: 8}\n"
@@ -40,6 +42,8 @@ static const char ALL[] =
     "  dots: {emit: {rate: 100, speed: 3, from: {cone: {angle: 40 deg}}},\n"
     "         look: {shape: point, point: {size: 3 px}, blend: add, size: 2 cm}}\n";
 
+/* Renders frame 15 and returns the layer `beauty`, which the caller destroys. overrides: a list
+ * that ends with NULL, or NULL. */
 static struct kiln_asset_image *draw(struct kiln_device *device, const char *text,
                                      const char *const *overrides, const char *const *techniques,
                                      size_t technique_count)
@@ -76,7 +80,7 @@ static struct kiln_asset_image *draw(struct kiln_device *device, const char *tex
     return image;
 }
 
-/* The sum of the differences, as a part of the sum of the values. */
+/* Returns the sum of the differences of two pictures, divided by the sum of the first's values. */
 static double difference(const struct kiln_asset_image *a, const struct kiln_asset_image *b)
 {
     double sum = 0, off = 0;
@@ -107,13 +111,14 @@ static void techniques_agree(void **state)
     }
     struct kiln_asset_image *sharp = draw(*state, ALL, SHARP, HOST, 3);
     const double blur = difference(host, sharp);
-    if (!(blur > 0.01)) /* the lens does something */
+    if (!(blur > 0.01)) /* otherwise the scene tests no blur */
         fail_msg("blurred by %g", blur);
     kiln_asset_image_destroy(&sharp);
     kiln_asset_image_destroy(&host);
 }
 
-/* A small disc, 2 m or 4 m ahead of a lens of 10 cm that is focused at 4 m. */
+/* A small disc is 4 m before a lens with an aperture of 10 cm, which is focused there. A test moves
+ * the disc to 2 m. */
 static const char DISC[] =
     "kiln: 1\n"
     "output: {size: [96, 64], frames: 30, fps: 30, samples: 64}\n"
@@ -125,7 +130,7 @@ static const char DISC[] =
     "         look: {shape: point, point: {size: 2 px}, blend: add, size: 2 cm, fade: {in: 0, out: "
     "0}}}\n";
 
-/* The variance of where the light of a picture falls, px^2. */
+/* Returns the variance of the place of a picture's light, px^2: of x plus that of y. */
 static double spread(const struct kiln_asset_image *image)
 {
     double sum = 0, x = 0, y = 0, squares = 0;
@@ -141,10 +146,10 @@ static double spread(const struct kiln_asset_image *image)
     return squares / sum - (x * x + y * y) / (sum * sum);
 }
 
-/* In focus, a disc is as wide as through a pinhole. At half the distance it is spread over the
- * circle of confusion: its diameter in the plane of focus is aperture * |d - focus| / d. Evenly
- * filled, a circle of radius r has the variance r^2 / 2. */
-static void the_circle_of_confusion_is_a_thin_lens_s(void **state)
+/* In focus, a disc is as wide as through a pinhole. At half of that distance, d, it is spread over
+ * the circle of confusion, whose diameter in the plane of focus is aperture * |d - focus| / d.
+ * Evenly filled, a circle of radius r has the variance r^2 / 2. */
+static void the_circle_of_confusion_is_that_of_a_thin_lens(void **state)
 {
     static const char *const WAYS[] = {"raster=cpu", "raster=geometry"};
     static const char *const NEAR[] = {"systems.disc.emit.from.point.origin=[0, 0, 2]", NULL};
@@ -165,6 +170,7 @@ static void the_circle_of_confusion_is_a_thin_lens_s(void **state)
     }
 }
 
+/* Depth of field is a mean over moments of a frame, so a scene with one moment is an error. */
 static void a_lens_needs_moments(void **state)
 {
     (void)state;
@@ -179,7 +185,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(techniques_agree),
-        test_on_device(the_circle_of_confusion_is_a_thin_lens_s),
+        test_on_device(the_circle_of_confusion_is_that_of_a_thin_lens),
         test_on_device(a_lens_needs_moments),
     };
     return cmocka_run_group_tests_name("lens", tests, test_device_open, test_device_close);
