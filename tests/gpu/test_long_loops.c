@@ -1,5 +1,7 @@
-/* Kernels whose loops are long. llvmpipe lets those of an invocation run 65,535 times in all and
- * then ends them, silently: each must be right all the same, or say that it can not be. */
+/* Checks kernels that loop over many sources, cells, neighbours or keys. llvmpipe silently ends the
+ * loops of an invocation after 65,535 iterations in all (KILN_SOFTWARE_ITERATIONS). A kernel must
+ * then still compute what `cpu` computes, or report an error. If this fails, software GL silently
+ * simulates large scenes wrongly. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -11,8 +13,8 @@
 
 static struct scene_fixture fixture; /* too large for a stack */
 
-/* What a technique makes of the scene in so many steps is what `cpu` does. The balls are placed
- * after the first. */
+/* Checks that a technique and `cpu` compute the same records in `steps` steps. place: NULL, or puts
+ * particles into a run, which is then at step BALLS_FIRST_STEP. */
 static void expect_as_on_cpu(struct kiln_device *device, enum kiln_simulate_technique technique,
                              void (*place)(struct simulation *run), uint32_t steps)
 {
@@ -35,7 +37,8 @@ static void expect_as_on_cpu(struct kiln_device *device, enum kiln_simulate_tech
 
 enum { SOURCES = 70001, TRACERS = 300 };
 
-/* Tracers are in the second system, behind all sources. */
+/* Places the sources in the first system, and in the second one the tracers, which the sources
+ * attract. */
 static void place_stars(struct simulation *run)
 {
     uint32_t seed = 5;
@@ -62,8 +65,8 @@ static void all_sources_pull(void **state)
 
 /* ---- cells ---------------------------------------------------------------------------------- */
 
-/* As many as any table has. */
-static void cells_are_added_up_to_the_last(void **state)
+/* Scans the largest table of cells that there is (MAX_CELLS, lib/sim/crowd/interact.c). */
+static void the_largest_table_of_cells_is_scanned(void **state)
 {
     enum { CELLS = 1 << 24 };
     struct kiln_error error = {0};
@@ -92,9 +95,10 @@ static void cells_are_added_up_to_the_last(void **state)
     glDeleteProgram(program);
 }
 
-static uint32_t crowd;
+static uint32_t crowd; /* balls that place_crowd places */
 
-/* All in one cell, and in another one's. */
+/* Places all balls within one cell. Cells are wider than 1 m, since init_crowd lets balls fly up to
+ * 1 m a step. */
 static void place_crowd(struct simulation *run)
 {
     uint32_t seed = 11;
@@ -111,6 +115,8 @@ static void init_crowd(uint32_t count)
     balls_init(&fixture, count, 0.02f)->fastest = fixture_constant(60.0f);
 }
 
+/* Software GL finds the partners among 1500 balls in a cell. Among 66000 it would end the search
+ * early, so the step fails. */
 static void a_crowd_in_a_cell_is_searched_or_refused(void **state)
 {
     struct kiln_device *device = *state;
@@ -133,7 +139,8 @@ static void a_crowd_in_a_cell_is_searched_or_refused(void **state)
 
 /* ---- keys ----------------------------------------------------------------------------------- */
 
-/* An emitter that moves and throws by as many keys as a scene may have. */
+/* The height of an emitter and the speed of its births follow 1000 keys, nearly as many as a scene
+ * may have (KILN_MAX_VALUE_KEYS). */
 static void births_find_their_keys(void **state)
 {
     enum { KEYS = 1000 };
@@ -156,7 +163,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(all_sources_pull),
-        test_on_device(cells_are_added_up_to_the_last),
+        test_on_device(the_largest_table_of_cells_is_scanned),
         test_on_device(a_crowd_in_a_cell_is_searched_or_refused),
         test_on_device(births_find_their_keys),
     };

@@ -1,4 +1,6 @@
-/* What the scene hides of particles is not shaded, and that changes no bit of what is seen. */
+/* Checks that billboards behind the scene are not shaded (lib/draw/sprites/occlusion.c), and that
+ * this changes no bit of the picture. If this fails, hidden smoke costs as much as visible smoke,
+ * or particles close to surfaces vanish. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -10,7 +12,8 @@
 #include "support/frame.h"
 #include "support/pictures.h"
 
-/* Billboards parallel to the picture; with system b, those of all shapes. */
+/* Billboards of system a, 10 m from the camera. They are parallel to the picture; the tests enable
+ * system b to use the program for all shapes. */
 static const char CARDS[] =
     "kiln: 1\n"
     "output: {size: [160, 90], fps: 30, frames: 100}\n"
@@ -22,7 +25,8 @@ static const char CARDS[] =
     "    look: {fade: {in: 0, out: 0}, size: 2 m}\n"
     "  b: {enabled: false, emit: {rate: 1}, look: {shape: point}}\n";
 
-/* Pixels that are shaded: of billboards at 10 m before a wall at a depth, and of that wall. */
+/* Returns how many fragments pass the depth test: those of billboards at 10 m, and those of a wall
+ * at wall_m that fills the depth buffer. */
 static uint32_t shaded(struct kiln_device *device, const char *const *overrides, size_t count,
                        float wall_m)
 {
@@ -44,7 +48,9 @@ static uint32_t shaded(struct kiln_device *device, const char *const *overrides,
     return passed;
 }
 
-static void what_is_hidden_is_not_shaded(void **state)
+/* All billboards are shaded in front of a wall, also if the wall is only 10 cm behind them. If they
+ * are behind the wall, only the wall itself passes the depth test. */
+static void hidden_billboards_are_not_shaded(void **state)
 {
     static const char *const overrides[] = {"systems.b.enabled=true",
                                             "systems.a.look.facing=viewpoint"};
@@ -63,7 +69,8 @@ static void what_is_hidden_is_not_shaded(void **state)
     drawing_technique = KILN_RASTER_GEOMETRY;
 }
 
-/* Smoke, cards, lines and fire through, behind and before boxes; the camera is in them. */
+/* Smoke, billboards about an axis, lines and fire lie in front of two boxes, behind and across
+ * them, and around the camera. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -101,7 +108,9 @@ static struct kiln_picture *draw(struct kiln_device *device, const struct frame_
     return frame_draw(device, SCENE, 20, setting);
 }
 
-static void no_bit_of_the_picture_changes(void **state)
+/* Compares pictures with those of a shader that writes the greatest depth everywhere, so that the
+ * depth test rejects nothing. */
+static void occlusion_changes_no_bit_of_a_picture(void **state)
 {
     static const char *const all = "systems.*.enabled=true",
                              *const literal = "systems.*.look.soft_formula=literal",
@@ -125,7 +134,7 @@ static void no_bit_of_the_picture_changes(void **state)
     snprintf(path, sizeof path, "%s/draw/occlusion.frag", folder);
     test_write_file(path, "void main() { gl_FragDepth = 1.0; }\n"); /* hides nothing */
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
-        device->info.software = false; /* there, fragments are always tested */
+        device->info.software = false; /* GPUs always use the depth test */
         struct kiln_picture *found = draw(*state, &settings[i]);
         setenv("KILN_SHADER_DIR", folder, 1);
         struct kiln_picture *expected = draw(*state, &settings[i]);
@@ -146,8 +155,8 @@ static void no_bit_of_the_picture_changes(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        test_on_device(what_is_hidden_is_not_shaded),
-        test_on_device(no_bit_of_the_picture_changes),
+        test_on_device(hidden_billboards_are_not_shaded),
+        test_on_device(occlusion_changes_no_bit_of_a_picture),
     };
     return cmocka_run_group_tests_name("occlusion", tests, test_device_open, test_device_close);
 }

@@ -1,5 +1,6 @@
-/* post.compose=oit: what is nearer in a pixel is seen there, whichever rasteriser draws, however
- * many fragments there are. */
+/* Checks post.compose=oit: in each pixel nearer fragments cover farther ones, with every technique
+ * of stage `raster`, however many fragments there are. If this fails, billboards that cross each
+ * other are drawn in a wrong order, or dense smoke loses fragments. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -16,9 +17,9 @@ enum { WIDTH = 96, HEIGHT = 64, STEPS = 20 };
 static const char *const OIT = "post.compose=oit";
 static const char *const MERGED = "post.compose=merged";
 
-/* Two stacks of cards of one middle, seen from above: the red one stands upright, so that its upper
- * half is nearer than the green one, which is parallel to the picture, and its lower half farther.
- */
+/* Two stacks of billboards with the same centre, seen from above. The red stack stands upright. The
+ * green stack is parallel to the picture, so that the upper half of the red one is nearer and the
+ * lower half is farther. */
 static const char CARDS[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -40,7 +41,8 @@ static const char CARDS[] =
     "           opacity: 0.9, thickness: 0}\n"
     "post: {bloom: {kind: none}}\n";
 
-/* Red against green over some rows of the picture, -1 to 1. */
+/* Returns (red - green) / (red + green) in the middle columns of the rows from `from` to `to`: 1 is
+ * red alone, -1 is green alone. */
 static double redness(const struct kiln_picture *picture, int from, int to)
 {
     double red = 0, green = 0;
@@ -55,7 +57,9 @@ static double redness(const struct kiln_picture *picture, int from, int to)
     return (red - green) / (red + green);
 }
 
-static void crossing_cards_cross(void **state)
+/* oit shows red in the upper half and green in the lower half. merged sorts billboards by their
+ * centres, so that one colour covers the other in both halves. */
+static void crossing_billboards_are_sorted_by_pixel(void **state)
 {
     static const struct kiln_techniques *const techniques[] = {&FRAME_CPU, &FRAME_GL};
     for (int i = 0; i < 2; i++) {
@@ -70,7 +74,7 @@ static void crossing_cards_cross(void **state)
     }
 }
 
-/* A flame in the middle of a puff. */
+/* A flame in a round puff, 1 cm nearer to the camera than the puff's centre. */
 static const char FLAME[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -90,6 +94,7 @@ static const char FLAME[] =
     "           thickness: 0}\n"
     "post: {bloom: {strength: 0}}\n";
 
+/* Returns the sum of red over a layer of the picture of FLAME. */
 static double light_of(struct kiln_device *device, const struct frame_setting *setting, int layer)
 {
     struct kiln_picture *picture = frame_draw(device, FLAME, STEPS, setting);
@@ -100,9 +105,9 @@ static double light_of(struct kiln_device *device, const struct frame_setting *s
     return sum;
 }
 
-/* Half of the puff covers what is in it: neither nothing, as when the flame is in front by a
- * centimetre, nor all. Its glow is dimmed as well. */
-static void thickness_covers_half(void **state)
+/* A round puff dims the glow of a flame within it by its front half. A flat puff dims none of it,
+ * since the flame is 1 cm in front of it; so does merged, which has no thickness. */
+static void a_puff_half_covers_a_flame_within(void **state)
 {
     static const char *const flat = "systems.puff.look.thickness=0";
     static const char *const behind = "systems.flame.emit.from.point.origin=[0, 1, -2]";
@@ -114,7 +119,7 @@ static void thickness_covers_half(void **state)
     double all = light_of(*state, &inside_flat, FRAME_BLOOM);
     assert_true(half < 0.8 * all && half > 0.2 * all);
     assert_true(fabs(light_of(*state, &merged, FRAME_BLOOM) / all - 1.0) < 1e-5);
-    /* Outside of it, the two halves are the whole. */
+    /* If the flame is before or behind the whole puff, oit draws it as merged does. */
     for (int i = 0; i < 2; i++) {
         const struct frame_setting oit = {{OIT, i ? behind : front}, 2, FRAME_CPU, 0};
         const struct frame_setting by_middle = {{MERGED, i ? behind : front}, 2, FRAME_CPU, 0};
@@ -127,7 +132,7 @@ static void thickness_covers_half(void **state)
     }
 }
 
-/* Many puffs, flames, cards and lines at one place. */
+/* Many puffs, billboards about an axis, flames and lines cross each other and a box. */
 static const char CROWD[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -170,6 +175,7 @@ static void techniques_agree(void **state)
     for (int i = 0; i < 6; i++)
         pictures[i] = frame_draw(*state, CROWD, STEPS, &settings[i]);
     for (int layer = 0; layer < FRAME_LAYERS; layer++) {
+        /* the fourth compares half resolution with full resolution */
         const double off[5] = {frame_difference(pictures[0], pictures[1], layer),
                                frame_difference(pictures[1], pictures[2], layer),
                                frame_difference(pictures[3], pictures[4], layer),
@@ -185,9 +191,10 @@ static void techniques_agree(void **state)
         kiln_picture_destroy(&pictures[i]);
 }
 
-/* So many in one place that no invocation could sort a pixel's list, nor, of the longest, blend it:
- * llvmpipe stops loops of one that is too long. The most of them are more fragments than are on
- * lists at a time. */
+/* So many particles in one place that a pixel's list is sorted in merge passes, and a long one is
+ * blended in spans, since llvmpipe ends the loops of an invocation that run too long. With 40000
+ * puffs, raster=cpu has more fragments than fit into its memory (KILN_PACKET_PIXELS) and draws rows
+ * several times. */
 static const char PILE[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -244,8 +251,8 @@ static void assert_same_pixels(const struct kiln_picture *a, const struct kiln_p
         assert_same_layer(a, b, layer, 0);
 }
 
-/* A device whose storage blocks hold little gets the picture in parts of rows; with less than a
- * pixel's list, or than the places of the picture's lists, a message says what to do. */
+/* A device with small storage blocks draws the picture in parts. If a block is too small for one
+ * pixel's list, or for the table of all lists (8 bytes a pixel), an error says what to do. */
 static void small_storage_blocks_are_respected(void **state)
 {
     static const char *const more = "systems.puffs.emit.bursts={0 s: 2000}";
@@ -273,8 +280,8 @@ static void small_storage_blocks_are_respected(void **state)
     kiln_picture_destroy(&parts);
 }
 
-/* A driver that counts less than it then puts on lists does not reach other pixels' lists: here
- * nothing of the left half is counted. */
+/* If a driver counts fewer fragments than it writes, the surplus does not overwrite the lists of
+ * other pixels. To imitate this, the changed shader counts no fragment of the left half. */
 static void lists_do_not_outgrow_their_counts(void **state)
 {
     static const char counts[] = "if (!writes) {";
@@ -303,7 +310,7 @@ static void lists_do_not_outgrow_their_counts(void **state)
     test_remove_folder(folder);
 }
 
-static void any_number_of_threads_makes_the_same(void **state)
+static void the_number_of_threads_changes_nothing(void **state)
 {
     const struct frame_setting one = {{OIT}, 1, FRAME_CPU, 1}, three = {{OIT}, 1, FRAME_CPU, 3};
     struct kiln_picture *a = frame_draw(*state, CROWD, STEPS, &one);
@@ -313,9 +320,9 @@ static void any_number_of_threads_makes_the_same(void **state)
     kiln_picture_destroy(&b);
 }
 
-/* With more sprites than are made at a time, raster=cpu keeps those of each piece that touch the
- * tiles that it draws. */
-static void more_than_are_made_at_a_time(void **state)
+/* raster=cpu makes sprites in pieces (SORTED_AT_A_TIME), and selects from each piece the sprites
+ * that touch the tiles that it draws. 1.1 million unseen particles add pieces, but no change. */
+static void unseen_pieces_change_nothing(void **state)
 {
     static const char *const many = "systems.unseen.emit.bursts={0 s: 1100000}";
     const struct frame_setting few = {{OIT}, 1, FRAME_CPU, 0},
@@ -330,14 +337,14 @@ static void more_than_are_made_at_a_time(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        test_on_device(crossing_cards_cross),
-        test_on_device(thickness_covers_half),
+        test_on_device(crossing_billboards_are_sorted_by_pixel),
+        test_on_device(a_puff_half_covers_a_flame_within),
         test_on_device(techniques_agree),
         test_on_device(lists_of_any_length_are_sorted),
         test_on_device(small_storage_blocks_are_respected),
         test_on_device(lists_do_not_outgrow_their_counts),
-        test_on_device(any_number_of_threads_makes_the_same),
-        test_on_device(more_than_are_made_at_a_time),
+        test_on_device(the_number_of_threads_changes_nothing),
+        test_on_device(unseen_pieces_change_nothing),
     };
     return cmocka_run_group_tests_name("oit", tests, test_device_open, test_device_close);
 }

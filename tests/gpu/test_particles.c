@@ -1,5 +1,6 @@
-/* Each technique of lib/draw/sprites/particles.c against a plain C rasteriser that follows
- * equations 3.1 to 3.3 of Heinz 2019 pixel by pixel. */
+/* Checks each technique of lib/draw/sprites/particles.c against a plain C rasteriser, which follows
+ * equations 3.1 to 3.3 of Heinz 2019 pixel by pixel in double precision. If this fails, a technique
+ * places, lights, blends or fades billboards wrongly. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -42,7 +43,7 @@ static const char SCENE[] =
     "           temperature: {life: [1900, 1200]}, soft: 0, bloom: [1, 0.5, 0.25],\n"
     "           rotation: [0 deg, 360 deg], near_fade: 0.5 m}\n";
 
-enum { FIRE_CELLS = 16 }; /* smoke has 32, which do not move */
+enum { FIRE_CELLS = 16 }; /* cells of the fire's flipbook; smoke has 32, without motion */
 
 struct fixture {
     struct kiln_device *device;
@@ -56,11 +57,11 @@ struct fixture {
     struct kiln_buffer entries;
     struct kiln_framebuffer framebuffer;
     struct kiln_moment moment;
-    struct kiln_lighting lighting; /* none */
-    float *cells[2];               /* of the systems */
+    struct kiln_lighting lighting; /* zero: no light and no shadows of particles */
+    float *cells[2];               /* texels of the systems' flipbooks */
     uint32_t cell_count[2];
     float motion[FIRE_CELLS * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION * 2];
-    bool literal; /* smoke fades by the formula as it is printed */
+    bool literal; /* smoke fades by equation 3.3 as it is printed */
 };
 
 static float random_within(float low, float high)
@@ -68,7 +69,8 @@ static float random_within(float low, float high)
     return low + (high - low) * (float)(rand() % 10001) / 10000.0f;
 }
 
-/* Particles of both systems at random places, ages and velocities, farthest first. */
+/* Places particles of both systems, with random positions, ages and velocities. The entries list
+ * the farthest first. */
 static void place_particles(struct fixture *f)
 {
     struct kiln_error error = {0};
@@ -82,7 +84,7 @@ static void place_particles(struct fixture *f)
     srand(17);
     for (uint32_t i = 0; i < COUNT; i++) {
         uint32_t system = i & 1, slot = system * COUNT + i;
-        float z = -1.0f + 2.6f * (float)i / COUNT; /* nearer and nearer */
+        float z = -1.0f + 2.6f * (float)i / COUNT; /* each nearer than the one before */
         uint32_t birth = 1 + (uint32_t)(rand() % (STEP - 1));
         records[slot] = (struct kiln_particle){
             .position_serial = {FLOAT_BITS(random_within(-1.0f, 1.0f)),
@@ -107,10 +109,11 @@ static void make_targets(struct fixture *f)
     assert_true(kiln_framebuffer_init(&f->framebuffer, f->device, targets, 2, &error));
 }
 
-/* What is tested now. */
+/* the technique that set_up_with creates */
 static enum kiln_raster_technique technique;
 
-/* The cells of a system's flipbook once more, and their motion. */
+/* Makes the cells of a system's flipbook for the reference, and the motion of the fire's cells,
+ * without the rounding of the atlas. */
 static void make_cells(struct fixture *f, int system, const char *name)
 {
     const size_t floats = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
@@ -175,7 +178,8 @@ static int set_up(void **state)
     return set_up_with(state, NULL, 0);
 }
 
-/* So soft that the bound of alpha is not reached before the floor and the box. */
+/* Makes smoke fade by equation 3.3 as it is printed. `soft` is so small that alpha stays below its
+ * limit of 1 in front of the floor and the box. */
 static int set_up_literal(void **state)
 {
     static const char *const literal[] = {"systems.smoke.look.soft_formula=literal",
@@ -214,9 +218,9 @@ struct sprite {
     double center[3], right[2], up[2]; /* view space; unit axes */
     double half_width, half_height, depth;
     double life, opacity, soft;
-    double distance; /* m; used by the literal formula, else 0 */
+    double distance; /* from the eye, m; 0 unless the literal formula is used */
     double cover[3], hot[3], cool[3], bloom[3];
-    double light[4][3]; /* constant, right, up, towards the viewer */
+    double light[4][3]; /* constant part, and parts along right, up and towards the viewer */
 };
 
 static float4 look(const struct fixture *f, uint32_t system, int row, double life)
@@ -255,7 +259,8 @@ static void add_light(struct sprite *s, const struct fixture *f, float3 towards,
     }
 }
 
-/* Light as the scene above sets it up: sky, sun and one lamp. */
+/* Adds the light of SCENE to a sprite: sky, sun and one lamp for smoke. Fire is not lit; it shows
+ * its own colour. */
 static void light_sprite(struct sprite *s, const struct fixture *f, float3 position)
 {
     static const double horizon[3] = {0.12, 0.13, 0.16}, top[3] = {0.02, 0.03, 0.05};
@@ -326,7 +331,7 @@ static struct sprite make_sprite(const struct fixture *f, uint32_t entry)
         double v[3];
         to_view(f, particle_velocity(record), 0, v);
         double speed = hypot(v[0], v[1]);
-        assert_true(speed > 0.2); /* below, the direction is mixed with the angle */
+        assert_true(speed > 0.2); /* else `angle` counts, too (billboard.h) */
         s.up[0] = v[0] / speed;
         s.up[1] = v[1] / speed;
         s.half_height += 0.5 * speed * (double)shape.y;
@@ -338,7 +343,8 @@ static struct sprite make_sprite(const struct fixture *f, uint32_t entry)
     return s;
 }
 
-/* Bilinear, level 0; x and y in 0..1. What is stored in 8 bits is rounded so here. */
+/* Samples level 0 of a cell bilinearly; x and y in 0..1. Texels are rounded to 8 bits, as the atlas
+ * stores them. */
 static void sample_cell(const float *cell, double x, double y, double out[4])
 {
     double tx = x * KILN_ATLAS_CELL - 0.5, ty = y * KILN_ATLAS_CELL - 0.5;
@@ -357,7 +363,7 @@ static void sample_cell(const float *cell, double x, double y, double out[4])
     }
 }
 
-/* The way to the next cell, likewise; not rounded. */
+/* Samples the motion to the next cell bilinearly, without rounding; x and y in 0..1. */
 static void sample_motion(const float *motion, double x, double y, double out[2])
 {
     double tx = x * KILN_ATLAS_MOTION - 0.5, ty = y * KILN_ATLAS_MOTION - 0.5;
@@ -373,7 +379,8 @@ static void sample_motion(const float *motion, double x, double y, double out[2]
     }
 }
 
-/* The fragment of a sprite at a pixel: premultiplied colour and alpha. */
+/* Computes the fragment of a sprite at a pixel: premultiplied colour and alpha in `out`, and the
+ * colour that goes to the bloom. */
 static void shade(const struct fixture *f, const struct sprite *s, int px, int py, double out[4],
                   double bloom[3])
 {
@@ -427,7 +434,8 @@ static void reverse(struct fixture *f)
     }
 }
 
-/* Each over those before it in the entries, whichever way the technique takes them. */
+/* Draws the particles, each over those before it in the entries. A technique that takes the nearest
+ * first gets the entries in reverse. */
 static void draw(struct fixture *f, bool sum_alpha)
 {
     if (kiln_particles_nearest_first(f->particles))
@@ -453,10 +461,10 @@ static void draw(struct fixture *f, bool sum_alpha)
         reverse(f);
 }
 
-/* Mean and 99.9th percentile of the relative error as docs/determinism.md states them;
- * a tenth is added to what it is relative to, since drivers filter 8-bit texels with 8-bit weights.
- */
-static void particles_match_c(void **state)
+/* Checks the limits of docs/determinism.md: a mean relative error of 1e-3, and at most one value in
+ * a thousand off by more than 1 %. A tenth is added to the value that the error is relative to,
+ * since drivers filter 8-bit texels with 8-bit weights. */
+static void particles_match_the_reference(void **state)
 {
     struct fixture *f = *state;
     draw(f, false);
@@ -469,7 +477,7 @@ static void particles_match_c(void **state)
     int off = 0;
     for (int p = 0; p < PIXELS; p++) {
         double color[4] = {0}, bloom[4] = {0};
-        /* Before the sky, the literal formula makes a cell's faintest texel opaque. */
+        /* In front of the distant sky, the literal formula makes even faint texels opaque. */
         if (f->literal && f->depth.host[p] > 8.0f)
             continue;
         for (int i = 0; i < COUNT; i++) {
@@ -489,14 +497,14 @@ static void particles_match_c(void **state)
                 off += fabs((double)f->bloom.host[4 * p + c] - bloom[c]) > 1e-2 * (bloom[c] + 0.1);
         }
     }
-    assert_true(light_sum / PIXELS > 0.5); /* there is something to see */
+    assert_true(light_sum / PIXELS > 0.5); /* the picture is not black */
     print_message("mean relative error %g, values off by over 1 %%: %d of %d\n",
                   error_sum / light_sum, off, PIXELS * 7);
     assert_true(error_sum / light_sum <= 1e-3);
     assert_true(off <= PIXELS * 7 / 1000);
 }
 
-/* Summed, the order does not matter, and alpha counts for fire as well. */
+/* With sum_alpha the order of particles does not matter, and fire adds to alpha, too. */
 static void sums_do_not_depend_on_order(void **state)
 {
     struct fixture *f = *state;
@@ -518,10 +526,10 @@ static void sums_do_not_depend_on_order(void **state)
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(particles_match_c),
+        cmocka_unit_test(particles_match_the_reference),
         cmocka_unit_test(sums_do_not_depend_on_order),
     };
-    static const struct CMUnitTest literal[] = {cmocka_unit_test(particles_match_c)};
+    static const struct CMUnitTest literal[] = {cmocka_unit_test(particles_match_the_reference)};
     static const struct {
         enum kiln_raster_technique technique;
         const char *name, *literal_name;

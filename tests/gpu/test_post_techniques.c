@@ -1,4 +1,6 @@
-/* The techniques of the stages in lib/post make the same picture. */
+/* Checks that the techniques of the stages `bloom` and `composite` (lib/post) make the same picture
+ * on the host and in GL, for any size and any number of threads. If this fails, the look of a scene
+ * depends on the device. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -21,7 +23,8 @@ static struct kiln_scene *parse(const char *post, uint32_t width, uint32_t heigh
     return scene;
 }
 
-/* A premultiplied picture of lights from faint to far beyond white; alphas up to most_alpha. */
+/* Fills an image with random premultiplied colours, from faint to 16 times as bright as white.
+ * Alpha is 1 if `opaque` is set, otherwise up to most_alpha. */
 static void fill(struct kiln_image *image, void *device, uint32_t width, uint32_t height,
                  const char *label, bool opaque, float most_alpha)
 {
@@ -42,7 +45,7 @@ struct inputs {
     struct kiln_composite_inputs all;
 };
 
-/* What takes part, and of which size. */
+/* The size of a picture, the layers that it is composed of, and the bits of the result. */
 struct variant {
     uint32_t width, height, bits;
     bool transparent, particles, fire, bloom;
@@ -103,8 +106,9 @@ static void composed_free(struct composed *c)
     free(c->beauty);
 }
 
-/* A level at most, and hardly ever that: of 8 bits, or a few of 16. Light that is magnified, of up
- * to 16, has the error of GL's coordinates. */
+/* Checks that displayed values differ by at most 1 level of 8 bits or 12 of 16 bits, and on average
+ * by far less. Linear values differ by rounding only. If `glow` is set, a smaller bloom is
+ * magnified: then the error of GL's texture coordinates counts, too, for light of up to 16. */
 static void assert_alike(const struct composed *a, const struct composed *b, size_t channels,
                          uint32_t bits, bool glow, const char *what)
 {
@@ -192,7 +196,8 @@ static void composites_of_any_size_are_alike(void **state)
 
 /* ---- bloom ----------------------------------------------------------------------------------- */
 
-/* The glow, and what glows, copied; *count floats of the glow. */
+/* Runs the bloom stage. Returns a copy of its result, followed by a copy of the light that glows,
+ * and the number of floats of both in *count. The caller frees the copy. */
 static float *glow(void *device, const struct kiln_scene *scene,
                    enum kiln_bloom_technique technique, uint32_t threads, struct inputs *in,
                    size_t *count)

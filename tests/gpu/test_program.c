@@ -1,4 +1,6 @@
-/* lib/gpu/program.h: includes, error lines, KILN_SHADER_DIR. */
+/* Checks how shader programs are made (lib/gpu/program.h, source.h): includes are resolved, errors
+ * name the file and line of a shader, and KILN_SHADER_DIR replaces embedded files. If this fails,
+ * errors in shaders name wrong lines, or changed shader files have no effect. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -15,9 +17,10 @@
 struct fixture {
     struct kiln_device *device;
     struct kiln_log log;
-    char dir[64]; /* what KILN_SHADER_DIR names */
+    char dir[64]; /* KILN_SHADER_DIR: a folder of the test's own */
 };
 
+/* all files that tests write to `dir` */
 static const char *const written[] = {"main.comp",   "part.h",    "deep.h", "cycle_a.h",
                                       "cycle_b.h",   "test.vert", "t.frag", "shared/platform.h",
                                       "sharedplat.h"};
@@ -63,7 +66,8 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* Drivers' warnings about shaders that are wrong on purpose stay out of the test's output. */
+/* Creates a program without the log, since some shaders are wrong on purpose and drivers warn about
+ * them. */
 static GLuint create_quietly(struct fixture *fixture, const struct kiln_program_params *params,
                              struct kiln_error *error)
 {
@@ -73,6 +77,7 @@ static GLuint create_quietly(struct fixture *fixture, const struct kiln_program_
     return program;
 }
 
+/* Checks that main.comp is an error with this code, whose text contains `message`. */
 static void assert_refused(struct fixture *fixture, enum kiln_code code, const char *message)
 {
     struct kiln_error error = {0};
@@ -118,6 +123,7 @@ static void includes_and_defines_reach_the_driver(void **state)
     assert_true(kiln_device_check(fixture->device, "dispatch", &error));
 }
 
+/* GL guarantees 65535 work groups an axis; kiln_device_dispatch uses two axes for more. */
 static void a_dispatch_reaches_every_index(void **state)
 {
     enum { MORE_THAN_ONE_AXIS = 3 * 65535 + 5 };
@@ -235,7 +241,8 @@ static void unreadable_overrides_are_errors(void **state)
     setenv("KILN_SHADER_DIR", fixture->dir, 1);
 }
 
-/* main.comp is lines 3 to 5 and 8 on of the joined text, part.h 6 and 7. */
+/* In the joined text, lines 1 and 2 are the version and the defines, lines 3 to 5 and 8 are lines 1
+ * to 3 and 5 of main.comp, and lines 6 and 7 are part.h. */
 static void driver_messages_are_mapped(void **state)
 {
     struct fixture *fixture = *state;

@@ -1,5 +1,7 @@
-/* The techniques of stage `raster` on every scene, against the definition of what they draw: the
- * layers of a frame in linear light, in double precision (support/true_billboards.h). */
+/* Checks each technique of stage `raster` on every scene of scenes/ against a reference that draws
+ * billboards pixel by pixel in double precision (support/true_billboards.h). Layers are compared in
+ * linear light. If this fails, pictures of a technique differ by more than docs/determinism.md
+ * promises. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -23,7 +25,7 @@ static const struct {
 };
 enum { RASTER_COUNT = sizeof RASTERS / sizeof *RASTERS };
 
-/* A scene at a moment, all but its billboards drawn. */
+/* A scene at a moment. The stages have drawn it, so its backdrop, light and depth are known. */
 struct subject {
     const char *name;
     struct kiln_scene *scene;
@@ -34,24 +36,24 @@ struct subject {
     struct kiln_particles_stage *rasters[RASTER_COUNT];
     struct kiln_image color, glow;
     struct kiln_framebuffer targets;
-    bool failed; /* some difference is too large */
+    bool failed; /* a difference was too large */
 };
 
-/* What is drawn of it at a time. */
+/* The systems that are drawn together. */
 struct pass {
     const char *name;
-    uint32_t systems;
-    bool over; /* the scene: the picture itself, and its glow */
+    uint32_t systems; /* bit i: system i is drawn */
+    bool over;        /* compares the pass over the backdrop, too */
 };
 
-enum { MOST_STEPS = 200 }; /* that a scene is taken: then every one is on its way */
+enum { MOST_STEPS = 200 }; /* steps before the drawn moment; every scene has particles by then */
 
-/* A scene that stands here, not in a file. */
+/* A scene whose text is in this file. */
 struct text {
     const char *name, *yaml;
 };
 
-/* So many and so faint that each adds less than a byte can say. */
+/* 70000 particles, each so faint that it adds about one level of 8 bits or less. */
 static const struct text FAINT = {
     "faint",
     "kiln: 1\n"
@@ -63,8 +65,8 @@ static const struct text FAINT = {
     "    emit: {bursts: {0 s: 70000}, life: 10 s, from: {box: {size: [6, 3, 2]}}}\n"
     "    look: {atlas: \"builtin:smoke\", size: 20 cm, opacity: 0.004, color: [1, 0.9, 0.8]}\n"};
 
-/* So many particles that cells are mixed beforehand, of 11 to 21 pixels and all ages: cells of two
- * levels, with motion and many phases. */
+/* So many particles that raster=cpu mixes cells of the atlas before it draws. They are about 8 to
+ * 24 pixels wide and of all ages: it mixes cells of several levels, with motion, at many phases. */
 static const struct text MIXED = {
     "mixed",
     "kiln: 1\n"
@@ -84,7 +86,8 @@ static const struct text MIXED = {
     "      opacity: 0.01\n"
     "      temperature: 1700\n"};
 
-/* path: of the file, or NULL for `text`. */
+/* Loads a scene and creates its stages and a stage for each technique. path: the scene's file, or
+ * NULL for `text`. */
 static void open_subject(struct subject *s, struct kiln_device *device, const char *path,
                          const struct text *text)
 {
@@ -119,7 +122,7 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
     assert_true(kiln_framebuffer_init(&s->targets, device, images, 2, &error));
 }
 
-/* To the frame in the middle of the clip, or as far as that may be. */
+/* Draws the frame in the middle of the clip, or the state after MOST_STEPS if that is earlier. */
 static void draw_subject(struct subject *s)
 {
     struct kiln_error error = {0};
@@ -157,7 +160,7 @@ static uint32_t systems_of(const struct kiln_scene *scene, enum kiln_blend blend
     return mask;
 }
 
-/* Lists the particles of a pass, farthest first. */
+/* Lists the particles of a pass: the farthest first, or by serial if all are additive. */
 static struct kiln_particles_draw list_pass(struct subject *s, const struct pass *pass)
 {
     struct kiln_error error = {0};
@@ -200,12 +203,13 @@ static void reverse(const struct kiln_particles_draw *draw)
     }
 }
 
-/* Mean relative error; the share of values that are off by more than 1 % of themselves and a tenth.
- */
+/* The mean relative error, and the share of values that are off by more than 1 % of the value plus
+ * a tenth. */
 struct difference {
     double mean, off;
 };
 
+/* Measures the difference of two premultiplied pictures, over `behind` unless it is NULL. */
 static struct difference measure(const double (*truth)[4], const float *drawn, const float *behind,
                                  size_t pixels, int channels)
 {
@@ -224,8 +228,8 @@ static struct difference measure(const double (*truth)[4], const float *drawn, c
     return (struct difference){error_sum / light_sum, off / (double)(pixels * (size_t)channels)};
 }
 
-/* What a technique drew of a pass. docs/determinism.md: mean relative error at most 1e-3, no more
- * than one value in a thousand off by more than 1 %. */
+/* Compares what a technique drew of a pass with the reference. docs/determinism.md allows a mean
+ * relative error of 1e-3, and one value in a thousand that is off by more than 1 %. */
 static void compare(struct subject *s, const struct pass *pass, const char *raster,
                     const struct true_picture *truth)
 {
@@ -279,7 +283,8 @@ static void draw_pass(struct subject *s, const struct pass *pass)
     free(scene.table);
 }
 
-/* All that is blended, and each layer of an EXR where that is not all. */
+/* Compares all billboards of a scene. If it has both fire and smoke, each is also compared alone,
+ * as in the layers of an EXR. Returns false if a difference is too large. */
 static bool agree_on(struct kiln_device *device, const char *path, const struct text *text)
 {
     struct subject s;

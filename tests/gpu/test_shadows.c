@@ -1,5 +1,7 @@
-/* Shadows of particles and on particles: of spheres on the floor and on each other, against rays
- * that are counted; of meshes, against their corners; of a box on spheres and on smoke. */
+/* Checks the shadows that the sun throws: of spheres and meshes on the floor, of spheres on each
+ * other, and of objects on the floor, on spheres and on smoke. Shadows are compared with rays that
+ * are counted, or with the corners of the mesh. If this fails, shadows lie in wrong places, or are
+ * cut off, too dark or too hard. Each technique of the backdrop runs all tests. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -15,7 +17,8 @@
 
 enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
 
-/* The floor from above, in nothing but sunlight: white, of an irradiance of pi. */
+/* The camera looks down at a white floor that only the sun lights, with an irradiance of pi across
+ * its rays: pixels in the sun are 0.8, the cosine at the floor. */
 #define HEAD                                                                                       \
     "kiln: 1\n"                                                                                    \
     "output: {size: [160, 90], fps: 60}\n"                                                         \
@@ -31,7 +34,8 @@ enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
     "    emit: {life: 1 s}\n"                                                                      \
     "    look: {shape: sphere, size: 0.6 m, color: 1, lit: 1, fade: {in: 0, out: 0}}\n"
 
-/* A corner where three edges of EDGE meet; turned about y by 40 degrees. */
+/* Tetrahedra with a corner where three edges of length EDGE meet at right angles; they are turned
+ * about y by 40 degrees. */
 #define TETRAHEDRA                                                                                 \
     "systems:\n"                                                                                   \
     "  a:\n"                                                                                       \
@@ -40,13 +44,13 @@ enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
     "           rotation: [40 deg, 40 deg], color: 1, lit: 1, fade: {in: 0, out: 0}}\n"
 
 static const double RADIUS = 0.3, EDGE = 0.9;
-static const vec TOWARDS = {-0.6, 0.8, 0};
+static const vec TOWARDS = {-0.6, 0.8, 0}; /* to the sun */
 
 struct fixture {
     struct drawing drawing;
     struct kiln_threads *threads;
     struct kiln_lighting_stage *lighting;
-    struct kiln_solids_stage *solids; /* NULL: the particles have another shape */
+    struct kiln_solids_stage *solids; /* NULL: the particles are billboards */
     struct kiln_image color, depth, bloom;
 };
 
@@ -88,8 +92,8 @@ static void finish(struct fixture *f)
     drawing_finish(&f->drawing);
 }
 
-/* The backdrop and the particles at these places; the pixels are in drawing.backdrop_color, and
- * color or drawing.color. */
+/* Draws the backdrop into drawing.backdrop_color, and particles at these places: solids over the
+ * backdrop into color and depth, billboards into drawing.color. */
 static void draw(struct fixture *f, const vec *places, uint32_t count)
 {
     struct kiln_error error = {0};
@@ -113,17 +117,17 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
     assert_non_null(kiln_image_host(&f->depth, KILN_READ, &error));
 }
 
-/* Where the ray through a pixel's middle meets the floor. */
+/* Returns where the ray through a pixel's middle meets the floor. */
 static vec floor_at(const struct drawing *d, int x, int y)
 {
     vec eye = drawing_eye(d), ray = drawing_ray(d, x + 0.5, y + 0.5);
     return vec_add(eye, ray, -eye.y / ray.y);
 }
 
-/* Rays to all parts of the sun's disc, which has an angular radius. */
 enum { SUN_RAYS = 300 };
-static vec sun_rays[SUN_RAYS];
+static vec sun_rays[SUN_RAYS]; /* unit vectors to all parts of the sun's disc */
 
+/* Spreads sun_rays evenly over a disc of an angular radius, rad. */
 static void aim_at_sun(double sun_radius)
 {
     const vec right = {0.8, 0.6, 0}, up = {0, 0, 1};
@@ -133,7 +137,7 @@ static void aim_at_sun(double sun_radius)
     }
 }
 
-/* The part of the disc that a point sees past spheres. */
+/* Returns the part of the sun's disc that a point sees past spheres. */
 static double sun_seen(vec point, const vec *places, uint32_t count)
 {
     int seen = 0;
@@ -151,7 +155,8 @@ static double sun_seen(vec point, const vec *places, uint32_t count)
     return (double)seen / SUN_RAYS;
 }
 
-/* Compares the floor with the rays; returns the pixels in penumbra. */
+/* Compares the floor with rays, and returns the number of pixels in penumbra. sun_radius: rad;
+ * tolerance: a part of the whole sunlight. */
 static int check_floor(const struct fixture *f, const vec *places, uint32_t count,
                        double sun_radius, double tolerance)
 {
@@ -165,7 +170,7 @@ static int check_floor(const struct fixture *f, const vec *places, uint32_t coun
             double found = (double)d->backdrop_color.host[4 * (y * WIDTH + x)] / 0.8;
             partly += found > 0.05 && found < 0.95;
             dark += found < 0.05;
-            bool even = true; /* a sharp edge within the pixel has four rays of its own */
+            bool even = true; /* false at sharp edges, where the backdrop mixes four samples */
             for (int k = 0; k < 4; k++) {
                 vec aside = {at.x + (k & 1 ? 0.05 : -0.05), 0, at.z + (k & 2 ? 0.05 : -0.05)};
                 even = even && fabs(sun_seen(aside, places, count) - expected) < 0.5;
@@ -176,14 +181,15 @@ static int check_floor(const struct fixture *f, const vec *places, uint32_t coun
             wrong += fabs(found - expected) > tolerance;
         }
     }
-    if (wrong > WIDTH * HEIGHT / 1000) /* gaps between shadows that are finer than pixels */
+    if (wrong > WIDTH * HEIGHT / 1000) /* some gaps between shadows are finer than pixels */
         fail_msg("%d of %d pixels are wrong", wrong, compared);
     assert_true(compared > WIDTH * HEIGHT * 3 / 4);
     assert_true(dark > 20 || sun_radius > 0.1);
     return partly;
 }
 
-/* 2 m above the floor its shadow lies 1.5 m aside; the penumbra is as wide as the sun. */
+/* A sphere 2 m above the floor throws its shadow 1.5 m aside. The larger the sun, the wider the
+ * penumbra. */
 static void the_shadow_of_a_sphere_lies_where_geometry_says(void **state)
 {
     static const char *const sizes[] = {NULL, "backdrop.sun.size=4 deg", "backdrop.sun.size=12 deg",
@@ -196,7 +202,7 @@ static void the_shadow_of_a_sphere_lies_where_geometry_says(void **state)
         init(&f, *state, HEAD "backdrop:\n" SUN SPHERES, sizes[i]);
         draw(&f, &place, 1);
         penumbra[i] = check_floor(&f, &place, 1, degrees[i] / 2 * acos(-1.0) / 180, 0.06);
-        /* In the middle of the shadow, and where the sphere itself stands over the floor. */
+        /* The middle of the shadow is black unless the sun looks larger than the sphere. */
         vec middle = drawing_project(&f.drawing, (vec){1.5, 0, 0});
         size_t pixel = (size_t)middle.y * WIDTH + (size_t)middle.x;
         assert_true(degrees[i] > 20 || f.drawing.backdrop_color.host[4 * pixel] < 0.01f);
@@ -206,14 +212,14 @@ static void the_shadow_of_a_sphere_lies_where_geometry_says(void **state)
     assert_true(penumbra[3] > penumbra[2]);
 }
 
-/* Where the axes of meshes point: turned about y by 40 degrees, and as a pose has it. */
+/* The axes of a mesh: turned about y by 40 degrees, and turned by the quaternion POSE. */
 static const vec UPRIGHT[3] = {
     {0.766044443, 0, -0.642787610}, {0, 1, 0}, {0.642787610, 0, 0.766044443}};
 static const double POSE[4] = {0.48, -0.6, 0.0, 0.64};
 static const vec POSED[3] = {
     {0.28, -0.576, 0.768}, {-0.576, 0.5392, 0.6144}, {-0.768, -0.6144, -0.1808}};
 
-/* Is a place behind the tetrahedron, as the sun sees them? */
+/* Returns whether the tetrahedron hides the middle of the sun from a place. */
 static bool is_behind(vec place, vec middle, const vec axes[3])
 {
     double x[5], y[5];
@@ -238,7 +244,7 @@ static bool is_behind(vec place, vec middle, const vec axes[3])
     return false;
 }
 
-/* The sunlight that the floor lacks, all over the picture. */
+/* Returns how much sunlight the floor lacks, summed over all pixels; 1 is a black pixel. */
 static double darkness(const struct fixture *f)
 {
     double sum = 0;
@@ -247,7 +253,8 @@ static double darkness(const struct fixture *f)
     return sum;
 }
 
-/* Pixels are wrong that are not near its edge. */
+/* Checks that the floor is dark where the tetrahedron hides the sun, and bright elsewhere. Pixels
+ * near the edge of the shadow are left out. */
 static void check_shape(const struct fixture *f, vec place, const vec axes[3])
 {
     int dark = 0;
@@ -260,14 +267,15 @@ static void check_shape(const struct fixture *f, vec place, const vec axes[3])
             even = even && is_behind(aside, place, axes) == behind;
         }
         const double found = (double)f->drawing.backdrop_color.host[4 * p] / 0.8;
-        assert_true(!even || fabs(found - (behind ? 0 : 1)) < 0.08); /* tips are blurred */
+        assert_true(!even || fabs(found - (behind ? 0 : 1)) < 0.08); /* thin tips are blurred */
         dark += even && behind;
     }
     assert_true(dark > 30);
 }
 
-/* With a sharp edge under a small sun; a larger one blurs it, and takes away as much light, a very
- * large one about as much, as of a sphere. */
+/* Under a sun without a size the shadow has the mesh's shape. A sun of 8 degrees blurs the shadow
+ * and keeps the sum of its darkness. For a sun of 30 degrees a sphere stands for the mesh
+ * (lib/draw/light/solid_shadow.h), and keeps the sum roughly. */
 static void the_shadow_of_a_mesh_has_its_shape(void **state)
 {
     static const char *const suns[] = {NULL, "backdrop.sun.size=8 deg", "backdrop.sun.size=30 deg"};
@@ -287,7 +295,7 @@ static void the_shadow_of_a_mesh_has_its_shape(void **state)
     drawing_asset_root = NULL;
 }
 
-/* And so it has where collisions turn it. */
+/* A mesh that collisions have turned throws the shadow of its turned shape. */
 static void the_shadow_of_a_mesh_turns_with_it(void **state)
 {
     const vec place = {0, 2, 0};
@@ -307,8 +315,8 @@ static void the_shadow_of_a_mesh_turns_with_it(void **state)
     drawing_asset_root = NULL;
 }
 
-/* Lists have it wherever its shadow falls: so it is with bins that are much larger, because of
- * another one far away. */
+/* Each bin that a soft shadow reaches has the mesh in its list. A second mesh 900 m away makes all
+ * bins much larger; if smaller bins cut a shadow off, the picture would differ. */
 static void the_soft_shadow_of_a_mesh_is_whole(void **state)
 {
     static const char *const suns[] = {"backdrop.sun.size=4 deg", "backdrop.sun.size=16 deg"};
@@ -334,7 +342,8 @@ static void the_soft_shadow_of_a_mesh_is_whole(void **state)
     free(alone);
 }
 
-/* They have the mean shadow of all poses, which is a quarter of the surface. */
+/* If meshes are too many for silhouettes, each throws the shadow of a sphere. The sphere's disc is
+ * as large as the mesh's mean shadow over all poses: a quarter of its surface. */
 static void meshes_that_are_too_many_have_round_shadows(void **state)
 {
     const vec place = {0, 2, 0};
@@ -349,8 +358,8 @@ static void meshes_that_are_too_many_have_round_shadows(void **state)
     drawing_asset_root = NULL;
 }
 
-/* So many that bins have several, whatever their order; where two overlap, their covers are
- * multiplied, which a small sun hardly shows. */
+/* The 24 spheres are so many that bins list several. Covers of spheres that overlap are multiplied,
+ * which is wrong in penumbras only; under a sun of 0.2 degrees these are narrow. */
 static void spheres_of_a_cloud_all_throw_shadows(void **state)
 {
     struct fixture f;
@@ -365,7 +374,7 @@ static void spheres_of_a_cloud_all_throw_shadows(void **state)
     float *before = malloc(WIDTH * HEIGHT * 4 * sizeof *before);
     assert_non_null(before);
     memcpy(before, f.drawing.backdrop_color.host, WIDTH * HEIGHT * 4 * sizeof *before);
-    draw(&f, places, 1); /* the picture is not kept */
+    draw(&f, places, 1); /* the stage must not keep the picture with more shadows */
     check_floor(&f, places, 1, 0.1 * acos(-1.0) / 180, 0.25);
     draw(&f, places, 24);
     assert_memory_equal(before, f.drawing.backdrop_color.host, WIDTH * HEIGHT * 4 * sizeof *before);
@@ -373,8 +382,8 @@ static void spheres_of_a_cloud_all_throw_shadows(void **state)
     finish(&f);
 }
 
-/* Draws the backdrop alone, with a sphere and so many below the floor, where its shadow falls; they
- * come before it in all lists, and shade nothing. */
+/* Draws the backdrop with the shadow of a sphere. `buried` more spheres lie below the floor in line
+ * with the shadow: they come first in its lists, and shade nothing. Returns false with an error. */
 static bool draw_buried(struct fixture *f, uint32_t buried, struct kiln_error *error)
 {
     struct drawing *d = &f->drawing;
@@ -392,8 +401,8 @@ static bool draw_buried(struct fixture *f, uint32_t buried, struct kiln_error *e
     return ok && kiln_image_host(&d->backdrop_color, KILN_READ, error);
 }
 
-/* All of a list is read, though llvmpipe lets loops run so often and no more; or it is said that it
- * can not be. */
+/* A list of 20001 spheres is read to its end. A list of 40001 needs more loop iterations than
+ * llvmpipe runs (KILN_SOFTWARE_ITERATIONS); there backdrop=gl reports an error. */
 static void a_list_of_spheres_may_be_long(void **state)
 {
     const struct kiln_device *device = *state;
@@ -419,16 +428,16 @@ static void a_list_of_spheres_may_be_long(void **state)
     free(alone);
 }
 
-/* Light of the pixel that shows the top of the sphere at a place. */
+/* Returns the light of the pixel that shows the top of the sphere at a place. */
 static double light_of(const struct fixture *f, vec place)
 {
     vec at = drawing_project(&f->drawing, place);
     size_t pixel = (size_t)at.y * WIDTH + (size_t)at.x;
-    assert_true((double)f->depth.host[pixel] < at.z); /* it is there */
+    assert_true((double)f->depth.host[pixel] < at.z); /* the sphere is drawn */
     return (double)f->color.host[4 * pixel];
 }
 
-/* The second is in the shadow of the first, the third beside it. */
+/* The second sphere is in the shadow of the first, and the third is beside the shadow. */
 static void spheres_shade_each_other(void **state)
 {
     const vec places[] = {{-0.75, 2, 0}, {0.375, 0.5, 0}, {0.375, 0.5, 1.5}};
@@ -440,7 +449,7 @@ static void spheres_shade_each_other(void **state)
     finish(&f);
 }
 
-/* Behind each kind of object, and beside it. */
+/* For each kind of object, the first sphere is in its shadow, and the second is beside it. */
 static void the_backdrop_shades_spheres(void **state)
 {
     static const char *const objects[] = {
@@ -458,7 +467,8 @@ static void the_backdrop_shades_spheres(void **state)
     }
 }
 
-/* The part of the sun's disc of 6 degrees that a point sees past the box of below. */
+/* Returns the part of the sun's disc, 6 degrees wide, that a point sees past the box of the next
+ * test. */
 static double sun_seen_past_box(vec point)
 {
     enum { RAYS = 400 };
@@ -480,9 +490,9 @@ static double sun_seen_past_box(vec point)
     return (double)seen / RAYS;
 }
 
-/* Of a sun across one of the box's axes, on all sides: away from the corners of the shadow, where
- * two covers are multiplied, penumbras are about as rays say. */
-static void the_penumbra_of_a_box_is_that_of_its_edges(void **state)
+/* The sun stands across the box's z axis. On all four sides of the shadow, the penumbra is about
+ * what rays find. The corners are left out: there two covers are multiplied. */
+static void penumbras_of_a_box_match_rays(void **state)
 {
     static const char text[] =
         HEAD "backdrop:\n"
@@ -494,7 +504,8 @@ static void the_penumbra_of_a_box_is_that_of_its_edges(void **state)
     struct fixture f;
     init(&f, *state, text, NULL);
     draw(&f, NULL, 0);
-    /* Along its two sides, from x = 1.3 to 2.1, and its two ends. */
+    /* The shadow's sides are at z = 0.7 and -0.7, its ends at x = 1 and 2.45. Each is crossed at
+     * its middle, from 15 cm outside to 15 cm inside. */
     for (int i = 0; i < 44; i++) {
         double across = (i % 11 - 5) * 0.03;
         const vec sides[] = {{1.7, 0, 0.7 + across}, {1.7, 0, -0.7 - across}};
@@ -511,7 +522,8 @@ static void the_penumbra_of_a_box_is_that_of_its_edges(void **state)
     finish(&f);
 }
 
-/* A sun that is no point, along its axis: the floor around is light. */
+/* The sun, 2 degrees wide, stands above a cylinder of 0.7 m radius. The floor 1.1 m from the axis
+ * is bright all around, since the shadow is a disc. */
 static void a_cylinder_is_round_from_above(void **state)
 {
     static const char text[] =
@@ -540,8 +552,8 @@ static void a_cylinder_is_round_from_above(void **state)
     "    emit: {life: 1 s}\n"                                                                      \
     "    look: {size: 0.4 m, color: 1, lit: 1, soft: 0, fade: {in: 0, out: 0}}\n"
 
-/* Smoke behind a thing is dark, before it and beside it as light as without it, and on its way out
- * of the shadow it is in between. */
+/* Smoke in the shadow of an object is dark. Before and beside the object it is as bright as without
+ * the object, and at the edge of the shadow its light is in between. */
 static void the_backdrop_shades_smoke(void **state)
 {
     static const char *const objects[] = {
@@ -556,7 +568,7 @@ static void the_backdrop_shades_smoke(void **state)
         for (int k = 0; k < 4; k++) {
             vec at = drawing_project(&f.drawing, places[k]);
             size_t pixel = (size_t)at.y * WIDTH + (size_t)at.x;
-            light[i][k] = (double)f.drawing.color.host[4 * pixel + 2]; /* blue is even in it */
+            light[i][k] = (double)f.drawing.color.host[4 * pixel + 2]; /* the texture's blue is 1 */
         }
         finish(&f);
     }
@@ -584,7 +596,7 @@ int main(int argc, char **argv)
         test_on_device(the_backdrop_shades_spheres),
         test_on_device(a_cylinder_is_round_from_above),
         test_on_device(the_backdrop_shades_smoke),
-        test_on_device(the_penumbra_of_a_box_is_that_of_its_edges),
+        test_on_device(penumbras_of_a_box_match_rays),
     };
     struct test_list list = {.count = 0};
     test_list_add(&list, tests, sizeof tests / sizeof *tests);

@@ -1,6 +1,7 @@
-/* Motion blur: a frame with a shutter is the mean, in linear light, of the pictures at the moments
- * while it is open, which a clip of a higher rate shows one by one. A moment within a step needs no
- * step of its own. */
+/* Checks motion blur. A frame with a shutter is the mean, in linear light, of the pictures at the
+ * moments while the shutter is open; a clip with a higher frame rate shows these pictures one by
+ * one. A moment may lie within a step. If this fails, moving particles are blurred by too much or
+ * too little, or leave gaps. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -17,7 +18,8 @@
 
 enum { WIDTH = 48, HEIGHT = 32, MOMENTS = 4, FRAME = 12 };
 
-/* A moving camera, fire and smoke, and bloom. */
+/* A moving camera, smoke, and fire with bloom. The four %s stand for the frame rate, the step rate,
+ * a setting of the camera, and settings of `post`. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [48, 32], frames: 120, fps: %s}\n"
@@ -53,7 +55,7 @@ static void render(struct kiln_device *device, const char *fps, const char *rate
     kiln_scene_destroy(&scene);
 }
 
-/* A layer of a picture, of WIDTH * HEIGHT * 4 floats. */
+/* Returns a layer of an EXR file: WIDTH * HEIGHT * 4 floats. */
 static struct kiln_asset_image *load_layer(const char *path, const char *layer)
 {
     struct kiln_error error = {0};
@@ -65,11 +67,12 @@ static struct kiln_asset_image *load_layer(const char *path, const char *layer)
     return image;
 }
 
+/* Compares a blurred frame with the mean of the sharp frames of a clip of eight times the rate. */
 static void check(void *device, const char *post)
 {
     char folder[] = "/tmp/kiln-shutter-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
-    /* Half a frame of 8 steps is 4 moments, one a step. */
+    /* A frame has 8 steps. The shutter is open for half of them: 4 moments, one a step. */
     snprintf(path, sizeof path, "%s/blurred.exr", folder);
     render(device, "30", "240", "shutter: {samples: 4, angle: 180 deg}", post, path, FRAME, FRAME);
     snprintf(path, sizeof path, "%s/moment_%%02d.exr", folder);
@@ -85,7 +88,7 @@ static void check(void *device, const char *post)
             struct kiln_asset_image *image = load_layer(path, LAYERS[l]);
             for (int i = 0; i < WIDTH * HEIGHT * 4; i++)
                 sum[i] += (double)((const float *)image->pixels)[i] / MOMENTS;
-            if (m == 0) { /* a picture that does not move would prove nothing */
+            if (m == 0) { /* the moments must differ from their mean */
                 snprintf(path, sizeof path, "%s/blurred.exr", folder);
                 struct kiln_asset_image *blurred = load_layer(path, LAYERS[l]);
                 for (int i = 0; i < WIDTH * HEIGHT * 4; i++)
@@ -120,8 +123,8 @@ static void a_frame_is_the_mean_of_its_moments(void **state)
     check(*state, "bloom: {kind: pyramid}, compose: alpha");
 }
 
-/* Frame 12 of a clip of 30 frames a second, three eighths of a frame later, is frame 99 of one of
- * 240. */
+/* A phase of 135 degrees is three eighths of a frame. So frame 12 at 30 frames a second then shows
+ * frame 8 * 12 + 3 at 240 frames a second. */
 static void a_phase_shows_a_later_moment(void **state)
 {
     char folder[] = "/tmp/kiln-shutter-XXXXXX", path[3][64];
@@ -162,7 +165,8 @@ static void moments_lie_where_the_shutter_is_open(void **state)
     assert_false(kiln_scene_has_instants_between(scene));
     kiln_scene_destroy(&scene);
 
-    /* A shutter does not change the rate. Here it is open for a step in each frame of two. */
+    /* A shutter does not change the number of steps. A frame has two steps here, and the shutter is
+     * open during the first one. */
     scene = load_scene("kiln: 1\noutput: {fps: 30}\ncamera: {shutter: {samples: 16}}\n", NULL);
     assert_int_equal(kiln_scene_facts(scene).steps_per_frame, 2);
     assert_true(kiln_scene_has_instants_between(scene));
@@ -176,7 +180,7 @@ static void moments_lie_where_the_shutter_is_open(void **state)
     assert_int_equal(kiln_scene_last_step(scene, 3), 7);
     kiln_scene_destroy(&scene);
 
-    /* A phase of an eighth of a frame is a quarter of a step here. */
+    /* A phase of an eighth of a frame is a quarter of a step, since a frame has two steps. */
     scene = load_scene("kiln: 1\noutput: {fps: 30}\ncamera: {shutter: {phase: 45 deg}}\n", NULL);
     assert_true(kiln_scene_has_instants_between(scene));
     const struct kiln_instant sharp = kiln_scene_instant(scene, 3, 0);
@@ -184,7 +188,7 @@ static void moments_lie_where_the_shutter_is_open(void **state)
     kiln_scene_destroy(&scene);
 }
 
-static void a_frame_ends_before_the_next_one(void **state)
+static void phase_and_angle_fit_into_a_frame(void **state)
 {
     (void)state;
     struct kiln_error error = {0};
@@ -193,13 +197,14 @@ static void a_frame_ends_before_the_next_one(void **state)
     assert_string_equal(error.message,
                         SCENE_NAME ":2:27: camera.shutter.phase: phase and angle together are "
                                    "more than the 360 deg of a frame");
-    /* A sharp picture has no angle. */
+    /* With a single sample the picture is sharp, and the angle does not count. */
     struct kiln_scene *scene = load_scene("kiln: 1\ncamera: {shutter: {phase: 360 deg}}\n", NULL);
     assert_int_equal(kiln_scene_instant(scene, 3, 0).step, kiln_scene_frame_step(scene, 4));
     kiln_scene_destroy(&scene);
 }
 
-/* Balls that spin and bounce, a fountain of sparks, smoke that is born and dies. */
+/* Balls that spin and bounce, a fountain of sparks, and smoke that soon dies. Of the 5 moments of a
+ * frame, some lie within steps. */
 static const char BUSY[] =
     "kiln: 1\n"
     "output: {size: [48, 32], frames: 120, fps: 30}\n"
@@ -216,7 +221,8 @@ static const char BUSY[] =
     "           forces: [gravity: {}], collide: {},\n"
     "           look: {shape: line, stretch: 0.01, blend: add, size: 1 cm, intensity: 4}}\n";
 
-/* Reads a picture of BUSY, drawn from frame `first`, whose particles a technique moves. */
+/* Renders BUSY from frame `first` on with a technique of stage `simulate`. Returns the picture of
+ * frame FRAME, which the caller destroys. */
 static struct kiln_asset_image *draw_busy(struct kiln_device *device, const char *technique,
                                           uint32_t first)
 {
@@ -247,8 +253,9 @@ static struct kiln_asset_image *draw_busy(struct kiln_device *device, const char
     return image;
 }
 
-/* A frame has the same bytes wherever particles within a step are computed, and in any chunk. */
-static void every_way_draws_the_same(void **state)
+/* A frame has the same bytes with every technique that computes particles within a step, and from
+ * whichever frame the clip is drawn. */
+static void techniques_and_chunks_draw_the_same(void **state)
 {
     struct kiln_asset_image *images[] = {draw_busy(*state, "simulate=cpu", FRAME),
                                          draw_busy(*state, "simulate=cpu", FRAME - 2),
@@ -261,10 +268,9 @@ static void every_way_draws_the_same(void **state)
         kiln_asset_image_destroy(&images[i]);
 }
 
-/* Few steps give the picture that many steps give: 4 moments within one step of 60 a second, and at
- * the steps of 240 a second. The particles fly straight on; births are rounded to 64ths of a step.
- */
-static void few_steps_are_enough(void **state)
+/* Four moments within one step of 1/60 s show about what four steps of 1/240 s show, since the
+ * particles fly straight. Not exactly, since births are rounded to 64ths of a step. */
+static void moments_need_no_steps_of_their_own(void **state)
 {
     static const char *const RATES[] = {"240", "60"};
     char folder[] = "/tmp/kiln-shutter-XXXXXX", path[2][64];
@@ -299,9 +305,9 @@ int main(void)
         test_on_device(a_frame_is_the_mean_of_its_moments),
         test_on_device(a_phase_shows_a_later_moment),
         test_on_device(moments_lie_where_the_shutter_is_open),
-        test_on_device(a_frame_ends_before_the_next_one),
-        test_on_device(every_way_draws_the_same),
-        test_on_device(few_steps_are_enough),
+        test_on_device(phase_and_angle_fit_into_a_frame),
+        test_on_device(techniques_and_chunks_draw_the_same),
+        test_on_device(moments_need_no_steps_of_their_own),
     };
     return cmocka_run_group_tests_name("shutter", tests, test_device_open, test_device_close);
 }

@@ -1,4 +1,6 @@
-/* All techniques give the same state, with everything in the scene. */
+/* Checks that each technique of stage `simulate` computes the same bits as `cpu` after every step,
+ * for scenes with every emitter, force, collider, interaction and family. If this fails, the state
+ * of a simulation depends on the technique or the device (docs/determinism.md). */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -16,7 +18,7 @@ enum { STEPS = 300 };
 static const struct {
     enum kiln_simulate_technique technique;
     uint32_t threads;
-    uint32_t steps; /* that it takes part in: GL in software takes long for texels */
+    uint32_t steps; /* steps that it takes part in; software GL is slow with texels */
     const char *name;
 } WAYS[] = {
     {KILN_SIMULATE_INPLACE, 1, STEPS, "inplace"},   {KILN_SIMULATE_PINGPONG, 1, STEPS, "pingpong"},
@@ -25,10 +27,10 @@ static const struct {
 };
 enum { WAY_COUNT = sizeof WAYS / sizeof *WAYS, DEVICE_WAYS = WAY_COUNT - 2 };
 
-/* Steps the scene in the first of these ways and compares after each step. GL in software takes
- * long to compile the larger variants. What is in the shared step alone is the same source for each
- * technique, so one in GL is compared there; all are where they differ: in what they bind, and in
- * how they keep what is born, moved and dead. */
+/* Steps the scene with `cpu` and in the first `ways` of WAYS, and compares the states after each
+ * step. Software GL takes long to compile the larger variants of kernels. All ways are compared
+ * where they differ: in what they bind, and in how they keep particles that are born, move and die.
+ * One is enough for code of the shared step alone, whose source is the same for all. */
 static void some_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t steps,
                        size_t ways)
 {
@@ -127,7 +129,8 @@ static void depth_maps_agree(void **state)
     some_agree(*state, &fixture.scene, 60, 1);
 }
 
-/* A crowd of its own, in which all kinds of interaction and all clocks of their values are used. */
+/* Adds a system whose particles collide with and attract each other; with KILN_CONTACT_EXACT they
+ * flock, too. Values of the interactions follow the clocks of time and of life. */
 static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
 {
     struct kiln_system *s = fixture_add_system(&fixture, name, 400.0f);
@@ -159,7 +162,8 @@ static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
             fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.1f, 2.0f, 0.4f);
 }
 
-/* Crowds beside the systems of a scene, each of which collides with itself, too. */
+/* Makes the particles of each system collide among themselves, and adds crowds: two that collide,
+ * one in each mode, stars that attract each other, and birds that flock. */
 static void crowd_the_fixture(void)
 {
     for (uint32_t i = 0; i < fixture.scene.system_count; i++) {
@@ -182,8 +186,8 @@ static void crowds_agree(void **state)
     all_agree(*state, &fixture.scene, 24);
 }
 
-/* Families among all that grids are for, and crowds. Kernels that know families take long to
- * compile: one technique in one scene has to do. */
+/* A scene has families, wind from a file, terrain, a moving mesh and crowds. Kernels with families
+ * take long to compile, so only one technique is compared. */
 static void families_among_all_agree(void **state)
 {
     fixture_family(&fixture, KILN_INTEGRATE_POSITION_FIRST);
@@ -194,7 +198,7 @@ static void families_among_all_agree(void **state)
     some_agree(*state, &fixture.scene, 40, 1);
 }
 
-/* All forces and all integrators. */
+/* A scene with every kind of force, some with several options, runs with each integrator. */
 static void whirls_agree(void **state)
 {
     for (int order = 0; order < 4; order++) {
@@ -206,7 +210,7 @@ static void whirls_agree(void **state)
     }
 }
 
-/* Each kind of force in a scene of its own, whose kernels might lack it. */
+/* Each kind of force has a scene of its own, whose kernels could lack the force. */
 static void each_force_alone_agrees(void **state)
 {
     enum kiln_force_kind kinds[FIXTURE_MAX_FORCE_KINDS];
@@ -231,7 +235,8 @@ static void families_by_rk4_agree(void **state)
     some_agree(*state, &fixture.scene, 60, 1);
 }
 
-/* A step with many more births than one emitter spawns, and not a multiple; then steps without. */
+/* A step has far more births than an emitter spawns (SIM_EMITTER_BIRTHS), and no multiple of that
+ * number; later steps have that number, one fewer, or none. */
 static void births_are_split_among_emitters(void **state)
 {
     fixture_init(&fixture);
@@ -264,7 +269,7 @@ static void no_systems_and_no_births(void **state)
     }
 }
 
-/* The front-page scene as the loader makes it, with a tenth of its particles. */
+/* The loader makes the scene of a file; each system gets 2000 births a second. */
 static void a_scene_from_a_file(void **state)
 {
     struct kiln_error error = {0};
@@ -291,8 +296,8 @@ static struct kiln_state_hash hash_shown(struct simulation *run, uint64_t *alive
     return hash;
 }
 
-/* Bursts at the time of a state can be shown in it, alike in all techniques, and leave the states
- * of all steps as they are. */
+/* A state can show the bursts at its own time (docs/determinism.md, 7): the same particles with
+ * each technique. The states of this step and of later steps stay as they are. */
 static void bursts_are_shown_at_their_time(void **state)
 {
     static const char text[] =
@@ -304,7 +309,7 @@ static void bursts_are_shown_at_their_time(void **state)
         "  balls:\n"
         "    emit: {bursts: {0 s: 50}, from: {box: {size: [2, 1, 1]}}}\n"
         "    interact: [{collide: {radius: 8 cm, spin: true, turning: [1 rad/s, 3 rad/s]}}]\n";
-    static const uint32_t at[] = {0, 6}; /* the start of the run, and 0 s */
+    static const uint32_t at[] = {0, 6}; /* steps: the start of the run, and 0 s */
     static const uint64_t born[] = {70, 350};
     struct kiln_error error = {0};
     struct kiln_scene_params params = kiln_scene_defaults();
@@ -314,12 +319,12 @@ static void bursts_are_shown_at_their_time(void **state)
     struct simulation plain, run;
     struct kiln_state_hash shown[2], states[3];
     uint64_t alive, before;
-    simulation_start(&plain, scene, NULL, 2); /* shows nothing */
+    simulation_start(&plain, scene, NULL, 2); /* a run that never shows bursts */
     for (size_t k = 0; k < 3; k++) {
         simulation_run(&plain, k < 2 ? at[k] - plain.step : 5);
         states[k] = simulation_hash(&plain, &alive);
     }
-    for (size_t i = WAY_COUNT; i-- > 0;) { /* `cpu` first */
+    for (size_t i = WAY_COUNT; i-- > 0;) { /* `cpu` comes first */
         const bool host = WAYS[i].technique == KILN_SIMULATE_CPU;
         simulation_start_with(&run, scene, host ? NULL : *state, WAYS[i].technique,
                               WAYS[i].threads);
@@ -354,8 +359,8 @@ static void continue_with(struct simulation *run, struct kiln_device *device,
     kiln_simulate_destroy(&other);
 }
 
-/* A run may change its technique on the way: the records move, the state goes on. Families have
- * traces, which are no state. */
+/* A run may change its technique between steps: its records move to where the next technique runs.
+ * Traces of families are not part of the state, and are not moved. */
 static void a_run_can_change_its_technique(void **state)
 {
     struct simulation cpu, run;
@@ -377,7 +382,7 @@ static void a_run_can_change_its_technique(void **state)
     simulation_end(&run);
 }
 
-/* How the slots are cut among work groups changes no particle. */
+/* The size of work groups, which divides the slots, changes no particle. */
 static void work_groups_may_have_any_size(void **state)
 {
     struct kiln_device *device = *state;
@@ -393,7 +398,7 @@ static void work_groups_may_have_any_size(void **state)
         enum kiln_simulate_technique technique =
             i % 2 ? KILN_SIMULATE_PINGPONG : KILN_SIMULATE_INPLACE;
         simulation_start_with(&run, &fixture.scene, device, technique, 1);
-        device->work_group_size = 0; /* what a run has begun with counts */
+        device->work_group_size = 0; /* a run keeps the size of its creation */
         simulation_run(&run, 60);
         struct kiln_state_hash hash = simulation_hash(&run, &alive);
         assert_memory_equal(&hash, &expected, sizeof hash);
@@ -437,7 +442,7 @@ static void an_exact_device_is_needed(void **state)
 
 int main(int argc, char **argv)
 {
-    /* The longest first: each is in a part of its own (tests/times.cmake). */
+    /* The five longest come first, so that each is in a part of its own (tests/times.cmake). */
     static const struct CMUnitTest tests[] = {
         test_on_device(families_agree),
         test_on_device(families_among_all_agree),
