@@ -1,5 +1,5 @@
-/* Billboards of less than a few pixels: the sum of their light is that of their area, wherever they
- * lie between the pixels, so that moving stars and streaks do not twinkle. */
+/* Checks that a billboard smaller than a few pixels sheds the light of its area, wherever its
+ * centre lies between the pixels. If this fails, moving stars and streaks twinkle. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -9,9 +9,9 @@
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30, PLACES = 4 };
 
-/* With a wall at 10 m, alpha is (10 - depth) * 0.08: 0.4 where the particles are, 5 m from the
- * camera. Nothing is drawn of system b, but with it the program is the one that knows all shapes.
- */
+/* With a wall at 10 m, the soft fade makes alpha (10 - depth) * 0.08: 0.4 for the particles, which
+ * are 5 m from the camera. System b draws nothing; while it is enabled, the program for all shapes
+ * draws system a. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [320, 240], fps: 30, frames: 100}\n"
@@ -26,10 +26,9 @@ static const char SCENE[] =
 
 static const double DISTANCE_M = 5, WALL_M = 10, ALPHA = 0.4;
 
-/* A small billboard. */
 struct small {
     double width_px, length_px;
-    double angle_deg; /* against the clock; of streaks, by their velocity */
+    double angle_deg; /* anticlockwise; streaks get it by their velocity */
     const char *facing;
     double tolerance; /* the largest relative error of the sum */
 };
@@ -43,8 +42,9 @@ static double sum_of(const struct kiln_image *image, int channel)
     return sum;
 }
 
-/* Draws a billboard at places that differ by parts of a pixel. The texture is opaque everywhere.
- * dims: the stretch spreads the light of a square of its width. */
+/* Draws a billboard at places that differ by parts of a pixel, and checks the sums of its light.
+ * The texture is opaque everywhere. dims: the billboard sheds only the light of a square of its
+ * width (look.stretch_dims). all_shapes: the program for all shapes draws it. */
 static void check_small(struct kiln_device *device, const struct small *s, bool dims,
                         bool all_shapes)
 {
@@ -107,9 +107,9 @@ static void a_stretch_that_dims_keeps_the_light(void **state)
     }
 }
 
-/* A billboard that nearly turns its edge to the camera is thinner than a pixel, too: its axis
- * points at the camera, less 6 degrees, so that its 6 pixels of width are 0.6 pixels high. That
- * changes by 4 % over the pixel by which it moves. */
+/* A billboard that is seen nearly edge-on is thinner than a pixel, too. Its axis misses the camera
+ * by 6 degrees, so that its length of 6 pixels looks like 0.6 pixels. While it moves by a pixel,
+ * this changes by 4 %. */
 static void thin_slivers_are_faint(void **state)
 {
     static const char *const overrides[] = {"systems.a.look.facing=axial",
@@ -133,8 +133,8 @@ static void thin_slivers_are_faint(void **state)
     drawing_finish(&d);
 }
 
-/* Returns the mean of the texture's green in the rows of the picture that a billboard of 40 px at
- * its middle covers, from one row to another one. */
+/* Returns the mean of the texture's green in the rows from `from` to `to` of the picture. The
+ * billboard, in the middle, is 40 px long. */
 static double green_between(const struct kiln_image *image, int from, int to)
 {
     double green = 0, alpha = 0;
@@ -146,8 +146,8 @@ static double green_between(const struct kiln_image *image, int from, int to)
     return green / alpha;
 }
 
-/* The texture's green grows from 0 at the top to 1 at the bottom, and so it does on a streak whose
- * width alone would choose a level of one texel. */
+/* The texture's green grows from 0 at the top to 1 at the bottom. A streak shows this over its
+ * whole length, although its width alone would choose the level of one texel. */
 static void long_thin_billboards_show_their_cell_from_end_to_end(void **state)
 {
     static const char *const overrides[] = {"systems.a.look.facing=velocity",

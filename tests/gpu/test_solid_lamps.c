@@ -1,5 +1,6 @@
-/* Shadows of solid particles in the light of lamps, by both techniques of the backdrop: on the
- * floor, on each other and on lit billboards, against rays to all parts of the lamp. */
+/* Checks the shadows that solid particles throw in the light of a lamp, on the floor and on each
+ * other, against rays to all parts of the lamp. If this fails, these shadows lie in wrong places or
+ * are too hard, or solids shade themselves. Each technique of the backdrop runs all tests. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -14,7 +15,7 @@
 
 enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
 
-/* The floor from above, in nothing but the light of one lamp. */
+/* The camera looks down at a white floor in the light of one lamp. */
 #define SCENE(lamp, look)                                                                          \
     "kiln: 1\n"                                                                                    \
     "output: {size: [160, 90], fps: 60}\n"                                                         \
@@ -38,12 +39,12 @@ enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
     " 40 deg]"
 
 static const vec LAMP = {-1.5, 4, 0.3};
-static const double RADIUS = 0.3, EDGE = 0.9, COLOR = 16;
+static const double RADIUS = 0.3, EDGE = 0.9, COLOR = 16; /* balls, m; meshes, m; lamp */
 
 struct fixture {
     struct drawing drawing;
     struct kiln_lighting_stage *lighting;
-    struct kiln_solids_stage *solids; /* NULL: the particles are billboards */
+    struct kiln_solids_stage *solids;
     struct kiln_image color, depth, bloom;
 };
 
@@ -80,8 +81,8 @@ static void finish(struct fixture *f)
     drawing_finish(&f->drawing);
 }
 
-/* Draws the backdrop and the particles at these places: drawing.backdrop_color has the floor alone,
- * color has all. */
+/* Draws the backdrop and particles at these places. The floor is in drawing.backdrop_color, and the
+ * floor with the particles in color. */
 static void draw(struct fixture *f, const vec *places, uint32_t count)
 {
     struct kiln_error error = {0};
@@ -107,7 +108,7 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
 
 /* ---- rays ------------------------------------------------------------------------------------ */
 
-/* The corners of the mesh at a place: its axes are turned about y by 40 degrees. */
+/* Finds the corners of the mesh at a place; its axes are turned about y by 40 degrees. */
 static void corners_of(vec place, vec corners[4])
 {
     static const vec axes[3] = {
@@ -128,7 +129,8 @@ static bool meets_triangle(vec from, vec ray, vec a, vec b, vec c)
     return s >= 0 && t >= 0 && s + t <= 1 && reach > 1e-6 && reach < 1;
 }
 
-/* Is the way from a point to a part of the lamp blocked? ray: to that part, m. */
+/* Returns whether a particle at `place` blocks a ray. ray: the way from the point to a part of the
+ * lamp, m. */
 static bool is_blocked(vec from, vec ray, vec place, bool mesh)
 {
     if (!mesh) {
@@ -145,7 +147,7 @@ static bool is_blocked(vec from, vec ray, vec place, bool mesh)
            meets_triangle(from, ray, p[1], p[2], p[3]);
 }
 
-/* The part of the lamp's disc that a point sees past particles, of which `own` does not count. */
+/* Returns the part of the lamp's disc that a point sees past all particles but `own`. */
 static double lamp_seen(vec point, double lamp_radius, const vec *places, uint32_t count,
                         uint32_t own, bool mesh)
 {
@@ -165,7 +167,7 @@ static double lamp_seen(vec point, double lamp_radius, const vec *places, uint32
     return (double)seen / RAYS;
 }
 
-/* The red light that a white surface sends, of a lamp that is seen as a whole. */
+/* Returns the red light that a white surface reflects if nothing hides the lamp. */
 static double whole_light(vec point, vec normal, double lamp_radius)
 {
     const vec way = vec_add(LAMP, point, -1);
@@ -182,8 +184,8 @@ static vec floor_at(const struct drawing *d, double x, double y)
     return vec_add(eye, ray, -eye.y / ray.y);
 }
 
-/* Compares the floor with the rays, in pixels over which the light is about even. Returns how many
- * of them are in penumbra. */
+/* Compares the floor with the rays, except in pixels next to hard edges. Returns how many pixels
+ * are in penumbra. tolerance: a part of the whole lamp. */
 static int check_floor(const struct fixture *f, double lamp_radius, const vec *places,
                        uint32_t count, bool mesh, double tolerance)
 {
@@ -215,14 +217,14 @@ static int check_floor(const struct fixture *f, double lamp_radius, const vec *p
     return partly;
 }
 
-/* A wide lamp makes a wide penumbra, a point nearly none. */
+/* A wide lamp makes a wide penumbra, and a lamp of 1 cm nearly none. */
 static void a_ball_hides_a_lamp(void **state)
 {
     static const char *const texts[] = {SCENE("0.01 m", BALL), SCENE("0.2 m", BALL),
                                         SCENE("0.5 m", BALL)};
     static const double radii[] = {0.01, 0.2, 0.5};
-    /* The shadow of a ball that lies on the floor is as soft as if it began at the ball's middle.
-     */
+    /* A ball that lies on the floor throws a shadow as soft as if it began at the ball's middle, so
+     * wide lamps need more tolerance. */
     static const double tolerances[] = {0.05, 0.13, 0.25};
     const vec places[] = {{-0.5, 1.5, 0.2}, {1, 0.3, -0.8}, {-2.2, 2.2, 1.2}};
     int partly[3];
@@ -250,8 +252,8 @@ static void a_mesh_hides_a_lamp(void **state)
     }
 }
 
-/* A lamp wider than the ball before it shines past it, however near the ball is to it: in the
- * middle of the shadow it is hidden by the share that it is for rays. */
+/* A lamp that is wider than a ball shines past the ball, however near the ball is to it. In the
+ * middle of the shadow, the ball hides the same part of the lamp as from rays. */
 static void a_wide_lamp_shines_past_a_ball(void **state)
 {
     static const char *const texts[] = {SCENE("0.5 m", BALL), SCENE("0.8 m", BALL)};
@@ -275,7 +277,8 @@ static void a_wide_lamp_shines_past_a_ball(void **state)
     }
 }
 
-/* Specks of a thirtieth of a texel darken the floor by the part of the lamp that they hide. */
+/* Specks darken the floor by the part of the lamp that they hide, although each has only about a
+ * tenth of the area of a texel of the lamp's maps. */
 static void specks_hide_their_share(void **state)
 {
     enum { COUNT = 3000 };
@@ -291,8 +294,8 @@ static void specks_hide_their_share(void **state)
     init(&f, *state, SCENE("0.01 m", SPECK), NULL);
     draw(&f, places, COUNT);
     drawing_most = 32;
-    /* The light that falls on the floor below, times the area of a pixel of it, is what falls on
-     * the specks on its way: color / distance^2, times their area. */
+    /* A speck takes the light that falls on its disc: color / distance^2 times its area. The floor
+     * lacks as much: the lost light of each pixel times the area of floor that it shows. */
     for (int i = 0; i < COUNT; i++) {
         const vec way = vec_add(LAMP, places[i], -1);
         expected += COLOR / vec_dot(way, way) * acos(-1.0) * 0.003 * 0.003;
@@ -313,7 +316,7 @@ static void specks_hide_their_share(void **state)
 
 /* ---- solids ---------------------------------------------------------------------------------- */
 
-/* Does a solid fill a pixel and all around it? */
+/* Returns whether solids fill a pixel and its eight neighbours. */
 static bool is_filled(const struct fixture *f, int p)
 {
     const int x = p % WIDTH, y = p / WIDTH;
@@ -325,7 +328,8 @@ static bool is_filled(const struct fixture *f, int p)
     return filled;
 }
 
-/* Finds the ball of a pixel: the point of it that is nearest to the eye. False: none. */
+/* Finds the ball that a pixel shows, and the point where the pixel's ray meets it. Returns false if
+ * there is none. */
 static bool ball_at(const struct fixture *f, int x, int y, const vec *places, uint32_t count,
                     uint32_t *which, vec *point)
 {
@@ -347,7 +351,8 @@ static bool ball_at(const struct fixture *f, int x, int y, const vec *places, ui
     return nearest < 1e9;
 }
 
-/* Compares balls with the rays. Returns how many pixels are in penumbra. */
+/* Compares the light of balls with rays, in pixels that balls fill. Returns how many pixels are in
+ * penumbra. */
 static int check_balls(const struct fixture *f, double lamp_radius, const vec *places,
                        uint32_t count, double tolerance)
 {
@@ -375,7 +380,7 @@ static int check_balls(const struct fixture *f, double lamp_radius, const vec *p
     return partly;
 }
 
-/* One ball alone is lit as if nothing hid the lamp, wherever it is in the maps. */
+/* A ball alone is lit as if nothing hid the lamp, wherever it is in the lamp's maps. */
 static void a_ball_does_not_shade_itself(void **state)
 {
     const vec places[] = {{0, 0.3, 0}, {-1.5, 3, 0.3}, {1.6, 3.4, 0.3}, {-2.4, 2.9, 1.2}};
@@ -388,7 +393,7 @@ static void a_ball_does_not_shade_itself(void **state)
     }
 }
 
-/* Nor does a mesh: it looks as under a lamp without shadows. */
+/* A mesh alone looks as it does under a lamp without shadows. */
 static void a_mesh_does_not_shade_itself(void **state)
 {
     static const char *const overrides[] = {"backdrop.lights.0.point.shadow=true",
@@ -414,7 +419,7 @@ static void a_mesh_does_not_shade_itself(void **state)
     finish(&f[1]);
 }
 
-/* The upper balls hide a part of the lamp from the lower ones. */
+/* The upper balls hide a part of the lamp from the lower balls, as they do from rays. */
 static void balls_shade_each_other(void **state)
 {
     static const char *const texts[] = {SCENE("0.01 m", BALL), SCENE("0.15 m", BALL),

@@ -1,4 +1,6 @@
-/* Sorting on the device: against qsort, and against technique `cpu`, entry by entry. */
+/* Checks that sorts on the device order pairs as qsort does, and that each technique of stage
+ * `sort` lists the same particles in the same order as `cpu`. If this fails, particles are lost or
+ * blended in a wrong order, and pictures depend on the technique. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -17,10 +19,10 @@
 
 static struct scene_fixture fixture; /* too large for a stack */
 
-/* A list of entries with keys, its pairs, and what comes of it. */
+/* A list of entries, its pairs (key, entry or place), and the sorted pairs. */
 struct list {
     struct kiln_buffer pairs, entries, sorted;
-    kiln_sort_pair *expected; /* (key, place) */
+    kiln_sort_pair *expected; /* (key, place), in order */
 };
 
 enum { MOST = 1 << 18 };
@@ -30,7 +32,8 @@ static uint32_t entry_of(uint32_t place)
     return place * 7u + 1u;
 }
 
-/* places: a pair holds its place beside its key, else the entry. */
+/* Fills a list with keys of a pattern. Beside its key a pair holds its place in the list if
+ * `places` is set, otherwise its entry. */
 static void fill(struct list *list, enum pattern pattern, uint32_t count, bool places)
 {
     struct kiln_error error = {0};
@@ -78,16 +81,17 @@ static void list_finish(struct list *list)
     free(list->expected);
 }
 
-/* Around the sizes of tiles, blocks and groups; the large ones with a few patterns only. */
+/* Lengths of lists: around the sizes of work groups and blocks, and long ones. */
 static const uint32_t COUNTS[] = {0, 1, 2, 3, 255, 256, 257, 2047, 2048, 2049, 65536, 100003, MOST};
 enum { COUNT_COUNT = sizeof COUNTS / sizeof *COUNTS };
 
+/* Returns whether a length is tested with a pattern; long lists take few patterns. */
 static bool is_worth_it(uint32_t count, int pattern)
 {
     return count < 100000 || pattern == RANDOM || (count < MOST && pattern == FEW);
 }
 
-/* As on software devices, or as on others. */
+/* Tests the radix sort with the sizes that it has on software GL, or with those for GPUs. */
 static void expect_radix_sorts(struct kiln_device *device, bool software)
 {
     struct kiln_error error = {0};
@@ -171,11 +175,11 @@ static void fill_large(struct list *list, uint32_t count)
         pairs[2 * i] = large_key(i);
         pairs[2 * i + 1] = i;
         entries[i] = i;
-        sorted[i] = UINT32_MAX; /* of no use to the next technique */
+        sorted[i] = UINT32_MAX; /* removes the result of the technique before */
     }
 }
 
-/* Ascending keys, and places where keys are equal: no place can then occur twice. */
+/* Checks that keys ascend, and that places do among equal keys: then no place occurs twice. */
 static void expect_large(struct kiln_buffer *list, uint32_t count)
 {
     struct kiln_error error = {0};
@@ -188,7 +192,7 @@ static void expect_large(struct kiln_buffer *list, uint32_t count)
     }
 }
 
-/* As many as a draw entry can address: more work groups than one axis of a dispatch takes. */
+/* The list is as long as it may be: a draw entry has 24 bits for the slot (KILN_ENTRY). */
 static void the_most_particles_are_sorted(void **state)
 {
     const uint32_t count = 1u << 24;
@@ -205,7 +209,8 @@ static void the_most_particles_are_sorted(void **state)
     kiln_radix_destroy(&radix);
 }
 
-/* Software GL takes ten times as long for these as for a radix sort: small groups are as many. */
+/* An axis of a dispatch takes at most 65535 work groups. Since networks are slow on software GL, a
+ * short list is sorted here, in work groups so small that they are more. */
 static void networks_take_more_groups_than_an_axis(void **state)
 {
     enum { GROUP = 4 };
@@ -252,7 +257,7 @@ static const char *const NAMES[] = {
 };
 enum { TECHNIQUES = sizeof NAMES / sizeof *NAMES };
 
-/* The techniques beside each other on one pool. */
+/* All techniques, which sort the same pool into a list each. */
 struct contest {
     struct kiln_sort *sorts[TECHNIQUES];
     struct kiln_buffer entries[TECHNIQUES];
@@ -281,7 +286,7 @@ static void contest_finish(struct contest *contest)
     kiln_threads_destroy(&contest->threads);
 }
 
-/* Returns how many particles were listed. */
+/* Checks that all techniques list the same entries. Returns how many there are. */
 static uint32_t expect_same_lists(struct contest *contest, struct kiln_pool *pool,
                                   const struct kiln_sort_params *params)
 {
@@ -303,7 +308,8 @@ static uint32_t expect_same_lists(struct contest *contest, struct kiln_pool *poo
     return counts[0];
 }
 
-/* Slots around and beyond the sizes of blocks, rings that have come round, and few depths. */
+/* Fills a pool with systems whose slots are around the sizes of blocks or far more. Most systems
+ * have used all their slots several times. The particles have only 64 different depths. */
 static void fill_pool(struct kiln_pool *pool, struct kiln_device *device)
 {
     static const uint32_t capacities[] = {1, 0, 2048, 20000, 2047, 7, 5000};
@@ -345,9 +351,9 @@ static void all_techniques_list_alike(void **state)
     kiln_pool_finish(&pool);
 }
 
-/* However many invocations a tile is cut among, or sort a block; 96 is no power of two, 1024
- * would need more shared memory than every device has, and the last is beyond any limit. */
-static void every_work_group_sorts_alike(void **state)
+/* The size of work groups changes no list. 96 is no power of two, groups of 1024 would need more
+ * shared memory than every device has, and 2^20 is beyond the limit of every device. */
+static void work_groups_of_any_size_sort_alike(void **state)
 {
     struct kiln_device *device = *state;
     static const uint32_t sizes[] = {1, 8, 32, 96, 256, 1024, 1u << 20};
@@ -366,7 +372,8 @@ static void every_work_group_sorts_alike(void **state)
     kiln_pool_finish(&pool);
 }
 
-/* With views that no axis is parallel to, where each rounding counts; state on the device. */
+/* A scene runs on the device, and all techniques sort its state. No axis is parallel to the views,
+ * so that each rounding of the depth counts. */
 static void all_techniques_sort_a_scene_alike(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 120);
@@ -391,13 +398,13 @@ static void all_techniques_sort_a_scene_alike(void **state)
     simulation_end(&run);
 }
 
-/* A spread sort beside a whole one on a scene's run. */
+/* A run of a scene with two sorts: a whole one with `cpu`, and one that is spread over frames. */
 struct spread {
     struct simulation run;
     struct kiln_sort *whole, *spread;
     struct kiln_buffer whole_list, spread_list;
-    uint32_t *seen; /* slot: the last list that it was in */
-    uint32_t lists;
+    uint32_t *seen; /* by slot: number of the last list that has it */
+    uint32_t lists; /* number of lists so far */
 };
 
 static void spread_init(struct spread *s, struct kiln_device *device, uint32_t frames)
@@ -427,7 +434,8 @@ static void spread_finish(struct spread *s)
     simulation_end(&s->run);
 }
 
-/* Fails unless both list the same particles, each once; true when also in the same order. */
+/* Checks that both sorts list the same particles, each once. Returns whether they list them in the
+ * same order. */
 static bool spread_agrees(struct spread *s, const struct kiln_sort_params *params)
 {
     struct kiln_error error = {0};
@@ -444,12 +452,13 @@ static bool spread_agrees(struct spread *s, const struct kiln_sort_params *param
         s->seen[KILN_ENTRY_SLOT(whole[i])] = s->lists - 1;
     for (uint32_t i = 0; i < counts[0]; i++) {
         uint32_t slot = KILN_ENTRY_SLOT(spread[i]);
-        assert_true(s->seen[slot] == s->lists - 1); /* chosen, living, and not yet listed */
+        assert_true(s->seen[slot] == s->lists - 1); /* in the whole list, and only once here */
         s->seen[slot] = s->lists;
     }
     return memcmp(whole, spread, counts[0] * sizeof *whole) == 0;
 }
 
+/* Runs the next part of the spread sort. Returns whether its order is that of the whole sort. */
 static bool spread_follows(struct spread *s, struct kiln_sort_params *params)
 {
     struct kiln_error error = {0};
@@ -465,8 +474,8 @@ static bool spread_follows(struct spread *s, struct kiln_sort_params *params)
     return same;
 }
 
-/* While particles are born, move and die before a camera that turns, each is listed once; and when
- * all rests, the order is soon that of the others. */
+/* While particles are born, move and die, and the camera turns, a spread sort lists each particle
+ * once. When all have rested for two full sorts, its order is that of a whole sort. */
 static void a_spread_sort_converges(void **state)
 {
     static const uint32_t frames[] = {1, 3, 16, 64};
@@ -476,7 +485,7 @@ static void a_spread_sort_converges(void **state)
         spread_init(&s, *state, frames[f]);
         struct kiln_sort_params params = {.eye = {0.1f, 1.7f, 3.3f}, .forward = forwards[0]};
         simulation_run(&s.run, 60);
-        assert_true(spread_follows(&s, &params)); /* it starts whole */
+        assert_true(spread_follows(&s, &params)); /* the first sort is whole */
         uint32_t late = 0;
         for (int frame = 0; frame < 45; frame++) {
             simulation_run(&s.run, 4);
@@ -492,7 +501,8 @@ static void a_spread_sort_converges(void **state)
     }
 }
 
-/* Of one slot or none, of systems without slots, and spread too far. */
+/* A spread sort lists pools with few slots or none, and systems without slots. A sort can not be
+ * spread over 0 frames or more than KILN_SORT_MAX_SPREAD. */
 static void small_pools_are_spread(void **state)
 {
     static const uint32_t capacities[][3] = {{0, 0, 0}, {0, 1, 0}, {2, 0, 1}};
@@ -552,7 +562,7 @@ static void records_stay_on_the_device(void **state)
     kiln_pool_finish(&pool);
 }
 
-static void sorting_there_needs_an_exact_device(void **state)
+static void device_techniques_need_an_exact_device(void **state)
 {
     struct kiln_device *device = *state;
     struct kiln_error error = {0};
@@ -577,12 +587,12 @@ int main(void)
         test_on_device(networks_take_more_groups_than_an_axis),
         test_on_device(lengths_are_padded_to_powers_of_two),
         test_on_device(all_techniques_list_alike),
-        test_on_device(every_work_group_sorts_alike),
+        test_on_device(work_groups_of_any_size_sort_alike),
         test_on_device(all_techniques_sort_a_scene_alike),
         test_on_device(a_spread_sort_converges),
         test_on_device(small_pools_are_spread),
         test_on_device(records_stay_on_the_device),
-        test_on_device(sorting_there_needs_an_exact_device),
+        test_on_device(device_techniques_need_an_exact_device),
     };
     return cmocka_run_group_tests_name("sort", tests, simulation_device_open, test_device_close);
 }

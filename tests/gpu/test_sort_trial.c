@@ -1,4 +1,5 @@
-/* lib/bench/sort_timer.c: what is timed has sorted. */
+/* Checks that every sort that lib/bench/sort_timer.c times gives the sorted list. If this fails, a
+ * benchmark compares the time of a sort that does not sort. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,12 +15,12 @@
 
 enum { MOST = 1 << 16 };
 
-/* Keys, and what must come of them: sets of `set` places are sorted by themselves. */
 struct task {
     uint32_t keys[MOST];
-    kiln_sort_pair expected[MOST];
+    kiln_sort_pair expected[MOST]; /* (key, place), sorted */
 };
 
+/* Fills a task in which each set of `set` consecutive keys is sorted by itself. */
 static void fill(struct task *task, enum pattern pattern, uint32_t count, uint32_t set)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -70,7 +71,8 @@ static void all_kinds_sort(void **state)
     kiln_threads_destroy(&threads);
 }
 
-/* Within each set of rows, and nothing leaves its set. */
+/* The variants of bitonic sorting sort each set of rows by itself; no key leaves its set. A count
+ * of 0 rows stands for the whole field. */
 static void variants_sort_sets_of_rows(void **state)
 {
     static struct task task;

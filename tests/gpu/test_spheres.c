@@ -1,5 +1,7 @@
-/* lib/draw/solids/solids.c against spheres that are intersected in double precision: depth,
- * silhouettes, light, and that the order of the list is no matter. */
+/* Checks opaque spheres (lib/draw/solids/solids.c) against rays that meet spheres, in double
+ * precision: depth, silhouettes, light and patterns. If this fails, spheres have wrong shapes or
+ * colours, rough edges, or cover each other by their order in the list. Each technique of the
+ * backdrop runs all tests. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -11,7 +13,7 @@
 
 enum { STEP = 30, COUNT = 24 };
 
-/* A box hides some, and the floor cuts others. */
+/* A box hides some of the spheres, and the floor cuts others. Their radius is 0.2 m. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [320, 240], fps: 30, frames: 100}\n"
@@ -51,12 +53,12 @@ static void place_cloud(struct fixture *f, struct kiln_particle particles[COUNT]
 }
 
 struct meeting {
-    double depth;   /* of the nearest sphere, or of the backdrop */
+    double depth;   /* of the nearest sphere, or of the backdrop, m */
     vec normal;     /* of the sphere; zero for the backdrop */
-    double edge_px; /* to the nearest silhouette */
+    double edge_px; /* distance to the nearest silhouette */
 };
 
-/* What the ray through a place in the picture meets first. */
+/* Returns what the ray through a place in the picture meets first. x, y: px. */
 static struct meeting meet(const struct fixture *f, const struct kiln_particle *particles,
                            uint32_t count, double radius, double x, double y)
 {
@@ -108,8 +110,9 @@ static void depth_is_where_the_ray_meets_a_sphere(void **state)
     opaque_finish(&f);
 }
 
-/* One sphere at the side, where perspective makes it an ellipse: its part of each pixel, and so its
- * area, against 256 rays a pixel. At its opacity, half as large. */
+/* One sphere is at the side of the picture, where perspective makes it an ellipse. It covers the
+ * part of each pixel that 256 rays find, and so has the right area. With an opacity of 0.5 the
+ * sphere is half as large. */
 static void silhouettes_are_smooth(void **state)
 {
     static const char *const half[] = {"systems.a.look.opacity=0.5"};
@@ -131,7 +134,7 @@ static void silhouettes_are_smooth(void **state)
             double seen = (double)f.bloom.host[4 * p] / ALBEDO[0];
             assert_true(fabs(seen - part) < 0.3);
             bool is_sphere = f.depth.host[p] < f.drawing.backdrop_depth.host[p];
-            assert_true(is_sphere == (seen > 0.4)); /* two samples decide */
+            assert_true(is_sphere == (seen > 0.4)); /* two of four samples decide */
             drawn += seen;
             expected += part;
             partly += seen > 0.1 && seen < 0.9;
@@ -142,9 +145,8 @@ static void silhouettes_are_smooth(void **state)
     }
 }
 
-/* A sphere of a fifth of a pixel sheds as much light, on average over its places in the pixel, as
- * its area. It does not hide what is behind it from particles: the depth stays that of the scene.
- */
+/* A sphere with a diameter of a fifth of a pixel sheds the light of its area, on average over its
+ * places in the pixel. It hides no particles behind it: the depth stays that of the backdrop. */
 static void spheres_below_a_pixel_are_fainter(void **state)
 {
     enum { PLACES = 8 };
@@ -176,15 +178,16 @@ static void spheres_below_a_pixel_are_fainter(void **state)
     opaque_finish(&f);
 }
 
-/* Returns what a display shows, 0 to 1, of a pixel at the edge between a bright and a dark side.
- * bright: the part of the pixel that shows the bright side. */
+/* Returns the value, 0 to 1, that a display shows of a pixel across the edge between a bright and a
+ * dark side. Samples count 1 / (1 + their light). bright: the part of the pixel that is bright. */
 static double shown_mean(double light, double dark, double bright)
 {
     const double weight = bright / (1 + light), other = (1 - bright) / (1 + dark);
     return fmin((light * weight + dark * other) / (weight + other), 1);
 }
 
-/* The edge of a sphere that is eight times as bright as white, two stops of exposure included. */
+/* The edge of a sphere that is eight times as bright as white, with two stops of exposure, still
+ * has all five steps from dark to bright. */
 static void bright_edges_have_all_steps(void **state)
 {
     static const char *const overrides[] = {
@@ -236,8 +239,8 @@ static void order_is_no_matter(void **state)
     opaque_finish(&f);
 }
 
-/* Lambert under sky, sun and a lamp, and what it emits on top. */
-static void light_is_the_backdrops(void **state)
+/* A lit sphere reflects the light of sky, sun and a lamp by Lambert's law. */
+static void spheres_are_lit_by_the_backdrop(void **state)
 {
     static const char *const overrides[] = {
         "systems.a.look.lit=1",
@@ -276,7 +279,7 @@ static void light_is_the_backdrops(void **state)
     opaque_finish(&f);
 }
 
-/* What glows does so besides, and goes to the bloom. */
+/* A hot sphere adds its glow to its colour, and the bloom gets the same glow. */
 static void hot_spheres_shine(void **state)
 {
     static const char *const overrides[] = {"systems.a.look.temperature=1500 K",
@@ -290,7 +293,7 @@ static void hot_spheres_shine(void **state)
         opaque_draw(&f[i], COUNT);
         for (int p = 0; p < PIXELS; p++) {
             if (f[i].bloom.host[4 * p + 3] < 1.0f)
-                continue; /* at an edge, bright samples count less */
+                continue; /* bright samples count less at edges, which are left out */
             red[i] += (double)f[i].color.host[4 * p];
             bloom[i] += (double)f[i].bloom.host[4 * p];
         }
@@ -300,7 +303,7 @@ static void hot_spheres_shine(void **state)
     assert_true(fabs((red[1] - red[0]) - (bloom[1] - bloom[0])) < 0.01 * red[1]);
 }
 
-/* A sphere that the camera is in is not drawn, nor one that has shrunk to nothing. */
+/* A sphere around the camera is not drawn, nor is one with an opacity of 0, which has no size. */
 static void no_sphere_fills_the_picture(void **state)
 {
     static const char *const gone[] = {"systems.a.look.opacity=0"};
@@ -319,7 +322,7 @@ static void no_sphere_fills_the_picture(void **state)
     }
 }
 
-/* v, seen from a ball in a pose. */
+/* Returns v in the axes of a ball. pose: the quaternion that has turned the ball. */
 static vec into_ball(float4 pose, vec v)
 {
     const vec u = {-(double)pose.x, -(double)pose.y, -(double)pose.z};
@@ -327,7 +330,8 @@ static vec into_ball(float4 pose, vec v)
     return vec_add(vec_add(v, twice, (double)pose.w), vec_cross(u, twice), 1);
 }
 
-/* 1 where a ball shows its other colour, 0 where its own, and something between near the edge. */
+/* Returns 1 where a ball shows the colour of its pattern, 0 where its own, and 0.5 near the edge
+ * between them. n: unit vector in the ball's axes. */
 static double other_part(vec n, bool stripe)
 {
     const double high = fabs(n.y), lune = sin(3 * atan2(n.z, n.x)) * hypot(n.x, n.z) / 3;
@@ -335,6 +339,7 @@ static double other_part(vec n, bool stripe)
     return distance > 0.06 ? 1 : distance < -0.06 ? 0 : 0.5;
 }
 
+/* Turns the particle of slot 5. */
 static void place_turned(struct fixture *f, float4 pose)
 {
     struct kiln_error error = {0};
@@ -348,7 +353,7 @@ static void place_turned(struct fixture *f, float4 pose)
                                  true, &error));
 }
 
-/* A pattern lies on the ball as collisions have turned it. */
+/* A ball that collisions have turned shows its pattern turned. */
 static void patterns_turn_with_the_ball(void **state)
 {
     static const char *const overrides[] = {
@@ -391,7 +396,7 @@ int main(void)
         test_on_device(spheres_below_a_pixel_are_fainter),
         test_on_device(bright_edges_have_all_steps),
         test_on_device(order_is_no_matter),
-        test_on_device(light_is_the_backdrops),
+        test_on_device(spheres_are_lit_by_the_backdrop),
         test_on_device(hot_spheres_shine),
         test_on_device(no_sphere_fills_the_picture),
         test_on_device(patterns_turn_with_the_ball),

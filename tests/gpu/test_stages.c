@@ -1,4 +1,6 @@
-/* lib/frame/stages.c: how the stages of a frame play together, and its named layers. */
+/* Checks how the stages of a frame work together (lib/frame/stages.c), and what the layers of an
+ * EXR hold. If this fails, fire and smoke cover each other wrongly, layers have the wrong content,
+ * or a frame depends on which frames were drawn before. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -25,7 +27,7 @@ static const char SCENE[] =
     "    look: {atlas: 'builtin:fire', blend: add, size: 0.7 m, temperature: 1800,\n"
     "           bloom: [1, 0.5, 0.25]}\n";
 
-/* A drawn frame with all layers. */
+/* A run and its last drawn frame. */
 struct frame {
     struct kiln_scene *scene;
     struct kiln_threads *threads;
@@ -36,6 +38,7 @@ struct frame {
     uint32_t drawn;
 };
 
+/* Runs to the state after `steps` steps, and draws it. */
 static void step_and_draw(struct frame *f, uint32_t steps)
 {
     struct kiln_error error = {0};
@@ -111,7 +114,8 @@ static void layers_hold_what_they_say(void **state)
     assert_true(sum(layer(&f, FIRE), 0, 4) > 10.0);
     assert_true(sum(layer(&f, FIRE), 3, 4) == 0.0); /* fire covers nothing */
     assert_true(sum(layer(&f, SMOKE), 3, 4) > 100.0);
-    assert_true(sum(layer(&f, SMOKE), 0, 4) < 0.2 * sum(layer(&f, SMOKE), 3, 4)); /* dark */
+    /* The smoke is dark. */
+    assert_true(sum(layer(&f, SMOKE), 0, 4) < 0.2 * sum(layer(&f, SMOKE), 3, 4));
     for (int i = 0; i < PIXELS; i++) {
         assert_true(layer(&f, BEAUTY)[4 * i + 3] == 1.0f);
         assert_true(layer(&f, DEPTH)[i] > 2.3f);
@@ -120,8 +124,8 @@ static void layers_hold_what_they_say(void **state)
     frame_finish(&f);
 }
 
-/* Smoke in front of fire: merged it covers fire and its glow, separate fire shines through
- * (Heinz 2019, figure 4.3). */
+/* Smoke is in front of fire. With merged, smoke covers the fire and its glow; with separate, fire
+ * shines through (Heinz 2019, figure 4.3). */
 static void fire_shines_through_only_when_separate(void **state)
 {
     struct frame merged, separate;
@@ -139,8 +143,8 @@ static void fire_shines_through_only_when_separate(void **state)
     frame_finish(&separate);
 }
 
-/* Smoke in front of fire, drawn as spheres: they hide it, are not smoke, and lie in the depth that
- * fire is compared with; their bloom stays. */
+/* The smoke in front of the fire is drawn as spheres. They belong to the depth of the scene, which
+ * hides fire, and not to the layer of smoke. They keep their bloom. */
 static void spheres_belong_to_the_scene(void **state)
 {
     struct frame smoke, spheres;
@@ -160,15 +164,15 @@ static void spheres_belong_to_the_scene(void **state)
         nearer++;
         fire += (double)layer(&spheres, FIRE)[4 * i];
         unhidden += (double)layer(&smoke, FIRE)[4 * i];
-        assert_true(layer(&spheres, BLOOM)[4 * i] > 0.45f); /* two of four samples of white */
+        assert_true(layer(&spheres, BLOOM)[4 * i] > 0.45f); /* two samples of four are white */
     }
     assert_true(nearer > 200 && unhidden > 10.0 && fire < 0.1 * unhidden);
-    assert_true(sum(layer(&spheres, FIRE), 0, 4) > 10.0); /* beside them */
+    assert_true(sum(layer(&spheres, FIRE), 0, 4) > 10.0); /* beside the spheres */
     frame_finish(&smoke);
     frame_finish(&spheres);
 }
 
-/* What the bloom adds to the picture is the bloom layer, spread. */
+/* The bloom adds as much light to the picture as its layer has. */
 static void bloom_adds_light(void **state)
 {
     struct frame with, without;
@@ -178,14 +182,14 @@ static void bloom_adds_light(void **state)
     step_and_draw(&without, 50);
     double gain = sum(layer(&with, BEAUTY), 0, 4) - sum(layer(&without, BEAUTY), 0, 4);
     double glow = sum(layer(&with, BLOOM), 0, 4);
-    /* All of the bloom layer, but for what leaves the picture at its edges. */
+    /* Some of the light that the bloom spreads leaves the picture at its edges. */
     assert_true(gain > 0.9 * glow && gain < 1.05 * glow);
     frame_finish(&with);
     frame_finish(&without);
 }
 
-/* Drawing and reading change nothing: a frame is the same, with all its layers, whether earlier
- * ones were drawn or not. */
+/* Checks that a frame has the same bytes in all layers whether earlier frames were drawn and read
+ * or not. */
 static void expect_same_after_others(void **state, const char *override)
 {
     struct frame all, last;
@@ -221,7 +225,7 @@ static void no_particles_are_no_error(void **state)
     frame_finish(&f);
 }
 
-/* Is the list of the last pass in the order of systems and serials? */
+/* Returns whether the list of the last pass is in the order of systems and serials. */
 static bool is_in_order(struct frame *f)
 {
     struct kiln_error error = {0};
@@ -238,8 +242,9 @@ static bool is_in_order(struct frame *f)
     return in_order;
 }
 
-/* Sums do not ask for an order; whatever covers does. */
-static void only_what_covers_is_sorted(void **state)
+/* Passes of additive particles keep the order of serials, since sums need no other order. Passes
+ * with particles that cover are sorted by depth. */
+static void only_covering_particles_are_sorted(void **state)
 {
     static const struct {
         const char *override;
@@ -269,7 +274,7 @@ int main(void)
         test_on_device(bloom_adds_light),
         test_on_device(frames_do_not_depend_on_earlier_ones),
         test_on_device(no_particles_are_no_error),
-        test_on_device(only_what_covers_is_sorted),
+        test_on_device(only_covering_particles_are_sorted),
     };
     return cmocka_run_group_tests_name("stages", tests, test_device_open, test_device_close);
 }

@@ -1,5 +1,7 @@
-/* Saved states: what was baked with one technique serves all, and gives the pictures of a run from
- * the start, also after a change of the look; a spread sort goes on in the order that was saved. */
+/* Checks rendering from saved states (kiln_bake). States that one technique baked serve all
+ * techniques, and give the pictures of a run from the start, also after a change of the look. A
+ * spread sort continues in the order that was saved. If this fails, a clip that is rendered from
+ * states differs from one that is not. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +29,7 @@ static const char SCENE[] =
     "    emit: {parent: {system: fire, on: {death: {count: 2}}}, life: 0.3 s, speed: 1 m/s}\n"
     "    look: {shape: point, size: 0.1 m}\n";
 
-/* The pictures of a job. */
+/* The pictures of a job, and the number of warnings in its log. */
 struct pictures {
     uint8_t bytes[FRAMES][PICTURE_BYTES];
     uint32_t count;
@@ -88,7 +90,8 @@ static struct kiln_bake_stats bake(struct kiln_device *device, const struct kiln
     return stats;
 }
 
-/* Pictures and state from a saved state are those of a run from the start. */
+/* Checks that a job that starts from saved states has the pictures and the last state of one that
+ * starts at the beginning, and takes only `steps` steps. */
 static void compare(struct kiln_device *device, const struct kiln_scene *scene,
                     const char *technique, uint64_t steps)
 {
@@ -115,7 +118,7 @@ static void states_serve_every_technique(void **state)
                                              "simulate=pingpong", "simulate=feedback",
                                              "simulate=texels",   "raster=instanced"};
     struct kiln_scene *scene = load_scene(SCENE, NULL);
-    /* Warm-up 12 steps, 2 a frame: states before frames 0, 9, 18 and 27. */
+    /* The warm-up takes 12 steps, and a frame 2. States are saved for frames 0, 9, 18 and 27. */
     const struct kiln_bake_stats baked = bake(test_device(), scene, "simulate=cpu", 9);
     assert_int_equal(baked.states, 4);
     assert_int_equal(baked.steps, 12 + 27 * 2);
@@ -136,14 +139,15 @@ static void states_serve_other_looks(void **state)
     kiln_scene_destroy(&other);
 }
 
-static void spread_sorts_go_on(void **state)
+static void spread_sorts_continue_from_states(void **state)
 {
     (void)state;
     struct kiln_scene *scene = load_scene(SCENE, NULL);
     bake(test_device(), scene, "sort=oddeven:5", 9);
     compare(test_device(), scene, "sort=oddeven:5", (FIRST + FRAMES - 1 - 18) * 2);
     compare(test_device(), scene, "sort=cpu", (FIRST + FRAMES - 1 - 18) * 2);
-    /* Spread over other frames, the order is another one: nothing fits, and it says so. */
+    /* A sort that is spread over six frames can not continue in the order of one over five: the job
+     * starts at the beginning, and warns. */
     struct pictures *pictures = malloc(sizeof *pictures);
     assert_non_null(pictures);
     const struct kiln_render_stats stats =
@@ -168,7 +172,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         test_in_folder(states_serve_every_technique),
         test_in_folder(states_serve_other_looks),
-        test_in_folder(spread_sorts_go_on),
+        test_in_folder(spread_sorts_continue_from_states),
     };
     return cmocka_run_group_tests_name("states", tests, test_device_open_alone, test_device_close);
 }

@@ -1,4 +1,6 @@
-/* How frames of a test are judged. */
+/* Checks how a golden test judges its frames (lib/suite/judge.c): by hashes of states and pixels,
+ * by metrics against the nearest golden, and with limits and masks. It also checks which files a
+ * run writes and removes. If this fails, changed pictures pass or unchanged ones fail. */
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -9,6 +11,7 @@
 #include "support/folders.h"
 #include "support/suite.h"
 
+/* Writes the test, with `more` in its file, and accepts what it draws. */
 static void accept_goldens(const char *more)
 {
     spark_write(more);
@@ -127,7 +130,7 @@ static void a_changed_state_fails_even_with_equal_pixels(void **state)
 
 /* ---- Metrics ------------------------------------------------------------------------------ */
 
-/* The hashes of a golden that was replaced are believed no more. */
+/* A golden whose file has changed loses its accepted hashes, so that metrics judge the frame. */
 static void small_differences_are_within_limits(void **state)
 {
     (void)state;
@@ -171,7 +174,7 @@ static void large_differences_fail(void **state)
     spark_end(&run);
 }
 
-static void accepted_limits_come_over_those_of_the_test(void **state)
+static void accepted_limits_override_those_of_the_test(void **state)
 {
     (void)state;
     accept_goldens("limits: {flip.mean: 1}\nreason: anything goes\n");
@@ -232,7 +235,7 @@ static void the_nearest_of_several_goldens_counts(void **state)
     assert_true(run.result->frames[0].score == 0);
     spark_end(&run);
 
-    /* Its hash is of a golden that is still there, under another name. */
+    /* The accepted hash is that of a golden that is still there, under another name. */
     run = spark_run(NULL);
     assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_PIXELS);
     assert_string_equal(run.result->frames[0].golden, "golden/spark/frame_0003~2.png");
@@ -266,7 +269,7 @@ static void a_device_is_judged_by_its_own_goldens(void **state)
     spark_end(&run);
 }
 
-static void strictly_only_known_pixels_pass(void **state)
+static void strict_passes_known_pixels_only(void **state)
 {
     (void)state;
     accept_goldens("");
@@ -296,6 +299,7 @@ static void strictly_only_known_pixels_pass(void **state)
 
 /* ---- What cannot be judged ---------------------------------------------------------------- */
 
+/* Runs the test, and checks that it ends with this error, whose message contains `part`. */
 static void expect_error(enum kiln_code code, const char *part)
 {
     struct spark_run run = spark_run(NULL);
@@ -334,7 +338,7 @@ static void what_cannot_be_judged_is_an_error(void **state)
     expect_error(KILN_INVALID_INPUT, "golden/spark/expect.yaml:2:1");
 }
 
-static void results_of_before_are_removed_and_nothing_else(void **state)
+static void earlier_results_are_removed_and_nothing_else(void **state)
 {
     (void)state;
     spark_write("");
@@ -395,14 +399,14 @@ int main(void)
         IN_FOLDER(a_changed_state_fails_even_with_equal_pixels),
         IN_FOLDER(small_differences_are_within_limits),
         IN_FOLDER(large_differences_fail),
-        IN_FOLDER(accepted_limits_come_over_those_of_the_test),
+        IN_FOLDER(accepted_limits_override_those_of_the_test),
         IN_FOLDER(another_size_fails),
         IN_FOLDER(masked_pixels_are_not_judged),
         IN_FOLDER(the_nearest_of_several_goldens_counts),
         IN_FOLDER(a_device_is_judged_by_its_own_goldens),
-        IN_FOLDER(strictly_only_known_pixels_pass),
+        IN_FOLDER(strict_passes_known_pixels_only),
         IN_FOLDER(what_cannot_be_judged_is_an_error),
-        IN_FOLDER(results_of_before_are_removed_and_nothing_else),
+        IN_FOLDER(earlier_results_are_removed_and_nothing_else),
         IN_FOLDER(a_device_that_is_absent_is_skipped),
     };
     return cmocka_run_group_tests_name("suite", tests, spark_needs_device, NULL);

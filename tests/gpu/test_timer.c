@@ -1,4 +1,6 @@
-/* lib/gpu/timer.h: passes add up, host work counts, and GL work is waited for. */
+/* Checks kiln_timer (lib/gpu/timer.h): the times of a pass add up, work on the host counts, and GL
+ * work counts for the pass that submits it. If this fails, benchmarks charge time to the wrong
+ * pass. */
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -39,7 +41,7 @@ static void check_host_passes(struct kiln_timer *timer)
     assert_true(sum <= elapsed_ms + 1);
     assert_true(ms[KILN_PASS_bloom] == 0);
 
-    /* A frame starts from nothing. */
+    /* The next frame starts at 0. */
     kiln_timer_collect(timer, ms);
     for (size_t i = 0; i < KILN_PASS_COUNT; i++)
         assert_true(ms[i] == 0);
@@ -64,7 +66,7 @@ static void host_passes_count_on_a_device(void **state)
     kiln_timer_destroy(&timer);
 }
 
-/* With timestamp queries, also where the device would not choose them. */
+/* The timer uses timestamp queries, as on a GPU, even if the device is software GL. */
 static void host_passes_count_beside_queries(void **state)
 {
     struct kiln_device *device = *state;
@@ -78,7 +80,8 @@ static void host_passes_count_beside_queries(void **state)
     kiln_timer_destroy(&timer);
 }
 
-/* Many full-target clears: submitting them is quick, doing them is not. */
+/* Eight clears of a large image are quick to submit and slow to do. Their time counts for the pass
+ * that submits them, not for the pass that reads a texel and waits for them. */
 static void gl_work_is_charged_to_its_pass(void **state)
 {
     GLuint texture = 0, framebuffer = 0;
@@ -108,7 +111,7 @@ static void gl_work_is_charged_to_its_pass(void **state)
     assert_true(texel[0] == 7);
     assert_true(ms[KILN_PASS_bloom] > 0);
     assert_true(ms[KILN_PASS_bloom] + ms[KILN_PASS_readback] <= elapsed_ms + 1);
-    /* One texel is nothing against the clears that its reading waits for. */
+    /* On software GL, reading a texel is quick if the clears are already done. */
     assert_true(ms[KILN_PASS_bloom] > ms[KILN_PASS_readback] ||
                 !kiln_device_get_info(*state)->software);
     kiln_timer_destroy(&timer);
@@ -116,7 +119,7 @@ static void gl_work_is_charged_to_its_pass(void **state)
     glDeleteTextures(1, &texture);
 }
 
-static void names_are_those_of_the_list(void **state)
+static void passes_have_their_names(void **state)
 {
     (void)state;
     assert_string_equal(kiln_pass_name(KILN_PASS_simulate), "simulate");
@@ -130,7 +133,7 @@ int main(void)
         test_on_device(host_passes_count_on_a_device),
         test_on_device(host_passes_count_beside_queries),
         test_on_device(gl_work_is_charged_to_its_pass),
-        cmocka_unit_test(names_are_those_of_the_list),
+        cmocka_unit_test(passes_have_their_names),
     };
     return cmocka_run_group_tests_name("timer", tests, test_device_open, test_device_close);
 }

@@ -1,4 +1,6 @@
-/* What updates of goldens write, and what they leave; repeated renders; notes. */
+/* Checks what `kiln test --update` writes, and what it leaves as it is; that repeated renders must
+ * be equal; and which notes a test gets. If this fails, an update replaces goldens that should
+ * stay, or a test that hardly judges anything passes without a note. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,7 +16,8 @@
 #define EXPECT        "golden/spark/expect.yaml"
 #define SECOND_GOLDEN "golden/spark/frame_0005.png"
 
-/* What a file was: another inode or time tells that it was written, even with the same bytes. */
+/* A file at some time. Another inode or time tells later that it was written again, even with the
+ * same bytes. */
 struct file_state {
     struct stat status;
     char *bytes;
@@ -29,6 +32,7 @@ static struct file_state file_state(const char *path)
     return file;
 }
 
+/* Returns whether a file is as it was before, and frees that state. */
 static bool is_untouched(const char *path, struct file_state *before)
 {
     struct file_state now = file_state(path);
@@ -63,7 +67,7 @@ static void a_dry_run_writes_nothing(void **state)
     spark_end(&run);
 }
 
-static void missing_writes_what_is_missing_alone(void **state)
+static void update_missing_writes_missing_goldens_only(void **state)
 {
     (void)state;
     spark_write("");
@@ -85,7 +89,7 @@ static void missing_writes_what_is_missing_alone(void **state)
     spark_end(&run);
 }
 
-/* Adds what another device accepted, and returns a part of its entry. */
+/* Adds hashes that were accepted on another device to expect.yaml, and returns their text. */
 static const char *add_other_device(void)
 {
     static const char entry[] =
@@ -97,7 +101,7 @@ static const char *add_other_device(void)
     return entry;
 }
 
-static void failed_leaves_passing_frames_and_other_devices(void **state)
+static void update_failed_leaves_passing_frames_and_other_devices(void **state)
 {
     (void)state;
     struct kiln_error error = {0};
@@ -125,7 +129,7 @@ static void failed_leaves_passing_frames_and_other_devices(void **state)
     spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
 }
 
-static void passing_by_metrics_is_replaced_by_all_alone(void **state)
+static void update_all_alone_replaces_goldens_that_pass_by_metrics(void **state)
 {
     (void)state;
     spark_write("");
@@ -141,8 +145,10 @@ static void passing_by_metrics_is_replaced_by_all_alone(void **state)
     spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
 }
 
-/* As on a machine whose pixels nobody has looked at, but which draws the same. */
-static void equal_pixels_of_a_new_device_are_noted_by_all(void **state)
+/* On a device without accepted hashes, equal pixels pass by metrics. `--update all` accepts the
+ * hashes of this device, and writes no golden. To imitate a new device, the accepted hashes get the
+ * name of another one. */
+static void update_all_accepts_equal_pixels_of_a_new_device(void **state)
 {
     (void)state;
     spark_write("");
@@ -165,7 +171,7 @@ static void equal_pixels_of_a_new_device_are_noted_by_all(void **state)
     free(expect);
 }
 
-static void a_changed_state_is_accepted_by_failed(void **state)
+static void update_failed_accepts_a_changed_state(void **state)
 {
     (void)state;
     spark_write("");
@@ -182,8 +188,9 @@ static void a_changed_state_is_accepted_by_failed(void **state)
     spark_end(&run);
 }
 
-/* A scene can change and look the same: its text is brought up to date by all. */
-static void a_scene_that_looks_the_same_is_accepted_by_all(void **state)
+/* A test whose scene has changed and looks the same passes with a note. `--update all` accepts the
+ * scene's text. */
+static void update_all_accepts_a_scene_that_looks_the_same(void **state)
 {
     (void)state;
     spark_write("");
@@ -200,7 +207,7 @@ static void a_scene_that_looks_the_same_is_accepted_by_all(void **state)
     assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 0);
 }
 
-static void broken_goldens_are_replaced_when_told(void **state)
+static void update_failed_replaces_broken_goldens(void **state)
 {
     (void)state;
     spark_write("");
@@ -223,7 +230,8 @@ static void broken_goldens_are_replaced_when_told(void **state)
 
 /* ---- Repeats ------------------------------------------------------------------------------ */
 
-/* Changes the scene file once it was read. */
+/* A stop callback that changes the scene file when it is first called, after the file was read. It
+ * never stops the run. */
 static bool change_scene(void *user)
 {
     bool *changed = user;
@@ -263,7 +271,7 @@ static bool stop_at_once(void *user)
     return true;
 }
 
-static void stopping_is_no_result(void **state)
+static void a_stopped_run_has_no_result(void **state)
 {
     (void)state;
     spark_write("");
@@ -276,10 +284,11 @@ static void stopping_is_no_result(void **state)
     spark_end(&run);
 }
 
-/* ---- Notes and errors of others ------------------------------------------------------------- */
+/* ---- Notes and crashes ---------------------------------------------------------------------- */
 
-/* Whatever makes a test see less is told, unless a reason is given. */
-static void what_is_not_judged_is_noted(void **state)
+/* Settings by which a test judges less are noted, unless it gives a reason. Masks that leave little
+ * of the picture are noted in any case. */
+static void settings_that_judge_less_are_noted(void **state)
 {
     (void)state;
     static const char loose[] = "limits: {psnr: 0}\nthreshold: 255\nwindow: 4000\n"
@@ -330,7 +339,7 @@ static void stale_limits_are_noted(void **state)
     spark_write("limits: {flip.mean: 0.3, flip.p99: 0.05}\n");
     spark_update(KILN_UPDATE_MISSING);
 
-    /* Nothing was ever measured: nobody knows whether it is stale. */
+    /* Nothing was measured yet, so it is unknown whether a limit is stale. */
     struct spark_run run = spark_run(&usual);
     assert_true(spark_has_note(&run, "limit flip.mean=0.3 is looser than the default limit"));
     assert_false(spark_has_note(&run, "stale"));
@@ -354,7 +363,7 @@ static void stale_limits_are_noted(void **state)
     spark_end(&run);
 }
 
-static void what_was_accepted_of_another_kind_is_noted(void **state)
+static void other_techniques_and_missing_states_are_noted(void **state)
 {
     (void)state;
     spark_write("");
@@ -376,8 +385,8 @@ static void what_was_accepted_of_another_kind_is_noted(void **state)
     assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 0);
 }
 
-/* The golden that the picture was judged by is replaced, not the first one. */
-static void failed_replaces_the_nearest_golden(void **state)
+/* Of several goldens of a frame, the nearest one, which judged the picture, is replaced. */
+static void update_failed_replaces_the_nearest_golden(void **state)
 {
     (void)state;
     struct kiln_error error = {0};
@@ -415,7 +424,7 @@ static void crashes_are_recorded(void **state)
     kiln_suite_destroy(&suite);
 }
 
-static void files_of_a_run_that_was_killed_go_and_no_others(void **state)
+static void files_of_a_killed_run_are_removed_and_no_others(void **state)
 {
     (void)state;
     spark_write("");
@@ -456,22 +465,22 @@ int main(void)
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_enter_folder, test_leave_folder)
     static const struct CMUnitTest tests[] = {
         IN_FOLDER(a_dry_run_writes_nothing),
-        IN_FOLDER(missing_writes_what_is_missing_alone),
-        IN_FOLDER(failed_leaves_passing_frames_and_other_devices),
-        IN_FOLDER(passing_by_metrics_is_replaced_by_all_alone),
-        IN_FOLDER(equal_pixels_of_a_new_device_are_noted_by_all),
-        IN_FOLDER(a_changed_state_is_accepted_by_failed),
-        IN_FOLDER(a_scene_that_looks_the_same_is_accepted_by_all),
-        IN_FOLDER(broken_goldens_are_replaced_when_told),
+        IN_FOLDER(update_missing_writes_missing_goldens_only),
+        IN_FOLDER(update_failed_leaves_passing_frames_and_other_devices),
+        IN_FOLDER(update_all_alone_replaces_goldens_that_pass_by_metrics),
+        IN_FOLDER(update_all_accepts_equal_pixels_of_a_new_device),
+        IN_FOLDER(update_failed_accepts_a_changed_state),
+        IN_FOLDER(update_all_accepts_a_scene_that_looks_the_same),
+        IN_FOLDER(update_failed_replaces_broken_goldens),
         IN_FOLDER(repeats_must_have_the_same_hashes),
-        IN_FOLDER(stopping_is_no_result),
-        IN_FOLDER(what_is_not_judged_is_noted),
+        IN_FOLDER(a_stopped_run_has_no_result),
+        IN_FOLDER(settings_that_judge_less_are_noted),
         IN_FOLDER(goldens_of_no_frame_are_noted),
         IN_FOLDER(stale_limits_are_noted),
-        IN_FOLDER(what_was_accepted_of_another_kind_is_noted),
-        IN_FOLDER(failed_replaces_the_nearest_golden),
+        IN_FOLDER(other_techniques_and_missing_states_are_noted),
+        IN_FOLDER(update_failed_replaces_the_nearest_golden),
         IN_FOLDER(crashes_are_recorded),
-        IN_FOLDER(files_of_a_run_that_was_killed_go_and_no_others),
+        IN_FOLDER(files_of_a_killed_run_are_removed_and_no_others),
         IN_FOLDER(exr_goldens_work_too),
     };
     return cmocka_run_group_tests_name("update", tests, spark_needs_device, NULL);

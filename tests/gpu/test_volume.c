@@ -1,8 +1,9 @@
-/* Render-to-volume as Drone 2007, 7.5.2.1 has it, beside ours: triangles are drawn once for each
- * slice of a volume, clipped to it by a geometry shader, and the depth test keeps the nearest. The
- * rasteriser asks for the middles of pixels alone, so that it leaves out cells; how many, and how
- * often another triangle is kept, is told and bounded here. States never depend on it.
- */
+/* Compares kiln's volumes of planes (lib/sim/world/voxels.h) with volumes that are rendered as in
+ * Drone 2007, 7.5.2.1: triangles are drawn once for each slice of a volume, a geometry shader clips
+ * them to the slice, and the depth test keeps the nearest. The rasteriser asks only whether a
+ * triangle covers the middle of a pixel, so it leaves out cells. The test prints and limits how
+ * many cells these are, and how often another triangle is kept, for docs/volumes.md. If it fails,
+ * kiln's volumes lack planes or keep wrong triangles. kiln itself never renders volumes. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -18,7 +19,7 @@ enum { RINGS = 24, AROUND = 48, VERTICES = (RINGS + 1) * AROUND, TRIANGLES = 2 *
 static struct {
     float vertices[VERTICES][3];
     uint32_t triangles[TRIANGLES][3];
-} ball; /* its poles are many triangles without an area */
+} ball; /* radius 1 m; its poles consist of triangles without an area */
 
 static void make_ball(void)
 {
@@ -44,7 +45,7 @@ static const char VERTEX[] = "#version 450\n"
                              "flat out int slice;\n"
                              "void main() { place = cells; slice = gl_InstanceID; }\n";
 
-/* Seen along -z: what is nearer has the greater z. */
+/* The view is along -z, so that nearer places have a greater z. */
 static const char GEOMETRY[] = "#version 450\n"
                                "layout(triangles) in;\n"
                                "layout(triangle_strip, max_vertices = 3) out;\n"
@@ -112,7 +113,8 @@ static GLuint make_slices(const struct kiln_voxels *v, GLenum format, GLenum att
     return texture;
 }
 
-/* The ball's vertices in cells, and its triangles, for the array that is bound. */
+/* Makes buffers of the ball's vertices, in cells, and of its triangles, for the vertex array that
+ * is bound. */
 static void make_buffers(const struct kiln_voxels *v, GLuint buffers[2])
 {
     static float cells[VERTICES][3];
@@ -128,7 +130,7 @@ static void make_buffers(const struct kiln_voxels *v, GLuint buffers[2])
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof ball.triangles, ball.triangles, GL_STATIC_DRAW);
 }
 
-/* 1 + the number of the triangle that each cell keeps; 0: none. */
+/* Renders the volume: writes 1 + the number of the triangle that each cell keeps, or 0 for none. */
 static void draw(const struct kiln_voxels *v, uint32_t *kept)
 {
     GLuint array, framebuffer, buffers[2];
@@ -170,6 +172,7 @@ static void draw(const struct kiln_voxels *v, uint32_t *kept)
     glDeleteProgram(program);
 }
 
+/* Builds the volume of the ball without GL. */
 static void build(struct kiln_voxels *voxels, float spacing)
 {
     struct kiln_error error = {0};
@@ -188,9 +191,9 @@ static void build(struct kiln_voxels *voxels, float spacing)
     kiln_threads_destroy(&threads);
 }
 
-/* Every cell that is rasterised is one of ours, mostly with the same triangle. But the rasteriser
- * leaves out those that no line along the view meets in their middle: two thirds of a ball's, on
- * its sides. */
+/* Each cell that the rasteriser marks has a plane in kiln's volume, mostly of the same triangle.
+ * The rasteriser leaves out cells in which no triangle crosses the line through the cell's middle
+ * along the view: about two thirds of a ball's cells, on its sides. */
 static void the_rasteriser_leaves_out_cells(void **state)
 {
     (void)state;
