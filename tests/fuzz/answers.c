@@ -1,5 +1,7 @@
-/* Fuzzes what kiln takes from kiln-decode, which a file may have taken over: any bytes are a sound
- * picture, video, mesh or skin, or an error. They come from a process in its place (feeder.c). */
+/* Fuzzes kiln's reading of the answers of kiln-decode: any bytes from that process are a picture,
+ * video, mesh or skin within the limits, or an error. If this fails, a malicious file that has
+ * taken over kiln-decode can crash kiln or go on to take it over. The bytes are sent by kiln_feeder
+ * (feeder.c), which runs in the place of kiln-decode. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +13,7 @@
 #include "image_check.h"
 #include "mesh_check.h"
 
-static char fed[64]; /* the file */
+static char fed[64]; /* path of the file with the input, which kiln_feeder sends */
 
 static void begin(void)
 {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# How much of each parser the kept inputs reach, and those that fuzz-long has found: coverage.sh SOURCE
-# BUILD [FOUND]. Lines by gcov, of the files that fuzz targets are for.
+# Prints how many lines of each parser the inputs of the fuzz targets reach, counted by gcov:
+# coverage.sh SOURCE BUILD [FOUND]. The inputs are those of corpus/ and those that fuzz-long has
+# kept in FOUND. A line that no input reaches is not fuzzed.
 set -euo pipefail
 source=$1 build=$2 found=${3:-}
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Debug \

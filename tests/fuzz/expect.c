@@ -1,6 +1,6 @@
-/* Fuzzes the reader of expect.yaml: any bytes are read or an error, never a crash; what is read is
- * written as a text that reads and writes as the same; and accepting a picture keeps all the rest.
- */
+/* Fuzzes the reader of expect.yaml: any bytes are expectations or an error, never a crash.
+ * Expectations that are read and written twice give the same text. If this fails, `kiln test
+ * approve` may lose what was accepted before, or crash on a damaged file. */
 #include "suite/expect.h"
 
 #include <stdlib.h>
@@ -27,6 +27,8 @@ static void check_round_trip(struct kiln_arena *arena, const struct kiln_expect 
     kiln_text_free(&text_again);
 }
 
+/* Accepts a picture of frame 24 on one device, and checks that all other frames and devices keep
+ * their entries. */
 static void check_accepting(struct kiln_arena *arena, struct kiln_expect *expect)
 {
     static const char hash[] = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";

@@ -1,5 +1,6 @@
-/* A kiln-decode for the target `answers`: says that it is ready, and then what is in the file that
- * the environment's KILN_FEED names, whatever it is asked for. */
+/* Stands in for kiln-decode in the fuzz target `answers`: it says that it is ready, waits for a
+ * request, and whatever the request is, sends the bytes of the file that the environment variable
+ * KILN_FEED names. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>

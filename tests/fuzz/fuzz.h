@@ -1,4 +1,5 @@
-/* One fuzz target a file; libFuzzer or replay.c calls it. */
+/* Declares the interface of the fuzz targets, one target a file. libFuzzer or replay.c calls the
+ * target. */
 #ifndef KILN_TESTS_FUZZ_H
 #define KILN_TESTS_FUZZ_H
 
@@ -8,15 +9,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Returns 0; a finding is a crash. */
+/* Runs the target on one input. Returns 0. A target reports a fault by a crash, as libFuzzer
+ * expects. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Whether the last input was what the target reads. Each target sets it: of a corpus's folder
- * "good" all files are to be taken, lest the target reads nothing but the first line of what has
- * become of another version. One variable, whether or not replay.c is linked. */
+/* Whether the last input was accepted; each target sets it. replay.c checks that every file of a
+ * corpus's folder "good" is accepted. Otherwise, after a change of the format's version, a target
+ * would go on to read only the first line of its corpus and test nothing. The symbol is weak, so
+ * that a target links with replay.c and with libFuzzer alike. */
 __attribute__((weak)) bool fuzz_taken;
 
-/* What must hold whatever the input is. */
+/* Crashes with a message unless the condition is true, which it must be whatever the input is. */
 static inline void require(bool condition, const char *what)
 {
     if (!condition) {

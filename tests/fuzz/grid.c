@@ -1,4 +1,5 @@
-/* Fuzzes the reader of kiln-grid files: any bytes are a grid within the limits or an error. */
+/* Fuzzes the reader of kiln-grid files: any bytes are a grid of finite samples within the limits or
+ * an error. If this fails, a damaged grid file crashes kiln or moves particles to NaN. */
 #include <math.h>
 
 #include "asset/geometry/grid_in.h"
@@ -14,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const size_t count = grid ? (size_t)grid->size[0] * grid->size[1] * grid->size[2] : 0;
     require(count <= KILN_MAX_GRID_SAMPLES, "a grid beyond the limits");
     for (size_t i = 0; i < 3 * count; i++)
-        require(isfinite(grid->samples[i / 3][i % 3]), "a sample that is no number");
+        require(isfinite(grid->samples[i / 3][i % 3]), "a sample is not finite");
     kiln_grid_destroy(&grid);
     return 0;
 }

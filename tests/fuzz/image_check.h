@@ -1,11 +1,12 @@
-/* What holds for whatever a decoder of pictures returned. */
+/* Checks the result of a decoder of pictures, for the fuzz targets. */
 #ifndef KILN_FUZZ_IMAGE_CHECK_H
 #define KILN_FUZZ_IMAGE_CHECK_H
 
 #include "asset/image/image.h"
 #include "fuzz.h"
 
-/* An image within the limits, true, or an error; destroys the image. */
+/* Checks that the result is an image within the limits, and returns true, or an error with a
+ * message, and returns false. Destroys the image. */
 static inline bool check_image(struct kiln_asset_image *image, const struct kiln_error *error)
 {
     if (!image) {
@@ -17,7 +18,7 @@ static inline bool check_image(struct kiln_asset_image *image, const struct kiln
                 image->width * image->height <= KILN_MAX_IMAGE_PIXELS,
             "an image beyond the limits");
     require(image->channels >= 1 && image->channels <= 4, "an image without channels");
-    /* Every byte is there and was written: a sum that depends on them all. */
+    /* The sum reads every byte, so that a sanitizer reports a byte outside the allocation. */
     const uint8_t *pixels = image->pixels;
     volatile uint8_t sum = 0;
     for (size_t i = 0; i < kiln_asset_image_bytes(image); i++)

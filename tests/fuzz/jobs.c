@@ -1,5 +1,7 @@
-/* Fuzzes the reader of files of jobs, as YAML and as lines of JSON: any bytes are jobs or an error
- * with a text, and what a job says is within what its keys allow. */
+/* Fuzzes the reader of files of jobs, as YAML and as lines of JSON: any bytes are at least one job
+ * whose values are in the ranges of their keys, or an error with a message. If this fails, a wrong
+ * file for `kiln render --batch` crashes kiln or starts a job with values that no check has seen.
+ */
 #include <stdlib.h>
 #include <string.h>
 

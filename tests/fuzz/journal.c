@@ -1,5 +1,6 @@
-/* Fuzzes the reading of journals: any bytes are lines of this job's journal, or an error, never a
- * crash; what is read twice is the same; and a head that is taken is one that a job can go by. */
+/* Fuzzes the reader of journals: any bytes are lines of the job's journal or an error, never a
+ * crash. Reading a journal twice gives the same, and the settings of an accepted head are within
+ * their limits. If this fails, a job that was killed while it wrote its journal may not resume. */
 #include "job/journal.h"
 
 #include <stdio.h>
@@ -13,7 +14,7 @@
 
 static const struct kiln_frame_range clip = {0, 63};
 
-/* The job that the corpus has journals of. */
+/* Describes the job whose journals are the corpus: 64 frames as PNG files. */
 static bool make_head(struct kiln_journal_head *head, const char *output)
 {
     struct kiln_error error = {0};
@@ -31,7 +32,8 @@ static bool make_head(struct kiln_journal_head *head, const char *output)
     return complete.format && kiln_journal_head_make(head, &complete, "fuzz", "{}");
 }
 
-/* Opens the journal as a job that goes on would. Returns how many frames it has something of. */
+/* Opens the journal as a job that resumes does. Returns the number of frames whose state it
+ * records. */
 static uint32_t open_journal(const struct kiln_journal_head *head)
 {
     struct kiln_error error = {0};
@@ -49,7 +51,8 @@ static uint32_t open_journal(const struct kiln_journal_head *head)
     return known;
 }
 
-/* Reads its head as whoever joins would. */
+/* Reads the head of the output's journal, as `kiln join` does, which does not know the job. Returns
+ * whether the head was accepted. */
 static bool find_head(const char *output)
 {
     struct kiln_error error = {0};
@@ -67,7 +70,8 @@ static bool find_head(const char *output)
     return found;
 }
 
-/* A head with settings of any numbers, and the hash of them. */
+/* Writes a journal of a head alone, with the input's numbers as settings. The head has the hash of
+ * these settings; otherwise each would be refused for its hash before its settings are checked. */
 static bool put_settings(const char *path, const struct kiln_journal_head *like,
                          const uint8_t *data, size_t size)
 {
@@ -92,8 +96,9 @@ static bool put_settings(const char *path, const struct kiln_journal_head *like,
     return fclose(file) == 0 && written;
 }
 
-/* By the first byte, the rest are lines behind a head as it should be, so that changes get there,
- * the whole journal, or numbers for its head. */
+/* Writes the journal of an input. The first byte decides what the other bytes are: numbers for the
+ * settings of a head (3 mod 4), lines behind a correct head (even), without which mutations would
+ * rarely get past the head, or a whole journal (1 mod 4). */
 static bool put(const char *path, const struct kiln_journal_head *head, const uint8_t *data,
                 size_t size)
 {

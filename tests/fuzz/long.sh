@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# libFuzzer on every target, for so many seconds of processor time in all: long.sh SOURCE BUILD SECONDS.
-# Targets share the time evenly, in turns of a minute by the clock; the processor time that each has had stands
-# in BUILD/found/*.spent, so that a run that was stopped goes on with what is left, and one on a busy machine,
-# or by `nice`, takes longer and no less. What is found new is kept in BUILD/found/NAME;
-# an input that makes a target fail stays in BUILD/NAME-crash-*, and is named. At the end stands how much of
-# kiln's own files the inputs reach.
+# Runs libFuzzer on every fuzz target: long.sh SOURCE BUILD SECONDS. All targets together get
+# SECONDS of processor time, shared evenly, in turns of a minute of real time.
+# BUILD/found/NAME.spent records the processor time that a target has had. So a run that was stopped
+# goes on with the time that is left, and a run on a busy machine or under `nice` takes longer but
+# tests as much. Inputs that reach new code are kept in BUILD/found/NAME. An input that makes a
+# target fail stays in BUILD/NAME-crash-*, and the log names it. At the end, coverage.sh prints how
+# many lines of kiln's parsers the inputs reach.
 set -euo pipefail
 source=$1 build=$2 seconds=$3
 [[ $seconds =~ ^[1-9][0-9]*$ ]] ||
@@ -27,8 +28,9 @@ mapfile -t names < <(find "$build/tests/fuzz" -maxdepth 1 -name 'fuzz_*' -type f
     sed 's/^fuzz_//' | sort)
 export share=$(((seconds + ${#names[@]} - 1) / ${#names[@]}))
 
-# libFuzzer's timeout counts the clock's time, of which a busy machine may give a target little. This tells
-# whether the input that was too slow takes 30 s of processor time, and removes it if it does not.
+# is_slow NAME: succeeds when a target's failure counts. libFuzzer's timeout counts real time, so on
+# a busy machine a fast input can exceed it. An input that timed out is run again with a limit of
+# 30 s of processor time; if it ends within the limit, it is removed and the failure does not count.
 is_slow() {
     local name=$1 input
     input=$(sed -n 's/.*Test unit written to //p' "$build/found/$name.log" | tail -n 1)
@@ -36,7 +38,8 @@ is_slow() {
     ! (ulimit -t 30 && "$build/tests/fuzz/fuzz_$name" -timeout=0 "$input" >/dev/null 2>&1) || { rm "$input"; false; }
 }
 
-# fuzz NAME: a turn of its share. A crash of assimp is no finding of `import`, which goes on.
+# fuzz NAME: runs a target for one turn. `import` goes on after a crash, since assimp, which kiln
+# does not trust, runs in its process.
 fuzz() {
     local name=$1 found=$build/found/$1 spent=0 left corpus options=()
     corpus=$source/tests/fuzz/corpus/${name/import/mesh}
@@ -59,7 +62,7 @@ fuzz() {
 }
 export -f fuzz is_slow
 
-# left: the targets that have not had their share yet.
+# left: prints the targets that have not yet used their share of processor time.
 left() {
     local name spent
     for name in "${names[@]}"; do

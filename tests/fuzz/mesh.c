@@ -1,6 +1,6 @@
-/* Fuzzes the mesh loader: any bytes are a mesh within the limits or an error, never a crash; of
- * this process, that is: the importer has one of its own. What moves is within them at any moment.
- */
+/* Fuzzes the mesh loader: any bytes are a mesh and a skinned mesh within the limits, at any time of
+ * its clip, or an error. If this fails, a damaged OBJ or glTF file crashes kiln. The importer may
+ * crash, since it runs in a process of its own, kiln-decode; kiln must report that as an error. */
 #include <string.h>
 
 #include "fuzz.h"

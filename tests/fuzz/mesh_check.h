@@ -1,4 +1,4 @@
-/* What holds for every mesh that kiln has, and for every pose of one that moves. */
+/* Checks meshes that kiln accepted, and the poses of skinned meshes, for the fuzz targets. */
 #ifndef KILN_FUZZ_MESH_CHECK_H
 #define KILN_FUZZ_MESH_CHECK_H
 
@@ -14,7 +14,7 @@ static inline void check_mesh(const struct kiln_mesh *mesh)
             "a mesh beyond the limits");
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         for (int c = 0; c < 6; c++)
-            require(isfinite(mesh->vertices[i][c]), "a vertex that is no place");
+            require(isfinite(mesh->vertices[i][c]), "a vertex is not finite");
     }
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         for (int c = 0; c < 3; c++)
@@ -22,6 +22,7 @@ static inline void check_mesh(const struct kiln_mesh *mesh)
     }
 }
 
+/* Checks the mesh of a skin as it was loaded, and at four times of its first clip. */
 static inline void check_skin(const struct kiln_skin *skin)
 {
     struct kiln_mesh *mesh = kiln_mesh_copy(kiln_skin_mesh(skin));

@@ -1,5 +1,7 @@
-/* Fuzzes the joining of a clip: any bytes in the file of a part are a part or an error, never a
- * crash. The checksum is made right first: else nothing that is changed would get behind it. */
+/* Fuzzes the joining of the parts of a clip: any bytes in the file of a part are a part or an
+ * error, never a crash. If this fails, a damaged part can crash `kiln join`. The target first
+ * corrects the checksum of each input, since a wrong one is refused before anything else is read.
+ */
 #include "output/part.h"
 
 #include <stdio.h>
@@ -12,7 +14,7 @@
 #include "base/ffmpeg.h"
 #include "fuzz.h"
 
-/* The clip that the corpus has parts of: two seconds at 4 frames a second, in one part. */
+/* Frames of the clip whose parts are the corpus: two seconds at 4 frames a second, in one part. */
 static const struct kiln_frame_range clip = {0, 7};
 
 static struct kiln_output_params params_of(const char *path, const char *parts)
@@ -38,7 +40,8 @@ static struct kiln_output_params params_of(const char *path, const char *parts)
     return kiln_output_complete(&params, &error);
 }
 
-/* The first byte says of which clip it is a part. */
+/* Joins the clip from the one part in the folder. `kind`, the first byte of the input, chooses the
+ * format of the clip. */
 static void join(const char *folder, uint8_t kind)
 {
     static const char *const suffixes[] = {"mp4", "webm", "gif"};
@@ -52,7 +55,8 @@ static void join(const char *folder, uint8_t kind)
     unlink(path);
 }
 
-/* Makes the head one of this clip and of the versions at hand, which are no matter here. */
+/* Writes into the head the hash of this clip and the versions of this kiln and FFmpeg. The file of
+ * another clip or version would be refused before its frames are read. */
 static void repair(uint8_t *bytes, size_t length)
 {
     enum { CLIP_AT = 12 + 5 * 4, MADE_BY_AT = CLIP_AT + 65, END_AT = MADE_BY_AT + 128 };
@@ -69,7 +73,8 @@ static void repair(uint8_t *bytes, size_t length)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char folder[] = "/tmp/kiln-fuzz-XXXXXX", path[64];
-    require(kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, NULL), "FFmpeg is missing"); /* as a job has done */
+    /* kiln_parts_join expects that a job has opened FFmpeg. */
+    require(kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, NULL), "FFmpeg is missing");
     uint8_t *copy = size < 5 ? NULL : malloc(size);
     if (!copy || !mkdtemp(folder)) {
         free(copy);
@@ -80,7 +85,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     snprintf(path, sizeof path, "%s/00000.part", folder);
     FILE *file = fopen(path, "wb");
     if (file) {
-        const size_t length = size - 5; /* behind the kind, before the checksum */
+        const size_t length = size - 5; /* without the first byte, and the 4 of the checksum */
         const uint32_t crc = (uint32_t)crc32_z(0, copy + 1, length);
         const uint8_t sum[] = {(uint8_t)crc, (uint8_t)(crc >> 8), (uint8_t)(crc >> 16),
                                (uint8_t)(crc >> 24)};

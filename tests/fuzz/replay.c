@@ -1,5 +1,6 @@
-/* Runs a fuzz target without libFuzzer: replay MUTATIONS FOLDER... gives it every file of the
- * folders, and of each that many mutations, the same ones every time; fewer under sanitizers. */
+/* Runs a fuzz target without libFuzzer: `replay MUTATIONS FOLDER...` gives it every file of the
+ * folders, and MUTATIONS mutations of each file. The mutations are the same in every run, so that a
+ * failure can be repeated. */
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +9,7 @@
 
 #include "fuzz.h"
 
-/* Sanitizers take several times as long. */
+/* Fewer mutations run under sanitizers, which take several times as long. */
 #ifdef __SANITIZE_ADDRESS__
 enum { MUTATION_DIVISOR = 4 };
 #else
@@ -23,7 +24,7 @@ static uint32_t next_random(uint64_t *state)
     return (uint32_t)(*state >> 33);
 }
 
-/* What a text breaks at. */
+/* Pieces to insert into texts: syntax and values at which readers of YAML and JSON may fail. */
 static const char *const pieces[] = {
     "{",    "}",    "[",          "]",      ": ",  ", ",       "- ",  "\n",    "\"",   "'",
     "&a ",  "*a",   "<<: ",       "!!int ", "? ",  "|",        "#",   "---\n", "keys", "life",
@@ -38,7 +39,7 @@ static size_t insert(uint8_t *data, size_t size, size_t at, const void *bytes, s
     return size + count;
 }
 
-/* Changes some bytes, drops some, or puts a piece in; returns the new size. */
+/* Changes, removes or inserts bytes, at one to four places. Returns the new size. */
 static size_t mutate(uint8_t *data, size_t size, uint64_t *random)
 {
     uint32_t changes = 1 + next_random(random) % 4;
@@ -66,7 +67,8 @@ static size_t mutate(uint8_t *data, size_t size, uint64_t *random)
     return size;
 }
 
-/* good: the target must take the file, not its mutations. */
+/* Runs the target on a file and on its mutations. If `good`, the target must accept the file.
+ * Returns 1 on failure, else 0. */
 static int replay_file(const char *path, unsigned mutations, bool good)
 {
     int failed = 0;

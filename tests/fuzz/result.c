@@ -1,5 +1,6 @@
-/* Fuzzes the reader of results: any bytes are a result or an error, never a crash; and a result
- * that is read is written as a text that reads and writes as the same. */
+/* Fuzzes the reader of the results of `kiln test`: any bytes are a result or an error, never a
+ * crash. A result that is read and written twice gives the same text. If this fails, a report may
+ * show other results than the run had, or a damaged file crashes kiln. */
 #include "suite/result.h"
 
 #include <stdlib.h>

@@ -1,6 +1,7 @@
-/* Fuzzes the loader: any bytes are a scene or an error, never a crash; and a scene that loads
- * prints as a text that loads to the same. Lines "#set key=value" at the start are overrides.
- */
+/* Fuzzes the loader of scenes: any bytes are a scene or an error, never a crash. A scene that loads
+ * is printed as a text that loads to the same scene. If this fails, a scene with a mistake crashes
+ * kiln, or the scene in a manifest is not the one that was rendered. Lines "#set key=value" at the
+ * start of an input are overrides. */
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +12,7 @@
 
 enum { MAX_OVERRIDES = 8 };
 
-/* Printing and loading again must change nothing. */
+/* Prints the scene, loads the text, and checks that both scenes have the same hash. */
 static void check_round_trip(const struct kiln_scene *scene)
 {
     char *text = NULL;

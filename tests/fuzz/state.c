@@ -1,6 +1,7 @@
-/* Fuzzes the reader of saved states: any file is a state or an error, never a crash; one that is a
- * state fits into a pool, or is refused there. Checksums are made right first: else nothing that is
- * changed would get behind them. */
+/* Fuzzes the reader of saved states: any file is a state that can be read into a pool, or an error,
+ * never a crash. If this fails, a job that resumes from a damaged state crashes or writes outside
+ * the pool. The target first corrects the checksums of each input, since a wrong one is refused
+ * before anything else is read. */
 #include "job/state.h"
 
 #include <stdlib.h>
@@ -10,7 +11,10 @@
 
 #include "fuzz.h"
 
-enum { LINE = 13, MAX_HEAD = 1024 }; /* "kiln state 1\n" */
+enum {
+    LINE = 13, /* bytes of the first line, "kiln state 1\n"; the head's size follows */
+    MAX_HEAD = 1024, /* bytes, as in job/state.c */
+};
 
 static uint32_t get_word(const uint8_t *bytes)
 {
@@ -23,8 +27,8 @@ static void put_word(uint8_t *bytes, uint32_t word)
         bytes[i] = (uint8_t)(word >> (8 * i));
 }
 
-/* Makes the checksums right of the head, and of the blocks behind it: each is the first, number 0,
- * of its table, as in files of few particles. */
+/* Corrects the checksums of the head and of the blocks that follow. The states of the corpus have
+ * few particles, so that each of their tables is one block, with the number 0. */
 static void repair(uint8_t *data, size_t size)
 {
     if (size < LINE + 4)
@@ -46,7 +50,7 @@ static void repair(uint8_t *data, size_t size)
     }
 }
 
-/* A pool as the state of the corpus is of. */
+/* Reads the state into a pool of the two systems that the states of the corpus are of. */
 static void read_into_pool(const char *path, const struct kiln_state_info *info)
 {
     static const uint32_t capacities[] = {26, 52};

@@ -1,5 +1,6 @@
-/* Fuzzes the reader of test files: any bytes are a test, or one with a problem, never a crash; and
- * what a test says is within what its keys allow. */
+/* Fuzzes the reader of files *.test.yaml: any bytes are a test whose values are in the ranges of
+ * their keys, or a test with a problem, never a crash. If this fails, a wrong test file ends the
+ * whole run of `kiln test`, or a test runs with values that no check has seen. */
 #include "suite/test_file.h"
 
 #include <stdlib.h>
@@ -41,7 +42,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             fuzz_taken = problem->code == KILN_OK;
             check_test(&file.test);
         } else {
-            require(error.code == KILN_DEVICE_FAILED, "an error that is no problem of the test");
+            require(error.code == KILN_DEVICE_FAILED,
+                    "a fault of the file is not the test's problem");
         }
     }
     kiln_arena_destroy(&arena);

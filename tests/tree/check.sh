@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# tools/check passes a small tree that is well, and names what is not: check.sh SOURCE CC.
+# Checks that tools/check passes a small correct tree and names each fault that is planted in it:
+# check.sh SOURCE CC. If this fails, a fault is found only when all tests run, after a commit.
 set -euo pipefail
 source=$1 compiler=$2
 tree=$(mktemp -d)
@@ -20,7 +21,8 @@ git init -q
 git add -A
 git -c user.name=kiln -c user.email=kiln@localhost commit -qm "a tree that is well"
 
-# said NAME STATUS TEXT: what tools/check must print and how it must end.
+# said NAME STATUS TEXT [ARGUMENT...]: runs tools/check with the arguments, requires that it exits
+# with STATUS and prints TEXT, and then restores the tree.
 said() {
     local name=$1 expected=$2 text=$3 printed status=0
     shift 3

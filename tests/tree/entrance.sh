@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
-# What a newcomer meets: the two commands are in README.md, and every script can be run.
+# Checks that README.md names the two commands with which a newcomer starts, tools/demo and
+# tools/test, and that every script is executable: entrance.sh SOURCE. If this fails, a newcomer
+# does not find the commands, or a script ends with "Permission denied".
 set -euo pipefail
 cd "$1"
 failed=0

@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
-# Each variable of the environment that the tree reads has a row in `kiln help environment`, and each
-# row is of a variable that is named in the tree. A name that is no literal at its getenv is one of a
-# table, and stands in a file that is listed here.
+# Checks that `kiln help environment` has a row for each environment variable that kiln reads, and
+# no row for any other: environment.sh SOURCE KILN. If this fails, users cannot know of a variable
+# that changes kiln's behaviour, or set one that does nothing. A getenv whose argument is not a
+# literal takes its name from a table; only the files listed below may have tables and such calls.
 set -euo pipefail
 cd "$1"
 kiln=$2
 tables="cmd/shard.c"
-callers="cmd/shard.c cmd/render.c" # of names out of the tables
+callers="cmd/shard.c cmd/render.c" # files that call getenv with a name from a table
 failed=0
 
 sources() { find cmd lib decode -name '*.[ch]' -not -path cmd/environment.c; }
 
-# Names at the calls themselves, and in the tables.
+# read_names: prints the variables that are literals in calls of getenv, and the names in tables.
 read_names()
 {
     sources | xargs grep -ohE '\b(secure_)?getenv\("[^"]*"\)' | sed 's/.*("//; s/").*//'

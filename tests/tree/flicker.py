@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Tests tools/flicker with frames that are made up here, and with scenes: flicker.py SOURCE KILN.
+"""Tests tools/flicker with frames that are made here, and with scenes: flicker.py SOURCE KILN.
 
-What moves (an edge, a field of drops, one fast drop) must not count as flicker. A pixel that blinks, a light
-that is on for one frame, and noise must. Discs that turn and cross each other must not, in slow motion, even
-if they fly by more pixels a frame than the slow motion has pictures; discs that live for less than a frame
-must, with and without fades.
+If this fails, tools/flicker calls motion flicker, or does not see flicker. An edge that moves, a
+field of drops and one fast drop must not count as flicker. A pixel that blinks, a picture that is
+brighter for one frame, and noise must count. Discs that turn and cross each other must not count,
+since they move smoothly in slow motion, even when they fly more pixels a frame than the slow motion
+has pictures. Discs that live for less than a frame must count, with and without fades.
 """
 import pathlib
 import subprocess
@@ -30,7 +31,7 @@ def edge():
 
 
 def drops(count, speed):
-    """Returns streaks of 2x6 pixels that fall by `speed` pixels a frame, and then start at the top again."""
+    """Returns streaks of 2x6 pixels that fall by `speed` pixels a frame, and wrap around at the bottom."""
     frames = still()
     chance = numpy.random.default_rng(3)
     columns, starts = chance.integers(0, WIDTH // 6, count) * 6, chance.integers(0, HEIGHT, count)
@@ -42,7 +43,7 @@ def drops(count, speed):
 
 
 def blinking(count):
-    """Returns `count` pixels that are on in every third frame, which is four of the ten that are judged."""
+    """Returns `count` pixels that are on in every third frame, so in 4 of the 10 inner frames."""
     frames = still()
     chance = numpy.random.default_rng(4)
     rows, columns = chance.integers(0, HEIGHT // 16, count) * 16, chance.choice(WIDTH // 4, count, False) * 4
@@ -73,7 +74,11 @@ systems:
 
 
 def measure_scene(source, kiln, rate, life, turn=200, fade=0):
-    """Returns spikes, moving, smooth and flicker of discs, as shares."""
+    """Returns the shares of spikes, moving, smooth and flicker that tools/flicker prints for a scene.
+
+    The scene emits `rate` discs a second that live for `life`. The camera rolls by `turn` degrees a
+    second. A disc fades in during the first share `fade` of its life, and out during the last.
+    """
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "discs.yaml")
         path.write_text(SCENE.format(rate=rate, life=life, turn=turn, fade=fade))
@@ -87,7 +92,7 @@ def row_of(source, *arguments):
 
 
 def measure(source, frames, *options):
-    """Returns spikes, moving, smooth and flicker, as shares."""
+    """Returns the shares of spikes, moving, smooth and flicker that tools/flicker prints."""
     with tempfile.TemporaryDirectory() as folder:
         for t, frame in enumerate(frames):
             Image.fromarray(frame.astype(numpy.uint8)).convert("RGB").save(f"{folder}/{t:03d}.png")

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Every C file, and what C and GLSL share, as .clang-format has it.
+# Checks that every C and C++ file, and every header that C and GLSL share, is formatted as
+# .clang-format says: format.sh SOURCE.
 set -euo pipefail
 cd "$1"
 find lib cmd decode examples tests shaders/shared -not -path '*/node_modules/*' \( -name '*.[ch]' -o -name '*.cc' \) -print0 |

@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
-# The include law of lib/, cmd/, decode/ and shaders/: includes.sh SOURCE. A file includes headers of its
-# own room and of rooms before it (rooms.awk); cmd/ includes of lib/ nothing but kiln*.h, and decode/ what
-# the rooms base and asset have. Only decode/ includes assimp, and only base/ffmpeg.h FFmpeg. shaders/shared is
-# below all, and so are kiln.h and what it includes. A folder of shaders is the room of that name,
-# and the stem of a shader begins with that of a C file of the same room.
+# Checks which headers the files of lib/, cmd/, decode/ and shaders/ include: includes.sh SOURCE. If
+# this fails, the layers of the library depend on each other in a circle, or the program needs more
+# than the public API. The folders of lib/ and shaders/ are called rooms and are ordered by
+# rooms.awk. A file includes headers of its own room and of rooms before it. Every file of lib/,
+# cmd/ and decode/ may include kiln*.h, and every file of lib/ shaders/shared. cmd/ includes no
+# other header of lib/, and decode/ only those of the rooms base and asset. Only decode/ includes
+# assimp, and only base/ffmpeg.h includes FFmpeg. The stem of a shader begins with that of a C file
+# of the same room.
 set -euo pipefail
 rooms=$(dirname "$(realpath "$0")")/rooms.awk
 cd "$1"
@@ -13,7 +16,7 @@ mapfile -t files < <(find lib cmd decode shaders -name '*.[ch]' -o -path 'shader
 awk -f "$rooms" -f - "${files[@]}" <<'AWK'
 function complain(text) { printf "%s:%d: %s\n", FILENAME, FNR, text; failed = 1 }
 
-# The file's folder in words of rooms: "cmd", "shared", a room, or "" for the root of lib/.
+# Returns the room of a file, or "cmd", "decode", "shared", or "" for the root of lib/.
 function where(path) {
     if (path ~ /^cmd\//) return "cmd"
     if (path ~ /^decode\//) return "decode"
@@ -22,7 +25,8 @@ function where(path) {
     return room_of(path)
 }
 
-# A shader's name without its ending begins with the name of a C file, which may add its technique.
+# Returns whether a C file has the name of the shader without its suffix, or the start of the name
+# up to a "_". In the names of C files, _gl, _cpu and _simd at the end do not count.
 function has_file(path,    stem) {
     sub(/^shaders\//, "", path)
     sub(/\.[a-z]*$/, "", path)
@@ -34,7 +38,7 @@ function has_file(path,    stem) {
 }
 
 BEGIN {
-    # What a program may take from the system: the C library, POSIX and what Linux adds to it.
+    # The headers of the system that cmd/ may include: those of C, POSIX and Linux.
     split("assert ctype errno fcntl float fnmatch inttypes limits locale math poll pthread sched setjmp " \
           "signal spawn stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib string strings " \
           "sys/file sys/ioctl sys/mman sys/prctl sys/resource sys/stat sys/time sys/types sys/wait termios " \

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# An installed kiln stands alone: install.sh BUILD CC. Installs to a temporary prefix, runs the
-# program from /, builds users of the library
-# through pkg-config and CMake, shows the manual pages and has
-# command lines completed. With DESTDIR everything lands below it, as packagers need it.
+# Checks that an installed kiln works without its source and build folders: install.sh BUILD CC. If
+# this fails, kiln works for developers but not for users. The script installs kiln to a temporary
+# prefix, runs the program from /, builds programs with the library by pkg-config and by CMake,
+# builds and runs the examples, reads the manual pages and completes command lines. It also checks
+# that an installation with DESTDIR, as packagers use it, has the same files.
 set -euo pipefail
 build=$1 cc=$2
 prefix=$(mktemp -d)
@@ -25,7 +26,8 @@ diff <(cd "$prefix" && find bin include share -type f | sort) \
 
 (cd / && "$prefix/bin/kiln" help >"$prefix/help.txt")
 grep -q render "$prefix/help.txt" || { echo "kiln help says nothing of render"; exit 1; }
-for scene in fire_beam campfire pot; do # the latter have pictures and a mesh, which kiln-decode reads
+# campfire has pictures and pot has a mesh; kiln-decode reads both.
+for scene in fire_beam campfire pot; do
     (cd / && "$prefix/bin/kiln" check "$prefix/share/kiln/scenes/$scene.yaml" >/dev/null)
 done
 (cd / && "$prefix/bin/kiln" new "$prefix/effect.yaml" -q && "$prefix/bin/kiln" check -q "$prefix/effect.yaml")
@@ -49,7 +51,8 @@ int main(void)
 C
 export PKG_CONFIG_PATH=$libdir
 version=$(pkg-config --modversion kiln)
-check_user() { # how it was linked, the program
+# check_user HOW PROGRAM: checks that the library that a program uses has the version of kiln.pc.
+check_user() {
     said=$("$2")
     [[ $said == "kiln $version, "* ]] ||
         { echo "$1: the versions of the library and of kiln.pc differ: $said, $version"; exit 1; }
@@ -76,12 +79,13 @@ cmake -S "$prefix/project" -B "$prefix/built" -DCMAKE_PREFIX_PATH="$prefix" >/de
 cmake --build "$prefix/built" >/dev/null
 check_user "find_package, static" "$prefix/built/with_static"
 
-# The examples, as a user would build and run them.
+# The examples are built and run as a user would.
 examples=$prefix/share/kiln/examples
 cmake -S "$examples" -B "$prefix/examples" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS=-Werror >/dev/null
 cmake --build "$prefix/examples" >/dev/null
-expect() { # exit code, what it prints in the end, the command
+# expect CODE PATTERN COMMAND...: checks the exit code of a command and its last line of output.
+expect() {
     local code=0 text
     text=$(cd "$prefix/examples" && "${@:3}" 2>&1 | tr '\r' '\n' | tail -n 1; exit "${PIPESTATUS[0]}") || code=$?
     [[ $code == "$1" && $text =~ $2 ]] || { echo "${*:3}: exit code $code: $text"; exit 1; }
@@ -98,7 +102,8 @@ expect 0 '^they look the same$' ./compare loop.mp4 film.mp4
 expect 0 '^5 frames in ' ./film small.yaml other.mp4 systems.a.emit.rate=900 systems.a.look.size=1
 expect 1 '^they look different$' ./compare loop.mp4 other.mp4
 
-# The Python module, the example that uses it, and the plugin of pytest, found by its entry point.
+# The Python module is checked if it was built: its files are installed, the example that uses it
+# runs, and pytest finds its plugin.
 if [[ -f $build/python/kiln/_abi.py ]] && /usr/bin/python3 -c "import numpy, pytest" 2>/dev/null; then
     module=$(sed -n 's/^KILN_PYTHON_DIR:STRING=//p' "$build/CMakeCache.txt")
     diff <(cd "$prefix/$module" && find . -type f | sort) <(cd "$prefix/package/usr/$module" && find . -type f | sort)

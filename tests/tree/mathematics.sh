@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# The same pixels on every machine: mathematics.sh SOURCE BUILD. Where states and pixels are computed,
-# nothing of the C library is called that may round differently from one to another; + - * /, square
-# roots, floor and the like are exact, and shaders/shared/exact.h has the rest.
+# Checks that no code that computes states or pixels calls a function of the C library that may
+# round differently on another machine, such as sin or pow: mathematics.sh SOURCE BUILD. If this
+# fails, the same scene may give other pixels on another machine. The operators + - * /, square
+# roots and floor are the same on every machine; for other functions, shaders/shared/exact.h has its
+# own.
 set -euo pipefail
 source=$1 build=$2
 
@@ -26,8 +28,9 @@ while read -r object symbol; do
 done < <(nm --undefined-only --print-file-name "${objects[@]}" |
     sed -nE "s/^([^:]+):.* U ($functions)[fl]?(@.*)?\$/\1 \2/p")
 
-# What a header brings along need not be called by name. cglm's vector paths round in another way than
-# its plain C, which lib/base/matrix.h takes; no other file may include it.
+# A header can also bring in arithmetic that differs between machines without any of these symbols.
+# tgmath.h and complex.h may not be included at all. cglm's code for vector instructions rounds differently
+# from its plain C code; only lib/base/matrix.h, which chooses the plain C code, may include it.
 if grep -rnE '#[ \t]*include[ \t]*["<](tgmath|complex|cglm)' "$source/lib" "$source/shaders" |
     grep -vE "^$source/lib/base/matrix\.h:[0-9]+:#include <cglm/"; then
     failed=1

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# The laws of includes and of symbols can fail: planted.sh CC. Each rule is broken once in a tree of a
-# few lines, and the law must name the place.
+# Checks that includes.sh and symbols.sh find faults: planted.sh CC. If this fails, one of them
+# passes a tree that breaks its rules. In a small tree, each rule is broken once, and the script
+# must name the place.
 set -euo pipefail
 compiler=$1
 scripts=$(dirname "$(realpath "$0")")
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 
-# A tree that keeps every law.
+# plant: makes a small tree that breaks no rule.
 plant() {
     rm -rf "${tree:?}"/*
     mkdir -p "$tree"/{cmd,decode,lib/{base,draw/{moment,light},sort},shaders/{shared,draw/light}}
@@ -24,7 +25,7 @@ plant() {
         >lib/draw/light/lamp.c
 }
 
-# refused NAME MESSAGE COMMAND...
+# refused NAME MESSAGE COMMAND...: checks that the command fails and prints the message.
 refused() {
     local name=$1 message=$2 said status=0
     shift 2
@@ -61,7 +62,8 @@ refused "a file beside the rooms of draw" 'lib/draw/flat.c:1: a folder that' inc
 plant && echo '/* Blurs. */' >shaders/draw/light/other.frag
 refused "a shader of no C file" 'shaders/draw/light/other.frag:1: no C file' includes
 
-# kiln.h declares it for all, but base may not call what sort defines.
+# symbols.sh is given objects in which lib/base calls a function that lib/sort defines. includes.sh
+# would not find that when the function is declared in kiln.h, which every room may include.
 objects=$tree/build/CMakeFiles/kiln_objects.dir/lib
 compile() { "$compiler" -x c -c -o "$objects/$1.c.o" - <<<"$2"; }
 mkdir -p "$objects"/{base,sort}

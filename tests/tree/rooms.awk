@@ -1,5 +1,5 @@
-# The rooms of lib/ in their order, for the laws of includes and of symbols. A room reads what stands
-# before it; rooms with the same number do not read each other.
+# Defines the order of the rooms (folders) of lib/, for includes.sh and symbols.sh. A room may use
+# rooms with smaller numbers; rooms with the same number may not use each other.
 BEGIN {
     rank["base"] = 1; rank["option"] = 2; rank["gpu"] = 3
     rank["asset"] = rank["particles"] = 4; rank["scene"] = 5
@@ -8,7 +8,7 @@ BEGIN {
     rank["report"] = 11; rank["figure"] = 12; rank["bench"] = 13
     rank["start"] = 14; rank["batch"] = 15
 
-    # Inside of three of them.
+    # The folders inside of three rooms are rooms, too. They are ordered within their room.
     inner["asset/loader"] = 1; inner["asset/image"] = 2
     inner["asset/geometry"] = inner["asset/atlas"] = 3
     inner["sim/world"] = 1; inner["sim/crowd"] = inner["sim/paint"] = 2; inner["sim/step"] = 3
@@ -17,7 +17,8 @@ BEGIN {
     for (room in inner) divided[substr(room, 1, index(room, "/") - 1)] = 1
 }
 
-# "draw/light" of "draw/light/smoke.c", "base" of "base/error.h", "" of "kiln.h".
+# Returns the room of a path: "draw/light" for "draw/light/smoke.c", "base" for "base/error.h", ""
+# for "kiln.h".
 function room_of(path) {
     return sub(/\/[^\/]*$/, "", path) ? path : ""
 }
@@ -26,6 +27,7 @@ function is_room(room) {
     return room in inner || (room in rank && !(room in divided))
 }
 
+# Returns whether files of a room may include headers, and call functions, of another room.
 function may_read(room, other,    a, b) {
     split(room, a, "/")
     split(other, b, "/")

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# tools/setup against a pretended machine, where apt-get, dpkg-query, sudo and npm only say what they
-# were asked: setup.sh SOURCE.
+# Checks which packages tools/setup installs, and what it says when it cannot: setup.sh SOURCE. If
+# this fails, a newcomer's first command fails or installs the wrong packages. Stubs stand in for
+# apt-get, dpkg-query, sudo, npm and node: apt-get and npm only print their arguments, dpkg-query
+# says that all packages but $ABSENT are installed, and sudo fails.
 set -euo pipefail
 machine=$(mktemp -d)
 trap 'rm -rf "$machine"' EXIT
@@ -16,7 +18,8 @@ stub sudo 'exit 1'
 stub npm 'echo "npm $*"'
 stub node 'true'
 
-# run NAME EXPECTED_STATUS COMMAND...: the output goes to $said.
+# run NAME EXPECTED_STATUS COMMAND...: runs a command with the stubs and checks its exit status. Its
+# output is left in $said.
 run() {
     local name=$1 expected=$2 status=0
     shift 2
@@ -26,6 +29,7 @@ run() {
         exit 1
     fi
 }
+# expect PATTERN: checks the output that the last `run` left in $said.
 expect() {
     if [[ $said != $1 ]]; then
         printf 'said:     %s\nexpected: %s\n' "$said" "$1"
@@ -62,7 +66,7 @@ expect "Packages are missing*apt-get install -y libcmocka-dev"
 run "a wrong word after a right one" 2 "$machine/tools/setup" demo everything
 expect "usage: *"
 
-# Without what is optional, setup goes on and says what will be missing.
+# Without an optional package, tools/setup goes on and says what will not work.
 export ABSENT=gnuplot-nox
 run "an optional one is missing, without root" 0 "${unprivileged[@]}" "$machine/tools/setup" test
 expect "gnuplot-nox is not there and not needed: *"
@@ -71,7 +75,7 @@ expect "Packages are missing*apt-get install -y gnuplot-nox"
 run "the demo needs nothing optional" 0 "${unprivileged[@]}" "$machine/tools/setup" demo
 expect ""
 
-# The npm packages are fetched once.
+# tools/setup installs the npm packages only when tests/node_modules is not up to date.
 mkdir -p "$machine/tests/node_modules"
 echo '{}' >"$machine/tests/package-lock.json"
 export ABSENT=nothing

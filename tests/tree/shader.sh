@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# Validates one shader: shader.sh PRINTER OUT FILE [NAME=VALUE]... PRINTER is tests/tree/shader_source;
-# the text that it prints is kept in OUT, whose lines the validator names.
+# Checks that glslangValidator accepts a shader of shaders/ with some defines: shader.sh PRINTER OUT
+# FILE [NAME=VALUE]... If this fails, a driver may refuse the shader when kiln runs. PRINTER is the
+# program shader_source, which prints the shader with its includes and defines. The text is kept in
+# OUT, since the validator's messages have its line numbers.
 set -euo pipefail
 printer=$1 out=$2 file=$3
 shift 2

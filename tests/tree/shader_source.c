@@ -1,5 +1,6 @@
-/* Prints a shader as a driver gets it: shader_source FILE [NAME=VALUE]... FILE is a path under
- * shaders/; the rest becomes defines. For the validator, see CMakeLists.txt. */
+/* Prints a shader as kiln gives it to a driver, with its includes resolved: shader_source FILE
+ * [NAME=VALUE]... FILE is a path under shaders/; each NAME=VALUE becomes a define. shader.sh gives
+ * the text to glslangValidator. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

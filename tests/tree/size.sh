@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Files stay short enough to read: 600 lines; the public header kiln.h may have 700. (clang-tidy limits
-# functions.)
+# Checks that no file is longer than 600 lines, so that each can be read at once; the public header
+# kiln.h may have 700: size.sh SOURCE. clang-tidy limits the length of functions.
 set -euo pipefail
 cd "$1"
 failed=0

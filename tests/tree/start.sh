@@ -1,6 +1,7 @@
 #!/bin/bash
-# start.sh PROGRAM: a start of kiln opens few libraries. Those that only some runs need are opened by
-# them (lib/base/library.h), and what a library of ours brings along counts, too.
+# Checks that the program is linked with at most 10 shared libraries, counting those that its
+# libraries need: start.sh PROGRAM. If this fails, every start of kiln becomes slower. A library
+# that only some runs need is opened by these runs (lib/base/library.h).
 set -euo pipefail
 program=$1
 most=10

@@ -1,28 +1,29 @@
 #!/usr/bin/env bash
-# No file-scope mutable state in the library: state.sh SOURCE LIBRARY. Two renderers live in one
-# process, and a run is saved by saving its structs.
+# Checks that the library has no writable variable at file scope, except those listed below:
+# state.sh SOURCE LIBRARY. If this fails, two renderers in one process may disturb each other.
 set -euo pipefail
 library=$2
 
-# The exceptions, "object symbol":
+# The exceptions, each as "object symbol":
 allowed=(
-    # Names of unfinished files: a signal handler has nobody to ask for them.
+    # The names of unfinished files. A signal handler removes these files, and it gets no pointer by
+    # which it could find the names elsewhere.
     "temporary.c.o slots"
     "temporary.c.o ending"
-    # FFmpeg's log callback gets no user pointer; one per thread says whose messages these are.
+    # The receiver of FFmpeg's messages, one per thread. FFmpeg's log callback gets no user pointer.
     "ffmpeg.c.o current"
-    # A process has FFmpeg's libraries once, and their functions.
+    # FFmpeg's libraries, which are opened once a process, and pointers to their functions.
     "ffmpeg.c.o libraries"
     "ffmpeg.c.o mutex.0"
     "ffmpeg.c.o kiln_ff"
-    # And so it has libdeflate.
+    # libdeflate, which is opened once a process.
     "libdeflate.c.o library"
     "libdeflate.c.o is_open.1"
     "libdeflate.c.o mutex.2"
 )
 
-# D, B and C are writable data. libepoxy's dispatch pointers are data of libepoxy, not of kiln.
-# .data.rel.ro (tables of pointers, constant once relocated) is also shown as d.
+# A symbol is writable if its section is .data, .bss, .tdata, .tbss or *COM*. .data.rel.ro is not:
+# it holds tables of pointers, which are constant after the dynamic linker has relocated them.
 failed=0
 while read -r object symbol; do
     for entry in "${allowed[@]}"; do

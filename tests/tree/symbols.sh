@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# No room of lib/ uses what a room above it defines: symbols.sh BUILD. The law of includes cannot see
-# that, since kiln.h, which every room may include, declares functions of all of them.
+# Checks that no room (folder) of lib/ uses a symbol that a later room defines: symbols.sh BUILD. If
+# this fails, the layers of the library depend on each other in a circle. includes.sh cannot find
+# such a use when the function is declared in kiln.h, which every room may include.
 set -euo pipefail
 rooms=$(dirname "$(realpath "$0")")/rooms.awk
 cd "$1"
@@ -10,7 +11,7 @@ if ((${#objects[@]} == 0)); then
     exit 2
 fi
 nm --print-file-name --extern-only "${objects[@]}" | awk -f "$rooms" -f <(cat <<'AWK'
-# "FILE:VALUE TYPE NAME", the value blank where the name is undefined.
+# A line of nm is "FILE:VALUE TYPE NAME". The value is blank where the symbol is undefined.
 {
     file = $1
     sub(/:.*/, "", file)

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The tests of threads under the thread sanitizer: threads.sh SOURCE BUILD CC. A build of its own.
+# Runs the tests of threads under the thread sanitizer, in a build folder of their own: threads.sh
+# SOURCE BUILD CC. If this fails, two threads use the same memory without synchronisation.
 set -euo pipefail
 source=$1 build=$2 cc=$3
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=RelWithDebInfo \

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# A program that clang builds with a sanitizer confines nothing (KILN_UNCONFINED in base/confine.h):
-# unconfined.sh SOURCE. Skipped (77) without clang.
+# Checks that KILN_UNCONFINED of base/confine.h is 1 exactly when clang builds with a sanitizer:
+# unconfined.sh SOURCE. If this fails, a sanitized kiln-decode is killed for the system calls of its
+# sanitizer, or an ordinary one is not confined. Without clang the test is skipped (77).
 set -euo pipefail
 command -v clang >/dev/null || exit 77
 for sanitizer in none address thread memory; do
