@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
-# address_space.sh KILN SCENE JOB TRIES: a job with too little address space (RLIMIT_AS) ends with exit
-# code 5, or 6 where a library kept its reason to itself, and a message; with enough it ends with all its
-# files. No signal ends it, and nothing is left half-written. The limits are spread evenly from where the
-# program itself starts, below which the dynamic loader fails, to where the job succeeds.
+# Checks how a job ends that has too little address space (RLIMIT_AS): address_space.sh KILN SCENE
+# JOB TRIES. If this fails, kiln crashes or leaves broken files when memory is short. The job must
+# end with exit code 5, or with 6 where a library hides that memory was the reason, and with a
+# message. No signal may end it, and it may leave no half-written file. With enough address space it
+# must end with all its files. The limits are spread evenly, from the least with which the program
+# starts, below which the dynamic loader fails, to the least with which the job succeeds.
 . "$(dirname "$0")/common.sh"
 kiln=$1 scene=$(realpath "$2") job=$3 tries=$4
 start "address space $job"
 choose_job "$job" --fps 1 --set simulation.rate=5 --set output.frames=4 --set 'output.size=[192, 108]'
 draw_calm
 
-enough=2048 # MiB, for anything here
+enough=2048 # MiB with which each job succeeds
 
 # least PROGRAM...: the least MiB of address space with which a command succeeds.
 least() {
@@ -28,7 +30,8 @@ least() {
 
 first=$(least "$kiln" help exit-codes)
 
-# A little below it, the main thread's stack has no memory, which the program says.
+# Just below the limit at which the program starts, there must be a limit at which it cannot get
+# memory for a stack, and says so.
 said=
 for ((limit = (first - 2) << 10; limit < first << 10; limit += 64)); do
     code=0

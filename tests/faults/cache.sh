@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# cache.sh KILN SCENE DEVICE: the cache only saves time. A job ends with the same bytes where the cache may
-# not be written, is full, is a file, or lies in a folder that is not there and cannot be made. SCENE has a
-# mesh whose field is cached. With the device `software`, Mesa caches its shaders there, too; a full disk is
-# left out then, since Mesa 22.3 writes into a mapped file that has no room, and dies of SIGBUS.
+# Checks that a job makes the same files when its cache cannot be used: cache.sh KILN SCENE DEVICE.
+# If this fails, a job fails or differs only because of its cache, which may only save time. The
+# cache's folder is on a full disk, read-only, impossible to make, or a file. SCENE has a mesh whose
+# distance field is cached. With the device `software`, Mesa caches its shaders there, too. Then the
+# full disk is left out: Mesa 22.3 writes into a mapped file for which there is no room, and dies of
+# SIGBUS.
 . "$(dirname "$0")/common.sh"
 with_mounts "$0" "$@"
 kiln=$1 scene=$(realpath "$2") device=$3
@@ -15,7 +17,8 @@ mkdir "$XDG_CACHE_HOME"
 draw_calm
 [[ -n $(find "$XDG_CACHE_HOME" -type f) ]] || problem 'nothing was cached, so that this proves nothing'
 
-# check_cache WHAT: the job with the cache at hand.
+# check_cache WHAT: runs the job with the present cache and checks its files. WHAT names the cache
+# in messages.
 check_cache() {
     begin other
     go_on other

@@ -1,11 +1,13 @@
-# What the scripts of this folder share, which source it: the jobs that faults happen to, what is true
-# of a job's files whatever happened, and the count of faults that were tried and survived.
+# Defines functions for the scripts of this folder, which source it. The functions run the jobs to
+# which faults happen, check the jobs' files, and count the faults that were tried and survived.
 #
-# A script sets `kiln` and `scene`, calls start, choose_job and draw_calm, and then causes one fault
-# after the other: problem notes what is wrong, settle counts. RANDOM_SEED=N repeats a run.
+# A script sets `kiln` and `scene`, and calls start, choose_job and draw_calm. Then it causes one
+# fault after the other. After each fault it calls `problem` for everything that is wrong, and then
+# `settle`, which counts. RANDOM_SEED=N repeats a run.
 set -euo pipefail
 
-# start NAME: makes the folder `work`, which goes when the script ends. NAME stands in the table.
+# start NAME: makes the folder `work`, which is removed when the script ends. NAME is the script's
+# row in the table that table.sh prints.
 start() {
     row=$1 tried=0 survived=0 problems=()
     seed=${RANDOM_SEED:-$$}
@@ -15,6 +17,8 @@ start() {
     mkdir "$work/before" "$work/calm"
 }
 
+# finish CODE: removes the folder, prints the script's row and exits. A script that ends with CODE 0
+# or 1 fails if a fault was not survived, or none was tried.
 finish() {
     [[ ! -e $work/disk ]] || umount -q "$work/disk" || true
     rm -rf "$work"
@@ -27,11 +31,13 @@ finish() {
     exit "$1"
 }
 
+# problem TEXT: records something wrong that the present fault has caused.
 problem() {
     problems+=("$*")
 }
 
-# settle WHAT: the fault is over.
+# settle WHAT: ends the present fault, which WHAT describes: counts it as survived if it caused no
+# problem, else prints the problems.
 settle() {
     tried=$((tried + 1))
     if ((${#problems[@]} == 0)); then
@@ -45,9 +51,11 @@ settle() {
     problems=()
 }
 
-# choose_job JOB [OPTION...]: the words of its command in the array `command`, with options of the
-# scene. A job writes below out/ and can be gone on with by the same words; one that can only be done
-# anew takes those of the array `anew`, too. GRID is a flipbook's.
+# choose_job JOB [OPTION...]: sets the array `command` to kiln's arguments for a job, with options
+# for the scene. The job writes below out/. The same arguments resume the job after a fault; a job
+# that cannot be resumed starts again with the arguments of the array `anew` added. The array
+# `before` has the arguments of a command that makes the job's input, two shards of images or of a
+# clip. GRID is the grid of a flipbook.
 choose_job() {
     local job=$1
     shift
@@ -89,8 +97,8 @@ choose_job() {
     esac
 }
 
-# draw_calm: what the job begins with in the folder `before`, and what it ends with in `calm`, where
-# nothing disturbs it. Its milliseconds are `calm_ms`.
+# draw_calm: makes the job's input in the folder `before`, and runs the job without a fault in the
+# folder `calm`. Sets `calm_ms` to the milliseconds that it took.
 draw_calm() {
     local begun share
     mkdir -p "$work/before/out"
@@ -103,25 +111,26 @@ draw_calm() {
     calm_ms=$((($(date +%s%N) - begun) / 1000000 + 1))
 }
 
-# begin FOLDER: makes it anew as the job finds it.
+# begin FOLDER: makes a new folder with the job's input.
 begin() {
     rm -rf "${work:?}/$1"
     cp -a "$work/before" "$work/$1"
 }
 
-# The files of a folder under their final names: not a journal, a part of a clip or a temporary file.
-# Of the manifest only a member is the same in each run.
+# results FOLDER: lists the finished files of a folder, without journals, parts of clips and
+# temporary files. The manifest is left out, too: only its member `result` is the same in each run.
 results() {
     find "$1" -type f ! -name '*.journal' ! -name '*.part' ! -name '.*.tmp' ! -name m.json -printf '%P\n' | sort
 }
 
-# Whether a manifest is whole: that of a run that failed says so, and which frames are missing.
+# has_same_result FOLDER: succeeds if the manifest has the result of the undisturbed job, or says
+# that the run failed, why, and how many frames are missing.
 has_same_result() {
     jq -e '.failed and .run.error and .result.missing >= 0' "$work/$1/out/m.json" >/dev/null 2>&1 ||
         cmp -s <(jq -S .result "$work/calm/out/m.json") <(jq -S .result "$work/$1/out/m.json" 2>&1)
 }
 
-# check_wholes FOLDER: what stands under a final name is what the undisturbed job made.
+# check_wholes FOLDER: checks that each finished file has the bytes of the undisturbed job's file.
 check_wholes() {
     local file
     while read -r file; do
@@ -130,7 +139,7 @@ check_wholes() {
     [[ ! -e $work/$1/out/m.json ]] || has_same_result "$1" || problem "the manifest is not whole"
 }
 
-# check_all FOLDER: it has all of the undisturbed job's files, and nothing else.
+# check_all FOLDER: checks that it has all files of the undisturbed job, and no others.
 check_all() {
     local left
     check_wholes "$1"
@@ -140,31 +149,32 @@ check_all() {
     [[ -z $left ]] || problem "left behind: $left"
 }
 
-# check_tidy FOLDER: no file is left half-written.
+# check_tidy FOLDER: checks that no half-written file is left.
 check_tidy() {
     local left
     left=$(find "$work/$1" -name '.*.tmp')
     [[ -z $left ]] || problem "half-written: $left"
 }
 
-# check_no_bug: the C library found no broken heap, and no assertion failed, before the end.
+# check_no_bug: checks that the last run printed no message of a broken heap or a failed assertion.
 check_no_bug() {
     ! grep -qE 'free\(\)|malloc\(\)|realloc\(\)|double free|corrupted|smashing|Assertion `' "$work/messages" ||
         problem "a bug ends it: $(<"$work/messages")"
 }
 
-# go_on FOLDER [WORD...]: runs the job there, behind such a program; `code` gets its exit code, the
-# file `messages` what it said.
+# go_on FOLDER [WORD...]: runs the job in the folder. The words, such as `timeout 60`, precede the
+# command. Sets `code` to the exit code, and leaves standard error in the file `messages`.
 go_on() {
     local folder=$1
     shift
     code=0
-    # The outer redirection takes what the shell says of a program that was killed.
+    # The outer redirection hides the shell's own message that a program was killed.
     { (cd "$work/$folder" && "$@" "$kiln" "${command[@]}" >"$work/output" 2>"$work/messages") || code=$?; } 2>/dev/null
     check_no_bug
 }
 
-# check_end FOLDER: going on ends with the bytes of the undisturbed job.
+# check_end FOLDER: resumes the job, or runs it again if it cannot be resumed, and checks that it
+# ends with the files of the undisturbed job.
 check_end() {
     local command=("${command[@]}" "${anew[@]}")
     go_on "$1"
@@ -172,8 +182,8 @@ check_end() {
     check_all "$1"
 }
 
-# with_mounts "$0" "$@": runs the script anew where it may mount file systems that nobody else sees. It
-# counts as skipped where that is not permitted.
+# with_mounts "$0" "$@": runs the script again in a mount namespace of its own, where it may mount
+# file systems. Skips the test (77) where that is not permitted.
 with_mounts() {
     [[ -z ${KILN_HAS_MOUNTS:-} ]] || return 0
     local unshare=(unshare --mount)
@@ -185,7 +195,7 @@ with_mounts() {
     KILN_HAS_MOUNTS=1 exec "${unshare[@]}" "$@"
 }
 
-# seconds MILLISECONDS, for timeout and sleep.
+# seconds MILLISECONDS: prints a time in seconds, for timeout and sleep.
 seconds() {
     printf '%d.%03d' $(($1 / 1000)) $(($1 % 1000))
 }

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# disk.sh KILN SCENE JOB TRIES: a job whose disk becomes full ends with exit code 6 and a message that
-# names the file and the reason. It leaves nothing half-written, and ends with the bytes of an
-# undisturbed run when there is room. The disk has room for one page of memory at first, then for more and
-# more, in about so many tries, until all fits. The same holds for a disk that may only be read.
+# Checks how a job ends whose disk is full or read-only: disk.sh KILN SCENE JOB TRIES. If this
+# fails, a full disk leaves broken files, or the user does not learn the reason. The job must end
+# with exit code 6 and a message that names the file and the reason, and leave no half-written file.
+# When there is room, it must end with the bytes of an undisturbed run. The disk has room for one
+# page (4 KiB) at first, then for more and more, in about TRIES tries, until all files fit.
 . "$(dirname "$0")/common.sh"
 with_mounts "$0" "$@"
 kiln=$1 scene=$(realpath "$2") job=$3 tries=$4
@@ -11,11 +12,12 @@ choose_job "$job" --fps 1 --set simulation.rate=10 --set output.frames=6 --set '
 draw_calm
 mkdir "$work/disk"
 
+# pages FOLDER: prints the number of pages (4 KiB) that the files of a folder take.
 pages() {
     find "$1" -type f -printf '%s\n' | awk '{ pages += int(($1 + 4095) / 4096) } END { print pages + 0 }'
 }
 
-# check_refused REASON: the job ended as one that cannot write.
+# check_refused REASON: checks that the job ended as one must that cannot write for this reason.
 check_refused() {
     ((code == 6)) || problem "exit code $code: $(<"$work/messages")"
     grep -q "^kiln: out[^ ]*: .*$1\$" "$work/messages" || problem "it says: $(<"$work/messages")"

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# flat.sh KILN SCENE JOB FRAMES: a long job needs no more memory and no more open files at its end than
-# near its beginning. Resident memory and descriptors are sampled from the first whole file on. The mean of
-# the last tenth of the samples may exceed that of the second tenth by 5 % of the memory and 1 MiB, and by
-# two descriptors, since threads that encode open and close files all the time.
+# Checks that a long job needs no more memory and open files at its end than near its beginning:
+# flat.sh KILN SCENE JOB FRAMES. If this fails, kiln leaks memory or descriptors, and a job of hours
+# runs out of them. Resident memory and open descriptors are sampled all the time, from the first
+# finished file on. The mean of the last tenth of the samples may exceed the mean of the second
+# tenth by 5 % of the memory plus 1 MiB, and by two descriptors, since the threads that encode open
+# and close files all the time.
 . "$(dirname "$0")/common.sh"
 kiln=$1 scene=$(realpath "$2") job=$3 frames=$4
 start "flat memory $job"
@@ -26,7 +28,8 @@ code=0
 wait $process || code=$?
 ((code == 0)) || problem "exit code $code: $(<"$work/messages")"
 
-# mean FIRST LAST COLUMN: of the samples from so many tenths to so many.
+# mean FIRST LAST COLUMN: prints 1000 times the mean of a column of the samples, from FIRST tenths
+# of the samples to LAST tenths.
 mean() {
     awk -v first="$1" -v last="$2" -v column="$3" '{ values[NR] = $column }
         END {

@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
-# kills.sh KILN SCENE JOB KILLS SIGNAL...: a job that is killed at so many random points by each signal
-# and gone on with ends with the bytes of one that nobody disturbed. After each kill only whole files
-# stand under their names, the exit code is the documented one, and a program that could clean up has
-# left nothing half-written.
+# Checks that a job that is killed and resumed, again and again, ends with the files of an
+# undisturbed job: kills.sh KILN SCENE JOB KILLS SIGNAL... If this fails, a kill loses or breaks
+# files. The job is killed KILLS times by each signal, at random times. After each kill, the exit
+# code must be the documented one and each finished file must be whole. After a signal other than
+# KILL, on which kiln can clean up, no half-written file may be left.
 kiln=$1 scene=$(realpath "$2") job=$3 kills=$4
 . "$(dirname "$0")/common.sh"
 shift 4
 start "kill $job"
 
-# Clips are of six seconds, so that they have several parts. States are large, so that a kill may well
-# come while one is being written.
+# The clip has 61 frames at 10 a second, so that it has several parts, of two seconds each. The
+# saved states of `bake` are large, so that a kill often comes while one is being written.
 options=(--fps 10 --set output.frames=61)
 [[ $job != bake ]] || options+=(--set systems.smoke.emit.rate=8000)
 GRID=7x7 choose_job "$job" "${options[@]}"
@@ -20,7 +21,8 @@ for signal in "$@"; do
     begin killed
     for ((kill = 0; kill < kills;)); do
         after=$((RANDOM % (calm_ms + calm_ms / 4) + 5))
-        # In the foreground, timeout is not among those that it kills, and waits for the program.
+        # With --foreground, timeout does not kill itself with the program, and waits for the
+        # program's end.
         go_on killed timeout --foreground --preserve-status -s "$signal" "$(seconds $after)"
         if ((code == 0)); then
             check_all killed
@@ -33,7 +35,8 @@ for signal in "$@"; do
         [[ $signal == KILL ]] || check_tidy killed
         ((++kill < kills)) || check_end killed
         settle "$signal after $after ms"
-        # A job that is only done anew would find its file there, if it had just got its name.
+        # A job that cannot be resumed refuses to replace a file. If the kill came just after the
+        # job had finished all files, the next try needs a new folder.
         ((${#anew[@]} == 0)) || [[ $(results "$work/calm") != "$(results "$work/killed")" ]] ||
             begin killed
     done

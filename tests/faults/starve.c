@@ -1,12 +1,13 @@
-/* Makes kiln's own allocations fail. The linker leads each call of a function below, from kiln's
- * objects alone, here first (--wrap); calls inside of libraries go on as ever. Environment
- * variables say which calls fail:
+/* Makes chosen allocations of kiln fail, to test what kiln does when memory is short. The linker
+ * replaces the calls of the functions below (--wrap), but only in kiln's own objects; libraries
+ * allocate as usual. Environment variables choose the calls that fail:
  *
  *     KILN_STARVE=40         the fortieth call
- *     KILN_STARVE=40+        the fortieth and all after it
- *     KILN_STARVE_COUNT=FILE no effect on calls; at its end the program writes their number there
+ *     KILN_STARVE=40+        the fortieth and all later calls
+ *     KILN_STARVE_COUNT=FILE none; when the program ends, it writes the number of calls to FILE
  *
- * Functions that return a pointer return NULL, others AVERROR(ENOMEM) or -1, as their own do. */
+ * A call that fails returns what the real function returns when memory is short: NULL, -1 or
+ * AVERROR(ENOMEM). */
 #include <errno.h>
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
@@ -22,8 +23,8 @@
 #include "base/arena.h"
 
 static atomic_ulong calls;
-static unsigned long first_refused; /* 0: none */
-static char onward;                 /* '+': those after it, too */
+static unsigned long first_refused; /* number of the first call that fails, from 1; 0: none */
+static char onward;                 /* '+': all later calls fail, too */
 
 __attribute__((constructor)) static void read_wishes(void)
 {
@@ -45,8 +46,8 @@ __attribute__((destructor)) static void write_count(void)
     fclose(file);
 }
 
-/* A place for a debugger to stop at: `break refuse`, and its caller's caller is the code in need.
- */
+/* Sets errno as a failed allocation does. It is a function so that a debugger can stop here; the
+ * caller of the caller of is_refused is the code whose allocation fails. */
 __attribute__((noinline)) static void refuse(void)
 {
     errno = ENOMEM;
@@ -62,8 +63,9 @@ static bool is_refused(void)
     return refused;
 }
 
-/* The two names that the linker knows a function by, and the one that may fail. CMakeLists.txt
- * reads the names of functions out of the lines below that begin with ALLOCATION. */
+/* DECLARE declares the real function and its replacement by the names that --wrap gives them.
+ * ALLOCATION defines the replacement, ALLOCATION_BY_HAND only begins its definition. CMakeLists.txt
+ * reads the functions to wrap from the lines that begin with ALLOCATION. */
 #define DECLARE(type, name, parameters)                                                            \
     type real_##name parameters __asm__("__real_" #name);                                          \
     type starved_##name parameters __asm__("__wrap_" #name);
@@ -78,7 +80,7 @@ static bool is_refused(void)
     type starved_##name parameters
 
 /* clang-format off */
-/* Functions that kiln looks up by dlsym. */
+/* Functions of FFmpeg, which kiln finds by dlsym, so that --wrap does not see their calls. */
 #define LOOKED_UP(A) \
     A(av_malloc, void *, NULL, (size_t size), (size)) \
     A(av_mallocz, void *, NULL, (size_t size), (size)) \

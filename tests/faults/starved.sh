@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# starved.sh KILN_STARVED SCENE JOB TRIES: a job that one of kiln's own allocations fails in, and one that
-# no more succeed in from some call on, ends with exit code 5 and a message, or with all its files where
-# it could do without. No sanitizer or signal ends it, it does not hang, and nothing is half-written. The
-# calls that fail are spread evenly over all; with TRIES 0 it is each of them.
+# Checks how a job ends when one of kiln's own allocations fails, or all from some call on:
+# starved.sh KILN_STARVED SCENE JOB TRIES. If this fails, kiln crashes, hangs or leaves broken files
+# when memory is short. The job must end with exit code 5 and a message, or with all its files where
+# it can do without the memory. No sanitizer or signal may end it, and it may leave no half-written
+# file. KILN_STARVED is kiln linked with starve.c. The TRIES calls that fail are spread evenly over
+# all calls; with TRIES 0, each call fails in its turn.
 kiln=$1 scene=$(realpath "$2") job=$3 tries=$4
 . "$(dirname "$0")/common.sh"
 start "starved $job"
@@ -14,14 +16,14 @@ KILN_STARVE_COUNT=$work/count draw_calm
 calls=$(<"$work/count")
 ((tries > 0 && tries < calls)) || tries=$calls
 
-# starve WHICH: such calls fail.
+# starve WHICH: runs the job with KILN_STARVE=WHICH, a call ("40") or all from a call on ("40+").
 starve() {
     begin starved
     KILN_STARVE=$1 go_on starved timeout 60
     case $code in
     0)
         check_all starved
-        # What these jobs make is what they say; that of a plan are times.
+        # The result of `check` is its output. `plan` prints measured times, which differ.
         [[ $job != check ]] || cmp -s "$work/calm.output" "$work/output" || problem "it says something else"
         ;;
     5)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# table.sh CTEST BUILD CONFIGURATION: runs the tests of a configuration, two at a time, and prints what was
-# tried and survived.
+# Runs the tests of faults of a CTest configuration (faults or soak), two at a time, and prints a
+# table of how many faults each test has tried and survived: table.sh CTEST BUILD CONFIGURATION.
 set -uo pipefail
 KILN_FAULT_ROWS=$(mktemp -d)
 export KILN_FAULT_ROWS

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# vanish.sh KILN SCENE JOB TRIES: a job's folder is removed while it runs, or the folder of its parts, or
-# its journal. The job ends with exit code 6 and a message, or with all files where it could do without
-# what is gone. It leaves nothing half-written, and the same words end with the bytes of an undisturbed
-# run; where the journal is gone, nobody knows whose files are there, and --force is needed, too.
+# Checks how a job ends whose files are removed while it runs: vanish.sh KILN SCENE JOB TRIES. If
+# this fails, kiln crashes or trusts files that are gone. Each try removes, at a random time, the
+# job's folder, the folder of its parts or its journal. The job must end with exit code 6 and a
+# message, or with all files if it did not need the removed ones any more. It may leave no
+# half-written file. Resumed, it must end with the bytes of an undisturbed run. Without its journal,
+# kiln cannot know to which job the files belong; then --force is needed, too.
 . "$(dirname "$0")/common.sh"
 kiln=$1 scene=$(realpath "$2") job=$3 tries=$4
 start "vanish $job"
@@ -10,8 +12,8 @@ choose_job "$job" --fps 10 --set output.frames=61
 draw_calm
 of_job=("${anew[@]}")
 
-# stop PROCESS: it stands still, so that nothing happens between a look at its files and their end.
-# False when it has ended.
+# stop PROCESS: suspends the process, so that its files do not change between a check of them and
+# their removal. Fails when the process has ended.
 stop() {
     local state
     while kill -STOP "$1" 2>/dev/null; do
@@ -22,7 +24,7 @@ stop() {
     return 1
 }
 
-# Whether all files have their names: removing one then is no fault of the job.
+# is_over: succeeds if the job has finished all its files. To remove one then would test nothing.
 is_over() {
     [[ $(results "$work/calm") == "$(results "$work/gone")" ]] &&
         [[ ! -e $work/calm/out/m.json || -e $work/gone/out/m.json ]]
@@ -52,7 +54,7 @@ while ((tried < tries)); do
     check_wholes gone
     check_tidy gone
     if [[ $job == join ]]; then
-        begin gone # shares have to be drawn again before they can be joined
+        begin gone # the shards have to be drawn again before they can be joined
     elif [[ ${command[0]} == render && $target != *.parts ]]; then # the journal is gone
         anew=(--force)
     fi

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# writers.sh KILN SCENE JOB TRIES: of two that write one output at the same time with --resume, one is
-# refused with exit code 6 and a message, the other ends with the bytes of an undisturbed run, and the
-# refused one may then be run again. Two that write it without --resume but with --force both end, or one
-# with a reason, and what stands there in the end is whole.
+# Checks that two processes that write the same output at the same time do not break it: writers.sh
+# KILN SCENE JOB TRIES. With --resume, one process must be refused with exit code 6 and a message,
+# or both succeed one after the other; the refused command can then be run again. With --force and
+# without --resume, at least one process must succeed, and the other may be refused with a message.
+# In each case the output must have the bytes of an undisturbed run.
 . "$(dirname "$0")/common.sh"
 kiln=$1 scene=$(realpath "$2") job=$3 tries=$4
 start "two writers $job"
@@ -10,13 +11,14 @@ choose_job "$job" --fps 10 --set output.frames=41
 draw_calm
 command+=("${anew[@]}")
 
-# write NUMBER: runs the job in the background; its process is `process`.
+# write NUMBER: starts the job in the background and sets `process` to its process.
 write() {
     (cd "$work/shared" && exec "$kiln" "${command[@]}" >/dev/null 2>"$work/messages.$1") &
     process=$!
 }
 
-# end NUMBER PROCESS: its exit code is `code`; another than these is a problem.
+# end NUMBER PROCESS: waits for a process and sets `code` to its exit code, which must be 0, or 6
+# with a message.
 end() {
     code=0
     wait "$2" || code=$?
@@ -27,7 +29,7 @@ end() {
 for ((i = 0; i < tries; i++)); do
     begin shared
     write 1 && first=$process
-    # The second begins while the first is at work, or at the same time.
+    # The second process starts at once, or in every second try while the first is at work.
     ((i % 2 == 0)) || sleep "$(seconds $((RANDOM % calm_ms)))"
     write 2
     end 1 $first

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# effects.sh KILN FOLDER NAME [NUMBER/COUNT]: no option of a look is without effect (of options that move
-# particles, tests/unit/test_motion.c sees it). Each override of NAME.txt must change the picture of
-# FOLDER/NAME.yaml, in at least one value. "A given B" stands for an option A that shows only where B is
-# set. With 2/3, every third override from the second on.
+# Checks that each override of FOLDER/NAME.txt changes the picture of FOLDER/NAME.yaml in at least
+# one value: effects.sh KILN FOLDER NAME [NUMBER/COUNT]. If this fails, an option is read but not
+# used. tests/unit/test_motion.c does the same for options that move particles. A row "A given B"
+# means that override A is compared with the scene in which B is set, since A alone has no effect.
+# With 2/3, the script checks every third row from the second on.
 set -euo pipefail
 
 kiln=$1 folder=$2 name=$3 part=${4:-1/1}
@@ -14,7 +15,8 @@ draw() {
     "$kiln" render "$folder/$name.yaml" --frames 40 --device cpu --quiet -o "$1" "${@:2}" </dev/null
 }
 
-# What is given to several is drawn once.
+# draw_given OVERRIDE [--set OVERRIDE]: draws the scene with an override B of "A given B". Many rows
+# have the same B, which is drawn once.
 declare -A drawn=()
 draw_given() {
     local picture=$work/given_${#drawn[@]}.png
@@ -41,7 +43,7 @@ while IFS= read -r row; do
 done <"$folder/$name.txt"
 ((${#rows[@]} > 0))
 
-# Pictures without a difference are within this limit; those that differ make it exit with 1.
+# The limit 0 gives equal pictures the verdict "same". `kiln compare` exits with 1 if some differ.
 status=0
 "$kiln" compare --json --limit abs.max=0 "$work/before" "$work/after" >"$work/pairs" || status=$?
 compared=$(jq 'select(.event == "result").counts | .same + .different' "$work/pairs")

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# mutant.sh SOURCE EXPRESSION OUT: a C file with a deliberate fault, made by a sed expression.
+# Writes a C file with a deliberate fault, which a sed expression makes: mutant.sh SOURCE EXPRESSION
+# OUT. An expression that changes nothing is an error, since no test could see its fault.
 set -euo pipefail
 sed "$2" "$1" >"$3"
 if cmp -s "$1" "$3"; then

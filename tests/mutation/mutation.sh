@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# mutation.sh KILN SOURCE NAME [--set KEY=VALUE | FILE EXPRESSION]...
+# Checks that `kiln test` fails when kiln has a deliberate fault: mutation.sh KILN SOURCE NAME
+# [--set KEY=VALUE | FILE EXPRESSION]...
 #
-# Runs the golden test `fire_beam` with one deliberate fault, by an override of the scene or by a sed
-# expression on a shader (or in KILN itself), and passes if `kiln test` fails, both with the hashes
-# and by the pictures alone. With the name `none` there is no fault, and it must pass.
+# If this fails, the golden tests miss such a fault. The fault is an override of the scene, a sed
+# expression on a shader, or in the program KILN itself. The golden test `fire_beam` must fail
+# twice: with the hashes, and by the pictures alone. NAME `none` means that there is no fault, and
+# the test must pass.
 set -euo pipefail
 
 kiln=$1 source=$2 name=$3
@@ -36,8 +38,8 @@ done
 expected=1
 [[ $name == none ]] && expected=0
 for judgement in "" --ignore-hashes; do
-    # Techniques in GL, so that faults of the step and of the backdrop can be made in shaders; the
-    # plain vectors, for which a file *_simd.c with a fault is compiled.
+    # The step and the backdrop run in GL, so that a fault in a shader has an effect. Everything
+    # else uses the plain vectors, the only ones for which a file *_simd.c with a fault is compiled.
     status=0
     KILN_SIMD=plain KILN_SHADER_DIR=$work/shaders "$kiln" test "$work/fire_beam.test.yaml" --asset-root / \
         --golden "$source/golden" --results "$work/results" --device software \

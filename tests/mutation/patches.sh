@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# patches.sh check|run SOURCE BUILD COPY CTEST [NAME...]: deliberate faults as patches, which lie in
-# tests/mutation/patches/NAME.patch. A patch begins with a sentence on its fault. Its line "Test:" names the
-# test of CTest that must fail, and "Says:" a text that this test must print then, so that it does not fail for
-# another reason.
+# Checks that tests find the deliberate faults of tests/mutation/patches/NAME.patch: patches.sh
+# check|run SOURCE BUILD COPY CTEST [NAME...]. A patch begins with sentences about its fault. Its
+# line "Test:" names the test of CTest that must fail. Its line "Says:" is a text that the test must
+# print when it fails, so that a failure for another reason does not count.
 #
-# `check` asks, without a build, whether every patch applies to SOURCE and whether BUILD has its test.
-# `run` makes COPY, a clone of SOURCE with what is not committed there, and builds it. The tests that are named
-# must pass there. Then it applies one patch after the other, builds what that changes, and runs the test.
+# `check` checks, without a build, that every patch applies to SOURCE and that BUILD has its test.
+# `run` clones SOURCE, with its uncommitted changes, to COPY and builds it. The tests must pass
+# there without a fault. Then, for one patch after the other, `run` applies the patch, builds the
+# test's program and runs the test, which must fail.
 set -euo pipefail
 
 action=$1 source=$(realpath "$2") build=$(realpath "$3") copy=$(realpath -m "$4") ctest=$5
@@ -26,10 +27,10 @@ if ((${#names[@]} == 0)); then
     names=("${names[@]%.patch}")
 fi
 
-# Without a repository, git takes paths as those below the working directory.
+# GIT_DIR=/dev/null makes git take the paths of a patch relative to the working directory.
 apply_patch() { (cd "$1" && GIT_DIR=/dev/null git apply "${@:2}" 2>&1); }
 
-# What cmocka says of a function that fails.
+# cmocka prints this before the name of a test function that fails.
 cmocka='[  FAILED  ] '
 
 declare -A test_of says_of
@@ -65,7 +66,7 @@ if ((failed > 0)) || [[ $action == check ]]; then
     exit "$failed"
 fi
 
-# target TEST: what CMake builds for a test.
+# target TEST: prints the CMake target that a test needs.
 target() {
     case $1 in
         unit.* | gpu.*) sed -E 's/[.][0-9]+$//; s/[.]/_/' <<<"$1" ;;
@@ -92,8 +93,8 @@ if ! flock -n 9; then
     exit 1
 fi
 
-# Files that git writes get a new time, and no others: so little is built anew, and nothing keeps a fault, not
-# even of a run that was stopped.
+# restore: takes all faults out of COPY, also those of a run that was stopped. `git reset` writes
+# only the files that differ, so that little is built again.
 commit=$(git -C "$source" -c user.name=kiln -c user.email=kiln@localhost stash create)
 commit=${commit:-$(git -C "$source" rev-parse HEAD)}
 restore() { git -C "$copy" reset -q --hard "$commit"; }
