@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""press_tab.py SHELL KILN SCRIPT: command lines of kiln, typed into a real shell on a terminal.
+"""Checks that Tab completes command lines of kiln in a real shell: press_tab.py SHELL KILN SCRIPT.
 
-Each row types a text, presses Tab and asks the shell's line editor what its line is then. SCRIPT is
-the completion script; for zsh it lies in a folder of the fpath.
+If this fails, users of the shell get wrong completions or none. The shell runs on a
+pseudo-terminal. For each row of CASES, the test types a text, presses Tab, and reads the line from
+the shell's line editor. SCRIPT is the completion script; for zsh, its folder becomes part of the
+fpath.
 """
 import os
 import pty
@@ -13,7 +15,8 @@ import sys
 import tempfile
 import time
 
-# What is typed, and the line after Tab: {"bash": ..., "zsh": ...} where they have ways of their own.
+# The text that is typed, and the line after Tab. Where the shells differ, {"bash": ..., "zsh":
+# ...}.
 CASES = [
     ("kiln ren", "kiln render "),
     ("kiln comp", "kiln compare "),
@@ -86,7 +89,7 @@ CASES = [
 ]
 
 FILES = {
-    # As far as it is written yet: no scene that would load.
+    # An unfinished scene, which kiln cannot load; completion must read its systems all the same.
     "effects/torch.yaml": "kiln: 1\nsystems:\n  blaze: {emit: {}}\n",
     "effects/notes.txt": "",
     "my scene.yaml": "kiln: 1\n",
@@ -106,7 +109,7 @@ ARGUMENTS = {"bash": ["--norc", "--noprofile", "-i"], "zsh": ["-f", "-i"]}
 
 
 class Shell:
-    """A shell on a terminal of its own."""
+    """A shell on a pseudo-terminal."""
 
     def __init__(self, name, folder, environment):
         pid, self.terminal = pty.fork()
@@ -147,7 +150,7 @@ def main():
         for typed, expected in CASES:
             shell.send(typed + "\t\x07")
             line = shell.wait_for(r"<<(.*)>>\r?\n")[1]
-            shell.send("\x05\x15")  # to its end, delete to its start
+            shell.send("\x05\x15")  # Ctrl-E and Ctrl-U delete the line
             if isinstance(expected, dict):
                 expected = expected[name]
             if line != expected:

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""tables.py KILN: what `kiln complete` knows is what `kiln help` says.
+"""Checks that `kiln complete` offers what `kiln help` lists: tables.py KILN.
 
-Every command and option is offered, and the value of every option completes or is of a kind that
-cannot. A new placeholder fails here until cmd/complete.c or NOTHING_TO_OFFER knows it.
+If this fails, Tab does not know a new command, option or value. Every command and option must be
+offered. The value of an option must be offered, too, unless its placeholder in the help is in
+NOTHING_TO_OFFER. A new placeholder fails until cmd/complete.c or NOTHING_TO_OFFER has it.
 """
 import os
 import re
@@ -12,7 +13,7 @@ import sys
 NOTHING_TO_OFFER = {
     "10s|N", "I/N|auto|auto/N", "COLUMNSxROWS", "FACTOR", "I/N", "LAYER", "LENGTH", "LEVELS", "N", "PIXELS", "RANGES", "RATE", "S", "STOPS", "TIME",
     "TEXT", "WxH", "X,Y,WxH",
-    "PATTERN", "NAME",  # of tests, where there are results: see tests/cli/cases/test.t
+    "PATTERN", "NAME",  # names of tests, offered where there are results (tests/cli/cases/test.t)
 }
 KILN = sys.argv[1]
 failures = []
@@ -23,7 +24,7 @@ def run(*arguments):
 
 
 def offered(*words):
-    """The texts of what may follow."""
+    """Returns the texts that `kiln complete` offers for the last of the words."""
     return [line.split("\t")[1] for line in run("complete", "--", *words).splitlines()]
 
 
@@ -58,7 +59,7 @@ def check_command(command):
 
 
 def check_without_gl():
-    """Tab must not wait for a driver: none is loaded, even for devices."""
+    """Checks that completion loads no driver of OpenGL, even for devices, so that Tab is fast."""
     environment = dict(os.environ, LD_DEBUG="files")
     loaded = subprocess.run([KILN, "complete", "--", "render", "--device", ""], check=True,
                             capture_output=True, text=True, env=environment).stderr

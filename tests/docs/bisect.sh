@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# The recipe of docs/testing.md finds the commit that changed a picture: bisect.sh KILN SOURCE. In a
-# scratch repository, among commits that change nothing, one that breaks the scene, and one that
-# accepts the change.
+# Checks that the recipe for `git bisect` in docs/testing.md finds the commit that changed a
+# picture: bisect.sh KILN SOURCE. If this fails, a reader who follows the recipe finds a wrong
+# commit. The scratch repository has commits that change nothing, one whose scene cannot be read,
+# the one that changes the picture, and a later one that accepts the new picture.
 set -euo pipefail
 kiln=$(realpath "$1")
 source=$(realpath "$2")

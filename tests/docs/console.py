@@ -1,14 +1,23 @@
 #!/usr/bin/env python3
-"""console.py [--update] [--keep FOLDER] [--only SECTION]... KILN DOCUMENT: a document's examples do what it says.
+"""Checks that the examples of a document print what the document says.
 
-In an empty folder, in the order of the document: a block "```yaml PATH" is a file (python, latex, makefile,
-html, c, cpp or cmake, too), "```yaml more of PATH" is written to its end, and a block "```console" is a session: each line
-"$ COMMAND" is run, and the lines up to the next one must be what
-it prints, then "exit code N" where that is not 0. Times are written as "N s", and which
-kiln it is as "kiln V"; all else is compared to the last digit. A picture that the document shows as NAME.jpg must look like the NAME.png
-that a session drew, if one did. With --update, what is printed is written into the document; with
---keep, the files are left in that folder, which should be empty, and pictures are not looked at. With --only,
-it is what stands before the first "## ", and below each "## SECTION".
+    console.py [--update] [--keep FOLDER] [--only SECTION]... KILN DOCUMENT
+
+If this fails, a reader who follows the document sees something else than it promises. The blocks of
+the document are executed in its order, in an empty folder:
+
+"```yaml PATH"          is written to the file PATH; also python, latex, makefile, html, c, cpp, cmake
+"```yaml more of PATH"  is appended to the file
+"```console"            is a session: each line "$ COMMAND" is run, and the lines up to the next
+                        one must be its output, then "exit code N" if the code is not 0
+
+In the output, times become "N s" and kiln's version becomes "kiln V"; everything else must be
+equal. A picture that the document shows as NAME.jpg must look like NAME.png, if a session drew
+that.
+
+--update writes the output into the document instead of comparing it. --keep leaves the files in
+FOLDER, which should be empty, and compares no pictures. --only executes only the blocks before the
+first "## " and those below each "## SECTION".
 """
 import argparse
 import os
@@ -78,7 +87,10 @@ def check(path, folder, environment, update, only):
 
 
 def compare_pictures(path, lines, folder, environment):
-    """Beyond these limits it is not JPEG's loss, nor a driver's rounding."""
+    """Compares the pictures that the document shows with those that its sessions drew.
+
+    The limits allow for the loss by JPEG and the rounding of a driver.
+    """
     for target, stem in re.findall(r"!\[[^]]*\]\((\S*?(\w+)\.jpg)\)", "\n".join(lines)):
         shown = os.path.join(os.path.dirname(os.path.abspath(path)), target)
         drawn = os.path.join(folder, f"{stem}.png")
@@ -104,7 +116,7 @@ def main():
                        PATH=os.path.dirname(os.path.abspath(given.kiln)) + ":" +
                        os.environ["PATH"])
     with tempfile.TemporaryDirectory() as scratch:
-        os.chmod(scratch, 0o711)  # for other users that a session runs a program as
+        os.chmod(scratch, 0o711)  # some sessions run a program as another user
         result, sessions = check(path, given.keep or scratch, environment, update, given.only)
         if not given.keep:
             compare_pictures(path, result, scratch, environment)

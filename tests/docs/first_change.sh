@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The diff of CONTRIBUTING.md's first change still applies to the tree, without fuzz, or has been
-# applied: first_change.sh SOURCE.
+# Checks that the diff in CONTRIBUTING.md, "A first change in ten minutes", applies to the tree
+# exactly, without fuzz, or has been applied: first_change.sh SOURCE. If this fails, the first thing
+# that a newcomer tries does not work.
 set -euo pipefail
 cd "$1"
 diff=$(sed -n "/^\`\`\`diff\$/,/^\`\`\`\$/p" CONTRIBUTING.md | sed "/^\`\`\`/d")

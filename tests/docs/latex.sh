@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# The paper of docs/figures.md, from the files that docs.figures leaves: latex.sh KILN FOLDER. It compiles
-# without a warning, and the figure in it has its width, its fonts and its words.
+# Checks that a figure of kiln fits into a LaTeX document as docs/figures.md says: latex.sh KILN
+# FOLDER. FOLDER has the document and the other files that the test docs.figures has made. The
+# document must compile without a warning. The figure in it must have its width, embedded fonts,
+# searchable words and labels of 8 points.
 set -euo pipefail
 kiln=$(realpath "$1")
 cd "$2"
@@ -21,9 +23,10 @@ for words in 'Größe α' '≤ 10⁻³' 'Figure 1: A torch' 'Figure 1 shows'; do
 done
 [[ $(pdffonts paper.pdf | tail -n +3 | awk '{print $(NF-4)}' | sort -u) == yes ]] ||
     fail "a font is not embedded: $(pdffonts paper.pdf)"
-# Labels are 8 points high: their boxes are those of the font, 146 + 40 of 140 parts of that.
+# Labels of 8 points have boxes 10.63 points high: 8 * (146 + 40) / 140, the ascent and descent of
+# the font over its size (lib/figure/font.h).
 pdftotext -bbox paper.pdf - | awk -F'"' '/>Größe</ { high = $8 - $4 }
     END { if (high < 10.5 || high > 10.8) { print "the label is " high " points high"; exit 1 } }'
-# An image of 476 pixels at 300 an inch: it was not scaled.
+# The pictures were not scaled if the first is 476 pixels wide, at 300 pixels an inch.
 [[ $(pdfimages -list paper.pdf | awk 'NR == 3 { print $4, $13, $14 }') == "476 300 300" ]] ||
     fail "the pictures were scaled: $(pdfimages -list paper.pdf)"

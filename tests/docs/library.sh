@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# docs/library.md as its readers run it, with the library installed: library.sh BUILD [--update]. The compilers are
-# `cc` and CMake's choice.
+# Checks that the examples of docs/library.md work as its readers run them, with the library
+# installed: library.sh BUILD [--update]. They are compiled by `cc` and by the compiler that CMake
+# finds.
 set -euo pipefail
 build=$1
 here=$(dirname "$(realpath "$0")")

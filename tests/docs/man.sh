@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# Linters have nothing to say about the manual pages, and `man` shows them: man.sh PAGE...
+# Checks that groff and mandoc find no fault in the manual pages, and that `man` shows them whole:
+# man.sh PAGE... If this fails, a reader of `man kiln` sees broken or missing text.
 set -euo pipefail
 for program in groff mandoc man; do
     command -v $program >/dev/null || { echo "$program is not installed; tools/setup installs it"; exit 1; }
 done
 failed=0
 for page; do
-    # The pages have no date: the same kiln writes the same page tomorrow.
+    # mandoc's warning of a missing date is ignored: the pages have no date on purpose, so that each
+    # build writes the same pages.
     said=$(groff -man -ww -z "$page" 2>&1; mandoc -Tlint -W warning "$page" | grep -v 'missing date' || true)
     if [[ $said ]]; then
         echo "$said"

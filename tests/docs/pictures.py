@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""pictures.py SOURCE: the documents show the commands that their pictures were made by.
+"""Checks that documents show the commands by which their pictures were made: pictures.py SOURCE.
 
-Renders nothing. Every picture in docs/images has a sidecar, is the file that this describes, is
-shown by a document, and its command stands in one, word for word. A clip has a command and no
-sidecar; all clips together stay small. Not among them: the guide, which docs.scenes compares with
-what it draws, the pairs of two versions (tools/pairs), and the screenshot of a report.
+If this fails, a reader who runs a command gets another picture than the document shows. Nothing is
+rendered. Every picture in docs/images must be shown by a document and be the file that its sidecar
+describes, and the documents must show the command of the sidecar, word for word. A clip has a
+command but no sidecar; all clips together must stay small. Three kinds of pictures are left out:
+those of the guide, which the test docs.scenes compares with what its sessions draw, the pairs of
+pictures by two versions (tools/pairs), and the screenshot of a report.
 """
 import glob
 import hashlib
@@ -27,7 +29,10 @@ def read(path):
 
 
 def shown_commands():
-    """What the documents' commands write -> each different one, without `kiln`."""
+    """Returns a dictionary from each output file to the documents' different commands for it.
+
+    A command is a list of words without `kiln`.
+    """
     listed = subprocess.run(["tools/pictures", "--list"], check=True, text=True,
                             stdout=subprocess.PIPE).stdout
     shown = {}

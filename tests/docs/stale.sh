@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Figures can be checked, and a change of what they show is seen: stale.sh KILN SOURCE. That all of
-# the tree's are up to date is for `kiln figure --check docs` to say, which takes longer.
+# Checks that `kiln figure --check` finds figures that are stale, changed or missing: stale.sh KILN
+# SOURCE. If this fails, a document may show a figure that its scene no longer gives. Of the tree's
+# own figures only one is checked here, since `kiln figure --check docs`, which checks all, takes
+# long.
 set -euo pipefail
 kiln=$(realpath "$1")
 source=$(realpath "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# expect CODE LINE COMMAND...
+# expect CODE LINE COMMAND...: checks the exit code of a command, and that it prints the line.
 expect() {
     local code=0
     said=$("${@:3}" 2>&1) || code=$?
@@ -37,8 +39,8 @@ expect 1 "docs/strip.pdf: stale: the file is not the one that was written togeth
     "$kiln" figure --check docs
 rm docs/strip.pdf
 expect 1 "docs/strip.pdf: stale: the figure is missing" "$kiln" figure --check docs
-# One broken sidecar does not keep the others from being checked.
+# The other figures must be checked although one sidecar is broken.
 printf '{"kiln_figure": 2}' >docs/a/broken.png.figure.json
 expect 3 "docs/a/seeds.png: up to date" "$kiln" figure --check docs
-# One of the tree, for all of them.
+# One figure of the tree must be up to date.
 expect 0 "" "$kiln" figure --check "$source/docs/images/figures/billboards.jpg.figure.json" --quiet

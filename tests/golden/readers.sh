@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# readers.sh KILN FOLDER: programs that share no code with kiln read its pictures as it does. PNG
-# files are written by libpng and read by FFmpeg's decoder; Python's Pillow has a decoder of its own.
-# EXR files are written and read by OpenEXR; FFmpeg's decoder and encoder are its own.
+# Checks that programs that share no code with kiln read its pictures as kiln does: readers.sh KILN
+# FOLDER. If this fails, kiln writes files that other programs show differently, and its own tests
+# do not notice. Pillow reads the PNG files, by a decoder of its own. FFmpeg reads the EXR files and
+# writes them again, by a decoder and an encoder of its own; kiln uses OpenEXR.
 set -euo pipefail
 
 kiln=$1 folder=$2

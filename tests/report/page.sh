@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The report page in Chromium: page.sh KILN MAKE_REPORT SOURCE OUT. Its reports are of real runs;
-# screenshots of every view stay in OUT.
+# Runs page.mjs, which checks the HTML report in Chromium: page.sh KILN MAKE_REPORT SOURCE OUT. If
+# this fails, the report shows wrong results or does not work in a browser. The script makes reports
+# of real runs, and by MAKE_REPORT one of 1000 tests. Screenshots of every view are left in OUT.
 set -euo pipefail
 kiln=$1
 make_report=$2
@@ -21,12 +22,12 @@ touch "$out/tests/.kiln-tests"
 cp "$source/scenes/fire_beam.yaml" "$out/beam.yaml"
 cd "$out"
 
-# define NAME FRAMES [LINE]: a test of the scene.
+# define NAME FRAMES [LINE]: writes a test of the scene.
 define() {
     printf 'kiln_test: 1\nscene: ../../beam.yaml\nsize: [160, 90]\nframes: %s\n%s\n' \
         "$2" "${3:-}" >"tests/$1.test.yaml"
 }
-# run [OPTION...]: like kiln test, whose code says only that something is red.
+# run [OPTION...]: runs `kiln test`. Exit codes 1 and 3 are expected, since some tests are to fail.
 run() {
     local code=0
     "$kiln" test --device software --quiet "$@" tests >log.txt 2>&1 || code=$?
@@ -36,15 +37,16 @@ run() {
     fi
 }
 
-# What is right: five tests as they were accepted.
+# Four tests are accepted as they are.
 define effects/fire_beam '"66-89"' 'about: The flame reaches the block and turns to smoke.'
 define effects/linear '[66]' 'format: exr'
 define post/bloom '[66, 67]'
 define post/tonemap '[66, 67]'
 run --update missing
 
-# Then fewer particles from a moment on, other glow, a little more glow; no golden, a scene with a
-# mistake, and a device that there is not.
+# Then three of them change: fewer particles from a moment on, much more bloom, and a little more
+# bloom. Three tests are new: one without a golden picture, one whose scene has a mistake, and one
+# for a device that does not exist.
 define effects/fire_beam '"66-89"' \
     'about: The flame reaches the block and turns to smoke.
 set: ["systems.fire.emit.rate={keys: {2.2 s: 380, 2.5 s: 60}}"]'

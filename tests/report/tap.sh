@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The TAP report by Perl's prove, and its blocks by a YAML reader that is not ours: tap.sh
-# WRITE_REPORTS SOURCE.
+# Checks the TAP report by Perl's `prove`, and its YAML blocks by the npm package yaml: tap.sh
+# WRITE_REPORTS SOURCE. If this fails, programs that read TAP refuse the report or count wrongly.
 set -euo pipefail
 write_reports=$1
 if ! command -v prove >/dev/null; then
@@ -10,7 +10,8 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# expect RUN STATUS LINE...: what prove ends with, and lines that it says.
+# expect RUN STATUS LINE...: checks the exit code of `prove` for the report of a run, and that it
+# prints the lines.
 expect() {
     local run=$1 expected=$2 status=0 said
     shift 2
@@ -27,7 +28,7 @@ expect() {
             exit 1
         fi
     done
-    # No line that it does not understand: "Parse errors", or of a version that it does not know.
+    # `prove` prints "Parse errors" for lines and versions of TAP that it does not understand.
     if grep -qi 'parse error' <<<"$said"; then
         echo "$run: $said"
         exit 1
@@ -36,7 +37,7 @@ expect() {
 expect good 0 "All tests successful." "Result: PASS"
 expect bad 1 "  Failed tests:  1-2, 6-9" "Result: FAIL"
 
-# A test more than was planned is noticed.
+# `prove` must refuse a report with more tests than it plans, or it would accept anything.
 sed 's/^1\.\.10/1..9/' "$work/bad/tap" >"$work/cut"
 said=$(prove --exec cat "$work/cut" 2>&1) || true
 if [[ $said != *"Parse errors: Bad plan"* ]]; then

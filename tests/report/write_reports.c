@@ -1,5 +1,6 @@
-/* What the tests of reports look at: `write_reports good FOLDER` and `write_reports bad FOLDER`
- * write the results of a run to FOLDER/out and a report of it in each format. */
+/* Writes the reports that the tests of this folder check: `write_reports good FOLDER` and
+ * `write_reports bad FOLDER` write the results of a run to FOLDER/out, and a report of the run in
+ * each format to FOLDER. In the good run no test failed; the bad run has tests of every status. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>

@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
-# The JSON schema judged by ajv: ajv.sh SCENE_TEXT SOURCE.
+# Runs ajv.mjs, which checks by the validator ajv that the JSON schema of scenes accepts correct
+# scenes and refuses wrong ones: ajv.sh SCENE_TEXT SOURCE. If this fails, an editor marks correct
+# scenes as wrong, or misses mistakes.
 set -euo pipefail
 scene_text=$1
 source=$2

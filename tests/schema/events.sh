@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Events of every command keep to their JSON schema, judged by ajv: events.sh KILN SOURCE.
+# Checks by the validator ajv that the events of every command follow their JSON schema: events.sh
+# KILN SOURCE. If this fails, a program that reads `--events ndjson` by the schema breaks.
 set -euo pipefail
 kiln=$1 source=$2
 . "$source/tests/support/packages.sh"
@@ -19,7 +20,8 @@ run render $tiny $tiny -o a.mp4
 run render $tiny -o a_%d.png --frames 0-2 --force --limits output=100
 run bake $tiny -o states --every 10 --device cpu
 run bake $tiny -o states --every 10 --device cpu --resume
-run render $tiny -o none --frames 20 --states states --set seed=9 --device cpu # of another motion: a warning
+# The states in the folder were saved with another seed, of which kiln warns.
+run render $tiny -o none --frames 20 --states states --set seed=9 --device cpu
 printf '{"scene": "%s", "output": "batch_%d.png", "frames": "0"}\n{"scene": "none.yaml", "output": "x.png"}\n' $tiny >jobs.ndjson
 run render --batch jobs.ndjson --keep-going --device cpu
 run plan $tiny --device cpu

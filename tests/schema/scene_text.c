@@ -1,5 +1,5 @@
-/* What the test of the schema takes from kiln: `scene_text schema` writes the schema, `scene_text
- * print FILE` a scene with every default. */
+/* Prints texts of kiln for the test of the schema (ajv.mjs): `scene_text schema` prints the JSON
+ * schema of scenes, and `scene_text print FILE` prints a scene with all its defaults. */
 #include <stdio.h>
 #include <string.h>
 
