@@ -1,12 +1,14 @@
 # shellcheck shell=bash
-# A cluster of Slurm with one node, this machine, below one folder; sourced. Several may run side by side: each
-# has its own ports, munge and key. Nothing is left of it when stop_cluster has returned.
+# Starts and stops a Slurm cluster with one node, this machine; slurm.sh sources this file. All
+# files of the cluster lie in one folder. Several clusters may run side by side, since each has its
+# own ports, munge daemon and key. stop_cluster ends all processes of the cluster.
 
-# Where Slurm's daemons are, which not every PATH has.
+# Slurm's daemons lie in these folders, which not every PATH has.
 PATH=$PATH:/usr/sbin:/sbin
 
-# start_cluster FOLDER CPUS: in a folder that everybody may enter, which munge asks for. Pretends that the machine has so many; exports SLURM_CONF. Two partitions: `batch`,
-# and `urgent`, whose jobs preempt those of the other.
+# start_cluster FOLDER CPUS: starts the cluster and exports SLURM_CONF. munge requires that
+# everybody may enter the folder. The node pretends to have CPUS processors. The cluster has two
+# partitions, `batch` and `urgent`; jobs of `urgent` preempt those of `batch`.
 start_cluster() {
     local folder=$1 cpus=$2 host user program ports
     for program in munged slurmctld slurmd sbatch scontrol srun; do
@@ -21,8 +23,8 @@ print(*(each.getsockname()[1] for each in free))')
     chmod 755 "$folder" "$folder/munge"
     head -c 1024 /dev/urandom >"$folder/munge/key"
     chmod 400 "$folder/munge/key"
-    # A requeued job waits for cred_expire seconds, of which five are the fewest. Without a cgroup, a step's
-    # processes are those of its process group.
+    # cred_expire is how long a requeued job waits, in seconds; 5 is the least that Slurm allows.
+    # proctrack/pgid finds the processes of a step by their process group, without cgroups.
     cat >"$folder/slurm.conf" <<END
 ClusterName=kiln
 SlurmctldHost=$host(127.0.0.1)
@@ -65,7 +67,7 @@ END
     done
     slurmctld -D 2>/dev/null &
     slurmd -D 2>/dev/null &
-    disown -a # which keeps bash from telling how they end
+    disown -a # so that bash prints no message when they end
     local last=$((SECONDS + 30))
     while ((SECONDS < last)); do
         [[ $(sinfo --noheader --partition=batch --format=%T 2>/dev/null) != idle ]] || return 0
@@ -76,11 +78,14 @@ END
     exit 1
 }
 
-# Prints the processes of the cluster: those that were started with its SLURM_CONF, jobs and daemons.
+# cluster_processes: prints the processes of the cluster, its daemons and jobs. They are those whose
+# environment has the cluster's SLURM_CONF.
 cluster_processes() {
     env -u SLURM_CONF grep -lzxF "SLURM_CONF=$SLURM_CONF" /proc/[0-9]*/environ 2>/dev/null | cut -d / -f 3
 }
 
+# stop_cluster: kills all processes of the cluster, if it was started. Fails if some do not end
+# within 5 seconds.
 stop_cluster() {
     [[ ${SLURM_CONF:-} ]] || return 0
     local left tries

@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
-"""Jobs of Kubernetes: what a schema cannot say of them, and a stand-in for kubectl and the cluster behind it, which
-runs the pods of a Job one after the other: kubernetes.py KILN WORK KUBECTL-ARGUMENT... The volume is the folder WORK,
-and WORK/jobs has a line for each pod and each Job that has ended."""
+"""Checks Jobs of Kubernetes beyond their schema, and stands in for kubectl and a cluster.
+
+As a module, it finds faults that a JSON schema cannot describe. As the program `kubernetes.py KILN
+WORK KUBECTL-ARGUMENT...` it runs the pods of a Job one after the other. The folder WORK is the
+volume. WORK/jobs gets a line for each pod and each Job that has ended.
+"""
 import functools
 import json
 import os
@@ -12,7 +15,7 @@ import yaml
 
 
 def decide(job, code):
-    """What becomes of a pod of one container that ended with that exit code."""
+    """Returns the action of the Job's rules for a pod whose container ended with the exit code."""
     for rule in job["spec"]["podFailurePolicy"]["rules"]:
         wanted = rule.get("onExitCodes")
         if wanted and (code in wanted["values"]) == (wanted["operator"] == "In"):
@@ -21,7 +24,10 @@ def decide(job, code):
 
 
 def policy_faults(job, again):
-    """The rules follow the table of exit codes: `again` has what it says of each."""
+    """Yields the rules for exit codes that contradict `again`, the table of `kiln help exit-codes`.
+
+    The table says for each exit code whether another try can succeed: never, again, or with more.
+    """
     is_indexed = job["spec"].get("completionMode") == "Indexed"
     actions = {"never": "FailJob", "with more": "FailIndex" if is_indexed else "FailJob", "again": "Count"}
     for code, word in again.items():
@@ -42,6 +48,7 @@ def policy_faults(job, again):
 
 
 def job_faults(job, claims, again):
+    """Yields the faults of a Job. `claims` has the names of the document's volume claims."""
     spec, pod = job["spec"], job["spec"]["template"]["spec"]
     containers = [container["name"] for container in pod["containers"]]
     for rule in spec["podFailurePolicy"]["rules"]:
@@ -66,6 +73,7 @@ def job_faults(job, claims, again):
 
 
 def faults(documents, again):
+    """Yields the faults of all Jobs of a file, each after the Job's name."""
     claims = [each["metadata"]["name"] for each in documents if each["kind"] == "PersistentVolumeClaim"]
     for job in documents:
         if job["kind"] == "Job":
@@ -74,13 +82,16 @@ def faults(documents, again):
 
 @functools.cache
 def has_landlock(kiln):
-    """Whether the machine can do what KILN_SANDBOX=require asks for."""
+    """Returns whether the machine has Landlock, which KILN_SANDBOX=require needs."""
     devices = subprocess.run([kiln, "devices", "--json"], stdout=subprocess.PIPE, check=True).stdout
     return json.loads(devices)["sandbox"]["landlock"] > 0
 
 
 def run_pod(job, index, kiln, work):
-    """Runs the container's command line, with the volume's folder in place of its mount."""
+    """Runs the command line of a pod's container, with the volume's folder in place of the mount.
+
+    Returns the exit code.
+    """
     [container] = job["spec"]["template"]["spec"]["containers"]
     [mount] = container["volumeMounts"]
 
@@ -96,7 +107,7 @@ def run_pod(job, index, kiln, work):
 
 
 def run_job(job, kiln, work, log):
-    """Returns the Job's condition at its end."""
+    """Runs a Job's pods, as its limits of failures say. Returns "Complete" or "Failed"."""
     spec = job["spec"]
     is_indexed = spec.get("completionMode") == "Indexed"
     failed_indexes = 0
@@ -116,6 +127,7 @@ def run_job(job, kiln, work, log):
 
 
 def kubectl(kiln, work, words):
+    """Does what the words of a kubectl command say, as far as the example's script uses kubectl."""
     def log(line):
         with open(os.path.join(work, "jobs"), "a", encoding="utf-8") as out:
             print(line, file=out)

@@ -1,5 +1,8 @@
-"""Templates of Open Job Description: what a schema cannot say of them, and a stand-in for an engine, which runs
-their tasks one after the other."""
+"""Checks templates of Open Job Description beyond their schema, and stands in for an engine.
+
+It finds faults that a JSON schema cannot describe, such as references to unknown parameters, and
+runs the tasks of a template one after the other.
+"""
 import os
 import re
 import subprocess
@@ -9,7 +12,7 @@ LINE = re.compile(r"openjd_(progress|status|fail): (.+)")
 
 
 def texts(value, place=()):
-    """Every text of a template with its place."""
+    """Yields every text of a template with its place, a tuple of keys and indices."""
     if isinstance(value, str):
         yield place, value
     elif isinstance(value, dict):
@@ -21,10 +24,11 @@ def texts(value, place=()):
 
 
 def reference_faults(template):
+    """Yields the references {{NAME}} to parameters that are not known at their place."""
     parameters = {parameter["name"]: parameter["type"] for parameter in template["parameterDefinitions"]}
     for place, text in texts(template):
         known = {f"RawParam.{name}" for name in parameters}
-        if "script" in place:  # a path has its value on a host alone
+        if "script" in place:  # scripts run on a host; only there does a path have a value
             known |= {f"Param.{name}" for name in parameters}
             space = template["steps"][int(place[1])].get("parameterSpace", {"taskParameterDefinitions": []})
             known |= {f"Task.Param.{each['name']}" for each in space["taskParameterDefinitions"]}
@@ -36,6 +40,7 @@ def reference_faults(template):
 
 
 def faults(template):
+    """Yields the faults of a template: in references, the order of steps, and doubled names."""
     yield from reference_faults(template)
     before = set()
     for index, step in enumerate(template["steps"]):
@@ -55,7 +60,7 @@ def faults(template):
 
 
 def job_values(template, given):
-    """The values of a job's parameters, as an engine takes them."""
+    """Returns the values of a job's parameters: the given ones, else the template's defaults."""
     values = {}
     for parameter in template["parameterDefinitions"]:
         name = parameter["name"]
@@ -75,7 +80,7 @@ def resolve(text, values, task):
 
 
 def tasks(step, values):
-    """The values of each task's one parameter; for a chunk, "FIRST-LAST"."""
+    """Returns a dictionary of the parameter of each task. A chunk's value is "FIRST-LAST"."""
     if "parameterSpace" not in step:
         return [{}]
     [parameter] = step["parameterSpace"]["taskParameterDefinitions"]
@@ -92,7 +97,10 @@ def command_line(step, values, task):
 
 
 def read_lines(output):
-    """The lines for the engine as (kind, value). One that looks like such a line must be one."""
+    """Returns a task's messages to the engine as pairs (kind, value).
+
+    Every line that begins with "openjd_" must be a message.
+    """
     lines = []
     for line in output.splitlines():
         match = LINE.fullmatch(line)
@@ -103,6 +111,7 @@ def read_lines(output):
 
 
 def check_progress(output):
+    """Checks that the progress rises from 0 to 100, and that a status and no failure is sent."""
     lines = read_lines(output)
     progress = [float(value) for kind, value in lines if kind == "progress"]
     assert progress[0] == 0 and progress[-1] == 100 and progress == sorted(set(progress)), progress
@@ -115,7 +124,7 @@ def environment():
 
 
 def run(template, given):
-    """Runs a job. Returns how many tasks each step had."""
+    """Runs all tasks of a job, which must succeed. Returns the number of tasks of each step."""
     values = job_values(template, given)
     counts = {}
     for step in template["steps"]:
@@ -131,7 +140,10 @@ def run(template, given):
 
 
 def cancel(step, values, task, percent):
-    """Cancels a task at that progress, as NOTIFY_THEN_TERMINATE does. Returns its exit code and its lines."""
+    """Runs a task and cancels it by SIGTERM at a progress in percent, as NOTIFY_THEN_TERMINATE asks.
+
+    Returns its exit code and its messages to the engine.
+    """
     cancelation = step["script"]["actions"]["onRun"]["cancelation"]
     assert cancelation["mode"] == "NOTIFY_THEN_TERMINATE"
     process = subprocess.Popen(command_line(step, values, task), env=environment(), text=True,

@@ -1,6 +1,10 @@
 #!/usr/bin/env python3
-"""farm.schemas: the examples for Kubernetes and Open Job Description: schemas.py KILN SOURCE. They keep to schemas of
-the fields that they use; broken ones are refused for their fault; and what they start makes the clip of one run."""
+"""Checks the examples for Kubernetes and Open Job Description: schemas.py KILN SOURCE.
+
+If this fails, a farm refuses the examples, or the clip that they make is wrong. The examples must
+follow JSON schemas of the fields that they use. Each planted fault must be found. Run by stand-ins
+for a cluster and an engine, the examples must make the clip of a single run.
+"""
 import copy
 import json
 import os
@@ -17,7 +21,9 @@ import yaml
 
 FRAMES = 180  # three parts
 
-# A place in an example, what is put there (REMOVED: nothing), and the one fault that is to be found.
+# Each row of the tables below plants a fault in an example: the place, the value that is put there
+# (REMOVED: the place is deleted), and the faults that must be found. A row stands for a typing
+# mistake, or for a value that the scheduler refuses.
 REMOVED = object()
 POD = "2/spec/template/spec"
 BROKEN_KUBERNETES = [
@@ -43,7 +49,7 @@ BROKEN_KUBERNETES = [
     (POD + "/containers/0/securityContext/readOnly", True,
      "spec/template/spec/containers/0/securityContext: additionalProperties"),
     ("0/spec/accessModes/0", "ReadWriteAll", "spec/accessModes/0: enum"),
-    # what the schema does not see
+    # faults that the schema cannot find; kubernetes.py must find them
     ("2/spec/podFailurePolicy/rules/2/onExitCodes/values", [5, 8, 200], "kiln-parts: there is no exit code 200"),
     ("2/spec/podFailurePolicy/rules/2/onExitCodes/values", [8], "kiln-parts: exit code 5 is 'with more' and leads to Count"),
     ("2/spec/podFailurePolicy/rules/3/onExitCodes/values", [6, 4, 9, 129, 130, 143],
@@ -78,7 +84,7 @@ BROKEN_JOB = [
     (RUN + "/cancelation/mode", "NOTIFY", RUN + "/cancelation/mode: enum"),
     (RUN + "/cancelation/mode", "TERMINATE", RUN + "/cancelation/notifyPeriodInSeconds: not"),
     (RUN + "/cancelation/notifyPeriodInSeconds", 601, RUN + "/cancelation/notifyPeriodInSeconds: maximum"),
-    # what the schema does not see
+    # faults that the schema cannot find; openjd.py must find them
     ("steps/1/dependencies/0/dependsOn", "Join", "steps/1/dependencies: no step Join before Parts"),
     ("steps/1/name", "Bake", "steps/1/name: a second Bake; steps/2/dependencies: no step Parts before Join"),
     (RUN + "/args/3", "{{Param.Clip}}", RUN + "/args/3: there is no Param.Clip"),
@@ -99,6 +105,7 @@ BROKEN_FRAMES = [
 
 
 def broken(example, place, value):
+    """Returns a copy of an example with a planted fault."""
     example = copy.deepcopy(example)
     *parents, last = [int(word) if word.isdigit() else word for word in place.split("/")]
     where = example
@@ -114,6 +121,7 @@ def broken(example, place, value):
 
 
 def schema_faults(schema, document):
+    """Returns the faults that a JSON schema finds in a document, as "PLACE: RULE"."""
     faults = set()
     for error in jsonschema.Draft7Validator(schema).iter_errors(document):
         faults.add(f"{'/'.join(map(str, error.absolute_path)) or '<top>'}: {error.validator}")
@@ -121,7 +129,10 @@ def schema_faults(schema, document):
 
 
 def check(example, faults, table):
-    """faults: a function of an example. The example has none, each broken one the one that it is to have."""
+    """Checks that an example has no faults, and that each row of a table leads to its faults.
+
+    `faults` is a function that returns the faults of an example.
+    """
     found = faults(example)
     assert not found, found
     for place, value, expected in table:
@@ -130,6 +141,7 @@ def check(example, faults, table):
 
 
 def read_exit_codes(kiln):
+    """Returns the table of `kiln help exit-codes`: for each code, whether to try again."""
     text = subprocess.run([kiln, "help", "exit-codes"], stdout=subprocess.PIPE, text=True, check=True).stdout
     again = {int(code): word for code, word in re.findall(r"^ +(\d+)  (never|again|with more) ", text, re.M)}
     assert again[0] == "never" and set(again.values()) == {"never", "again", "with more"}, again
@@ -151,7 +163,8 @@ def run_openjd(kiln, templates, work, reference):
     assert openjd.run(templates["frames"], frames) == {"Bake": 1, "Frames": 3, "Encode": 1}
     check_same(frames["Output"], reference)
 
-    # A task that is cancelled ends in time with whole files, and goes on when it is run again.
+    # A task that is cancelled must end in time and leave only whole files. Run again, it must
+    # resume.
     job = {**job, "Shares": 1, "Output": os.path.join(work, "cancelled", "clip.mp4")}
     values = openjd.job_values(templates["job"], job)
     code, lines = openjd.cancel(templates["job"]["steps"][1], values, {"Share": 1}, 30)
@@ -163,7 +176,7 @@ def run_openjd(kiln, templates, work, reference):
 
 
 def run_kubernetes(kiln, source, work, reference):
-    """Runs the example's script with a kubectl that stands in for a cluster."""
+    """Runs the example's script with kubernetes.py in place of kubectl, and checks its clip."""
     os.makedirs(os.path.join(work, "bin"))
     volume = os.path.join(work, "volume")
     os.makedirs(os.path.join(volume, "output"))
@@ -190,7 +203,7 @@ def run_kubernetes(kiln, source, work, reference):
                                              "kiln-join Complete"], (done, jobs)
     check_same(os.path.join(volume, "output", "clip.mp4"), reference)
 
-    # A scene that is wrong fails the Job at once, and no other one begins.
+    # A wrong scene must fail the first Job at once, and no other Job may begin.
     with open(os.path.join(work, "scene", "scene.yaml"), "a", encoding="utf-8") as scene:
         scene.write("unknown: 1\n")
     done, jobs = run()
@@ -199,7 +212,7 @@ def run_kubernetes(kiln, source, work, reference):
 
 
 def make_scene(source, work):
-    """The scene of the runs: a small one, long enough for some parts."""
+    """Writes the scene of the runs: small, and long enough for three parts."""
     scenes = os.path.join(source, "tests", "cli", "scenes")
     os.makedirs(os.path.join(work, "scene"))
     with open(os.path.join(scenes, "tiny.yaml"), encoding="utf-8") as scene:

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# A clip is rendered by a cluster of Slurm whose tasks are preempted, stopped, killed and requeued on the way:
-# slurm.sh KILN SOURCE. It has the bytes of a single run; a task that was cancelled stays so, and one that is
-# hopeless is not repeated. The commands of docs/farm.md do what they say. The log tells each event.
+# Checks that a Slurm cluster renders a clip with the bytes of a single run although its tasks are
+# preempted, stopped, killed and requeued: slurm.sh KILN SOURCE. If this fails, a clip that a farm
+# renders is lost or wrong. The script also checks that a cancelled task stays cancelled, that a
+# task that can never succeed is not repeated, and that the commands of docs/farm.md work.
 set -euo pipefail
 kiln=$(realpath "$1") source=$(realpath "$2")
 # shellcheck source-path=SCRIPTDIR
@@ -25,7 +26,8 @@ PATH=$(dirname "$kiln"):$PATH
 start_cluster "$work/cluster" 8
 say "a cluster of one node runs: $(sinfo --version), $(kiln --version)"
 
-# until_true SECONDS WHAT COMMAND...: WHAT says what is waited for.
+# until_true SECONDS WHAT COMMAND...: waits until the command succeeds. WHAT describes the event in
+# the message of a failure.
 until_true() {
     local last=$((SECONDS + $1)) what=$2
     until "${@:3}"; do
@@ -36,7 +38,8 @@ until_true() {
 is_gone() { [[ -z $(squeue --noheader --jobs="$1" 2>/dev/null) ]]; }
 is_told() { grep -qs "$2" "$1"; }
 
-# start SCENE OUTPUT TASKS [OPTION...]: the numbers of the jobs go to $bake, $parts, $join.
+# start SCENE OUTPUT TASKS [OPTION...]: submits the jobs of a clip. Sets `bake`, `parts` and `join`
+# to the numbers of the jobs, and `clip` to OUTPUT.
 start() {
     local said
     said=$("$submit" "$@")
@@ -45,8 +48,8 @@ start() {
     say "$2: submitted as jobs $bake, $parts and $join"
 }
 
-# catch TASK...: waits until each of the tasks has a whole part, and stops its kiln in the middle of the next one. The
-# processes go to ${caught[TASK]}.
+# catch TASK...: waits until each of the tasks has finished a part, and suspends its kiln in the
+# middle of the next part. Sets caught[TASK] to the process of kiln.
 declare -A caught
 is_caught() {
     local task events
@@ -64,13 +67,15 @@ catch() {
     until_true 120 "a part of each of the tasks $* of $clip" is_caught "$@"
 }
 
-# requeued TASK WHO: the task goes back into the queue, by its script or by Slurm.
+# requeued TASK WHO: waits until the log says that the task goes back into the queue, by its own
+# script or by Slurm.
 requeued() {
     local said="task: exit code .*: requeued"
     [[ $2 == script ]] || said="DUE TO \(JOB REQUEUE\|PREEMPTION\)"
     until_true 60 "task $1 is requeued by $2" is_told "$clip.tasks/part-$1.log" "$said"
     say "$clip: part task $1 is requeued by $2: $(grep -o "$said" "$clip.tasks/part-$1.log" | tail -n 1)"
 }
+# is_warned PROCESS: succeeds if signal 15 (SIGTERM), bit 14 of ShdPnd, is pending for the process.
 is_warned() { (((0x$(awk '/^ShdPnd/ { print $2 }' "/proc/$1/status") >> 14) & 1)); }
 
 say "docs/farm.md, section Slurm, as a new user:"
@@ -104,15 +109,19 @@ say "farm.mp4: task 8 stalls, and has two minutes in all"
 scontrol update "job=${parts}_8" TimeLimit=2
 stalled=${caught[8]}
 
-# ended: all jobs of the clip; then the join is done, or was cancelled because a job before it failed.
+# ended STATE: waits until all jobs of the clip have ended, and checks the state of its join:
+# COMPLETED, or CANCELLED because a job before it failed.
 ended() {
     until_true 120 "the jobs of $clip end" is_gone "$bake,$parts,$join"
     grep -q "^JobId=$join .* JobState=$1 " "$work/cluster/jobs.log" ||
         fail "the join of $clip is not $1: $(grep "^JobId=$join " "$work/cluster/jobs.log")"
 }
+# started STEM: prints how often kiln was started for a task.
 started() { grep -c '"event": "started"' "$clip.tasks/$1.ndjson"; }
 
-# hopeless STEM "CODE AGAIN MESSAGE" SCENE OUTPUT OPTION...: the task fails so, once, and says it in its events.
+# hopeless STEM "CODE AGAIN MESSAGE" SCENE OUTPUT OPTION...: checks that the task fails once, is not
+# repeated, and that its events have the exit code, the word of the exit codes' table that says
+# whether to try again, and the message.
 hopeless() {
     local bake parts join clip said stem=$1
     start "$3" "$4" 2 "${@:5}"
@@ -129,7 +138,8 @@ hopeless bake "3 never broken.yaml:*: unknown key*'rate'*" broken.yaml broken.mp
 hopeless bake "8 with more *the limit \`frames\` is 10" "${film[0]}" long.mp4 "${film[@]:1}" --limits frames=10
 hopeless part-1 "8 with more *limit*output*" "${film[0]}" large.mp4 "${film[@]:1}" -- --size 64x36 --limits output=1kB
 
-# A user cancels a clip, and submits it again.
+# A user cancels the parts of a clip: no task may be repeated. Submitted again, the clip must have
+# the bytes of a single run.
 cancel() {
     local bake parts join clip two=("${film[0]}" cancelled.mp4 2 --device cpu --set output.frames=240 -- --size 320x180)
     start "${two[@]}"
@@ -144,6 +154,7 @@ cancel() {
     cmp "$clip" straight.mp4
     say "$clip: has the bytes of a single run; $(kept part-1) frames were kept"
 }
+# kept STEM: prints how many frames the last run of a task has kept from runs before it.
 kept() { jq -s 'map(select(.event == "result")) | last.kept' "$clip.tasks/$1.ndjson"; }
 cancel
 

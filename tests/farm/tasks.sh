@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The scripts for Slurm do what they say, with stand-ins for Slurm that run each job at once: tasks.sh KILN SOURCE.
-# farm.slurm has a real cluster.
+# Checks the scripts of examples/farm/slurm with stand-ins for the commands of Slurm, which run each
+# job at once: tasks.sh KILN SOURCE. If this fails, a clip of several tasks is wrong, or a failed
+# task is repeated when it should not be. The test farm.slurm runs the scripts on a real cluster.
 set -euo pipefail
 KILN=$(realpath "$1") source=$(realpath "$2")
 submit=$source/examples/farm/slurm/submit
@@ -17,8 +18,9 @@ fail() {
 }
 stub() { cat >"$work/bin/$1" && chmod 755 "$work/bin/$1"; }
 
-# Runs the job, or each task of the array, and again while it asks for that. A job that waits for one that failed is
-# cancelled. jobs/N has the exit code of job N.
+# The stand-in for sbatch runs the job, or each task of an array, and repeats a task as long as it
+# asks for that by scontrol. A job is cancelled when the job on which it depends has failed. The
+# file jobs/N gets the exit code of job N.
 stub sbatch <<'END'
 #!/usr/bin/env bash
 id=$(($(<"$work/jobs/last") + 1)) tasks=("") result=0
@@ -68,7 +70,9 @@ stub squeue <<'END'
 #!/usr/bin/env bash
 echo "${STATE:-RUNNING}"
 END
-# The first kilns of some commands meet with an accident, which a file stands for.
+# The stand-in for kiln makes the first run of some commands fail, and then runs kiln. Each failure
+# happens while its file in accidents/ is there: `killed` stands for SIGKILL, `stopped` for SIGTERM
+# to the script, `disk` for exit code 6 of a full disk, `always` for SIGKILL in every run of `bake`.
 stub kiln <<'END'
 #!/usr/bin/env bash
 meet() { [[ $task == "$2" && -e $work/accidents/$1 ]]; }
@@ -89,7 +93,8 @@ fi
 exec "$KILN" "$@"
 END
 
-# expect JOB CODE NUMBER: the exit code of a job, and how often its log says that it was requeued; its log files follow.
+# expect JOB CODE NUMBER LOG...: checks the exit code of a job, and how often its logs say that a
+# task was requeued.
 expect() {
     local requeues
     requeues=$(cat "${@:4}" | grep -c ': requeued$' || true)
@@ -102,7 +107,7 @@ long=(tiny.yaml --device cpu --fps 2 --set output.frames=17)
 mkdir "$work/accidents"
 touch "$work/accidents"/{killed,stopped,disk}
 
-# Every kind of task is disturbed, and the clip has the bytes of a single run.
+# Tasks of parts and the join fail and are requeued; the clip must have the bytes of a single run.
 said=$("$submit" tiny.yaml 'a clip.mp4' 3 "${long[@]:1}" -- --quality 90)
 [[ $said == "jobs: bake 1, parts 2, join 3" ]] || fail "submit said: $said"
 tasks='a clip.mp4.tasks'
@@ -115,14 +120,15 @@ cmp 'a clip.mp4' single.mp4
 [[ $(jq -s 'map(select(.event == "started")) | length' "$tasks/part-2.ndjson") == 1 ]] ||
     fail "the events of task 2 are not its own"
 
-# The same call again finds the clip whole, and draws nothing.
+# Submitted again, the tasks must find the clip whole and draw nothing.
 "$submit" tiny.yaml 'a clip.mp4' 3 "${long[@]:1}" -- --quality 90 >/dev/null
 expect 5 0 2 "$tasks"/part-[123].log
 [[ $(grep -h '"event": "result"' "$tasks"/part-[123].ndjson | grep -c '"frames": 0, ') == 3 ]] ||
     fail "tasks draw frames of a clip that is whole"
 cmp 'a clip.mp4' single.mp4
 
-# Images; %02d in the name of a log is no pattern of sbatch. The same call again goes on.
+# The output may be images. Their %02d, which is part of the names of the logs, must be escaped:
+# sbatch would take it for a pattern. The second submission must resume.
 for parts in 8 11; do
     "$submit" tiny.yaml f_%02d.png 1 --device cpu -- --frames 0-1 >/dev/null
     expect $((parts - 1)) 0 0 f_%02d.png.tasks/bake.log
@@ -130,7 +136,7 @@ for parts in 8 11; do
     [[ $(echo f_*.png) == "f_00.png f_01.png" ]] || fail "images: $(echo f_*.png)"
 done
 
-# What never succeeds is not repeated, and what waits for it does not begin.
+# A task that can never succeed must not be repeated, and the jobs that depend on it must not begin.
 "$submit" tiny.yaml wrong.mp4 1 --set seed=none >/dev/null
 expect 13 3 0 wrong.mp4.tasks/bake.log
 expect 14 cancelled 0 /dev/null
@@ -140,14 +146,16 @@ expect 17 8 0 large.mp4.tasks/part-1.log
 expect 18 cancelled 0 /dev/null
 grep -q 'more memory' large.mp4.tasks/part-1.log || fail "the log does not say that more is needed"
 
-# What fails again and again is given up, and what was cancelled is not requeued.
+# A task that fails FARM_REQUEUES times more must be given up. A task whose state is COMPLETING was
+# cancelled, and must not be requeued.
 touch "$work/accidents/always"
 FARM_REQUEUES=1 "$submit" tiny.yaml fails.mp4 1 >/dev/null
 expect 19 137 1 fails.mp4.tasks/bake.log
 STATE=COMPLETING "$submit" tiny.yaml gone.mp4 1 >/dev/null
 expect 22 137 0 gone.mp4.tasks/bake.log
 
-# TASKS is looked at before anything is submitted. A job that Slurm refuses leaves none of the others.
+# A wrong number of tasks must be refused before anything is submitted. When Slurm refuses a job,
+# the jobs that were submitted before it must be cancelled.
 rm "$work/accidents/always"
 submitted=$(<"$work/jobs/last")
 for tasks in 0 -1 two 1.5; do

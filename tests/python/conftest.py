@@ -1,4 +1,4 @@
-"""What tests of the module have in common: small scenes, and the plugin pytester."""
+"""Defines what the tests of the Python module share: small scenes, and pytest's plugin pytester."""
 import os
 
 import pytest
@@ -16,7 +16,7 @@ systems:
     emit: {rate: 90, life: 1 s}
     look: {size: 0.3}
 """
-# Long enough to be stopped in its middle, on any machine: two thousand frames.
+# A clip of 2000 frames takes so long on any machine that a test can stop it in its middle.
 LONG = SMALL.replace("frames: 5", "frames: 2000")
 
 

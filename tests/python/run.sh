@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Runs something with the Python module of a build: run.sh MODULE LIBRARY CC FOLDER, whose tests pytest
-# runs, or SCRIPT ARGUMENT..., a script of Python. Exit code 77: a package of Debian is missing.
+# Runs Python code with the module `kiln` of a build: run.sh MODULE LIBRARY CC FOLDER runs the tests
+# of the folder by pytest, and run.sh MODULE LIBRARY CC SCRIPT ARGUMENT... runs a script. MODULE is
+# the folder of the module, LIBRARY the shared library that it is to use. The exit code is 77
+# (skipped) if a Debian package is missing.
 set -euo pipefail
-# Debian's python3 comes first, whatever else the machine has.
+# Debian's python3 comes first in PATH, since it has Debian's packages.
 export PATH=/usr/bin:$PATH PYTHONPATH=$1 KILN_LIBRARY=$2 CC=$3 PYTHONDONTWRITEBYTECODE=1
 what=$4
 for module in cffi numpy pytest; do

@@ -1,4 +1,8 @@
-"""Comparing pictures, and writing arrays as pictures."""
+"""Tests kiln.compare and kiln.write_picture of the Python module.
+
+If these fail, a user's test accepts a wrong picture or refuses a right one, or an array is written
+as another picture.
+"""
 import numpy as np
 import pytest
 
@@ -12,7 +16,7 @@ def picture():
     return np.stack([red, green, blue, np.full_like(red, 255)], axis=2).astype(np.uint8)
 
 
-def test_the_same_and_another(picture):
+def test_equal_and_different_pictures(picture):
     same = kiln.compare(picture, picture)
     assert same and same.frames[0].equal and same.metrics["flip.mean"].worst == 0
     assert same.metrics["flip.mean"].limit == 0.01 and same.metrics["flip.mean"].passes
@@ -36,7 +40,7 @@ def test_pictures_of_differences(picture, tmp_path):
         kiln.compare(picture, other, diff=tmp_path / "diff.png")
 
 
-def test_sizes_and_nonsense(picture, tmp_path):
+def test_other_sizes_and_wrong_arguments(picture, tmp_path):
     result = kiln.compare(picture, picture[:20])
     assert not result and result.frames[0].verdict == "different" and "40" in str(result)
     with pytest.raises(kiln.UsageError, match="flop"):
@@ -70,7 +74,7 @@ def test_arrays_become_pictures(tmp_path, kind, full, shape):
     kiln.write_picture(path, pixels, overwrite=True)
 
 
-def test_a_picture_is_read_by_others(picture, tmp_path):
+def test_pillow_reads_written_pictures(picture, tmp_path):
     image = pytest.importorskip("PIL.Image")
     picture[2, 3] = (1, 2, 3, 4)
     kiln.write_picture(tmp_path / "a.png", picture)
@@ -81,7 +85,7 @@ def test_a_picture_is_read_by_others(picture, tmp_path):
     assert read.mode == "RGB" and np.array_equal(np.asarray(read), picture[:, :, :3])
 
 
-def test_what_is_no_picture(tmp_path):
+def test_arrays_that_are_no_picture_are_refused(tmp_path):
     for pixels, kind, message in [(np.zeros((4, 4), np.int64), TypeError, "int64"),
                                   (np.zeros((4, 4, 2), np.uint8), ValueError, "1, 3 or 4 channels"),
                                   (np.zeros((0, 4, 4), np.uint8), ValueError, "shape"),

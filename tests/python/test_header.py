@@ -1,4 +1,7 @@
-"""What the module knows of the library is what the C header says."""
+"""Checks that the Python module has the structs, defaults and functions of the C headers.
+
+If these fail, the module passes wrong values to the library, or reads wrong ones, without an error.
+"""
 import os
 import subprocess
 import sys
@@ -19,11 +22,14 @@ def structs():
 
 
 def test_structs_have_the_layout_of_the_compiler(tmp_path):
-    """Every struct and member, so that a wrong place of one cannot hide behind the right size."""
+    """Compares the size of every struct and the offset of every member with the C compiler's.
+
+    At the end, a wrong offset is planted, which the compiler must refuse.
+    """
     lines, members = ['#include <kiln.h>', '#include <stddef.h>'], 0
     for struct in structs():
         if struct.fields is None:
-            continue  # only pointers to it are known
+            continue  # an opaque struct, of which the header has only pointers
         name = struct.cname
         lines.append(f'_Static_assert(sizeof({name}) == {ffi.sizeof(struct)}, "{name}");')
         for member, field in struct.fields:
@@ -40,7 +46,7 @@ def test_structs_have_the_layout_of_the_compiler(tmp_path):
 
 
 def test_defaults_are_those_of_the_inline_functions(tmp_path):
-    """A C program prints what its functions give; the bytes are those of the module's structs."""
+    """Compares the defaults with those of the C functions, by a program that prints differences."""
     functions = {"kiln_render_params": "kiln_render_defaults", "kiln_compare_params": "kiln_compare_defaults",
                  "kiln_encode_params": "kiln_encode_defaults", "kiln_plan_params": "kiln_plan_defaults"}
     assert {name for name, values in _header.DEFAULTS.items() if values} == functions.keys()

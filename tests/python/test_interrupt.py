@@ -1,4 +1,7 @@
-"""Ways to stop: a signal, Cancel from another thread, exceptions."""
+"""Checks that a call of the Python module can be stopped: by Cancel, by Ctrl-C and by an exception.
+
+If these fail, a long render cannot be stopped, or leaves half-written files.
+"""
 import os
 import signal
 import subprocess
@@ -24,7 +27,7 @@ def test_cancel_from_another_thread(long_scene, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_request_that_was_made_before(scene, tmp_path):
+def test_a_request_before_a_call_stops_it(scene, tmp_path):
     cancel = kiln.Cancel()
     cancel.request()
     for call in (lambda: list(kiln.render(scene, device="cpu", cancel=cancel)),
@@ -33,10 +36,11 @@ def test_a_request_that_was_made_before(scene, tmp_path):
             call()
 
 
-# What makes a single frame take minutes, on any machine.
+# Overrides with which a single frame takes minutes on any machine.
 ENDLESS = {"systems.a.emit.rate": 200000, "simulation.warmup": "500 s"}
 
-# One long call of C each: the interpreter gets no turn but in the library's question whether to go on.
+# Each of these is one long call of a C function. Python handles signals only when the library calls
+# back to ask whether to go on.
 ONE_FRAME = "next(kiln.render(scene, frames=1999, output='clip.mp4', device='cpu'))"
 BAKING = "kiln.bake(scene, 'states', every=1999, device='cpu')"
 
@@ -67,7 +71,7 @@ def test_ctrl_c_stops_a_call(tmp_path, call):
     assert [path for path in folder.rglob("*") if path.is_file()] == []
 
 
-def test_a_handler_of_ones_own_may_raise():
+def test_an_exception_of_a_signal_handler_stops_a_call():
     class Enough(Exception):
         pass
 

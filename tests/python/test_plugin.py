@@ -1,4 +1,9 @@
-"""The fixture assert_looks_like, in runs of pytest of their own; the entry point registers it."""
+"""Tests the pytest plugin of kiln, the fixture assert_looks_like.
+
+If these fail, users' tests accept wrong pictures, or their goldens are replaced unasked. Each test
+runs pytest on small test files, by the plugin pytester. pytest finds kiln's plugin by its entry
+point.
+"""
 import numpy as np
 
 import kiln
@@ -40,7 +45,7 @@ def test_a_golden_is_missing_accepted_and_compared(pytester):
     assert golden.read_bytes() == accepted
 
 
-def test_a_failure_says_figures_and_shows_where(pytester):
+def test_a_failure_prints_metrics_and_writes_pictures(pytester):
     run(pytester, "--kiln-update").assert_outcomes(passed=1)
     result = run(pytester, "--kiln-results=here", red=200)
     result.assert_outcomes(failed=1)
@@ -74,11 +79,11 @@ def test_x(assert_looks_like, name):
 """, encoding="utf-8")
     options = ("-p", "no:cacheprovider", "--import-mode=importlib")
     pytester.runpytest_inprocess(*options).assert_outcomes(passed=4)
-    pytester.runpytest_inprocess(*options).assert_outcomes(passed=4)  # over what the first one left
+    pytester.runpytest_inprocess(*options).assert_outcomes(passed=4)  # replaces the first run's files
     assert len(list((pytester.path / "out" / "kiln").rglob("g.png"))) == 8
 
 
-def test_files_and_options(pytester):
+def test_files_and_masks(pytester):
     pytester.makepyfile("""
         import numpy as np
         import kiln

@@ -1,4 +1,7 @@
-"""Frames as arrays without a copy, files, states."""
+"""Tests kiln.render, render_to and bake: frames as arrays without a copy, files, states, threads.
+
+If these fail, Python programs get wrong pixels, crash on freed memory, or leave half-written files.
+"""
 import gc
 import threading
 import time
@@ -45,7 +48,7 @@ def test_arrays_are_not_copies_and_cannot_be_written(scene):
 
 
 def test_arrays_outlive_their_frame_and_job(scene):
-    """Memory that had been freed would be drawn into again by the jobs that follow."""
+    """Checks that the arrays keep their pixels after later jobs, which would reuse freed memory."""
     kept = [frame.pixels[4:, ::2] for frame in kiln.render(scene, device="cpu")]
     before = [array.copy() for array in kept]
     gc.collect()
@@ -55,8 +58,8 @@ def test_arrays_outlive_their_frame_and_job(scene):
     assert not np.array_equal(kept[0], kept[4])
 
 
-def test_memory_is_given_back():
-    """Frames of a megabyte each, of which nobody keeps one."""
+def test_memory_of_dropped_frames_is_freed():
+    """Checks that the memory of frames that nobody keeps is freed; each frame has 0.98 MiB."""
     scene = kiln.parse(SMALL, {"output.frames": 70, "output.size": [640, 400]})
 
     def resident_mib():
@@ -67,7 +70,7 @@ def test_memory_is_given_back():
         for frame in job:
             if frame.number == 10:
                 before = resident_mib()
-    assert resident_mib() - before < 30  # those frames have 59 MiB
+    assert resident_mib() - before < 30  # the 59 frames after frame 10 would take 58 MiB
 
 
 def test_size_frames_and_ranges(scene):
@@ -94,12 +97,12 @@ def test_wrong_arguments_are_named(scene, options, words):
         kiln.render(scene, **options)
 
 
-def test_a_scene_is_no_path():
+def test_a_path_is_no_scene():
     with pytest.raises(TypeError, match="expected a scene, as kiln.load reads it"):
         kiln.render("snow.yaml")
 
 
-def test_shards(scene, tmp_path):
+def test_wrong_shards_are_refused(scene, tmp_path):
     for shard in ((2, 2), (1, 0)):
         with pytest.raises(kiln.UsageError, match="count from 0"):
             draw(scene, shard=shard, output=tmp_path / "x_%d.png")
@@ -108,7 +111,7 @@ def test_shards(scene, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_files(scene, tmp_path):
+def test_render_to_writes_a_clip(scene, tmp_path):
     seen = []
     stats = kiln.render_to(scene, tmp_path / "clip.mp4", device="cpu", progress=seen.append)
     assert (tmp_path / "clip.mp4").stat().st_size > 500 and stats.files == 1
@@ -119,7 +122,7 @@ def test_files(scene, tmp_path):
 
 
 def test_frames_of_an_output_have_its_bits(scene, tmp_path):
-    """An encoder reads the same memory meanwhile."""
+    """Compares files with the arrays of their frames, whose memory the encoder reads meanwhile."""
     frames = draw(scene, output=tmp_path / "f_#.png", png_bits=16, layers=("display", "beauty"))
     assert frames[0].pixels.dtype == np.uint16
     for frame in frames:
@@ -135,7 +138,7 @@ def test_small_png_files_have_the_same_pixels(scene, tmp_path):
         kiln.render_to(scene, tmp_path / "x.png", frames=3, png_effort="smaller", device="cpu")
 
 
-def test_a_job_that_is_left_leaves_nothing(scene, tmp_path):
+def test_a_job_that_is_left_early_leaves_no_file(scene, tmp_path):
     with kiln.render(scene, output=tmp_path / "clip.mp4", device="cpu") as job:
         next(job)
         with pytest.raises(ValueError, match="last frame"):
@@ -156,7 +159,7 @@ def test_an_exception_of_progress_ends_the_job(scene, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_states(scene, tmp_path):
+def test_baked_states_give_the_same_frames(scene, tmp_path):
     saved = []
     stats = kiln.bake(scene, tmp_path, every=2, device="cpu", saved=saved.append)
     assert [state.frame for state in saved] == [2, 4] and stats.states == 2 and stats.steps == 8
@@ -214,8 +217,13 @@ def test_threads_draw_at_the_same_time(scene):
 
 
 def test_other_threads_run_while_a_frame_is_drawn():
-    """One call draws one frame. A thread that held the interpreter's lock would let nobody count meanwhile. It is
-    not the main thread that draws: there the library asks for signals, and others get their turn."""
+    """Checks that a call of the library releases the interpreter's lock.
+
+    One thread draws a frame in one call, while the main thread records time stamps. If the call
+    held the lock, there would be no stamps meanwhile. The main thread must not be the one that
+    draws: there, the library calls back to check for signals, and other threads run during these
+    calls.
+    """
     scene = kiln.parse(SMALL, {"output.size": [1600, 1200], "systems.a.emit.rate": 20000, "output.frames": 60})
     times = []
 

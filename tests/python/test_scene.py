@@ -1,4 +1,8 @@
-"""Scenes, devices and errors."""
+"""Tests scenes, overrides, devices and errors of the Python module.
+
+If these fail, a scene is not the one of its text and overrides, or an error has the wrong type or
+text.
+"""
 import pickle
 
 import pytest
@@ -13,7 +17,7 @@ def test_a_scene_tells_about_itself(scene):
     assert info.systems == 1 and info.particle_capacity >= 12 and len(info.hash) == 64
 
 
-def test_its_text_loads_to_the_same_scene(scene):
+def test_the_printed_text_loads_to_the_same_scene(scene):
     text = scene.text()
     assert text.startswith("kiln: 1\n") and "rate: 90 1/s" in text
     assert kiln.parse(text).info.hash == scene.info.hash
@@ -29,7 +33,7 @@ def test_overrides_are_texts_or_a_mapping(overrides):
     assert scene.info.width == 64 and "rate: 7 1/s\n" in scene.text()
 
 
-def test_overrides_come_after_those_before(tmp_path):
+def test_later_overrides_are_appended(tmp_path):
     path = tmp_path / "small.yaml"
     path.write_text(SMALL)
     scene = kiln.load(path, "systems.a.emit.rate=7").override({"systems.a.emit.rate": 8, "output.frames": 3})
@@ -56,7 +60,7 @@ def test_errors_have_codes_and_words(make, kind, code, message):
     assert type(again) is kind and again.code is code and str(again) == str(caught.value)
 
 
-def test_what_is_no_text_is_refused():
+def test_values_that_are_no_text_are_refused():
     with pytest.raises(TypeError, match="key=value"):
         kiln.parse(SMALL, [3])
     with pytest.raises(ValueError, match="zero byte"):

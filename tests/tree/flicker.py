@@ -31,7 +31,7 @@ def edge():
 
 
 def drops(count, speed):
-    """Returns streaks of 2x6 pixels that fall by `speed` pixels a frame, and wrap around at the bottom."""
+    """Returns streaks of 2x6 pixels that fall by `speed` pixels a frame and wrap at the bottom."""
     frames = still()
     chance = numpy.random.default_rng(3)
     columns, starts = chance.integers(0, WIDTH // 6, count) * 6, chance.integers(0, HEIGHT, count)
