@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# The binary interface of libkiln.so is the one that was committed: abi.sh SOURCE LIBRARY [--update]. A
-# change that programs built before would not survive fails, and so does one that only adds, until it is
-# committed by --update (docs/versions.md says which version and soname it takes).
+# Checks that the binary interface (ABI) of libkiln.so is the committed one, libkiln.abi: abi.sh
+# SOURCE LIBRARY [--update]. If this fails, programs that were built with an older library may crash
+# with the new one. An addition fails, too, although it breaks no program, until --update writes the
+# file. docs/versions.md says which version and soname a change needs.
 set -euo pipefail
 source=$1 library=$2
 committed=$source/tests/abi/libkiln.abi
@@ -25,10 +26,12 @@ if [[ ${3:-} == --update ]]; then
 fi
 code=0
 abidiff "$committed" "$folder/found.abi" || code=$?
-# Bits: 1 and 2 are faults of abidiff, 4 a change, 8 one that breaks programs for certain.
+# abidiff's exit code has bits: 1 and 2 are its own errors, 4 is a change, 8 is a change that
+# certainly breaks programs.
 ((code == 0)) || { echo "the interface changed: $0 $source $library --update, and docs/versions.md"; exit 1; }
 
-# What would break programs is seen: a code of another value, a function that is gone.
+# abidiff must see two planted changes that break programs: an enum constant with another value, and
+# a function that is missing.
 for planted in "s/name='KILN_READER_GONE' value='9'/name='KILN_READER_GONE' value='19'/" \
     "/elf-symbol name='kiln_render'/d"; do
     sed "$planted" "$folder/found.abi" >"$folder/broken.abi"

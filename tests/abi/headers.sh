@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The installed headers are C11, C17, C++17 and C++20 without a warning, each alone as well as from
-# kiln.h: headers.sh SOURCE CC CXX.
+# Checks that each installed header compiles alone as C11, C17, C++17 and C++20, without a warning
+# of a strict set: headers.sh SOURCE CC CXX. If this fails, a user's program that makes warnings
+# errors does not compile.
 set -euo pipefail
 source=$1 cc=$2 cxx=$3
 folder=$(mktemp -d)

@@ -1,6 +1,8 @@
-/* A kiln-decode that a file has taken over: it locks itself in as the real one does, and then,
- * instead of decoding, does what the environment's KILN_COMPROMISED says. "attempts" tries to get
- * out, and says what of it worked; all others send kiln something that no decoder would. */
+/* Stands in for a kiln-decode that a malicious file has taken over. It confines itself as the real
+ * one does. Then, instead of decoding, it misbehaves in the way that the environment variable
+ * KILN_COMPROMISED names. "attempts" tries to escape from the confinement and reports which
+ * attempts worked. The other ways send kiln wrong answers, each of which a check of kiln must
+ * refuse. */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -23,7 +25,7 @@
 
 static pid_t parent;
 
-/* ---- getting out ----------------------------------------------------------------------------- */
+/* ---- escapes: each function returns whether one of its system calls worked ------------------- */
 
 static bool open_file(void)
 {
@@ -45,7 +47,7 @@ static bool write_file(void)
            rename("/tmp/kiln-secret", "/tmp/kiln-compromised") == 0 || chmod("/tmp", 0777) == 0;
 }
 
-/* The file that kiln sent is open for reading alone. */
+/* Writes to the file that kiln sent, which must be open only for reading. */
 static bool write_to_asset(void)
 {
     for (int file = 4; file < 16; file++) {
@@ -79,7 +81,7 @@ static bool execute(void)
     char *const arguments[] = {(char *)"true", NULL};
     execve("/bin/true", arguments, arguments);
     syscall(SYS_execveat, AT_FDCWD, "/bin/true", arguments, arguments, 0);
-    return false; /* had it worked, nobody would answer */
+    return false; /* after a successful execve, this process could not answer */
 }
 
 static bool signal_parent(void)
@@ -145,7 +147,7 @@ static void try_all(char *text, size_t size)
              sizeof attempts / sizeof *attempts);
 }
 
-/* ---- nonsense -------------------------------------------------------------------------------- */
+/* ---- wrong answers --------------------------------------------------------------------------- */
 
 static void send_bytes(const void *bytes, size_t size)
 {
@@ -199,10 +201,11 @@ static void send_mesh(uint32_t vertices, uint32_t triangles, const float *places
         send_bytes(corners, 3 * triangles * sizeof *corners);
 }
 
+/* Three vertices, each a position and a normal. */
 static const float SOUND[18] = {0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0};
 static const uint32_t CORNERS[3] = {0, 2, 1};
 
-/* A mesh of one triangle, of whose numbers one is another. */
+/* Sends a correct triangle except for one number of its vertices. */
 static void send_triangle(size_t which, float value)
 {
     float places[18];
@@ -218,6 +221,8 @@ static void do_attempts(void)
     send_failure(KILN_INVALID_INPUT, text);
 }
 
+/* Sends a message with escape sequences of terminals, a text direction override, a byte that is not
+ * UTF-8, and formats of printf. */
 static void do_escapes(void)
 {
     const char text[] = {27,         ']',        '0', ';', 'x', 7,   (char)0xe2, (char)0x80,
@@ -225,6 +230,7 @@ static void do_escapes(void)
     send_failure(KILN_INVALID_INPUT, text);
 }
 
+/* Sends a message without a zero byte at its end. */
 static void do_endless_text(void)
 {
     struct kiln_decode_answer answer = {.what = KILN_DECODE_FAILED, .code = KILN_INVALID_INPUT};
@@ -239,6 +245,7 @@ static void send_wish(const char *name)
     send_answer(answer);
 }
 
+/* Asks for files without end, and reads the answers. */
 static void do_wants(void)
 {
     struct kiln_decode_file file;
@@ -247,12 +254,14 @@ static void do_wants(void)
     while (read(KILN_DECODE_SOCKET, &file, sizeof file) > 0);
 }
 
+/* Asks for files without end, and reads no answer, so that the socket fills up. */
 static void do_wants_deaf(void)
 {
     for (;;)
         send_wish("deep.bin");
 }
 
+/* Asks for a file outside of the asset root, and reports whether kiln opened it. */
 static void do_wants_secret(void)
 {
     struct kiln_decode_file file = {.is_open = 0};
@@ -267,12 +276,14 @@ static void do_busy(void)
         continue;
 }
 
+/* Announces a picture and ends without its pixels. */
 static void do_short(void)
 {
     send_size(64, 64, 4, 0);
     _exit(0);
 }
 
+/* Sends a triangle with a corner that is no vertex. */
 static void do_beyond(void)
 {
     const uint32_t beyond[3] = {0, 2, 0x7fffffff};
@@ -284,6 +295,9 @@ static void do_beyond(void)
     {                                                                                              \
         call;                                                                                      \
     }
+/* "overflow" sends a size whose product overflows 32 bits. "largest" sends edges that are allowed,
+ * with a product that is not. "far", "no_place" and "no_normal" send a coordinate beyond the
+ * limits, one that is not a number, and a normal that is not of unit length. */
 DO(huge, send_size(0xffffffffu, 0xffffffffu, 4, 0))
 DO(overflow, send_size(0x10000, 0x10001, 4, 2))
 DO(largest, send_size(16384, 16384, 4, 2))

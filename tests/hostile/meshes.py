@@ -1,4 +1,4 @@
-"""Meshes and grids that are broken, lie, nest or never end."""
+"""Rows of run.py: meshes and grids that are broken, lie about their sizes, or nest too deeply."""
 import json
 import struct
 
@@ -6,7 +6,7 @@ from rows import LIMIT, OK, REFUSED, asset, check
 
 
 def gltf(**changes):
-    """A triangle whose buffer is in the file itself."""
+    """Returns a glTF of one triangle, whose buffer is in the file itself, with changed members."""
     import base64
     data = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
     tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -20,6 +20,7 @@ def gltf(**changes):
 
 
 def glb(text, length=None, chunk=None):
+    """Returns a GLB file of a JSON text; `length` and `chunk` replace the true sizes in its heads."""
     text = text if isinstance(text, bytes) else text.encode()
     text += b" " * (-len(text) % 4)
     return struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) if length is None else length,

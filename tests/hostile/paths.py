@@ -1,4 +1,4 @@
-"""Names of files that lead where a scene must not read."""
+"""Rows of run.py: scenes that name files which a scene may not read, or things that are no files."""
 import os
 import socket
 
@@ -80,7 +80,7 @@ def rows():
     found.append(Row("paths", "a scene that is a link, in a sandbox",
                      lambda root: linked_scene(root) + ["--sandbox"], REFUSED))
 
-    # Buffers that a glTF file names.
+    # A glTF file names its buffer by an URI.
     for i, (label, uri) in enumerate({
             "absolute": "/etc/passwd", "up": "../secret.txt", "encoded": "%2e%2e/secret.txt",
             "http": "http://127.0.0.1:1/a.bin", "file": "file:///etc/passwd",
@@ -99,7 +99,8 @@ def rows():
             return check()
         found.append(Row("paths", f"buffer {label}", make, REFUSED, smoke=label == "up"))
 
-    # A name that is a link out of the root at one moment and a picture at the next.
+    # The name is by turns a link out of the root and a link to a file in the root, while kiln reads
+    # it.
     for use in ("atlas", "mesh", "wind"):
         name = {"atlas": "a.png", "mesh": "a.obj", "wind": "a.grid"}[use]
         def make(root, use=use, name=name):

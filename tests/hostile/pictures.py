@@ -1,4 +1,4 @@
-"""Pictures and videos that are broken, lie, or unpack to far more than they are."""
+"""Rows of run.py: pictures and videos that are broken, lie, or unpack to far more than their size."""
 import io
 import struct
 import subprocess
@@ -14,6 +14,7 @@ def chunk(kind, data):
 
 
 def png(width=4, height=4, depth=8, colour=2, before=b"", pixels=None, interlace=0, end=True):
+    """Returns a PNG file with any header, chunks `before` its pixels, and compressed `pixels`."""
     channels = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}.get(colour, 3)
     row = b"\0" + bytes((width * channels * depth + 7) // 8 if width < 1 << 16 else 8)
     data = zlib.compress(row * min(height, 1 << 12)) if pixels is None else pixels
@@ -58,6 +59,7 @@ def encoded(kind, **options):
 
 
 def patched(data, at, new):
+    """Returns the data with new bytes in place of those at an offset."""
     return data[:at] + new + data[at + len(new):]
 
 

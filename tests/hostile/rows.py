@@ -1,4 +1,4 @@
-"""What a row of the hostile table is, and the commands that rows give a file to."""
+"""Defines a row of run.py, a hostile input of kiln, and functions that make rows."""
 import dataclasses
 import pathlib
 
@@ -13,10 +13,10 @@ class Row:
     make: object
     codes: tuple = REFUSED
     seconds: float = 10
-    says: str = ""  # in what it prints
+    says: str = ""  # a text that kiln must print
     smoke: bool = False
     environment: dict = dataclasses.field(default_factory=dict)
-    meanwhile: object = None  # runs beside the command, until it is told to stop
+    meanwhile: object = None  # a function that runs beside the command, until its event is set
 
 
 def write(path, data):
@@ -25,7 +25,7 @@ def write(path, data):
 
 
 def quoted(text):
-    """A YAML scalar that holds any text."""
+    """Returns a YAML scalar of any text."""
     out = ""
     for c in text:
         out += c if 32 <= ord(c) < 127 and c not in '"\\' else (
@@ -33,7 +33,7 @@ def quoted(text):
     return f'"{out}"'
 
 
-# A scene that names a file as a texture, a floor, a sky, a mesh, a wind, or a terrain.
+# For each use of an asset, a scene that names the file FILE.
 USES = {
     "atlas": "systems: {a: {emit: {rate: 9, life: 1 s}, look: {atlas: FILE, cells: [1, 1]}}}",
     "cells": "systems: {a: {emit: {rate: 9, life: 1 s}, look: {atlas: FILE, cells: [4, 4]}}}",
@@ -62,7 +62,7 @@ def render(*options):
 
 
 def asset(kind, use, label, name, data, codes=REFUSED, command=check, **more):
-    """A row that checks a scene with a file of this name and content as an asset."""
+    """Returns a row that checks a scene with a file of this name and content as an asset."""
     def make(root):
         if data is not None:
             write(root / name, data() if callable(data) else data)
@@ -72,7 +72,7 @@ def asset(kind, use, label, name, data, codes=REFUSED, command=check, **more):
 
 
 def text_row(kind, label, text, codes=REFUSED, command=check, **more):
-    """A row whose scene file has this text."""
+    """Returns a row whose scene file has this text."""
     def make(root):
         write(root / "s.yaml", text() if callable(text) else text)
         return command()

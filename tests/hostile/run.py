@@ -1,8 +1,15 @@
 #!/usr/bin/python3
-"""run.py [--smoke] [--list] KILN COMPROMISED [KIND...]: gives kiln files that strangers could have made,
-each in a folder of its own below a folder with a secret. Each row has its exit code and its time; kiln
-says in one line why it refuses, and nothing that acts on a terminal; outside of the row's output nothing
-is written, and no file is opened but those that the row names and what every program opens (strace)."""
+"""Checks that kiln withstands files from strangers.
+
+    run.py [--smoke] [--list] KILN COMPROMISED [KIND...]
+
+If this fails, a malicious scene or asset can read or write other files, hang kiln, or crash it.
+Each row of the modules paths, pictures, meshes and texts makes files in an asset root, beside a
+secret file. kiln must end in time with the row's exit code, and print a short reason without
+control characters. It may write only its output, and open only files of the asset root and those
+that every program opens; strace shows that. COMPROMISED is the folder of a kiln-decode that has
+been taken over (compromised.c). --smoke runs a few rows, --list only prints them.
+"""
 import argparse
 import os
 import pathlib
@@ -18,7 +25,7 @@ import paths
 import pictures
 import texts
 
-# What every program opens, and kiln of its machine.
+# Prefixes of the paths that every program opens, or that kiln reads to know the machine.
 COMMON = ("/usr/", "/lib/", "/lib64/", "/etc/ld.so.", "/proc/self/", "/proc/filesystems",
           "/sys/devices/system/", "/sys/kernel/mm/transparent_hugepage/", "/dev/null")
 CALL = re.compile(r'(?:open|openat|openat2|creat|connect|socket|bind|execve|mkdir|mkdirat|unlink|unlinkat|rename\w*'
@@ -27,7 +34,7 @@ PATH = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
 def snapshot(folder):
-    """Every file below a folder, with its size and time; links as they are."""
+    """Returns mode, size and time of every file below a folder; links are not followed."""
     found = {}
     for path in sorted(folder.rglob("*")):
         status = path.lstat()
@@ -36,7 +43,7 @@ def snapshot(folder):
 
 
 def outside(trace, root, allowed):
-    """Calls that reached something they should not have."""
+    """Returns the system calls that reached a file which is not allowed, or a network."""
     bad = []
     for line in trace.read_text(errors="replace").splitlines():
         line = re.sub(r"^\d+ +", "", line)
@@ -48,7 +55,7 @@ def outside(trace, root, allowed):
             continue
         strings = PATH.findall(line)
         name = strings[0].encode().decode("unicode_escape") if strings else ""
-        # openat2 of a folder's descriptor: the kernel keeps it below the root
+        # kiln calls openat2 with the descriptor of the root, below which the kernel keeps it.
         if line.startswith("openat2(") and not name.startswith("/"):
             continue
         real = os.path.realpath(os.path.join(root, name))
@@ -61,6 +68,7 @@ def outside(trace, root, allowed):
 
 
 def said_well(row, code, output):
+    """Returns what is wrong with the text that kiln printed, or "" if nothing is."""
     text = output.decode("utf-8", errors="surrogateescape")
     if any(ord(c) < 32 and c not in "\n\t" or 0x7f <= ord(c) < 0xa0 or c in "\u202a\u202b\u202c\u202d\u202e" or
            0xdc80 <= ord(c) <= 0xdcff for c in text):
@@ -75,6 +83,7 @@ def said_well(row, code, output):
 
 
 def run(row, kiln, compromised):
+    """Runs kiln for a row. Returns its exit code, its seconds, the problems and its output."""
     with tempfile.TemporaryDirectory(prefix="kiln-hostile-") as place:
         place = pathlib.Path(os.path.realpath(place))
         root = place / "root"

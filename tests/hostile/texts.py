@@ -1,4 +1,7 @@
-"""Scene files that nest, repeat, name or ask for what they should not; and a decoder that lies."""
+"""Rows of run.py with hostile scene files, and with a kiln-decode that has been taken over.
+
+The scenes nest too deeply, repeat aliases, have odd names or values, or ask for too much work.
+"""
 from rows import DEVICE, LIMIT, OK, REFUSED, Row, asset, check, render, scene, text_row, write
 
 SYSTEM = "systems: {a: {emit: {rate: 9, life: 1 s}}}\n"
@@ -43,7 +46,7 @@ OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
 def decoder(how, use="atlas", codes=REFUSED, command=check, says="", smoke=False, **more):
-    """A row whose decoder has been taken over."""
+    """Returns a row whose kiln-decode is compromised.c, which misbehaves in the way `how`."""
     name, data = ("a.obj", OBJ) if use == "mesh" else ("a.png", PNG)
     row = asset("decoder", use, how, name, data, codes, command, says=says, smoke=smoke, **more)
     row.environment = {"KILN_COMPROMISED": how, "KILN_LIBEXEC_DIR": "COMPROMISED"}

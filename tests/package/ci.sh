@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
-# The shell parts of docs/ci/*.yml, run in a clean Debian 12 against packages in a folder: ci.sh SOURCE WORK.
+# Checks that the CI configurations of docs/ci/*.yml work in a new project: ci.sh SOURCE WORK. If
+# this fails, a user who copies one gets a failing pipeline. The script runs their shell commands in
+# a clean Debian 12, with the packages of WORK/release in place of the published ones.
 set -euo pipefail
 source=$1 work=$2
 . "$(dirname "$0")/root.sh"
-parts() { # the shell parts of a file, one script
+# parts FILE: prints the shell commands of a configuration, and its variables as exports.
+parts() {
     python3 - "$1" <<'PYTHON'
 import sys
 import yaml
@@ -30,7 +33,7 @@ for file in "$source"/docs/ci/*.yml; do
     cp "$source/scenes/fire_beam.yaml" "$root/project/effects/"
     {
         printf 'set -e\nexport KILN_RELEASES=file:///releases GITHUB_STEP_SUMMARY=/project/summary.md\ncd /project\n'
-        # The first run of a project: its goldens are made, as docs/testing.md has it.
+        # The project has no golden pictures yet. They are made by the command of docs/testing.md.
         parts "$file" | sed 's/^\(.*\)kiln test effects /kiln test effects --update missing --quiet || true\n&/'
     } >"$root/project/ci.sh"
     grep -q "kiln test effects" "$root/project/ci.sh" || fail "$file runs no test"

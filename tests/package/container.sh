@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# The steps of packaging/Containerfile, in roots of Debian in place of images: container.sh SOURCE WORK. The
-# first stage makes a release, which package.release has made by the same command: its steps are run only to
-# where that begins. The last stage is run as it stands, and then the program as its user.
+# Checks that packaging/Containerfile makes an image in which kiln runs: container.sh SOURCE WORK.
+# If this fails, the container cannot be built or used. No container program is needed: each stage
+# is run in a root folder of Debian. The step that makes a release is replaced by a copy of
+# WORK/release, which the test package.release has made by the same command. At the end, kiln is run
+# as the image's user.
 set -euo pipefail
 source=$1 work=$2
 . "$(dirname "$0")/root.sh"
@@ -10,17 +12,19 @@ rm -rf "$roots"
 mkdir -p "$roots"
 stage="" root="" user=root folder=/ entry="" count=0
 
-run_step() { # the root, the words of a RUN
+# run_step ROOT COMMAND: does a RUN step.
+run_step() {
     [[ $2 != *tools/release* ]] || { mkdir -p "$1/release" && cp "$work"/release/* "$1/release/"; return; }
     inside "$1" sh -c "cd $folder && $2" >"$roots/log" 2>&1 || { tail -n 20 "$roots/log"; fail "RUN $2"; }
 }
-copy_step() { # the words of a COPY
+# copy_step WORD...: does a COPY step.
+copy_step() {
     local from=$source to=${*: -1} file
     if [[ $1 == --from=* ]]; then
         from=$roots/${1#--from=}
         shift
     else
-        # What is copied of the tree is what is committed.
+        # The build context is a clone of the last commit.
         git clone -q --no-local "file://$source" "$root$to"
         return
     fi

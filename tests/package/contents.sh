@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
-# The lists of the packages against what is installed: contents.sh SOURCE BUILD. Each file that
-# `cmake --install` puts anywhere is in one package, but for copies that lie elsewhere in another; each line of
-# a list names something; all places say the same version.
+# Checks the file lists of the Debian packages against the files that `cmake --install` installs,
+# and that all files name the same version of kiln: contents.sh SOURCE BUILD. If this fails, a
+# package lacks a file, or two packages have the same. Each installed file must be in exactly one
+# package; a list may also install a copy of it in another folder. Each line of a list must match a
+# file.
 set -euo pipefail
 source=$1 build=$2
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
 DESTDIR=$root cmake --install "$build" --prefix /usr >/dev/null
-# As packaging/debian/rules configures it: the folders of helpers, and of libraries, have other names.
+# Files are moved to the folders that packaging/debian/rules configures for helper programs and
+# libraries.
 mkdir -p "$root/usr/multiarch/libkiln0"
 mv "$root/usr/libexec/kiln" "$root/usr/multiarch/libkiln0/"
 [[ ! -d $root/usr/lib/python3 ]] || mv "$root/usr/lib/python3" "$root/usr/"
@@ -32,7 +35,8 @@ cat wrong
 [[ ! -s wrong ]] || failed=1
 
 version=$(sed -n 's/^project(kiln VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")
-says() { # the words, the file
+# says TEXT FILE: checks that a file of the tree has the text.
+says() {
     grep -qF -- "$1" "$source/$2" || { echo "$2 does not say '$1'"; failed=1; }
 }
 says "#define KILN_VERSION \"$version\"" lib/kiln.h

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The packages in a clean Debian 12: install.sh SOURCE WORK KILN. They are installed, used for what they are for,
-# upgraded from an older version, removed and purged; nothing stays behind.
+# Checks the Debian packages in a clean Debian 12: install.sh SOURCE WORK KILN. If this fails, kiln
+# does not work for users of the packages, or cannot be upgraded or removed. The packages are
+# installed, used, upgraded from an older version, removed and purged; no file may be left behind.
 set -euo pipefail
 source=$1 work=$2 kiln=$3
 . "$(dirname "$0")/root.sh"
@@ -9,7 +10,7 @@ make_root "$root"
 version=$(sed -n 's/^project(kiln VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")
 mkdir -p "$root/release" "$root/older"
 
-# Packages of an older version, to be upgraded from: the same files under a smaller number.
+# Packages of an older version are made of the same files with a smaller version number.
 for package in "$work/release"/*.deb; do
     dpkg-deb -R "$package" "$root/older/tree"
     sed -i "s/^Version: .*/Version: 0.1.9-1/; s/(= [^)]*)/(= 0.1.9-1)/; s/(>= $version)/(>= 0.1.9)/" \
@@ -19,21 +20,26 @@ for package in "$work/release"/*.deb; do
     cp "$package" "$root/release/"
 done
 names=(kiln libkiln0 libkiln-dev python3-kiln kiln-examples)
-files() { # the packages of a version, by their names
+# files VERSION NAME...: prints the files of packages.
+files() {
     local name
     for name in "${@:2}"; do
         (cd "$root/release" && printf './%s\n' "$name"_"$1"-1_*.deb)
     done
 }
+# list: prints the files of the root that packages may leave behind.
 list() { (cd "$root" && find etc usr var/lib -xdev -type f -not -path 'var/lib/apt/*' -not -path 'var/lib/dpkg/*' \
     -not -path '*/__pycache__/*' | sort); }
-said() { # exit code, what it prints in the end, a command
+# said CODE PATTERN COMMAND: runs a command in the root; checks its exit code and last line of
+# output.
+said() {
     local code=0 text
     text=$(inside "$root" sh -c "$3" 2>&1 | tr '\r' '\n' | tail -n 1; exit "${PIPESTATUS[0]}") || code=$?
     [[ $code == "$1" && $text =~ $2 ]] || fail "$3: exit code $code: $text"
 }
 
-# A newcomer's way: the program alone, and a first clip.
+# A newcomer installs the program alone. Pictures work; a video fails with a message that names the
+# missing package.
 list >"$work/before"
 mapfile -t packages < <(files "$version" kiln kiln-examples)
 apt_install "$root" "${packages[@]}"
@@ -43,7 +49,7 @@ said 0 "" "kiln render /usr/share/kiln/scenes/fire_beam.yaml -o /tmp/beam.png --
 said 6 "libav.*cannot be loaded; install Debian's package" \
     "kiln render /usr/share/kiln/scenes/fire_beam.yaml -o /tmp/beam.mp4 --frames 0-3 --size 320x180 -q"
 
-# What is recommended makes the rest work. The pixels are those that the tree's own build draws.
+# With the recommended packages everything works, and the pixels are those of the build KILN.
 apt_install "$root" libavcodec59 libavformat59 libavutil57 libswscale6 libassimp5 libseccomp2 man-db
 said 0 "" "kiln render /usr/share/kiln/scenes/campfire.yaml -o /tmp/fire.mp4 --frames 0-9 --size 320x180 -q"
 said 0 "" "kiln render /usr/share/kiln/scenes/campfire.yaml -o /tmp/fire.png --frames 9 --size 320x180 -q"
@@ -53,7 +59,7 @@ said 0 "sandbox: " "kiln devices --verbose | grep sandbox || kiln devices | grep
     fail "the package draws another picture than the tree's build"
 said 0 "^/usr/share/man/man5/kiln-scene.5" "man -w 5 kiln-scene"
 
-# The library from C, C++ and Python.
+# The library is used from C, C++ and Python.
 mapfile -t packages < <(files "$version" libkiln0 libkiln-dev python3-kiln)
 apt_install "$root" "${packages[@]}" gcc g++ cmake ninja-build pkg-config
 said 0 "" "cmake -S /usr/share/kiln/examples -B /tmp/examples -G Ninja"
@@ -75,7 +81,7 @@ said 0 "" "gcc -x c - -o /tmp/static \$(pkg-config --static --cflags --libs kiln
 int main(void) { return kiln_version()[0] == 0; }
 C"
 
-# Upgraded from an older version, removed, purged.
+# The packages are upgraded from the older version, removed and purged.
 inside "$root" apt-get -q -y purge "${names[@]}" >/dev/null 2>&1
 mapfile -t older < <(files 0.1.9 "${names[@]}")
 mapfile -t newer < <(files "$version" "${names[@]}")
@@ -88,7 +94,8 @@ done
 said 0 "^kiln $version " "kiln --version"
 inside "$root" apt-get -q -y remove "${names[@]}" >/dev/null 2>&1
 said 127 "not found" "kiln --version"
-inside "$root" dpkg --purge "${names[@]}" >/dev/null 2>&1 # apt knows no package that nothing has
+# dpkg purges here, since apt does not know packages that no archive has.
+inside "$root" dpkg --purge "${names[@]}" >/dev/null 2>&1
 list >"$work/after"
 left=$(comm -13 "$work/before" "$work/after" | grep -i kiln || true)
 [[ -z $left ]] || fail "left behind: $left"

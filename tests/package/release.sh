@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# tools/release in a clean root: release.sh SOURCE WORK. A Debian 12 of its own has what tools/setup installs
-# and a clone of the last commit; what comes out lies in WORK/release.
+# Checks that tools/release makes the packages, checksums and SPDX document of a release: release.sh
+# SOURCE WORK. If this fails, no release can be made from a clean clone. tools/release runs in a
+# fresh Debian 12 with the packages that tools/setup installs and a clone of the last commit. Its
+# files are left in WORK/release.
 set -euo pipefail
 source=$1 work=$2
 mkdir -p "$work"
@@ -19,8 +21,9 @@ cat "$work/release.log"
 rm -rf "$work/release"
 mv "$root/src/out/release" "$work/release"
 
-# What it refuses.
-expect() { # the words, a command in the tree
+# tools/release must refuse uncommitted changes, and an output folder with other files.
+# expect TEXT COMMAND: checks that a command in the clone fails and prints the text.
+expect() {
     local said code=0
     said=$(inside "$root" sh -c "cd /src && $2" 2>&1) || code=$?
     [[ $code == 1 && $said == *"$1"* ]] || fail "$2: exit code $code: $said"
@@ -34,7 +37,8 @@ for package in kiln libkiln0 libkiln-dev python3-kiln kiln-examples; do
     [[ -f ${files[0]} ]] || fail "there is no package $package"
 done
 sha256sum --quiet --check SHA256SUMS
-# SPDX: each package with its checksum, each file once, nothing that points nowhere.
+# The SPDX document must have each of the five packages with its checksum, no identifier twice, and
+# no relationship to an unknown identifier.
 jq -e --arg count 5 '
     [.packages[].SPDXID, .files[].SPDXID, .SPDXID] as $ids
     | ($ids | length) == ($ids | unique | length)

@@ -1,6 +1,8 @@
-# Sourced by the tests of packages: roots of Debian 12 to install in. $work is a folder to make them in.
+# Defines functions that make root folders of Debian 12 and run commands in them. The tests of
+# packages source this file; $work is their folder.
 
-# make_root FOLDER: a fresh Debian 12 with apt and nothing else, unpacked from a tar that is made once.
+# make_root FOLDER: makes a fresh Debian 12 with apt and nothing else. It is unpacked from a tar
+# file, which the first call makes.
 make_root() {
     if [[ ! -s $work/base.tar ]]; then
         mmdebstrap --quiet --format=tar --variant=apt bookworm "$work/base.tar.new" || return 1
@@ -12,7 +14,8 @@ make_root() {
     cp --dereference /etc/resolv.conf "$1/etc/"
 }
 
-# inside ROOT COMMAND...: runs it there as root, with /proc and a small /dev of its own.
+# inside ROOT COMMAND...: runs a command in the root folder as root, with a /proc and a small /dev
+# of its own.
 inside() {
     # shellcheck disable=SC2016
     unshare --mount --pid --fork --kill-child bash -c '
@@ -25,7 +28,8 @@ inside() {
             ${SET_INSIDE:-} chroot "$@"' inside "$@"
 }
 
-# apt_install ROOT PACKAGE...: names of the archive or files, "./x.deb", below the root's /release.
+# apt_install ROOT PACKAGE...: installs packages of Debian's archive by name, or files "./x.deb" of
+# the root's folder /release.
 apt_install() {
     local root=$1
     shift

@@ -1,4 +1,4 @@
-"""The jobs of run.py: each makes a scene.yaml and its files in a folder."""
+"""Makes the jobs of run.py, good and bad ones: each writes a scene.yaml and its files to a folder."""
 import dataclasses
 import importlib
 import os
@@ -28,12 +28,12 @@ class Job:
     name: str
     make: object  # writes the job into a folder that is empty
     code: int = 0
-    says: str = ""  # in the cause
+    says: str = ""  # a text that the reported cause must have
     smoke: bool = False
 
 
 def shipped(kiln, scene, size, frames, seed):
-    """A scene of scenes/ as it is, but small and short, with the files that it names."""
+    """Returns a maker of a scene of scenes/, smaller and shorter, with the files that it names."""
     def make(root):
         text = subprocess.run([kiln, "check", SOURCE / "scenes" / f"{scene}.yaml", "--set", f"output.size={size}",
                                "--set", f"output.frames={frames}", "--set", f"seed={seed}"],
@@ -57,7 +57,7 @@ def picture(root, name, chance):
         noise(root, name, chance.choice((16, 24, 40)), chance)
 
 
-# What own scenes vary: lines of YAML, with FILE for one that they need.
+# Lines of YAML for generated scenes, by the kind of scene. FILE stands for an asset, one of FILES.
 VARIATIONS = {
     "plain": ["a: {emit: {rate: 200, life: 1 s, speed: [1, 3]}, look: {shape: point, size: 3 cm}}",
               "a: {emit: {rate: 90, life: 2 s, speed: 2}, forces: [gravity: {}, drag: 0.3], look: {temperature: 1800}}",
@@ -78,6 +78,7 @@ FILES = {"texture": ("a.png", "a.jpg", "a.bmp", "a.tiff", "a.webp"), "video": ("
 
 
 def own(kind, number):
+    """Returns a maker of a generated scene. `number` chooses its line, file, size and rate."""
     chance = random.Random(f"{kind} {number}")
     line = VARIATIONS[kind][number % len(VARIATIONS[kind])]
     file = FILES[kind][number // len(VARIATIONS[kind]) % len(FILES[kind])]
@@ -100,7 +101,7 @@ def own(kind, number):
 
 
 def good(kiln):
-    """140 jobs; the first takes long enough to be killed when two of its four parts are there."""
+    """Yields 140 jobs that succeed. The first is so long that it can be killed between its parts."""
     yield Job("long", "long", write("kiln: 1\noutput: {size: [96, 54], fps: 10, frames: 80}\nsystems: {a: {emit: "
                                     "{rate: 5000, life: 3 s, speed: [1, 4]}, look: {shape: point}}}\n"), smoke=True)
     scenes = sorted(path.stem for path in (SOURCE / "scenes").glob("*.yaml"))
@@ -133,8 +134,11 @@ def hostile(row):
 
 
 def rows_of_hostile(modules):
-    """Those that kiln refuses as they are, as many of a kind as the table says: its smoke, and some of the rest.
-    The modules of tests/hostile take seconds to make their bombs."""
+    """Yields rows of tests/hostile that kiln refuses, as many of a kind as the table `many` says.
+
+    Rows of the smoke test come first. The modules are imported only when needed, since some take
+    seconds to make their compressed files.
+    """
     many = {"paths": 12, "pictures": 11, "videos": 6, "meshes": 7, "grids": 4, "scenes": 7}
     found = [row for module in modules for row in importlib.import_module(module).rows()
              if row.codes == rows.REFUSED and not row.meanwhile]
@@ -149,6 +153,7 @@ def rows_of_hostile(modules):
 
 
 def broken():
+    """Yields jobs that are broken or exceed a limit."""
     head, system = "kiln: 1\n", "systems: {a: {emit: {rate: 9, life: 1 s}}}\n"
     slow = "output: {size: [4096, 4096], frames: 1000}\n"
 
@@ -186,6 +191,6 @@ def broken():
 
 
 def bad(smoke):
-    """60 jobs, or those of the smoke and some more."""
+    """Yields 60 jobs that must fail; for the smoke test, fewer, of which run.py takes some."""
     yield from rows_of_hostile(["paths", "texts"] if smoke else ["paths", "pictures", "meshes", "texts"])
     yield from broken()

@@ -1,8 +1,12 @@
 #!/usr/bin/python3
-"""run.py [--smoke] KILN: gives the worker of examples/queue 200 jobs, of which 60 are hostile or broken, kills
-it once and stops it once on the way, and then looks whether every good clip has the bytes of a plain
-'kiln render', every bad job is reported with its cause, and nothing else is left: no file, no process, no
-shared memory. Root runs jobs as a user whom nobody else is. --smoke has 13 jobs."""
+"""Tests the worker of examples/queue with 200 jobs, 60 of them bad: run.py [--smoke] KILN.
+
+If this fails, a service that renders scenes of strangers loses jobs, gives wrong clips, or lets a
+job reach files of others. The worker is killed once and stopped once on the way. In the end, every
+good clip must have the bytes of a plain `kiln render`, every bad job must be reported with its
+cause, and nothing else may be left: no file, no process, no shared memory. As root, the test runs
+jobs as a user of their own. --smoke has 13 jobs.
+"""
 import argparse
 import collections
 import concurrent.futures
@@ -25,11 +29,11 @@ import jobs
 WORKER = jobs.SOURCE / "examples/queue/worker.py"
 PATIENCE_S = 1800
 CAUSE = re.compile(r"job/scene\.yaml(:\d+:\d+)?: .|.*the limit `\w+`|output/clip\.mp4: .|job/[^:]+: has another name")
-# What may lie in the spool when all is done.
+# The paths that may lie in the spool when all jobs are done.
 KEPT = re.compile(r"lock|report\.ndjson|cache(/kiln(/\w+\.\w+)?)?|incoming|running|done|failed"
                   r"|(done|failed)/[^/]+(/(result\.json|events\.\d\.ndjson|messages))?|done/[^/]+/clip\.mp4"
                   r"|failed/[^/]+/(job(/.*)?|secret\.txt)")
-CACHE_BYTES = 512 << 20  # docs/service.md
+CACHE_BYTES = 512 << 20  # the limit of the cache that docs/service.md promises
 problems = []
 
 
@@ -40,7 +44,7 @@ def expect(true, *text):
 
 
 def processes(user, programs):
-    """Numbers of the processes of a user whom nobody else is, or of the programs in a folder."""
+    """Returns the processes of the programs in a folder and, as root, those of the jobs' user."""
     found = []
     for place in pathlib.Path("/proc").glob("[0-9]*"):
         try:
@@ -53,6 +57,7 @@ def processes(user, programs):
 
 
 def fresh_user():
+    """Returns a user number without account and process; without root, that of the present user."""
     if os.geteuid() != 0:
         return os.geteuid()
     known = {entry.pw_uid for entry in pwd.getpwall()} | {
@@ -61,7 +66,7 @@ def fresh_user():
 
 
 def files_elsewhere(user):
-    """Files of the user where programs leave what they should not."""
+    """Returns temporary files and shared memory of the user, which no job may leave behind."""
     if os.geteuid() != 0:
         return []
     found = subprocess.run(["find", "/tmp", "/var/tmp", "/dev/shm", "-maxdepth", "2", "-uid", str(user)],
@@ -87,7 +92,7 @@ class Queue:
         self.user = fresh_user()
         self.spool, self.made, self.programs = work / "spool", work / "made", work / "bin"
         self.programs.mkdir()
-        shutil.copy(kiln, self.programs / "kiln")  # where the user of the jobs can start it
+        shutil.copy(kiln, self.programs / "kiln")  # the user of the jobs can start programs here
         shutil.copytree(kiln.parent / "libexec", self.programs / "libexec")
         self.kiln = self.programs / "kiln"
         (self.spool / "incoming").mkdir(parents=True)
@@ -97,7 +102,7 @@ class Queue:
         self.jobs = {f"{i:03}-{re.sub('[^A-Za-z0-9]+', '-', job.name)}": job for i, job in enumerate([first, *rest])}
 
     def bring(self):
-        """Makes all jobs, those that are good twice."""
+        """Makes all jobs in incoming/, and the good ones also in `made`, for a plain `kiln render`."""
         for name, job in self.jobs.items():
             root = self.made / name / "root"
             root.mkdir(parents=True)
@@ -107,7 +112,7 @@ class Queue:
                 shutil.copytree(root, hidden)
             else:
                 root.rename(hidden)
-            if job.kind == "bad paths":  # where they lead, there is something
+            if job.kind == "bad paths":  # a secret lies where the bad paths lead
                 (self.spool / "running" / name).mkdir(parents=True)
                 (self.spool / "running" / name / "secret.txt").write_text(jobs.paths.SECRET)
             hidden.rename(self.spool / "incoming" / name)
@@ -121,8 +126,12 @@ class Queue:
         return [json.loads(line) for line in path.read_text().split("\n")[:-1]] if path.exists() else []
 
     def play(self):
-        """Runs the worker: it is killed when the first part of the first clip is whole, and kiln is when it goes on
-        with that; the worker is stopped when half of the jobs are done."""
+        """Runs the worker until all jobs are done, and disturbs it.
+
+        The worker is killed when the first part of the first clip is whole. Started again, it
+        resumes that job, and kiln is killed. The worker is stopped by SIGTERM when half of the jobs
+        are done.
+        """
         name = next(iter(self.jobs))
         journal = self.spool / "running" / name / "output/clip.mp4.journal"
         worker = self.start()
@@ -160,13 +169,14 @@ class Queue:
         print(f"the job that was killed twice kept {kept} frames")
 
     def plain(self, name):
-        """SHA-256 of the clip that a plain call makes."""
+        """Returns the SHA-256 of the clip that a plain `kiln render` makes of a job's scene."""
         clip = self.made / name / "clip.mp4"
         subprocess.run([self.kiln, "render", self.made / name / "root/scene.yaml", "--device", "cpu", "-q", "-o", clip],
                        check=True, env=dict(os.environ, XDG_CACHE_HOME=str(self.made)))
         return hashlib.sha256(clip.read_bytes()).hexdigest()
 
     def judge(self):
+        """Compares the report and the clips of all jobs with what is expected."""
         lines = collections.defaultdict(list)
         for line in self.report():
             if line["outcome"] != "again":
@@ -209,6 +219,7 @@ class Queue:
                       f"{ascii(line['message'])[1:-1][:110]}")
 
     def look_around(self):
+        """Checks that the jobs have left nothing else behind. Returns the bytes of the spool."""
         expect(not processes(self.user, self.programs), "processes are left")
         expect(not (left := files_elsewhere(self.user)), "it left", left)
         expect(not os.listdir(self.spool / "incoming") and not os.listdir(self.spool / "running"), "jobs are left")
@@ -222,7 +233,7 @@ class Queue:
         return sum(sizes.values())
 
 
-# A program in kiln's place, which does what the job is called.
+# A program in place of kiln, which misbehaves in the way that the job's name says.
 DOUBLE = """#!/bin/sh
 echo '{"event": "started"}'
 case $PWD in
@@ -239,7 +250,7 @@ esac
 
 
 def play_double(work, user):
-    """The worker survives what kiln does not do, and completes what a worker that was killed has left."""
+    """Tests the worker with failures that kiln does not show, and with jobs of a killed worker."""
     double, spool = work / "double", work / "double-spool"
     double.write_text(DOUBLE)
     double.chmod(0o755)
@@ -250,7 +261,7 @@ def play_double(work, user):
     (spool / "running/empty").mkdir(parents=True)
     (spool / "running/known/output").mkdir(parents=True)
     (spool / "running/known/output/clip.mp4").touch()
-    for name, tries in (("begun", 1), ("given up", 3)):  # the worker was killed during the last
+    for name, tries in (("begun", 1), ("given up", 3)):  # the worker was killed during the last try
         (spool / "running" / name / "job").mkdir(parents=True)
         for i in range(tries):
             (spool / "running" / name / f"events.{i + 1}.ndjson").touch()

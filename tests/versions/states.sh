@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Do the scenes of an older version still load, and step as they did? states.sh KILN FOLDER ASSETS: FOLDER
-# has the scenes as that version had them and a file `states`, whose lines are "SCENE FRAME HASH". A state
-# that changes is a decision: CHANGELOG.md says why, and the line here is changed with it.
+# Checks that scenes of an older version still load and have the same simulation states: states.sh
+# KILN FOLDER ASSETS. If this fails, users' scenes break or look different after an upgrade. FOLDER
+# has the scenes of that version and a file `states` with lines "SCENE FRAME HASH". A state may be
+# changed on purpose; then CHANGELOG.md says why, and its line in `states` is changed.
 set -euo pipefail
 kiln=$1 folder=$2 assets=$3
 frames=$(mktemp -d)
