@@ -15,8 +15,8 @@ import sys
 import tempfile
 import time
 
-# The text that is typed, and the line after Tab. Where the shells differ, {"bash": ..., "zsh":
-# ...}.
+# The text that is typed, and the line after Tab. Where the shells differ, the line is a dictionary
+# by the name of the shell.
 CASES = [
     ("kiln ren", "kiln render "),
     ("kiln comp", "kiln compare "),

@@ -57,7 +57,10 @@ def write_file(folder, name, block):
 
 
 def check(path, folder, environment, update, only):
-    """Returns the lines of the document, and how many sessions were played."""
+    """Executes the blocks of a document.
+
+    Returns its lines, with the output of its sessions, and the number of sessions.
+    """
     with open(path, encoding="utf-8") as file:
         lines = file.read().splitlines()
     result, sessions, section = [], 0, None

@@ -140,7 +140,7 @@ def run(template, given):
 
 
 def cancel(step, values, task, percent):
-    """Runs a task and cancels it by SIGTERM at a progress in percent, as NOTIFY_THEN_TERMINATE asks.
+    """Runs a task and cancels it at a progress in percent, as NOTIFY_THEN_TERMINATE asks.
 
     Returns its exit code and its messages to the engine.
     """

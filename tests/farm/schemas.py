@@ -19,7 +19,7 @@ import kubernetes
 import openjd
 import yaml
 
-FRAMES = 180  # three parts
+FRAMES = 180  # 6 s at 30 frames a second: three parts of a clip
 
 # Each row of the tables below plants a fault in an example: the place, the value that is put there
 # (REMOVED: the place is deleted), and the faults that must be found. A row stands for a typing

@@ -13,7 +13,7 @@ draw_calm
 
 enough=2048 # MiB with which each job succeeds
 
-# least PROGRAM...: the least MiB of address space with which a command succeeds.
+# least PROGRAM...: prints the least MiB of address space with which a command succeeds.
 least() {
     local low=1 high=$enough middle
     while ((low < high)); do

@@ -56,7 +56,7 @@ static size_t mutate(uint8_t *data, size_t size, uint64_t *random)
         } else if (what == 2) {
             const char *piece = pieces[next_random(random) % (sizeof pieces / sizeof *pieces)];
             size = insert(data, size, at, piece, strlen(piece));
-        } else if (size) { /* a piece of the text itself */
+        } else if (size) { /* inserts a copy of some bytes of the input */
             size_t length = 1 + next_random(random) % 64;
             length = length < size - at ? length : size - at;
             uint8_t copy[64];

@@ -12,7 +12,7 @@
 #include "fuzz.h"
 
 enum {
-    LINE = 13, /* bytes of the first line, "kiln state 1\n"; the head's size follows */
+    LINE = 13,       /* bytes of the first line, "kiln state 1\n"; the head's size follows */
     MAX_HEAD = 1024, /* bytes, as in job/state.c */
 };
 

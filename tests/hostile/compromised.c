@@ -1,8 +1,8 @@
 /* Stands in for a kiln-decode that a malicious file has taken over. It confines itself as the real
  * one does. Then, instead of decoding, it misbehaves in the way that the environment variable
  * KILN_COMPROMISED names. "attempts" tries to escape from the confinement and reports which
- * attempts worked. The other ways send kiln wrong answers, each of which a check of kiln must
- * refuse. */
+ * attempts worked. "sound" sends a correct mesh. All other ways send wrong answers or none, which
+ * kiln must notice. */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>

@@ -20,7 +20,7 @@ def gltf(**changes):
 
 
 def glb(text, length=None, chunk=None):
-    """Returns a GLB file of a JSON text; `length` and `chunk` replace the true sizes in its heads."""
+    """Returns a GLB file of a JSON text; `length` and `chunk` replace the true sizes."""
     text = text if isinstance(text, bytes) else text.encode()
     text += b" " * (-len(text) % 4)
     return struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) if length is None else length,

@@ -1,4 +1,4 @@
-"""Rows of run.py: scenes that name files which a scene may not read, or things that are no files."""
+"""Rows of run.py: scenes that name files which a scene may not read, or FIFOs and the like."""
 import os
 import socket
 

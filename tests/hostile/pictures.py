@@ -1,4 +1,4 @@
-"""Rows of run.py: pictures and videos that are broken, lie, or unpack to far more than their size."""
+"""Rows of run.py: pictures and videos that are broken, lie, or unpack to far more data."""
 import io
 import struct
 import subprocess

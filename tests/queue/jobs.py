@@ -1,4 +1,4 @@
-"""Makes the jobs of run.py, good and bad ones: each writes a scene.yaml and its files to a folder."""
+"""Makes the jobs of run.py, good and bad ones: each writes a scene and its files to a folder."""
 import dataclasses
 import importlib
 import os
@@ -101,7 +101,7 @@ def own(kind, number):
 
 
 def good(kiln):
-    """Yields 140 jobs that succeed. The first is so long that it can be killed between its parts."""
+    """Yields 140 jobs that succeed. The first can be killed between its parts."""
     yield Job("long", "long", write("kiln: 1\noutput: {size: [96, 54], fps: 10, frames: 80}\nsystems: {a: {emit: "
                                     "{rate: 5000, life: 3 s, speed: [1, 4]}, look: {shape: point}}}\n"), smoke=True)
     scenes = sorted(path.stem for path in (SOURCE / "scenes").glob("*.yaml"))

@@ -102,7 +102,7 @@ class Queue:
         self.jobs = {f"{i:03}-{re.sub('[^A-Za-z0-9]+', '-', job.name)}": job for i, job in enumerate([first, *rest])}
 
     def bring(self):
-        """Makes all jobs in incoming/, and the good ones also in `made`, for a plain `kiln render`."""
+        """Makes all jobs in incoming/; good ones also in `made`, for a plain `kiln render`."""
         for name, job in self.jobs.items():
             root = self.made / name / "root"
             root.mkdir(parents=True)

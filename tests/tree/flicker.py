@@ -74,7 +74,7 @@ systems:
 
 
 def measure_scene(source, kiln, rate, life, turn=200, fade=0):
-    """Returns the shares of spikes, moving, smooth and flicker that tools/flicker prints for a scene.
+    """Returns the shares that tools/flicker prints for a scene: spikes, moving, smooth, flicker.
 
     The scene emits `rate` discs a second that live for `life`. The camera rolls by `turn` degrees a
     second. A disc fades in during the first share `fade` of its life, and out during the last.
@@ -92,7 +92,7 @@ def row_of(source, *arguments):
 
 
 def measure(source, frames, *options):
-    """Returns the shares of spikes, moving, smooth and flicker that tools/flicker prints."""
+    """Returns the shares that tools/flicker prints for frames: spikes, moving, smooth, flicker."""
     with tempfile.TemporaryDirectory() as folder:
         for t, frame in enumerate(frames):
             Image.fromarray(frame.astype(numpy.uint8)).convert("RGB").save(f"{folder}/{t:03d}.png")

@@ -29,8 +29,9 @@ done < <(nm --undefined-only --print-file-name "${objects[@]}" |
     sed -nE "s/^([^:]+):.* U ($functions)[fl]?(@.*)?\$/\1 \2/p")
 
 # A header can also bring in arithmetic that differs between machines without any of these symbols.
-# tgmath.h and complex.h may not be included at all. cglm's code for vector instructions rounds differently
-# from its plain C code; only lib/base/matrix.h, which chooses the plain C code, may include it.
+# tgmath.h and complex.h may not be included at all. cglm's code for vector instructions rounds
+# differently from its plain C code; only lib/base/matrix.h, which chooses the plain C code, may
+# include it.
 if grep -rnE '#[ \t]*include[ \t]*["<](tgmath|complex|cglm)' "$source/lib" "$source/shaders" |
     grep -vE "^$source/lib/base/matrix\.h:[0-9]+:#include <cglm/"; then
     failed=1
