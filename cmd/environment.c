@@ -4,7 +4,7 @@
 #include "command.h"
 
 const struct variable variables[] = {
-    {"KILN_SIMD", "Vector width of the techniques 'cpu': plain, sse4.1, avx2, avx512 or neon, as "
+    {"KILN_SIMD", "Vector width of the techniques 'cpu': plain, avx2, avx512 or neon, as "
                   "the machine has them. The pixels are the same with each."},
     {"KILN_LIMITS", "Limits of jobs where --limits does not set them (see 'kiln help limits')."},
     {"KILN_SANDBOX",

@@ -1,12 +1,12 @@
 /* This header moves the lanes of a vector that a mask selects together. AVX-512 has an instruction
- * for it; SSE4.1, AVX2 and NEON permute lanes by a table. */
+ * for it; AVX2 and NEON permute lanes by a table. */
 #ifndef KILN_BASE_COMPRESS_H
 #define KILN_BASE_COMPRESS_H
 
 #include "base/lanes.h"
 
 /* Says which lanes are selected; count: their number. */
-#if KILN_SIMD_LEVEL == 3
+#if defined KILN_LEVEL_AVX512
 struct selection {
     __mmask16 lanes;
     int count;
@@ -24,7 +24,7 @@ SIMD void vf_compress(float *to, struct selection selection, vf x)
 {
     vf_store(to, (vf)_mm512_maskz_compress_ps(selection.lanes, (__m512)x));
 }
-#elif KILN_SIMD_LEVEL == 2
+#elif defined KILN_LEVEL_AVX2
 struct selection {
     __m256i order;
     int count;
@@ -44,7 +44,7 @@ SIMD void vf_compress(float *to, struct selection selection, vf x)
 {
     vf_store(to, (vf)_mm256_permutevar8x32_ps((__m256)x, selection.order));
 }
-#elif KILN_SIMD_LEVEL == 1 || KILN_SIMD_LEVEL == 4
+#elif defined KILN_LEVEL_NEON
 struct selection {
     const uint8_t *order; /* of the 16 bytes of a vector */
     int count;
@@ -73,12 +73,7 @@ SIMD struct selection selection_of(vi mask)
 
 SIMD void vf_compress(float *to, struct selection selection, vf x)
 {
-#if KILN_SIMD_LEVEL == 4
     vf_store(to, (vf)vqtbl1q_u8((uint8x16_t)x, vld1q_u8(selection.order)));
-#else
-    const __m128i order = _mm_loadu_si128((const __m128i_u *)selection.order);
-    vf_store(to, (vf)_mm_shuffle_epi8((__m128i)x, order));
-#endif
 }
 #else
 struct selection {

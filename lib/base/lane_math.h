@@ -51,7 +51,7 @@ struct vi_pair {
     vi first, second;
 };
 
-#if KILN_SIMD_LEVEL == 3
+#if defined KILN_LEVEL_AVX512
 
 SIMD bool any(vi mask)
 {
@@ -78,7 +78,7 @@ SIMD struct vi_pair vi_gather_pair(const int32_t *from, vi index)
                             (vi)_mm512_permutex2var_epi32(a, (__m512i)((vi)even + 1), b)};
 }
 
-#elif KILN_SIMD_LEVEL == 2
+#elif defined KILN_LEVEL_AVX2
 
 SIMD bool any(vi mask)
 {
@@ -111,19 +111,7 @@ SIMD struct vi_pair vi_gather_pair(const int32_t *from, vi index)
 
 #else
 
-#if KILN_SIMD_LEVEL == 1
-
-SIMD bool any(vi mask)
-{
-    return _mm_movemask_ps((__m128)mask) != 0;
-}
-
-SIMD vf round_down(vf x)
-{
-    return (vf)_mm_floor_ps((__m128)x);
-}
-
-#elif KILN_SIMD_LEVEL == 4
+#ifdef KILN_LEVEL_NEON
 
 SIMD bool any(vi mask)
 {
@@ -139,17 +127,16 @@ SIMD vf round_down(vf x)
 
 SIMD bool any(vi mask)
 {
-    int32_t bits = 0;
-    for (int i = 0; i < LANES; i++)
-        bits |= mask[i];
-    return bits != 0;
+    return vi_bits(mask) != 0;
 }
 
+/* Truncates, and subtracts 1 where that is above x. Numbers of 2^23 or more are whole already. */
 SIMD vf round_down(vf x)
 {
-    for (int i = 0; i < LANES; i++)
-        x[i] = floorf(x[i]);
-    return x;
+    const vf truncated = vf_of(vi_of(x));
+    const vf whole = truncated - vf_where(truncated > x, vf_all(1.0f));
+    const vf signed_whole = (vf)((vi)whole | ((vi)x & INT32_MIN)); /* the floor of -0 is -0 */
+    return vf_select(vf_abs(x) < 0x1p23f, signed_whole, x);
 }
 
 #endif

@@ -1,7 +1,8 @@
-/* This header defines vectors of floats for code on the host, by the level that a file
- * is compiled for: KILN_SIMD_LEVEL is 0 (any machine), 1 (SSE4.1), 2 (AVX2), 3 (AVX-512 with BW) or
- * 4 (NEON). Every operation gives the same bits at all levels; a port to another processor starts
- * from level 0. */
+/* This header defines vectors of floats for code on the host, by the level that a file is compiled
+ * for (base/simd.h). Level plain uses SSE2 on x86-64, and on other processors only what C has.
+ * Every operation gives the same bits at all levels; a port to another processor starts from level
+ * plain.
+ */
 #ifndef KILN_BASE_LANES_H
 #define KILN_BASE_LANES_H
 
@@ -10,17 +11,19 @@
 #include <stdint.h>
 #include <string.h>
 
-#if KILN_SIMD_LEVEL == 3
+#if defined KILN_LEVEL_AVX512
 #define LANES 16
-#elif KILN_SIMD_LEVEL == 2
+#elif defined KILN_LEVEL_AVX2
 #define LANES 8
 #else
 #define LANES 4
 #endif
-#if KILN_SIMD_LEVEL == 4
+#ifdef KILN_LEVEL_NEON
 #include <arm_neon.h>
-#elif KILN_SIMD_LEVEL > 0
+#elif defined KILN_LEVEL_AVX2 || defined KILN_LEVEL_AVX512
 #include <immintrin.h>
+#elif defined __SSE2__
+#include <emmintrin.h>
 #endif
 
 #define SIMD static inline __attribute__((always_inline))
@@ -74,7 +77,7 @@ SIMD vf vf_abs(vf x)
     return (vf)((vi)x & 0x7fffffff);
 }
 
-#if KILN_SIMD_LEVEL == 3
+#if defined KILN_LEVEL_AVX512
 SIMD vf vf_min(vf a, vf b)
 {
     return (vf)_mm512_min_ps((__m512)a, (__m512)b);
@@ -87,7 +90,7 @@ SIMD vf vf_sqrt(vf a)
 {
     return (vf)_mm512_sqrt_ps((__m512)a);
 }
-#elif KILN_SIMD_LEVEL == 2
+#elif defined KILN_LEVEL_AVX2
 SIMD vf vf_min(vf a, vf b)
 {
     return (vf)_mm256_min_ps((__m256)a, (__m256)b);
@@ -100,7 +103,7 @@ SIMD vf vf_sqrt(vf a)
 {
     return (vf)_mm256_sqrt_ps((__m256)a);
 }
-#elif KILN_SIMD_LEVEL == 1
+#elif defined __SSE2__
 SIMD vf vf_min(vf a, vf b)
 {
     return (vf)_mm_min_ps((__m128)a, (__m128)b);
@@ -130,7 +133,7 @@ SIMD vf vf_max(vf a, vf b)
 
 SIMD vf vf_sqrt(vf a)
 {
-#if KILN_SIMD_LEVEL == 4
+#ifdef KILN_LEVEL_NEON
     return (vf)vsqrtq_f32((float32x4_t)a);
 #else
     for (int i = 0; i < LANES; i++)
@@ -155,13 +158,13 @@ SIMD vi vi_of(vf x)
 /* Returns a bit for each lane of a mask, lane 0 in the lowest. */
 SIMD uint32_t vi_bits(vi mask)
 {
-#if KILN_SIMD_LEVEL == 3
+#if defined KILN_LEVEL_AVX512
     return _mm512_movepi32_mask((__m512i)mask);
-#elif KILN_SIMD_LEVEL == 2
+#elif defined KILN_LEVEL_AVX2
     return (uint32_t)_mm256_movemask_ps((__m256)mask);
-#elif KILN_SIMD_LEVEL == 1
+#elif defined __SSE2__
     return (uint32_t)_mm_movemask_ps((__m128)mask);
-#elif KILN_SIMD_LEVEL == 4
+#elif defined KILN_LEVEL_NEON
     const uint32x4_t bits = {1, 2, 4, 8};
     return vaddvq_u32(vandq_u32((uint32x4_t)mask, bits));
 #else
@@ -197,7 +200,7 @@ SIMD vf vf_units_number(void)
     return vf_load(numbers);
 }
 
-#if KILN_SIMD_LEVEL == 3
+#if defined KILN_LEVEL_AVX512
 
 /* Returns a vector with one value for each unit, the same in all of its lanes. */
 SIMD vf vf_units(const float *from)

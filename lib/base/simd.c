@@ -11,7 +11,6 @@
 const char *kiln_simd_name(enum kiln_simd simd)
 {
     static const char *const names[KILN_SIMD_COUNT] = {[KILN_SIMD_PLAIN] = "plain",
-                                                       [KILN_SIMD_SSE41] = "sse4.1",
                                                        [KILN_SIMD_AVX2] = "avx2",
                                                        [KILN_SIMD_AVX512] = "avx512",
                                                        [KILN_SIMD_NEON] = "neon"};
@@ -28,12 +27,10 @@ static bool has_bit_instructions(void)
 
 bool kiln_simd_has(enum kiln_simd simd)
 {
-    if (!(KILN_SIMD_LEVELS & 1U << simd))
+    if (!kiln_simd_built_levels[simd])
         return false;
 #ifdef __x86_64__
     switch (simd) {
-    case KILN_SIMD_SSE41:
-        return __builtin_cpu_supports("sse4.1");
     case KILN_SIMD_AVX2:
         return __builtin_cpu_supports("avx2") && has_bit_instructions();
     case KILN_SIMD_AVX512:
@@ -48,6 +45,14 @@ bool kiln_simd_has(enum kiln_simd simd)
 #else
     return simd == KILN_SIMD_PLAIN;
 #endif
+}
+
+enum kiln_simd kiln_simd_narrowest(void)
+{
+    enum kiln_simd simd = KILN_SIMD_PLAIN;
+    while (!kiln_simd_built_levels[simd])
+        simd++;
+    return simd;
 }
 
 bool kiln_simd_choose(enum kiln_simd *simd, struct kiln_error *error)

@@ -26,7 +26,7 @@ SIMD void store_shorts(uint8_t *to, vi x)
 /* store_halves stores the bytes of the nearest halves; of two, that with an even last bit. What is
  * too large becomes the largest half. */
 
-#if KILN_SIMD_LEVEL == 3
+#ifdef KILN_LEVEL_AVX512
 
 SIMD void store_halves(const struct kiln_exr_row *row, size_t x, vf samples)
 {

@@ -65,10 +65,10 @@ static const float *magnify_row(const struct kiln_magnifier *m, const float *glo
 /* Returns from[index] of each lane, for 0 <= index; where `near` is true, index < LANES. */
 SIMD vf magnify_pick(const float *from, vi index, bool near)
 {
-#if KILN_SIMD_LEVEL == 3
+#if defined KILN_LEVEL_AVX512
     if (near)
         return (vf)_mm512_permutexvar_ps((__m512i)index, (__m512)vf_load(from));
-#elif KILN_SIMD_LEVEL == 2
+#elif defined KILN_LEVEL_AVX2
     if (near)
         return (vf)_mm256_permutevar8x32_ps((__m256)vf_load(from), (__m256i)index);
 #endif

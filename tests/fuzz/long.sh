@@ -18,7 +18,7 @@ if ! clang -fsanitize=fuzzer,address "$probe/probe.c" -o "$probe/probe" 2>/dev/n
     exit 1
 fi
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-    -DKILN_FUZZ=ON -DKILN_SANITIZE=ON -DKILN_TESTS=ON -DKILN_SIMD_LEVELS=0 >/dev/null
+    -DKILN_FUZZ=ON -DKILN_SANITIZE=ON -DKILN_TESTS=ON -DKILN_SIMD_LEVELS=plain >/dev/null
 cmake --build "$build" --target fuzzers
 
 export LSAN_OPTIONS=print_suppressions=0:suppressions=$source/tests/tree/leaks.supp

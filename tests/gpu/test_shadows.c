@@ -1,7 +1,6 @@
-/* Checks the shadows that the sun throws: of spheres and meshes on the floor, of spheres on each
- * other, and of objects on the floor, on spheres and on smoke. Shadows are compared with rays that
- * are counted, or with the corners of the mesh. If this fails, shadows lie in wrong places, or are
- * cut off, too dark or too hard. Each technique of the backdrop runs all tests. */
+/* Checks the shadows that the sun throws of spheres, meshes and objects, on the floor, on spheres
+ * and on smoke, by counted rays or by a mesh's corners. If this fails, shadows lie in wrong places,
+ * or are cut off, too dark or too hard. Each technique of the backdrop runs all tests. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -34,8 +33,7 @@ enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
     "    emit: {life: 1 s}\n"                                                                      \
     "    look: {shape: sphere, size: 0.6 m, color: 1, lit: 1, fade: {in: 0, out: 0}}\n"
 
-/* Tetrahedra with a corner where three edges of length EDGE meet at right angles; they are turned
- * about y by 40 degrees. */
+/* Tetrahedra with three edges of length EDGE at right angles, turned about y by 40 degrees. */
 #define TETRAHEDRA                                                                                 \
     "systems:\n"                                                                                   \
     "  a:\n"                                                                                       \
@@ -188,8 +186,7 @@ static int check_floor(const struct fixture *f, const vec *places, uint32_t coun
     return partly;
 }
 
-/* A sphere 2 m above the floor throws its shadow 1.5 m aside. The larger the sun, the wider the
- * penumbra. */
+/* A sphere 2 m above the floor throws its shadow 1.5 m aside; a larger sun widens the penumbra. */
 static void the_shadow_of_a_sphere_lies_where_geometry_says(void **state)
 {
     static const char *const sizes[] = {NULL, "backdrop.sun.size=4 deg", "backdrop.sun.size=12 deg",
@@ -253,8 +250,7 @@ static double darkness(const struct fixture *f)
     return sum;
 }
 
-/* Checks that the floor is dark where the tetrahedron hides the sun, and bright elsewhere. Pixels
- * near the edge of the shadow are left out. */
+/* Checks that the floor is dark where the tetrahedron hides the sun, but for pixels at the edge. */
 static void check_shape(const struct fixture *f, vec place, const vec axes[3])
 {
     int dark = 0;
@@ -315,8 +311,8 @@ static void the_shadow_of_a_mesh_turns_with_it(void **state)
     drawing_asset_root = NULL;
 }
 
-/* Each bin that a soft shadow reaches has the mesh in its list. A second mesh 900 m away makes all
- * bins much larger; if smaller bins cut a shadow off, the picture would differ. */
+/* A second mesh, 900 m away, makes all bins larger: it changes nothing if none cuts a shadow off.
+ */
 static void the_soft_shadow_of_a_mesh_is_whole(void **state)
 {
     static const char *const suns[] = {"backdrop.sun.size=4 deg", "backdrop.sun.size=16 deg"};
@@ -342,8 +338,8 @@ static void the_soft_shadow_of_a_mesh_is_whole(void **state)
     free(alone);
 }
 
-/* If meshes are too many for silhouettes, each throws the shadow of a sphere. The sphere's disc is
- * as large as the mesh's mean shadow over all poses: a quarter of its surface. */
+/* If meshes are too many for silhouettes, each throws the shadow of a sphere, whose disc is as
+ * large as the mesh's mean shadow over all poses: a quarter of its surface. */
 static void meshes_that_are_too_many_have_round_shadows(void **state)
 {
     const vec place = {0, 2, 0};
@@ -358,8 +354,7 @@ static void meshes_that_are_too_many_have_round_shadows(void **state)
     drawing_asset_root = NULL;
 }
 
-/* The 24 spheres are so many that bins list several. Covers of spheres that overlap are multiplied,
- * which is wrong in penumbras only; under a sun of 0.2 degrees these are narrow. */
+/* Bins list several of 24 spheres. Covers are multiplied, which is exact outside of penumbras. */
 static void spheres_of_a_cloud_all_throw_shadows(void **state)
 {
     struct fixture f;
@@ -467,8 +462,7 @@ static void the_backdrop_shades_spheres(void **state)
     }
 }
 
-/* Returns the part of the sun's disc, 6 degrees wide, that a point sees past the box of the next
- * test. */
+/* Returns the part of the sun's disc, 6 degrees wide, that a point sees past the box below. */
 static double sun_seen_past_box(vec point)
 {
     enum { RAYS = 400 };
@@ -504,8 +498,7 @@ static void penumbras_of_a_box_match_rays(void **state)
     struct fixture f;
     init(&f, *state, text, NULL);
     draw(&f, NULL, 0);
-    /* The shadow's sides are at z = 0.7 and -0.7, its ends at x = 1 and 2.45. Each is crossed at
-     * its middle, from 15 cm outside to 15 cm inside. */
+    /* Crosses the shadow's edges, at z = +-0.7, x = 1 and x = 2.45, 15 cm to each side. */
     for (int i = 0; i < 44; i++) {
         double across = (i % 11 - 5) * 0.03;
         const vec sides[] = {{1.7, 0, 0.7 + across}, {1.7, 0, -0.7 - across}};
@@ -522,8 +515,7 @@ static void penumbras_of_a_box_match_rays(void **state)
     finish(&f);
 }
 
-/* The sun, 2 degrees wide, stands above a cylinder of 0.7 m radius. The floor 1.1 m from the axis
- * is bright all around, since the shadow is a disc. */
+/* The shadow of a cylinder under the sun is a disc: the floor 1.1 m from the axis is bright. */
 static void a_cylinder_is_round_from_above(void **state)
 {
     static const char text[] =
@@ -552,8 +544,7 @@ static void a_cylinder_is_round_from_above(void **state)
     "    emit: {life: 1 s}\n"                                                                      \
     "    look: {size: 0.4 m, color: 1, lit: 1, soft: 0, fade: {in: 0, out: 0}}\n"
 
-/* Smoke in the shadow of an object is dark. Before and beside the object it is as bright as without
- * the object, and at the edge of the shadow its light is in between. */
+/* Smoke is dark in an object's shadow, bright before and beside it, and in between at the edge. */
 static void the_backdrop_shades_smoke(void **state)
 {
     static const char *const objects[] = {

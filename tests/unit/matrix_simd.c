@@ -6,11 +6,11 @@
 #include "base/matrix.h"
 
 /* The macros that lib/base/matrix.h hides are back. */
-#if KILN_SIMD_LEVEL >= 1 && KILN_SIMD_LEVEL <= 3 &&                                                \
-    !(defined __SSE__ && defined __SSE2__ && defined __SSE4_1__)
+#if defined __x86_64__ && !(defined __SSE__ && defined __SSE2__)
 #error "lib/base/matrix.h has lost a macro of SSE"
 #endif
-#if KILN_SIMD_LEVEL >= 2 && KILN_SIMD_LEVEL <= 3 && !(defined __AVX__ && defined __AVX2__)
+#if (defined KILN_LEVEL_AVX2 || defined KILN_LEVEL_AVX512) &&                                      \
+    !(defined __SSE4_1__ && defined __AVX__ && defined __AVX2__)
 #error "lib/base/matrix.h has lost a macro of AVX"
 #endif
 

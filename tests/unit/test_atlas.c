@@ -173,8 +173,8 @@ static void cells_are_the_same_bytes_at_every_level(void **state)
     (void)state;
     for (size_t n = 0; kiln_builtin_name_at(n); n++) {
         const char *name = kiln_builtin_name_at(n);
-        struct book plain = make_book_at(name, 3, KILN_SIMD_NARROWEST);
-        for (enum kiln_simd simd = KILN_SIMD_NARROWEST + 1; simd < KILN_SIMD_COUNT; simd++) {
+        struct book plain = make_book_at(name, 3, kiln_simd_narrowest());
+        for (enum kiln_simd simd = kiln_simd_narrowest() + 1; simd < KILN_SIMD_COUNT; simd++) {
             if (!kiln_simd_has(simd))
                 continue;
             struct book book = make_book_at(name, 3, simd);

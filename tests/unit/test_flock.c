@@ -224,7 +224,7 @@ static void all_widths_see_the_same(void **state)
             unsetenv("KILN_SIMD");
             place_cloud(&run, BIRDS, dense ? 0.3f : 1.0f, FLOAT3(0.3f, 0.0f, 0.1f));
             simulation_run(&run, 4);
-            if (simd == KILN_SIMD_NARROWEST)
+            if (simd == kiln_simd_narrowest())
                 memcpy(expected, simulation_records(&run), sizeof expected);
             assert_memory_equal(simulation_records(&run), expected, sizeof expected);
             simulation_end(&run);

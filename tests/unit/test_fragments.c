@@ -149,7 +149,7 @@ static void every_width_of_vectors_sorts_alike(void **state)
     float *expected = malloc(FLOATS * sizeof *expected), *drawn = malloc(FLOATS * sizeof *drawn);
     assert_true(expected && drawn);
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
-        setenv("KILN_SIMD", kiln_simd_name(KILN_SIMD_NARROWEST), 1);
+        setenv("KILN_SIMD", kiln_simd_name(kiln_simd_narrowest()), 1);
         draw_puffs(expected, FLOATS, counts[i]);
         for (enum kiln_simd simd = 0; simd < KILN_SIMD_COUNT; simd++) {
             if (!kiln_simd_has(simd))

@@ -133,7 +133,7 @@ static void smoke_dims_a_lamp_by_its_optical_depth(void **state)
 {
     (void)state;
     struct smoke_fixture *f = fill_grid(2);
-    struct kiln_lamp_smoke *smoke = kiln_lamp_smoke_create(KILN_SIMD_NARROWEST);
+    struct kiln_lamp_smoke *smoke = kiln_lamp_smoke_create(kiln_simd_narrowest());
     struct kiln_draw_light lights[LAMP_COUNT];
     uint32_t count;
     const float *maps = run(f, smoke, lights, &count);
@@ -181,7 +181,7 @@ static void maps_are_the_same_for_all_widths_and_threads(void **state)
 {
     (void)state;
     struct smoke_fixture *f = fill_grid(1), *threaded = fill_grid(3);
-    struct kiln_lamp_smoke *plain = kiln_lamp_smoke_create(KILN_SIMD_NARROWEST);
+    struct kiln_lamp_smoke *plain = kiln_lamp_smoke_create(kiln_simd_narrowest());
     struct kiln_draw_light lights[LAMP_COUNT];
     uint32_t count;
     const float *expected = run_again(f, plain, lights, &count);
@@ -408,7 +408,7 @@ static void words_are_the_same_for_all_widths(void **state)
         struct kiln_lamp_shade *lamp_shade;
         f.moment.simd = simd;
         const uint32_t *words = shade(&f, &lamp_shade);
-        if (simd == KILN_SIMD_NARROWEST)
+        if (simd == kiln_simd_narrowest())
             memcpy(expected, words, sizeof expected);
         assert_memory_equal(words, expected, sizeof expected);
         kiln_lamp_shade_destroy(&lamp_shade);

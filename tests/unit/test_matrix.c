@@ -72,7 +72,7 @@ static struct matrix_operands make_operands(void)
 static void levels_agree(void **state)
 {
     (void)state;
-    const struct matrix_level *plain = KILN_SIMD_PICK(matrix_level, KILN_SIMD_NARROWEST);
+    const struct matrix_level *plain = KILN_SIMD_PICK(matrix_level, kiln_simd_narrowest());
     srand(1);
     for (int i = 0; i < SETS; i++) {
         const struct matrix_operands operands = make_operands();
@@ -84,7 +84,7 @@ static void levels_agree(void **state)
             KILN_SIMD_PICK(matrix_level, simd)->compute(&operands, &results);
             if (memcmp(&results, &expected, sizeof results) != 0)
                 fail_msg("%s differs from %s", kiln_simd_name(simd),
-                         kiln_simd_name(KILN_SIMD_NARROWEST));
+                         kiln_simd_name(kiln_simd_narrowest()));
         }
     }
 }
@@ -125,7 +125,7 @@ static void sums_go_from_the_left(void **state)
         struct matrix_results r;
         float ab[4][4], affine[4][4], cd[3][3];
         const float *p = o.p, *q = o.q;
-        KILN_SIMD_PICK(matrix_level, KILN_SIMD_NARROWEST)->compute(&o, &r);
+        KILN_SIMD_PICK(matrix_level, kiln_simd_narrowest())->compute(&o, &r);
         multiply(&o.a[0][0], &o.b[0][0], 4, &ab[0][0]);
         multiply(&o.affine[0][0], &o.rigid[0][0], 4, &affine[0][0]);
         multiply(&o.c[0][0], &o.d[0][0], 3, &cd[0][0]);
@@ -174,7 +174,7 @@ static void inverses_invert(void **state)
     for (int i = 0; i < SETS; i++) {
         const struct matrix_operands o = make_operands();
         struct matrix_results r;
-        KILN_SIMD_PICK(matrix_level, KILN_SIMD_NARROWEST)->compute(&o, &r);
+        KILN_SIMD_PICK(matrix_level, kiln_simd_narrowest())->compute(&o, &r);
         assert_true(not_inverse(&o.rigid[0][0], &r.rigid_inverse[0][0], 4) < 2e-6);
         if (fabsf(r.a_determinant) > 1.0f && fabsf(r.c_determinant) > 1.0f) {
             assert_true(not_inverse(&o.a[0][0], &r.a_inverse[0][0], 4) < 2e-4);
@@ -193,7 +193,7 @@ static void quaternions_are_rotations(void **state)
         const struct matrix_operands o = make_operands();
         struct matrix_results r;
         double p[3][3], q[3][3], pq[3][3], same = 0.0;
-        KILN_SIMD_PICK(matrix_level, KILN_SIMD_NARROWEST)->compute(&o, &r);
+        KILN_SIMD_PICK(matrix_level, kiln_simd_narrowest())->compute(&o, &r);
         rotation_of(o.p, p);
         rotation_of(o.q, q);
         rotation_of(r.pq, pq);

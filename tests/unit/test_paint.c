@@ -268,14 +268,14 @@ static void gathers_agree(void **state)
     add_ball(16);
     make_splats();
     struct kiln_chart *chart = chart_body(EDGE);
-    gather(chart, true, KILN_SIMD_NARROWEST, 1, painted);
+    gather(chart, true, kiln_simd_narrowest(), 1, painted);
     for (uint32_t i = 0; i < chart->count; i++) {
         double expected[4] = {0};
         paint_texel(chart, i, expected);
         for (int c = 0; c < 4; c++)
             assert_near((double)painted[chart->texels[i]][c], expected[c], 2e-5);
     }
-    for (enum kiln_simd simd = KILN_SIMD_NARROWEST; simd < KILN_SIMD_COUNT; simd++) {
+    for (enum kiln_simd simd = kiln_simd_narrowest(); simd < KILN_SIMD_COUNT; simd++) {
         if (!kiln_simd_has(simd))
             continue;
         for (int near = 0; near < 2; near++) {

@@ -233,7 +233,7 @@ static void assert_same(struct kiln_sprites a, struct kiln_sprites b)
 static void compare_levels(struct fixture *f)
 {
     const struct kiln_sprites plain = alloc_sprites(), other = alloc_sprites();
-    KILN_SIMD_PICK(kiln_sprites_make, KILN_SIMD_NARROWEST)(&f->pass, f->entries, COUNT, plain);
+    KILN_SIMD_PICK(kiln_sprites_make, kiln_simd_narrowest())(&f->pass, f->entries, COUNT, plain);
     size_t seen = 0;
     for (size_t i = 0; i < COUNT; i++)
         seen += plain.sprites[i].x_from < plain.sprites[i].x_to;

@@ -115,7 +115,7 @@ static void every_width_and_thread_count_gives_the_same_bytes(void **state)
     const size_t bytes = PIXELS * 4 * sizeof(float);
     float *color = malloc(bytes), *bloom = malloc(bytes);
     assert_true(color && bloom);
-    draw(r, kiln_simd_name(KILN_SIMD_NARROWEST), 1, COUNT, false);
+    draw(r, kiln_simd_name(kiln_simd_narrowest()), 1, COUNT, false);
     memcpy(color, r->color.host, bytes);
     memcpy(bloom, r->bloom.host, bytes);
     double light = 0, alpha = 0;
@@ -156,7 +156,7 @@ static float *draw_additive(struct raster *r)
         if (r->scene->systems[system].look.blend == KILN_BLEND_ADD)
             entries[job.count++] = all[i];
     }
-    draw_job(r, &job, kiln_simd_name(KILN_SIMD_NARROWEST), 1);
+    draw_job(r, &job, kiln_simd_name(kiln_simd_narrowest()), 1);
     memcpy(color, r->color.host, PIXELS * 4 * sizeof *color);
     memcpy(entries, all, sizeof all);
     return color;
@@ -170,7 +170,7 @@ static void additive_particles_are_added_apart(void **state)
     float *alone = draw_additive(r), *color = malloc(floats * sizeof *color),
           *bloom = malloc(floats * sizeof *bloom);
     assert_true(color && bloom);
-    draw(r, kiln_simd_name(KILN_SIMD_NARROWEST), 2, COUNT, false);
+    draw(r, kiln_simd_name(kiln_simd_narrowest()), 2, COUNT, false);
     memcpy(color, r->color.host, floats * sizeof *color);
     memcpy(bloom, r->bloom.host, floats * sizeof *bloom);
     size_t opaque = 0, hidden = 0;
@@ -188,7 +188,7 @@ static void additive_particles_are_added_apart(void **state)
             assert_memory_equal(bloom, r->bloom.host, floats * sizeof *bloom);
             for (size_t i = 0; i < floats; i++) /* sums in another order */
                 assert_true(fabsf(alone[i] - r->added.host[i]) <= 4e-6f * alone[i]);
-            if (simd == KILN_SIMD_NARROWEST && threads == 1)
+            if (simd == kiln_simd_narrowest() && threads == 1)
                 memcpy(alone, r->added.host, floats * sizeof *alone);
             assert_memory_equal(alone, r->added.host, floats * sizeof *alone);
         }
@@ -208,14 +208,14 @@ static void an_unknown_width_is_refused(void **state)
     unsetenv("KILN_SIMD");
     assert_int_equal(error.code, KILN_USAGE);
     assert_non_null(strstr(error.message, "mmx"));
-    assert_non_null(strstr(error.message, kiln_simd_name(KILN_SIMD_NARROWEST)));
+    assert_non_null(strstr(error.message, kiln_simd_name(kiln_simd_narrowest())));
 }
 
 static void no_particles_leave_a_clear_picture(void **state)
 {
     struct raster *r = *state;
-    draw(r, kiln_simd_name(KILN_SIMD_NARROWEST), 2, COUNT, false);
-    draw(r, kiln_simd_name(KILN_SIMD_NARROWEST), 2, 0, false);
+    draw(r, kiln_simd_name(kiln_simd_narrowest()), 2, COUNT, false);
+    draw(r, kiln_simd_name(kiln_simd_narrowest()), 2, 0, false);
     for (int i = 0; i < PIXELS * 4; i++)
         assert_true(r->color.host[i] == 0.0f && r->bloom.host[i] == 0.0f);
 }
@@ -229,11 +229,11 @@ static void kept_bloom_is_dimmed_and_added_to(void **state)
     float *both = malloc(floats * sizeof *both);
     uint32_t *entries = kiln_buffer_host(&r->entries, KILN_READ_WRITE, &error);
     assert_true(both && entries);
-    draw(r, kiln_simd_name(KILN_SIMD_NARROWEST), 2, COUNT, false);
+    draw(r, kiln_simd_name(kiln_simd_narrowest()), 2, COUNT, false);
     memcpy(both, r->bloom.host, floats * sizeof *both);
-    draw(r, kiln_simd_name(KILN_SIMD_NARROWEST), 2, COUNT / 2, false);
+    draw(r, kiln_simd_name(kiln_simd_narrowest()), 2, COUNT / 2, false);
     memmove(entries, entries + COUNT / 2, COUNT / 2 * sizeof *entries);
-    draw(r, kiln_simd_name(KILN_SIMD_NARROWEST), 2, COUNT / 2, true);
+    draw(r, kiln_simd_name(kiln_simd_narrowest()), 2, COUNT / 2, true);
     for (size_t i = 0; i < floats; i++)
         assert_true(fabsf(both[i] - r->bloom.host[i]) <= 1e-5f * (1.0f + both[i]));
     free(both);

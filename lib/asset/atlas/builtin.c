@@ -44,18 +44,18 @@ const char *kiln_builtin_name_of(const char *source)
 
 bool kiln_builtin_exists(const char *name)
 {
-    return find(name, KILN_SIMD_NARROWEST) != NULL;
+    return find(name, kiln_simd_narrowest()) != NULL;
 }
 
 bool kiln_builtin_has_motion(const char *name)
 {
-    const struct builtin *found = find(name, KILN_SIMD_NARROWEST);
+    const struct builtin *found = find(name, kiln_simd_narrowest());
     return found && found->gas;
 }
 
 const char *kiln_builtin_name_at(size_t index)
 {
-    const struct builtin *builtin = at_index(index, KILN_SIMD_NARROWEST);
+    const struct builtin *builtin = at_index(index, kiln_simd_narrowest());
     return builtin ? builtin->name : NULL;
 }
 

@@ -15,16 +15,16 @@ typedef double keys __attribute__((vector_size(4 * LANES)));
 SIMD void order_rows(keys *upper, keys *lower)
 {
     const keys a = *upper, b = *lower;
-#if KILN_SIMD_LEVEL == 3
+#if defined KILN_LEVEL_AVX512
     *upper = (keys)_mm512_min_pd((__m512d)a, (__m512d)b);
     *lower = (keys)_mm512_max_pd((__m512d)a, (__m512d)b);
-#elif KILN_SIMD_LEVEL == 2
+#elif defined KILN_LEVEL_AVX2
     *upper = (keys)_mm256_min_pd((__m256d)a, (__m256d)b);
     *lower = (keys)_mm256_max_pd((__m256d)a, (__m256d)b);
-#elif KILN_SIMD_LEVEL == 4
+#elif defined KILN_LEVEL_NEON
     *upper = (keys)vminq_f64((float64x2_t)a, (float64x2_t)b);
     *lower = (keys)vmaxq_f64((float64x2_t)a, (float64x2_t)b);
-#elif KILN_SIMD_LEVEL == 1
+#elif defined __SSE2__
     *upper = (keys)_mm_min_pd((__m128d)a, (__m128d)b);
     *lower = (keys)_mm_max_pd((__m128d)a, (__m128d)b);
 #else

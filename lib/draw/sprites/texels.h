@@ -44,9 +44,9 @@ enum { PART_ONE = 128 };
 /* The value of a word of ways_of() that stands for a full move. */
 #define WAY_ONE (255.0f * 255.0f * 127.0f / 256.0f)
 
-#if KILN_SIMD_LEVEL == 4
+#ifdef KILN_LEVEL_NEON
 #include "draw/sprites/texels_neon.h"
-#elif KILN_SIMD_LEVEL > 0
+#elif defined KILN_LEVEL_AVX2 || defined KILN_LEVEL_AVX512
 
 /* Loads the 4 bytes at each of four offsets. */
 SIMD __m128i four_texels(const uint8_t *texels, const int32_t *at)
@@ -65,7 +65,7 @@ SIMD __m128i two_texels(const uint8_t *texels, const int32_t *at)
                                  (const __m64 *)(texels + at[1]));
 }
 
-#if KILN_SIMD_LEVEL == 3
+#ifdef KILN_LEVEL_AVX512
 typedef __m512i words;
 #define WORDS(op)            _mm512_##op
 #define SHUFFLE(a, b, lanes) _mm512_shuffle_ps((__m512)(a), (__m512)(b), lanes)
@@ -100,7 +100,7 @@ SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 {
     return _mm512_broadcast_i32x4(_mm_setr_epi32(a, b, c, d));
 }
-#elif KILN_SIMD_LEVEL == 2
+#else
 typedef __m256i words;
 #define WORDS(op)            _mm256_##op
 #define SHUFFLE(a, b, lanes) _mm256_shuffle_ps((__m256)(a), (__m256)(b), lanes)
@@ -123,26 +123,6 @@ SIMD words fetch_alphas(const uint8_t *texels, const int32_t *at)
 SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
 {
     return _mm256_broadcastsi128_si256(_mm_setr_epi32(a, b, c, d));
-}
-#else
-typedef __m128i words;
-#define WORDS(op)            _mm_##op
-#define SHUFFLE(a, b, lanes) _mm_shuffle_ps((__m128)(a), (__m128)(b), lanes)
-SIMD words fetch_texels(const uint8_t *texels, const int32_t *at)
-{
-    return _mm_loadu_si128((const __m128i_u *)(texels + at[0]));
-}
-SIMD words fetch_pairs(const uint8_t *texels, const int32_t *at)
-{
-    return two_texels(texels, at);
-}
-SIMD words fetch_alphas(const uint8_t *texels, const int32_t *at)
-{
-    return four_texels(texels, at);
-}
-SIMD words pattern(int32_t a, int32_t b, int32_t c, int32_t d)
-{
-    return _mm_setr_epi32(a, b, c, d);
 }
 #endif
 

@@ -3,9 +3,9 @@
  * vectors at a time share the loads of a source. */
 #include "sim/crowd/gravity.h"
 
-#if KILN_SIMD_LEVEL == 3
+#if defined KILN_LEVEL_AVX512
 enum { LANES = 16 };
-#elif KILN_SIMD_LEVEL == 2
+#elif defined KILN_LEVEL_AVX2
 enum { LANES = 8 };
 #else
 enum { LANES = 4 };
