@@ -1,4 +1,5 @@
-/* Holds a block of slots while slots_simd.c steps it. */
+/* Holds a block of slots while slots_simd.c steps it, and declares what finishes slots that are
+ * stepped alone (slots_alone.c). */
 #ifndef KILN_SIM_STEP_SLOTS_BLOCK_H
 #define KILN_SIM_STEP_SLOTS_BLOCK_H
 
@@ -19,7 +20,7 @@ enum alone {
     ALONE_LEAVES,  /* its life ends, and it leaves a trace */
 };
 
-struct block {
+struct kiln_block {
     struct kiln_lanes lanes;
     uint32_t born[KILN_LANES];        /* 1: a particle is born in the slot in this step */
     uint32_t alone[KILN_LANES];       /* one of enum alone */
@@ -40,9 +41,27 @@ struct block {
     kiln_floats pose[4];
 };
 
-static inline struct kiln_particle record_at(const struct block *b, uint32_t i)
+static inline struct kiln_particle record_at(const struct kiln_block *b, uint32_t i)
 {
     return kiln_lanes_record(&b->lanes, i);
 }
+
+/* Returns whether particles are born of others. */
+static inline bool kiln_slots_are_children(const struct kiln_slots *slots)
+{
+    return slots->sim.step->family.born_of != BORN_OF_CLOCK;
+}
+
+/* Returns the trace of the parent of a slot's child. */
+static inline const struct kiln_trace *kiln_slots_parent(const struct kiln_slots *slots,
+                                                         uint32_t slot)
+{
+    return &slots->traces[family_parent_trace(&slots->sim, slot)];
+}
+
+/* Finishes the step of lane i, whose block has been stepped: writes the record of `slot`, and its
+ * trace if the system leaves traces. before: the record before the step. */
+void kiln_slots_finish(const struct kiln_slots *slots, const struct kiln_block *b, uint32_t i,
+                       uint32_t slot, struct kiln_particle before);
 
 #endif

@@ -2,21 +2,20 @@
  * step; they are stepped stage by stage for a whole block, in loops over arrays that compilers
  * vectorise. The stages are the functions of shaders/shared, so the bits are those of
  * step_family_slot, which for systems without relations are those of step_slot. Births,
- * particles that may have met a collider, and ends of lives that leave a trace are stepped alone.
- */
-#include "sim/step/slots.h"
+ * particles that may have met a collider, and ends of lives that leave a trace are stepped alone
+ * (slots_alone.c). */
 #include "sim/step/slots_touching.h"
 
 #define STEP_SLOTS KILN_SIMD_NAME(kiln_slots_step)
 
 static inline void find_values(const struct kiln_sim *sim, struct kiln_value v,
-                               const struct block *b, float *y)
+                               const struct kiln_block *b, float *y)
 {
     kiln_lanes_values(sim->value_keys, v, KILN_CLOCK_LIFE, b->life, sim->step->time_s, y);
 }
 
 static inline void find_values3(const struct kiln_sim *sim, struct kiln_value3 v,
-                                const struct block *b, struct kiln_floats3 *y)
+                                const struct kiln_block *b, struct kiln_floats3 *y)
 {
     find_values(sim, v.x, b, y->x);
     find_values(sim, v.y, b, y->y);
@@ -25,7 +24,7 @@ static inline void find_values3(const struct kiln_sim *sim, struct kiln_value3 v
 
 /* ---- stages ---------------------------------------------------------------------------------- */
 
-static inline void find_ages(const struct kiln_sim *sim, struct block *b)
+static inline void find_ages(const struct kiln_sim *sim, struct kiln_block *b)
 {
     const float dt_s = sim->step->derived.dt_s;
     kiln_lanes_find_ages(&b->lanes, sim->value_keys, sim->step->derived, sim->step->step, 0.0f);
@@ -33,8 +32,9 @@ static inline void find_ages(const struct kiln_sim *sim, struct block *b)
         b->life[i] = particle_progress(b->lanes.age_s[i] - dt_s, b->lanes.life_s[i]);
 }
 
-static inline struct force_input force_input_at(const struct kiln_sim *sim, const struct block *b,
-                                                uint32_t i, const struct kiln_force_params *force)
+static inline struct force_input force_input_at(const struct kiln_sim *sim,
+                                                const struct kiln_block *b, uint32_t i,
+                                                const struct kiln_force_params *force)
 {
     return (struct force_input){
         .position = kiln_get3(&b->at, i),
@@ -55,12 +55,12 @@ static inline struct force_input force_input_at(const struct kiln_sim *sim, cons
     };
 }
 
-static inline struct force_effect effect_at(const struct block *b, uint32_t i)
+static inline struct force_effect effect_at(const struct kiln_block *b, uint32_t i)
 {
     return (struct force_effect){kiln_get3(&b->acceleration, i), b->pull[i], b->quadratic[i]};
 }
 
-static inline void add_effect(struct block *b, uint32_t i, struct force_effect effect)
+static inline void add_effect(struct kiln_block *b, uint32_t i, struct force_effect effect)
 {
     struct force_effect sum = forces_add(effect_at(b, i), effect);
     kiln_set3(&b->acceleration, i, sum.acceleration);
@@ -69,7 +69,7 @@ static inline void add_effect(struct block *b, uint32_t i, struct force_effect e
 }
 
 /* Computes force_curl of all lanes, one octave after the other. */
-static inline void add_curl(const struct kiln_sim *sim, struct block *b,
+static inline void add_curl(const struct kiln_sim *sim, struct kiln_block *b,
                             const struct kiln_force_params *force)
 {
     const uint32_t seed = sim->step->noise_seed, octaves = force->octaves;
@@ -92,7 +92,7 @@ static inline void add_curl(const struct kiln_sim *sim, struct block *b,
     for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
     add_effect(b, i, effect)
 
-static inline void add_force(const struct kiln_sim *sim, struct block *b,
+static inline void add_force(const struct kiln_sim *sim, struct kiln_block *b,
                              const struct kiln_force_params *force)
 {
     find_values3(sim, force->vector, b, &b->vector);
@@ -128,7 +128,9 @@ static inline void add_force(const struct kiln_sim *sim, struct block *b,
     }
 }
 
-static inline void add_forces(const struct kiln_sim *sim, struct block *b)
+/* Both ways to integrate call this, so it is not inlined into them: it is most of their code. */
+__attribute__((flatten, noinline)) static void add_forces(const struct kiln_sim *sim,
+                                                          struct kiln_block *b)
 {
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         kiln_set3(&b->acceleration, i, (float3){0.0f, 0.0f, 0.0f});
@@ -139,7 +141,7 @@ static inline void add_forces(const struct kiln_sim *sim, struct block *b)
         add_force(sim, b, &sim->step->forces[k]);
 }
 
-static inline void limit_speed(const struct kiln_sim *sim, struct block *b,
+static inline void limit_speed(const struct kiln_sim *sim, struct kiln_block *b,
                                struct kiln_floats3 *velocity)
 {
     for (uint32_t k = 0; k < sim->step->force_count; k++) {
@@ -159,7 +161,8 @@ static inline uint32_t slots_left(const struct kiln_sim *sim, uint32_t first_slo
     return left < KILN_LANES ? left : KILN_LANES;
 }
 
-static inline void start_moving(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+static inline void start_moving(const struct kiln_sim *sim, struct kiln_block *b,
+                                uint32_t first_slot)
 {
     for (uint32_t i = 0; i < KILN_LANES; i++)
         kiln_set3(&b->start, i, particle_velocity(record_at(b, i)));
@@ -173,7 +176,7 @@ static inline void start_moving(const struct kiln_sim *sim, struct block *b, uin
     }
 }
 
-static inline void push_on(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+static inline void push_on(const struct kiln_sim *sim, struct kiln_block *b, uint32_t first_slot)
 {
     if (!sim->step->pushed)
         return;
@@ -183,7 +186,7 @@ static inline void push_on(const struct kiln_sim *sim, struct block *b, uint32_t
 }
 
 /* Integrates all lanes over the whole step, as integrate does. */
-static inline void fly(const struct kiln_sim *sim, struct block *b)
+static inline void fly(const struct kiln_sim *sim, struct kiln_block *b)
 {
     const float time_s = sim->step->derived.dt_s;
     for (uint32_t i = 0; i < KILN_LANES; i++)
@@ -250,7 +253,7 @@ static inline void stages_set(struct stages_lanes *to, uint32_t i, struct stages
     for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
     stages_set(s, i, stages_take(stages_get(s, i), effect_at(b, i), stage, count, time_s))
 
-static inline void take_stage(struct block *b, uint32_t stage, uint32_t count, float time_s)
+static inline void take_stage(struct kiln_block *b, uint32_t stage, uint32_t count, float time_s)
 {
     struct stages_lanes *s = &b->stages;
     if (count == 2 && stage == 0) {
@@ -269,7 +272,7 @@ static inline void take_stage(struct block *b, uint32_t stage, uint32_t count, f
 }
 
 /* Integrates all lanes over the whole step, as integrate_stages does. */
-static inline void fly_in_stages(const struct kiln_sim *sim, struct block *b)
+static inline void fly_in_stages(const struct kiln_sim *sim, struct kiln_block *b)
 {
     const float time_s = sim->step->derived.dt_s;
     const uint32_t integration = sim->step->integration, count = stages_count(integration);
@@ -288,7 +291,7 @@ static inline void fly_in_stages(const struct kiln_sim *sim, struct block *b)
     b->velocity = s->moving;
 }
 
-static inline void find_lost(const struct kiln_sim *sim, struct block *b)
+static inline void find_lost(const struct kiln_sim *sim, struct kiln_block *b)
 {
     const struct kiln_step_params *step = sim->step;
     for (uint32_t i = 0; i < KILN_LANES; i++)
@@ -308,7 +311,7 @@ static inline void find_lost(const struct kiln_sim *sim, struct block *b)
 
 /* Finds the slots to step alone: living particles that may touch something, births, and ends of
  * lives that leave a trace. */
-static inline void find_alone(const struct kiln_sim *sim, struct block *b)
+static inline void find_alone(const struct kiln_sim *sim, struct kiln_block *b)
 {
     memset(b->alone, 0, sizeof b->alone);
     if (sim->step->collide != COLLIDE_OFF)
@@ -324,7 +327,7 @@ static inline void find_alone(const struct kiln_sim *sim, struct block *b)
 }
 
 /* Computes step_particle for the slots that are not stepped alone. */
-static inline void move(struct block *b)
+static inline void move(struct kiln_block *b)
 {
     for (uint32_t i = 0; i < KILN_LANES; i++) {
         struct kiln_particle p = record_at(b, i);
@@ -346,7 +349,7 @@ static inline void move(struct block *b)
 }
 
 /* Computes step_turn for the slots that are not stepped alone. */
-static inline void turn(const struct kiln_sim *sim, struct block *b, uint32_t first_slot)
+static inline void turn(const struct kiln_sim *sim, struct kiln_block *b, uint32_t first_slot)
 {
     const uint32_t slots = slots_left(sim, first_slot);
     const float time_s = sim->step->derived.dt_s;
@@ -383,7 +386,7 @@ static inline void turn(const struct kiln_sim *sim, struct block *b, uint32_t fi
 /* Marks the slots, of the first `count`, that particles are born in. Returns whether there are any.
  */
 static inline bool find_births(const struct kiln_sim *sim, uint32_t first_slot, uint32_t count,
-                               struct block *b)
+                               struct kiln_block *b)
 {
     const uint32_t births = sim->step->birth_count;
     uint32_t any = 0;
@@ -394,21 +397,9 @@ static inline bool find_births(const struct kiln_sim *sim, uint32_t first_slot, 
     return any != 0;
 }
 
-/* Returns whether particles are born of others. */
-static inline bool is_child(const struct kiln_sim *sim)
-{
-    return sim->step->family.born_of != BORN_OF_CLOCK;
-}
-
-/* Returns the trace of the parent of a slot's child. */
-static inline const struct kiln_trace *parent_of(const struct kiln_slots *slots, uint32_t slot)
-{
-    return &slots->traces[family_parent_trace(&slots->sim, slot)];
-}
-
 /* Marks the slots whose child is born of its parent. Returns whether there are any. */
 static bool find_children(const struct kiln_slots *slots, uint32_t first_slot, uint32_t count,
-                          struct block *b)
+                          struct kiln_block *b)
 {
     const struct kiln_sim *sim = &slots->sim;
     uint32_t any = 0;
@@ -416,7 +407,8 @@ static bool find_children(const struct kiln_slots *slots, uint32_t first_slot, u
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t slot = first_slot + i;
         b->born[i] =
-            family_event_of(sim, *parent_of(slots, slot), slot % sim->step->family.slots).happens;
+            family_event_of(sim, *kiln_slots_parent(slots, slot), slot % sim->step->family.slots)
+                .happens;
         any |= b->born[i];
     }
     return any != 0;
@@ -426,7 +418,7 @@ static bool find_children(const struct kiln_slots *slots, uint32_t first_slot, u
 
 /* Steps a block. `records` points to the record of first_slot, which those of the block follow. */
 __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint32_t first_slot,
-                                                struct kiln_particle *records, struct block *b)
+                                                struct kiln_particle *records, struct kiln_block *b)
 {
     kiln_lanes_load(&b->lanes, records);
     find_ages(sim, b);
@@ -444,68 +436,9 @@ __attribute__((flatten)) static void step_block(const struct kiln_sim *sim, uint
     kiln_lanes_store(&b->lanes, records);
 }
 
-/* Returns the way that the particle of lane i has flown. p: as it was before the step. */
-static inline struct step_way flown_way(const struct block *b, uint32_t i, struct kiln_particle p)
-{
-    return (struct step_way){
-        .start = {.position = particle_position(p), .velocity = kiln_get3(&b->start, i)},
-        .end = {.position = kiln_get3(&b->position, i),
-                .velocity = kiln_get3(&b->velocity, i),
-                .since = 1.0f},
-        .first = collide_no_touch(),
-    };
-}
-
-/* Continues step_particle for a particle that has flown and may touch something. */
-static struct kiln_particle step_touching(const struct kiln_sim *sim, const struct block *b,
-                                          uint32_t i, uint32_t slot, struct kiln_particle p)
-{
-    struct step_way way = flown_way(b, i, p);
-    way.lost = true;
-    if (sim->step->spins)
-        way.start.spin = way.end.spin = step_spin(sim, p, slot);
-    way = step_meet(sim, p, way, push_of(sim, slot), b->life[i]);
-    if (way.lost)
-        return step_dead();
-    if (sim->step->spins)
-        step_turn(sim, p, slot, way.end.spin);
-    return step_with_motion(p, way.end.position, way.end.velocity);
-}
-
-/* Returns the trace of a particle that has flown. p: as it was before the step. */
-static struct kiln_trace trace_flight(const struct kiln_sim *sim, const struct block *b, uint32_t i,
-                                      struct kiln_particle p)
-{
-    const float life_s = b->lanes.life_s[i];
-    return step_trace(sim, p, flown_way(b, i, p), TRACE_ALIVE, life_s,
-                      particle_progress(b->lanes.age_s[i], life_s));
-}
-
-/* Finishes the step of lane i, whose block has been stepped. before: the record before the step. */
-static void finish_slot(const struct kiln_slots *slots, const struct block *b, uint32_t i,
-                        uint32_t slot, struct kiln_particle before)
-{
-    const struct kiln_sim *sim = &slots->sim;
-    const struct kiln_family_params *family = &sim->step->family;
-    struct kiln_particle *record = &slots->records[slot];
-    struct kiln_trace trace = trace_nothing();
-    if (b->alone[i] == ALONE_TOUCHES && !family->traced && !family->dies) {
-        *record = step_touching(sim, b, i, slot, before);
-    } else if (b->alone[i] != ALONE_NOT) {
-        const struct kiln_trace *parent = is_child(sim) ? parent_of(slots, slot) : &trace;
-        const struct step_result after = step_family_slot(sim, slot, before, *parent);
-        *record = after.particle;
-        trace = after.trace;
-    } else if (family->traced && particle_is_alive(*record)) {
-        trace = trace_flight(sim, b, i, before);
-    }
-    if (family->traced)
-        slots->traces[family->traces + slot] = trace;
-}
-
 /* Steps `count` slots, at most KILN_LANES, from first_slot on. */
 static void step_and_finish(const struct kiln_slots *slots, uint32_t first_slot, uint32_t count,
-                            struct block *b)
+                            struct kiln_block *b)
 {
     const bool traced = slots->sim.step->family.traced != 0, whole = count == KILN_LANES;
     struct kiln_particle *records = slots->records + first_slot, before[KILN_LANES];
@@ -521,7 +454,7 @@ static void step_and_finish(const struct kiln_slots *slots, uint32_t first_slot,
         memcpy(records, rest, count * sizeof *rest);
     for (uint32_t i = 0; i < count; i++) {
         if (traced || b->alone[i] != ALONE_NOT)
-            finish_slot(slots, b, i, first_slot + i, traced ? before[i] : records[i]);
+            kiln_slots_finish(slots, b, i, first_slot + i, traced ? before[i] : records[i]);
     }
 }
 
@@ -538,11 +471,12 @@ void STEP_SLOTS(void *context, size_t begin, size_t end, uint32_t worker)
     (void)worker;
     const struct kiln_slots *slots = context;
     const struct kiln_family_params *family = &slots->sim.step->family;
-    struct block block;
+    struct kiln_block block;
     for (uint32_t first = (uint32_t)begin; first < end; first += KILN_LANES) {
         const uint32_t left = (uint32_t)end - first, count = left < KILN_LANES ? left : KILN_LANES;
-        const bool born = is_child(&slots->sim) ? find_children(slots, first, count, &block)
-                                                : find_births(&slots->sim, first, count, &block);
+        const bool born = kiln_slots_are_children(slots)
+                              ? find_children(slots, first, count, &block)
+                              : find_births(&slots->sim, first, count, &block);
         if (born || are_some_alive(slots->records + first, count)) {
             step_and_finish(slots, first, count, &block);
             continue;

@@ -9,7 +9,8 @@
 /* Finds the lanes that may touch a half space, which has no bounding box. If it turns, all lanes
  * may. Otherwise a way touches only if one of its ends does, up to the rounding of places far from
  * the plane's centre. */
-static inline void find_touching_plane(struct block *b, const struct kiln_collider *c, bool pushed)
+static inline void find_touching_plane(struct kiln_block *b, const struct kiln_collider *c,
+                                       bool pushed)
 {
     const float3 start = {c->center.x, c->center.y, c->center.z};
     const float3 end = {c->center_end.x, c->center_end.y, c->center_end.z};
@@ -29,7 +30,8 @@ static inline void find_touching_plane(struct block *b, const struct kiln_collid
 
 /* Finds the lanes whose way may touch a collider's box. pushed: particles have radii, by which the
  * box is larger. */
-static inline void find_touching(struct block *b, const struct kiln_collider *collider, bool pushed)
+static inline void find_touching(struct kiln_block *b, const struct kiln_collider *collider,
+                                 bool pushed)
 {
     const struct kiln_collider c = *collider;
     if (c.kind == COLLIDER_PLANE) {
@@ -50,7 +52,7 @@ static inline void find_touching(struct block *b, const struct kiln_collider *co
 }
 
 /* Unmarks lanes that stay well above the terrain. */
-static inline void find_touching_ground(const struct kiln_sim *sim, struct block *b,
+static inline void find_touching_ground(const struct kiln_sim *sim, struct kiln_block *b,
                                         const struct kiln_collider *c)
 {
     const struct kiln_grid grid = sim->surroundings->grids[c->grid];
@@ -62,7 +64,7 @@ static inline void find_touching_ground(const struct kiln_sim *sim, struct block
 }
 
 /* Unmarks lanes that stay well away from a mesh's surface. */
-static inline void find_touching_mesh(const struct kiln_sim *sim, struct block *b,
+static inline void find_touching_mesh(const struct kiln_sim *sim, struct kiln_block *b,
                                       const struct kiln_collider *c)
 {
     const struct kiln_grid grid = sim->surroundings->grids[c->grid];
@@ -79,7 +81,7 @@ static inline void find_touching_mesh(const struct kiln_sim *sim, struct block *
 }
 
 /* Unmarks lanes that have no plane of the volume near. */
-static inline void find_touching_volume(const struct kiln_sim *sim, struct block *b,
+static inline void find_touching_volume(const struct kiln_sim *sim, struct kiln_block *b,
                                         const struct kiln_collider *c)
 {
     const struct kiln_grid grid = sim->surroundings->grids[c->grid];
@@ -90,7 +92,7 @@ static inline void find_touching_volume(const struct kiln_sim *sim, struct block
 }
 
 /* Unmarks lanes that stay on one side of the mesh's depth maps. */
-static inline void find_touching_depths(const struct kiln_sim *sim, struct block *b,
+static inline void find_touching_depths(const struct kiln_sim *sim, struct kiln_block *b,
                                         const struct kiln_collider *c)
 {
     const struct kiln_grid grid = sim->surroundings->grids[c->grid];
@@ -102,7 +104,7 @@ static inline void find_touching_depths(const struct kiln_sim *sim, struct block
     }
 }
 
-static inline void find_touching_any(const struct kiln_sim *sim, struct block *b)
+static inline void find_touching_any(const struct kiln_sim *sim, struct kiln_block *b)
 {
     const bool pushed = sim->step->pushed != 0;
     for (uint32_t k = 0; k < sim->surroundings->collider_count; k++) {

@@ -1,0 +1,65 @@
+/* This file finishes the steps of slots that slots_simd.c does not step in vectors: births,
+ * particles that may have met a collider, and ends of lives that leave a trace. Such slots are few
+ * and each goes its own way, so this code exists once and not for each level of vectors. */
+#include "shared/step_family.h"
+#include "sim/step/slots_block.h"
+
+/* Returns the way that the particle of lane i has flown. p: as it was before the step. */
+static inline struct step_way flown_way(const struct kiln_block *b, uint32_t i,
+                                        struct kiln_particle p)
+{
+    return (struct step_way){
+        .start = {.position = particle_position(p), .velocity = kiln_get3(&b->start, i)},
+        .end = {.position = kiln_get3(&b->position, i),
+                .velocity = kiln_get3(&b->velocity, i),
+                .since = 1.0f},
+        .first = collide_no_touch(),
+    };
+}
+
+/* Continues step_particle for a particle that has flown and may touch something. */
+static struct kiln_particle step_touching(const struct kiln_sim *sim, const struct kiln_block *b,
+                                          uint32_t i, uint32_t slot, struct kiln_particle p)
+{
+    struct step_way way = flown_way(b, i, p);
+    way.lost = true;
+    if (sim->step->spins)
+        way.start.spin = way.end.spin = step_spin(sim, p, slot);
+    way = step_meet(sim, p, way, push_of(sim, slot), b->life[i]);
+    if (way.lost)
+        return step_dead();
+    if (sim->step->spins)
+        step_turn(sim, p, slot, way.end.spin);
+    return step_with_motion(p, way.end.position, way.end.velocity);
+}
+
+/* Returns the trace of a particle that has flown. p: as it was before the step. */
+static struct kiln_trace trace_flight(const struct kiln_sim *sim, const struct kiln_block *b,
+                                      uint32_t i, struct kiln_particle p)
+{
+    const float life_s = b->lanes.life_s[i];
+    return step_trace(sim, p, flown_way(b, i, p), TRACE_ALIVE, life_s,
+                      particle_progress(b->lanes.age_s[i], life_s));
+}
+
+void kiln_slots_finish(const struct kiln_slots *slots, const struct kiln_block *b, uint32_t i,
+                       uint32_t slot, struct kiln_particle before)
+{
+    const struct kiln_sim *sim = &slots->sim;
+    const struct kiln_family_params *family = &sim->step->family;
+    struct kiln_particle *record = &slots->records[slot];
+    struct kiln_trace trace = trace_nothing();
+    if (b->alone[i] == ALONE_TOUCHES && !family->traced && !family->dies) {
+        *record = step_touching(sim, b, i, slot, before);
+    } else if (b->alone[i] != ALONE_NOT) {
+        const struct kiln_trace *parent =
+            kiln_slots_are_children(slots) ? kiln_slots_parent(slots, slot) : &trace;
+        const struct step_result after = step_family_slot(sim, slot, before, *parent);
+        *record = after.particle;
+        trace = after.trace;
+    } else if (family->traced && particle_is_alive(*record)) {
+        trace = trace_flight(sim, b, i, before);
+    }
+    if (family->traced)
+        slots->traces[family->traces + slot] = trace;
+}
