@@ -40,9 +40,9 @@ SIMD struct eye_rays rays_through_pixels(const struct kiln_ray_frame *frame, vi 
 
 /* Finds the first hit of each ray. floor: the t at which each ray meets the floor; the albedo of
  * hits on the floor is left unset. */
-SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
-                          const struct kiln_ray_objects *objects, const struct ray *ray, vf floor,
-                          const struct ray_place *place)
+SIMD_ONCE struct ray_hit trace(const struct kiln_ray_frame *frame,
+                               const struct kiln_ray_objects *objects, const struct ray *ray,
+                               vf floor, const struct ray_place *place)
 {
     struct ray_hit nearest = {.t = vf_all(RAY_FAR),
                               .surface = vf_all(-1.0f),
@@ -88,8 +88,8 @@ struct ray_help {
 };
 
 /* Computes the light that arrives at the hits, and their colours. */
-SIMD void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, bool glossy,
-                     const struct ray_help *help, struct shaded_rays *shaded)
+SIMD_ONCE void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, bool glossy,
+                          const struct ray_help *help, struct shaded_rays *shaded)
 {
     const struct ray_hit *hit = &shaded->first;
     const struct ray_point point = {ray_at(ray, hit->t), hit->normal, hit->surface >= 0.0f};

@@ -51,8 +51,8 @@ struct visible_point {
 };
 
 /* Computes the colour of visible points from sky, sun and lights, and their glow. */
-SIMD void light_place(const struct kiln_ray_frame *frame, const struct visible_point *place,
-                      const struct visible_particles *visible, struct ray_color *color)
+SIMD_ONCE void light_place(const struct kiln_ray_frame *frame, const struct visible_point *place,
+                           const struct visible_particles *visible, struct ray_color *color)
 {
     const struct ray_hit hit = {.t = place->depth,
                                 .surface = vf_all(0.0f),

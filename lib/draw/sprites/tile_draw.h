@@ -4,8 +4,8 @@
  * lanes do them; lanes outside of the sprite have alpha 0. Sprites are drawn from the nearest to
  * the farthest, and those behind opaque pixels are left out, except where additive sprites are
  * added apart, too. */
+#include "draw/sprites/tile_batch.h"
 #include "draw/sprites/tile_rows.h"
-#include "draw/sprites/tile_shade.h"
 
 enum {
     PREFETCH_DISTANCE = 6,     /* sprites that are prefetched */
@@ -15,236 +15,12 @@ enum {
 /* A pixel that lets through less than this part of the light from behind counts as opaque. */
 #define NEGLIGIBLE 0x1p-16f
 
-/* Adds colour to the pixels at the offsets, and its glow. */
-SIMD void blend(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const struct brush *b,
-                const float bloom[3], const vf rgb[3])
-{
-    for (int c = 0; c < 3; c++) {
-        float *color = planes[b->layer + c];
-        vf_store_units(color, at, vf_load_units(color, at) + rgb[c]);
-    }
-    for (int c = 0; c < 3 && b->weighted_glow; c++) {
-        float *glow = planes[KILN_TILE_GLOW_RED + c];
-        vf_store_units(glow, at, vf_load_units(glow, at) + rgb[c] * bloom[c]);
-    }
-}
-
-/* Adds colour times a weight to the pixels of kiln_tile.added at the offsets. */
-SIMD void add_apart(float (*planes)[KILN_TILE_PITCH], const int32_t *at, const vf rgb[3], vf weight)
-{
-    for (int c = 0; c < 3; c++) {
-        float *color = planes[KILN_TILE_RED + c];
-        vf_store_units(color, at, vf_load_units(color, at) + rgb[c] * weight);
-    }
-}
-
-/* ---- vectors of pixels ----------------------------------------------------------------------- */
-
-/* Holds a vector of pixels, whose units may lie anywhere in the tile. */
-struct pixels {
-    vf u, v, q;
-    vi inside; /* mask: the pixel is drawn */
-};
-
-enum { BATCH = 16 };
-
-/* Holds vectors of pixels that go through each step of drawing together. So the processor overlaps
- * the work of several vectors while it fetches texels. The first index of texels and places is 0
- * for the cell and, if not mixed, 1 for the next cell. */
-struct batch {
-    _Alignas(64) int32_t texels[2][BATCH][LANES];
-    vi places[2][BATCH], inside[BATCH];
-    struct vf4 cells[BATCH];
-    vf u[BATCH], v[BATCH], depth[BATCH]; /* u, v: of plain sprites; depth: of deep sprites */
-    vf rim[BATCH];                       /* rim_cover; unset unless brush.rim */
-    int32_t at[BATCH][UNITS];            /* offsets of the units in kiln_tile.pixels */
-};
-
-/* Holds the sprite that is drawn, and its tile. */
-struct target {
-    struct kiln_tile *tile;
-    const struct kiln_sprite *s;
-    const struct kiln_sprite_extra *extra; /* set if kiln_sprite_has_extra */
-    struct brush brush;
-    float (*added)[KILN_TILE_PITCH]; /* the tile's, or NULL if the sprite is not added apart */
-    bool hidden;                     /* true: it is only added apart, since opaque pixels hide it */
-};
-
-SIMD void put_texels(struct batch *batch, int cell, int i, vi places, int32_t pitch, int32_t texel)
-{
-    vi texels = texel_offsets(places, pitch, texel);
-    batch->places[cell][i] = places;
-    memcpy(batch->texels[cell][i], &texels, sizeof texels);
-}
-
-/* u, v: steps from the cell's corner. */
-SIMD void put_rim(struct batch *batch, const struct kiln_sprite *s, int i, vf u, vf v)
-{
-    const float texels = 1.0f / (float)PLACE_STEPS;
-    batch->rim[i] = rim_cover(s, u * texels, v * texels);
-}
-
-/* Puts all data of vector i of a batch except its offsets. */
-SIMD void put_pixels(struct batch *batch, int i, const struct target *d, struct pixels p,
-                     enum kiln_sprite_shade kind, bool deep, bool mixed)
-{
-    const struct brush *b = &d->brush;
-    bool textured = kind != KILN_SHADE_PLAIN;
-    vi inside = p.inside;
-    if (deep) {
-        inside &= p.q > 0.0f;
-        batch->depth[i] = 1.0f / p.q;
-        if (textured) {
-            if (b->rim)
-                put_rim(batch, d->s, i, p.u * batch->depth[i], p.v * batch->depth[i]);
-            vf limit = vf_all((float)b->edge + 2.0f * PLACE_ONE), depth = batch->depth[i];
-            p.u = vf_min(vf_max(p.u * depth + PLACE_MIDDLE, vf_all(0.0f)), limit);
-            p.v = vf_min(vf_max(p.v * depth + PLACE_MIDDLE, vf_all(0.0f)), limit);
-        }
-    }
-    if (textured && !deep && b->rim)
-        put_rim(batch, d->s, i, p.u - PLACE_MIDDLE, p.v - PLACE_MIDDLE);
-    if (textured) {
-        vi places = places_of(p.u, p.v);
-        if (b->rim) {
-            inside &= batch->rim[i] > 0.0f;
-            places = places_clamped(places, PLACE_ONE / 2, b->edge + PLACE_ONE / 2);
-        } else {
-            inside &= places_between(places, PLACE_ONE / 2, b->edge + PLACE_ONE / 2 - 1);
-        }
-        if (mixed)
-            put_texels(batch, 0, i, places & inside, b->pitch, b->texel);
-        else
-            batch->places[0][i] = places;
-    } else {
-        batch->u[i] = p.u;
-        batch->v[i] = p.v;
-    }
-    batch->inside[i] = inside;
-}
-
-/* Follows the motion of two cells to the time between them. Places are clamped to the centres of
- * the outer texels. */
-SIMD void follow(struct batch *batch, int count, const struct brush *b)
-{
-    const int32_t half = PLACE_ONE / 2, most = b->edge + half;
-    const uint32_t halves = (uint32_t)half << 16 | (uint32_t)half;
-    for (int i = 0; i < count && b->moves; i++) {
-        vi at = (vi)((vu)places_clamped(batch->places[0][i], half, most - 1) - halves);
-        at = (vi)((vu)((at >> b->move_shift) & b->move_mask) + halves);
-        batch->places[1][i] = at;
-        vi texels = texel_offsets(at, KILN_CELL_PAIR * (KILN_ATLAS_MOTION + KILN_CELL_MARGIN),
-                                  KILN_CELL_PAIR);
-        memcpy(batch->texels[1][i], &texels, sizeof texels);
-    }
-    for (int i = 0; i < count; i++) {
-        vi places = batch->places[0][i], next;
-        if (b->moves) {
-            vi way = ways_of(sample_pairs(b->moves, batch->texels[1][i], batch->places[1][i], 1));
-            next = places_moved(places, way, b->next_move, half, most);
-            places = places_moved(places, way, -b->cell_move, half, most);
-        } else {
-            next = places = places_clamped(places, half, most);
-        }
-        put_texels(batch, 0, i, places, b->pitch, b->texel);
-        put_texels(batch, 1, i, next, b->pitch, b->texel);
-    }
-}
-
-/* Returns the first channel of a cell that a shade reads. */
-SIMD size_t first_channel(enum kiln_sprite_shade kind)
-{
-    return 4 - kiln_cell_channels(form_of(kind));
-}
-
-/* Returns the sampled channels of vector i, from first_channel() on. */
-SIMD struct vf4 sample(const struct batch *batch, int i, const struct brush *b,
-                       enum kiln_sprite_shade kind, bool mixed)
-{
-    const int32_t part = mixed ? 1 : PART_ONE - b->part;
-    vi places = batch->places[0][i], next = batch->places[1][i];
-    const int32_t *texels = batch->texels[0][i], *next_texels = batch->texels[1][i];
-    if (kind == KILN_SHADE_ALPHA) {
-        vi alphas = sample_alphas(b->cell, texels, places, part);
-        if (!mixed)
-            alphas += sample_alphas(b->next, next_texels, next, b->part);
-        return (struct vf4){{[3] = __builtin_convertvector(alphas, vf)}};
-    }
-    if (kind == KILN_SHADE_GLOW) {
-        struct pairs pairs = sample_pairs(b->cell, texels, places, part);
-        return channels_of_pairs(
-            mixed ? pairs : pairs_sum(pairs, sample_pairs(b->next, next_texels, next, b->part)));
-    }
-    struct quads quads = sample_quads(b->cell, texels, places, part);
-    return channels_of(mixed ? quads
-                             : quads_sum(quads, sample_quads(b->next, next_texels, next, b->part)));
-}
-
-/* Draws vector i of a batch behind the sprites that were drawn before. */
-SIMD void draw_vector(const struct batch *batch, int i, const struct target *d, struct shaded c,
-                      bool multiplied, bool deep, bool covers)
-{
-    float(*planes)[KILN_TILE_PITCH] = d->tile->pixels[0];
-    const struct kiln_sprite *s = d->s;
-    const bool over = d->tile->over;
-    const int32_t *at = batch->at[i];
-    vf left = vf_where(batch->inside[i], vf_all(s->opacity)), before = vf_all(0.0f);
-    if (!d->brush.unfaded) {
-        vf depth = deep ? batch->depth[i] : vf_all(s->depth);
-        left =
-            fade(s, d->extra, vf_load_units(planes[KILN_TILE_DEPTH], at), depth, batch->inside[i]);
-    }
-    if (s->flags & KILN_SPRITE_LITERAL) /* equation 3.3 has no bound: limits alpha to 1 */
-        left = vf_min(left, 1.0f / vf_max(c.alpha, vf_all(1e-6f)));
-    if (d->brush.rim)
-        left *= batch->rim[i];
-    if (!covers && d->added) {
-        add_apart(d->added, at, c.rgb, multiplied ? left : c.alpha * left);
-        if (d->hidden)
-            return;
-    }
-    if (over || covers)
-        before = vf_load_units(planes[KILN_TILE_ALPHA], at);
-    if (over)
-        left *= 1.0f - before;
-    vf alpha = c.alpha * left;
-    for (int k = 0; k < 3; k++)
-        c.rgb[k] *= multiplied ? left : alpha;
-    blend(planes, at, &d->brush, s->bloom, c.rgb);
-    if (covers) {
-        before += alpha;
-        vf_store_units(planes[KILN_TILE_ALPHA], at, over ? vf_min(before, vf_all(1.0f)) : before);
-    }
-}
-
-/* Draws the first `count` vectors of a batch. */
-SIMD void draw_batch(struct batch *batch, int count, const struct target *d,
-                     enum kiln_sprite_shade kind, bool deep, bool covers, bool mixed)
-{
-    const struct kiln_sprite *s = d->s;
-    const struct brush *b = &d->brush;
-    const bool textured = kind != KILN_SHADE_PLAIN;
-    __asm__("" : "+m"(*batch)); /* keeps it in memory: taking vectors apart costs twice as much */
-    if (textured && !mixed)
-        follow(batch, count, b);
-    for (int i = 0; i < count && textured; i++) {
-        const struct vf4 cell = sample(batch, i, b, kind, mixed);
-        for (size_t c = first_channel(kind); c < 4; c++)
-            batch->cells[i].c[c] = cell.c[c];
-    }
-    for (int i = 0; i < count; i++) {
-        struct shaded c = textured ? shade_cell(s, d->extra, b, kind, batch->cells[i])
-                                   : shade_plain(s, batch->u[i], batch->v[i]);
-        draw_vector(batch, i, d, c, kind == KILN_SHADE_COLOR, deep, covers);
-    }
-}
-
 /* ---- wide sprites: units of their rows ------------------------------------------------------- */
 
 /* Draws the chosen units of some rows. */
 SIMD void draw_units(const struct target *d, const struct rows *rows, const struct box *box,
                      const float steps[3], enum units_choice choice, struct batch *batch,
-                     enum kiln_sprite_shade kind, bool deep, bool covers, bool mixed)
+                     batch_drawing *draw, bool textured, bool deep, bool mixed)
 {
     struct units units;
     int count = list_units(d->tile, rows, box, steps, deep, choice, &units);
@@ -264,20 +40,19 @@ SIMD void draw_units(const struct target *d, const struct rows *rows, const stru
                     p.q = vf_units(units.q + i) + lane * steps[2];
                 for (int k = 0; k < UNITS; k++)
                     batch->at[drawn][k] = units.at[i + k] + part * LANES;
-                put_pixels(batch, drawn++, d, p, kind, deep, mixed);
+                put_pixels(batch, drawn++, d, p, textured, deep, mixed);
             }
         }
-        draw_batch(batch, drawn, d, kind, deep, covers, mixed);
+        draw(batch, drawn, d);
     }
 }
 
 SIMD void draw_wide(struct target *d, const struct kiln_cell_hull *hull, const struct box *box,
-                    struct batch *batch, enum kiln_sprite_shade kind, bool deep, bool covers,
+                    struct batch *batch, batch_drawing *draw, bool textured, bool deep, bool covers,
                     bool mixed)
 {
     const struct kiln_sprite *s = d->s;
     struct rows rows;
-    bool textured = kind != KILN_SHADE_PLAIN;
     find_rows(d->tile, s, deep ? d->extra : NULL, box, !deep && textured ? hull : NULL, &rows);
     float scale = textured ? (float)PLACE_STEPS : 1.0f;
     float margin = textured && !deep ? PLACE_MIDDLE : 0.0f;
@@ -288,7 +63,7 @@ SIMD void draw_wide(struct target *d, const struct kiln_cell_hull *hull, const s
     const float steps[3] = {s->u_x * scale, s->v_x * scale, deep ? d->extra->q_x : 0.0f};
     enum units_choice choice = d->tile->has_opaque && !d->hidden ? UNITS_SEEN : UNITS_ALL;
     for (;;) {
-        draw_units(d, &rows, box, steps, choice, batch, kind, deep, covers, mixed);
+        draw_units(d, &rows, box, steps, choice, batch, draw, textured, deep, mixed);
         if (covers || choice != UNITS_SEEN || !d->added)
             return;
         choice = UNITS_HIDDEN;
@@ -299,11 +74,10 @@ SIMD void draw_wide(struct target *d, const struct kiln_cell_hull *hull, const s
 /* ---- sprites no wider than a unit: one a row ------------------------------------------------- */
 
 SIMD void draw_narrow(const struct target *d, const struct box *box, struct batch *batch,
-                      enum kiln_sprite_shade kind, bool covers, bool mixed)
+                      batch_drawing *draw, bool textured, bool mixed)
 {
     const struct kiln_sprite *s = d->s;
     const struct kiln_tile *tile = d->tile;
-    bool textured = kind != KILN_SHADE_PLAIN;
     float scale = textured ? (float)PLACE_STEPS : 1.0f;
     float margin = textured ? PLACE_MIDDLE : 0.0f;
     vf u[UNIT_PARTS], v[UNIT_PARTS]; /* in the row of the anchor */
@@ -324,15 +98,15 @@ SIMD void draw_narrow(const struct target *d, const struct box *box, struct batc
                                .inside = row < end};
             for (int k = 0; k < UNITS; k++)
                 batch->at[count][k] = at + k * KILN_TILE_PLANES * KILN_TILE_PITCH + part * LANES;
-            put_pixels(batch, count++, d, p, kind, false, mixed);
+            put_pixels(batch, count++, d, p, textured, false, mixed);
         }
         at += UNITS * KILN_TILE_PLANES * KILN_TILE_PITCH;
         if (count == BATCH) {
-            draw_batch(batch, count, d, kind, false, covers, mixed);
+            draw(batch, count, d);
             count = 0;
         }
     }
-    draw_batch(batch, count, d, kind, false, covers, mixed);
+    draw(batch, count, d);
 }
 
 /* ---- any sprite ------------------------------------------------------------------------------ */
@@ -398,21 +172,23 @@ static bool find_transparent(struct kiln_tile *tile)
     return any != 0;
 }
 
+/* Draws a sprite, batch by batch. textured, deep, mixed: as its batches are drawn. */
 SIMD void draw_sprite(struct kiln_tile *tile, const struct kiln_cells_content *cells,
                       const struct kiln_sprite *s, const struct kiln_sprite_extra *extra,
-                      enum kiln_sprite_shade kind, bool deep, bool covers, bool mixed)
+                      batch_drawing *draw, bool textured, bool deep, bool mixed)
 {
     const struct box box = box_in(tile, s);
+    const bool covers = (s->flags & KILN_SPRITE_COVERS) != 0;
     struct target target;
     if (!begin_target(tile, s, extra, &box, covers, &target))
         return;
-    make_brush(tile, cells, s, kind, deep, mixed, &target.brush);
+    make_brush(tile, cells, s, (enum kiln_sprite_shade)s->shade, deep, mixed, &target.brush);
     struct batch batch;
     if (!deep && box.x_to - box.x_from <= UNIT)
-        draw_narrow(&target, &box, &batch, kind, covers, mixed);
+        draw_narrow(&target, &box, &batch, draw, textured, mixed);
     else
-        draw_wide(&target, kiln_cells_hull(cells, s->cell), &box, &batch, kind, deep, covers,
-                  mixed);
+        draw_wide(&target, textured ? kiln_cells_hull(cells, s->cell) : NULL, &box, &batch, draw,
+                  textured, deep, covers, mixed);
 }
 
 /* ---- small sprites of systems with few slots ------------------------------------------------- */
@@ -508,30 +284,48 @@ static void draw_in_floats(struct kiln_tile *tile, const struct kiln_cells_conte
     }
 }
 
+/* ---- forms of sprites ------------------------------------------------------------------------ */
+
+/* A sprite's pixels are listed by one of these functions, by its shape. */
 typedef void drawing(struct kiln_tile *tile, const struct kiln_cells_content *cells,
-                     const struct kiln_sprite *s, const struct kiln_sprite_extra *extra);
+                     const struct kiln_sprite *s, const struct kiln_sprite_extra *extra,
+                     batch_drawing *draw);
 
-#define DRAW(name, kind, deep, covers, mixed)                                                      \
+#define DRAW(name, textured, deep, mixed)                                                          \
     static void name(struct kiln_tile *tile, const struct kiln_cells_content *cells,               \
-                     const struct kiln_sprite *s, const struct kiln_sprite_extra *extra)           \
+                     const struct kiln_sprite *s, const struct kiln_sprite_extra *extra,           \
+                     batch_drawing *draw)                                                          \
     {                                                                                              \
-        draw_sprite(tile, cells, s, extra, kind, deep, covers, mixed);                             \
+        draw_sprite(tile, cells, s, extra, draw, textured, deep, mixed);                           \
     }
-#define DRAW_FORMS(name, kind, mixed)                                                              \
-    DRAW(name##_flat_adds, kind, false, false, mixed)                                              \
-    DRAW(name##_flat_covers, kind, false, true, mixed)                                             \
-    DRAW(name##_deep_adds, kind, true, false, mixed)                                               \
-    DRAW(name##_deep_covers, kind, true, true, mixed)
+DRAW(list_plain, false, false, false)
+DRAW(list_plain_deep, false, true, false)
+DRAW(list_cells, true, false, false)
+DRAW(list_cells_deep, true, true, false)
+DRAW(list_mixed, true, false, true)
+DRAW(list_mixed_deep, true, true, true)
 
-DRAW_FORMS(glow, KILN_SHADE_GLOW, false)
-DRAW_FORMS(alpha, KILN_SHADE_ALPHA, false)
-DRAW_FORMS(lit, KILN_SHADE_LIT, false)
-DRAW_FORMS(color, KILN_SHADE_COLOR, false)
-DRAW_FORMS(plain, KILN_SHADE_PLAIN, false)
-DRAW_FORMS(mixed_glow, KILN_SHADE_GLOW, true)
-DRAW_FORMS(mixed_alpha, KILN_SHADE_ALPHA, true)
-DRAW_FORMS(mixed_lit, KILN_SHADE_LIT, true)
-DRAW_FORMS(mixed_color, KILN_SHADE_COLOR, true)
+/* The listed pixels are drawn by one of these functions, by the sprite's shade, too. */
+#define DRAW_BATCH(name, kind, deep, covers, mixed)                                                \
+    static void name(struct batch *batch, int count, const struct target *d)                       \
+    {                                                                                              \
+        draw_batch(batch, count, d, kind, deep, covers, mixed);                                    \
+    }
+#define BATCH_FORMS(name, kind, mixed)                                                             \
+    DRAW_BATCH(name##_flat_adds, kind, false, false, mixed)                                        \
+    DRAW_BATCH(name##_flat_covers, kind, false, true, mixed)                                       \
+    DRAW_BATCH(name##_deep_adds, kind, true, false, mixed)                                         \
+    DRAW_BATCH(name##_deep_covers, kind, true, true, mixed)
+
+BATCH_FORMS(glow, KILN_SHADE_GLOW, false)
+BATCH_FORMS(alpha, KILN_SHADE_ALPHA, false)
+BATCH_FORMS(lit, KILN_SHADE_LIT, false)
+BATCH_FORMS(color, KILN_SHADE_COLOR, false)
+BATCH_FORMS(plain, KILN_SHADE_PLAIN, false)
+BATCH_FORMS(mixed_glow, KILN_SHADE_GLOW, true)
+BATCH_FORMS(mixed_alpha, KILN_SHADE_ALPHA, true)
+BATCH_FORMS(mixed_lit, KILN_SHADE_LIT, true)
+BATCH_FORMS(mixed_color, KILN_SHADE_COLOR, true)
 
 /* Prefetches a sprite, since neighbours in a list are far apart in memory, and, if `extra`, the
  * sprite's extra. */
@@ -550,13 +344,26 @@ SIMD void prefetch(struct kiln_sprites sprites, uint32_t number, bool extra)
         name##_flat_adds, name##_deep_adds, name##_flat_covers, name##_deep_covers                 \
     }
 
-void TILE_DRAW(struct kiln_tile *tile, struct kiln_sprites sprites, const struct kiln_cells *cells,
-               const uint32_t *list, size_t count)
+static void draw_in_batches(struct kiln_tile *tile, const struct kiln_cells_content *cells,
+                            const struct kiln_sprite *s, const struct kiln_sprite_extra *extra)
 {
-    static drawing *const draw[2][KILN_SHADES][4] = {
+    static drawing *const list[3][2] = {{list_cells, list_cells_deep},
+                                        {list_mixed, list_mixed_deep},
+                                        {list_plain, list_plain_deep}};
+    static batch_drawing *const draw[2][KILN_SHADES][4] = {
         {ROW(glow), ROW(alpha), ROW(lit), ROW(color), ROW(plain)},
         {ROW(mixed_glow), ROW(mixed_alpha), ROW(mixed_lit), ROW(mixed_color), ROW(plain)},
     };
+    const bool mixed = (s->flags & KILN_SPRITE_MIXED) != 0;
+    const bool deep = (s->flags & KILN_SPRITE_DEEP) != 0;
+    const uint32_t form = s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_COVERS);
+    list[s->shade == KILN_SHADE_PLAIN ? 2 : mixed][deep](tile, cells, s, extra,
+                                                         draw[mixed][s->shade][form]);
+}
+
+void TILE_DRAW(struct kiln_tile *tile, struct kiln_sprites sprites, const struct kiln_cells *cells,
+               const uint32_t *list, size_t count)
+{
     const struct kiln_cells_content content = kiln_cells_content(cells);
     tile->has_opaque = false;
     uint32_t covering = 0;
@@ -565,12 +372,10 @@ void TILE_DRAW(struct kiln_tile *tile, struct kiln_sprites sprites, const struct
         const struct kiln_sprite_extra *extra = &sprites.extras[list[i]];
         if (i >= PREFETCH_DISTANCE)
             prefetch(sprites, list[i - PREFETCH_DISTANCE], kiln_sprite_has_extra(s));
-        bool mixed = (s->flags & KILN_SPRITE_MIXED) != 0;
-        uint32_t form = s->flags & (KILN_SPRITE_DEEP | KILN_SPRITE_COVERS);
         if (s->flags & KILN_SPRITE_FINE)
             draw_in_floats(tile, &content, s, extra);
         else
-            draw[mixed][s->shade][form](tile, &content, s, extra);
+            draw_in_batches(tile, &content, s, extra);
         covering += (s->flags & KILN_SPRITE_COVERS) != 0;
         if (covering == COVER_CHECK_INTERVAL && tile->over) {
             covering = 0;
