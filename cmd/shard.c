@@ -85,11 +85,10 @@ static int read_environment(struct shard *shard, uint64_t total)
     if (code)
         return code;
     if (total > 0 && count > 0 && count != total)
-        return report(
-            KILN_USAGE,
-            "render: --shard: auto/%" PRIu64 ": %s is one of %" PRIu64
-            " tasks; a repeated task must give its shard by number, such as 3/%" PRIu64 PRIu64,
-            total, schedulers[i].id, count, total);
+        return report(KILN_USAGE,
+                      "render: --shard: auto/%" PRIu64 ": %s is one of %" PRIu64
+                      " tasks; a repeated task must give its shard by number, such as 3/%" PRIu64,
+                      total, schedulers[i].id, count, total);
     count = total ? total : count;
     if (count == 0)
         return report(KILN_USAGE,

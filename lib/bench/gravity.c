@@ -150,7 +150,7 @@ static bool add_row(const struct pair_bench *pair_bench, size_t variant, const c
                     struct kiln_error *error)
 {
     const double pairs = (double)pair_bench->count * (double)pair_bench->count;
-    const size_t reference = KILN_SIMD_NARROWEST;
+    const size_t reference = kiln_simd_narrowest();
     const struct kiln_samples *samples = &pair_bench->samples[variant];
     const double *ms = samples->ms[KILN_PASS_simulate];
     double values[KILN_BENCH_MAX_REPETITIONS];
@@ -241,7 +241,7 @@ static bool run_sizes(const struct kiln_bench_run *run, const struct kiln_bench_
 bool kiln_suite_gravity(const struct kiln_bench_run *run, struct kiln_error *error)
 {
     char narrowest[32];
-    variant_name(KILN_SIMD_NARROWEST, narrowest);
+    variant_name(kiln_simd_narrowest(), narrowest);
     const struct kiln_bench_part pairs = {
         .name = "gravity",
         .title =

@@ -222,7 +222,7 @@ static bool check_limits(const struct kiln_loop *loop, struct kiln_error *error)
     return device->software || particles <= most ||
            kiln_error_set(error, KILN_DEVICE_FAILED,
                           "systems: found up to %" PRIu64
-                          " particles at once; %s draws up to %" PRIu64 PRIu64,
+                          " particles at once; %s draws up to %" PRIu64,
                           particles, device->name, most);
 }
 
