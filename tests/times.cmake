@@ -1,67 +1,68 @@
-# How tests are added, and how long they may take.
+# Defines how tests are added, and how long they may take.
 
 set(KILN_TEST_TIMEOUT_SCALE 1 CACHE STRING
-    "What the tests' limits are multiplied by, for machines that are slow or busy: 1, 2, 3...")
+    "Factor on the time limits of tests, for machines that are slow or busy: 1, 2, 3...")
 if(NOT KILN_TEST_TIMEOUT_SCALE MATCHES "^[1-9][0-9]*$")
     message(FATAL_ERROR
         "KILN_TEST_TIMEOUT_SCALE: found '${KILN_TEST_TIMEOUT_SCALE}', expected a whole number")
 endif()
 
-# Processor seconds of the tests that take more than five on the two quiet cores of CONTRIBUTING.md;
-# where a test is cut into parts, those of the longest one, and how many there are.
+option(KILN_ALL_TESTS "Add the tests that only tools/test --all runs, and check all cases of the others" OFF)
+
+# The seconds of each test that takes more than five, on two quiet cores with cold caches; where a test is cut
+# into parts, the seconds of the longest part, and the number of parts. A row "all.NAME" says that the test NAME
+# checks a sample of its cases unless KILN_ALL_TESTS is set (test_is_full, tests/support/parts.h), and what all
+# cases take.
 set(kiln_test_times
-    "gpu.simulate 30 5"
-    "gpu.shadows 15 2"
-    "gpu.lamps 25"
-    "gpu.lamp_kinds 10"
-    "gpu.solid_lamps 15"
-    "gpu.lens 10"
-    "gpu.bloom 10"
-    "gpu.shutter 10"
-    "gpu.backdrops 30 2"
-    "gpu.rasters 20 2"
-    "gpu.sort 20"
-    "gpu.oit 15"
-    "gpu.instances 10"
-    "gpu.crowds 30"
-    "gpu.billboards 10"
-    "gpu.small_billboards 40"
-    "gpu.particles 10"
-    "gpu.coarse 10"
-    "gpu.occlusion 10"
-    "gpu.long_loops 10"
-    "unit.host 20 3"
-    "unit.motion 10"
-    "unit.slots 10"
-    "unit.fragments 10"
-    "unit.sun_cover 10"
-    "unit.field 10"
-    "fuzz.mesh 15"
-    "golden.suite 20"
-    "golden.readers 15"
-    "report.page 20"
-    "schema.ajv 10"
-    "farm.schemas 10"
-    "queue.smoke 10"
-    "python.module 10"
-    "cli.bench 20"
+    "all.gpu.backdrops 30 2"
+    "all.gpu.billboards 20"
+    "all.gpu.crowds 30"
+    "all.gpu.instances 15"
+    "all.gpu.lamps 10"
+    "all.gpu.oit 15"
+    "all.gpu.rasters 30 2"
+    "all.gpu.shadows 20"
+    "all.gpu.simulate 30 5"
+    "all.gpu.small_billboards 10"
+    "all.gpu.solid_lamps 15"
+    "all.gpu.sort 20"
+    "all.gpu.spheres 10"
+    "all.unit.fragments 15"
+    "all.unit.host 20 3"
+    "cli.bench 10"
     "cli.bench_against 10"
-    "cli.stop 10"
-    "cli.compare 10"
-    "cli.test 10"
+    "cli.bench_suites 30"
+    "cli.stop 15"
     "docs.scenes 10"
-    "mutation.effects 20"
-    "mutation.shapes 10"
-    "mutation.turned 10"
     "farm.slurm 80"
-    "package.release 300"
+    "fuzz.mesh 10"
+    "golden.readers 15"
+    "golden.software 10"
+    "golden.suite 20"
+    "gpu.backdrops 10"
+    "gpu.crowds 15"
+    "gpu.lens 10"
+    "gpu.long_loops 10"
+    "gpu.oit 10"
+    "gpu.rasters 15"
+    "gpu.shadows 10"
+    "gpu.shutter 10"
+    "gpu.simulate 25"
+    "gpu.sort 10"
+    "mutation.effects 20"
+    "package.ci 60"
+    "package.container 60"
     "package.install 120"
     "package.lintian 10"
-    "package.container 60"
-    "package.ci 60"
-    "tree.tidy 20 4"
-    "sanitize.library 90"
-    "sanitize.tests 60"
+    "package.release 300"
+    "queue.smoke 10"
+    "report.page 20"
+    "sanitize.build 90"
+    "tree.tidy 40 4"
+    "unit.host 15"
+    "unit.motion 10"
+    "unit.slots 10"
+    "versions.0.1 10"
 )
 
 # Sets NAME_seconds and NAME_parts in the caller.
@@ -83,19 +84,37 @@ function(kiln_test_time name prefix)
     endforeach()
 endfunction()
 
-# kiln_add_test(name label [TIMES row] [SANITIZED] COMMAND command... [PROPERTIES name value...]): a
-# test that CTest begins the earlier the longer it takes, so that no core is idle at the end. Its
-# limit is for hangs: ten times what it takes, at least two minutes and, but for packages, at most
-# fifteen. One that is
-# cut into parts becomes NAME.1, NAME.2 and so on, which get "1/2" as their last argument. What takes
-# no more than five seconds has the label "quick", too. TIMES: the row of another test. SANITIZED: it
-# takes several times as long as that, whatever the build.
+# kiln_add_test(name label [ALL] [TIMES row] [SANITIZED] COMMAND command... [PROPERTIES name value...]): adds a
+# test with a limit for hangs: ten times its seconds, at least two minutes and, except for packages, at most
+# fifteen. CTest begins long tests first, so that no core is idle at the end. A test that is cut into parts becomes
+# NAME.1, NAME.2 and so on, which get "1/2" and so on as their last argument. A test of at most five seconds has
+# the label "quick", too.
+#   ALL        the test is added only with KILN_ALL_TESTS
+#   TIMES      the row of kiln_test_times, if it is not that of the test's name
+#   SANITIZED  the program has sanitizers whatever the build has, and takes four times as long
 function(kiln_add_test name label)
-    cmake_parse_arguments(PARSE_ARGV 2 test "SANITIZED" "TIMES" "COMMAND;PROPERTIES")
+    cmake_parse_arguments(PARSE_ARGV 2 test "SANITIZED;ALL" "TIMES" "COMMAND;PROPERTIES")
+    if(test_ALL AND NOT KILN_ALL_TESTS)
+        return()
+    endif()
     if(NOT test_TIMES)
         set(test_TIMES ${name})
     endif()
     kiln_test_time(${test_TIMES} test)
+    set(rows ${kiln_test_times})
+    list(FILTER rows INCLUDE REGEX "^all[.]${name} ")
+    if(rows AND KILN_ALL_TESTS)
+        kiln_test_time(all.${name} test)
+        list(FIND test_PROPERTIES ENVIRONMENT place)
+        if(place GREATER_EQUAL 0)
+            math(EXPR place "${place} + 1")
+            list(GET test_PROPERTIES ${place} environment)
+            list(REMOVE_AT test_PROPERTIES ${place})
+            list(INSERT test_PROPERTIES ${place} "KILN_TESTS=all\\;${environment}")
+        else()
+            list(APPEND test_PROPERTIES ENVIRONMENT KILN_TESTS=all)
+        endif()
+    endif()
     if(KILN_SANITIZE OR test_SANITIZED)
         math(EXPR test_seconds "${test_seconds} * 4")
     endif()
@@ -122,27 +141,30 @@ function(kiln_add_test name label)
     endforeach()
 endfunction()
 
-# Builds all that sanitizers run.
+# The programs of the tests below: a build with sanitizers makes all of them, or those that it makes quickly.
 add_custom_target(host_tests)
+add_custom_target(quick_host_tests)
 
-option(KILN_LONG_TESTS "Run long tests under the sanitizers, too" OFF)
-
-# kiln_add_host_test(name label sanitized COMMAND target argument...): a test that needs no device.
-# A second one, sanitize.SANITIZED, runs it as the sanitizers' build has it (tests/tree/sanitize.sh);
-# in that build itself there is only the first. What takes more than five seconds has a second one
-# only with KILN_LONG_TESTS.
+# kiln_add_host_test(name label sanitized [SANITIZED_QUICKLY] COMMAND target argument...): adds a test that needs
+# no device, and a second one, sanitize.SANITIZED, of the same program out of the build with sanitizers
+# (tests/tree/sanitize.sh). Without KILN_ALL_TESTS, only those tests have a second one whose programs are built
+# QUICKLY. In the build with sanitizers itself there is no second test.
 function(kiln_add_host_test name label sanitized)
-    cmake_parse_arguments(PARSE_ARGV 3 test "" "" "COMMAND")
+    cmake_parse_arguments(PARSE_ARGV 3 test "SANITIZED_QUICKLY" "" "COMMAND")
     set(leaks
         LSAN_OPTIONS=print_suppressions=0:suppressions=${CMAKE_SOURCE_DIR}/tests/tree/leaks.supp)
     kiln_add_test(${name} ${label} COMMAND ${test_COMMAND} PROPERTIES ENVIRONMENT ${leaks})
     list(POP_FRONT test_COMMAND target)
     add_dependencies(host_tests ${target})
-    kiln_test_time(${name} test)
-    if(NOT KILN_SANITIZE AND (KILN_LONG_TESTS OR test_seconds LESS_EQUAL 5))
+    set(when ALL)
+    if(test_SANITIZED_QUICKLY)
+        add_dependencies(quick_host_tests ${target})
+        set(when)
+    endif()
+    if(NOT KILN_SANITIZE)
         file(RELATIVE_PATH folder ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
-        # An absurd size must be refused by kiln, not by the sanitizer.
-        kiln_add_test(sanitize.${sanitized} sanitize SANITIZED TIMES ${name}
+        # With allocator_may_return_null, kiln itself must refuse an absurd size, and not the sanitizer.
+        kiln_add_test(sanitize.${sanitized} sanitize ${when} SANITIZED TIMES ${name}
             COMMAND ${CMAKE_BINARY_DIR}/sanitize/${folder}/${target} ${test_COMMAND}
             PROPERTIES FIXTURES_REQUIRED sanitized
             ENVIRONMENT "ASAN_OPTIONS=allocator_may_return_null=1;${leaks}")

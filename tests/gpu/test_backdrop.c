@@ -244,7 +244,7 @@ static void only_changes_are_drawn_again(void **state)
     fixture_end(&f);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(depth_matches_c),
@@ -252,11 +252,5 @@ int main(void)
         test_on_device(bright_edges_have_all_steps),
         test_on_device(only_changes_are_drawn_again),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed +=
-            cmocka_run_group_tests_name("backdrop", tests, test_device_open, test_device_close);
-    }
-    return failed;
+    return backdrops_run("backdrop", tests, sizeof tests / sizeof *tests, false, argc, argv);
 }

@@ -312,7 +312,7 @@ static void floors_repeat_without_aliasing(void **state)
     test_remove_folder(folder);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(round_shapes_match_c),
@@ -323,11 +323,5 @@ int main(void)
         test_on_device(sun_has_a_disc_and_a_glow),
         test_on_device(floors_repeat_without_aliasing),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed += cmocka_run_group_tests_name("backdrop_shapes", tests, test_device_open,
-                                              test_device_close);
-    }
-    return failed;
+    return backdrops_run("backdrop_shapes", tests, sizeof tests / sizeof *tests, false, argc, argv);
 }

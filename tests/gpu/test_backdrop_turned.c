@@ -140,7 +140,7 @@ static void planes_hide_the_sun(void **state)
     }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(turned_shapes_match_c),
@@ -148,11 +148,5 @@ int main(void)
         test_on_device(capsules_along_the_sun_match_c),
         test_on_device(planes_hide_the_sun),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed += cmocka_run_group_tests_name("backdrop_turned", tests, test_device_open,
-                                              test_device_close);
-    }
-    return failed;
+    return backdrops_run("backdrop_turned", tests, sizeof tests / sizeof *tests, false, argc, argv);
 }

@@ -384,6 +384,6 @@ int main(int argc, char **argv)
     test_list_add(&list, &moves, 1);
     add_fixtures(&list, same);
     add_fixtures(&list, agree);
-    test_list_add_scenes(&list, scene, 1);
+    test_list_add_scenes(&list, scene, 7);
     return test_list_run(&list, "backdrops", argc, argv, test_device_open_alone, test_device_close);
 }

@@ -314,8 +314,9 @@ static void lines_end_at_the_near_plane(void **state)
     drawing_finish(&d);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    (void)argc;
     static const struct CMUnitTest tests[] = {
         test_on_device(billboards_face_as_defined),
         test_on_device(a_billboard_seen_from_above_does_not_vanish),
@@ -323,20 +324,5 @@ int main(void)
         test_on_device(lines_lie_along_the_velocity),
         test_on_device(lines_end_at_the_near_plane),
     };
-    static const struct {
-        enum kiln_raster_technique technique;
-        const char *name;
-    } techniques[] = {
-        {KILN_RASTER_GEOMETRY, "geometry"},
-        {KILN_RASTER_INSTANCED, "instanced"},
-        {KILN_RASTER_TILED, "tiled"},
-        {KILN_RASTER_CPU, "cpu"},
-    };
-    int failed = 0;
-    for (size_t i = 0; i < sizeof techniques / sizeof *techniques; i++) {
-        drawing_technique = techniques[i].technique;
-        failed += cmocka_run_group_tests_name(techniques[i].name, tests, test_device_open,
-                                              test_device_close);
-    }
-    return failed;
+    return drawing_run_rasters(tests, sizeof tests / sizeof *tests, argv);
 }

@@ -9,6 +9,7 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/drawing.h"
+#include "support/parts.h"
 
 enum { WIDTH = 600, HEIGHT = 400, VALUES = WIDTH * HEIGHT * 4, STEP = 30, MOST = 1100000 };
 
@@ -282,8 +283,12 @@ static void tiles_are_the_same_by_any_work_group(void **state)
     free(crowd.particles);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    static const struct CMUnitTest full[] = {
+        test_on_device(more_than_are_drawn_at_a_time),
+        test_on_device(tiles_are_the_same_by_any_work_group),
+    };
     static const struct CMUnitTest tests[] = {
         test_on_device(no_particles_leave_a_clear_picture),
         test_on_device(sprites_larger_than_the_picture),
@@ -291,10 +296,11 @@ int main(void)
         test_on_device(thousands_in_one_place),
         test_on_device(tens_of_thousands_in_one_place),
         test_on_device(opaque_sprites_in_one_place),
-        test_on_device(more_than_are_drawn_at_a_time),
         test_on_device(boxes_that_are_mostly_empty),
         test_on_device(lists_that_are_split),
-        test_on_device(tiles_are_the_same_by_any_work_group),
     };
-    return cmocka_run_group_tests_name("crowds", tests, test_device_open, test_device_close);
+    struct test_list list = {.count = 0};
+    test_list_add(&list, tests, sizeof tests / sizeof *tests);
+    test_list_add_full(&list, full, sizeof full / sizeof *full);
+    return test_list_run(&list, "crowds", argc, argv, test_device_open, test_device_close);
 }

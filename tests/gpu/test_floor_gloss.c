@@ -210,18 +210,12 @@ static void waves_move(void **state)
     finish(&p);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(sky_and_objects_are_mirrored),
         test_on_device(lights_are_mirrored_by_a_lobe),
         test_on_device(waves_move),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed +=
-            cmocka_run_group_tests_name("floor gloss", tests, test_device_open, test_device_close);
-    }
-    return failed;
+    return backdrops_run("floor gloss", tests, sizeof tests / sizeof *tests, false, argc, argv);
 }

@@ -408,8 +408,9 @@ static void many_take_little_memory(void **state)
     drawing_most = 32;
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    (void)argc;
     static const struct CMUnitTest each[] = {
         test_on_device(meshes_point_along_the_velocity),
         test_on_device(meshes_rotate_about_their_axis),
@@ -423,12 +424,6 @@ int main(void)
         test_on_device(threads_and_vectors_change_no_byte),
         test_on_device(many_take_little_memory),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed +=
-            cmocka_run_group_tests_name("instances", each, test_device_open, test_device_close);
-    }
-    return failed +
+    return backdrops_run("instances", each, sizeof each / sizeof *each, true, 1, argv) +
            cmocka_run_group_tests_name("instances", both, test_device_open, test_device_close);
 }

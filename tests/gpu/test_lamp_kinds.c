@@ -186,7 +186,7 @@ static void the_floor_hides_rectangles_below_it(void **state)
     assert_true(sums[4] > 5 && fabs(sums[3] - sums[4]) < 0.01 * sums[4]);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(a_spot_lights_its_cone),
@@ -197,11 +197,5 @@ int main(void)
         test_on_device(a_wall_carries_a_rectangle),
         test_on_device(the_floor_hides_rectangles_below_it),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed +=
-            cmocka_run_group_tests_name("lamp_kinds", tests, test_device_open, test_device_close);
-    }
-    return failed;
+    return backdrops_run("lamp_kinds", tests, sizeof tests / sizeof *tests, false, argc, argv);
 }

@@ -173,7 +173,7 @@ static void the_floor_hides_lamps_below_it(void **state)
     assert_true(fabs(half - 0.5 * whole) <= 1e-3 * whole && none == 0);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(a_box_hides_a_lamp),
@@ -184,10 +184,5 @@ int main(void)
         test_on_device(a_shape_around_a_lamp_does_not_hide_it),
         test_on_device(the_floor_hides_lamps_below_it),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed += cmocka_run_group_tests_name("lamps", tests, test_device_open, test_device_close);
-    }
-    return failed;
+    return backdrops_run("lamps", tests, sizeof tests / sizeof *tests, true, argc, argv);
 }

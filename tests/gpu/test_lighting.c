@@ -142,17 +142,11 @@ static void fire_lights_the_floor(void **state)
     tear_down(&f);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(smoke_shades_the_floor),
         test_on_device(fire_lights_the_floor),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed +=
-            cmocka_run_group_tests_name("lighting", tests, test_device_open, test_device_close);
-    }
-    return failed;
+    return backdrops_run("lighting", tests, sizeof tests / sizeof *tests, false, argc, argv);
 }

@@ -10,6 +10,7 @@
 #include "support/device.h"
 #include "support/folders.h"
 #include "support/frame.h"
+#include "support/parts.h"
 #include "support/pictures.h"
 
 enum { WIDTH = 96, HEIGHT = 64, STEPS = 20 };
@@ -334,17 +335,22 @@ static void unseen_pieces_change_nothing(void **state)
     kiln_picture_destroy(&b);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    static const struct CMUnitTest full[] = {
+        test_on_device(lists_of_any_length_are_sorted),
+    };
     static const struct CMUnitTest tests[] = {
         test_on_device(crossing_billboards_are_sorted_by_pixel),
         test_on_device(a_puff_half_covers_a_flame_within),
         test_on_device(techniques_agree),
-        test_on_device(lists_of_any_length_are_sorted),
         test_on_device(small_storage_blocks_are_respected),
         test_on_device(lists_do_not_outgrow_their_counts),
         test_on_device(the_number_of_threads_changes_nothing),
         test_on_device(unseen_pieces_change_nothing),
     };
-    return cmocka_run_group_tests_name("oit", tests, test_device_open, test_device_close);
+    struct test_list list = {.count = 0};
+    test_list_add(&list, tests, sizeof tests / sizeof *tests);
+    test_list_add_full(&list, full, sizeof full / sizeof *full);
+    return test_list_run(&list, "oit", argc, argv, test_device_open, test_device_close);
 }

@@ -330,6 +330,6 @@ int main(int argc, char **argv)
     struct test_list list = {.count = 0};
     test_list_add(&list, &faint, 1);
     test_list_add(&list, &mixed, 1);
-    test_list_add_scenes(&list, scene, 1);
+    test_list_add_scenes(&list, scene, 7);
     return test_list_run(&list, "rasters", argc, argv, test_device_open_alone, test_device_close);
 }

@@ -12,7 +12,6 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/drawing.h"
-#include "support/parts.h"
 
 enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
 
@@ -589,12 +588,5 @@ int main(int argc, char **argv)
         test_on_device(the_backdrop_shades_smoke),
         test_on_device(penumbras_of_a_box_match_rays),
     };
-    struct test_list list = {.count = 0};
-    test_list_add(&list, tests, sizeof tests / sizeof *tests);
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed += test_list_run(&list, "shadows", argc, argv, test_device_open, test_device_close);
-    }
-    return failed;
+    return backdrops_run("shadows", tests, sizeof tests / sizeof *tests, true, argc, argv);
 }

@@ -438,7 +438,7 @@ static void balls_shade_each_other(void **state)
     assert_true(partly[1] > partly[0] && partly[2] > partly[1]);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(a_ball_hides_a_lamp),
@@ -449,11 +449,5 @@ int main(void)
         test_on_device(a_mesh_does_not_shade_itself),
         test_on_device(balls_shade_each_other),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed +=
-            cmocka_run_group_tests_name("solid lamps", tests, test_device_open, test_device_close);
-    }
-    return failed;
+    return backdrops_run("solid lamps", tests, sizeof tests / sizeof *tests, true, argc, argv);
 }

@@ -13,6 +13,7 @@
 #include "sort/sort.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/parts.h"
 #include "support/scene_fixture.h"
 #include "support/simulation.h"
 #include "support/sort_keys.h"
@@ -32,8 +33,7 @@ static uint32_t entry_of(uint32_t place)
     return place * 7u + 1u;
 }
 
-/* Fills a list with keys of a pattern. Beside its key a pair holds its place in the list if
- * `places` is set, otherwise its entry. */
+/* Fills a list with keys of a pattern. A pair holds its place in the list, or else its entry. */
 static void fill(struct list *list, enum pattern pattern, uint32_t count, bool places)
 {
     struct kiln_error error = {0};
@@ -209,8 +209,7 @@ static void the_most_particles_are_sorted(void **state)
     kiln_radix_destroy(&radix);
 }
 
-/* An axis of a dispatch takes at most 65535 work groups. Since networks are slow on software GL, a
- * short list is sorted here, in work groups so small that they are more. */
+/* An axis of a dispatch takes at most 65535 work groups; a list has more if they are small. */
 static void networks_take_more_groups_than_an_axis(void **state)
 {
     enum { GROUP = 4 };
@@ -372,8 +371,7 @@ static void work_groups_of_any_size_sort_alike(void **state)
     kiln_pool_finish(&pool);
 }
 
-/* A scene runs on the device, and all techniques sort its state. No axis is parallel to the views,
- * so that each rounding of the depth counts. */
+/* Views are oblique to all axes, so that each rounding of the depth counts. */
 static void all_techniques_sort_a_scene_alike(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 120);
@@ -434,8 +432,7 @@ static void spread_finish(struct spread *s)
     simulation_end(&s->run);
 }
 
-/* Checks that both sorts list the same particles, each once. Returns whether they list them in the
- * same order. */
+/* Checks that both sorts list the same particles, each once. Returns whether the order is equal. */
 static bool spread_agrees(struct spread *s, const struct kiln_sort_params *params)
 {
     struct kiln_error error = {0};
@@ -578,21 +575,26 @@ static void device_techniques_need_an_exact_device(void **state)
     device->info.exact = exact;
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    static const struct CMUnitTest full[] = {
+        test_on_device(the_most_particles_are_sorted),
+        test_on_device(networks_take_more_groups_than_an_axis),
+        test_on_device(work_groups_of_any_size_sort_alike),
+    };
     static const struct CMUnitTest tests[] = {
         test_on_device(radix_sorts_like_qsort),
         test_on_device(networks_sort_like_qsort),
-        test_on_device(the_most_particles_are_sorted),
-        test_on_device(networks_take_more_groups_than_an_axis),
         test_on_device(lengths_are_padded_to_powers_of_two),
         test_on_device(all_techniques_list_alike),
-        test_on_device(work_groups_of_any_size_sort_alike),
         test_on_device(all_techniques_sort_a_scene_alike),
         test_on_device(a_spread_sort_converges),
         test_on_device(small_pools_are_spread),
         test_on_device(records_stay_on_the_device),
         test_on_device(device_techniques_need_an_exact_device),
     };
-    return cmocka_run_group_tests_name("sort", tests, simulation_device_open, test_device_close);
+    struct test_list list = {.count = 0};
+    test_list_add(&list, tests, sizeof tests / sizeof *tests);
+    test_list_add_full(&list, full, sizeof full / sizeof *full);
+    return test_list_run(&list, "sort", argc, argv, simulation_device_open, test_device_close);
 }

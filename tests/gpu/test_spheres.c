@@ -388,7 +388,7 @@ static void patterns_turn_with_the_ball(void **state)
     }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         test_on_device(depth_is_where_the_ray_meets_a_sphere),
@@ -401,11 +401,5 @@ int main(void)
         test_on_device(no_sphere_fills_the_picture),
         test_on_device(patterns_turn_with_the_ball),
     };
-    int failed = 0;
-    for (int i = 0; i < 2; i++) {
-        backdrop_technique = BACKDROPS[i];
-        failed +=
-            cmocka_run_group_tests_name("spheres", tests, test_device_open, test_device_close);
-    }
-    return failed;
+    return backdrops_run("spheres", tests, sizeof tests / sizeof *tests, true, argc, argv);
 }

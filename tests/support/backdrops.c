@@ -2,8 +2,9 @@
 #include "support/backdrops.h"
 
 #include "draw/light/lamps.h"
+#include "support/device.h"
+#include "support/parts.h"
 
-const enum kiln_backdrop_technique BACKDROPS[2] = {KILN_BACKDROP_GL, KILN_BACKDROP_CPU};
 enum kiln_backdrop_technique backdrop_technique = KILN_BACKDROP_GL;
 
 /* Returns the threads that all backdrops share. The threads live until the program ends. */
@@ -34,4 +35,18 @@ bool backdrop_draw_by_lamps(struct kiln_backdrop_stage *stage, const struct kiln
     lighting.light_count = kiln_lamps_fill(moment, lighting.lights);
     kiln_lamps_find_casters(moment, lighting.lights, lighting.light_count);
     return kiln_backdrop_draw(stage, moment, &lighting, error);
+}
+
+int backdrops_run(const char *name, const struct CMUnitTest *tests, size_t count, bool sampled,
+                  int argc, char **argv)
+{
+    static const enum kiln_backdrop_technique techniques[] = {KILN_BACKDROP_CPU, KILN_BACKDROP_GL};
+    int failed = 0;
+    for (int i = 0; i < (sampled && !test_is_full() ? 1 : 2); i++) {
+        struct test_list list = {.count = 0};
+        test_list_add(&list, tests, count);
+        backdrop_technique = techniques[i];
+        failed += test_list_run(&list, name, argc, argv, test_device_open, test_device_close);
+    }
+    return failed;
 }

@@ -4,9 +4,7 @@
 #define KILN_TESTS_BACKDROPS_H
 
 #include "draw/backdrop/backdrop.h"
-
-/* All techniques of the backdrop, for loops over them. */
-extern const enum kiln_backdrop_technique BACKDROPS[2];
+#include "support/cmocka.h"
 
 /* The technique that backdrop_create uses. It is KILN_BACKDROP_GL until a test sets another. */
 extern enum kiln_backdrop_technique backdrop_technique;
@@ -22,5 +20,11 @@ struct kiln_backdrop_stage *backdrop_create(struct kiln_device *device,
  * light and cast no shadows, and meshes hide no lamp. */
 bool backdrop_draw_by_lamps(struct kiln_backdrop_stage *stage, const struct kiln_moment *moment,
                             struct kiln_error *error);
+
+/* Runs a group of tests, which need a device, with each technique of the backdrop. The arguments of
+ * the program are those of test_list_run. sampled: unless test_is_full, only `cpu` is run, with
+ * which gpu.backdrops compares GL. Returns the program's exit status. */
+int backdrops_run(const char *name, const struct CMUnitTest *tests, size_t count, bool sampled,
+                  int argc, char **argv);
 
 #endif

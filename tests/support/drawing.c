@@ -8,6 +8,8 @@
 
 #include "support/backdrops.h"
 #include "support/cmocka.h"
+#include "support/device.h"
+#include "support/parts.h"
 
 enum { DRAWING_CELL = 128 }; /* texels along an edge of the finest level */
 
@@ -231,4 +233,26 @@ vec drawing_project(const struct drawing *d, vec point)
     double y = vec_dot(away, drawing_axis(d, 1)) / depth / (double)d->moment.view.frustum.y;
     return (vec){(x + 1) / 2 * (double)d->moment.view.frustum.z,
                  (1 - y) / 2 * (double)d->moment.view.frustum.w, depth};
+}
+
+int drawing_run_rasters(const struct CMUnitTest *tests, size_t count, char **argv)
+{
+    static const struct {
+        enum kiln_raster_technique technique;
+        const char *name;
+    } techniques[] = {
+        {KILN_RASTER_TILED, "tiled"},
+        {KILN_RASTER_CPU, "cpu"},
+        {KILN_RASTER_GEOMETRY, "geometry"},
+        {KILN_RASTER_INSTANCED, "instanced"},
+    };
+    int failed = 0;
+    for (size_t i = 0; i < (test_is_full() ? 4 : 2); i++) {
+        struct test_list list = {.count = 0};
+        test_list_add(&list, tests, count);
+        drawing_technique = techniques[i].technique;
+        failed +=
+            test_list_run(&list, techniques[i].name, 1, argv, test_device_open, test_device_close);
+    }
+    return failed;
 }

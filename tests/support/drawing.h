@@ -7,6 +7,7 @@
 #include "draw/backdrop/backdrop.h"
 #include "draw/sprites/particles.h"
 #include "gpu/framebuffer.h"
+#include "support/cmocka.h"
 
 /* Settings that drawing_init reads. A test may set them before the call. */
 extern enum kiln_raster_technique drawing_technique; /* KILN_RASTER_GEOMETRY at first */
@@ -76,5 +77,10 @@ vec drawing_ray(const struct drawing *d, double x, double y);
 
 /* Returns where a point of the world is in the picture: x and y, px, and its view depth z, m. */
 vec drawing_project(const struct drawing *d, vec point);
+
+/* Runs a group of tests, which need a device, with each technique of stage `raster`; unless
+ * test_is_full, with `tiled` and `cpu` alone, with which gpu.crowds compares the others. Returns
+ * the program's exit status. */
+int drawing_run_rasters(const struct CMUnitTest *tests, size_t count, char **argv);
 
 #endif

@@ -1,4 +1,5 @@
-/* Makes lists of cmocka tests, and runs the part of a list that the command line chooses. */
+/* Makes lists of cmocka tests, and runs the part of a list that the command line and the
+ * environment choose. */
 #include "support/parts.h"
 
 #include <stdio.h>
@@ -13,12 +14,24 @@ void test_list_add(struct test_list *list, const struct CMUnitTest *tests, size_
     list->count += count;
 }
 
+bool test_is_full(void)
+{
+    const char *tests = getenv("KILN_TESTS");
+    return tests && strcmp(tests, "all") == 0;
+}
+
+void test_list_add_full(struct test_list *list, const struct CMUnitTest *tests, size_t count)
+{
+    if (test_is_full())
+        test_list_add(list, tests, count);
+}
+
 void test_list_add_scenes(struct test_list *list, struct CMUnitTest test, size_t stride)
 {
     glob_t *files = &list->files;
     if (files->gl_pathv || glob(KILN_SOURCE_DIR "/scenes/*.yaml", 0, NULL, files) != 0)
         abort();
-    for (size_t i = 0; i < files->gl_pathc; i += stride) {
+    for (size_t i = 0; i < files->gl_pathc; i += test_is_full() ? 1 : stride) {
         list->scenes[list->count] = (struct test_scene){files->gl_pathv[i], i};
         test.name = strrchr(files->gl_pathv[i], '/') + 1;
         test.initial_state = &list->scenes[list->count];

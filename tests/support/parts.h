@@ -1,13 +1,18 @@
-/* Splits groups of slow tests into parts. CTest runs each part in a process of its own, so that the
- * parts run on several cores at once. */
+/* Splits groups of slow tests into parts, and says whether a test is to check all of its cases.
+ * CTest runs each part in a process of its own, so that the parts run on several cores at once. */
 #ifndef KILN_TESTS_PARTS_H
 #define KILN_TESTS_PARTS_H
 
 #include <glob.h>
+#include <stdbool.h>
 
 #include "support/cmocka.h"
 
 enum { TEST_LIST_SIZE = 256 };
+
+/* Returns whether all cases are to be checked, as by `tools/test --all`: the environment variable
+ * KILN_TESTS is "all". Otherwise slow tests check a sample of their cases, always the same ones. */
+bool test_is_full(void);
 
 /* The state of a test that runs once for each scene. */
 struct test_scene {
@@ -26,8 +31,12 @@ struct test_list {
 /* Appends copies of the tests to the list. */
 void test_list_add(struct test_list *list, const struct CMUnitTest *tests, size_t count);
 
-/* Appends a test for every stride-th scene file of scenes/, from the first on. The test has the
- * file's name, and its *state is a struct test_scene. A list may have scenes from one call only. */
+/* Appends copies of the tests to the list if test_is_full. */
+void test_list_add_full(struct test_list *list, const struct CMUnitTest *tests, size_t count);
+
+/* Appends a test for every scene file of scenes/, or, unless test_is_full, for every stride-th one,
+ * from the first on. The test has the file's name, and its *state is a struct test_scene. A list
+ * may have scenes from one call only. */
 void test_list_add_scenes(struct test_list *list, struct CMUnitTest test, size_t stride);
 
 /* Runs the group and frees the list. The program's argument "2/3" chooses the second of three

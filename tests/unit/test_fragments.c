@@ -11,6 +11,7 @@
 
 #include "base/simd.h"
 #include "support/cmocka.h"
+#include "support/parts.h"
 #include "support/raster.h"
 #include "support/scenes.h"
 
@@ -164,12 +165,17 @@ static void every_width_of_vectors_sorts_alike(void **state)
     free(drawn);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(long_lists_are_drawn_in_turns),
-        cmocka_unit_test(many_sprites_are_made_for_some_tiles_at_a_time),
         cmocka_unit_test(every_width_of_vectors_sorts_alike),
     };
-    return cmocka_run_group_tests_name("fragments", tests, NULL, NULL);
+    static const struct CMUnitTest full[] = {
+        cmocka_unit_test(many_sprites_are_made_for_some_tiles_at_a_time),
+    };
+    struct test_list list = {.count = 0};
+    test_list_add(&list, tests, sizeof tests / sizeof *tests);
+    test_list_add_full(&list, full, sizeof full / sizeof *full);
+    return test_list_run(&list, "fragments", argc, argv, NULL, NULL);
 }
