@@ -27,6 +27,7 @@ set(kiln_test_times
     "all.gpu.solid_lamps 15"
     "all.gpu.sort 20"
     "all.gpu.spheres 10"
+    "all.shader.sim.step 10"
     "all.unit.fragments 15"
     "all.unit.host 20 3"
     "cli.bench 10"

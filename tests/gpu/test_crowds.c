@@ -133,7 +133,7 @@ static void no_particles_leave_a_clear_picture(void **state)
 static void sprites_larger_than_the_picture(void **state)
 {
     static const char *const facings[] = {"screen", "viewplane", "viewpoint", "axial", "velocity"};
-    for (size_t i = 0; i < 5; i++) {
+    for (size_t i = 0; i < 5; i += test_is_full() ? 1 : 2) {
         char facing[64];
         snprintf(facing, sizeof facing, "systems.a.look.facing=%s", facings[i]);
         struct crowd crowd = {.overrides = {facing, "systems.a.look.size={life: [9 m, 60 m]}",

@@ -328,8 +328,8 @@ int main(int argc, char **argv)
     static const struct CMUnitTest mixed = test_on_device(techniques_agree_on_mixed_cells);
     static const struct CMUnitTest scene = test_on_device(techniques_agree_on_a_scene);
     struct test_list list = {.count = 0};
-    test_list_add(&list, &faint, 1);
-    test_list_add(&list, &mixed, 1);
+    test_list_add_full(&list, &faint, 1);
+    test_list_add_full(&list, &mixed, 1);
     test_list_add_scenes(&list, scene, 7);
     return test_list_run(&list, "rasters", argc, argv, test_device_open_alone, test_device_close);
 }

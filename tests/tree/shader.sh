@@ -1,14 +1,27 @@
 #!/usr/bin/env bash
-# Checks that glslangValidator accepts a shader of shaders/ with some defines: shader.sh PRINTER OUT
-# FILE [NAME=VALUE]... If this fails, a driver may refuse the shader when kiln runs. PRINTER is the
-# program shader_source, which prints the shader with its includes and defines. The text is kept in
-# OUT, since the validator's messages have its line numbers.
+# Checks that glslangValidator accepts the shaders of a folder, each with all sets of defines that it is compiled
+# with: shader.sh PRINTER OUT SHADERS FOLDER. If this fails, a driver may refuse a shader when kiln runs. PRINTER
+# is the program shader_source, which prints a shader with its includes and defines. The texts are kept in
+# OUT/FOLDER, since the validator's messages have their line numbers. Unless KILN_TESTS=all, a sample of long
+# lists of sets is checked: each fourth one.
 set -euo pipefail
-printer=$1 out=$2 file=$3
-shift 2
-mkdir -p "$(dirname "$out")"
-"$printer" "$@" >"$out"
-if ! glslangValidator "$out"; then
-    echo "shaders/$file: invalid, with '${*:2}'; the lines above are those of $out" >&2
-    exit 1
-fi
+printer=$1 out=$2/$4 shaders=$3 folder=$4
+rm -rf "$out"
+mkdir -p "$out"
+for path in "$shaders/$folder"/*.{comp,vert,geom,frag}; do
+    [[ -f $path ]] || continue
+    file=${path##*/}
+    mapfile -t variants < <(sed -n 's|^// variant: *||p' "$path")
+    ((${#variants[@]} > 0)) || variants=("")
+    step=1
+    [[ ${KILN_TESTS:-} == all ]] || ((${#variants[@]} < 20)) || step=4
+    for ((i = 0; i < ${#variants[@]}; i += step)); do
+        read -ra defines <<<"${variants[i]}"
+        "$printer" "$folder/$file" "${defines[@]}" >"$out/${file%.*}.$i.${file##*.}"
+    done
+done
+shopt -s nullglob
+cd "$out"
+texts=(*)
+echo "${#texts[@]} texts in $out"
+exec glslangValidator "${texts[@]}"
