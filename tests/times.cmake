@@ -9,89 +9,62 @@ endif()
 
 option(KILN_ALL_TESTS "Add the tests that only tools/test --all runs, and check all cases of the others" OFF)
 
-# The seconds of each test that takes more than five, on two quiet cores with cold caches; where a test is cut
-# into parts, the seconds of the longest part, and the number of parts. A row "all.NAME" says that the test NAME
-# checks a sample of its cases unless KILN_ALL_TESTS is set (test_is_full, tests/support/parts.h), and what all
-# cases take.
+# The seconds of the tests that take more than one, on two quiet cores with cold caches: each row has seconds, and
+# the tests that take at most so long. Of a test NAME/PARTS that is cut into parts, the longest part takes so long.
+# An entry "all.NAME" says that the test NAME checks a sample of its cases unless KILN_ALL_TESTS is set
+# (test_is_full, tests/support/parts.h), and what all cases take.
 set(kiln_test_times
-    "all.gpu.backdrops 30 2"
-    "all.gpu.billboards 20"
-    "all.gpu.crowds 30"
-    "all.gpu.instances 15"
-    "all.gpu.lamps 10"
-    "all.gpu.oit 15"
-    "all.gpu.rasters 30 2"
-    "all.gpu.shadows 20"
-    "all.gpu.simulate 30 5"
-    "all.gpu.small_billboards 10"
-    "all.gpu.solid_lamps 15"
-    "all.gpu.sort 20"
-    "all.gpu.spheres 10"
-    "all.shader.sim.step 10"
-    "all.unit.fragments 15"
-    "all.unit.host 20 3"
-    "cli.bench 10"
-    "cli.bench_against 10"
-    "cli.bench_suites 30"
-    "cli.stop 15"
-    "docs.scenes 10"
-    "farm.slurm 80"
-    "fuzz.mesh 10"
-    "golden.readers 15"
-    "golden.software 10"
-    "golden.suite 20"
-    "gpu.backdrops 10"
-    "gpu.crowds 15"
-    "gpu.lens 10"
-    "gpu.long_loops 10"
-    "gpu.oit 10"
-    "gpu.rasters 15"
-    "gpu.shadows 10"
-    "gpu.shutter 10"
-    "gpu.simulate 25"
-    "gpu.sort 10"
-    "mutation.effects 20"
-    "package.ci 60"
-    "package.container 60"
-    "package.install 120"
-    "package.lintian 10"
-    "package.release 300"
-    "queue.smoke 10"
-    "report.page 20"
-    "sanitize.build 90"
-    "tree.tidy 40 4"
-    "unit.host 15"
-    "unit.motion 10"
-    "unit.slots 10"
-    "versions.0.1 10"
+    "3 cli.batch cli.decoder cli.encode cli.events cli.limits cli.output cli.pipe cli.stdin docs.figures
+        docs.jobs docs.library docs.python farm.schemas farm.tasks faults.address faults.flat_png
+        faults.kill_flipbook faults.starved_mp4 fuzz.answers fuzz.part gpu.backdrop gpu.backdrop_turned
+        gpu.bloom gpu.calibrate gpu.coarse gpu.exact gpu.frame gpu.lamp_kinds gpu.lamps gpu.post_techniques
+        gpu.small_billboards gpu.solid_lamps gpu.sort_trial gpu.spheres gpu.stages gpu.suite gpu.update
+        mutation.none schema.ajv shader.sim.step tree.check tree.entrance tree.format tree.size unit.bounces
+        unit.depth_maps unit.fragments unit.image unit.output unit.parts unit.sort unit.state unit.stopping
+        unit.surface_cache unit.threads unit.triangles unit.video_in unit.volume"
+    "5 all.gpu.small_billboards cli.bench cli.compare cli.figure cli.man cli.shards cli.test fuzz.journal
+        gpu.backdrop_shapes gpu.occlusion gpu.particles gpu.rasters hostile_smoke install mutation.shapes
+        mutation.turned python.module queue.smoke unit.clips unit.field unit.sun_cover"
+    "10 all.gpu.lamps all.gpu.spheres all.shader.sim.step cli.bench_against cli.render cli.stop docs.scenes
+        fuzz.mesh golden.software gpu.billboards gpu.crowds gpu.instances gpu.lens gpu.long_loops gpu.oit
+        gpu.shadows gpu.shutter gpu.sort gpu.states mutation.effects package.lintian unit.host unit.motion
+        unit.slots versions.0.1"
+    "20 all.gpu.billboards all.gpu.instances all.gpu.oit all.gpu.shadows all.gpu.solid_lamps all.gpu.sort
+        all.unit.fragments all.unit.host/3 golden.readers golden.suite gpu.backdrops report.page tree.flicker"
+    "40 all.gpu.backdrops/2 all.gpu.crowds all.gpu.rasters/2 all.gpu.simulate/5 cli.bench_suites gpu.simulate
+        tree.tidy/4"
+    "80 farm.slurm package.ci package.container"
+    "120 package.install sanitize.build"
+    "300 package.release"
 )
 
-# Sets NAME_seconds and NAME_parts in the caller.
+# Sets PREFIX_seconds and PREFIX_parts in the caller, and PREFIX_found: whether the table has the test.
 function(kiln_test_time name prefix)
-    set(${prefix}_seconds 5 PARENT_SCOPE)
+    set(${prefix}_seconds 1 PARENT_SCOPE)
     set(${prefix}_parts 1 PARENT_SCOPE)
+    set(${prefix}_found FALSE PARENT_SCOPE)
     foreach(row IN LISTS kiln_test_times)
-        string(REPLACE " " ";" row "${row}")
-        list(GET row 0 key)
-        if(key STREQUAL name)
-            list(GET row 1 seconds)
-            set(${prefix}_seconds ${seconds} PARENT_SCOPE)
-            list(LENGTH row columns)
-            if(columns GREATER 2)
-                list(GET row 2 parts)
-                set(${prefix}_parts ${parts} PARENT_SCOPE)
+        string(REGEX MATCHALL "[^ \n]+" entries "${row}")
+        list(POP_FRONT entries seconds)
+        foreach(entry IN LISTS entries)
+            if(entry MATCHES "^([^/]+)(/([0-9]+))?$" AND CMAKE_MATCH_1 STREQUAL name)
+                set(${prefix}_seconds ${seconds} PARENT_SCOPE)
+                set(${prefix}_found TRUE PARENT_SCOPE)
+                if(CMAKE_MATCH_3)
+                    set(${prefix}_parts ${CMAKE_MATCH_3} PARENT_SCOPE)
+                endif()
             endif()
-        endif()
+        endforeach()
     endforeach()
 endfunction()
 
 # kiln_add_test(name label [ALL] [TIMES row] [SANITIZED] COMMAND command... [PROPERTIES name value...]): adds a
 # test with a limit for hangs: ten times its seconds, at least two minutes and, except for packages, at most
 # fifteen. CTest begins long tests first, so that no core is idle at the end. A test that is cut into parts becomes
-# NAME.1, NAME.2 and so on, which get "1/2" and so on as their last argument. A test of at most five seconds has
-# the label "quick", too.
+# NAME.1, NAME.2 and so on, which get "1/2" and so on as their last argument. A test of at most a second has the
+# label "quick", too.
 #   ALL        the test is added only with KILN_ALL_TESTS
-#   TIMES      the row of kiln_test_times, if it is not that of the test's name
+#   TIMES      the test that takes as long, if the table does not have this one
 #   SANITIZED  the program has sanitizers whatever the build has, and takes four times as long
 function(kiln_add_test name label)
     cmake_parse_arguments(PARSE_ARGV 2 test "SANITIZED;ALL" "TIMES" "COMMAND;PROPERTIES")
@@ -102,10 +75,10 @@ function(kiln_add_test name label)
         set(test_TIMES ${name})
     endif()
     kiln_test_time(${test_TIMES} test)
-    set(rows ${kiln_test_times})
-    list(FILTER rows INCLUDE REGEX "^all[.]${name} ")
-    if(rows AND KILN_ALL_TESTS)
-        kiln_test_time(all.${name} test)
+    kiln_test_time(all.${name} full)
+    if(full_found AND KILN_ALL_TESTS)
+        set(test_seconds ${full_seconds})
+        set(test_parts ${full_parts})
         list(FIND test_PROPERTIES ENVIRONMENT place)
         if(place GREATER_EQUAL 0)
             math(EXPR place "${place} + 1")
@@ -126,7 +99,7 @@ function(kiln_add_test name label)
         set(limit 900)
     endif()
     math(EXPR limit "${limit} * ${KILN_TEST_TIMEOUT_SCALE}")
-    if(test_seconds LESS_EQUAL 5)
+    if(test_seconds LESS_EQUAL 1)
         list(APPEND label quick)
     endif()
     foreach(part RANGE 1 ${test_parts})
