@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "bench/suite.h"
+#include "scene/pool_layout.h"
 #include "shared/random.h"
 #include "sim/step/simulate.h"
 
@@ -115,8 +116,9 @@ static bool set_up(struct energy_run *energy_run, struct kiln_error *error)
                                                 energy_run->threads, error);
     if (!energy_run->simulate)
         return false;
-    kiln_pool_init(&energy_run->pool, NULL, &energy_run->scene->systems[0].capacity, 1);
-    if (!kiln_simulate_step(energy_run->simulate, &energy_run->pool, 1, error))
+    const struct kiln_pool_layout layout = kiln_scene_pool_layout(energy_run->scene);
+    if (!kiln_pool_init(&energy_run->pool, NULL, &layout, error) ||
+        !kiln_simulate_step(energy_run->simulate, &energy_run->pool, 1, error))
         return false;
     struct kiln_particle *records =
         kiln_buffer_host(&energy_run->pool.records, KILN_READ_WRITE, error);

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "bench/suite.h"
 #include "job/state.h"
+#include "scene/pool_layout.h"
 #include "sim/step/simulate.h"
 
 enum { STEPS = 62, MAX_TURNS = 5 }; /* after 60 steps the scene has all its particles */
@@ -27,14 +28,6 @@ struct state_bench {
     double bytes; /* file size per living particle */
 };
 
-static void init_pool(const struct kiln_scene *scene, struct kiln_pool *pool)
-{
-    uint32_t capacities[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        capacities[i] = scene->systems[i].capacity;
-    kiln_pool_init(pool, NULL, capacities, scene->system_count);
-}
-
 static bool fill(struct state_bench *b, struct kiln_error *error)
 {
     struct kiln_settings settings = {.count = 0};
@@ -50,8 +43,10 @@ static bool fill(struct state_bench *b, struct kiln_error *error)
     b->simulate = kiln_simulate_create(NULL, b->scene, KILN_SIMULATE_CPU, b->threads, error);
     if (!b->simulate)
         return false;
-    init_pool(b->scene, &b->pool);
-    init_pool(b->scene, &b->target);
+    const struct kiln_pool_layout layout = kiln_scene_pool_layout(b->scene);
+    if (!kiln_pool_init(&b->pool, NULL, &layout, error) ||
+        !kiln_pool_init(&b->target, NULL, &layout, error))
+        return false;
     for (uint32_t step = 1; step <= STEPS; step++) {
         const struct kiln_bench_params *params = b->run->params;
         if (params->stop && params->stop(params->user))

@@ -15,6 +15,7 @@
 #include "base/log.h"
 #include "frame/stages.h"
 #include "scene/instant.h"
+#include "scene/pool_layout.h"
 #include "scene/work.h"
 #include "sim/step/simulate.h"
 
@@ -252,14 +253,15 @@ struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln
     return loop;
 }
 
-static void init_pools(struct kiln_loop *loop)
+/* The pool of the state before a step keeps no paint. */
+static bool init_pools(struct kiln_loop *loop, struct kiln_error *error)
 {
-    uint32_t capacities[KILN_MAX_SYSTEMS] = {0};
-    for (uint32_t i = 0; i < loop->scene->system_count; i++)
-        capacities[i] = loop->scene->systems[i].capacity;
-    const uint32_t count = loop->scene->system_count;
-    kiln_pool_init(&loop->run.pool, kiln_device_gl(loop->device), capacities, count);
-    kiln_pool_init(&loop->before, kiln_device_gl(loop->device), capacities, count);
+    struct kiln_device *device = kiln_device_gl(loop->device);
+    struct kiln_pool_layout layout = kiln_scene_pool_layout(loop->scene);
+    if (!kiln_pool_init(&loop->run.pool, device, &layout, error))
+        return false;
+    layout.canvas_count = 0;
+    return kiln_pool_init(&loop->before, device, &layout, error);
 }
 
 bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
@@ -267,7 +269,8 @@ bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
 {
     struct kiln_device *device = kiln_device_gl(loop->device);
     loop->needs = needs;
-    init_pools(loop);
+    if (!init_pools(loop, error))
+        return false;
     loop->timer = kiln_timer_create(device);
     if (!loop->timer)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "timers: out of memory");

@@ -343,35 +343,28 @@ bool kiln_state_check(const char *path, struct kiln_state_info *info, struct kil
     return ok;
 }
 
-/* Sets a pool's sizes and counters to those of the head. The tables are read later. */
+/* Sets a pool's counters to those of the head. The tables are read later. Fails if the pool has
+ * another layout than the state's. */
 static bool shape_pool(struct kiln_pool *pool, const struct head *head, const char *path,
                        struct kiln_error *error)
 {
-    bool spins[KILN_MAX_SYSTEMS] = {false}, fits = head->system_count == pool->system_count;
+    bool fits =
+        head->system_count == pool->system_count && head->canvas_count == pool->canvas_count;
     for (uint32_t i = 0; i < pool->system_count && fits; i++) {
         struct kiln_pool_system *system = &pool->systems[i];
-        fits = head->systems[i].capacity == system->capacity;
+        fits = head->systems[i].capacity == system->capacity &&
+               (head->systems[i].spins != 0) == system->spins;
         system->next_serial = head->systems[i].next_serial;
         system->birth_wait = head->systems[i].birth_wait;
-        spins[i] = head->systems[i].spins != 0;
     }
-    for (uint32_t i = 0; i < pool->system_count && fits; i++)
-        fits = pool->spins.size == 0 || pool->systems[i].spins == spins[i];
-    if (!fits)
-        return refuse(path, "the state belongs to other systems", error);
-    kiln_pool_add_spins(pool, spins);
-    for (uint32_t i = 0; i < head->canvas_count; i++) {
+    for (uint32_t i = 0; i < pool->canvas_count && fits; i++) {
         const struct kiln_canvas_shape *from = &head->canvases[i];
         struct kiln_canvas *canvas = &pool->canvases[i];
-        const uint32_t changes = i < pool->canvas_count ? canvas->changes : 0;
-        kiln_canvas_finish(canvas);
-        pool->canvas_count = pool->canvas_count > i ? pool->canvas_count : i + 1;
-        if (!kiln_canvas_init(canvas, from->edge, from->slot_count, error))
-            return false;
+        fits = from->edge == canvas->edge && from->slot_count == canvas->slot_count;
         canvas->next = from->next;
-        canvas->changes = changes + 1; /* a new count makes the painted texture be uploaded again */
+        canvas->changes++; /* a new count makes the painted texture be uploaded again */
     }
-    return true;
+    return fits || refuse(path, "the state belongs to other systems", error);
 }
 
 static bool read_state(struct kiln_state *state, const struct visitor *visitor,

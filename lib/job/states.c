@@ -16,7 +16,7 @@
 #include "base/text.h"
 #include "job/state.h"
 #include "scene/motion.h"
-#include "sim/paint/paint.h"
+#include "scene/pool_layout.h"
 
 enum { PREFIX_DIGITS = 16 };
 
@@ -171,9 +171,15 @@ bool kiln_states_find(const struct kiln_states *states, uint32_t step, uint32_t 
  * it, since anybody can write one. */
 static bool fits(const struct kiln_scene *scene, const struct kiln_state_info *info)
 {
-    bool good = kiln_paint_fits(scene, info->shapes, info->shape_count);
+    const struct kiln_pool_layout layout = kiln_scene_pool_layout(scene);
+    bool good = info->shape_count == layout.canvas_count;
+    for (uint32_t i = 0; i < layout.canvas_count && good; i++) {
+        const struct kiln_canvas_shape *found = &info->shapes[i], *shape = &layout.canvases[i];
+        good = found->edge == shape->edge && found->slot_count == shape->slot_count &&
+               (shape->slot_count == 0 || found->next < shape->slot_count);
+    }
     for (uint32_t i = 0; i < scene->system_count; i++)
-        good = good && info->spins[i] == kiln_scene_system_spins(scene, i);
+        good = good && info->spins[i] == layout.spins[i];
     return good;
 }
 

@@ -34,25 +34,15 @@ void kiln_canvas_finish(struct kiln_canvas *canvas)
     *canvas = (struct kiln_canvas){.edge = 0};
 }
 
-bool kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from,
-                      struct kiln_error *error)
+void kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from)
 {
-    const bool fits = to->edge == from->edge && to->slot_count == from->slot_count;
-    struct kiln_canvas copy = *to;
-    if (!fits && !kiln_canvas_init(&copy, from->edge, from->slot_count, error)) {
-        kiln_canvas_finish(&copy);
-        return false;
-    }
-    memcpy(copy.texels, from->texels, (size_t)copy.edge * copy.edge * sizeof *copy.texels);
-    if (copy.pending)
-        memcpy(copy.pending, from->pending, copy.slot_count * sizeof *copy.pending);
-    copy.next = from->next;
+    assert(to->edge == from->edge && to->slot_count == from->slot_count);
+    memcpy(to->texels, from->texels, (size_t)to->edge * to->edge * sizeof *to->texels);
+    if (to->pending)
+        memcpy(to->pending, from->pending, to->slot_count * sizeof *to->pending);
+    to->next = from->next;
     /* A copy is a new version, so that it is not taken for a canvas that was drawn before. */
-    copy.changes = 1 + (to->changes > from->changes ? to->changes : from->changes);
-    if (!fits)
-        kiln_canvas_finish(to);
-    *to = copy;
-    return true;
+    to->changes = 1 + (to->changes > from->changes ? to->changes : from->changes);
 }
 
 /* Adds the hash of a texel or a splat to the state hash. */

@@ -43,9 +43,8 @@ bool kiln_canvas_init(struct kiln_canvas *canvas, uint32_t edge, uint32_t slot_c
                       struct kiln_error *error);
 void kiln_canvas_finish(struct kiln_canvas *canvas);
 
-/* Copies a canvas to another canvas, which gets the same size. */
-bool kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from,
-                      struct kiln_error *error);
+/* Copies a canvas to another canvas of the same size. */
+void kiln_canvas_copy(struct kiln_canvas *to, const struct kiln_canvas *from);
 
 /* Adds texels and waiting splats to the sums of a state hash (shared/state_hash.h). A canvas
  * without either adds nothing. */

@@ -29,29 +29,35 @@ struct kiln_pool {
     struct kiln_buffer records; /* struct kiln_particle [slot_count] */
 
     /* Spins of particles: a struct kiln_spin for each slot of the systems that spin. Its size is 0
-     * before the first step and if no system spins. */
+     * if no system spins. */
     struct kiln_buffer spins;
 
-    /* Painted textures, in the order of the scene's meshes that take paint. There are none before
-     * the first step. */
+    /* Painted textures, in the order of the scene's meshes that take paint. */
     struct kiln_canvas canvases[KILN_MAX_MESHES];
     uint32_t canvas_count;
 };
 
-/* Initialises a pool with capacities[i] slots for system i. If device is NULL, the records are on
- * the host only. */
-void kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device, const uint32_t *capacities,
-                    uint32_t system_count);
+/* Describes what a pool holds; kiln_scene_pool_layout makes it from a scene. */
+struct kiln_pool_layout {
+    uint32_t system_count;
+    uint32_t capacities[KILN_MAX_SYSTEMS]; /* slots of each system */
+    bool spins[KILN_MAX_SYSTEMS];          /* whether each system's particles have a spin */
+    uint32_t canvas_count;
+    struct kiln_canvas_shape canvases[KILN_MAX_MESHES];
+};
+
+/* Initialises a pool without particles and paint. If device is NULL, records and spins are on the
+ * host only. Fails if memory for paint is short; kiln_pool_finish frees the pool, also after a
+ * failure. */
+bool kiln_pool_init(struct kiln_pool *pool, struct kiln_device *device,
+                    const struct kiln_pool_layout *layout, struct kiln_error *error);
 void kiln_pool_finish(struct kiln_pool *pool);
 
-/* Allocates the spins of the chosen systems, as zeros, unless the pool has spins already. */
-void kiln_pool_add_spins(struct kiln_pool *pool, const bool *systems);
-
-/* Copies particles, spins and paint to another pool of the same capacities, in host memory. */
+/* Copies particles, spins and paint to another pool of the same layout, in host memory. */
 bool kiln_pool_copy(struct kiln_pool *to, struct kiln_pool *from, struct kiln_error *error);
 
-/* Copies records and spins to a pool of the same device and capacities, which need not have spins
- * yet. Paint and counts of births are not copied, so no step can follow. */
+/* Copies records and spins to a pool of the same device, capacities and spins. Paint and counts of
+ * births are not copied, so no step can follow. */
 bool kiln_pool_copy_particles(struct kiln_pool *to, struct kiln_pool *from,
                               struct kiln_error *error);
 

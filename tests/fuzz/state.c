@@ -50,17 +50,22 @@ static void repair(uint8_t *data, size_t size)
     }
 }
 
-/* Reads the state into a pool of the two systems that the states of the corpus are of. */
+/* Reads the state into a pool of the two systems that the states of the corpus are of, with the
+ * spins and canvases that the state has. */
 static void read_into_pool(const char *path, const struct kiln_state_info *info)
 {
-    static const uint32_t capacities[] = {26, 52};
+    struct kiln_pool_layout layout = {.system_count = 2, .capacities = {26, 52}};
+    for (uint32_t i = 0; i < layout.system_count; i++)
+        layout.spins[i] = info->spins[i];
+    layout.canvas_count = info->shape_count;
+    memcpy(layout.canvases, info->shapes, sizeof layout.canvases);
     struct kiln_error error = {0};
     struct kiln_pool pool;
     struct kiln_threads *threads = kiln_threads_create(1);
-    kiln_pool_init(&pool, NULL, capacities, 2);
     uint32_t slots[78];
     struct kiln_state state = {.pool = &pool, .slots = info->order[0] ? slots : NULL};
-    fuzz_taken = threads && kiln_state_read(&state, path, threads, &error);
+    fuzz_taken = threads && kiln_pool_init(&pool, NULL, &layout, &error) &&
+                 kiln_state_read(&state, path, threads, &error);
     if (threads && !fuzz_taken)
         require(error.code != KILN_OK && *error.message, "an error without a message");
     kiln_pool_finish(&pool);

@@ -13,6 +13,7 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/parts.h"
+#include "support/pools.h"
 #include "support/stages.h"
 
 enum { WIDTH = 384, HEIGHT = 216, PIXELS = WIDTH * HEIGHT, COLORS = 4 * PIXELS };
@@ -54,10 +55,7 @@ static void open_moment(struct moment *m, struct kiln_device *device, struct kil
                         uint32_t frame)
 {
     *m = (struct moment){.device = device, .scene = scene};
-    uint32_t capacities[KILN_MAX_SYSTEMS] = {0};
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        capacities[i] = scene->systems[i].capacity;
-    kiln_pool_init(&m->pool, device, capacities, scene->system_count);
+    pool_init_of(&m->pool, device, scene);
     const uint32_t step = kiln_scene_frame_step(scene, frame);
     step_to(m, step < MOST_STEPS ? step : MOST_STEPS);
 }

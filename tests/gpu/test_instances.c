@@ -13,6 +13,7 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/opaque.h"
+#include "support/pools.h"
 
 enum { STEP = 30, COUNT = 24 };
 
@@ -212,12 +213,8 @@ static void meshes_have_the_pose_of_their_collisions(void **state)
         "systems.a.interact=[{collide: {radius: 20 cm, spin: true}}]"};
     const double q[4] = {0.48, -0.6, 0.0, 0.64};
     struct fixture f;
-    struct kiln_error error = {0};
     init(&f, *state, overrides, 2);
-    kiln_pool_add_spins(&f.drawing.pool, (const bool[]){true});
-    struct kiln_spin *spins = kiln_buffer_host(&f.drawing.pool.spins, KILN_OVERWRITE, &error);
-    assert_non_null(spins);
-    memset(spins, 0, f.drawing.pool.spins.size);
+    struct kiln_spin *spins = pool_give_spins(&f.drawing.pool);
     spins[0].pose = (uint4){FLOAT_BITS((float)q[0]), FLOAT_BITS((float)q[1]),
                             FLOAT_BITS((float)q[2]), FLOAT_BITS((float)q[3])};
     const vec axes[3] = {{1 - 2 * (q[1] * q[1] + q[2] * q[2]), 2 * (q[0] * q[1] + q[2] * q[3]),

@@ -11,6 +11,7 @@
 #include "support/backdrops.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/pools.h"
 #include "support/scenes.h"
 
 enum { WIDTH = 64, HEIGHT = 36, STEP = 30, SLOTS = 512 };
@@ -48,7 +49,7 @@ static void set_up(struct fixture *f, void *device)
     struct kiln_error error = {0};
     static const uint32_t capacities[2] = {SLOTS, SLOTS};
     *f = (struct fixture){.scene = load_scene(SCENE, NULL)};
-    kiln_pool_init(&f->pool, device, capacities, 2);
+    pool_init(&f->pool, device, capacities, 2);
     f->threads = kiln_threads_create(2);
     assert_non_null(f->threads);
     kiln_image_init(&f->color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");

@@ -16,6 +16,7 @@
 #include "support/backdrops.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/pools.h"
 
 enum { WIDTH = 480, HEIGHT = 360, PIXELS = WIDTH * HEIGHT, COUNT = 24, STEP = 40 };
 
@@ -75,7 +76,7 @@ static void place_particles(struct fixture *f)
 {
     struct kiln_error error = {0};
     static const uint32_t capacities[2] = {COUNT, COUNT};
-    kiln_pool_init(&f->pool, f->device, capacities, 2);
+    pool_init(&f->pool, f->device, capacities, 2);
     struct kiln_particle *records = kiln_buffer_host(&f->pool.records, KILN_OVERWRITE, &error);
     kiln_buffer_init(&f->entries, f->device, COUNT * sizeof(uint32_t), "entries");
     uint32_t *entries = kiln_buffer_host(&f->entries, KILN_OVERWRITE, &error);

@@ -11,6 +11,7 @@
 #include "support/device.h"
 #include "support/frame.h"
 #include "support/parts.h"
+#include "support/pools.h"
 #include "support/stages.h"
 #include "support/true_billboards.h"
 
@@ -104,10 +105,7 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
         fail_msg("%s", error.message);
         return;
     }
-    uint32_t capacities[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < s->scene->system_count; i++)
-        capacities[i] = s->scene->systems[i].capacity;
-    kiln_pool_init(&s->run.pool, device, capacities, s->scene->system_count);
+    pool_init_of(&s->run.pool, device, s->scene);
     stages_open(&s->stages, &s->simulate, device, s->scene, &FRAME_CPU, true, s->threads,
                 &s->run.pool);
     for (int i = 0; i < RASTER_COUNT; i++) {

@@ -12,6 +12,7 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/drawing.h"
+#include "support/pools.h"
 
 enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
 
@@ -294,14 +295,10 @@ static void the_shadow_of_a_mesh_has_its_shape(void **state)
 static void the_shadow_of_a_mesh_turns_with_it(void **state)
 {
     const vec place = {0, 2, 0};
-    struct kiln_error error = {0};
     struct fixture f;
     drawing_asset_root = KILN_SOURCE_DIR "/tests/mutation";
     init(&f, *state, HEAD "backdrop:\n" SUN TETRAHEDRA, "systems.a.look.mesh.orient=spin");
-    kiln_pool_add_spins(&f.drawing.pool, (const bool[]){true});
-    struct kiln_spin *spins = kiln_buffer_host(&f.drawing.pool.spins, KILN_OVERWRITE, &error);
-    assert_non_null(spins);
-    memset(spins, 0, f.drawing.pool.spins.size);
+    struct kiln_spin *spins = pool_give_spins(&f.drawing.pool);
     spins[0].pose = (uint4){FLOAT_BITS((float)POSE[0]), FLOAT_BITS((float)POSE[1]),
                             FLOAT_BITS((float)POSE[2]), FLOAT_BITS((float)POSE[3])};
     draw(&f, &place, 1);

@@ -14,6 +14,7 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/parts.h"
+#include "support/pools.h"
 #include "support/scene_fixture.h"
 #include "support/simulation.h"
 #include "support/sort_keys.h"
@@ -314,7 +315,7 @@ static void fill_pool(struct kiln_pool *pool, struct kiln_device *device)
     static const uint32_t capacities[] = {1, 0, 2048, 20000, 2047, 7, 5000};
     enum { SYSTEMS = sizeof capacities / sizeof *capacities };
     struct kiln_error error = {0};
-    kiln_pool_init(pool, device, capacities, SYSTEMS);
+    pool_init(pool, device, capacities, SYSTEMS);
     struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, &error);
     assert_non_null(records);
     for (uint32_t system = 0; system < SYSTEMS; system++) {
@@ -471,8 +472,7 @@ static bool spread_follows(struct spread *s, struct kiln_sort_params *params)
     return same;
 }
 
-/* While particles are born, move and die, and the camera turns, a spread sort lists each particle
- * once. When all have rested for two full sorts, its order is that of a whole sort. */
+/* A spread sort lists each particle once, and has the whole order when all rested for two sorts. */
 static void a_spread_sort_converges(void **state)
 {
     static const uint32_t frames[] = {1, 3, 16, 64};
@@ -506,7 +506,7 @@ static void small_pools_are_spread(void **state)
     struct kiln_error error = {0};
     for (size_t i = 0; i < sizeof capacities / sizeof *capacities; i++) {
         struct kiln_pool pool;
-        kiln_pool_init(&pool, *state, capacities[i], 3);
+        pool_init(&pool, *state, capacities[i], 3);
         struct kiln_particle *records = kiln_buffer_host(&pool.records, KILN_READ_WRITE, &error);
         for (uint32_t slot = 0; slot < pool.slot_count; slot++)
             records[slot].velocity_birth.w = KILN_PARTICLE_ALIVE;

@@ -10,6 +10,7 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/opaque.h"
+#include "support/pools.h"
 
 enum { STEP = 30, COUNT = 24 };
 
@@ -343,10 +344,7 @@ static double other_part(vec n, bool stripe)
 static void place_turned(struct fixture *f, float4 pose)
 {
     struct kiln_error error = {0};
-    kiln_pool_add_spins(&f->drawing.pool, (const bool[]){true});
-    struct kiln_spin *spins = kiln_buffer_host(&f->drawing.pool.spins, KILN_OVERWRITE, &error);
-    assert_non_null(spins);
-    memset(spins, 0, f->drawing.pool.spins.size);
+    struct kiln_spin *spins = pool_give_spins(&f->drawing.pool);
     spins[5].pose =
         (uint4){FLOAT_BITS(pose.x), FLOAT_BITS(pose.y), FLOAT_BITS(pose.z), FLOAT_BITS(pose.w)};
     assert_true(kiln_moment_fill(&f->drawing.moment, &f->drawing.pool, kiln_instant_at_step(STEP),

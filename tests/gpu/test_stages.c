@@ -10,6 +10,7 @@
 #include "frame/stages.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/pools.h"
 #include "support/stages.h"
 
 enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT, BEAUTY = 0, DEPTH, FIRE, SMOKE, BLOOM };
@@ -69,10 +70,7 @@ static void frame_init_with(struct frame *f, struct kiln_device *device, const c
     f->scene = kiln_scene_parse(SCENE, sizeof SCENE - 1, "test", &params, &error);
     assert_string_equal(error.message, "");
     f->threads = kiln_threads_create(2);
-    uint32_t capacities[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < f->scene->system_count; i++)
-        capacities[i] = f->scene->systems[i].capacity;
-    kiln_pool_init(&f->run.pool, device, capacities, f->scene->system_count);
+    pool_init_of(&f->run.pool, device, f->scene);
     struct kiln_techniques techniques = {0};
     stages_open(&f->stages, &f->simulate, device, f->scene, &techniques, layers, f->threads,
                 &f->run.pool);

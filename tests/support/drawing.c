@@ -10,6 +10,7 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 #include "support/parts.h"
+#include "support/pools.h"
 
 enum { DRAWING_CELL = 128 }; /* texels along an edge of the finest level */
 
@@ -105,7 +106,7 @@ void drawing_init(struct drawing *d, struct kiln_device *device, const char *tex
         kiln_particles_create(device, d->scene, &d->atlas, drawing_technique, d->threads, &error);
     if (!d->backdrop || !d->particles)
         fail_msg("%s", error.message);
-    kiln_pool_init(&d->pool, device, &drawing_most, 1);
+    pool_init(&d->pool, device, &drawing_most, 1);
     kiln_buffer_init(&d->entries, device, drawing_most * sizeof(uint32_t), "entries");
 }
 

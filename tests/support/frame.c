@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "support/cmocka.h"
+#include "support/pools.h"
 #include "support/stages.h"
 
 const struct kiln_techniques FRAME_CPU = {
@@ -19,10 +20,8 @@ static bool frame_stage(struct kiln_device *device, const struct kiln_scene *sce
                         struct kiln_error *error)
 {
     struct kiln_run run = {0};
-    uint32_t capacities[KILN_MAX_SYSTEMS], drawn = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        capacities[i] = scene->systems[i].capacity;
-    kiln_pool_init(&run.pool, device, capacities, scene->system_count);
+    uint32_t drawn = 0;
+    pool_init_of(&run.pool, device, scene);
     struct kiln_stages stages;
     struct kiln_simulate *simulate;
     stages_open(&stages, &simulate, device, scene, &setting->techniques, true, threads, &run.pool);

@@ -3,6 +3,7 @@
 
 #include "draw/moment/view.h"
 #include "support/cmocka.h"
+#include "support/pools.h"
 #include "support/scenes.h"
 
 void placed_set_up(struct placed *f, const char *text, const char *override)
@@ -10,10 +11,7 @@ void placed_set_up(struct placed *f, const char *text, const char *override)
     struct kiln_error error = {0};
     const char *const overrides[] = {override, NULL};
     f->scene = load_scene(text, overrides);
-    uint32_t capacities[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < f->scene->system_count; i++)
-        capacities[i] = PLACED_MOST;
-    kiln_pool_init(&f->pool, NULL, capacities, f->scene->system_count);
+    pool_init_even(&f->pool, NULL, f->scene, PLACED_MOST);
     f->records = kiln_buffer_host(&f->pool.records, KILN_READ_WRITE, &error);
     assert_non_null(f->records);
     assert_true(kiln_moment_init(&f->moment, NULL, f->scene, NULL, &error));

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "support/cmocka.h"
+#include "support/pools.h"
 
 float raster_random(float low, float high)
 {
@@ -76,11 +77,8 @@ void raster_add_particles(struct raster *r, uint32_t capacity, uint32_t count,
                           struct kiln_particle **records, uint32_t **entries)
 {
     struct kiln_error error = {0};
-    uint32_t capacities[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < r->scene->system_count; i++)
-        capacities[i] = capacity;
     r->count = count;
-    kiln_pool_init(&r->pool, NULL, capacities, r->scene->system_count);
+    pool_init_even(&r->pool, NULL, r->scene, capacity);
     kiln_buffer_init(&r->entries, NULL, count * sizeof(uint32_t), "entries");
     *records = kiln_buffer_host(&r->pool.records, KILN_OVERWRITE, &error);
     *entries = kiln_buffer_host(&r->entries, KILN_OVERWRITE, &error);

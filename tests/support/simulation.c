@@ -7,6 +7,7 @@
 #include "shared/random.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/pools.h"
 
 void simulation_start_with(struct simulation *run, const struct kiln_scene *scene,
                            struct kiln_device *device, enum kiln_simulate_technique technique,
@@ -18,10 +19,7 @@ void simulation_start_with(struct simulation *run, const struct kiln_scene *scen
     run->simulate = kiln_simulate_create(device, scene, technique, run->threads, &error);
     if (!run->simulate)
         fail_msg("%s", error.message);
-    uint32_t capacities[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        capacities[i] = scene->systems[i].capacity;
-    kiln_pool_init(&run->pool, device, capacities, scene->system_count);
+    pool_init_of(&run->pool, device, scene);
 }
 
 void simulation_start(struct simulation *run, const struct kiln_scene *scene,

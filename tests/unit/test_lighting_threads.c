@@ -12,6 +12,7 @@
 #include "draw/moment/looks.h"
 #include "draw/moment/view.h"
 #include "support/cmocka.h"
+#include "support/pools.h"
 #include "support/scenes.h"
 
 enum { GRID = KILN_SMOKE_GRID, CELLS = GRID * GRID * GRID, LEVELS = 4, MOST = 40000, STEP = 30 };
@@ -55,7 +56,7 @@ static void set_up(struct fixture *f, const uint32_t counts[3])
     static const uint32_t capacities[3] = {MOST, MOST, MOST};
     struct kiln_error error = {0};
     *f = (struct fixture){.scene = load_scene(SCENE, NULL)};
-    kiln_pool_init(&f->pool, NULL, capacities, 3);
+    pool_init(&f->pool, NULL, capacities, 3);
     f->records = kiln_buffer_host(&f->pool.records, KILN_READ_WRITE, &error);
     assert_non_null(f->records);
     assert_true(kiln_moment_init(&f->moment, NULL, f->scene, NULL, &error));

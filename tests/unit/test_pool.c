@@ -4,12 +4,13 @@
 
 #include "particles/pool.h"
 #include "support/cmocka.h"
+#include "support/pools.h"
 
 static void slots_follow_one_another(void **state)
 {
     (void)state;
     struct kiln_pool pool;
-    kiln_pool_init(&pool, NULL, (const uint32_t[]){4, 0, 7}, 3);
+    pool_init(&pool, NULL, (const uint32_t[]){4, 0, 7}, 3);
     assert_int_equal(pool.slot_count, 11);
     assert_int_equal(pool.systems[1].base, 4);
     assert_int_equal(pool.systems[2].base, 4);

@@ -9,6 +9,7 @@
 #include "sort/pairs.h"
 #include "sort/sort.h"
 #include "support/cmocka.h"
+#include "support/pools.h"
 #include "support/sort_keys.h"
 
 enum { MOST = 300000 };
@@ -120,7 +121,7 @@ static void the_living_are_listed_by_system_and_serial(void **state)
     (void)state;
     struct kiln_error error = {0};
     struct kiln_pool pool;
-    kiln_pool_init(&pool, NULL, (const uint32_t[]){4, 0, 7}, 3);
+    pool_init(&pool, NULL, (const uint32_t[]){4, 0, 7}, 3);
     struct kiln_particle *records = kiln_buffer_host(&pool.records, KILN_READ_WRITE, &error);
     struct kiln_threads *threads = kiln_threads_create(1);
     struct kiln_sort *sort = kiln_sort_create(NULL, KILN_SORT_CPU, threads, &error);
@@ -165,7 +166,7 @@ static void bytes_are_those_that_are_taken(void **state)
 static void fill_pool(struct kiln_pool *pool, uint32_t capacity)
 {
     struct kiln_error error = {0};
-    kiln_pool_init(pool, NULL, (const uint32_t[]){capacity, capacity, capacity}, 3);
+    pool_init(pool, NULL, (const uint32_t[]){capacity, capacity, capacity}, 3);
     struct kiln_particle *records = kiln_buffer_host(&pool->records, KILN_READ_WRITE, &error);
     assert_non_null(records);
     for (uint32_t system = 0; system < 3; system++) {

@@ -12,6 +12,7 @@
 #include "sort/pairs.h"
 #include "sort/sort.h"
 #include "support/cmocka.h"
+#include "support/pools.h"
 #include "support/sort_keys.h"
 
 enum { CAPACITY = 40003, SLOTS = 2 * CAPACITY, TURN = 123 }; /* serials from TURN on */
@@ -123,7 +124,7 @@ static void any_depths_are_sorted(void **state)
     static struct expected expected;
     struct kiln_error error = {0};
     struct kiln_pool pool;
-    kiln_pool_init(&pool, NULL, (const uint32_t[]){CAPACITY, CAPACITY}, 2);
+    pool_init(&pool, NULL, (const uint32_t[]){CAPACITY, CAPACITY}, 2);
     struct kiln_particle *records = kiln_buffer_host(&pool.records, KILN_READ_WRITE, &error);
     assert_non_null(records);
     for (int depths = 0; depths < DEPTHS; depths++) {

@@ -37,7 +37,6 @@ static void cross(const double a[3], const double b[3], double y[3])
 static struct kiln_spin *spins_of(struct simulation *run)
 {
     struct kiln_error error = {0};
-    kiln_pool_add_spins(&run->pool, (const bool[KILN_MAX_SYSTEMS]){true});
     struct kiln_spin *spins = kiln_buffer_host(&run->pool.spins, KILN_READ_WRITE, &error);
     assert_non_null(spins);
     return spins;

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/matrix.h"
+#include "scene/pool_layout.h"
 #include "shared/trace.h"
 
 enum { SLOTS_AT_A_TIME = 1024 };
@@ -31,20 +32,11 @@ static bool load(struct kiln_paint *paint, uint32_t object, struct kiln_error *e
     return mesh->chart && kiln_paint_grid_init(&mesh->grid, mesh->chart, error);
 }
 
-/* Returns the number of slots of all systems that paint. */
-static uint32_t count_slots(const struct kiln_scene *scene)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++)
-        count += kiln_scene_paints(scene, i) ? scene->systems[i].capacity : 0;
-    return count;
-}
-
 bool kiln_paint_init(struct kiln_paint *paint, const struct kiln_scene *scene,
                      struct kiln_threads *threads, struct kiln_error *error)
 {
-    *paint =
-        (struct kiln_paint){.scene = scene, .slot_count = count_slots(scene), .threads = threads};
+    *paint = (struct kiln_paint){
+        .scene = scene, .slot_count = kiln_scene_paint_slots(scene), .threads = threads};
     if (paint->slot_count == 0)
         return true;
     enum kiln_simd simd;
@@ -263,54 +255,13 @@ static uint32_t take_turns(const struct kiln_paint *paint, struct kiln_canvas *c
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 
-/* Returns how many slots keep a waiting splat; 0 where all splats are painted in their step. */
-static uint32_t pending_slots(const struct kiln_object *object, uint32_t slot_count)
-{
-    const uint32_t per_step = object->paint.per_step;
-    return per_step == 0 || per_step >= slot_count ? 0 : slot_count;
-}
-
-static bool make_canvases(const struct kiln_paint *paint, struct kiln_pool *pool,
-                          struct kiln_error *error)
-{
-    while (pool->canvas_count < paint->mesh_count) {
-        const uint32_t i = pool->canvas_count;
-        const struct kiln_object *taker = &paint->scene->backdrop.objects[paint->meshes[i].object];
-        if (!kiln_canvas_init(&pool->canvases[i], taker->paint.size,
-                              pending_slots(taker, paint->slot_count), error)) {
-            kiln_canvas_finish(&pool->canvases[i]);
-            return false;
-        }
-        pool->canvas_count++;
-    }
-    return true;
-}
-
-bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_canvas_shape *shapes,
-                     uint32_t shape_count)
-{
-    const uint32_t slot_count = count_slots(scene);
-    uint32_t count = 0;
-    bool fits = true;
-    for (uint32_t i = 0; i < scene->backdrop.object_count && slot_count > 0; i++) {
-        const struct kiln_object *object = &scene->backdrop.objects[i];
-        if (!kiln_object_takes_paint(object))
-            continue;
-        const struct kiln_canvas_shape *canvas = &shapes[count++];
-        const uint32_t slots = pending_slots(object, slot_count);
-        fits = fits && count <= shape_count && canvas->edge == object->paint.size &&
-               canvas->slot_count == slots && (slots == 0 || canvas->next < slots);
-    }
-    return fits && shape_count == count;
-}
-
 bool kiln_paint_step(struct kiln_paint *paint, const struct kiln_sim_params *params,
                      struct kiln_pool *pool, struct kiln_buffer *traces, struct kiln_error *error)
 {
     if (paint->mesh_count == 0)
         return true;
     const struct kiln_trace *left = kiln_buffer_host(traces, KILN_READ, error);
-    if (!left || !make_canvases(paint, pool, error))
+    if (!left)
         return false;
     for (uint32_t i = 0; i < paint->mesh_count; i++) {
         struct kiln_paint_mesh *mesh = &paint->meshes[i];

@@ -28,14 +28,9 @@ bool kiln_paint_init(struct kiln_paint *paint, const struct kiln_scene *scene,
                      struct kiln_threads *threads, struct kiln_error *error);
 void kiln_paint_finish(struct kiln_paint *paint);
 
-/* Paints the pool's canvases after a step with these parameters, which left these traces. In a
- * run's first step it creates the canvases. */
+/* Paints the pool's canvases after a step with these parameters, which left these traces. */
 bool kiln_paint_step(struct kiln_paint *paint, const struct kiln_sim_params *params,
                      struct kiln_pool *pool, struct kiln_buffer *traces, struct kiln_error *error);
-
-/* Returns whether canvases of these shapes are those of a run of the scene after its first step. */
-bool kiln_paint_fits(const struct kiln_scene *scene, const struct kiln_canvas_shape *shapes,
-                     uint32_t shape_count);
 
 /* Adds the canvases to a state hash. */
 void kiln_paint_hash(const struct kiln_pool *pool, struct kiln_state_hash *hash);

@@ -106,7 +106,6 @@ bool kiln_newborn_show(struct kiln_newborn *newborn, struct kiln_sim_params *par
     newborn->slots = calloc(total, sizeof *newborn->slots);
     if (!newborn->slots)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "simulate: no memory");
-    kiln_pool_add_spins(pool, params->spins);
     memcpy(newborn->systems, pool->systems, sizeof newborn->systems);
     newborn->shown = true;
     struct places places;

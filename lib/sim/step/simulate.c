@@ -137,7 +137,6 @@ static bool move_particles(struct kiln_simulate *s, struct kiln_pool *pool, uint
         return false;
     const bool host = s->technique == KILN_SIMULATE_CPU;
     struct kiln_buffer *pushes = &s->interact.pushes;
-    kiln_pool_add_spins(pool, s->params.spins);
     if (!kiln_interact_gather(&s->interact, &s->params, pool, host ? NULL : &s->blocks.keys, error))
         return false;
     if (!host &&

@@ -208,8 +208,7 @@ static void fill_spins(struct kiln_sim_params *params, const struct kiln_scene *
 {
     params->spin_count = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
-        params->spins[i] = kiln_scene_system_spins(scene, i);
-        if (!params->spins[i])
+        if (!kiln_scene_system_spins(scene, i))
             continue;
         params->systems[i].spins = 1;
         params->systems[i].rubs |= params->systems[i].collide != COLLIDE_OFF;

@@ -19,8 +19,6 @@ struct kiln_sim_params {
     uint32_t trace_count;
     uint32_t push_count; /* slots of the systems that interact */
     uint32_t spin_count; /* slots of the systems whose particles spin */
-    /* the systems whose particles spin, as kiln_pool_add_spins takes them */
-    bool spins[KILN_MAX_SYSTEMS];
 };
 
 /* Returns whether a system needs the kernel for families (shared/step_family.h). */
