@@ -1,256 +1,20 @@
 /* This file runs the drawing stages of one frame in the order of figure 3.1 of the thesis (Heinz
- * 2019): sort, lighting, backdrop, particles, bloom, composite, and the readback. */
+ * 2019): sort, lighting, backdrop, particles, bloom, composite, and the readback. stages_set_up.c
+ * creates them. */
 #include "frame/stages.h"
 
-#include <string.h>
-
-#include "base/cache.h"
 #include "base/error.h"
 
-/* Returns the format of the render targets. Blending into 16-bit floats makes the result darker by
- * rounding. Targets of 32-bit floats avoid that; they are used on software devices, where they cost
- * nothing. */
-static GLenum target_format(const struct kiln_device *device)
-{
-    return !device || device->info.software ? GL_RGBA32F : GL_RGBA16F;
-}
-
-static uint32_t opaque_systems(const struct kiln_scene *scene)
-{
-    uint32_t mask = 0;
-    for (uint32_t i = 0; i < scene->system_count; i++) {
-        if (scene->systems[i].enabled && kiln_look_is_opaque(&scene->systems[i].look))
-            mask |= 1u << i;
-    }
-    return mask;
-}
-
 /* Returns a mask of the systems with a blend mode, without systems of opaque particles. */
-static uint32_t transparent_systems(const struct kiln_scene *scene, enum kiln_blend blend)
+static uint32_t transparent_systems(const struct kiln_stages *s, enum kiln_blend blend)
 {
+    const struct kiln_scene *scene = s->scene;
     uint32_t mask = 0;
     for (uint32_t i = 0; i < scene->system_count; i++) {
         if (scene->systems[i].enabled && scene->systems[i].look.blend == blend)
             mask |= 1u << i;
     }
-    return mask & ~opaque_systems(scene);
-}
-
-/* Returns whether particles draw their glow into the bloom source. They do if the bloom or a bloom
- * layer needs it, but not if the scene has a bright pass, which fills the bloom source instead. */
-static bool needs_glow(const struct kiln_scene *scene, bool layers)
-{
-    bool blooms = scene->post.bloom != KILN_BLOOM_NONE;
-    return blooms ? scene->post.bloom_source != KILN_BLOOM_BRIGHT : layers;
-}
-
-static bool init_targets(struct kiln_stages *s, struct kiln_error *error)
-{
-    uint32_t w = s->scene->width, h = s->scene->height;
-    GLenum format = target_format(s->device);
-    kiln_image_init(&s->scene_color, s->device, w, h, format, "scene");
-    kiln_image_init(&s->scene_depth, s->device, w, h, GL_R32F, "scene depth");
-    kiln_image_init(&s->backdrop_color, s->device, w, h, format, "backdrop");
-    kiln_image_init(&s->backdrop_depth, s->device, w, h, GL_R32F, "backdrop depth");
-    kiln_image_init(&s->particle_color, s->device, w, h, format, "particles");
-    kiln_image_init(&s->bloom_color, s->device, w, h, format, "bloom source");
-    size_t targets = s->glow ? 2 : 1;
-    struct kiln_image *merged[] = {&s->particle_color, &s->bloom_color};
-    if (!kiln_framebuffer_init(&s->particle_framebuffer, s->device, merged, targets, error))
-        return false;
-
-    bool separate = s->scene->post.compose == KILN_COMPOSE_SEPARATE;
-    if (s->layers && !separate) {
-        kiln_image_init(&s->smoke_color, s->device, w, h, format, "smoke");
-        struct kiln_image *smoke[] = {&s->smoke_color};
-        if (!kiln_framebuffer_init(&s->smoke_framebuffer, s->device, smoke, 1, error))
-            return false;
-    }
-    if (!s->layers && !separate)
-        return true;
-    kiln_image_init(&s->fire_color, s->device, w, h, format, "fire");
-    struct kiln_image *fire[] = {&s->fire_color, &s->bloom_color};
-    return kiln_framebuffer_init(&s->fire_framebuffer, s->device, fire, separate ? targets : 1,
-                                 error);
-}
-
-static bool init_atlas(struct kiln_stages *s, struct kiln_error *error)
-{
-    static const char *const plain = "builtin:spark";
-    struct kiln_atlas_request requests[KILN_MAX_SYSTEMS];
-    for (uint32_t i = 0; i < s->scene->system_count; i++) {
-        const struct kiln_look *look = &s->scene->systems[i].look;
-        requests[i] =
-            (struct kiln_atlas_request){.sources = look->atlas,
-                                        .count = look->atlas_count,
-                                        .columns = look->columns,
-                                        .rows = look->rows,
-                                        .motion = look->motion,
-                                        .motion_full = {look->motion_full[0], look->motion_full[1]},
-                                        .loader = s->scene->loader};
-        if (look->shape != KILN_SHAPE_BILLBOARD) /* such particles show no texture and get the
-                                                  * smallest one */
-            requests[i] = (struct kiln_atlas_request){
-                .sources = &plain, .count = 1, .columns = 1, .rows = 1, .motion = "none"};
-    }
-    char cache[KILN_PATH_SIZE];
-    const bool cached = kiln_cache_folder(cache);
-    return kiln_atlas_init(&s->atlas, s->device, requests, s->scene->system_count,
-                           cached ? cache : NULL, s->threads, error);
-}
-
-/* Returns the image that the bloom stage blurs. */
-static struct kiln_image *bloom_source(struct kiln_stages *s)
-{
-    return s->shutter ? kiln_shutter_image(s->shutter, KILN_SHUTTER_BLOOM) : &s->bloom_color;
-}
-
-/* Creates the backdrop stage, and the solids stage if the scene has opaque particles. Without
- * solids, the backdrop draws into the scene's images. With solids, it draws into images of its own,
- * and the solids stage draws the scene's images from them. */
-static bool init_scenery(struct kiln_stages *s, enum kiln_backdrop_technique technique,
-                         struct kiln_error *error)
-{
-    bool solids = opaque_systems(s->scene) != 0;
-    const struct kiln_backdrop_params backdrop_params = {
-        .technique = technique,
-        .threads = s->threads,
-        .color = solids ? &s->backdrop_color : &s->scene_color,
-        .depth = solids ? &s->backdrop_depth : &s->scene_depth,
-    };
-    s->backdrop = kiln_backdrop_create(s->device, &s->moment, &backdrop_params, error);
-    if (!s->backdrop)
-        return false;
-    if (!solids)
-        return true;
-    const struct kiln_solids_params solids_params = {
-        .backdrop = s->backdrop,
-        .threads = s->threads,
-        .targets = {.backdrop_color = &s->backdrop_color,
-                    .backdrop_depth = &s->backdrop_depth,
-                    .color = &s->scene_color,
-                    .depth = &s->scene_depth,
-                    .bloom = &s->bloom_color},
-    };
-    s->solids = kiln_solids_create(s->device, &s->moment, &solids_params, error);
-    return s->solids;
-}
-
-static bool init_coarse(struct kiln_stages *s, const struct kiln_techniques *techniques,
-                        struct kiln_error *error)
-{
-    if (s->scene->post.resolution == KILN_RESOLUTION_FULL)
-        return true;
-    const struct kiln_coarse_params params = {.particles = s->particles,
-                                              .in_gl = techniques->composite == KILN_COMPOSITE_GL,
-                                              .format = target_format(s->device)};
-    s->coarse = kiln_coarse_create(s->device, s->scene, &params, s->threads, error);
-    return s->coarse != NULL;
-}
-
-static bool init_stages(struct kiln_stages *s, const struct kiln_techniques *techniques,
-                        struct kiln_output_needs needs, struct kiln_error *error)
-{
-    struct kiln_device *device = s->device;
-    s->sort = techniques->sort_spread > 0
-                  ? kiln_sort_create_spread(device, techniques->sort_spread, s->threads, error)
-                  : kiln_sort_create(device, techniques->sort, s->threads, error);
-    if (!s->sort)
-        return false;
-    s->lighting = kiln_lighting_create(device, &s->moment, s->threads, error);
-    if (!s->lighting)
-        return false;
-    s->particles =
-        kiln_particles_create(device, s->scene, &s->atlas, techniques->raster, s->threads, error);
-    if (!s->particles || !init_coarse(s, techniques, error) ||
-        !init_scenery(s, techniques->backdrop, error))
-        return false;
-    s->on_host = techniques->raster == KILN_RASTER_CPU ||
-                 kiln_lighting_reads_particles(s->lighting) ||
-                 (s->solids && techniques->backdrop == KILN_BACKDROP_CPU);
-    if (kiln_scene_has_instants_between(s->scene)) {
-        const bool in_gl = techniques->simulate != KILN_SIMULATE_CPU;
-        s->between = kiln_between_create(device, &s->moment, in_gl, s->threads, error);
-        if (!s->between)
-            return false;
-    }
-    if (kiln_scene_moment_count(s->scene) > 1) {
-        s->shutter =
-            kiln_shutter_create(device,
-                                &(struct kiln_shutter_params){.technique = techniques->composite,
-                                                              .threads = s->threads,
-                                                              .width = s->scene->width,
-                                                              .height = s->scene->height},
-                                error);
-        if (!s->shutter)
-            return false;
-    }
-    if (s->scene->post.bloom != KILN_BLOOM_NONE) {
-        s->bloom = kiln_bloom_create(device, s->scene,
-                                     &(struct kiln_bloom_params){.technique = techniques->bloom,
-                                                                 .threads = s->threads,
-                                                                 .source = bloom_source(s),
-                                                                 .format = target_format(device)},
-                                     error);
-        if (!s->bloom)
-            return false;
-    }
-    s->composite = kiln_composite_create(
-        device, s->scene,
-        &(struct kiln_composite_params){.technique = techniques->composite,
-                                        .threads = s->threads,
-                                        .bits = needs.bits ? needs.bits : 8,
-                                        .beauty = needs.layers != KILN_LAYERS_NONE,
-                                        .texture = needs.texture},
-        error);
-    return s->composite != NULL;
-}
-
-bool kiln_stages_init(struct kiln_stages *stages, struct kiln_device *device,
-                      const struct kiln_scene *scene, const struct kiln_stages_params *params,
-                      struct kiln_error *error)
-{
-    const struct kiln_output_needs needs = params->needs;
-    *stages = (struct kiln_stages){.device = device,
-                                   .scene = scene,
-                                   .threads = params->threads,
-                                   .timer = params->timer,
-                                   .caller = params->caller,
-                                   .layers = needs.layers == KILN_LAYERS_ALL,
-                                   .glow = needs_glow(scene, needs.layers == KILN_LAYERS_ALL)};
-    kiln_buffer_init(&stages->entries, device, params->slot_count * sizeof(uint32_t), "entries");
-    if (init_atlas(stages, error) && init_targets(stages, error) &&
-        kiln_moment_init(&stages->moment, device, scene, &stages->atlas, error) &&
-        init_stages(stages, &params->techniques, needs, error))
-        return true;
-    kiln_stages_finish(stages);
-    return false;
-}
-
-void kiln_stages_finish(struct kiln_stages *stages)
-{
-    kiln_composite_destroy(&stages->composite);
-    kiln_bloom_destroy(&stages->bloom);
-    kiln_shutter_destroy(&stages->shutter);
-    kiln_solids_destroy(&stages->solids);
-    kiln_coarse_destroy(&stages->coarse);
-    kiln_particles_destroy(&stages->particles);
-    kiln_backdrop_destroy(&stages->backdrop);
-    kiln_lighting_destroy(&stages->lighting);
-    kiln_sort_destroy(&stages->sort);
-    kiln_between_destroy(&stages->between);
-    kiln_moment_finish(&stages->moment);
-    kiln_framebuffer_finish(&stages->particle_framebuffer);
-    kiln_framebuffer_finish(&stages->fire_framebuffer);
-    kiln_framebuffer_finish(&stages->smoke_framebuffer);
-    struct kiln_image *images[] = {&stages->backdrop_color, &stages->backdrop_depth,
-                                   &stages->scene_color,    &stages->scene_depth,
-                                   &stages->particle_color, &stages->fire_color,
-                                   &stages->smoke_color,    &stages->bloom_color};
-    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
-        kiln_image_finish(images[i]);
-    kiln_atlas_finish(&stages->atlas);
-    kiln_buffer_finish(&stages->entries);
+    return mask & ~s->opaque_systems;
 }
 
 /* Describes a pass that sorts the chosen systems and draws them into a framebuffer. */
@@ -284,7 +48,7 @@ static struct kiln_sort_params sort_params(const struct kiln_view *view)
     };
 }
 
-/* Begins a pass. Returns false if the caller asks to stop. */
+/* Begins a pass. Returns false with an error if the caller asks to stop. */
 static bool begin_pass(struct kiln_stages *s, enum kiln_pass pass, struct kiln_error *error)
 {
     if (!kiln_may_go_on(s->caller, error))
@@ -300,7 +64,13 @@ static bool end_pass(struct kiln_stages *s, bool ok)
     return ok;
 }
 
-/* Returns the pool with the particles at an instant, or NULL with an error. */
+/* Runs an expression as a pass, and is its value; false with an error if the caller asks to stop.
+ */
+#define RUN_PASS(stages, pass, run, error)                                                         \
+    (begin_pass((stages), (pass), (error)) && end_pass((stages), (run)))
+
+/* Returns the pool with the particles at the instant that the moment is set to, or NULL with an
+ * error. */
 static struct kiln_pool *pool_at(struct kiln_stages *s, struct kiln_pool *before,
                                  struct kiln_pool *pool, struct kiln_instant instant,
                                  struct kiln_error *error)
@@ -308,22 +78,20 @@ static struct kiln_pool *pool_at(struct kiln_stages *s, struct kiln_pool *before
     return instant.back > 0.0f ? kiln_between_run(s->between, before, pool, instant, error) : pool;
 }
 
-/* Updates the order that the sort keeps, if it does. */
-static bool advance_sort(struct kiln_stages *s, struct kiln_pool *pool, struct kiln_instant instant,
-                         struct kiln_error *error)
+/* Updates the order that the sort keeps, if it keeps one, for the moment's view. */
+static bool advance_sort(struct kiln_stages *s, struct kiln_pool *pool, struct kiln_error *error)
 {
-    const struct kiln_view view = kiln_view_compute(s->scene, instant);
-    const struct kiln_sort_params params = sort_params(&view);
-    return begin_pass(s, KILN_PASS_sort, error) &&
-           end_pass(s, kiln_sort_advance(s->sort, pool, &params, error));
+    const struct kiln_sort_params params = sort_params(&s->moment.view);
+    return RUN_PASS(s, KILN_PASS_sort, kiln_sort_advance(s->sort, pool, &params, error), error);
 }
 
 bool kiln_stages_skip_moment(struct kiln_stages *stages, struct kiln_pool *before,
                              struct kiln_pool *pool, struct kiln_instant instant,
                              struct kiln_error *error)
 {
+    kiln_moment_set_view(&stages->moment, instant);
     pool = pool_at(stages, before, pool, instant, error);
-    return pool && advance_sort(stages, pool, instant, error);
+    return pool && advance_sort(stages, pool, error);
 }
 
 static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_depth, uint32_t *count,
@@ -332,8 +100,9 @@ static bool sort_particles(struct kiln_stages *s, uint32_t systems, bool by_dept
     struct kiln_sort_params params = sort_params(&s->moment.view);
     params.systems = systems;
     params.order = order_of(s, by_depth);
-    return begin_pass(s, KILN_PASS_sort, error) &&
-           end_pass(s, kiln_sort_run(s->sort, s->moment.pool, &params, &s->entries, count, error));
+    return RUN_PASS(s, KILN_PASS_sort,
+                    kiln_sort_run(s->sort, s->moment.pool, &params, &s->entries, count, error),
+                    error);
 }
 
 static bool draw_particles(struct kiln_stages *s, struct particle_pass *pass, uint32_t *count,
@@ -362,18 +131,19 @@ static bool draw_particles(struct kiln_stages *s, struct particle_pass *pass, ui
         pass->added = NULL;
     draw.covering = pass->covering;
     draw.added = pass->added;
-    return begin_pass(s, KILN_PASS_particles, error) &&
-           end_pass(s, s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
-                                 : kiln_particles_run(s->particles, &draw, error));
+    return RUN_PASS(s, KILN_PASS_particles,
+                    s->coarse ? kiln_coarse_run(s->coarse, &draw, error)
+                              : kiln_particles_run(s->particles, &draw, error),
+                    error);
 }
 
 /* Draws the solids. Their list is not sorted, since a depth test resolves their order. */
 static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_error *error)
 {
-    if (!sort_particles(s, opaque_systems(s->scene), false, count, error))
+    if (!sort_particles(s, s->opaque_systems, false, count, error))
         return false;
-    return begin_pass(s, KILN_PASS_particles, error) &&
-           end_pass(s, kiln_solids_draw(s->solids, &s->moment, &s->entries, *count, error));
+    return RUN_PASS(s, KILN_PASS_particles,
+                    kiln_solids_draw(s->solids, &s->moment, &s->entries, *count, error), error);
 }
 
 /* Draws fire and smoke from one sorted list, or with KILN_COMPOSE_OIT from one list for each pixel.
@@ -382,8 +152,8 @@ static bool draw_solids(struct kiln_stages *s, uint32_t *count, struct kiln_erro
  * their own where the stage cannot keep them apart. */
 static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
-    uint32_t fire = transparent_systems(s->scene, KILN_BLEND_ADD);
-    uint32_t smoke = transparent_systems(s->scene, KILN_BLEND_ALPHA);
+    uint32_t fire = transparent_systems(s, KILN_BLEND_ADD);
+    uint32_t smoke = transparent_systems(s, KILN_BLEND_ALPHA);
     bool fire_covers = s->scene->post.compose == KILN_COMPOSE_ALPHA;
     bool by_fragment = s->scene->post.compose == KILN_COMPOSE_OIT && smoke != 0;
     struct particle_pass all = {.systems = fire | smoke,
@@ -416,11 +186,11 @@ static bool draw_merged(struct kiln_stages *s, uint32_t *drawn, struct kiln_erro
  * smoke. This is the order of the thesis (Heinz 2019, 3.2.1 and figure 4.3). */
 static bool draw_separate(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
-    struct particle_pass smoke = {.systems = transparent_systems(s->scene, KILN_BLEND_ALPHA),
+    struct particle_pass smoke = {.systems = transparent_systems(s, KILN_BLEND_ALPHA),
                                   .by_depth = true,
                                   .framebuffer = &s->particle_framebuffer,
                                   .keep_bloom = s->solids != NULL};
-    struct particle_pass fire = {.systems = transparent_systems(s->scene, KILN_BLEND_ADD),
+    struct particle_pass fire = {.systems = transparent_systems(s, KILN_BLEND_ADD),
                                  .framebuffer = &s->fire_framebuffer,
                                  .keep_bloom = true,
                                  .sum_alpha = true};
@@ -464,23 +234,27 @@ static bool add_moment(struct kiln_stages *s, uint32_t moment, struct kiln_error
                                             first, error)));
 }
 
-/* Fills the moment with the particles of an instant, and lights them. Moments of a frame at the
- * same time share both, since they differ only in the view. */
+/* Sets the moment to an instant and its particles, and lights them. Moments of a frame at the same
+ * time share all of this but the view. */
 static bool fill_moment(struct kiln_stages *s, struct kiln_pool *before, struct kiln_pool *pool,
                         struct kiln_instant instant, bool first, struct kiln_error *error)
 {
     const bool shared = !first && kiln_instants_coincide(instant, s->instant);
     s->instant = instant;
     if (shared) {
-        kiln_moment_look_through(&s->moment, instant);
-        return advance_sort(s, s->moment.pool, instant, error);
+        kiln_moment_set_view(&s->moment, instant);
+        return advance_sort(s, s->moment.pool, error);
     }
-    pool = pool_at(s, before, pool, instant, error);
-    if (!pool || !advance_sort(s, pool, instant, error) ||
-        !begin_pass(s, KILN_PASS_lighting, error))
+    if (!begin_pass(s, KILN_PASS_lighting, error))
         return false;
-    return end_pass(s, kiln_moment_fill(&s->moment, pool, instant, s->on_host, error) &&
-                           kiln_lighting_run(s->lighting, &s->moment, &s->light, error));
+    kiln_moment_set_time(&s->moment, instant);
+    end_pass(s, true);
+    pool = pool_at(s, before, pool, instant, error);
+    return pool && advance_sort(s, pool, error) &&
+           RUN_PASS(s, KILN_PASS_lighting,
+                    kiln_moment_set_particles(&s->moment, pool, s->on_host, error) &&
+                        kiln_lighting_run(s->lighting, &s->moment, &s->light, error),
+                    error);
 }
 
 /* Draws the backdrop and the solid particles over it. The other passes blend particles over the
@@ -488,12 +262,11 @@ static bool fill_moment(struct kiln_stages *s, struct kiln_pool *before, struct 
 static bool draw_scenery(struct kiln_stages *s, uint32_t *drawn, struct kiln_error *error)
 {
     *drawn = 0;
-    if (!begin_pass(s, KILN_PASS_backdrop, error) ||
-        !end_pass(s, kiln_backdrop_draw(s->backdrop, &s->moment, &s->light, error)) ||
-        (s->solids && !draw_solids(s, drawn, error)))
-        return false;
-    return !s->coarse || (begin_pass(s, KILN_PASS_particles, error) &&
-                          end_pass(s, kiln_coarse_prepare(s->coarse, &s->scene_depth, error)));
+    return RUN_PASS(s, KILN_PASS_backdrop,
+                    kiln_backdrop_draw(s->backdrop, &s->moment, &s->light, error), error) &&
+           (!s->solids || draw_solids(s, drawn, error)) &&
+           (!s->coarse || RUN_PASS(s, KILN_PASS_particles,
+                                   kiln_coarse_prepare(s->coarse, &s->scene_depth, error), error));
 }
 
 bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, struct kiln_pool *pool,
@@ -509,8 +282,7 @@ bool kiln_stages_draw(struct kiln_stages *stages, struct kiln_pool *before, stru
     if (!(separate ? draw_separate(s, drawn, error) : draw_merged(s, drawn, error)))
         return false;
     *drawn += solids;
-    return !s->shutter ||
-           (begin_pass(s, KILN_PASS_composite, error) && end_pass(s, add_moment(s, moment, error)));
+    return !s->shutter || RUN_PASS(s, KILN_PASS_composite, add_moment(s, moment, error), error);
 }
 
 bool kiln_stages_keep_history(const struct kiln_stages *stages)
@@ -530,14 +302,13 @@ bool kiln_stages_compose(struct kiln_stages *stages, uint32_t frame, struct kiln
     if (s->bloom) {
         const struct kiln_bloom_inputs light = {inputs.scene, inputs.particles, inputs.fire,
                                                 inputs.time_s};
-        if (!begin_pass(s, KILN_PASS_bloom, error))
-            return false;
-        inputs.bloom = kiln_bloom_run(s->bloom, &light, &inputs.bloom_scale, error);
-        if (!end_pass(s, inputs.bloom != NULL))
+        if (!RUN_PASS(s, KILN_PASS_bloom,
+                      (inputs.bloom = kiln_bloom_run(s->bloom, &light, &inputs.bloom_scale, error)),
+                      error))
             return false;
     }
-    return begin_pass(s, KILN_PASS_composite, error) &&
-           end_pass(s, kiln_composite_run(s->composite, &inputs, error));
+    return RUN_PASS(s, KILN_PASS_composite, kiln_composite_run(s->composite, &inputs, error),
+                    error);
 }
 
 static const char *const LAYER_NAMES[] = {"beauty", "depth", "fire", "smoke", "bloom"};
@@ -572,7 +343,7 @@ static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
                         struct kiln_error *error)
 {
     struct kiln_image *sources[] = {NULL, &s->scene_depth, &s->fire_color, smoke_layer(s),
-                                    bloom_source(s)};
+                                    s->bloom_source};
     if (s->shutter) { /* depths have no mean: those of the last moment are those of a pinhole */
         sources[2] = kiln_shutter_image(s->shutter, KILN_SHUTTER_FIRE);
         sources[3] = kiln_shutter_image(s->shutter, KILN_SHUTTER_SMOKE);
@@ -587,13 +358,16 @@ static bool read_layers(struct kiln_stages *s, struct kiln_picture *picture,
     return true;
 }
 
+static bool read_picture(struct kiln_stages *s, struct kiln_picture *picture,
+                         struct kiln_error *error)
+{
+    return (picture->bits == 0 ||
+            kiln_composite_read_display(s->composite, picture->display, error)) &&
+           (picture->layer_count == 0 || read_layers(s, picture, error));
+}
+
 bool kiln_stages_read(struct kiln_stages *stages, struct kiln_picture *picture,
                       struct kiln_error *error)
 {
-    if (!begin_pass(stages, KILN_PASS_readback, error))
-        return false;
-    bool ok = picture->bits == 0 ||
-              kiln_composite_read_display(stages->composite, picture->display, error);
-    return end_pass(stages,
-                    ok && (picture->layer_count == 0 || read_layers(stages, picture, error)));
+    return RUN_PASS(stages, KILN_PASS_readback, read_picture(stages, picture, error), error);
 }

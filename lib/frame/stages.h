@@ -22,6 +22,7 @@ struct kiln_stages {
     struct kiln_device *device; /* NULL if all stages run on the host */
     const struct kiln_scene *scene;
     struct kiln_threads *threads;
+    uint32_t opaque_systems;  /* a bit for each system of opaque particles */
     bool layers;              /* the output needs the layers of an EXR file */
     bool glow;                /* particles draw their glow into bloom_color */
     struct kiln_timer *timer; /* timer and caller are borrowed */
@@ -49,7 +50,9 @@ struct kiln_stages {
     struct kiln_image particle_color; /* all particles (merged), or smoke alone (separate) */
     struct kiln_image fire_color;     /* for separate composition and for layers */
     struct kiln_image smoke_color;    /* for layers unless the composition is separate */
-    struct kiln_image bloom_color;    /* the source of the bloom stage */
+    struct kiln_image bloom_color;    /* what glows in a moment */
+    struct kiln_image *bloom_source;  /* what the bloom stage blurs: bloom_color, or its mean over a
+                                       * frame's moments */
     struct kiln_framebuffer particle_framebuffer, fire_framebuffer, smoke_framebuffer;
 };
 

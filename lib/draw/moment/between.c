@@ -79,8 +79,7 @@ static void prepare(struct kiln_between *between, const struct kiln_pool *after)
     pool->spins = spins;
 }
 
-/* ---- on the host ------------------------------------------------------------------------------
- */
+/* ---- on the host ----------------------------------------------------------------------------- */
 
 struct host_job {
     struct kiln_derived_params derived;
@@ -150,8 +149,7 @@ static bool run_on_host(struct kiln_between *between, struct kiln_pool *before,
     return ok;
 }
 
-/* ---- in GL ------------------------------------------------------------------------------------
- */
+/* ---- in GL ----------------------------------------------------------------------------------- */
 
 static bool bind_three(GLuint binding, struct kiln_buffer *before, struct kiln_buffer *after,
                        struct kiln_buffer *between, struct kiln_error *error)

@@ -1,5 +1,5 @@
-/* This file fills a drawn moment: camera, sun, looks, posed meshes and shapes. It fills them in
- * this order, in which each part needs only the parts before it. */
+/* This file fills a drawn moment: camera, sun, looks, posed meshes, shapes and particles. It fills
+ * them in this order, in which each part needs only the parts before it. */
 #include "draw/moment/moment.h"
 
 #include <stdlib.h>
@@ -51,17 +51,15 @@ static bool read_particles(struct kiln_moment *moment, struct kiln_error *error)
     return moment->spins || pool->spins.size == 0;
 }
 
-void kiln_moment_look_through(struct kiln_moment *moment, struct kiln_instant instant)
+void kiln_moment_set_view(struct kiln_moment *moment, struct kiln_instant instant)
 {
     moment->view = kiln_view_compute(moment->scene, instant);
 }
 
-bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool,
-                      struct kiln_instant instant, bool on_host, struct kiln_error *error)
+void kiln_moment_set_time(struct kiln_moment *moment, struct kiln_instant instant)
 {
     const struct kiln_scene *scene = moment->scene;
-    moment->pool = pool;
-    kiln_moment_look_through(moment, instant);
+    kiln_moment_set_view(moment, instant);
     const float time_s = moment->view.clock.x;
     moment->sun = kiln_sun_frame_at(scene, time_s);
     if (moment->look_changes == 0 || kiln_looks_vary(scene)) {
@@ -69,10 +67,23 @@ bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool,
         moment->look_changes++;
     }
     kiln_meshes_pose(&moment->meshes, time_s);
-    if (moment->meshes.painted && pool)
-        kiln_painted_update(moment->meshes.painted, pool);
     kiln_shapes_fill(scene, moment->meshes.loaded, &moment->sun, time_s, &moment->shapes);
+}
+
+bool kiln_moment_set_particles(struct kiln_moment *moment, struct kiln_pool *pool, bool on_host,
+                               struct kiln_error *error)
+{
+    moment->pool = pool;
     moment->records = NULL;
     moment->spins = NULL;
+    if (moment->meshes.painted && pool)
+        kiln_painted_update(moment->meshes.painted, pool);
     return !on_host || !pool || read_particles(moment, error);
+}
+
+bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool,
+                      struct kiln_instant instant, bool on_host, struct kiln_error *error)
+{
+    kiln_moment_set_time(moment, instant);
+    return kiln_moment_set_particles(moment, pool, on_host, error);
 }

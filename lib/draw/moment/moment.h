@@ -1,5 +1,6 @@
 /* A kiln_moment is the state of a scene at one time as every stage of drawing sees it. It is filled
- * once, before the first of these stages; lights, backdrop, solids and sprites only read it. */
+ * before the first of these stages: with its time, then with its particles. Lights, backdrop,
+ * solids and sprites only read it. */
 #ifndef KILN_DRAW_MOMENT_MOMENT_H
 #define KILN_DRAW_MOMENT_MOMENT_H
 
@@ -21,14 +22,16 @@ struct kiln_moment {
     struct kiln_draw_look looks[KILN_MAX_SYSTEMS];
     struct kiln_moment_gl *gl; /* buffers and textures in GL (moment_gl.h); NULL: no device */
 
-    /* kiln_moment_fill sets these members. */
-    struct kiln_pool *pool; /* the particles; NULL: there are none */
+    /* kiln_moment_set_time sets these members. */
     struct kiln_view view;
     struct kiln_sun_frame sun;
-    float4 *look_table;                  /* KILN_LOOK_TEXELS texels, by kiln_looks_sample */
-    uint64_t look_changes;               /* a number that grows when the table changes */
-    struct kiln_meshes meshes;           /* the backdrop's meshes: posed, painted, with bounds */
-    struct kiln_draw_shapes shapes;      /* the backdrop's objects, by kiln_shapes_fill */
+    float4 *look_table;             /* KILN_LOOK_TEXELS texels, by kiln_looks_sample */
+    uint64_t look_changes;          /* a number that grows when the table changes */
+    struct kiln_meshes meshes;      /* the backdrop's meshes: posed, with bounds */
+    struct kiln_draw_shapes shapes; /* the backdrop's objects, by kiln_shapes_fill */
+
+    /* kiln_moment_set_particles sets these members, and the paint of meshes. */
+    struct kiln_pool *pool;              /* the particles; NULL: there are none */
     const struct kiln_particle *records; /* the pool's records on the host; NULL unless on_host */
     const struct kiln_spin *spins; /* the pool's spins on the host; NULL unless on_host and any */
 };
@@ -43,14 +46,20 @@ bool kiln_moment_init(struct kiln_moment *moment, struct kiln_device *device,
 /* Frees what the moment owns; does nothing for a moment of zeros. */
 void kiln_moment_finish(struct kiln_moment *moment);
 
-/* Fills the moment with the state at an instant. It borrows the pool, whose particles are those of
- * the instant (kiln_between_run), until the next call; the pool must not be stepped meanwhile, and
- * may be NULL. on_host: records and spins are made available on the host, which reads them back
- * from a device that holds them. */
+/* Sets what follows from the scene and an instant alone: view, sun, looks, poses and shapes. */
+void kiln_moment_set_time(struct kiln_moment *moment, struct kiln_instant instant);
+
+/* Sets the view alone: for another instant at the same time, or where nothing is drawn. */
+void kiln_moment_set_view(struct kiln_moment *moment, struct kiln_instant instant);
+
+/* Sets the particles of the moment's instant (kiln_between_run). The pool is borrowed until the
+ * next call; it must not be stepped meanwhile, and may be NULL. on_host: records and spins are made
+ * available on the host, which reads them back from a device that holds them. */
+bool kiln_moment_set_particles(struct kiln_moment *moment, struct kiln_pool *pool, bool on_host,
+                               struct kiln_error *error);
+
+/* Sets the time and the particles. */
 bool kiln_moment_fill(struct kiln_moment *moment, struct kiln_pool *pool,
                       struct kiln_instant instant, bool on_host, struct kiln_error *error);
-
-/* Changes the view of a filled moment to that of another instant at the same time. */
-void kiln_moment_look_through(struct kiln_moment *moment, struct kiln_instant instant);
 
 #endif
