@@ -1,6 +1,8 @@
-# Writes OUTPUT, a header that names the commit of the working tree in SOURCE, "254e4dc", with a '+' if
-# tracked files have changed since. In an archive by `git archive`, the name is that of the archived commit;
-# without git, it is "". A file that would stay the same is not written, so that nothing is compiled anew.
+# Writes the header OUTPUT, which defines KILN_COMMIT as the name of the commit that SOURCE has checked out:
+# cmake -D SOURCE=FOLDER -D OUTPUT=FILE -P commit.cmake. The name is like "254e4dc", with a '+' if tracked files
+# have changed since the commit. In an archive made by `git archive`, it is the archived commit, which git has
+# written into commit.txt. Without git it is "". If OUTPUT would stay the same, it is not written, so that nothing
+# is compiled again.
 find_program(git git)
 file(READ ${SOURCE}/cmake/commit.txt archived)
 set(commit "")
@@ -9,7 +11,7 @@ if(archived MATCHES "^([0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f])
 elseif(git)
     execute_process(COMMAND ${git} -C ${SOURCE} rev-parse --show-prefix --short=7 HEAD
         OUTPUT_VARIABLE found ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed)
-    if(NOT failed AND found MATCHES "^\n([0-9a-f]+)$") # SOURCE is the top of a repository
+    if(NOT failed AND found MATCHES "^\n([0-9a-f]+)$") # no prefix: SOURCE is the top folder of a repository
         set(commit ${CMAKE_MATCH_1})
         execute_process(COMMAND ${git} -C ${SOURCE} diff --quiet HEAD --
             ERROR_QUIET RESULT_VARIABLE changed)

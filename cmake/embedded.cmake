@@ -1,5 +1,7 @@
-# Embeds files into the library, each folder as one C table (lib/base/embedded.h). kiln_embed sets the variable
-# that has the name of the table to the path of the table's source.
+# Embeds text files into the library and the program, as C tables (lib/base/embedded.h).
+
+# kiln_embed(table root pattern...): writes a C source that defines `table`, which has the files below the folder
+# `root` whose names match a pattern. The caller's variable with the name of the table is set to the source's path.
 function(kiln_embed table root)
     list(TRANSFORM ARGN PREPEND ${root}/ OUTPUT_VARIABLE globs)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${root} ${globs})

@@ -1,8 +1,10 @@
-# Says what cmake --install installs: the program, the library, its headers, a pkg-config file, the scenes, the
-# documents, and the completions of bash and zsh. docs/ adds manual pages and the schema of scenes.
+# Lists what `cmake --install` installs: the program and kiln-decode; the library with its headers, pkg-config file
+# and CMake package; the scenes, examples and documents; the completions of bash and zsh. docs/CMakeLists.txt adds
+# the manual pages and the JSON schemas, and python/CMakeLists.txt the Python module.
 
-# The pkg-config file finds its prefix from its own folder, whatever --prefix it was installed to. A program that
-# links the static library needs its dependencies, too: it gets them by pkg-config --static or kiln::kiln_static.
+# The pkg-config file finds the prefix from the folder in which it lies, so that any --prefix works. A program that
+# links libkiln.a needs the libraries that kiln uses, too. `pkg-config --static` and the CMake target
+# kiln::kiln_static name them.
 include(CMakePackageConfigHelpers)
 file(RELATIVE_PATH kiln_pc_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(JOIN " " kiln_pc_requires ${kiln_linked_packages})

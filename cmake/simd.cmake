@@ -1,7 +1,7 @@
-# Levels of vectors (lib/base/simd.h): which ones a build has, how they are compiled, and the generated files
-# that know which ones there are.
+# Chooses the levels of vectors (lib/base/simd.h) that a build has, says how each is compiled, and generates the C
+# files that tell kiln which levels were built.
 
-# The flags of each level.
+# Each level has the compiler's flags for the instructions that kiln_simd_has (lib/base/simd.c) asks for.
 set(kiln_simd_plain)
 set(kiln_simd_avx2 -mavx2 -mbmi -mbmi2)
 set(kiln_simd_avx512 -mbmi -mbmi2 -mavx512f -mavx512bw -mavx512dq -mavx512vl -mprefer-vector-width=512)
@@ -10,8 +10,8 @@ set(kiln_simd_neon)
 set(KILN_SIMD_LEVELS all CACHE STRING
     "Levels of vectors to compile for: all of the target's processor, native (the widest that this machine has), or a list of plain, avx2, avx512, neon")
 
-# Sets `result` to the widest level that the machine has which configures the build: kiln_simd_has asks for the
-# same instructions.
+# Sets `result` to the widest level of the machine on which CMake runs. kiln_simd_has (lib/base/simd.c) asks for
+# the same instructions when kiln runs.
 function(kiln_native_level result)
     set(level plain)
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
@@ -53,7 +53,7 @@ foreach(level IN LISTS kiln_levels)
     endif()
 endforeach()
 
-# kiln_simd_target(target level source...): an object library of sources that are compiled for a level.
+# kiln_simd_target(target level source...): adds an object library of sources that are compiled for one level.
 function(kiln_simd_target target level)
     add_library(${target} OBJECT ${ARGN})
     string(TOUPPER ${level} upper)
@@ -61,9 +61,9 @@ function(kiln_simd_target target level)
     target_compile_options(${target} PRIVATE ${kiln_simd_${level}})
 endfunction()
 
-# kiln_simd_tables(result folder pattern): finds the exports that the headers which match FOLDER/PATTERN declare
-# by KILN_SIMD_DECLARE, and writes a source for each export, which has its addresses by level. Sources include a
-# header by its path in the folder. Sets `result` to the sources.
+# kiln_simd_tables(result folder pattern): writes a C source for each export that a header declares by
+# KILN_SIMD_DECLARE; the source defines the table of the export's addresses by level. The headers are those below
+# `folder` that match `pattern`, and are included by their paths in `folder`. Sets `result` to the sources.
 function(kiln_simd_tables result folder pattern)
     file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${folder} ${folder}/${pattern})
     list(REMOVE_ITEM headers base/simd.h)
@@ -92,7 +92,8 @@ function(kiln_simd_tables result folder pattern)
     set(${result} ${sources} PARENT_SCOPE)
 endfunction()
 
-# kiln_built_levels(result): writes the source of kiln_simd_built_levels.
+# kiln_built_levels(result): writes the C source of kiln_simd_built_levels, the table of the levels that the build
+# has. Sets `result` to its path.
 function(kiln_built_levels result)
     set(text "#include \"base/simd.h\"\n\nconst bool kiln_simd_built_levels[KILN_SIMD_COUNT] = {\n")
     foreach(level IN LISTS kiln_levels)
