@@ -1,4 +1,4 @@
-# Defines how tests are added, and how long they may take.
+# Defines the functions that add tests to CTest, and the table of the tests' times, from which time limits follow.
 
 set(KILN_TEST_TIMEOUT_SCALE 1 CACHE STRING
     "Factor on the time limits of tests, for machines that are slow or busy: 1, 2, 3...")
@@ -9,10 +9,10 @@ endif()
 
 option(KILN_ALL_TESTS "Add the tests that only tools/test --all runs, and check all cases of the others" OFF)
 
-# The seconds of the tests that take more than one, on two quiet cores with cold caches: each row has seconds, and
-# the tests that take at most so long. Of a test NAME/PARTS that is cut into parts, the longest part takes so long.
-# An entry "all.NAME" says that the test NAME checks a sample of its cases unless KILN_ALL_TESTS is set
-# (test_is_full, tests/support/parts.h), and what all cases take.
+# The tests that take more than a second, on two quiet cores with cold caches. Each row begins with a number of
+# seconds, and names the tests that take at most that long. The entry "NAME/PARTS" cuts the test NAME into parts,
+# of which the longest takes that long. The entry "all.NAME" has the time of NAME with KILN_ALL_TESTS, when it
+# checks all its cases and not only a sample (test_is_full, tests/support/parts.h).
 set(kiln_test_times
     "3 cli.batch cli.decoder cli.encode cli.events cli.limits cli.output cli.pipe cli.stdin docs.figures
         docs.jobs docs.library docs.python farm.schemas farm.tasks faults.address faults.flat_png
@@ -38,7 +38,8 @@ set(kiln_test_times
     "300 package.release"
 )
 
-# Sets PREFIX_seconds and PREFIX_parts in the caller, and PREFIX_found: whether the table has the test.
+# Looks a test up in the table. Sets PREFIX_seconds, PREFIX_parts and PREFIX_found in the caller. PREFIX_found says
+# whether the table has the test; a test that it lacks takes a second and has one part.
 function(kiln_test_time name prefix)
     set(${prefix}_seconds 1 PARENT_SCOPE)
     set(${prefix}_parts 1 PARENT_SCOPE)
@@ -58,14 +59,14 @@ function(kiln_test_time name prefix)
     endforeach()
 endfunction()
 
-# kiln_add_test(name label [ALL] [TIMES row] [SANITIZED] COMMAND command... [PROPERTIES name value...]): adds a
-# test with a limit for hangs: ten times its seconds, at least two minutes and, except for packages, at most
-# fifteen. CTest begins long tests first, so that no core is idle at the end. A test that is cut into parts becomes
-# NAME.1, NAME.2 and so on, which get "1/2" and so on as their last argument. A test of at most a second has the
-# label "quick", too.
+# kiln_add_test(name label [ALL] [TIMES test] [SANITIZED] COMMAND command... [PROPERTIES name value...]): adds a
+# test. Its time limit, which ends a test that hangs, is ten times its seconds in the table, but at least two
+# minutes and, unless the label is `package`, at most fifteen. The seconds are also its COST: CTest starts long
+# tests first, so that no core is idle at the end. A test in parts becomes NAME.1, NAME.2 and so on; the command's
+# last argument says which part it runs, such as "1/2". A test of at most a second also has the label `quick`.
 #   ALL        the test is added only with KILN_ALL_TESTS
-#   TIMES      the test that takes as long, if the table does not have this one
-#   SANITIZED  the program has sanitizers whatever the build has, and takes four times as long
+#   TIMES      the test whose times in the table are used for this one
+#   SANITIZED  the program has sanitizers even if the build has none, and takes four times as long
 function(kiln_add_test name label)
     cmake_parse_arguments(PARSE_ARGV 2 test "SANITIZED;ALL" "TIMES" "COMMAND;PROPERTIES")
     if(test_ALL AND NOT KILN_ALL_TESTS)
@@ -115,14 +116,15 @@ function(kiln_add_test name label)
     endforeach()
 endfunction()
 
-# The programs of the tests below: a build with sanitizers makes all of them, or those that it makes quickly.
+# The build target host_tests builds all programs that kiln_add_host_test runs, and quick_host_tests those that
+# build quickly with sanitizers. sanitize.build builds one of the two targets with sanitizers.
 add_custom_target(host_tests)
 add_custom_target(quick_host_tests)
 
 # kiln_add_host_test(name label sanitized [SANITIZED_QUICKLY] COMMAND target argument...): adds a test that needs
-# no device, and a second one, sanitize.SANITIZED, of the same program out of the build with sanitizers
-# (tests/tree/sanitize.sh). Without KILN_ALL_TESTS, only those tests have a second one whose programs are built
-# QUICKLY. In the build with sanitizers itself there is no second test.
+# no GL device, and a second test, sanitize.SANITIZED, which runs the same program from the build with sanitizers
+# (tests/tree/sanitize.sh). The second test is added with KILN_ALL_TESTS, or if SANITIZED_QUICKLY says that the
+# program builds quickly with sanitizers. A build that has sanitizers itself has no second tests.
 function(kiln_add_host_test name label sanitized)
     cmake_parse_arguments(PARSE_ARGV 3 test "SANITIZED_QUICKLY" "" "COMMAND")
     set(leaks
@@ -137,7 +139,8 @@ function(kiln_add_host_test name label sanitized)
     endif()
     if(NOT KILN_SANITIZE)
         file(RELATIVE_PATH folder ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
-        # With allocator_may_return_null, kiln itself must refuse an absurd size, and not the sanitizer.
+        # With allocator_may_return_null, the sanitizer does not end a program that asks for an absurd amount of
+        # memory; kiln must report the error.
         kiln_add_test(sanitize.${sanitized} sanitize ${when} SANITIZED TIMES ${name}
             COMMAND ${CMAKE_BINARY_DIR}/sanitize/${folder}/${target} ${test_COMMAND}
             PROPERTIES FIXTURES_REQUIRED sanitized

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# clang-tidy over C files, and the headers with them:
-# tidy.sh SOURCE BUILD [OPTION...] [PART/COUNT | -- FILE...]. A file is checked with each command of
-# the build that compiles it, and clang's own warnings count, too. What is checked, and what is not
-# and why, is in .clang-tidy. The analyzer takes nine tenths of the time: the tests leave it out
-# (--checks=-clang-analyzer-*), `--target analyze` runs all. With "2/3" every third file is looked
-# at, from the second, by one process.
+# Checks by clang-tidy that C files and the headers that they include follow the rules of .clang-tidy, and have no
+# warning of clang: tidy.sh SOURCE BUILD [OPTION...] [PART/COUNT | -- FILE...]. Without FILE, all C files are
+# checked. A file that BUILD compiles by several commands, such as a file *_simd.c, is checked with each of them.
+# OPTION is one of clang-tidy: tests give --checks=-clang-analyzer-*, since the analyzer takes nine tenths of the
+# time, and the build target `analyze` runs all checks. With "2/3" one process checks every third file, from the
+# second on.
 set -uo pipefail
 cd "$1" || exit
 build=$2
@@ -28,7 +28,8 @@ if ((${#files[@]} == 0)); then
 fi
 notes=$(mktemp)
 trap 'rm -f "$notes"' EXIT
-# Notes on "N warnings suppressed" go to stderr; findings, and what does not compile, to stdout.
+# clang-tidy prints findings and errors of the compiler to stdout. Its stderr has notes such as "N warnings
+# suppressed", which are shown only if it fails.
 printf '%s\n' "${files[@]}" |
     xargs -d '\n' -n 4 -P "$processes" clang-tidy -p "$build" --quiet "${options[@]}" 2>"$notes" ||
     { grep -v 'warnings generated' "$notes"; exit 1; }
