@@ -1,4 +1,4 @@
-"""What the tools that write meshes of scenes share: meshes as OBJ files in scenes/meshes, noise, and shapes."""
+"""Helps tools/props and tools/mill to write meshes of scenes: OBJ files in scenes/meshes, noise, and shapes."""
 import os
 import sys
 from math import cos, floor, hypot, pi, sin
@@ -11,6 +11,7 @@ class Mesh:
         self.vertices, self.faces = [], []
 
     def add(self, point):
+        """Adds a vertex, and returns its number in the OBJ file, which counts from 1."""
         self.vertices.append(point)
         return len(self.vertices)
 
@@ -33,6 +34,7 @@ class Mesh:
 
 
 def lattice(x, y, z, seed):
+    """Returns a random number from -1 to 1 for a point of a lattice."""
     h = (x * 0x9E3779B1 ^ y * 0x85EBCA77 ^ z * 0x27D4EB2F ^ seed * 0xC2B2AE3D) & 0xFFFFFFFF
     h = (h ^ h >> 15) * 0x2C1B3C6D & 0xFFFFFFFF
     h = (h ^ h >> 12) * 0x297A2D39 & 0xFFFFFFFF
@@ -52,16 +54,19 @@ def noise(x, y, z, seed):
 
 
 def rough(point, size, seed):
+    """Returns two octaves of noise, from -1.5 to 1.5. The bumps of the first are about `size` wide."""
     x, y, z = (t / size for t in point)
     return noise(x, y, z, seed) + 0.5 * noise(2 * x, 2 * y, 2 * z, seed + 1)
 
 
 def power(x, exponent):
+    """Returns |x| to the power of the exponent, with the sign of x."""
     return abs(x) ** exponent * (1 if x > 0 else -1)
 
 
 def add_tube(mesh, path, segments, shape=lambda a, k: 1.0):
-    """Adds a closed tube along points with radii. shape(angle, number of the point) is a factor on the radius."""
+    """Adds a closed tube along `path`, whose entries are (point, radius); a radius of 0 closes an end.
+    shape(angle, index of the entry) returns a factor on the radius."""
     rows = []
     for k, (center, radius) in enumerate(path):
         before, after = path[max(k - 1, 0)][0], path[min(k + 1, len(path) - 1)][0]
@@ -85,7 +90,8 @@ def add_tube(mesh, path, segments, shape=lambda a, k: 1.0):
 
 
 def add_stone(mesh, center, across, along, shape):
-    """Adds a closed surface around a point. shape(unit) returns its distance that way, and its stretch in x, y, z."""
+    """Adds a closed surface around the point `center`. shape(direction) returns the surface's distance in that
+    direction, a unit vector, and factors that stretch it along x, y and z."""
     rows = []
     for j in range(across):
         v = -0.5 * pi + pi * j / (across - 1)
