@@ -6,21 +6,14 @@
 #include "shared/layout.h"
 
 enum kiln_force_kind {
-    KILN_FORCE_GRAVITY = FORCE_GRAVITY, /* vector: acceleration, m/s^2 */
+    KILN_FORCE_GRAVITY = FORCE_GRAVITY, /* the same acceleration everywhere */
     KILN_FORCE_DRAG = FORCE_DRAG,       /* drag towards rest: pull, quadratic */
-    /* vector: air velocity, m/s, which particles are pulled towards */
-    KILN_FORCE_WIND = FORCE_WIND,
-    /* curl noise: strength m/s of air velocity, scale m, speed m/s of drift, pull 1/s towards the
-     * air, octaves */
-    KILN_FORCE_CURL = FORCE_CURL,
-    KILN_FORCE_LIMIT = FORCE_LIMIT, /* strength: m/s, limit of the speed */
-    KILN_FORCE_FIELD = FORCE_FIELD, /* file: air velocities, m/s; strength: factor; pull 1/s */
-    /* vector: a point, m; strength: m/s^2 at 1 m from it, negative to flee; scale: m, radius within
-     * which it is softened; falloff */
-    KILN_FORCE_ATTRACT = FORCE_ATTRACT,
-    /* vector: a point of the axis, m; drift: its direction; strength: m/s at the core's edge;
-     * scale: m, radius of the core; inward, lift: m/s; pull 1/s towards the air; profile */
-    KILN_FORCE_VORTEX = FORCE_VORTEX,
+    KILN_FORCE_WIND = FORCE_WIND,   /* air of one velocity, which particles are pulled towards */
+    KILN_FORCE_CURL = FORCE_CURL,   /* air that moves as curl noise */
+    KILN_FORCE_LIMIT = FORCE_LIMIT, /* a limit of the speed */
+    KILN_FORCE_FIELD = FORCE_FIELD, /* air velocities of a file */
+    KILN_FORCE_ATTRACT = FORCE_ATTRACT, /* a point that attracts, or repels */
+    KILN_FORCE_VORTEX = FORCE_VORTEX,   /* air that turns around an axis */
 };
 
 enum kiln_falloff {
@@ -41,20 +34,39 @@ enum kiln_wind_mode {
     KILN_WIND_ADD,  /* the air's velocity is added in each step (UberFlow 2004, 4.2); no pull */
 };
 
-/* The options of all kinds of force; a kind uses some. Each step copies them into struct
- * kiln_force_params (force_at_time in sim/world/params.c), from which kernels read them. */
+/* The options of all kinds of force; a kind uses some. In a union, the first member is the name
+ * that kernels know, and the others are the same memory by the names of kinds. Each step copies all
+ * options into struct kiln_force_params (force_at_time in sim/world/params.c), from which kernels
+ * read them. */
 struct kiln_force {
     enum kiln_force_kind kind;
-    struct kiln_value3 vector;
-    struct kiln_value strength;
-    struct kiln_value pull;      /* 1/s */
-    struct kiln_value quadratic; /* 1/m: drag by the square of the speed */
-    struct kiln_value scale;     /* m */
-    struct kiln_value3 drift;    /* m/s: drift of the noise field */
-    struct kiln_value inward;    /* m/s; inward and lift vary over time alone */
-    struct kiln_value lift;      /* m/s */
-    uint32_t octaves;            /* 1..4 */
-    union {                      /* a word of the kind, which kernels know as `profile` */
+    union {
+        struct kiln_value3 vector;
+        struct kiln_value3 acceleration; /* gravity: m/s^2 */
+        struct kiln_value3 air;          /* wind: velocity, m/s */
+        struct kiln_value3 center;       /* attract: the point; vortex: a point of the axis; m */
+    };
+    union {
+        struct kiln_value3 second;
+        struct kiln_value3 drift; /* curl: velocity of the noise field, m/s */
+        struct kiln_value3 axis;  /* vortex: its direction, of any length */
+    };
+    union {
+        /* curl: velocity of the air, m/s; field: a factor; attract: acceleration at 1 m, m/s^2,
+         * negative to repel */
+        struct kiln_value strength;
+        struct kiln_value speed; /* limit; vortex: of the air at the core's edge; m/s */
+    };
+    struct kiln_value pull;      /* towards the air, 1/s */
+    struct kiln_value quadratic; /* drag by the square of the speed, 1/m */
+    union {
+        struct kiln_value scale;  /* curl: size of the largest eddies, m */
+        struct kiln_value radius; /* attract: of the softening; vortex: of the core; m */
+    };
+    struct kiln_value inward; /* vortex: m/s; inward and lift vary over time alone */
+    struct kiln_value lift;   /* vortex: m/s */
+    uint32_t octaves;         /* 1..4 */
+    union {                   /* a word of the kind, which kernels know as `profile` */
         enum kiln_falloff falloff;
         enum kiln_vortex_profile profile;
     };

@@ -1,6 +1,5 @@
 /* This file has the option tables of forces. Each kind of force has a table of members, and one row
- * or two in kiln_force_kinds: `curl: {}` can also be written `wind: {field: curl}`. Kinds share the
- * fields of struct kiln_force, so that a vortex has its axis in `drift`.
+ * or two in kiln_force_kinds: `curl: {}` can also be written `wind: {field: curl}`.
  *
  * scene/rows.h defines MOTION, TIME, BOTH and FAR. */
 #include "scene/rows.h"
@@ -8,7 +7,8 @@
 #define AT(field) offsetof(struct kiln_force, field)
 
 static const struct kiln_option gravity[] = {
-    VECTOR(MOTION, "acceleration", vector, KILN_ACCELERATION, -10000, 10000, BOTH, "[0, -9.81, 0]",
+    VECTOR(MOTION, "acceleration", acceleration, KILN_ACCELERATION, -10000, 10000, BOTH,
+           "[0, -9.81, 0]",
            "Acceleration of the particles. It points upwards for gas that is lighter than air."),
     END,
 };
@@ -36,7 +36,7 @@ static const char *const modes[] = {
         "smaller steps accelerate particles more.")
 
 static const struct kiln_option wind[] = {
-    VECTOR(MOTION, "velocity", vector, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
+    VECTOR(MOTION, "velocity", air, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
            "Velocity of the air."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
           "How fast particles take up the velocity of the air: `pull` times the difference of "
@@ -82,7 +82,7 @@ static const char *const falloffs[] = {
 };
 
 static const struct kiln_option attract[] = {
-    VECTOR(MOTION, "position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "Point that particles are drawn to."),
     VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -100000, 100000, BOTH, "1 m/s^2",
           "Acceleration at a distance of 1 m, before the softening by `radius`. A negative value "
@@ -90,7 +90,7 @@ static const struct kiln_option attract[] = {
     CHOICE(MOTION, "falloff", falloff, falloffs, "inverse_square",
            "How the acceleration falls off with the distance: inverse_square like gravity, "
            "inverse, constant, or linear like a spring."),
-    VALUE(MOTION, "radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.1 m",
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.1 m",
           "Softening radius (Plummer): at the distance d, the acceleration is strength * d / (d^2 "
           "+ radius^2)^(n/2), with n of 3, 2, 1 or 0 by the falloff. The acceleration is 0 at the "
           "position itself. At a distance of three radii it is 15, 10 or 5 % less than without "
@@ -105,14 +105,14 @@ static const char *const profiles[] = {
 };
 
 static const struct kiln_option vortex[] = {
-    VECTOR(MOTION, "position", vector, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
+    VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "A point of the axis."),
-    VECTOR(MOTION, "axis", drift, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
+    VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Direction of the axis, of any length. The air turns anticlockwise when the axis points "
            "at the viewer."),
-    VALUE(MOTION, "speed", strength, KILN_SPEED, -10000, 10000, BOTH, "1 m/s",
+    VALUE(MOTION, "speed", speed, KILN_SPEED, -10000, 10000, BOTH, "1 m/s",
           "Speed of the air around the axis at the edge of the core, where it is fastest."),
-    VALUE(MOTION, "radius", scale, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Radius of the core."),
+    VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m", "Radius of the core."),
     CHOICE(MOTION, "profile", profile, profiles, "rankine",
            "rankine: the core turns like a solid body, and the air outside of it is slower with "
            "the distance. lamb_oseen: the change from core to outside is smooth."),
@@ -130,7 +130,7 @@ static const struct kiln_option vortex[] = {
 };
 
 static const struct kiln_option limit[] = {
-    VALUE(MOTION, "speed", strength, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
+    VALUE(MOTION, "speed", speed, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
           "Highest speed. Each step slows faster particles down to it."),
     END,
 };

@@ -24,16 +24,22 @@ struct force_effect {
     float quadratic;     /* 1/m, not negative */
 };
 
-/* The options of one force at this time of one particle's life, and the place of the particle. */
-struct force_input {
-    float3 position;
-    float time_s;
+/* The options of one force that vary over a particle's life, at one time of it. Kinds of force
+ * share the members; struct kiln_force_params says what they are of each. */
+struct force_values {
     float3 vector;
+    float3 second;
     float strength;
-    float3 drift;
     float pull;
     float quadratic; /* with FORCES_ALL only */
     float scale;
+};
+
+/* All options of one force at this time of one particle's life, and the place of the particle. */
+struct force_input {
+    float3 position;
+    float time_s;
+    S(force_values) at;
     float inward;
     float lift;
     float added;
@@ -58,11 +64,11 @@ FN S(force_effect) force_none(void)
  * 1). */
 FN S(force_effect) force_air(S(force_input) f, float3 air)
 {
-    EXACT float per_s = f.pull + f.added;
-    EXACT float acceleration = f.strength * per_s;
+    EXACT float per_s = f.at.pull + f.added;
+    EXACT float acceleration = f.at.strength * per_s;
     EXACT S(force_effect) effect = force_none();
     effect.acceleration = float3_scale(air, acceleration);
-    effect.pull = f.pull;
+    effect.pull = f.at.pull;
     return effect;
 }
 

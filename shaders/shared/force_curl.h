@@ -9,8 +9,8 @@
 /* Returns a particle's place in the field, whose lattice points lie one unit apart. */
 FN float3 force_curl_place(S(force_input) f)
 {
-    EXACT float3 moved = float3_add_scaled(f.position, f.drift, -f.time_s);
-    EXACT float per_metre = exact_rcp(f.scale);
+    EXACT float3 moved = float3_add_scaled(f.position, f.at.second, -f.time_s);
+    EXACT float per_metre = exact_rcp(f.at.scale);
     EXACT float3 place = float3_scale(moved, per_metre);
     return place;
 }

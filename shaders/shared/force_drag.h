@@ -8,9 +8,9 @@
 FN S(force_effect) force_drag(S(force_input) f)
 {
     EXACT S(force_effect) effect = force_none();
-    effect.pull = f.pull;
+    effect.pull = f.at.pull;
 #ifdef FORCES_ALL
-    effect.quadratic = f.quadratic;
+    effect.quadratic = f.at.quadratic;
 #endif
     return effect;
 }

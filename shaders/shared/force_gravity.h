@@ -7,7 +7,7 @@
 FN S(force_effect) force_gravity(S(force_input) f)
 {
     EXACT S(force_effect) effect = force_none();
-    effect.acceleration = f.vector;
+    effect.acceleration = f.at.vector;
     return effect;
 }
 

@@ -7,10 +7,10 @@
 
 FN S(force_effect) force_wind(S(force_input) f)
 {
-    EXACT float per_s = f.pull + f.added;
+    EXACT float per_s = f.at.pull + f.added;
     EXACT S(force_effect) effect = force_none();
-    effect.acceleration = float3_scale(f.vector, per_s);
-    effect.pull = f.pull;
+    effect.acceleration = float3_scale(f.at.vector, per_s);
+    effect.pull = f.at.pull;
     return effect;
 }
 

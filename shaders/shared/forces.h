@@ -75,28 +75,39 @@ FN float forces_time_s(SIM_PARAM float time_s)
     return time_s;
 }
 
-FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
+/* Returns the input of force i for a particle at a place. values: the force's options that vary
+ * over the particle's life. */
+FN S(force_input) force_input_of(SIM_PARAM uint i, float3 position, S(force_values) values)
 {
-    EXACT S(force_effect) sum = force_none();
     EXACT S(force_input) force;
     force.position = position;
     force.time_s = forces_time_s(SIM STEP(time_s));
+    force.at = values;
+    force.inward = STEP(forces[i].inward);
+    force.lift = STEP(forces[i].lift);
+    force.added = STEP(forces[i].added);
+    force.profile = STEP(forces[i].profile);
+    force.octaves = STEP(forces[i].octaves);
+    force.grid = STEP(forces[i].grid);
+    force.seed = STEP(noise_seed);
+    return force;
+}
+
+FN S(force_effect) forces_sum(SIM_PARAM float3 position, float life)
+{
+    EXACT S(force_effect) sum = force_none();
+    EXACT float time_s = forces_time_s(SIM STEP(time_s));
+    EXACT S(force_values) values;
     for (uint i = 0u; i < STEP(force_count); i++) {
-        force.vector = value3_at(SIM_KEYS STEP(forces[i].vector), force.time_s, life);
-        force.strength = value_at(SIM_KEYS STEP(forces[i].strength), force.time_s, life);
-        force.drift = value3_at(SIM_KEYS STEP(forces[i].drift), force.time_s, life);
-        force.pull = value_at(SIM_KEYS STEP(forces[i].pull), force.time_s, life);
+        values.vector = value3_at(SIM_KEYS STEP(forces[i].vector), time_s, life);
+        values.second = value3_at(SIM_KEYS STEP(forces[i].second), time_s, life);
+        values.strength = value_at(SIM_KEYS STEP(forces[i].strength), time_s, life);
+        values.pull = value_at(SIM_KEYS STEP(forces[i].pull), time_s, life);
 #ifdef FORCES_ALL
-        force.quadratic = value_at(SIM_KEYS STEP(forces[i].quadratic), force.time_s, life);
+        values.quadratic = value_at(SIM_KEYS STEP(forces[i].quadratic), time_s, life);
 #endif
-        force.scale = value_at(SIM_KEYS STEP(forces[i].scale), force.time_s, life);
-        force.inward = STEP(forces[i].inward);
-        force.lift = STEP(forces[i].lift);
-        force.added = STEP(forces[i].added);
-        force.profile = STEP(forces[i].profile);
-        force.octaves = STEP(forces[i].octaves);
-        force.grid = STEP(forces[i].grid);
-        force.seed = STEP(noise_seed);
+        values.scale = value_at(SIM_KEYS STEP(forces[i].scale), time_s, life);
+        EXACT S(force_input) force = force_input_of(SIM i, position, values);
         EXACT S(force_effect) effect = forces_one(SIM STEP(forces[i].kind), force);
         sum = forces_add(sum, effect);
     }

@@ -70,18 +70,20 @@ struct kiln_emit_params {
 #define VORTEX_RANKINE    0u
 #define VORTEX_LAMB_OSEEN 1u
 
+/* The options of a force. All kinds have one layout, so some members are of another quantity in
+ * each kind: struct kiln_force (lib/scene/force.h) has them by their names. */
 struct kiln_force_params {
     uint kind;
     uint octaves;
-    uint grid;    /* number of the grid of a field */
-    uint profile; /* a word of the kind: FALLOFF_* or VORTEX_* */
-    S(kiln_value3) vector;
-    S(kiln_value3) drift;
-    S(kiln_value) strength;
+    uint grid;               /* number of the grid of a field */
+    uint profile;            /* a word of the kind: FALLOFF_* or VORTEX_* */
+    S(kiln_value3) vector;   /* an acceleration, a velocity of the air, or a point */
+    S(kiln_value3) second;   /* curl: drift; vortex: axis */
+    S(kiln_value) strength;  /* limit and vortex: speed */
     S(kiln_value) pull;      /* 1/s */
     S(kiln_value) quadratic; /* 1/m */
-    S(kiln_value) scale;
-    float inward, lift; /* m/s */
+    S(kiln_value) scale;     /* curl: size of the eddies; attract, vortex: radius; m */
+    float inward, lift;      /* m/s */
     float added; /* 1/s: steps a second if the air's velocity is added in each step, else 0 */
     uint unused;
 };

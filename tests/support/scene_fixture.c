@@ -520,7 +520,7 @@ void fixture_alone(struct scene_fixture *f, enum kiln_force_kind kind, uint32_t 
     s->emit.angle = fixture_constant(3.0f);
     struct kiln_force *force = fixture_add_force(s, kind);
     force->vector = fixture_constant3(0.3f, -0.6f, 0.2f);
-    force->drift = fixture_constant3(0.1f, 0.9f, -0.2f);
+    force->axis = fixture_constant3(0.1f, 0.9f, -0.2f);
     force->strength = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.5f, 1.0f, 1.5f);
     force->pull = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 1.0f, 1.0f, 9.0f);
     force->quadratic = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 0.2f, 1.0f, 2.0f);
@@ -557,7 +557,7 @@ void fixture_add_whirls(struct scene_fixture *f)
     for (int i = 0; i < 2; i++) {
         struct kiln_force *force = fixture_add_force(whirling, KILN_FORCE_VORTEX);
         force->vector = fixture_constant3(0.1f, 0.0f, -0.2f * (float)i);
-        force->drift = fixture_constant3(0.1f, 1.0f, 0.2f * (float)i);
+        force->axis = fixture_constant3(0.1f, 1.0f, 0.2f * (float)i);
         force->strength = fixture_ramp(f, KILN_CLOCK_LIFE, 0.0f, 3.0f, 1.0f, 5.0f);
         force->scale = fixture_constant(0.4f);
         force->inward = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.0f, 0.5f, 1.0f);

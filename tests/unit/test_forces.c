@@ -95,7 +95,7 @@ static struct motion whirl(uint32_t rate)
     const double p = 3, w = 4, speed = 2;
     struct kiln_force *force =
         fixture_add_force(one_particle(rate, (float)speed), KILN_FORCE_VORTEX);
-    force->drift = fixture_constant3(0.0f, 0.0f, 2.0f);
+    force->axis = fixture_constant3(0.0f, 0.0f, 2.0f);
     force->scale = fixture_constant(10.0f);
     force->strength = fixture_constant((float)(w * 10));
     force->pull = fixture_constant((float)p);
@@ -258,15 +258,16 @@ static void attraction_falls_off_as_it_says(void **state)
     (void)state;
     static const double at_two[] = {0.25, 0.5, 1, 2};
     for (uint32_t falloff = 0; falloff < 4; falloff++) {
-        struct force_input f = {.vector = {2.0f, 0.0f, 0.0f}, .strength = 3.0f, .scale = 0.001f};
+        struct force_input f = {
+            .at = {.vector = {2.0f, 0.0f, 0.0f}, .strength = 3.0f, .scale = 0.001f}};
         f.profile = falloff;
         f.position = FLOAT3(2.0f, -1.0f, 0.0f);
         assert_near((double)force_attract(f).acceleration.y, 3.0, 1e-5);
         f.position = FLOAT3(2.0f, 0.0f, 2.0f);
         assert_near((double)force_attract(f).acceleration.z, -3.0 * at_two[falloff], 1e-5);
-        f.strength = -3.0f;
+        f.at.strength = -3.0f;
         assert_near((double)force_attract(f).acceleration.z, 3.0 * at_two[falloff], 1e-5);
-        f.position = f.vector;
+        f.position = f.at.vector;
         assert_true(float3_length(force_attract(f).acceleration) == 0.0f);
     }
 }
@@ -284,13 +285,13 @@ static void vortices_turn_as_their_profiles_say(void **state)
         assert_near((double)force_vortex_turn(square, VORTEX_LAMB_OSEEN), oseen, 2e-6 * oseen);
     }
     struct force_input f = {.position = {0.0f, 5.0f, 2.0f},
-                            .vector = {0.0f, -1.0f, 0.0f},
-                            .drift = {0.0f, 3.0f, 0.0f},
-                            .strength = 4.0f,
-                            .scale = 2.0f,
+                            .at = {.vector = {0.0f, -1.0f, 0.0f},
+                                   .second = {0.0f, 3.0f, 0.0f},
+                                   .strength = 4.0f,
+                                   .pull = 10.0f,
+                                   .scale = 2.0f},
                             .inward = 1.5f,
-                            .lift = 6.0f,
-                            .pull = 10.0f};
+                            .lift = 6.0f};
     for (f.profile = 0; f.profile < 2; f.profile++) {
         struct force_effect e = force_vortex(f); /* at the core's edge */
         assert_near((double)e.acceleration.x, 40.0, 1e-4);
@@ -307,7 +308,7 @@ static void particles_follow_a_vortex(void **state)
     for (int profile = 0; profile < 2; profile++) {
         struct kiln_force *force = fixture_add_force(one_particle(240, 3.0f), KILN_FORCE_VORTEX);
         fixture.scene.integration = KILN_INTEGRATE_RK4;
-        force->drift = fixture_constant3(0.0f, 0.0f, 1.0f);
+        force->axis = fixture_constant3(0.0f, 0.0f, 1.0f);
         force->scale = fixture_constant(1.0f);
         force->strength = fixture_constant(3.0f);
         force->pull = fixture_constant(1000.0f);
@@ -331,9 +332,9 @@ static void winds_may_be_added(void **state)
             wind->pull = fixture_constant(7.0f);
             wind->mode = KILN_WIND_ADD;
             struct kiln_force *vortex = fixture_add_force(system, KILN_FORCE_VORTEX);
-            vortex->vector = fixture_constant3(1.0f, 0.0f, 0.0f);
-            vortex->drift = fixture_constant3(0.0f, 0.0f, 1.0f);
-            vortex->scale = fixture_constant(1.0f);
+            vortex->center = fixture_constant3(1.0f, 0.0f, 0.0f);
+            vortex->axis = fixture_constant3(0.0f, 0.0f, 1.0f);
+            vortex->radius = fixture_constant(1.0f);
             vortex->lift = fixture_constant(0.5f);
             vortex->pull = fixture_constant(7.0f);
             vortex->mode = KILN_WIND_ADD;

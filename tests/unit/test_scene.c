@@ -139,7 +139,7 @@ static void every_key_of_a_system_arrives(void **state)
     assert_true(point->forces[11].vector.x.count == 2 && point->forces[11].strength.constant == -3);
     assert_int_equal(point->forces[11].falloff, KILN_FALLOFF_LINEAR);
     assert_int_equal(point->forces[12].profile, KILN_VORTEX_LAMB_OSEEN);
-    assert_true(point->forces[12].drift.z.constant == 1 && point->forces[12].scale.constant == 3);
+    assert_true(point->forces[12].axis.z.constant == 1 && point->forces[12].radius.constant == 3);
     assert_true(point->forces[12].inward.constant == 1 && point->forces[12].lift.count == 2);
     assert_true(point->forces[13].strength.constant == 5);
     assert_int_equal(point->collide.mode, KILN_COLLIDE_CLAMP);

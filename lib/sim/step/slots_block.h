@@ -33,7 +33,7 @@ struct kiln_block {
     struct kiln_floats3 acceleration; /* sum of the forces so far */
     kiln_floats pull, quadratic;
     struct kiln_floats3 velocity, position; /* at the end of the step */
-    struct kiln_floats3 vector, drift;      /* options of the present force */
+    struct kiln_floats3 vector, second;     /* options of the present force */
     kiln_floats strength, pulling, braking, scale;
     struct kiln_floats3 place, curl;
     struct stages_lanes stages;

@@ -32,27 +32,18 @@ static inline void find_ages(const struct kiln_sim *sim, struct kiln_block *b)
         b->life[i] = particle_progress(b->lanes.age_s[i] - dt_s, b->lanes.life_s[i]);
 }
 
-static inline struct force_input force_input_at(const struct kiln_sim *sim,
-                                                const struct kiln_block *b, uint32_t i,
-                                                const struct kiln_force_params *force)
+static inline struct force_input input_at(const struct kiln_sim *sim, const struct kiln_block *b,
+                                          uint32_t i, uint32_t force)
 {
-    return (struct force_input){
-        .position = kiln_get3(&b->at, i),
-        .time_s = forces_time_s(sim, sim->step->time_s),
+    const struct force_values values = {
         .vector = kiln_get3(&b->vector, i),
+        .second = kiln_get3(&b->second, i),
         .strength = b->strength[i],
-        .drift = kiln_get3(&b->drift, i),
         .pull = b->pulling[i],
         .quadratic = b->braking[i],
         .scale = b->scale[i],
-        .inward = force->inward,
-        .lift = force->lift,
-        .added = force->added,
-        .octaves = force->octaves,
-        .grid = force->grid,
-        .profile = force->profile,
-        .seed = sim->step->noise_seed,
     };
+    return force_input_of(sim, force, kiln_get3(&b->at, i), values);
 }
 
 static inline struct force_effect effect_at(const struct kiln_block *b, uint32_t i)
@@ -69,12 +60,11 @@ static inline void add_effect(struct kiln_block *b, uint32_t i, struct force_eff
 }
 
 /* Computes force_curl of all lanes, one octave after the other. */
-static inline void add_curl(const struct kiln_sim *sim, struct kiln_block *b,
-                            const struct kiln_force_params *force)
+static inline void add_curl(const struct kiln_sim *sim, struct kiln_block *b, uint32_t number)
 {
-    const uint32_t seed = sim->step->noise_seed, octaves = force->octaves;
+    const uint32_t seed = sim->step->noise_seed, octaves = sim->step->forces[number].octaves;
     for (uint32_t i = 0; i < KILN_LANES; i++) {
-        kiln_set3(&b->place, i, force_curl_place(force_input_at(sim, b, i, force)));
+        kiln_set3(&b->place, i, force_curl_place(input_at(sim, b, i, number)));
         kiln_set3(&b->curl, i, (float3){0.0f, 0.0f, 0.0f});
     }
     for (uint32_t octave = 0; octave < octaves && octave < NOISE_OCTAVES; octave++) {
@@ -84,7 +74,7 @@ static inline void add_curl(const struct kiln_sim *sim, struct kiln_block *b,
                 noise_curl_add(kiln_get3(&b->curl, i), kiln_get3(&b->place, i), seed, octave));
     }
     for (uint32_t i = 0; i < KILN_LANES; i++)
-        add_effect(b, i, force_air(force_input_at(sim, b, i, force), kiln_get3(&b->curl, i)));
+        add_effect(b, i, force_air(input_at(sim, b, i, number), kiln_get3(&b->curl, i)));
 }
 
 /* Adds the effect of one force to each lane. */
@@ -92,34 +82,34 @@ static inline void add_curl(const struct kiln_sim *sim, struct kiln_block *b,
     for (uint32_t i = 0; i < KILN_LANES; i++)                                                      \
     add_effect(b, i, effect)
 
-static inline void add_force(const struct kiln_sim *sim, struct kiln_block *b,
-                             const struct kiln_force_params *force)
+static inline void add_force(const struct kiln_sim *sim, struct kiln_block *b, uint32_t number)
 {
+    const struct kiln_force_params *force = &sim->step->forces[number];
     find_values3(sim, force->vector, b, &b->vector);
     find_values(sim, force->strength, b, b->strength);
-    find_values3(sim, force->drift, b, &b->drift);
+    find_values3(sim, force->second, b, &b->second);
     find_values(sim, force->pull, b, b->pulling);
     find_values(sim, force->quadratic, b, b->braking);
     find_values(sim, force->scale, b, b->scale);
     switch (force->kind) {
     case FORCE_GRAVITY:
-        ADD_EFFECT(force_gravity(force_input_at(sim, b, i, force)));
+        ADD_EFFECT(force_gravity(input_at(sim, b, i, number)));
         break;
     case FORCE_DRAG:
-        ADD_EFFECT(force_drag(force_input_at(sim, b, i, force)));
+        ADD_EFFECT(force_drag(input_at(sim, b, i, number)));
         break;
     case FORCE_WIND:
-        ADD_EFFECT(force_wind(force_input_at(sim, b, i, force)));
+        ADD_EFFECT(force_wind(input_at(sim, b, i, number)));
         break;
     case FORCE_CURL:
-        add_curl(sim, b, force);
+        add_curl(sim, b, number);
         break;
     case FORCE_FIELD:
-        ADD_EFFECT(force_field(sim, force_input_at(sim, b, i, force)));
+        ADD_EFFECT(force_field(sim, input_at(sim, b, i, number)));
         break;
 #define FORCES_ROW(id, function)                                                                   \
     case id:                                                                                       \
-        ADD_EFFECT(function(force_input_at(sim, b, i, force)));                                    \
+        ADD_EFFECT(function(input_at(sim, b, i, number)));                                         \
         break;
         FORCES_MORE(FORCES_ROW)
 #undef FORCES_ROW
@@ -138,7 +128,7 @@ __attribute__((flatten, noinline)) static void add_forces(const struct kiln_sim 
         b->quadratic[i] = 0.0f;
     }
     for (uint32_t k = 0; k < sim->step->force_count; k++)
-        add_force(sim, b, &sim->step->forces[k]);
+        add_force(sim, b, k);
 }
 
 static inline void limit_speed(const struct kiln_sim *sim, struct kiln_block *b,
