@@ -3,7 +3,8 @@
  * A file in a folder of lib/ whose name ends in _simd.c is compiled once for each level that the
  * build has (cmake/simd.cmake), with the level's name as KILN_SIMD_LEVEL and, for #ifdef, with a
  * macro such as KILN_LEVEL_AVX2. It exports one table of functions, or one function, named by
- * KILN_SIMD_NAME. For example, with made-up names:
+ * KILN_SIMD_NAME; other such files call its functions of the same level by that name. For example,
+ * with made-up names:
  *
  *     rows.h:       struct rows { void (*blur)(...); void (*shrink)(...); };
  *                   KILN_SIMD_DECLARE(const struct rows, kiln_rows);

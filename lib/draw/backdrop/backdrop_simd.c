@@ -106,7 +106,9 @@ SIMD vf mark_surfaces(const struct kiln_ray_frame *frame, const struct eye_rays 
 {
     if (is_filled(cached))
         return read_cached(cached, KILN_CACHE_MARKED);
-    const vf surface = frame->meshes ? mark_mesh_edges(frame, &eye->place, first) : first->surface;
+    vf surface = first->surface;
+    if (frame->meshes)
+        KILN_SIMD_NAME(kiln_rays_mark_edges)(frame, &eye->place, first, &surface);
     fill_cached(cached, KILN_CACHE_MARKED, surface);
     return surface;
 }
@@ -256,12 +258,13 @@ static void cast_rows(const struct kiln_backdrop_picture *whole, uint32_t y)
         const struct kiln_casters casters = find_casters(whole->frame, &lit);
         frame.casters = &casters;
         if (has_grid) {
-            judge_grid(&frame, find_shadow_lights(&picture, &casters), &grid);
-            judge_smoke(&frame, &lit, &grid);
+            KILN_SIMD_NAME(kiln_rays_judge_grid)
+            (&frame, find_shadow_lights(&picture, &casters), &grid);
+            KILN_SIMD_NAME(kiln_rays_judge_smoke)(&frame, &lit, &grid);
         }
         if (mirrored) {
-            judge_grid(whole->frame, all, mirrored);
-            judge_smoke(whole->frame, NULL, mirrored);
+            KILN_SIMD_NAME(kiln_rays_judge_grid)(whole->frame, all, mirrored);
+            KILN_SIMD_NAME(kiln_rays_judge_smoke)(whole->frame, NULL, mirrored);
         }
         light_strip(&picture, x, y, has_grid ? &grid : NULL, mirrored, &strip);
     }

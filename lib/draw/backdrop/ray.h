@@ -1,6 +1,8 @@
 /* This header declares the objects that rays of technique backdrop=cpu may hit in a frame, and
- * their light. The code that follows vectors of rays is in ray_*.h, which backdrop_simd.c and
- * solid_simd.c include. The arithmetic that GL shares is in shaders/shared. */
+ * their light. Vectors of rays are followed by ray_trace_simd.c and lit by ray_light_simd.c, for
+ * strips of the picture (backdrop_simd.c). Each ray_*.h has the functions of one subject, which are
+ * inlined into these files and into solid_simd.c. The arithmetic that GL shares is in
+ * shaders/shared. */
 #ifndef KILN_DRAW_BACKDROP_RAY_H
 #define KILN_DRAW_BACKDROP_RAY_H
 

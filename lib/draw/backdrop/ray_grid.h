@@ -385,27 +385,6 @@ static inline bool are_some(const int32_t masks[GRID_BLOCKS])
     return some != 0;
 }
 
-/* Finds what may be interpolated in a grid whose nodes have their places. Where no block is smooth
- * for a light, the nodes need not see it. lights: those that pixels will ask for. */
-SIMD_ONCE void judge_grid(const struct kiln_ray_frame *frame, struct grid_lights lights,
-                          struct light_grid *grid)
-{
-    const struct kiln_draw_backdrop *b = frame->backdrop;
-    for (int first = 0; first < GRID_BLOCKS; first += LANES)
-        judge_surfaces(frame, first, lights.lamps, grid);
-    memset(grid->sky_smooth, 0, sizeof grid->sky_smooth);
-    if (lights.sky && are_some(grid->alike))
-        judge_sky(frame, grid);
-    for (uint32_t i = 0; i < b->counts.y; i++) {
-        if (!(lights.lamps >> i & 1) || !are_some(grid->smooth[i]))
-            continue;
-        for (int first = 0; first < GRID_NODES; first += LANES)
-            light_nodes(frame, i, first, grid);
-        for (int first = 0; first < GRID_BLOCKS; first += LANES)
-            judge_seen(i, first, grid);
-    }
-}
-
 /* ---- pixels ---------------------------------------------------------------------------------- */
 
 /* The pixels of a vector: GRID_STEP columns, and this many rows. */

@@ -139,23 +139,6 @@ SIMD void judge_smoke_of(const struct kiln_ray_frame *frame, uint32_t light,
     judge_bend(grid->past_smoke[light], GRID_SMOKE_BEND, near_blocks, grid->smoke_smooth[light]);
 }
 
-/* Finds where what smoke lets through may be interpolated in a grid whose blocks are judged by
- * their surfaces. box: around what its pixels show; NULL: anywhere. */
-SIMD_ONCE void judge_smoke(const struct kiln_ray_frame *frame, const struct kiln_lit_box *box,
-                           struct light_grid *grid)
-{
-    const bool alike = are_some(grid->alike);
-    for (uint32_t light = 0; light < GRID_SMOKY; light++) {
-        grid->smoky[light] = has_smoke_before(frame, light, box);
-        if (!grid->smoky[light])
-            continue;
-        if (alike)
-            judge_smoke_of(frame, light, grid);
-        else
-            memset(grid->smoke_smooth[light], 0, sizeof grid->smoke_smooth[light]);
-    }
-}
-
 /* Returns the part of a light that smoke lets through to points. place: in the grid, or NULL. */
 SIMD vf past_smoke(const struct kiln_ray_frame *frame, uint32_t light, const struct ray_point *p,
                    const struct grid_place *place)

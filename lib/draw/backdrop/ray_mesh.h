@@ -5,17 +5,10 @@
 
 #include "base/compress.h"
 #include "draw/backdrop/ray_picture.h"
-#include "draw/backdrop/ray_shapes.h"
+#include "draw/backdrop/ray_trace.h"
 
 /* The room for samples of LANES pixels; whole vectors are written behind the last one. */
 enum { SIDE_ROOM = (KILN_EDGE_SAMPLES + 1) * LANES };
-
-/* Describes rays from the eye that belong to one layer of hits. */
-struct ray_place {
-    vf u, v;   /* the ray is (u, v, -1) in view space */
-    vi hit;    /* index of the pixel in the meshes' hits, in layer 0 */
-    int layer; /* layer of hits; -1: the rays are not from the eye */
-};
 
 struct ray_mesh_hit {
     vi triangle; /* -1: none */
@@ -141,23 +134,6 @@ SIMD void trace_meshes(const struct kiln_ray_frame *frame, const struct ray_plac
     nearest->albedo = vf3_select(nearer, albedo, nearest->albedo);
 }
 
-/* Returns the rays through a sample of pixels. at: the rays through the centres of the same
- * pixels. */
-SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const struct ray_place *at,
-                                   int sample)
-{
-#define PAIR(x, y)                                                                                 \
-    {                                                                                              \
-        x, y                                                                                       \
-    }
-    static const float offsets[KILN_EDGE_SAMPLES][2] = {KILN_EDGE_OFFSETS(PAIR)};
-#undef PAIR
-    const float4 frustum = frame->view->frustum;
-    float right = (offsets[sample][0] - 0.5f) * 2.0f * frustum.x / frustum.z;
-    float down = (offsets[sample][1] - 0.5f) * 2.0f * frustum.y / frustum.w;
-    return (struct ray_place){at->u + right, at->v - down, at->hit, 1 + sample};
-}
-
 /* Holds what samples beside the centres of LANES pixels hit, without gaps. */
 struct side_hits {
     int count;
@@ -209,31 +185,6 @@ SIMD vi find_bends(const struct kiln_mesh_view *meshes, struct side_hits *hits,
             bends[hits->lane[i + k]] |= found[k];
     }
     return vi_load(bends);
-}
-
-/* Marks edges inside a mesh, where it hides itself or bends, in the surface's number, and returns
- * that. middle: what the rays through the centres of pixels hit. */
-SIMD vf mark_mesh_edges(const struct kiln_ray_frame *frame, const struct ray_place *at,
-                        const struct ray_hit *middle)
-{
-    const vf surface = middle->surface;
-    const vi seen = surface >= (float)KILN_SURFACE_MESHES;
-    if (!any(seen))
-        return surface;
-    const vi center = read_hit(frame->meshes, at, 0);
-    vi edge = vi_all(0);
-    struct side_hits hits;
-    hits.count = 0;
-    for (int s = 0; s < KILN_EDGE_SAMPLES; s++) {
-        const struct ray_place aside = sample_place(frame, at, s);
-        const vi triangle = read_hit(frame->meshes, &aside, aside.layer);
-        const vi other = seen & (triangle != center);
-        edge |= other & (triangle < 0);
-        add_side_hits(&hits, other & (triangle >= 0), triangle, &aside);
-    }
-    if (hits.count > 0)
-        edge |= find_bends(frame->meshes, &hits, middle);
-    return surface + vf_where(edge, vf_all(0.25f * KILN_EDGE_MARK));
 }
 
 #endif

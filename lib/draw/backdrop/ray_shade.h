@@ -1,68 +1,9 @@
-/* This header traces vectors of rays, and computes the colours of what they hit. */
+/* This header computes the colours of what vectors of rays hit. */
 #ifndef KILN_DRAW_BACKDROP_RAY_SHADE_H
 #define KILN_DRAW_BACKDROP_RAY_SHADE_H
 
 #include "draw/backdrop/ray_floor.h"
-#include "draw/backdrop/ray_mesh.h"
-
-/* Holds rays from the eye through pixels. */
-struct eye_rays {
-    struct ray ray;
-    struct ray_place place;
-};
-
-SIMD struct eye_rays rays_at(const struct kiln_ray_frame *frame, const struct ray_place *place)
-{
-    const float4 *rows = frame->view->world_to_view;
-    vf u = place->u, v = place->v;
-    return (struct eye_rays){
-        .ray = {.origin = vf3_all(frame->view->eye),
-                .direction = {rows[0].x * u + rows[1].x * v - rows[2].x,
-                              rows[0].y * u + rows[1].y * v - rows[2].y,
-                              rows[0].z * u + rows[1].z * v - rows[2].z}},
-        .place = *place,
-    };
-}
-
-/* Returns the rays through the centres of pixels. */
-SIMD struct eye_rays rays_through_pixels(const struct kiln_ray_frame *frame, vi column, vi row)
-{
-    const float4 frustum = frame->view->frustum, principal = frame->view->principal;
-    vf x = vf_of(column) + 0.5f, y = vf_of(row) + 0.5f;
-    struct ray_place place = {
-        .u = (x * (2.0f / frustum.z) - 1.0f) * frustum.x - principal.z,
-        .v = (1.0f - y * (2.0f / frustum.w)) * frustum.y - principal.w,
-    };
-    if (frame->meshes)
-        place.hit = row * (int32_t)(KILN_HIT_LAYERS * frame->meshes->pitch) + column;
-    return rays_at(frame, &place);
-}
-
-/* Finds the first hit of each ray. floor: the t at which each ray meets the floor; the albedo of
- * hits on the floor is left unset. */
-SIMD_ONCE struct ray_hit trace(const struct kiln_ray_frame *frame,
-                               const struct kiln_ray_objects *objects, const struct ray *ray,
-                               vf floor, const struct ray_place *place)
-{
-    struct ray_hit nearest = {.t = vf_all(RAY_FAR),
-                              .surface = vf_all(-1.0f),
-                              .normal = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)},
-                              .albedo = {{0}, {0}, {0}}};
-    trace_boxes(frame, objects->boxes, ray, &nearest);
-    trace_spheres(frame, objects->spheres, ray, &nearest);
-    trace_cylinders(frame, objects->cylinders, ray, &nearest);
-    trace_capsules(frame, objects->capsules, ray, &nearest);
-    trace_oriented_boxes(frame, objects->oriented_boxes, ray, &nearest);
-    trace_planes(frame, objects->planes, ray, &nearest);
-    if (frame->meshes && place->layer >= 0)
-        trace_meshes(frame, place, &nearest);
-    vi below = floor < nearest.t;
-    const struct vf3 up = {vf_all(0.0f), vf_all(1.0f), vf_all(0.0f)};
-    nearest.t = vf_select(below, floor, nearest.t);
-    nearest.surface = vf_where(~below, nearest.surface);
-    nearest.normal = vf3_select(below, up, nearest.normal);
-    return nearest;
-}
+#include "draw/backdrop/ray_trace.h"
 
 /* Holds the colours and the first hits of rays. */
 struct shaded_rays {
@@ -87,38 +28,21 @@ struct ray_help {
     const struct cached_rays *cached;
 };
 
-/* Computes the light that arrives at the hits, and their colours. */
-SIMD_ONCE void light_hits(const struct kiln_ray_frame *frame, const struct ray *ray, bool glossy,
-                          const struct ray_help *help, struct shaded_rays *shaded)
-{
-    const struct ray_hit *hit = &shaded->first;
-    const struct ray_point point = {ray_at(ray, hit->t), hit->normal, hit->surface >= 0.0f};
-    struct arrived arrived = {.irradiance = {{0}, {0}, {0}}};
-    if (any(point.active)) {
-        struct grid_place place;
-        const struct grid_place *in_grid = NULL;
-        if (help->pixels) {
-            const struct grid_pixels *pixels = help->pixels;
-            place = grid_place_of(pixels->grid, pixels->column, pixels->row, hit, point.at);
-            in_grid = &place;
-        }
-        const vf sunlit = sun_seen(frame, &point, facing_sun(frame, &point), help->cached);
-        const struct ray_point sunny = {point.at, point.normal, sunlit > 0.0f};
-        shaded->arrives = sunlit * past_smoke(frame, GRID_SUN, &sunny, in_grid);
-        glossy = glossy && any(hit->surface == 0.0f);
-        if (glossy)
-            shaded->mirror = floor_reflection_along(frame, ray);
-        const struct lit_surface surface = {.point = point,
-                                            .gloss = glossy ? &shaded->mirror.at : NULL,
-                                            .grid = in_grid,
-                                            .cached = help->cached};
-        arrived = light_without_sun(frame, &surface);
-        shaded->light = sunlit - arrived.hidden / vf_max(arrived.all, vf_all(1e-6f));
-        shaded->reflected = arrived.reflected;
-    }
-    const struct hit_light light = {arrived.irradiance, shaded->arrives};
-    shaded->color = radiance_or_sky(frame, hit, ray->direction, &light, help->cached);
-}
+/* Computes the light that arrives at the hits, and their colours: code of its own for each level
+ * (ray_light_simd.c), since several loops call it. */
+void KILN_SIMD_NAME(kiln_rays_light)(const struct kiln_ray_frame *frame, const struct ray *ray,
+                                     bool glossy, const struct ray_help *help,
+                                     struct shaded_rays *shaded);
+
+/* Finds what may be interpolated in a grid whose nodes have their places. Where no block is smooth
+ * for a light, the nodes need not see it. lights: those that pixels will ask for. */
+void KILN_SIMD_NAME(kiln_rays_judge_grid)(const struct kiln_ray_frame *frame,
+                                          struct grid_lights lights, struct light_grid *grid);
+
+/* Finds where what smoke lets through may be interpolated in a grid whose blocks are judged by
+ * their surfaces. box: around what its pixels show; NULL: anywhere. */
+void KILN_SIMD_NAME(kiln_rays_judge_smoke)(const struct kiln_ray_frame *frame,
+                                           const struct kiln_lit_box *box, struct light_grid *grid);
 
 /* Sets the albedo of hits on the floor. */
 SIMD void color_floor(const struct kiln_ray_frame *frame, const struct ray *ray,
@@ -172,7 +96,7 @@ SIMD_ONCE void add_reflection(const struct kiln_ray_frame *frame, const struct r
     }
     struct shaded_rays reflection = {
         .first = find_hit(&all, &objects, &reflected, &nowhere, help.cached)};
-    light_hits(&all, &reflected, false, &help, &reflection);
+    KILN_SIMD_NAME(kiln_rays_light)(&all, &reflected, false, &help, &reflection);
     struct vf3 more = vf3_scale(shaded->reflected, m->part);
     more = vf3_add_scaled(more, m->sun, shaded->arrives);
     more = vf3_add_scaled(more, reflection.color.rgb, m->part * m->at.reflectance);
@@ -184,7 +108,7 @@ SIMD struct shaded_rays shade_hits(const struct kiln_ray_frame *frame, const str
                                    const struct ray_hit *first, const struct ray_help *help)
 {
     struct shaded_rays shaded = {.first = *first};
-    light_hits(frame, ray, frame->floor_gloss, help, &shaded);
+    KILN_SIMD_NAME(kiln_rays_light)(frame, ray, frame->floor_gloss, help, &shaded);
     shaded.color.rgb = add_sun_disc(frame, shaded.color.rgb, ray->direction, first->surface < 0.0f);
     if (frame->floor_gloss)
         add_reflection(frame, ray, help, &shaded);

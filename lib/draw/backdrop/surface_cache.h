@@ -20,7 +20,7 @@ enum {
     KILN_CACHE_ALBEDO = KILN_CACHE_NORMAL + 3, /* 3; the colour of the sky where nothing is hit */
     KILN_CACHE_SUN = KILN_CACHE_ALBEDO + 3,    /* part of the sun that is seen past objects */
     KILN_CACHE_SKY,                            /* part of the sky that is seen past objects */
-    KILN_CACHE_MARKED,                         /* the surface, marked by mark_mesh_edges */
+    KILN_CACHE_MARKED,                         /* the surface, marked by kiln_rays_mark_edges */
     KILN_CACHE_PIECE = KILN_CACHE_MARKED,      /* of a sample: the piece of surface that it is on */
     KILN_CACHE_PLANES, /* then 3 for the colour of haze, if the cache has it, and one a lamp */
 };
