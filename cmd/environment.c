@@ -11,6 +11,8 @@ const struct variable variables[] = {
      "Whether jobs confine themselves where --sandbox is not given: on, require or off."},
     {"KILN_LIBEXEC_DIR", "The folder of kiln-decode where it is not beside the program. "
                          "kiln-decode reads pictures, videos and meshes."},
+    {"KILN_LOG", "Which messages are printed besides errors: warning (the default), info or debug. "
+                 "With debug, the place in kiln's source stands before an error."},
     {"KILN_SHADER_DIR",
      "The folder that shaders are read from, instead of the shaders in the program."},
     {"KILN_BATCH_PROCESS", "Set by 'kiln render --batch' for its jobs: the process ID of the "

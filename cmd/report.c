@@ -11,6 +11,7 @@
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -38,8 +39,24 @@ static int report_place(const struct kiln_error *error)
     return (int)error->code;
 }
 
+/* Returns the least level of messages that are printed, by KILN_LOG. */
+static enum kiln_log_level least_level(void)
+{
+    const char *level = getenv("KILN_LOG"); /* NOLINT(concurrency-mt-unsafe): only read */
+    if (level && strcmp(level, "debug") == 0)
+        return KILN_LOG_DEBUG;
+    return level && strcmp(level, "info") == 0 ? KILN_LOG_INFO : KILN_LOG_WARNING;
+}
+
+static void report_origin(const struct kiln_error *error)
+{
+    if (error->file && least_level() == KILN_LOG_DEBUG)
+        fprintf(stderr, "kiln: debug: the next error is of %s:%d\n", error->file, error->line);
+}
+
 int report_error(const struct kiln_error *error)
 {
+    report_origin(error);
     if (error->code == KILN_INTERRUPTED)
         return signals_report("loading a scene", "%s", "");
     if (error->code != KILN_INVALID_INPUT)
@@ -51,6 +68,7 @@ int report_scene_error(const struct kiln_error *error)
 {
     if (error->code != KILN_OVER_LIMIT)
         return report_error(error);
+    report_origin(error);
     return report_place(error);
 }
 
@@ -62,10 +80,12 @@ int report_no_memory(void)
 static void write_log(void *user, enum kiln_log_level level, const char *line)
 {
     (void)user;
-    if (level != KILN_LOG_WARNING)
+    static const char *const names[] = {"debug", "info", "warning"};
+    if (level < least_level())
         return;
-    fprintf(stderr, "kiln: warning: %s\n", line);
-    event_warning(line);
+    fprintf(stderr, "kiln: %s: %s\n", names[level], line);
+    if (level == KILN_LOG_WARNING)
+        event_warning(line);
 }
 
 void report_deprecated(const char *command, const char *old, const char *replacement)

@@ -41,7 +41,7 @@ static bool is_limited;
 bool decode_out_of_memory(struct kiln_error *error)
 {
     if (own_limit == 0)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while decoding");
+        return kiln_error_no_memory(error, "decoding a picture");
     return kiln_error_set(error, is_limited ? KILN_OVER_LIMIT : KILN_INVALID_INPUT,
                           "decoding takes more than %llu MiB of memory",
                           (unsigned long long)(own_limit >> 20));

@@ -216,7 +216,7 @@ static bool grow(struct table *table, hash_claim *hash, equal_claims *equal)
 
 static bool out_of_memory(const char *path, struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+    return kiln_error_no_memory(error, "%s", path);
 }
 
 /* Fails when two claims of one file conflict; two claims that only read do not. */

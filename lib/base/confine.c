@@ -197,7 +197,7 @@ bool kiln_seccomp_confine(enum kiln_call_list which, const struct kiln_system_ca
     const bool only = which == KILN_ONLY_THESE_CALLS;
     scmp_filter_ctx filter = library.seccomp_init(only ? SCMP_ACT_ERRNO(ENOSYS) : SCMP_ACT_ALLOW);
     if (!filter)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a seccomp filter");
+        return kiln_error_no_memory(error, "a seccomp filter");
     int status = add_calls(&library, filter, only, calls, count);
     if (status == 0)
         status = library.seccomp_load(filter);

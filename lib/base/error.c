@@ -43,27 +43,52 @@ static void format_message(struct kiln_error *error, enum kiln_code code, const 
         kiln_shown(error->message, message_room(error), text);
 }
 
-bool kiln_error_set(struct kiln_error *error, enum kiln_code code, const char *format, ...)
+/* Stores the place in the source, for which a struct of an older version has no room. */
+static void set_origin(struct kiln_error *error, const char *file, int line)
+{
+    if (error->size != 0 && error->size < sizeof *error)
+        return;
+    error->file = file;
+    error->line = line;
+}
+
+bool kiln_error_set_at(const char *file, int line, struct kiln_error *error, enum kiln_code code,
+                       const char *format, ...)
 {
     va_list args;
     va_start(args, format);
     format_message(error, code, format, args);
     va_end(args);
+    set_origin(error, file, line);
     return false;
 }
 
-bool kiln_error_set_errno(struct kiln_error *error, enum kiln_code code, int errnum,
-                          const char *format, ...)
+bool kiln_error_set_errno_at(const char *file, int line, struct kiln_error *error,
+                             enum kiln_code code, int errnum, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
     format_message(error, errnum == ENOMEM ? KILN_DEVICE_FAILED : code, format, args);
     va_end(args);
+    set_origin(error, file, line);
 
     char text[128];
     const size_t room = message_room(error), length = room > 0 ? strlen(error->message) : 0;
     if (room > 0)
         snprintf(error->message + length, room - length, ": %s",
                  strerror_r(errnum, text, sizeof text));
+    return false;
+}
+
+bool kiln_error_no_memory_at(const char *file, int line, struct kiln_error *error,
+                             const char *format, ...)
+{
+    char what[KILN_MESSAGE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(what, sizeof what, format, args);
+    va_end(args);
+    kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for %s", what);
+    set_origin(error, file, line);
     return false;
 }

@@ -75,7 +75,7 @@ char *kiln_text_file_read(const char *path, const char *what, size_t limit, size
     if (check_file(file, path, what, limit, &expected, error)) {
         text = malloc(expected + 1);
         if (!text)
-            kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+            kiln_error_no_memory(error, "%s", path);
         else if (!read_bytes(file, path, text, expected, size, error)) {
             free(text);
             text = NULL;

@@ -66,7 +66,7 @@ unsigned char *kiln_file_read_bytes(int file, const char *path, const char *what
 {
     unsigned char *bytes = malloc(size + 1); /* not malloc(0), which may return NULL */
     if (!bytes) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading", path);
+        kiln_error_no_memory(error, "reading %s", path);
     } else if (!read_all(file, bytes, size)) {
         kiln_error_set_errno(error, KILN_IO, errno, "%s: the %s cannot be read", path, what);
         free(bytes);

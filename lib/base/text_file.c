@@ -18,7 +18,7 @@ struct kiln_text_file *kiln_text_file_open(const char *path, bool overwrite,
 {
     struct kiln_text_file *text = calloc(1, sizeof *text);
     if (!text) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+        kiln_error_no_memory(error, "%s", path);
         return NULL;
     }
     text->overwrite = overwrite;

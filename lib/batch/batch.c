@@ -140,7 +140,7 @@ bool kiln_batch_write_schema(FILE *out)
 
 static bool out_of_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading jobs");
+    return kiln_error_no_memory(error, "reading jobs");
 }
 
 /* Resolves a path relative to the file at `base`; NULL for an empty path, or when memory is short.

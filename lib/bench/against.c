@@ -51,7 +51,7 @@ struct duel {
 
 static bool no_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+    return kiln_error_no_memory(error, "measurements");
 }
 
 static double patience_of(const struct kiln_bench_run *run)

@@ -153,7 +153,7 @@ struct kiln_bitonic_field *kiln_bitonic_field_create(struct kiln_device *device,
     };
     struct kiln_bitonic_field *field = calloc(1, sizeof *field);
     if (!field) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: out of memory");
+        kiln_error_no_memory(error, "the sort");
         return NULL;
     }
     field->device = device;

@@ -112,7 +112,7 @@ bool kiln_suite_bytes(const struct kiln_bench_run *run, struct kiln_error *error
     struct kiln_scene *scene = kiln_bench_load_scene(run, "bench/cloud.yaml", &settings, error);
     struct kiln_samples *samples = calloc(COMBINATION_COUNT, sizeof *samples);
     if (scene && !samples)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
     bool ok = scene && samples &&
               kiln_contest_run(run, scene, 0, lanes, COMBINATION_COUNT, samples, error) &&
               add_ways(run, lanes, samples, particles, error);

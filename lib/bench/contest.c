@@ -153,7 +153,7 @@ bool kiln_contest_run(const struct kiln_bench_run *run, const struct kiln_scene 
         .count = lane_count,
     };
     if (!contest.entrants) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
         return false;
     }
     bool ok = true;

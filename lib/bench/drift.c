@@ -111,7 +111,7 @@ static bool set_up(struct energy_run *energy_run, struct kiln_error *error)
     if (!energy_run->scene)
         return false;
     if (!energy_run->threads)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        return kiln_error_no_memory(error, "measurements");
     energy_run->simulate = kiln_simulate_create(NULL, energy_run->scene, KILN_SIMULATE_CPU,
                                                 energy_run->threads, error);
     if (!energy_run->simulate)

@@ -27,7 +27,7 @@ struct kiln_force_splat *kiln_force_splat_create(struct kiln_device *device, GLe
 {
     struct kiln_force_splat *splat = calloc(1, sizeof *splat);
     if (!splat) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "force splatting: out of memory");
+        kiln_error_no_memory(error, "the splats of forces");
         return NULL;
     }
     const uint32_t rows = (most + ROW - 1) / ROW;

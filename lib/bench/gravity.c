@@ -73,7 +73,7 @@ static bool set_up(struct pair_bench *pair_bench, struct kiln_error *error)
     pair_bench->samples = calloc(VARIANTS, sizeof *pair_bench->samples);
     if (!pair_bench->threads || !pair_bench->sources || !pair_bench->accelerations ||
         !pair_bench->samples)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        return kiln_error_no_memory(error, "measurements");
     for (uint32_t i = 0; i < pair_bench->count; i++) {
         const float3 at = random_in_ball(random_stream(1, i), 0, false);
         pair_bench->sources[i] = FLOAT4(at.x, at.y, at.z, 1e-3f);
@@ -162,7 +162,7 @@ static bool add_row(const struct pair_bench *pair_bench, size_t variant, const c
         .technique = kiln_arena_text(pair_bench->run->bench->arena, name, strlen(name)),
         .spread = kiln_spread_of(values, samples->count)};
     if (!row.technique)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        return kiln_error_no_memory(error, "measurements");
     if (variant != reference)
         row.faster = kiln_spread_of_ratios(pair_bench->samples[reference].ms[KILN_PASS_simulate],
                                            ms, samples->count);

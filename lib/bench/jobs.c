@@ -56,7 +56,7 @@ struct clip_bench {
 
 static bool no_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+    return kiln_error_no_memory(error, "measurements");
 }
 
 /* ---- Jobs ------------------------------------------------------------------------------------ */

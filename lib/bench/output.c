@@ -48,7 +48,7 @@ static bool deliver(const struct kiln_bench_run *run, double particles, const ch
     struct kiln_delivery *delivery = calloc(1, sizeof *delivery);
     struct kiln_scene *scene = kiln_bench_load_scene(run, "bench/cloud.yaml", &settings, error);
     if (scene && !delivery)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
     bool ok = scene && delivery &&
               kiln_delivery_run(run, scene, name, &AUTOMATIC, 1, delivery, error) &&
               (delivery->problem

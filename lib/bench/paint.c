@@ -100,7 +100,7 @@ static bool set_up(struct paint_bench *paint_bench, uint32_t edge, struct kiln_e
     paint_bench->samples = calloc(LANE_COUNT, sizeof *paint_bench->samples);
     if (!paint_bench->threads || !paint_bench->mesh || !paint_bench->splats ||
         !paint_bench->texels || !paint_bench->samples) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
         return false;
     }
     make_splats(paint_bench);

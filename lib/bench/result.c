@@ -13,7 +13,7 @@ enum { FIRST_ROOM = 64, MAX_NOTE = 1024 };
 
 static bool no_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+    return kiln_error_no_memory(error, "measurements");
 }
 
 struct kiln_bench *kiln_bench_create(struct kiln_error *error)

@@ -44,7 +44,7 @@ static bool put_stream(const struct output_folder *output_folder, const char *na
     bool whole = stream && !ferror(stream);
     whole = (!stream || fclose(stream) == 0) && whole;
     if (!whole)
-        kiln_error_set(output_folder->error, KILN_DEVICE_FAILED, "out of memory for %s", name);
+        kiln_error_no_memory(output_folder->error, "%s", name);
     bool ok = whole && put_file(output_folder, name, *bytes, *size);
     free(*bytes);
     return ok;

@@ -66,7 +66,7 @@ static bool measure_stage(struct subject *s, size_t stage, struct kiln_error *er
     const char *name = kiln_arena_format(arena, "%s, %s", s->path, kiln_stage_name(stage));
     const char *title = kiln_arena_format(arena, "techniques of %s", kiln_stage_name(stage));
     if (!name || !title) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
         return false;
     }
     const struct kiln_bench_part part = {.name = name,
@@ -109,7 +109,7 @@ struct kiln_scene *kiln_bench_load_caller_scene(const struct kiln_bench_run *run
         params.overrides = overrides;
         scene = kiln_scene_load(path, &params, error);
     } else {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
     }
     free(overrides);
     return scene;
@@ -123,7 +123,7 @@ bool kiln_bench_scene(const struct kiln_bench_run *run, const char *path, struct
     subject.scene = scene;
     subject.samples = calloc(KILN_MAX_LANES, sizeof *subject.samples);
     if (scene && !subject.samples)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
     bool ok = scene && subject.samples && measure_frames(&subject, error);
     for (size_t stage = 0; stage < KILN_STAGE_COUNT && ok; stage++) {
         if (is_wanted(run->params, kiln_stage_name(stage)))

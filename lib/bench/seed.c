@@ -52,7 +52,7 @@ static bool compare_scene(const struct kiln_bench_run *run, const struct kiln_se
         kiln_delivery_run(run, scene, "frame_%04d.png", LANES, LANE_COUNT, deliveries, error) &&
         add_delivery(run, deliveries, particles, error);
     if (!deliveries)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
     free(deliveries);
     kiln_scene_destroy(&scene);
     const struct kiln_comparison comparison = {

@@ -74,7 +74,7 @@ struct kiln_sort_timer *kiln_sort_timer_create(struct kiln_device *device,
     }
     struct kiln_sort_timer *timer = calloc(1, sizeof *timer);
     if (!timer) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: out of memory");
+        kiln_error_no_memory(error, "the sort");
         return NULL;
     }
     timer->kind = kind;

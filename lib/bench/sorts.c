@@ -52,7 +52,7 @@ static bool enter(struct sort_bench *sort_bench, size_t index, struct kiln_error
                                                rows, rows == 1 ? "" : "s")
                            : name};
     if (!sort_bench->lanes[index].name) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
         return false;
     }
     if (may_sort(sort_bench, kind, error))
@@ -101,7 +101,7 @@ static bool set_up(struct sort_bench *sort_bench, struct kiln_error *error)
     sort_bench->keys = calloc(sort_bench->count, sizeof *sort_bench->keys);
     sort_bench->samples = calloc(ENTRANTS, sizeof *sort_bench->samples);
     if (!sort_bench->threads || !sort_bench->keys || !sort_bench->samples)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        return kiln_error_no_memory(error, "measurements");
     for (uint32_t i = 0; i < sort_bench->count; i++)
         sort_bench->keys[i] = random_mix(i);
     for (size_t i = 0; i < ENTRANTS; i++) {

@@ -39,7 +39,7 @@ static bool fill(struct state_bench *b, struct kiln_error *error)
     if (!b->scene)
         return false;
     if (!b->threads)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        return kiln_error_no_memory(error, "measurements");
     b->simulate = kiln_simulate_create(NULL, b->scene, KILN_SIMULATE_CPU, b->threads, error);
     if (!b->simulate)
         return false;

@@ -70,8 +70,11 @@ struct kiln_scene *kiln_bench_load_scene(const struct kiln_bench_run *run, const
         whole = settings->items[i] != NULL;
     const char *text = kiln_embedded_find(kiln_embedded_scenes, name);
     if (!whole || !text) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: %s", run->suite,
-                       text ? "out of memory for settings" : "its scene is not in the library");
+        if (text)
+            kiln_error_no_memory(error, "the settings of %s", run->suite);
+        else
+            kiln_error_set(error, KILN_DEVICE_FAILED, "%s: its scene is not in the library",
+                           run->suite);
         return NULL;
     }
     struct kiln_settings all = *settings;
@@ -190,7 +193,7 @@ bool kiln_compare_lanes(const struct kiln_bench_run *run, const struct kiln_comp
     struct kiln_samples *samples = calloc(c->lane_count, sizeof *samples);
     bool ok = scene && samples;
     if (scene && !samples)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
     ok = ok && kiln_contest_run(run, scene, 0, c->lanes, c->lane_count, samples, error) &&
          kiln_bench_add_samples(run, c, samples, error);
     free(samples);

@@ -137,7 +137,7 @@ static bool begin_part(const struct thread_bench *b, const char *name, struct ki
     const char *part_name = kiln_arena_format(b->run->bench->arena, "threads, %s, %ux%u", name,
                                               info.width, info.height);
     if (!part_name)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        return kiln_error_no_memory(error, "measurements");
     const struct kiln_bench_part part = {
         .name = part_name,
         .title = "CPU time of a frame with its PNG, and what of it is serial",
@@ -208,7 +208,7 @@ static struct kiln_scene *load(const struct kiln_bench_run *run, const char *pat
         params.overrides = overrides;
         scene = kiln_bench_load_caller_scene(run, path, &params, frame, error);
     } else {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for measurements");
+        kiln_error_no_memory(error, "measurements");
     }
     free(overrides);
     return scene;

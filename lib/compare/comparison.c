@@ -338,7 +338,7 @@ static bool claim_files(struct comparison *comparison, struct kiln_error *error)
     const struct kiln_compare_params *params = comparison->params;
     comparison->claims = kiln_claims_create();
     if (!comparison->claims)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "files to compare: out of memory");
+        return kiln_error_no_memory(error, "files to compare");
     for (int i = 0; i < 2; i++) {
         if (!kiln_footage_claim(comparison->footage[i], names[i], comparison->claims, error))
             return false;
@@ -400,7 +400,7 @@ static bool copy_params(struct kiln_compare_params *copy, const struct kiln_comp
     const char *mask = (const char *)copy->masks;
     *masks = calloc(copy->mask_count + 1, sizeof **masks);
     if (!*masks)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for masks");
+        return kiln_error_no_memory(error, "the masks");
     for (size_t i = 0; i < copy->mask_count; i++, mask += copy->mask_stride) {
         (*masks)[i] = kiln_compare_mask_empty();
         if (!kiln_sized_take(&(*masks)[i], mask, "kiln_compare_mask", error))

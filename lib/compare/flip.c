@@ -470,8 +470,7 @@ bool kiln_flip_ldr(const struct kiln_flip_pair *pair, const struct kiln_flip_par
         struct tile_job job = {.flip = &flip, .tiles = tiles};
         kiln_threads_for(threads, flip.tiles_across * tiles_down, 1, judge_tiles, &job);
     } else {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory to compare %u x %u pixels",
-                       pair->width, pair->height);
+        kiln_error_no_memory(error, "comparing %u x %u pixels", pair->width, pair->height);
     }
     free(memory);
     free(tiles);

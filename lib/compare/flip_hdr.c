@@ -44,8 +44,7 @@ bool kiln_flip_choose_exposures(const struct kiln_flip_pair *pair,
     size_t pixels = (size_t)pair->width * pair->height;
     float *values = malloc(pixels * sizeof *values);
     if (!values)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory to expose %u x %u pixels",
-                              pair->width, pair->height);
+        return kiln_error_no_memory(error, "exposing %u x %u pixels", pair->width, pair->height);
     for (size_t i = 0; i < pixels; i++)
         values[i] = luminance(pair->reference + 3 * i);
     qsort(values, pixels, sizeof *values, compare_floats);
@@ -107,8 +106,7 @@ bool kiln_flip_hdr(const struct kiln_flip_pair *pair, const struct kiln_flip_par
     float *now = malloc(pixels * sizeof *now);
     bool ok = mapped && now;
     if (!ok)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory to compare %u x %u pixels",
-                       pair->width, pair->height);
+        kiln_error_no_memory(error, "comparing %u x %u pixels", pair->width, pair->height);
     memset(errors, 0, pixels * sizeof *errors);
     struct kiln_flip_pair exposed = {mapped, ok ? mapped + 3 * pixels : NULL, pair->width,
                                      pair->height};

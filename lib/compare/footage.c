@@ -41,7 +41,7 @@ struct kiln_footage {
 
 static bool no_memory(const char *path, struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+    return kiln_error_no_memory(error, "%s", path);
 }
 
 /* ---- Lists -------------------------------------------------------------------------------- */

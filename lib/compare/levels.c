@@ -80,8 +80,7 @@ bool kiln_level_difference_measure(const struct kiln_compare_picture *reference,
                         .threshold = threshold,
                         .table = calloc((size_t)(width + 1) * (height + 1), sizeof(uint32_t))};
     if (!scan.table)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory to compare %u x %u pixels",
-                              width, height);
+        return kiln_error_no_memory(error, "comparing %u x %u pixels", width, height);
     for (uint32_t y = 0; y < height; y++)
         scan_row(&scan, y);
     double values = (double)width * height * (reference->alpha ? 4.0 : 3.0);

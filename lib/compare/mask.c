@@ -67,7 +67,7 @@ bool kiln_mask_make(struct kiln_mask *mask, const struct kiln_compare_mask *mask
     bool ok = true;
     kiln_mask_finish(mask);
     if (!made.masked) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for a mask of %zu pixels", pixels);
+        kiln_error_no_memory(error, "a mask of %zu pixels", pixels);
         return false;
     }
     for (size_t i = 0; ok && i < count; i++) {

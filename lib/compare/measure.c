@@ -34,9 +34,8 @@ static bool allocate(struct taking *taking)
     }
     taking->errors = alpha ? malloc(pixels * sizeof(float)) : NULL;
     ok = ok && (!alpha || taking->errors);
-    return ok ||
-           kiln_error_set(taking->error, KILN_DEVICE_FAILED, "no memory to compare %u x %u pixels",
-                          taking->pictures[0]->width, taking->pictures[0]->height);
+    return ok || kiln_error_no_memory(taking->error, "comparing %u x %u pixels",
+                                      taking->pictures[0]->width, taking->pictures[0]->height);
 }
 
 static void put_on_white(const struct kiln_compare_picture *picture, size_t pixels, float *out)

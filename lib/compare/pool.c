@@ -76,7 +76,7 @@ bool kiln_pool_percentile(const float *errors, size_t count, double part, double
         return kiln_error_set(error, KILN_INVALID_INPUT, "no pixels: nothing was compared");
     double *buckets = malloc(BUCKETS * sizeof *buckets);
     if (!buckets)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory to pool %zu errors", count);
+        return kiln_error_no_memory(error, "pooling %zu errors", count);
 
     fill_buckets(errors, count, false, 0, buckets);
     double total = 0, below = 0;

@@ -140,8 +140,7 @@ bool kiln_ssim(const float *reference, const float *test, uint32_t width, uint32
             sum += ssim.row_sums[y];
         *similarity = sum / ((double)width * height);
     } else {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory to compare %u x %u pixels", width,
-                       height);
+        kiln_error_no_memory(error, "comparing %u x %u pixels", width, height);
     }
     free(ssim.buffers);
     free(ssim.row_sums);

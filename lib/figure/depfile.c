@@ -101,8 +101,7 @@ bool kiln_depfile_make(const char *target, const struct kiln_claims *claims, str
     kiln_text_free(&folder);
     if (ok && (!written || !text->failed))
         return written;
-    return kiln_error_set(error, KILN_DEVICE_FAILED,
-                          "out of memory for the dependencies of a figure");
+    return kiln_error_no_memory(error, "the dependencies of a figure");
 }
 
 bool kiln_depfile_is_of(const char *path, const char *target)

@@ -34,7 +34,7 @@ struct job {
 
 static bool no_memory(const struct job *job)
 {
-    return kiln_error_set(job->error, KILN_DEVICE_FAILED, "%s: out of memory", job->params->output);
+    return kiln_error_no_memory(job->error, "%s", job->params->output);
 }
 
 static bool sidecar_path(const struct job *job, char path[KILN_PATH_SIZE])

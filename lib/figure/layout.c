@@ -477,6 +477,5 @@ bool kiln_layout_make(struct kiln_drawing *drawing, const struct kiln_panels *pa
         add_title(&l);
     for (size_t i = 0; i < panels->count; i++)
         add_cell(&l, i);
-    return !drawing->failed ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the layout of a figure");
+    return !drawing->failed || kiln_error_no_memory(error, "the layout of a figure");
 }

@@ -51,7 +51,7 @@ static bool add_entry(struct kiln_figure_list *list, const char *path, struct ki
     struct kiln_figure_entry *entry = new_entry(list);
     struct kiln_error *problem = kiln_arena_alloc(list->arena, 1, sizeof *problem);
     if (!entry || !problem || !start_entry(list->arena, entry, path))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+        return kiln_error_no_memory(error, "the figures");
     *problem = (struct kiln_error){0};
     const struct kiln_record *record = kiln_record_read(list->arena, path, problem);
     if (!record) {
@@ -64,8 +64,7 @@ static bool add_entry(struct kiln_figure_list *list, const char *path, struct ki
         list->arena, "%.*s%s", *record->folder == '/' ? 0 : (int)folder, path, record->folder);
     entry->command = record->command;
     entry->command_count = record->command_count;
-    return entry->folder ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+    return entry->folder || kiln_error_no_memory(error, "the figures");
 }
 
 /* Adds an entry with a problem for a path that leads to no figure. The search goes on with the
@@ -77,7 +76,7 @@ static bool add_problem(struct kiln_figure_list *list, const char *path,
     const char *name = kiln_arena_format(list->arena, "%s", path);
     struct kiln_error *copy = kiln_arena_alloc(list->arena, 1, sizeof *copy);
     if (!entry || !name || !copy)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+        return kiln_error_no_memory(error, "the figures");
     *copy = *problem;
     *entry =
         (struct kiln_figure_entry){.sidecar = name, .figure = name, .folder = ".", .problem = copy};
@@ -157,7 +156,7 @@ static bool add_path(struct kiln_figure_list *list, const char *path, struct kil
         length--;
     const char *folder = kiln_arena_text(list->arena, path, length);
     if (!folder)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+        return kiln_error_no_memory(error, "the figures");
     if (!search(list, folder, 0, error) || list->count > before)
         return list->count > before;
     kiln_error_set(&problem, KILN_INVALID_INPUT,
@@ -173,7 +172,7 @@ struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t 
     if (!list || !arena) {
         free(list);
         kiln_arena_destroy(&arena);
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the figures");
+        kiln_error_no_memory(error, "the figures");
         return NULL;
     }
     list->arena = arena;

@@ -24,8 +24,7 @@ bool kiln_panel_take_pixels(struct kiln_panels *panels, struct kiln_panel *panel
     size_t count = (size_t)width * height;
     uint8_t *out = kiln_arena_alloc(panels->arena, count, 4);
     if (!out)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a panel of %u x %u",
-                              width, height);
+        return kiln_error_no_memory(error, "a panel of %u x %u", width, height);
     for (size_t i = 0; i < count; i++) {
         uint32_t alpha = rgba[4 * i + 3];
         for (int c = 0; c < 3; c++) {
@@ -59,7 +58,7 @@ struct rendering {
 
 static bool no_memory(const struct rendering *r)
 {
-    return kiln_error_set(r->error, KILN_DEVICE_FAILED, "out of memory for the panels of a figure");
+    return kiln_error_no_memory(r->error, "the panels of a figure");
 }
 
 /* ---- A run ---------------------------------------------------------------------------------- */

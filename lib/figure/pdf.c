@@ -323,5 +323,5 @@ bool kiln_drawing_pdf(const struct kiln_drawing *drawing, uint8_t **bytes, size_
     if (ok)
         return true;
     free(text);
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a PDF document");
+    return kiln_error_no_memory(error, "a PDF document");
 }

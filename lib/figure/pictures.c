@@ -20,7 +20,7 @@ static bool take_picture(struct kiln_panels *panels, struct kiln_panel *panel,
     size_t count = (size_t)picture->width * picture->height;
     uint8_t *rgba = malloc(count * 4);
     if (!rgba)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", panel->source);
+        return kiln_error_no_memory(error, "%s", panel->source);
     for (size_t i = 0; i < count; i++) {
         for (size_t c = 0; c < 3; c++) {
             float level = picture->levels[3 * i + c];
@@ -42,7 +42,7 @@ static bool take_map(struct kiln_panels *panels, struct kiln_panel *panel,
     size_t count = (size_t)measurement->width * measurement->height;
     uint8_t *rgba = malloc(count * 4);
     if (!rgba)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for an error map");
+        return kiln_error_no_memory(error, "an error map");
     for (size_t i = 0; i < count; i++) {
         kiln_magma_color(measurement->errors[i], rgba + 4 * i);
         rgba[4 * i + 3] = 255;
@@ -52,8 +52,7 @@ static bool take_map(struct kiln_panels *panels, struct kiln_panel *panel,
     free(rgba);
     panel->is_map = true;
     panel->label = kiln_arena_format(panels->arena, "FLIP %.4f", measurement->flip.mean);
-    return ok && (panel->label ||
-                  kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for an error map"));
+    return ok && (panel->label || kiln_error_no_memory(error, "an error map"));
 }
 
 static bool measure(struct kiln_panels *panels, struct kiln_compare_picture *const pictures[2],
@@ -117,7 +116,7 @@ bool kiln_panels_of_triptych(struct kiln_panels *panels, const struct kiln_figur
     static const char *const labels[3] = {"reference", "result", ""};
     panels->items = kiln_arena_alloc(panels->arena, 3, sizeof *panels->items);
     if (!panels->items)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a triptych");
+        return kiln_error_no_memory(error, "a triptych");
     panels->count = panels->columns = 3;
     for (size_t i = 0; i < 3; i++) {
         panels->items[i].label = labels[i];
@@ -162,7 +161,7 @@ static bool take_frame(struct kiln_panels *panels, const struct kiln_figure_para
     kiln_asset_image_destroy(&image);
     panels->count += ok;
     if (!panel->label)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+        kiln_error_no_memory(error, "a strip");
     return ok;
 }
 
@@ -208,7 +207,7 @@ static bool choose_evenly(const char *path, uint32_t wanted, struct kiln_frame_r
     bool ok = footage != NULL;
     kiln_footage_close(&footage);
     if (ok && !memory)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+        return kiln_error_no_memory(error, "a strip");
     return ok && (*count > 0 || kiln_error_set(error, KILN_INVALID_INPUT, "%s: no frames", path));
 }
 
@@ -245,7 +244,7 @@ static bool strip_of_clip(struct kiln_panels *panels, const struct kiln_figure_p
     size_t count = params->range_count;
     const char *path = params->inputs[0];
     if (!even)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+        return kiln_error_no_memory(error, "a strip");
     if (count == 0) {
         if (!choose_evenly(path, params->strip, even, &count, error))
             return false;
@@ -258,7 +257,7 @@ static bool strip_of_clip(struct kiln_panels *panels, const struct kiln_figure_p
     size_t wanted = panels->count;
     panels->items = kiln_arena_alloc(panels->arena, wanted, sizeof *panels->items);
     if (!panels->items)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+        return kiln_error_no_memory(error, "a strip");
     if (!take_frames(panels, params, ranges, count, error))
         return false;
     panels->columns = panels->count;
@@ -281,7 +280,7 @@ static bool strip_of_scene(struct kiln_panels *panels, const struct kiln_figure_
         uint32_t count = params->strip < frames ? params->strip : frames;
         struct kiln_frame_range *even = kiln_arena_alloc(panels->arena, count, sizeof *even);
         if (!even)
-            return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+            return kiln_error_no_memory(error, "a strip");
         for (uint32_t i = 0; i < count; i++) {
             uint64_t frame = count > 1 ? (uint64_t)i * (frames - 1) / (count - 1) : frames / 2;
             even[i] = (struct kiln_frame_range){(uint32_t)frame, (uint32_t)frame};
@@ -295,7 +294,7 @@ static bool strip_of_scene(struct kiln_panels *panels, const struct kiln_figure_
         struct kiln_panel *panel = &panels->items[i];
         panel->label = kiln_arena_format(panels->arena, "%.2f s", panel->time_s);
         if (!panel->label)
-            return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a strip");
+            return kiln_error_no_memory(error, "a strip");
     }
     panels->columns = panels->count;
     return true;

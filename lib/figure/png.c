@@ -87,6 +87,5 @@ bool kiln_pixels_png(const struct kiln_pixels *pixels, const struct kiln_imprint
     if (ok)
         return true;
     free(text);
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a PNG of %u x %u pixels",
-                          pixels->width, pixels->height);
+    return kiln_error_no_memory(error, "a PNG of %u x %u pixels", pixels->width, pixels->height);
 }

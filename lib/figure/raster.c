@@ -279,6 +279,6 @@ bool kiln_drawing_rasterise(const struct kiln_drawing *drawing, struct kiln_pixe
         return true;
     free(pixels->rgba);
     *pixels = (struct kiln_pixels){0};
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a figure of %u x %u pixels",
-                          drawing->width, drawing->height);
+    return kiln_error_no_memory(error, "a figure of %u x %u pixels", drawing->width,
+                                drawing->height);
 }

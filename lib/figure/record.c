@@ -52,8 +52,7 @@ bool kiln_record_write(const struct kiln_record *record, struct kiln_text *text,
         add_panel(&json, &record->panels[i]);
     kiln_json_end_indented(&json, 0);
     kiln_json_end_indented(&json, 0);
-    return kiln_json_finish(&json) ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the sidecar of a figure");
+    return kiln_json_finish(&json) || kiln_error_no_memory(error, "the sidecar of a figure");
 }
 
 /* ---- Reading -------------------------------------------------------------------------------- */
@@ -102,7 +101,7 @@ static bool read_command(struct kiln_arena *arena, const struct kiln_node *root,
         return kiln_node_error(list ? list : root, error, "command: expected a list of words");
     record->command = kiln_arena_alloc(arena, list->count, sizeof *record->command);
     if (!record->command)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a sidecar");
+        return kiln_error_no_memory(error, "a sidecar");
     for (const struct kiln_node *word = list->first; word; word = word->next) {
         if (word->kind != KILN_NODE_SCALAR || !word->quoted)
             return kiln_node_error(word, error, "command: expected words in quotes");
@@ -119,7 +118,7 @@ static bool read_panels(struct kiln_arena *arena, const struct kiln_node *root,
         return kiln_node_error(list ? list : root, error, "panels: expected a list");
     record->panels = kiln_arena_alloc(arena, list->count + 1, sizeof *record->panels);
     if (!record->panels)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a sidecar");
+        return kiln_error_no_memory(error, "a sidecar");
     for (const struct kiln_node *node = list->first; node; node = node->next) {
         struct kiln_panel *panel = &record->panels[record->panel_count++];
         const struct kiln_node *frame = kiln_node_entry(node, "frame");
@@ -181,7 +180,7 @@ struct kiln_record *kiln_record_parse(struct kiln_arena *arena, const char *text
     struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
     const char *name_copy = kiln_arena_format(arena, "%s", name);
     if (!record || !origin || !name_copy) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        kiln_error_no_memory(error, "%s", name);
         return NULL;
     }
     *origin = (struct kiln_origin){

@@ -137,7 +137,7 @@ bool kiln_drawing_svg(const struct kiln_drawing *drawing, uint8_t **bytes, size_
     FILE *out = open_memstream(&text, size);
     *bytes = NULL;
     if (!out)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for an SVG document");
+        return kiln_error_no_memory(error, "an SVG document");
     put_start(out, drawing);
     fprintf(out, "<rect width=\"%u\" height=\"%u\" fill=\"#%06x\"/>\n", drawing->width,
             drawing->height, drawing->paper);
@@ -152,6 +152,6 @@ bool kiln_drawing_svg(const struct kiln_drawing *drawing, uint8_t **bytes, size_
     }
     free(text);
     if (ok)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for an SVG document");
+        kiln_error_no_memory(error, "an SVG document");
     return false;
 }

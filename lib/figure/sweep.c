@@ -35,7 +35,7 @@ struct expansion {
 
 static bool no_memory(const struct expansion *e)
 {
-    return kiln_error_set(e->error, KILN_DEVICE_FAILED, "out of memory for the panels of a figure");
+    return kiln_error_no_memory(e->error, "the panels of a figure");
 }
 
 static struct axis *add_axis(struct expansion *e, size_t count)

@@ -232,7 +232,7 @@ struct kiln_loop *kiln_loop_create(struct kiln_device *device, const struct kiln
 {
     struct kiln_loop *loop = calloc(1, sizeof *loop);
     if (!loop) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a frame loop");
+        kiln_error_no_memory(error, "a frame loop");
         return NULL;
     }
     loop->device = device;
@@ -273,10 +273,10 @@ bool kiln_loop_set_up(struct kiln_loop *loop, struct kiln_output_needs needs,
         return false;
     loop->timer = kiln_timer_create(device);
     if (!loop->timer)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "timers: out of memory");
+        return kiln_error_no_memory(error, "the timers");
     loop->spares = kiln_spare_pictures_create();
     if (!loop->spares)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "pictures: out of memory");
+        return kiln_error_no_memory(error, "pictures");
     loop->simulate =
         kiln_simulate_create(device, loop->scene, loop->techniques.simulate, loop->threads, error);
     const struct kiln_stages_params stages = {.techniques = loop->techniques,

@@ -469,7 +469,7 @@ struct kiln_device *kiln_device_open(const struct kiln_device_params *given,
     struct device_list *device_list = calloc(1, sizeof *device_list);
     struct kiln_device *device = calloc(1, sizeof *device);
     if (!device_list || !device) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the list of devices");
+        kiln_error_no_memory(error, "the list of devices");
         goto fail;
     }
     open_devices(device_list, params, false);

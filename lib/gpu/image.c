@@ -39,8 +39,8 @@ void kiln_image_exchange(struct kiln_image *image, float **pixels)
 static bool refuse_memory(const struct kiln_image *image, const char *place,
                           struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %u x %u pixels %s",
-                          image->label, image->width, image->height, place);
+    return kiln_error_no_memory(error, "%s: %u x %u pixels %s", image->label, image->width,
+                                image->height, place);
 }
 
 static bool allocate_host(struct kiln_image *image, struct kiln_error *error)

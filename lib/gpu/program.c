@@ -74,7 +74,7 @@ static bool compile(struct build *build, GLenum stage, const char *file, const c
 {
     struct kiln_source *source = calloc(1, sizeof *source);
     if (!source)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for shader %s", file);
+        return kiln_error_no_memory(error, "shader %s", file);
     bool ok = kiln_source_load(source, file, defines, error);
     if (ok) {
         GLuint shader = glCreateShader(stage);
@@ -119,7 +119,7 @@ GLuint kiln_program_create(struct kiln_device *device, const struct kiln_program
         if (stages[i].file)
             kiln_text_add(&build.name, "%s%s", build.name.length ? " + " : "", stages[i].file);
     if (build.name.length == 0 || build.name.failed) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "a program without a shader, or no memory");
+        kiln_error_no_memory(error, "the name of a program of shaders");
         kiln_text_free(&build.name);
         return 0;
     }
@@ -149,7 +149,7 @@ char *kiln_program_source(const char *file, const char *defines, struct kiln_err
 {
     struct kiln_source *source = calloc(1, sizeof *source);
     if (!source) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for shader %s", file);
+        kiln_error_no_memory(error, "shader %s", file);
         return NULL;
     }
     char *text = NULL;

@@ -41,7 +41,7 @@ static bool read_override(const char *dir, const char *path, char **text, struct
     kiln_text_add(&name, "%s/%s", dir, path);
     if (name.failed) {
         kiln_text_free(&name);
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for shader %s", path);
+        return kiln_error_no_memory(error, "shader %s", path);
     }
     bool ok = true;
     FILE *file = fopen(name.data, "rb");
@@ -51,7 +51,7 @@ static bool read_override(const char *dir, const char *path, char **text, struct
         char *bytes = malloc(MAX_FILE_SIZE + 1);
         size_t size = bytes ? fread(bytes, 1, MAX_FILE_SIZE + 1, file) : 0;
         if (!bytes)
-            ok = kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for shader %s", name.data);
+            ok = kiln_error_no_memory(error, "shader %s", name.data);
         else if (ferror(file))
             ok = kiln_error_set_errno(error, KILN_IO, errno, "shader %s", name.data);
         else if (size > MAX_FILE_SIZE || memchr(bytes, '\0', size))
@@ -276,7 +276,7 @@ bool kiln_source_load(struct kiln_source *source, const char *file, const char *
     if (!add_file(source, &open_file, error))
         return false;
     if (source->text.failed)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for shader %s", file);
+        return kiln_error_no_memory(error, "shader %s", file);
     return true;
 }
 

@@ -170,7 +170,7 @@ static bool claim(const struct encode *encode, const struct kiln_output_params *
 {
     struct kiln_claims *claims = kiln_claims_create();
     if (!claims)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", files->path);
+        return kiln_error_no_memory(error, "%s", files->path);
     const bool ok = kiln_footage_claim(encode->footage, encode->params->frames, claims, error) &&
                     kiln_output_claim(files, claims, error);
     kiln_claims_destroy(&claims);

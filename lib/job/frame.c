@@ -20,7 +20,7 @@ struct kiln_frame *kiln_frame_create(struct kiln_picture *picture, struct kiln_e
         return frame;
     }
     kiln_picture_destroy(&picture);
-    kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a frame");
+    kiln_error_no_memory(error, "a frame");
     return NULL;
 }
 

@@ -263,7 +263,7 @@ static bool check_files(const struct kiln_job *job, struct kiln_error *error)
 {
     struct kiln_claims *claims = kiln_claims_create();
     bool ok = claims ? kiln_render_claim(job->scene, job->params, claims, error)
-                     : kiln_error_set(error, KILN_DEVICE_FAILED, "files of the job: out of memory");
+                     : kiln_error_no_memory(error, "files of the job");
     kiln_claims_destroy(&claims);
     return ok;
 }
@@ -315,8 +315,7 @@ static bool keep_records(struct kiln_job *job, struct kiln_error *error)
         job->files.on_finished = (struct kiln_file_listener){take_finished, job};
     job->scene_json = kiln_manifest_scene(job->scene);
     return (job->scene_json && kiln_records_create(&job->records, job->ranges, job->range_count)) ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for records of %u frames",
-                          job->total_frames);
+           kiln_error_no_memory(error, "records of %u frames", job->total_frames);
 }
 
 /* Finds out which files of the job are there, and leaves only the missing frames to be drawn. */
@@ -562,7 +561,7 @@ struct kiln_job *kiln_job_create(struct kiln_device *device, const struct kiln_s
 {
     struct kiln_job *job = calloc(1, sizeof *job);
     if (!job) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a job");
+        kiln_error_no_memory(error, "a job");
         return NULL;
     }
     job->device = device;

@@ -93,7 +93,7 @@ static bool claim(const struct join *join, struct kiln_error *error)
     struct kiln_claims *claims = kiln_claims_create();
     char journal[KILN_PATH_SIZE];
     if (!claims)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", params->output);
+        return kiln_error_no_memory(error, "%s", params->output);
     const bool ok =
         kiln_output_claim(&join->head.output, claims, error) &&
         kiln_journal_path(params->output, (struct kiln_shard){0, 0}, journal, error) &&
@@ -107,7 +107,7 @@ static bool begin(struct join *join, struct kiln_error *error)
 {
     join->arena = kiln_arena_create();
     if (!join->arena)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", join->params->output);
+        return kiln_error_no_memory(error, "%s", join->params->output);
     if (!kiln_journal_find(join->params->output, &join->head, join->arena, error))
         return false;
     struct kiln_output_params *output = &join->head.output;
@@ -120,7 +120,7 @@ static bool begin(struct join *join, struct kiln_error *error)
     if (!claim(join, error))
         return false;
     if (!kiln_records_create(&join->records, output->clip, output->clip_count))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", join->params->output);
+        return kiln_error_no_memory(error, "%s", join->params->output);
     return kiln_resume_begin(&join->resume,
                              &(struct kiln_resume_params){.output = output,
                                                           .made_by = join->head.made_by,

@@ -61,9 +61,8 @@ static bool append(struct kiln_journal *journal, struct kiln_json *json, struct 
 {
     kiln_json_end(json);
     const bool made = kiln_json_finish(json) && !line->failed;
-    const bool ok =
-        made ? kiln_journal_append(journal, line->data, line->length, sync, error)
-             : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal->path);
+    const bool ok = made ? kiln_journal_append(journal, line->data, line->length, sync, error)
+                         : kiln_error_no_memory(error, "%s", journal->path);
     kiln_text_free(line);
     return ok;
 }
@@ -197,7 +196,7 @@ struct kiln_journal *kiln_journal_open(const struct kiln_journal_head *head,
     struct kiln_journal *journal = calloc(1, sizeof *journal);
     *found = false;
     if (!journal) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", head->output.path);
+        kiln_error_no_memory(error, "%s", head->output.path);
         return NULL;
     }
     journal->file = -1;

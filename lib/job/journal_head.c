@@ -177,14 +177,14 @@ bool kiln_journal_head_read(struct kiln_journal_head *head, const char *journal,
     const char *made_by = take_text(&m, "made_by"), *scene = take_text(&m, "manifest");
     const char *job = take_text(&m, "job");
     if (m.starved)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal);
+        return kiln_error_no_memory(error, "%s", journal);
     if (m.bad)
         return kiln_error_set(error, KILN_USAGE, "%s: the journal is damaged", journal);
     output = kiln_output_complete(&output, error);
     if (!output.format || !output.format->check(&output, error))
         return false;
     if (!kiln_journal_head_make(head, &output, made_by, scene))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal);
+        return kiln_error_no_memory(error, "%s", journal);
     return strcmp(head->job, job) == 0 ||
            kiln_error_set(error, KILN_USAGE, "%s: the journal belongs to another output than %s",
                           journal, path);

@@ -166,7 +166,7 @@ bool kiln_journal_read_lines(const struct kiln_journal *journal, char *text,
     for (char *line = text, *end; ok && (end = strchr(line, '\n')); line = end + 1) {
         struct kiln_arena *arena = kiln_arena_create();
         if (!arena)
-            return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", journal->path);
+            return kiln_error_no_memory(error, "%s", journal->path);
         *end = '\0';
         const struct kiln_node *node;
         ok = kiln_journal_parse_line(arena, journal->path, line, &node, error) &&

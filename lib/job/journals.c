@@ -135,7 +135,7 @@ static bool read_first(const char *path, struct kiln_arena *arena, const struct 
     if (!end)
         return true;
     return first ? kiln_journal_parse_line(arena, path, first, line, error)
-                 : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+                 : kiln_error_no_memory(error, "%s", path);
 }
 
 /* The state of a shard's look at the journals beside its own. */
@@ -170,7 +170,7 @@ static bool look_at(void *user, const char *path, bool is_shard, struct kiln_err
     const bool ok =
         arena ? read_first(path, arena, &line, &alone, error) &&
                     (alone || kiln_journal_check_head(&beside, line, neighbours->head, error))
-              : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+              : kiln_error_no_memory(error, "%s", path);
     kiln_arena_destroy(&arena);
     return ok;
 }

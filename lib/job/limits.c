@@ -139,7 +139,7 @@ bool kiln_limits_parse(struct kiln_limits *limits, const char *text, struct kiln
     if (!kiln_sized_take(&known, limits, "kiln_limits", error))
         return false;
     char *copy = strdup(text), *rest = copy, *item;
-    bool ok = copy || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for limits");
+    bool ok = copy || kiln_error_no_memory(error, "the limits");
     while (ok && (item = strsep(&rest, ",")))
         ok = read_item(&known, item, error);
     free(copy);

@@ -39,8 +39,7 @@ static bool flush(struct kiln_manifest *manifest, struct kiln_error *error)
     if (good)
         return true;
     if (!whole)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the manifest",
-                              manifest->file.target);
+        return kiln_error_no_memory(error, "the manifest of %s", manifest->file.target);
     return kiln_temporary_fail(&manifest->file, error);
 }
 
@@ -112,7 +111,7 @@ struct kiln_manifest *kiln_manifest_open(const struct kiln_manifest_params *para
         return NULL;
     struct kiln_manifest *manifest = calloc(1, sizeof *manifest);
     if (!manifest) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the manifest", params->path);
+        kiln_error_no_memory(error, "the manifest of %s", params->path);
         return NULL;
     }
     manifest->params = *params;

@@ -209,7 +209,7 @@ static bool make_batch(struct batch *batch, const struct kiln_table *table, uint
     most = most > MAX_BLOCKS_AT_ONCE ? MAX_BLOCKS_AT_ONCE : most;
     *batch = (struct batch){.most = most, .memory = malloc(most * (raw + packed) + 1)};
     if (!batch->memory)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a saved state");
+        return kiln_error_no_memory(error, "a saved state");
     for (size_t i = 0; i < most; i++) {
         batch->blocks[i].table = table;
         batch->blocks[i].raw = batch->memory + i * (raw + packed);
@@ -243,8 +243,7 @@ bool kiln_pack_write(const struct kiln_table *table, struct kiln_threads *thread
             uint8_t head[HEAD_BYTES];
             put_word(head, (uint32_t)block->packed_size);
             put_word(head + 4, block->crc);
-            ok = block->outcome == KILN_OK ||
-                 kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a saved state");
+            ok = block->outcome == KILN_OK || kiln_error_no_memory(error, "a saved state");
             if (ok && kiln_temporary_write(file, head, sizeof head))
                 kiln_temporary_write(file, block->packed, block->packed_size);
         }
@@ -283,11 +282,9 @@ static bool read_block(struct block *block, int file, const char *path, struct k
 
 static bool check_outcome(enum kiln_code outcome, const char *path, struct kiln_error *error)
 {
-    return outcome == KILN_OK ||
-           kiln_error_set(error, outcome,
-                          outcome == KILN_DEVICE_FAILED ? "%s: out of memory for a saved state"
-                                                        : "%s: the file is damaged",
-                          path);
+    if (outcome == KILN_DEVICE_FAILED)
+        return kiln_error_no_memory(error, "%s", path);
+    return outcome == KILN_OK || kiln_error_set(error, outcome, "%s: the file is damaged", path);
 }
 
 bool kiln_pack_read(const struct kiln_table *table, struct kiln_threads *threads, int file,

@@ -36,7 +36,7 @@ struct kiln_rendering *kiln_rendering_begin(struct kiln_device *device,
 {
     struct kiln_rendering *r = calloc(1, sizeof *r);
     if (!r) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a job");
+        kiln_error_no_memory(error, "a job");
         return NULL;
     }
     r->device = device;

@@ -237,7 +237,7 @@ static bool list_missing(struct kiln_resume *resume, struct kiln_error *error)
     const struct kiln_records *records = resume->records;
     resume->missing = calloc((size_t)records->count + 1, sizeof *resume->missing);
     if (!resume->missing)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", resume->output.path);
+        return kiln_error_no_memory(error, "%s", resume->output.path);
     struct kiln_frame_range *last = NULL;
     for (uint32_t i = 0; i < records->count; i++) {
         const uint32_t frame = kiln_records_frame(records, i);
@@ -277,7 +277,7 @@ static bool set_up(struct kiln_resume *resume, const struct kiln_resume_params *
     const struct kiln_output_params *output = params->output;
     *resume = (struct kiln_resume){.output = *output, .records = records};
     if (!kiln_journal_head_make(&resume->head, output, params->made_by, params->scene))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", output->path);
+        return kiln_error_no_memory(error, "%s", output->path);
     choose_parts(resume, params->shard);
     if (!output->format->one_file)
         return true;
@@ -375,7 +375,7 @@ bool kiln_resume_merge(struct kiln_resume *resume, struct kiln_error *error)
     bool found = false;
     struct kiln_records ignored;
     if (!kiln_records_create(&ignored, resume->records->clip, resume->records->clip_count))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", resume->output.path);
+        return kiln_error_no_memory(error, "%s", resume->output.path);
     const bool ok =
         kiln_journal_merge(resume->journal, &resume->head, false, &ignored, &found, error);
     kiln_records_free(&ignored);

@@ -46,7 +46,7 @@ static char *make_folder(const char *pattern, struct kiln_error *error)
     struct stat status;
     char *folder = malloc(strlen(pattern) + 3);
     if (!folder) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a sandbox");
+        kiln_error_no_memory(error, "a sandbox");
         return NULL;
     }
     strcpy(folder, pattern);
@@ -357,9 +357,8 @@ bool kiln_sandbox_enter(const struct kiln_sandbox_params *given, struct kiln_err
         return false;
     char *library_path = strdup(path ? path : "");
     char **folders = calloc(params->writable_count + 1, sizeof *folders);
-    const bool ok = library_path && folders
-                        ? confine(params, folders, library_path, error)
-                        : kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a sandbox");
+    const bool ok = library_path && folders ? confine(params, folders, library_path, error)
+                                            : kiln_error_no_memory(error, "a sandbox");
     for (size_t i = 0; folders && i < params->writable_count; i++)
         free(folders[i]);
     free(folders);

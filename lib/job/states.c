@@ -87,7 +87,7 @@ static bool add_step(struct kiln_states *states, uint32_t step, struct kiln_erro
         const size_t room = states->count ? 2 * states->count : 1;
         uint32_t *steps = realloc(states->steps, room * sizeof *steps);
         if (!steps)
-            return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a list of states");
+            return kiln_error_no_memory(error, "a list of states");
         states->steps = steps;
     }
     states->steps[states->count++] = step;
@@ -123,7 +123,7 @@ struct kiln_states *kiln_states_open(const char *folder, const struct kiln_scene
 {
     struct kiln_states *states = calloc(1, sizeof *states);
     if (!states) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a list of states");
+        kiln_error_no_memory(error, "a list of states");
         return NULL;
     }
     states->folder = folder;
@@ -222,7 +222,7 @@ static uint32_t *make_slots(const struct kiln_states *states, struct kiln_loop *
     const uint32_t count = kiln_loop_run(loop)->pool.slot_count;
     uint32_t *slots = calloc((size_t)count + 1, sizeof *slots);
     if (!slots)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a saved order");
+        kiln_error_no_memory(error, "a saved order");
     return slots;
 }
 

@@ -100,8 +100,7 @@ struct builder {
 
 static bool out_of_memory(const struct kiln_origin *origin, struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading %s",
-                          origin->kind);
+    return kiln_error_no_memory(error, "reading %s", origin->kind);
 }
 
 static struct kiln_node *create_node(struct builder *builder, struct fy_event *event,

@@ -93,8 +93,7 @@ bool kiln_reader_error_at(struct kiln_reader *reader, const struct kiln_node *ro
 
 bool kiln_reader_out_of_memory(struct kiln_reader *reader)
 {
-    return kiln_error_set(reader->error, KILN_DEVICE_FAILED, "out of memory while reading %s",
-                          reader->origin->kind);
+    return kiln_error_no_memory(reader->error, "reading %s", reader->origin->kind);
 }
 
 bool kiln_reader_copy_text(struct kiln_reader *reader, const char *text, const char **copy)

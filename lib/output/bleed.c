@@ -103,5 +103,5 @@ bool kiln_bleed_colors(const struct kiln_picture *picture, struct kiln_error *er
         fill_pixels(picture, levels, count);
     for (uint32_t i = 0; i < count; i++)
         free(levels[i].cells);
-    return good || kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the colours of edges");
+    return good || kiln_error_no_memory(error, "the colours of edges");
 }

@@ -177,7 +177,7 @@ static bool has_all_chunks(exr_const_context_t context, const char *path, struct
              EXR_ERR_SUCCESS;
         void *packed = ok ? malloc(chunk.packed_size + 1) : NULL;
         if (ok && !packed)
-            kiln_error_set(reason, KILN_DEVICE_FAILED, "%s: out of memory", path);
+            kiln_error_no_memory(reason, "%s", path);
         ok = packed && exr_read_chunk(context, 0, &chunk, packed) == EXR_ERR_SUCCESS;
         free(packed);
     }
@@ -191,7 +191,7 @@ static bool look_into_exr(const char *path, struct kiln_carried *carried, struct
     initializer.error_handler_fn = be_silent;
     const exr_result_t started = exr_start_read(&context, path, &initializer);
     if (started == EXR_ERR_OUT_OF_MEMORY)
-        return kiln_error_set(reason, KILN_DEVICE_FAILED, "%s: out of memory", path);
+        return kiln_error_no_memory(reason, "%s", path);
     if (started != EXR_ERR_SUCCESS)
         return false;
     const exr_attr_chlist_t *channels = NULL;

@@ -80,8 +80,7 @@ static bool fail(const struct exr_encoder *encoder, exr_result_t code, struct ki
     if (encoder->file->failure)
         return kiln_temporary_fail(encoder->file, error);
     if (code == EXR_ERR_OUT_OF_MEMORY)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the EXR encoder",
-                              target);
+        return kiln_error_no_memory(error, "the EXR encoder of %s", target);
     return kiln_error_set(error, KILN_IO, "%s: OpenEXR failed: %s", target,
                           exr_get_default_error_message(code));
 }
@@ -106,8 +105,7 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
         return NULL;
     struct exr_encoder *encoder = calloc(1, sizeof *encoder);
     if (!encoder) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the EXR encoder",
-                       file->target);
+        kiln_error_no_memory(error, "the EXR encoder of %s", file->target);
         return NULL;
     }
     encoder->params = params;

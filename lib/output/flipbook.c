@@ -199,8 +199,7 @@ static bool create_motion(struct flipbook_encoder *encoder, struct kiln_error *e
         encoder->features[i] = malloc(FEATURES * pixels * sizeof(float));
     encoder->flows = calloc(cell_count(encoder->params) * pixels, 2 * sizeof(float));
     return (encoder->features[0] && encoder->features[1] && encoder->flows) ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the motion",
-                          encoder->params->path);
+           kiln_error_no_memory(error, "the motion of %s", encoder->params->path);
 }
 
 /* Returns over how many pixels frames fade out: at least one, unless they do not. */
@@ -217,7 +216,7 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
     const struct kiln_flipbook *flipbook = &params->flipbook;
     struct flipbook_encoder *encoder = calloc(1, sizeof *encoder);
     if (!encoder) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the flipbook", params->path);
+        kiln_error_no_memory(error, "the flipbook of %s", params->path);
         return NULL;
     }
     encoder->params = params;
@@ -364,8 +363,7 @@ static bool add_motion(struct flipbook_encoder *encoder, struct kiln_error *erro
         return true;
     float *flow = encoder->flows + (size_t)2 * width * height * (encoder->cells - 1);
     return kiln_flow_estimate(before, now, width, height, FEATURES, flow) ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the motion",
-                          encoder->params->path);
+           kiln_error_no_memory(error, "the motion of %s", encoder->params->path);
 }
 
 /* Returns the largest motion along an axis as a part of a cell, which 255 stands for. It is at
@@ -513,8 +511,7 @@ static bool write_layout(struct flipbook_encoder *encoder, float scale, struct k
     if (good) /* without a commit the file is not kept, and the commit reports failures */
         kiln_temporary_write(&encoder->layout_file, text.data, text.length);
     kiln_text_free(&text);
-    return good || kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the layout",
-                                  encoder->params->path);
+    return good || kiln_error_no_memory(error, "the layout of %s", encoder->params->path);
 }
 
 static bool encode(void *opaque, const struct kiln_picture *picture, struct kiln_error *error)

@@ -113,8 +113,7 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
         encoder->indices = malloc(pixels);
     }
     if (!encoder || !encoder->histogram || !encoder->rgb || !encoder->indices) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the GIF encoder",
-                       params->path);
+        kiln_error_no_memory(error, "the GIF encoder of %s", params->path);
     } else if (kiln_temporary_open(&encoder->waiting, file->target, error)) {
         warn_of_times(encoder);
         return encoder;
@@ -177,8 +176,7 @@ static bool finish(void *opaque, const struct kiln_caller *caller, struct kiln_e
         return false;
     struct kiln_dither *dither = kiln_dither_create(&palette);
     if (!dither)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the palette",
-                              encoder->params->path);
+        return kiln_error_no_memory(error, "the palette of %s", encoder->params->path);
     bool good = false;
     FILE *waiting = fopen(kiln_temporary_path(&encoder->waiting), "rb");
     if (!waiting)

@@ -137,9 +137,10 @@ bool kiln_jpeg_encode(const struct kiln_jpeg *jpeg, uint8_t **bytes, size_t *siz
     kiln_ff.av_frame_free(&encoding.frame);
     kiln_ff.avcodec_free_context(&encoding.encoder);
     kiln_avlog_end(&avlog);
-    return ok ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "a JPEG of %u x %u pixels: %s", jpeg->width,
-                          jpeg->height, *avlog.first_error ? avlog.first_error : "out of memory");
+    if (!ok && !*avlog.first_error)
+        return kiln_error_no_memory(error, "a JPEG of %u x %u pixels", jpeg->width, jpeg->height);
+    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "a JPEG of %u x %u pixels: %s",
+                                jpeg->width, jpeg->height, avlog.first_error);
 }
 
 /* ---- Frames ---------------------------------------------------------------------------------- */
@@ -177,8 +178,7 @@ static void *open_frame(const struct kiln_output_params *params, struct kiln_tem
     if (encoder)
         *encoder = (struct jpeg_encoder){params, file};
     else
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the JPEG encoder",
-                       file->target);
+        kiln_error_no_memory(error, "the JPEG encoder of %s", file->target);
     return encoder;
 }
 

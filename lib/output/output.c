@@ -317,7 +317,7 @@ static struct kiln_output *create(const struct kiln_output_params *params, struc
     if (hash && parts && !(parts = kiln_arena_text(arena, parts, strlen(parts))))
         hash = NULL;
     if (!hash) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the output", params->path);
+        kiln_error_no_memory(error, "the output of %s", params->path);
         kiln_arena_destroy(&arena);
         return NULL;
     }

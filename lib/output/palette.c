@@ -235,7 +235,7 @@ bool kiln_palette_make(struct kiln_palette *palette, const struct kiln_histogram
     *palette = (struct kiln_palette){.count = 1};
     struct point *points = malloc(COUNT_CELLS * sizeof *points);
     if (!points)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the palette");
+        return kiln_error_no_memory(error, "the palette");
     size_t point_count = list_points(histogram, points);
     bool good =
         point_count == 0 || choose_colors(palette, points, point_count, most, caller, error);

@@ -100,8 +100,7 @@ static bool fill_head(const struct kiln_output_params *params, uint32_t part,
                                     .frames = count_in(params, part),
                                     .packets = keeps_packets(params)};
     kiln_part_made_by(head->made_by);
-    return kiln_clip_hash(params, head->clip) ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", params->path);
+    return kiln_clip_hash(params, head->clip) || kiln_error_no_memory(error, "%s", params->path);
 }
 
 struct kiln_part_writer *kiln_part_writer_open(const struct kiln_output_params *params,
@@ -110,7 +109,7 @@ struct kiln_part_writer *kiln_part_writer_open(const struct kiln_output_params *
     char path[KILN_PATH_SIZE];
     struct kiln_part_writer *writer = calloc(1, sizeof *writer);
     if (!writer) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", params->path);
+        kiln_error_no_memory(error, "%s", params->path);
         return NULL;
     }
     writer->params = params;
@@ -151,7 +150,7 @@ static bool write_picture(struct kiln_part_writer *writer, const struct kiln_pic
     if (!writer->packed)
         writer->packed = malloc(writer->room);
     if (!writer->packed)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", writer->params->path);
+        return kiln_error_no_memory(error, "%s", writer->params->path);
     const size_t packed =
         ZSTD_compress(writer->packed, writer->room, picture->display, size, LEVEL);
     if (ZSTD_isError(packed) || packed >= END)
@@ -252,14 +251,14 @@ static bool read_packed(struct kiln_part_in *in, uint32_t size, void *out, size_
         return kiln_part_refuse(in, "the part of a clip is damaged", error);
     void *packed = malloc((size_t)size + 1);
     if (!packed)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+        return kiln_error_no_memory(error, "%s", in->path);
     bool ok = kiln_part_read(in, packed, size, error);
     if (ok) {
         size_t got = 0;
         const enum kiln_code outcome = kiln_unpack(out, room, packed, size, &got);
         ok = outcome == KILN_OK && got == room;
         if (outcome == KILN_DEVICE_FAILED)
-            kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+            kiln_error_no_memory(error, "%s", in->path);
         else if (!ok)
             kiln_part_refuse(in, "the part of a clip is damaged", error);
     }

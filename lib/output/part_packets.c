@@ -59,7 +59,7 @@ struct kiln_part_packets *kiln_part_packets_open(const struct kiln_output_params
 {
     struct kiln_part_packets *packets = calloc(1, sizeof *packets);
     if (!packets) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the video", params->path);
+        kiln_error_no_memory(error, "the video of %s", params->path);
         return NULL;
     }
     packets->params = params;
@@ -128,7 +128,7 @@ static uint8_t *read_bytes(struct kiln_part_in *in, uint32_t size, struct kiln_e
     }
     uint8_t *bytes = kiln_ff.av_mallocz((size_t)size + AV_INPUT_BUFFER_PADDING_SIZE);
     if (!bytes) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+        kiln_error_no_memory(error, "%s", in->path);
         return NULL;
     }
     if (!kiln_part_read(in, bytes, size, error))
@@ -150,7 +150,7 @@ static bool read_alpha(struct kiln_part_in *in, AVPacket *packet, struct kiln_er
                                         size) >= 0)
         return true;
     kiln_ff.av_free(bytes);
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+    return kiln_error_no_memory(error, "%s", in->path);
 }
 
 /* Reads a packet whose size has been read. */
@@ -170,7 +170,7 @@ static bool read_packet(struct kiln_part_in *in, uint32_t size, AVPacket *packet
         return false;
     if (kiln_ff.av_packet_from_data(packet, bytes, (int)size) < 0) {
         kiln_ff.av_free(bytes);
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+        return kiln_error_no_memory(error, "%s", in->path);
     }
     packet->pts = (int64_t)pts;
     packet->flags = (int)flags;
@@ -200,7 +200,7 @@ bool kiln_part_packets_pass(struct kiln_part_in *in, void *clip, const struct ki
     bool ok =
         packet && kiln_part_read_word(in, &size, error) && (header = read_bytes(in, size, error));
     if (!packet)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", in->path);
+        kiln_error_no_memory(error, "%s", in->path);
     if (ok && !kiln_video_begin_part(clip, in->head.first, header, size))
         ok = kiln_error_set(error, KILN_INVALID_INPUT,
                             "%s: another encoder made the part than makes the clip's header (%s)",

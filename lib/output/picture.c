@@ -33,8 +33,7 @@ struct kiln_picture *kiln_picture_create(uint32_t width, uint32_t height, uint32
         good = picture->layers[i].pixels != NULL;
     }
     if (!good) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for a picture of %u x %u pixels",
-                       width, height);
+        kiln_error_no_memory(error, "a picture of %u x %u pixels", width, height);
         kiln_picture_destroy(&picture);
         return NULL;
     }

@@ -94,7 +94,7 @@ static void *open_encoder(const struct kiln_output_params *params, struct kiln_t
         png_set_write_fn(encoder->png, encoder, on_write, on_flush);
         return encoder;
     }
-    kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the PNG encoder", file->target);
+    kiln_error_no_memory(error, "the PNG encoder of %s", file->target);
     if (encoder)
         close_encoder(encoder);
     return NULL;

@@ -124,9 +124,8 @@ static bool create_bands(struct kiln_png_data *data, uint32_t threads)
 
 static bool fail(const struct kiln_picture *picture, struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED,
-                          "no memory to compress a picture of %u x %u pixels", picture->width,
-                          picture->height);
+    return kiln_error_no_memory(error, "compressing a picture of %u x %u pixels", picture->width,
+                                picture->height);
 }
 
 struct kiln_png_data *kiln_png_data_create(const struct kiln_picture *picture,

@@ -110,8 +110,7 @@ bool kiln_video_fail(const struct kiln_output_params *params, const struct kiln_
     if (file->failure)
         return kiln_temporary_fail(file, error);
     if (status == AVERROR(ENOMEM))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the video encoder",
-                              params->path);
+        return kiln_error_no_memory(error, "the video encoder of %s", params->path);
     char reason[AV_ERROR_MAX_STRING_SIZE] = "";
     kiln_ff.av_strerror(status, reason, sizeof reason);
     return kiln_error_set(error, KILN_IO, "%s: %s: %s", params->path, what, *said ? said : reason);
@@ -174,7 +173,7 @@ void *kiln_video_open(const struct kiln_output_params *params, struct kiln_tempo
         return NULL;
     struct video_encoder *encoder = calloc(1, sizeof *encoder);
     if (!encoder) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for the video", params->path);
+        kiln_error_no_memory(error, "the video of %s", params->path);
         return NULL;
     }
     encoder->params = params;

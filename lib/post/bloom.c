@@ -19,7 +19,7 @@ struct kiln_bloom_stage *kiln_bloom_create(struct kiln_device *device,
 {
     struct kiln_bloom_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
+        kiln_error_no_memory(error, "the bloom");
         return NULL;
     }
     if (params->technique == KILN_BLOOM_CPU)

@@ -84,7 +84,7 @@ struct kiln_bloom_cpu *kiln_bloom_cpu_create(struct kiln_device *device,
         *stage = (struct kiln_bloom_cpu){
             .scene = scene, .threads = params->threads, .source = params->source};
     if (!stage || !init(stage, device, params->format)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
+        kiln_error_no_memory(error, "the bloom");
         kiln_bloom_cpu_destroy(&stage);
         return NULL;
     }

@@ -41,7 +41,7 @@ struct kiln_bloom_gaussian *kiln_bloom_gaussian_create(struct kiln_device *devic
 {
     struct kiln_bloom_gaussian *gaussian = calloc(1, sizeof *gaussian);
     if (!gaussian) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
+        kiln_error_no_memory(error, "the bloom");
         return NULL;
     }
     gaussian->plan = plan;

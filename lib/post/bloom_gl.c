@@ -102,7 +102,7 @@ struct kiln_bloom_gl *kiln_bloom_gl_create(struct kiln_device *device,
 {
     struct kiln_bloom_gl *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
+        kiln_error_no_memory(error, "the bloom");
         return NULL;
     }
     *stage = (struct kiln_bloom_gl){.device = device, .scene = scene, .source = params->source};

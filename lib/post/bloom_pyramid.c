@@ -37,7 +37,7 @@ struct kiln_bloom_pyramid *kiln_bloom_pyramid_create(struct kiln_device *device,
 {
     struct kiln_bloom_pyramid *pyramid = calloc(1, sizeof *pyramid);
     if (!pyramid) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
+        kiln_error_no_memory(error, "the bloom");
         return NULL;
     }
     pyramid->plan = plan;

@@ -19,7 +19,7 @@ struct kiln_composite_stage *kiln_composite_create(struct kiln_device *device,
 {
     struct kiln_composite_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "composite: out of memory");
+        kiln_error_no_memory(error, "the composite");
         return NULL;
     }
     if (params->technique == KILN_COMPOSITE_CPU)

@@ -38,7 +38,7 @@ struct kiln_composite_cpu *kiln_composite_cpu_create(const struct kiln_scene *sc
         stage->beauty = params->beauty ? kiln_alloc_pages(pixels * 4 * sizeof(float)) : NULL;
     }
     if (!stage || !stage->display || (params->beauty && !stage->beauty)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "composite: out of memory");
+        kiln_error_no_memory(error, "the composite");
         kiln_composite_cpu_destroy(&stage);
         return NULL;
     }

@@ -50,7 +50,7 @@ struct kiln_composite_gl *kiln_composite_gl_create(struct kiln_device *device,
 {
     struct kiln_composite_gl *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "composite: out of memory");
+        kiln_error_no_memory(error, "the composite");
         return NULL;
     }
     *stage = (struct kiln_composite_gl){

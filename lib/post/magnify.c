@@ -29,7 +29,7 @@ bool kiln_magnifier_prepare(struct kiln_magnifier *magnifier, uint32_t width,
     m->planes = calloc(3 * m->plane_floats * threads, sizeof *m->planes);
     if (!m->first || !m->weights[0] || !m->planes) {
         kiln_magnifier_finish(m);
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "bloom: out of memory");
+        return kiln_error_no_memory(error, "the bloom");
     }
     for (size_t k = 1; k < 4; k++)
         m->weights[k] = m->weights[0] + k * row;

@@ -22,7 +22,7 @@ struct kiln_shutter_stage *kiln_shutter_create(struct kiln_device *device,
 {
     struct kiln_shutter_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shutter: out of memory");
+        kiln_error_no_memory(error, "the shutter");
         return NULL;
     }
     stage->threads = params->threads;

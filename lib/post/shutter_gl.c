@@ -34,7 +34,7 @@ struct kiln_shutter_gl *kiln_shutter_gl_create(struct kiln_device *device, struc
 {
     struct kiln_shutter_gl *gl = calloc(1, sizeof *gl);
     if (!gl) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shutter: out of memory");
+        kiln_error_no_memory(error, "the shutter");
         return NULL;
     }
     gl->device = device;

@@ -223,7 +223,7 @@ struct kiln_gallery *kiln_gallery_plan(const struct kiln_results *results, const
     for (size_t i = 0; ok && i < results->count; i++)
         ok = place_test(gallery, order[i]);
     if (!ok)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the report's list of pictures");
+        kiln_error_no_memory(error, "the report's list of pictures");
     return ok ? gallery : NULL;
 }
 

@@ -36,7 +36,7 @@ static bool load_code(struct page *page, struct kiln_error *error)
     for (size_t i = 0; i < sizeof scripts / sizeof *scripts; i++)
         kiln_text_add(&page->script, "%s", kiln_embedded_find(kiln_embedded_page, scripts[i]));
     if (page->style.failed || page->script.failed)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the report page");
+        return kiln_error_no_memory(error, "the report page");
     kiln_hash_sha256(page->style.data, page->style.length, page->hashes[0]);
     kiln_hash_sha256(page->script.data, page->script.length, page->hashes[1]);
     return true;
@@ -302,7 +302,7 @@ static bool prepare(struct page *page, const struct kiln_results_output *output,
     page->summary = kiln_results_summary(results);
     page->order = kiln_arena_alloc(results->arena, results->count + 1, sizeof *page->order);
     if (!page->order)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "no memory for the report page");
+        return kiln_error_no_memory(error, "the report page");
     for (size_t i = 0; i < results->count; i++)
         page->order[i] = i;
     qsort_r(page->order, results->count, sizeof *page->order, compare_tests,

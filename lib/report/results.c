@@ -21,7 +21,7 @@ enum { RUN_VERSION = 1, GROUP_SIZE = 1000, MAX_RUN_SIZE = 64 << 20 };
 
 static bool out_of_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for the results");
+    return kiln_error_no_memory(error, "the results");
 }
 
 static void add_tests(struct kiln_json *json, const struct kiln_suite *suite)

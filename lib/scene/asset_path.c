@@ -31,13 +31,13 @@ const char *kiln_asset_root(struct kiln_arena *arena, const char *root, const ch
     struct stat status;
     const char *result = NULL;
     if (!folder)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+        kiln_error_no_memory(error, "reading a scene");
     else if (!real || stat(real, &status) != 0)
         kiln_error_set_errno(error, KILN_INVALID_INPUT, errno, "asset root '%s'", folder);
     else if (!S_ISDIR(status.st_mode))
         kiln_error_set(error, KILN_INVALID_INPUT, "asset root '%s' is not a folder", folder);
     else if (!(result = kiln_arena_text(arena, real, strlen(real))))
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+        kiln_error_no_memory(error, "reading a scene");
     free(real);
     free(folder);
     return result;

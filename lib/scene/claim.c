@@ -81,7 +81,7 @@ bool kiln_scene_claim_file(const char *path, const char *const *overrides, size_
         arena ? kiln_arena_text(arena, path, slash ? (size_t)(slash + 1 - path) : 0) : NULL;
     const struct search search = {folder, claims, error};
     bool ok = folder ? kiln_claims_read(claims, path, "a scene", error)
-                     : kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+                     : kiln_error_no_memory(error, "%s", path);
     char *text =
         ok ? kiln_text_file_read(path, "a scene", KILN_MAX_SCENE_SIZE, &size, &ignored) : NULL;
     ok = ok && (!text || claim_yaml(&search, arena, text));

@@ -77,7 +77,7 @@ static bool take_hash(struct kiln_scene *scene, struct kiln_error *error)
     kiln_text_free(&text);
     if (!read)
         return false;
-    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+    return ok || kiln_error_no_memory(error, "reading a scene");
 }
 
 static bool build(struct kiln_reader *reader, const char *text, size_t size,
@@ -129,7 +129,7 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
     char *name_copy = arena ? kiln_arena_text(arena, name, strlen(name)) : NULL;
     bool ok = false;
     if (!scratch || !scene || !name_copy) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+        kiln_error_no_memory(error, "reading a scene");
     } else {
         const struct kiln_origin origin = kiln_scene_origin(name_copy);
         struct kiln_reader reader = {
@@ -201,7 +201,7 @@ struct kiln_scene *kiln_scene_parse(const char *text, size_t size, const char *n
         return NULL;
     char *copy = size < SIZE_MAX ? malloc(size + 1) : NULL; /* with a zero byte after it */
     if (!copy) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+        kiln_error_no_memory(error, "reading a scene");
         return NULL;
     }
     memcpy(copy, text, size);
@@ -227,7 +227,7 @@ bool kiln_scene_visit_systems(const char *path, void (*visit)(void *user, const 
     const struct kiln_node *root =
         arena ? kiln_node_parse(arena, text, size, &origin, error) : NULL;
     if (text && !arena)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+        kiln_error_no_memory(error, "reading a scene");
     const struct kiln_node *systems = root ? kiln_node_entry(root, "systems") : NULL;
     if (systems && systems->kind == KILN_NODE_MAP) {
         for (const struct kiln_node *system = systems->first; system; system = system->next)

@@ -54,5 +54,5 @@ bool kiln_scene_part_hash(const struct kiln_scene *scene, enum kiln_scene_part p
     kiln_text_free(&text);
     if (!files_ok)
         return false;
-    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while hashing a scene");
+    return ok || kiln_error_no_memory(error, "hashing a scene");
 }

@@ -99,7 +99,7 @@ static bool read_layout(struct kiln_reader *reader, const char *path, struct lay
     if (!bytes)
         return false;
     if (!text)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a scene");
+        return kiln_error_no_memory(error, "reading a scene");
     *found = false;
     if (!strstr(text, "\"kiln_flipbook\"")) /* JSON of another program */
         return true;

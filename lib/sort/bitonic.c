@@ -63,7 +63,7 @@ struct kiln_bitonic *kiln_bitonic_create(struct kiln_device *device, struct kiln
 {
     struct kiln_bitonic *bitonic = calloc(1, sizeof *bitonic);
     if (!bitonic) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: out of memory");
+        kiln_error_no_memory(error, "the sort");
         return NULL;
     }
     bitonic->device = device;

@@ -22,7 +22,7 @@ struct kiln_sort_cpu *kiln_sort_cpu_create(struct kiln_threads *threads, struct 
 {
     struct kiln_sort_cpu *sort = calloc(1, sizeof *sort);
     if (!sort) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        kiln_error_no_memory(error, "the sort");
         return NULL;
     }
     sort->threads = threads;

@@ -66,7 +66,7 @@ struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
         return NULL;
     struct kiln_sort_depth *sorter = calloc(1, sizeof *sorter);
     if (!sorter) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        kiln_error_no_memory(error, "the sort");
         return NULL;
     }
     sorter->threads = threads;
@@ -79,7 +79,7 @@ struct kiln_sort_depth *kiln_sort_depth_create(struct kiln_threads *threads,
         malloc((size_t)kiln_threads_count(threads) * CELL_SCRATCH * sizeof *sorter->cell_scratch);
     sorter->digit_counts = malloc(kiln_sort_count_words(threads) * sizeof *sorter->digit_counts);
     if (!sorter->cell_scratch || !sorter->digit_counts) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        kiln_error_no_memory(error, "the sort");
         kiln_sort_depth_destroy(&sorter);
     }
     return sorter;

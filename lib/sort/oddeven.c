@@ -53,7 +53,7 @@ struct kiln_oddeven *kiln_oddeven_create(struct kiln_device *device, struct kiln
 {
     struct kiln_oddeven *oddeven = calloc(1, sizeof *oddeven);
     if (!oddeven) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        kiln_error_no_memory(error, "the sort");
         return NULL;
     }
     oddeven->device = device;

@@ -89,7 +89,7 @@ struct kiln_radix *kiln_radix_create(struct kiln_device *device, struct kiln_err
 {
     struct kiln_radix *radix = calloc(1, sizeof *radix);
     if (!radix) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        kiln_error_no_memory(error, "the sort");
         return NULL;
     }
     radix->device = device;

@@ -46,7 +46,7 @@ struct kiln_sort *kiln_sort_create(struct kiln_device *device, enum kiln_sort_te
 {
     struct kiln_sort *sort = calloc(1, sizeof *sort);
     if (!sort) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "sort: no memory");
+        kiln_error_no_memory(error, "the sort");
         return NULL;
     }
     sort->technique = technique;

@@ -125,7 +125,7 @@ char *kiln_template_scene(const char *name, struct kiln_error *error)
     if (!text.failed)
         return text.data;
     kiln_text_free(&text);
-    kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory for a scene");
+    kiln_error_no_memory(error, "a scene");
     return NULL;
 }
 

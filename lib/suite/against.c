@@ -138,8 +138,7 @@ bool kiln_test_case_draw_against(struct kiln_test_case *test_case, struct kiln_r
         return false;
     const char **command = command_of(test_case, frame->number, picture);
     if (!command)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
-                              test_case->test->path);
+        return kiln_error_no_memory(error, "%s", test_case->test->path);
     const int code = run(command, log), failure = errno;
     const char *line = last_line(test_case, log);
     unlink(log);

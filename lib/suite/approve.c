@@ -32,7 +32,7 @@ struct approval {
 
 static bool out_of_memory(struct approval *a)
 {
-    return kiln_error_set(a->error, KILN_DEVICE_FAILED, "out of memory while approving");
+    return kiln_error_no_memory(a->error, "approving pictures");
 }
 
 /* Sets the error for a reason that another run removes; the message names the command. */

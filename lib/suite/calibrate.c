@@ -379,8 +379,7 @@ static bool write_expect(struct calibrating *c, const char *reason, struct kiln_
     expect->limits = kiln_arena_alloc(arena, count + 1, sizeof *expect->limits);
     expect->measured = kiln_arena_alloc(arena, count + 1, sizeof *expect->measured);
     if (!expect->limits || !expect->measured)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
-                              c->test_case.test->path);
+        return kiln_error_no_memory(error, "%s", c->test_case.test->path);
     expect->limit_count = expect->measured_count = 0;
     for (size_t i = 0; i < count; i++) {
         const struct kiln_calibrated *proposal = &c->calibration->metrics[i];
@@ -399,8 +398,7 @@ static bool propose_and_write(struct calibrating *c, struct kiln_error *error)
     propose_all(c);
     const char *reason = make_reason(c);
     if (c->test_case.no_memory)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
-                              c->test_case.test->path);
+        return kiln_error_no_memory(error, "%s", c->test_case.test->path);
     if (!c->params->write)
         return true;
     int lock = kiln_goldens_lock(c->test_case.test, error);
@@ -431,8 +429,7 @@ static bool make_folder(struct calibrating *c, struct kiln_error *error)
 {
     char *folder = kiln_arena_format(c->test_case.arena, "%s/kiln-XXXXXX", c->params->scratch);
     if (!folder)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
-                              c->test_case.test->path);
+        return kiln_error_no_memory(error, "%s", c->test_case.test->path);
     c->folder = mkdtemp(folder);
     return c->folder ||
            kiln_error_set_errno(error, KILN_IO, errno, "%s: the folder cannot be made", folder);
@@ -448,7 +445,7 @@ static bool prepare(struct calibrating *c, struct kiln_error *error)
     test_case->result =
         test_case->arena ? kiln_result_start(test_case->arena, test_case->test) : NULL;
     if (!test_case->result) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test_case->test->path);
+        kiln_error_no_memory(error, "%s", test_case->test->path);
         return false;
     }
     test_case->expect = kiln_expect_read(test_case->arena, test_case->test->golden, error);

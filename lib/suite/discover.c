@@ -30,7 +30,7 @@ struct search {
 
 static bool out_of_memory(struct search *search)
 {
-    return kiln_error_set(search->error, KILN_DEVICE_FAILED, "out of memory while finding tests");
+    return kiln_error_no_memory(search->error, "finding tests");
 }
 
 /* ---- names ---------------------------------------------------------------------------------- */

@@ -37,8 +37,7 @@ struct document {
 
 static bool out_of_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED,
-                          "out of memory while reading what is expected");
+    return kiln_error_no_memory(error, "reading what is expected");
 }
 
 /* ---- types ---------------------------------------------------------------------------------- */

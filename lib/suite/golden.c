@@ -392,5 +392,5 @@ bool kiln_goldens_accept(struct kiln_arena *arena, const struct kiln_test *test,
                                                 .golden = hashes_only ? NULL : pixel_hash,
                                                 .kiln = acceptance->build};
     return kiln_expect_accept(arena, expect, acceptance->frame, acceptance->state, &accepted) ||
-           kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while accepting pictures");
+           kiln_error_no_memory(error, "accepting pictures");
 }

@@ -23,8 +23,7 @@ struct job {
 
 static bool no_memory(const struct job *job)
 {
-    return kiln_error_set(job->error, KILN_DEVICE_FAILED, "%s: out of memory",
-                          job->params->test->path);
+    return kiln_error_no_memory(job->error, "%s", job->params->test->path);
 }
 
 static bool load_scene(struct job *job)

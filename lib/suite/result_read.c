@@ -216,7 +216,7 @@ static void *allocate(const struct reading *reading, uint32_t count, size_t size
 {
     void *entries = kiln_arena_alloc(reading->arena, (size_t)count + 1, size);
     if (!entries)
-        kiln_error_set(reading->error, KILN_DEVICE_FAILED, "out of memory while reading a result");
+        kiln_error_no_memory(reading->error, "reading a result");
     return entries;
 }
 
@@ -375,7 +375,7 @@ struct kiln_result *kiln_result_parse(struct kiln_arena *arena, const char *text
     struct kiln_origin *origin = kiln_arena_alloc(arena, 1, sizeof *origin);
     struct kiln_result *result = kiln_arena_alloc(arena, 1, sizeof *result);
     if (!origin || !result) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading a result");
+        kiln_error_no_memory(error, "reading a result");
         return NULL;
     }
     *origin = (struct kiln_origin){.name = name, .has_lines = true, .kind = "a result"};

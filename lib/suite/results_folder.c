@@ -50,8 +50,7 @@ struct folder {
 
 static bool no_memory(const struct folder *f)
 {
-    return kiln_error_set(f->error, KILN_DEVICE_FAILED, "%s: out of memory",
-                          f->suite->results_folder);
+    return kiln_error_no_memory(f->error, "%s", f->suite->results_folder);
 }
 
 /* ---- The list -------------------------------------------------------------------------------- */

@@ -251,8 +251,7 @@ static bool run(struct kiln_test_case *test_case, struct kiln_error *error)
     if (!rendered)
         return false;
     if (!take_frames(test_case))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
-                              test_case->test->path);
+        return kiln_error_no_memory(error, "%s", test_case->test->path);
     take_changes(test_case);
     if (!check_masks(test_case, error) || !repeat(test_case, error) ||
         !judge_frames(test_case, error))
@@ -309,8 +308,7 @@ static bool run_to_result(struct kiln_test_case *test_case, struct kiln_error *e
         return false;
     }
     if (done && test_case->no_memory)
-        done = kiln_error_set(&problem, KILN_DEVICE_FAILED, "%s: out of memory",
-                              test_case->test->path);
+        done = kiln_error_no_memory(&problem, "%s", test_case->test->path);
     if (!done)
         note_error(test_case, &problem);
     result->rerun = kiln_test_case_rerun_command(test_case);
@@ -335,7 +333,7 @@ bool kiln_test_run(const struct kiln_suite *suite, size_t index,
         ok = run_to_result(&test_case, error);
         kiln_summary_take(summary, test_case.result);
     } else {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test_case.test->path);
+        kiln_error_no_memory(error, "%s", test_case.test->path);
     }
     kiln_arena_destroy(&test_case.arena);
     return ok;

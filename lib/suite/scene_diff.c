@@ -100,14 +100,14 @@ static bool read_entries(struct flattening *f, const char *text, const char *nam
 {
     struct kiln_origin *origin = kiln_arena_alloc(f->arena, 1, sizeof *origin);
     if (!origin)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        return kiln_error_no_memory(error, "%s", name);
     *origin = kiln_scene_origin(name);
     const struct kiln_node *root = kiln_node_parse(f->arena, text, strlen(text), origin, error);
     if (!root)
         return false;
     flatten(f, "", root);
     if (f->failed)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        return kiln_error_no_memory(error, "%s", name);
     if (f->count > 0)
         qsort(f->entries, f->count, sizeof *f->entries, compare_entries);
     return true;
@@ -144,7 +144,7 @@ bool kiln_scene_diff(struct kiln_arena *arena, const char *before, const char *n
         if (ok)
             *count = merge(&a, &b, *changes);
         else
-            kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+            kiln_error_no_memory(error, "%s", name);
     }
     free(a.entries);
     free(b.entries);

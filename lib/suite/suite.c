@@ -34,7 +34,7 @@ struct loader {
 
 static bool out_of_memory(struct loader *loader)
 {
-    return kiln_error_set(loader->error, KILN_DEVICE_FAILED, "out of memory while reading tests");
+    return kiln_error_no_memory(loader->error, "reading tests");
 }
 
 /* ---- files ---------------------------------------------------------------------------------- */
@@ -339,7 +339,7 @@ struct kiln_suite *kiln_suite_load(const struct kiln_suite_params *params, struc
     struct kiln_arena *arena = kiln_arena_create();
     struct kiln_suite *suite = arena ? kiln_arena_alloc(arena, 1, sizeof *suite) : NULL;
     if (!suite)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading tests");
+        kiln_error_no_memory(error, "reading tests");
     else
         suite->arena = arena;
     if (suite && load(suite, params, error))

@@ -84,7 +84,7 @@ bool kiln_test_record_error(const struct kiln_suite *suite, size_t index, enum k
     struct kiln_result *result = arena ? kiln_result_start(arena, test) : NULL;
     bool ok = false;
     if (!result) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test->path);
+        kiln_error_no_memory(error, "%s", test->path);
     } else {
         result->status = KILN_TEST_ERROR;
         result->code = code;
@@ -107,7 +107,7 @@ bool kiln_test_read_summary(const struct kiln_suite *suite, size_t index,
     struct kiln_arena *arena = kiln_arena_create();
     const struct kiln_result *result = arena ? kiln_result_read(arena, test->results, error) : NULL;
     if (!arena)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test->path);
+        kiln_error_no_memory(error, "%s", test->path);
     if (result)
         kiln_summary_take(summary, result);
     kiln_arena_destroy(&arena);
@@ -121,7 +121,7 @@ bool kiln_test_read_note(const struct kiln_suite *suite, size_t index, uint32_t 
     struct kiln_arena *arena = kiln_arena_create();
     const struct kiln_result *result = arena ? kiln_result_read(arena, test->results, error) : NULL;
     if (!arena)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test->path);
+        kiln_error_no_memory(error, "%s", test->path);
     bool ok = result && note < result->note_count;
     if (ok)
         snprintf(text, KILN_MESSAGE_SIZE, "%s", result->notes[note]);

@@ -100,7 +100,7 @@ bool kiln_test_case_set_limits(struct kiln_test_case *test_case, struct kiln_err
     test_case->masks = kiln_arena_alloc(test_case->arena, test->mask_count + expect->mask_count + 1,
                                         sizeof *test_case->masks);
     if (!test_case->masks || !collect_limits(test_case))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", test->path);
+        return kiln_error_no_memory(error, "%s", test->path);
     for (size_t i = 0; i < test->mask_count; i++)
         add_mask(test_case, &test->masks[i]);
     for (size_t i = 0; i < expect->mask_count; i++)

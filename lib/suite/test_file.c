@@ -139,7 +139,7 @@ bool kiln_test_write_reference(FILE *out)
 
 static bool out_of_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "out of memory while reading tests");
+    return kiln_error_no_memory(error, "reading tests");
 }
 
 /* Returns a path in the file `base`, which is relative to that file's folder, as one that can be

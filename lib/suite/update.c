@@ -100,8 +100,7 @@ static bool accept(struct kiln_test_case *test_case, size_t index, enum action a
         };
         if (!kiln_expect_accept(test_case->arena, test_case->expect, frame->number, frame->state,
                                 &pixels))
-            return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
-                                  test_case->test->golden);
+            return kiln_error_no_memory(error, "%s", test_case->test->golden);
         kiln_test_case_note(test_case, "accepted the hashes of frame %u on %s", frame->number,
                             device);
     } else {
@@ -141,8 +140,7 @@ static bool accept_scene(struct kiln_test_case *test_case, struct kiln_error *er
         return true;
     if (!kiln_expect_set_techniques(test_case->arena, test_case->expect,
                                     test_case->rendering.techniques))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
-                              test_case->test->golden);
+        return kiln_error_no_memory(error, "%s", test_case->test->golden);
     return kiln_goldens_write_scene(test_case->test, test_case->rendering.scene_text, error);
 }
 
@@ -165,8 +163,7 @@ bool kiln_test_case_update(struct kiln_test_case *test_case, struct kiln_error *
     size_t count = test_case->result->frame_count, wanted = 0;
     enum action *actions = kiln_arena_alloc(test_case->arena, count + 1, sizeof *actions);
     if (!actions)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory",
-                              test_case->test->golden);
+        return kiln_error_no_memory(error, "%s", test_case->test->golden);
     for (size_t i = 0; i < count; i++) {
         actions[i] = choose_action(test_case, i);
         wanted += actions[i] != LEAVE;

@@ -155,9 +155,29 @@ static void sha256_matches_the_standard(void **state)
     assert_string_equal(hex, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
+/* An error has the place in the source that detected it, as a path in the tree. A struct of an
+ * older version, which has no room for the place, is not written beyond its end. */
+static void errors_have_their_origin(void **state)
+{
+    (void)state;
+    struct kiln_error error = kiln_error_empty();
+    assert_false(kiln_error_no_memory(&error, "%d pictures", 3));
+    assert_int_equal(error.line, __LINE__ - 1);
+    assert_string_equal(error.file, "tests/unit/test_base.c");
+    assert_int_equal(error.code, KILN_DEVICE_FAILED);
+    assert_string_equal(error.message, "out of memory for 3 pictures");
+
+    struct kiln_error older = {.size = offsetof(struct kiln_error, file), .line = -1};
+    assert_false(kiln_error_set(&older, KILN_IO, "x.png: no"));
+    assert_string_equal(older.message, "x.png: no");
+    assert_null(older.file);
+    assert_int_equal(older.line, -1);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(errors_have_their_origin),
         cmocka_unit_test(arena_refuses_overflow),
         cmocka_unit_test(numbers_are_read_without_locale),
         cmocka_unit_test(numbers_are_written_shortest),

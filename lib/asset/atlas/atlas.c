@@ -31,7 +31,7 @@ static const size_t CELL_FLOATS = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
 
 static bool out_of_memory(struct kiln_error *error, const char *source)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells", source);
+    return kiln_error_no_memory(error, "the cells of %s", source);
 }
 
 /* ---- from files ------------------------------------------------------------------------------ */

@@ -194,7 +194,7 @@ static bool resize_image(const struct kiln_asset_image *image,
     if (ok)
         kiln_threads_for(threads, (size_t)source->columns * source->rows, 1, resize_cells, &job);
     else
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells", source->path);
+        kiln_error_no_memory(error, "the cells of %s", source->path);
     filter_finish(&job.across);
     filter_finish(&job.down);
     free(job.rows);
@@ -272,8 +272,7 @@ bool kiln_cells_load_motion(const struct kiln_cells_source *source, float *motio
     size_t pixels = (size_t)source->columns * source->rows * source->edge * source->edge;
     float *cells = calloc(pixels, 4 * sizeof *cells);
     if (!cells)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for its cells",
-                              source->path);
+        return kiln_error_no_memory(error, "the cells of %s", source->path);
     struct kiln_asset_image *image = kiln_asset_image_load(source->loader, source->path, error);
     bool ok = image && resize_image(image, source, true, cells, threads, error);
     kiln_asset_image_destroy(&image);

@@ -403,7 +403,7 @@ static bool fill(const struct making *m, struct kiln_chart *chart, struct kiln_e
     uint64_t *keys = calloc(chart->count, sizeof *keys);
     if (!keys || !allocate(chart)) {
         free(keys);
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for paint", m->name);
+        kiln_error_no_memory(error, "the paint of %s", m->name);
         return false;
     }
     size_t found = 0;
@@ -426,7 +426,7 @@ static bool make(struct making *m, struct kiln_chart *chart, struct kiln_error *
     uint8_t *ring = malloc(count);
     bool ok = m->owners && m->texels && chart->on && ring;
     if (!ok)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for paint", m->name);
+        kiln_error_no_memory(error, "the paint of %s", m->name);
     for (uint32_t i = 0; ok && i < m->mesh->triangle_count; i++)
         ok = add_triangle(m, i, error);
     if (ok)
@@ -440,7 +440,7 @@ struct kiln_chart *kiln_chart_create(const struct kiln_mesh *mesh, uint32_t edge
 {
     struct kiln_chart *chart = calloc(1, sizeof *chart);
     if (!chart) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for paint", name);
+        kiln_error_no_memory(error, "the paint of %s", name);
         return NULL;
     }
     const size_t count = (size_t)edge * edge;

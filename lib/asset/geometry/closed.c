@@ -105,7 +105,7 @@ bool kiln_mesh_check_closed(const struct kiln_mesh *mesh, const char *name,
     if (ok)
         ok = check_edges(mesh, edges, list_edges(mesh, place_of, edges), vertex_of, name, error);
     else
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        kiln_error_no_memory(error, "%s", name);
     free(place_of);
     free(vertex_of);
     free(edges);

@@ -464,7 +464,7 @@ bool kiln_depth_maps_check(const struct kiln_mesh *mesh, const char *name,
                             .resolution = resolution,
                             .corners = malloc(mesh->vertex_count * sizeof(struct corner))};
     if (!making.corners)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        return kiln_error_no_memory(error, "%s", name);
     int64_t visits = 0;
     for (uint32_t k = 0; k < count && visits <= MOST_VISITS; k++) {
         find_axes(directions[k], making.axes);
@@ -514,7 +514,7 @@ struct kiln_depth_maps *kiln_depth_maps_create(const struct kiln_mesh *mesh, con
         find_normals(mesh, normals);
         make(maps, &making, directions, size, threads);
     } else {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        kiln_error_no_memory(error, "%s", name);
         kiln_depth_maps_destroy(&maps);
     }
     free(normals);

@@ -117,7 +117,7 @@ static bool check_inside(const struct kiln_field *field, const struct kiln_mesh 
     const uint32_t layers = field->size[2];
     int32_t *turns = malloc(turns_size * sizeof *turns);
     if (!turns)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        return kiln_error_no_memory(error, "%s", name);
     bool inside = false;
     for (uint32_t i = 0; i < layers && !inside; i++) {
         const uint32_t z = i % 2 == 0 ? layers / 2 + i / 2 : layers / 2 - (i + 1) / 2;
@@ -207,7 +207,7 @@ static bool make(struct kiln_field *field, const struct kiln_mesh *mesh, const c
         kiln_threads_for(threads, field->size[2], 1, make_layers, &making);
         find_growth(field);
     } else {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        kiln_error_no_memory(error, "%s", name);
     }
     kiln_nearest_destroy(&nearest);
     free(making.turns);
@@ -303,7 +303,7 @@ struct kiln_field *kiln_field_create(const struct kiln_mesh *mesh, const char *n
 {
     struct kiln_field *field = calloc(1, sizeof *field);
     if (!field) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        kiln_error_no_memory(error, "%s", name);
         return NULL;
     }
     bool ok = place(field, mesh, name, cells, reach, error);

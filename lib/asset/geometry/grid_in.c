@@ -125,7 +125,7 @@ static bool take_samples(struct cursor *c, struct kiln_grid_file *grid)
                               grid->size[0], grid->size[1], grid->size[2], count * SAMPLE_BYTES);
     grid->samples = malloc(count * sizeof *grid->samples);
     if (!grid->samples)
-        return kiln_error_set(c->error, KILN_DEVICE_FAILED, "%s: out of memory", c->name);
+        return kiln_error_no_memory(c->error, "%s", c->name);
     for (size_t i = 0; i < 3 * count; i++) {
         const float value = read_float_le(c->at + 4 * i);
         if (!(fabsf(value) <= MAX_COMPONENT))
@@ -140,7 +140,7 @@ struct kiln_grid_file *kiln_grid_parse(const void *bytes, size_t size, const cha
 {
     struct kiln_grid_file *grid = calloc(1, sizeof *grid);
     if (!grid) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", name);
+        kiln_error_no_memory(error, "%s", name);
         return NULL;
     }
     const unsigned char *start = bytes;

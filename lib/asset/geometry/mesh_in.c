@@ -262,8 +262,7 @@ static struct imported take(struct request *request, const struct kiln_mesh_resu
         return imported;
     struct kiln_mesh *mesh = copy(result, request->wanted.uvs);
     if (!mesh) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
-                       request->name);
+        kiln_error_no_memory(error, "reading the mesh of %s", request->name);
         return imported;
     }
     kiln_hash_sha256(request->hashes, request->hash_length, mesh->hash);
@@ -303,8 +302,7 @@ static struct imported import(struct request *request, int file, struct kiln_err
     request->helper = kiln_loader_take(request->loader, KILN_DECODE_MESH, error);
     struct kiln_mesh_result *result = calloc(1, sizeof *result);
     if (!result)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh",
-                       request->name);
+        kiln_error_no_memory(error, "reading the mesh of %s", request->name);
     request->wanted.most_bytes = KILN_MAX_MESH_BYTES;
     if (result && request->helper && receive(request, file, result, error))
         imported = take(request, result, error);

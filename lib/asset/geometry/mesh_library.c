@@ -80,7 +80,7 @@ static const struct entry *get(struct kiln_mesh_library *library, const char *pa
     entry = copy ? calloc(1, sizeof *entry) : NULL;
     if (!entry) {
         free(copy);
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading", path);
+        kiln_error_no_memory(error, "reading %s", path);
         return NULL;
     }
     *entry = (struct entry){.next = library->entries, .path = copy, .way = way};

@@ -425,7 +425,7 @@ struct kiln_skin *kiln_skin_take(const char *name, const struct kiln_mesh_result
     }
     struct kiln_skin *skin = copy(&result->skin, mesh);
     if (!skin)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while reading the mesh", name);
+        kiln_error_no_memory(error, "reading the mesh of %s", name);
     return skin;
 }
 

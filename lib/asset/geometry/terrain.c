@@ -203,7 +203,7 @@ struct kiln_terrain *kiln_terrain_create(const struct kiln_terrain_params *param
         terrain->points = calloc(point_count(terrain), sizeof *terrain->points);
     }
     if (!terrain || !terrain->points) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "terrain: out of memory");
+        kiln_error_no_memory(error, "the terrain");
         kiln_terrain_destroy(&terrain);
         return NULL;
     }
@@ -308,7 +308,7 @@ struct kiln_mesh *kiln_terrain_mesh(const struct kiln_terrain *terrain, struct k
         mesh->triangles = malloc((2 * cells + 2 * edges) * sizeof *mesh->triangles);
     }
     if (!mesh || !mesh->vertices || !mesh->triangles) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "terrain: out of memory");
+        kiln_error_no_memory(error, "the terrain");
         kiln_mesh_destroy(&mesh);
         return NULL;
     }

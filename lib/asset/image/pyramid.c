@@ -142,7 +142,7 @@ struct kiln_pyramid *kiln_pyramid_load(struct kiln_loader *loader, const char *p
         return NULL;
     struct kiln_pyramid *pyramid = kiln_pyramid_create(image->width, image->height);
     if (!pyramid || !fill_finest(pyramid, image)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+        kiln_error_no_memory(error, "%s", path);
         kiln_pyramid_destroy(&pyramid);
     }
     for (uint32_t level = 1; pyramid && level < pyramid->levels; level++)

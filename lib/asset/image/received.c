@@ -41,7 +41,7 @@ static bool receive_pixels(const struct kiln_received *received, struct kiln_ass
     const size_t bytes = kiln_asset_image_bytes(image);
     image->pixels = malloc(bytes);
     if (!image->pixels)
-        return kiln_error_set(reason, KILN_DEVICE_FAILED, "out of memory for its pixels");
+        return kiln_error_no_memory(reason, "the pixels");
     if (!kiln_helper_receive(received->helper, kiln_loader_caller(received->loader), image->pixels,
                              bytes, reason))
         return false;
@@ -71,7 +71,7 @@ struct kiln_asset_image *kiln_received_image(struct kiln_received *received, uns
     if (!answered || answer.what != KILN_DECODE_PIXELS)
         return NULL;
     struct kiln_asset_image *image = calloc(1, sizeof *image);
-    bool ok = image || kiln_error_set(reason, KILN_DEVICE_FAILED, "out of memory");
+    bool ok = image || kiln_error_no_memory(reason, "a picture");
     ok = ok && (is_sound(&answer) || kiln_error_set(reason, KILN_INVALID_INPUT,
                                                     "the decoder returned inconsistent data"));
     if (ok) {

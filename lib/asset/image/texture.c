@@ -14,7 +14,7 @@ static bool upload(const struct kiln_asset_image *image, const char *path, struc
 {
     float *row = malloc((size_t)image->width * 3 * sizeof *row);
     if (!row)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+        return kiln_error_no_memory(error, "%s", path);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (uint32_t y = 0; y < image->height; y++) {
         kiln_linear_row(image, y, row);
@@ -118,7 +118,7 @@ bool kiln_sky_light_measure(struct kiln_sky_light *light, struct kiln_loader *lo
         for (int c = 0; c < 3; c++)
             light->horizon[c] = light->up[c];
     }
-    bool ok = row != NULL || kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory", path);
+    bool ok = row != NULL || kiln_error_no_memory(error, "%s", path);
     free(row);
     kiln_asset_image_destroy(&image);
     return ok;

@@ -65,8 +65,7 @@ struct kiln_video_in *kiln_video_in_open(struct kiln_loader *loader, const char 
         if (!begin(video, file, error))
             kiln_video_in_close(&video);
     } else {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory while opening the video",
-                       path);
+        kiln_error_no_memory(error, "opening the video of %s", path);
         free(video);
         video = NULL;
     }

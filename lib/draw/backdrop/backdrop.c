@@ -146,7 +146,7 @@ struct kiln_backdrop_stage *kiln_backdrop_create(struct kiln_device *device,
 {
     struct kiln_backdrop_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
+        kiln_error_no_memory(error, "the backdrop");
         return NULL;
     }
     const struct kiln_scene *scene = moment->scene;

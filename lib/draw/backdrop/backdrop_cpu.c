@@ -60,7 +60,7 @@ struct kiln_backdrop_cpu *kiln_backdrop_cpu_create(const struct kiln_scene *scen
         cpu->surfaces = malloc(pixels * sizeof *cpu->surfaces);
     }
     if (!cpu || !cpu->surfaces) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
+        kiln_error_no_memory(error, "the backdrop");
         kiln_backdrop_cpu_destroy(&cpu);
         return NULL;
     }

@@ -71,7 +71,7 @@ struct kiln_backdrop_gl *kiln_backdrop_gl_create(struct kiln_device *device,
 {
     struct kiln_backdrop_gl *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
+        kiln_error_no_memory(error, "the backdrop");
         return NULL;
     }
     stage->device = device;

@@ -99,7 +99,7 @@ struct kiln_meshes_cpu *kiln_meshes_cpu_create(const struct kiln_scene *scene,
         m->canvas.rows = KILN_SIMD_PICK(kiln_mesh_rows, simd);
     }
     if (!m || !allocate(m, threads)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "meshes: out of memory");
+        kiln_error_no_memory(error, "the meshes");
         kiln_meshes_cpu_destroy(&m);
         return NULL;
     }

@@ -176,7 +176,7 @@ struct kiln_meshes_gl *kiln_meshes_gl_create(struct kiln_device *device,
 {
     struct kiln_meshes_gl *m = calloc(1, sizeof *m);
     if (!m) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "meshes: out of memory");
+        kiln_error_no_memory(error, "the meshes");
         return NULL;
     }
     m->device = device;

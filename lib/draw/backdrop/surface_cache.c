@@ -38,7 +38,7 @@ struct kiln_surface_cache *kiln_surface_cache_create(const struct kiln_scene *sc
     }
     if (!cache || !cache->flags || !cache->edges || !cache->strips || !cache->shown ||
         !cache->lights) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
+        kiln_error_no_memory(error, "the backdrop");
         kiln_surface_cache_destroy(&cache);
     }
     return cache;

@@ -38,14 +38,14 @@ struct kiln_instance_tiles *kiln_instance_tiles_create(const struct kiln_scene *
 {
     struct kiln_instance_tiles *tiles = calloc(1, sizeof *tiles);
     if (!tiles) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
+        kiln_error_no_memory(error, "the shadows of meshes");
         return NULL;
     }
     tiles->edge = kiln_instance_tile_edge(scene);
     tiles->meshes = meshes;
     tiles->texels = calloc(level_at(KILN_INSTANCE_LEVELS), sizeof *tiles->texels);
     if (!tiles->texels) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
+        kiln_error_no_memory(error, "the shadows of meshes");
         kiln_instance_tiles_destroy(&tiles);
     }
     return tiles;

@@ -92,7 +92,7 @@ struct kiln_lamp_maps *kiln_lamp_maps_create(const struct kiln_moment *moment,
         maps->meshes = &moment->meshes;
     }
     if (!maps || !allocate(maps)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of lamps: out of memory");
+        kiln_error_no_memory(error, "the shadows of lamps");
         kiln_lamp_maps_destroy(&maps);
     }
     return maps;
@@ -282,7 +282,7 @@ static bool reserve(struct kiln_lamp_maps *maps, uint32_t count, struct kiln_err
     const size_t lamp = (size_t)KILN_LAMP_FACES * KILN_LAMP_WORDS;
     uint32_t *texels = kiln_alloc_pages(count * lamp * sizeof *texels);
     if (!texels)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of lamps: out of memory");
+        return kiln_error_no_memory(error, "the shadows of lamps");
     if (maps->room)
         memcpy(texels, maps->texels, maps->room * lamp * sizeof *texels);
     memset(texels + maps->room * lamp, 0, (count - maps->room) * lamp * sizeof *texels);

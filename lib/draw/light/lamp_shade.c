@@ -34,7 +34,7 @@ struct kiln_lamp_shade *kiln_lamp_shade_create(const struct kiln_scene *scene,
     if (shade)
         shade->scene = scene;
     else
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
+        kiln_error_no_memory(error, "the shade of particles");
     return shade;
 }
 
@@ -90,7 +90,7 @@ static bool reserve(struct kiln_lamp_shade *shade, size_t words, struct kiln_err
     shade->words = calloc(words, sizeof *shade->words);
     shade->room = shade->words ? words : 0;
     if (!shade->words)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
+        return kiln_error_no_memory(error, "the shade of particles");
     return true;
 }
 

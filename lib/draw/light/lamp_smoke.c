@@ -118,7 +118,7 @@ static bool reserve(struct kiln_lamp_smoke *smoke, uint32_t count, struct kiln_e
         return true;
     float *maps = realloc(smoke->maps, (size_t)count * KILN_LAMP_SMOKE_MAP * sizeof *maps);
     if (!maps)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "smoke around lamps: out of memory");
+        return kiln_error_no_memory(error, "the smoke around lamps");
     smoke->maps = maps;
     smoke->room = count;
     return true;

@@ -97,7 +97,7 @@ struct kiln_lamp_solids *kiln_lamp_solids_create(const struct kiln_moment *momen
         ok = solids->painters[i].canvas != NULL;
     }
     if (!ok) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of lamps: out of memory");
+        kiln_error_no_memory(error, "the shadows of lamps");
         kiln_lamp_solids_destroy(&solids);
     }
     return solids;
@@ -405,7 +405,7 @@ static bool reserve(struct kiln_lamp_solids *solids, uint32_t count, struct kiln
         ok = solids->painters[i].turns != NULL;
     }
     solids->turn_room = ok ? turns : 0;
-    return ok || kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of lamps: out of memory");
+    return ok || kiln_error_no_memory(error, "the shadows of lamps");
 }
 
 static void swap_collected(struct kiln_lamp_solids *solids)

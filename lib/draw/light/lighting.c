@@ -104,7 +104,7 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
 {
     struct kiln_lighting_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
+        kiln_error_no_memory(error, "the lighting");
         return NULL;
     }
     const struct kiln_scene *scene = moment->scene;
@@ -118,7 +118,7 @@ struct kiln_lighting_stage *kiln_lighting_create(struct kiln_device *device,
         return NULL;
     }
     if (!allocate(stage, device, moment->simd)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
+        kiln_error_no_memory(error, "the lighting");
         kiln_lighting_destroy(&stage);
         return NULL;
     }

@@ -22,7 +22,7 @@ bool kiln_mesh_shadow_init(struct kiln_mesh_shadow *shadow, struct kiln_error *e
     shadow->texels = kiln_alloc_pages(KILN_SHADOW_WORDS * sizeof *shadow->texels);
     shadow->spans = calloc(KILN_SHADOW_ROWS, sizeof *shadow->spans);
     if (!shadow->texels || !shadow->spans)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of meshes: out of memory");
+        return kiln_error_no_memory(error, "the shadows of meshes");
     memset(shadow->texels, 0, KILN_SHADOW_WORDS * sizeof *shadow->texels);
     return true;
 }

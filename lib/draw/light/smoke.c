@@ -80,7 +80,7 @@ static bool make_room(struct kiln_smoke *smoke, uint32_t chunks, struct kiln_err
     smoke->counts = malloc(capacity * sizeof *smoke->counts);
     if (!smoke->puffs || !smoke->counts) {
         kiln_smoke_finish(smoke);
-        kiln_error_set(error, KILN_DEVICE_FAILED, "lighting: out of memory");
+        kiln_error_no_memory(error, "the lighting");
         return false;
     }
     smoke->capacity = capacity;

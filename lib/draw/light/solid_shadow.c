@@ -55,7 +55,7 @@ struct kiln_solid_shadow *kiln_solid_shadow_create(const struct kiln_scene *scen
 {
     struct kiln_solid_shadow *shadow = calloc(1, sizeof *shadow);
     if (!shadow) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of solids: out of memory");
+        kiln_error_no_memory(error, "the shadows of solids");
         return NULL;
     }
     shadow->scene = scene;
@@ -380,7 +380,7 @@ bool kiln_solid_shadow_run(struct kiln_solid_shadow *shadow, const struct kiln_m
         entries = choose_bins(shadow, &layout);
     }
     if (shadow->failed || !make_room(shadow, entries))
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "shadows of solids: out of memory");
+        return kiln_error_no_memory(error, "the shadows of solids");
     const uint32_t longest = fill_lists(shadow, &layout);
     float scale = 1.0f / layout.size;
     const float3 right = shadow->sun.right, up = shadow->sun.up;

@@ -56,7 +56,7 @@ struct kiln_sun_shade *kiln_sun_shade_create(const struct kiln_scene *scene,
     if (shade)
         shade->maps = calloc(meshes ? meshes : 1, sizeof *shade->maps);
     if (!shade || !shade->maps) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
+        kiln_error_no_memory(error, "the shade of particles");
         free(shade);
         return NULL;
     }
@@ -211,7 +211,7 @@ const float *kiln_sun_shade_run(struct kiln_sun_shade *shade, const struct kiln_
         shade->visible = calloc(rows * KILN_SUN_SHADE_ROW, sizeof *shade->visible);
     }
     if (!shade->visible) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "shade of particles: out of memory");
+        kiln_error_no_memory(error, "the shade of particles");
         return NULL;
     }
     place_objects(shade, moment);

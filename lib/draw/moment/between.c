@@ -38,7 +38,7 @@ struct kiln_between *kiln_between_create(struct kiln_device *device,
 {
     struct kiln_between *between = calloc(1, sizeof *between);
     if (!between) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "particles within a step: out of memory");
+        kiln_error_no_memory(error, "particles within a step");
         return NULL;
     }
     between->device = device;

@@ -21,7 +21,7 @@ static bool make_room(struct kiln_instances *instances, uint32_t triangles,
     size_t count = (size_t)instances->corner_count + 3 * (size_t)triangles;
     float4(*more)[2] = realloc(instances->corners, count * sizeof *more);
     if (!more) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "meshes of particles: out of memory");
+        kiln_error_no_memory(error, "meshes of particles");
         return false;
     }
     instances->corners = more;

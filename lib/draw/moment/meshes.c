@@ -25,7 +25,7 @@ static struct kiln_mesh *make_moving(struct kiln_meshes *meshes, const struct ki
     meshes->posed_s[meshes->count] = -1.0f;
     struct kiln_mesh *mesh = kiln_mesh_copy(object->shown);
     if (!mesh)
-        kiln_error_set(error, KILN_DEVICE_FAILED, "meshes: out of memory");
+        kiln_error_no_memory(error, "the meshes");
     return mesh;
 }
 

@@ -23,7 +23,7 @@ bool kiln_moment_init(struct kiln_moment *moment, struct kiln_device *device,
         moment->gl = kiln_moment_gl_create(device);
     if (moment->look_table && (moment->gl || !device))
         return true;
-    kiln_error_set(error, KILN_DEVICE_FAILED, "looks: out of memory");
+    kiln_error_no_memory(error, "the looks");
 
 fail:
     kiln_moment_finish(moment);

@@ -132,7 +132,7 @@ static bool init_texture(struct paint_texture *texture, const struct kiln_object
     if (ok)
         compute_coverage(texture, chart->on);
     else
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: out of memory for paint", object->file);
+        kiln_error_no_memory(error, "the paint of %s", object->file);
     texture->changes = 1;
     kiln_chart_destroy(&chart);
     return ok;
@@ -144,7 +144,7 @@ struct kiln_painted *kiln_painted_create(const struct kiln_scene *scene,
 {
     struct kiln_painted *painted = calloc(1, sizeof *painted);
     if (!painted) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory");
+        kiln_error_no_memory(error, "the paint");
         return NULL;
     }
     uint32_t mesh = 0, canvas = 0;

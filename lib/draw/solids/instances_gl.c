@@ -57,7 +57,7 @@ struct kiln_instances_gl *kiln_instances_gl_create(struct kiln_device *device,
 {
     struct kiln_instances_gl *m = calloc(1, sizeof *m);
     if (!m) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "meshes of particles: out of memory");
+        kiln_error_no_memory(error, "meshes of particles");
         return NULL;
     }
     m->device = device;

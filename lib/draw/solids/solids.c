@@ -20,7 +20,7 @@ struct kiln_solids_stage *kiln_solids_create(struct kiln_device *device,
 {
     struct kiln_solids_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "solids: out of memory");
+        kiln_error_no_memory(error, "the solids");
         return NULL;
     }
     if (kiln_backdrop_rays(params->backdrop))

@@ -71,7 +71,7 @@ struct kiln_solids_cpu *kiln_solids_cpu_create(const struct kiln_moment *moment,
                                           .targets = params->targets,
                                           .code = KILN_SIMD_PICK(kiln_solid_rows, moment->simd)};
     if (!stage || !allocate(stage)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "solids: out of memory");
+        kiln_error_no_memory(error, "the solids");
         kiln_solids_cpu_destroy(&stage);
     }
     return stage;
@@ -289,7 +289,7 @@ static bool make_room(struct kiln_solids_cpu *stage, uint32_t count, struct kiln
         return true;
     free(stage->spheres);
     stage->spheres = NULL;
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "solids: out of memory");
+    return kiln_error_no_memory(error, "the solids");
 }
 
 static void make_all(struct kiln_solids_cpu *stage, const struct kiln_moment *moment,

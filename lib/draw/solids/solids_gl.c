@@ -88,7 +88,7 @@ struct kiln_solids_gl *kiln_solids_gl_create(struct kiln_device *device,
 {
     struct kiln_solids_gl *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "solids: out of memory");
+        kiln_error_no_memory(error, "the solids");
         return NULL;
     }
     const struct kiln_solids_targets *targets = &params->targets;

@@ -19,7 +19,7 @@ enum {
 
 static bool out_of_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "bins: out of memory");
+    return kiln_error_no_memory(error, "the bins");
 }
 
 bool kiln_bins_init(struct kiln_bins *bins, uint32_t width, uint32_t height,

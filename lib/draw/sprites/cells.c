@@ -240,7 +240,7 @@ struct kiln_cells *kiln_cells_create(const struct kiln_atlas *atlas, struct kiln
     }
     if (!cells || !cells->sources || !cells->requested || !cells->texels || !cells->missing ||
         !cells->hulls || !make_moves(cells)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
+        kiln_error_no_memory(error, "the cells");
         kiln_cells_destroy(&cells);
         return NULL;
     }
@@ -444,7 +444,7 @@ bool kiln_cells_mix(struct kiln_cells *cells, struct kiln_threads *threads,
             !atomic_load_explicit(&cells->requested[i], memory_order_relaxed))
             continue;
         if (!allocate(cells, i))
-            return kiln_error_set(error, KILN_DEVICE_FAILED, "cells: out of memory");
+            return kiln_error_no_memory(error, "the cells");
         cells->missing[count++] = i;
     }
     kiln_threads_for(threads, count, 1, mix_missing, cells);

@@ -55,7 +55,7 @@ struct kiln_coarse_stage *kiln_coarse_create(struct kiln_device *device,
 {
     struct kiln_coarse_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "coarse particles: out of memory");
+        kiln_error_no_memory(error, "coarse particles");
         return NULL;
     }
     stage->device = device;

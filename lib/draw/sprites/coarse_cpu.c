@@ -86,7 +86,7 @@ struct kiln_coarse_cpu *kiln_coarse_cpu_create(struct kiln_coarse_images *images
         *coarse = (struct kiln_coarse_cpu){
             .images = images, .threads = threads, .loops = KILN_SIMD_PICK(kiln_coarse_loops, simd)};
     if (!coarse || !make_scratch(coarse) || !find_places(coarse)) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "coarse particles: out of memory");
+        kiln_error_no_memory(error, "coarse particles");
         kiln_coarse_cpu_destroy(&coarse);
     }
     return coarse;

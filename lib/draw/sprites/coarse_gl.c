@@ -68,7 +68,7 @@ struct kiln_coarse_gl *kiln_coarse_gl_create(struct kiln_device *device,
 {
     struct kiln_coarse_gl *coarse = calloc(1, sizeof *coarse);
     if (!coarse) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "coarse particles: out of memory");
+        kiln_error_no_memory(error, "coarse particles");
         return NULL;
     }
     *coarse = (struct kiln_coarse_gl){.device = device, .images = images};

@@ -81,7 +81,7 @@ struct kiln_fragments_gl *kiln_fragments_gl_create(struct kiln_device *device,
 {
     struct kiln_fragments_gl *f = calloc(1, sizeof *f);
     if (!f) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "fragments: out of memory");
+        kiln_error_no_memory(error, "the fragments");
         return NULL;
     }
     f->device = device;
@@ -173,8 +173,7 @@ static bool add_part(struct kiln_fragments_gl *f, const struct part *part, struc
         size_t room = f->part_room ? 2 * f->part_room : 64;
         struct part *parts = realloc(f->parts, room * sizeof *parts);
         if (!parts) {
-            kiln_error_set(error, KILN_DEVICE_FAILED, "fragments: out of memory for %zu parts",
-                           room);
+            kiln_error_no_memory(error, "the fragments: %zu parts", room);
             return false;
         }
         f->parts = parts;

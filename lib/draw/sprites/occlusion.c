@@ -40,7 +40,7 @@ struct kiln_occlusion *kiln_occlusion_create(struct kiln_device *device, struct 
 {
     struct kiln_occlusion *occlusion = calloc(1, sizeof *occlusion);
     if (!occlusion) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+        kiln_error_no_memory(error, "particles");
         return NULL;
     }
     occlusion->device = device;

@@ -27,7 +27,7 @@ kiln_particles_create(struct kiln_device *device, const struct kiln_scene *scene
 {
     struct kiln_particles_stage *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+        kiln_error_no_memory(error, "particles");
         return NULL;
     }
     *stage = (struct kiln_particles_stage){

@@ -34,7 +34,7 @@ struct kiln_raster_cpu {
 
 static bool out_of_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+    return kiln_error_no_memory(error, "particles");
 }
 
 static void free_sprites(struct kiln_sprites *sprites)

@@ -81,7 +81,7 @@ struct kiln_geometry *kiln_geometry_create(struct kiln_device *device,
 {
     struct kiln_geometry *stage = calloc(1, sizeof *stage);
     if (!stage) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+        kiln_error_no_memory(error, "particles");
         return NULL;
     }
     *stage = (struct kiln_geometry){

@@ -145,7 +145,7 @@ struct kiln_tiled *kiln_tiled_create(struct kiln_device *device, const struct ki
 {
     struct kiln_tiled *tiled = calloc(1, sizeof *tiled);
     if (!tiled) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "particles: out of memory");
+        kiln_error_no_memory(error, "particles");
         return NULL;
     }
     *tiled = (struct kiln_tiled){

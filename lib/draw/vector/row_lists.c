@@ -9,7 +9,7 @@
 
 static bool out_of_memory(struct kiln_error *error)
 {
-    return kiln_error_set(error, KILN_DEVICE_FAILED, "backdrop: out of memory");
+    return kiln_error_no_memory(error, "the backdrop");
 }
 
 static bool make_bands(struct kiln_row_lists *lists, uint32_t bands)

@@ -47,7 +47,7 @@ bool kiln_paint_init(struct kiln_paint *paint, const struct kiln_scene *scene,
     paint->made = malloc(paint->slot_count * sizeof *paint->made);
     paint->turns = malloc(paint->slot_count * sizeof *paint->turns);
     if (!paint->meshes || !paint->made || !paint->turns) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory");
+        kiln_error_no_memory(error, "the paint");
         return false;
     }
     for (uint32_t i = 0; i < scene->backdrop.object_count; i++) {

@@ -80,7 +80,7 @@ bool kiln_paint_grid_init(struct kiln_paint_grid *grid, const struct kiln_chart 
     const size_t cells = (size_t)grid->size[0] * grid->size[1] * grid->size[2];
     grid->first = calloc(cells + 2, sizeof *grid->first);
     if (!grid->middle || !grid->blocks || !grid->ends || !grid->first) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory");
+        kiln_error_no_memory(error, "the paint");
         return false;
     }
     /* While blocks are placed, ends[cell] is the place of the cell's next block. When all are
@@ -210,7 +210,7 @@ static bool make_lists(struct gathering *g, struct kiln_error *error)
     }
     if (total > 0 && !grid->list) {
         grid->list_capacity = 0;
-        kiln_error_set(error, KILN_DEVICE_FAILED, "paint: out of memory for %u splats", g->count);
+        kiln_error_no_memory(error, "the paint: %u splats", g->count);
         return false;
     }
     kiln_threads_for(g->gather->threads, CHUNKS, 1, write_chunks, g);

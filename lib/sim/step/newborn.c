@@ -105,7 +105,7 @@ bool kiln_newborn_show(struct kiln_newborn *newborn, struct kiln_sim_params *par
         return true;
     newborn->slots = calloc(total, sizeof *newborn->slots);
     if (!newborn->slots)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "simulate: no memory");
+        return kiln_error_no_memory(error, "the simulation");
     memcpy(newborn->systems, pool->systems, sizeof newborn->systems);
     newborn->shown = true;
     struct places places;

@@ -85,7 +85,7 @@ struct kiln_simulate *kiln_simulate_create(struct kiln_device *device,
 {
     struct kiln_simulate *simulate = calloc(1, sizeof *simulate);
     if (!simulate) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "simulate: no memory");
+        kiln_error_no_memory(error, "the simulation");
         return NULL;
     }
     simulate->scene = scene;

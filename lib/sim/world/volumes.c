@@ -62,7 +62,7 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
     const struct kiln_object *object = &scene->backdrop.objects[index];
     struct kiln_volume *volume = calloc(1, sizeof *volume);
     if (!volume) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "volume: no memory");
+        kiln_error_no_memory(error, "the volume");
         return NULL;
     }
     volume->object = index;
@@ -75,8 +75,7 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
     volume->before = calloc(count, sizeof *volume->before);
     volume->after = calloc(count, sizeof *volume->after);
     if (!volume->mesh || !volume->before || !volume->after) {
-        kiln_error_set(error, KILN_DEVICE_FAILED, "%s: no memory for %zu vertices", object->file,
-                       count);
+        kiln_error_no_memory(error, "%s: %zu vertices", object->file, count);
         kiln_mesh_destroy(&volume->mesh);
         return volume; /* the caller frees it */
     }

@@ -104,8 +104,7 @@ static bool grow(void **block, size_t count, size_t each, struct kiln_error *err
     free(*block);
     *block = calloc(count, each);
     if (!*block)
-        return kiln_error_set(error, KILN_DEVICE_FAILED,
-                              "volume: no memory for %zu times %zu bytes", count, each);
+        return kiln_error_no_memory(error, "the volume: %zu times %zu bytes", count, each);
     return true;
 }
 
@@ -115,7 +114,7 @@ static bool reserve(struct kiln_voxels *v, const struct kiln_voxels_input *in,
     if (!v->scratch)
         v->scratch = calloc(1, sizeof *v->scratch);
     if (!v->scratch)
-        return kiln_error_set(error, KILN_DEVICE_FAILED, "volume: no memory");
+        return kiln_error_no_memory(error, "the volume");
     struct kiln_voxels_scratch *s = v->scratch;
     if (s->vertex_capacity < in->vertex_count) {
         s->vertex_capacity = in->vertex_count;
