@@ -431,11 +431,12 @@ struct kiln_render_params {
      * this callback, each file is read once more for its hash. */
     void (*written)(void *user, const struct kiln_written *file);
 };
-KILN_EMPTY(kiln_render_params, kiln_render_params_empty)
 
 static inline struct kiln_render_params kiln_render_defaults(void)
 {
-    struct kiln_render_params params = kiln_render_params_empty();
+    struct kiln_render_params params;
+    memset(&params, 0, sizeof params);
+    params.size = sizeof params;
     params.png_bits = 8;
     params.exr_bits = 16;
     params.quality = 80;

@@ -120,11 +120,12 @@ struct kiln_compare_params {
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
 };
 #define KILN_COMPARE_DEFAULT_LIMITS "flip.mean=0.01,flip.p99=0.1,window.share=0.1"
-KILN_EMPTY(kiln_compare_params, kiln_compare_params_empty)
 
 static inline struct kiln_compare_params kiln_compare_defaults(void)
 {
-    struct kiln_compare_params params = kiln_compare_params_empty();
+    struct kiln_compare_params params;
+    memset(&params, 0, sizeof params);
+    params.size = sizeof params;
     params.layer = "beauty";
     params.pixels_per_degree = 67.0206;
     params.threshold = 2;

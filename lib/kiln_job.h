@@ -116,11 +116,12 @@ struct kiln_encode_params {
     struct kiln_budget *budget;       /* NULL: no limits */
     struct kiln_log log;
 };
-KILN_EMPTY(kiln_encode_params, kiln_encode_params_empty)
 
 static inline struct kiln_encode_params kiln_encode_defaults(void)
 {
-    struct kiln_encode_params params = kiln_encode_params_empty();
+    struct kiln_encode_params params;
+    memset(&params, 0, sizeof params);
+    params.size = sizeof params;
     params.quality = 80;
     return params;
 }
@@ -178,11 +179,12 @@ struct kiln_plan_params {
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_log log;
 };
-KILN_EMPTY(kiln_plan_params, kiln_plan_params_empty)
 
 static inline struct kiln_plan_params kiln_plan_defaults(void)
 {
-    struct kiln_plan_params params = kiln_plan_params_empty();
+    struct kiln_plan_params params;
+    memset(&params, 0, sizeof params);
+    params.size = sizeof params;
     params.tasks = 1;
     params.frame = -1;
     return params;

@@ -53,8 +53,8 @@ def split_inline(text):
             value = re.fullmatch(r'params\.(\w+) = ("[^"\\]*"|-?[\d.]+)', statement)
             if value:
                 values[value[1]] = literal(value[2])
-            elif not re.fullmatch(rf"struct {struct} (empty|params = \w+\(\))|memset\(&empty, 0, sizeof empty\)"
-                                  r"|empty\.size = sizeof empty|return (empty|params)", statement):
+            elif not re.fullmatch(rf"struct {struct} (empty|params)|memset\(&(empty|params), 0, sizeof \2\)"
+                                  r"|(empty|params)\.size = sizeof \3|return (empty|params)", statement):
                 sys.exit(f"{name}: cannot read '{statement}'")
         defaults.setdefault(struct, {}).update(values)
     declarations = pattern.sub("", text)

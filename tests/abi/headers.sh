@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Checks that each installed header compiles alone as C11, C17, C++17 and C++20, without a warning
 # of a strict set: headers.sh SOURCE CC CXX. If this fails, a user's program that makes warnings
-# errors does not compile.
+# errors does not compile. It also checks that no struct of parameters is filled by a function
+# *_empty: a caller would take its zeros for the defaults.
 set -euo pipefail
 source=$1 cc=$2 cxx=$3
 folder=$(mktemp -d)
@@ -20,4 +21,8 @@ for header in kiln kiln_compare kiln_job kiln_limits kiln_sandbox; do
             "${common[@]}" "$folder/use.cc"
     done
 done
+if grep -HnE '_params_empty\b|KILN_EMPTY\(\w+_params, \w+_empty\)' "$source"/lib/kiln*.h; then
+    echo "parameters are filled by a function *_defaults alone"
+    exit 1
+fi
 echo "five headers, four languages"

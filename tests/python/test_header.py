@@ -78,7 +78,7 @@ def generate(header, folder):
 
 @pytest.mark.parametrize("addition, message", [
     ("static inline struct kiln_odd kiln_odd_defaults(void)\n"
-     "{\n struct kiln_odd params = kiln_odd_empty();\n params.a = other();\n return params;\n}\n",
+     "{\n struct kiln_odd params;\n params.a = other();\n return params;\n}\n",
      "kiln_odd_defaults: cannot read 'params.a = other()'"),
     ("static inline int kiln_twice(int a)\n{\n return 2 * a;\n}\n", "neither declared nor read"),
 ])
