@@ -13,6 +13,8 @@
  *     kiln_scene_destroy(&scene);
  *
  * Errors: a function that can fail returns false or NULL and fills the error, which is not NULL.
+ * Functions that destroy, close or end an object set the caller's pointer to NULL. They do nothing,
+ * and succeed, for a pointer that is NULL already and for NULL.
  * Nothing in the library prints or exits; messages go to the log callback. Threads: a device and
  * what was made with it belong to the thread that opened it. Scenes are immutable once loaded and
  * may be shared. Nothing is global.

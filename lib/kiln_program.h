@@ -1,5 +1,6 @@
 /* Declares the functions that the program kiln has in addition to the library's. It is the one
- * header that cmd/ includes. It is not installed, and may change with every version. */
+ * header that cmd/ includes. It is not installed, and may change with every version. Errors and the
+ * functions that destroy objects follow the rules of kiln.h. */
 #ifndef KILN_PROGRAM_H
 #define KILN_PROGRAM_H
 

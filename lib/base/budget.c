@@ -51,6 +51,8 @@ struct kiln_budget *kiln_budget_create(const struct kiln_limits *limits)
 
 void kiln_budget_destroy(struct kiln_budget **budget)
 {
+    if (!budget)
+        return;
     free(*budget);
     *budget = NULL;
 }

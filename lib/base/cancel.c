@@ -16,6 +16,8 @@ struct kiln_cancel *kiln_cancel_create(void)
 
 void kiln_cancel_destroy(struct kiln_cancel **cancel)
 {
+    if (!cancel)
+        return;
     free(*cancel);
     *cancel = NULL;
 }

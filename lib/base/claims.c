@@ -49,7 +49,7 @@ struct kiln_claims *kiln_claims_create(void)
 
 void kiln_claims_destroy(struct kiln_claims **claims)
 {
-    if (!*claims)
+    if (!claims || !*claims)
         return;
     struct kiln_arena *arena = (*claims)->arena;
     free((*claims)->by_path.slots);

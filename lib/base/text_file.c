@@ -46,7 +46,9 @@ FILE *kiln_text_file_stream(const struct kiln_text_file *text)
 
 bool kiln_text_file_close(struct kiln_text_file **text, bool keep, struct kiln_error *error)
 {
-    struct kiln_text_file *t = *text;
+    struct kiln_text_file *t = text ? *text : NULL;
+    if (!t)
+        return true;
     const bool failed = ferror(t->out) != 0;
     errno = 0;
     if (fclose(t->out) != 0 || failed)

@@ -326,7 +326,7 @@ struct kiln_batch *kiln_batch_read(const char *path, struct kiln_error *error)
 
 void kiln_batch_destroy(struct kiln_batch **batch)
 {
-    if (!*batch)
+    if (!batch || !*batch)
         return;
     kiln_arena_destroy(&(*batch)->arena);
     free((*batch)->jobs);

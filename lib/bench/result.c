@@ -32,7 +32,7 @@ struct kiln_bench *kiln_bench_create(struct kiln_error *error)
 
 void kiln_bench_destroy(struct kiln_bench **bench)
 {
-    struct kiln_bench *b = *bench;
+    struct kiln_bench *b = bench ? *bench : NULL;
     if (!b)
         return;
     for (size_t i = 0; i < b->part_count; i++) {

@@ -186,8 +186,9 @@ struct kiln_figure_list *kiln_figure_list_load(const char *const *paths, size_t 
 
 void kiln_figure_list_destroy(struct kiln_figure_list **list)
 {
-    if (*list)
-        kiln_arena_destroy(&(*list)->arena);
+    if (!list || !*list)
+        return;
+    kiln_arena_destroy(&(*list)->arena);
     free(*list);
     *list = NULL;
 }

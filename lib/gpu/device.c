@@ -499,7 +499,7 @@ fail:
 
 void kiln_device_close(struct kiln_device **device)
 {
-    if (!*device)
+    if (!device || !*device)
         return;
     kiln_egl_close((*device)->display, (*device)->context);
     free(*device);

@@ -26,8 +26,9 @@ struct kiln_frame *kiln_frame_create(struct kiln_picture *picture, struct kiln_e
 
 void kiln_frame_destroy(struct kiln_frame **frame)
 {
-    if (*frame)
-        kiln_picture_destroy(&(*frame)->picture);
+    if (!frame || !*frame)
+        return;
+    kiln_picture_destroy(&(*frame)->picture);
     free(*frame);
     *frame = NULL;
 }

@@ -78,7 +78,9 @@ struct kiln_frame *kiln_rendering_take_frame(struct kiln_rendering *r, struct ki
 bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_stats *stats,
                         struct kiln_error *error)
 {
-    struct kiln_rendering *r = *rendering;
+    struct kiln_rendering *r = rendering ? *rendering : NULL;
+    if (!r)
+        return true;
     struct kiln_render_stats done = kiln_render_stats_empty();
     bool ok = kiln_sized_check(stats, "kiln_render_stats", error) &&
               kiln_device_make_current(r->device, error);

@@ -442,7 +442,7 @@ struct kiln_results *kiln_results_load_whole(const char *const *folders, size_t 
 
 void kiln_results_destroy(struct kiln_results **results)
 {
-    if (!*results)
+    if (!results || !*results)
         return;
     struct kiln_arena *arena = (*results)->arena; /* the arena holds the results, too */
     kiln_arena_destroy(&arena);

@@ -191,7 +191,7 @@ struct kiln_terrain_params kiln_scene_terrain(const struct kiln_scene *scene,
 
 void kiln_scene_destroy(struct kiln_scene **scene)
 {
-    if (!*scene)
+    if (!scene || !*scene)
         return;
     struct kiln_arena *arena = (*scene)->arena; /* the scene itself lies in this arena */
     kiln_mesh_library_destroy(&(*scene)->meshes);

@@ -350,7 +350,7 @@ struct kiln_suite *kiln_suite_load(const struct kiln_suite_params *params, struc
 
 void kiln_suite_destroy(struct kiln_suite **suite)
 {
-    if (!*suite)
+    if (!suite || !*suite)
         return;
     struct kiln_arena *arena = (*suite)->arena; /* the arena holds the suite, too */
     kiln_arena_destroy(&arena);
