@@ -19,6 +19,13 @@
  * what was made with it belong to the thread that opened it. Scenes are immutable once loaded and
  * may be shared. Nothing is global.
  *
+ * Lifetimes: a scene and a device must outlive the jobs on them, and so must all that parameters
+ * point to. A job is a call of kiln_render, kiln_bake or kiln_plan_tasks, or the time from
+ * kiln_rendering_begin to kiln_rendering_end. A debug build of the library (without NDEBUG) refuses
+ * a job on a scene or device that was destroyed, or on a pointer to something else, with
+ * KILN_USAGE; there, destroyed scenes and devices keep a page of memory. In other builds such a job
+ * is undefined behaviour.
+ *
  * Structs that begin with `size` can grow at their end in later versions: fill one by the function
  * that stands below it, such as kiln_render_defaults, then change what you need. A program that was
  * built against an older version goes on with a newer library, which takes its own defaults for
@@ -112,6 +119,7 @@ KILN_API bool kiln_cancel_is_requested(const struct kiln_cancel *cancel); /* NUL
 
 /* ---- Scenes ------------------------------------------------------------------------------- */
 
+/* A scene that was loaded. It may be destroyed, on any thread, when all jobs on it have ended. */
 struct kiln_scene;
 
 /* How a scene file is read. `overrides` are texts "dotted.key=value" that are applied in order
@@ -176,6 +184,7 @@ KILN_API void kiln_scene_get_info(const struct kiln_scene *scene, struct kiln_sc
 
 /* ---- Devices ------------------------------------------------------------------------------ */
 
+/* A device to draw on. It may be closed when all jobs on it have ended. */
 struct kiln_device;
 
 /* The name of the device that is not a GL device: the threads and vector units of this machine,
@@ -477,16 +486,17 @@ KILN_EMPTY(kiln_render_stats, kiln_render_stats_empty)
 
 /* Renders a job. Its callbacks may use other devices, or render on this one. Files appear under
  * their names only when they are whole; after an error or a stop, finished files stay and nothing
- * half-written is left. `stats` may be NULL. */
+ * half-written is left. `stats` may be NULL. KILN_USAGE for a device or scene that is NULL. */
 KILN_API bool kiln_render(struct kiln_device *device, const struct kiln_scene *scene,
                           const struct kiln_render_params *params, struct kiln_render_stats *stats,
                           struct kiln_error *error);
 
-/* A job that is rendered frame by frame, for a program with a loop of its own. Everything that
- * `params` point to must last until the job ends. All calls are made on the device's thread. */
+/* A job that is rendered frame by frame, for a program with a loop of its own. All calls are
+ * made on the device's thread. */
 struct kiln_rendering;
 
-/* Begins a job, which the caller ends. Returns NULL with an error of kiln_render. */
+/* Begins a job, which the caller ends. The device, the scene and everything that `params` point to
+ * must last until then. Returns NULL with an error of kiln_render. */
 KILN_API struct kiln_rendering *kiln_rendering_begin(struct kiln_device *device,
                                                      const struct kiln_scene *scene,
                                                      const struct kiln_render_params *params,

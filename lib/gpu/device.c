@@ -162,12 +162,13 @@ static void describe(struct kiln_device_info *info)
 {
     copy_gl_string(info->name, GL_RENDERER);
     copy_gl_string(info->vendor, GL_VENDOR);
-    copy_gl_string(info->gl_version, GL_VERSION);
+    char version[sizeof info->gl_version] = ""; /* GCC 12 takes two members of *info for one */
+    copy_gl_string(version, GL_VERSION);
+    memcpy(info->gl_version, version, sizeof version);
     info->software = info->software || is_software(info->name);
     if (epoxy_gl_version() < 43) {
         snprintf(info->problem, sizeof info->problem,
-                 "the device has OpenGL %s; 4.3 or later is needed, from a newer driver",
-                 info->gl_version);
+                 "the device has OpenGL %s; 4.3 or later is needed, from a newer driver", version);
         return;
     }
     glGetIntegerv(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS, &info->max_work_group_invocations);
@@ -477,6 +478,7 @@ struct kiln_device *kiln_device_open(const struct kiln_device_params *given,
     if (!chosen)
         goto fail;
     *device = *chosen;
+    kiln_handle_mark(&device->handle, KILN_HANDLE_DEVICE);
     device_list->devices[chosen - device_list->devices].context = NULL;
     close_list(device_list);
     free(device_list);
@@ -499,11 +501,14 @@ fail:
 
 void kiln_device_close(struct kiln_device **device)
 {
-    if (!device || !*device)
+    struct kiln_device *d = device ? *device : NULL;
+    if (!d)
         return;
-    kiln_egl_close((*device)->display, (*device)->context);
-    free(*device);
     *device = NULL;
+    if (!kiln_handle_retire(&d->handle, KILN_HANDLE_DEVICE))
+        return;
+    kiln_egl_close(d->display, d->context);
+    kiln_handle_free(&d->handle, sizeof *d);
 }
 
 const struct kiln_device_info *kiln_device_get_info(const struct kiln_device *device)

@@ -5,7 +5,7 @@
 
 #include <epoxy/gl.h>
 
-#include "kiln.h"
+#include "base/handle.h"
 
 /* llvmpipe limits the loop iterations of an invocation. It counts them over all loops, and for each
  * loop one more than its body runs. Beyond the limit every loop ends silently. The limit is
@@ -19,6 +19,7 @@ struct kiln_traffic {
 };
 
 struct kiln_device {
+    struct kiln_handle handle;
     struct kiln_device_info info;
     struct kiln_log log;
     struct kiln_traffic traffic; /* contents of buffers, images and textures since the device was

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/sized.h"
 #include "base/temporary.h"
+#include "job/hold.h"
 #include "job/states.h"
 #include "job/stop.h"
 
@@ -137,7 +138,7 @@ bool kiln_bake(struct kiln_device *device, const struct kiln_scene *scene,
     const double started_s = kiln_clock_seconds();
     struct kiln_bake_params params = kiln_bake_defaults();
     if (!kiln_sized_take(&params, given, "kiln_bake_params", error) ||
-        !kiln_sized_check(stats, "kiln_bake_stats", error))
+        !kiln_sized_check(stats, "kiln_bake_stats", error) || !kiln_hold_take(device, scene, error))
         return false;
     struct bake bake = {
         .device = device,
@@ -154,6 +155,7 @@ bool kiln_bake(struct kiln_device *device, const struct kiln_scene *scene,
     bake.stats.total_s = kiln_clock_seconds() - started_s;
     kiln_states_close(&bake.states);
     kiln_loop_destroy(&bake.loop);
+    kiln_hold_release(device, scene);
     kiln_sized_give(stats, &bake.stats);
     return ok;
 }

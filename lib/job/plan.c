@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/sized.h"
+#include "job/hold.h"
 #include "job/shard.h"
 #include "job/states.h"
 #include "job/stop.h"
@@ -116,7 +117,7 @@ bool kiln_plan_tasks(struct kiln_device *device, const struct kiln_scene *scene,
     struct kiln_plan_params params = kiln_plan_defaults();
     struct kiln_plan plan = kiln_plan_empty();
     if (!kiln_sized_take(&params, given, "kiln_plan_params", error) ||
-        !kiln_sized_check(out, "kiln_plan", error))
+        !kiln_sized_check(out, "kiln_plan", error) || !kiln_hold_take(device, scene, error))
         return false;
     struct planning planning = {
         .device = device,
@@ -125,9 +126,11 @@ bool kiln_plan_tasks(struct kiln_device *device, const struct kiln_scene *scene,
         .stop = {params.stop, params.user, device, scene->budget, params.cancel},
         .plan = &plan,
     };
-    if (params.frame >= (int64_t)scene->frames)
+    if (params.frame >= (int64_t)scene->frames) {
+        kiln_hold_release(device, scene);
         return kiln_error_set(error, KILN_USAGE, "frame %lld: the scene has frames 0-%u",
                               (long long)params.frame, scene->frames - 1);
+    }
     plan.frame = params.frame < 0 ? scene->frames / 2 : (uint32_t)params.frame;
     plan.part_frames = kiln_part_frames(scene->fps.num, scene->fps.den);
     plan.parts = (scene->frames - 1) / plan.part_frames + 1;
@@ -139,5 +142,6 @@ bool kiln_plan_tasks(struct kiln_device *device, const struct kiln_scene *scene,
     kiln_sized_give(out, &plan);
     kiln_states_close(&planning.states);
     kiln_loop_destroy(&planning.loop);
+    kiln_hold_release(device, scene);
     return ok;
 }

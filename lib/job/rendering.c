@@ -5,12 +5,14 @@
 #include "base/error.h"
 #include "base/sized.h"
 #include "job/frame.h"
+#include "job/hold.h"
 #include "job/job.h"
 
 struct kiln_rendering {
     struct kiln_render_params params;
     struct kiln_flipbook flipbook;
     struct kiln_device *device;
+    const struct kiln_scene *scene;
     struct kiln_job *job;
     bool ended;                /* no frame is left to draw */
     struct kiln_error failure; /* the error of a frame; code 0: none */
@@ -40,13 +42,15 @@ struct kiln_rendering *kiln_rendering_begin(struct kiln_device *device,
         return NULL;
     }
     r->device = device;
-    if (take(r, params, error))
+    r->scene = scene;
+    if (take(r, params, error) && kiln_hold_take(device, scene, error)) {
         r->job = kiln_job_create(device, scene, &r->params, error);
-    if (!r->job) {
-        free(r);
-        return NULL;
+        if (r->job)
+            return r;
+        kiln_hold_release(device, scene);
     }
-    return r;
+    free(r);
+    return NULL;
 }
 
 bool kiln_rendering_next(struct kiln_rendering *r, bool *drawn, struct kiln_progress *progress,
@@ -55,7 +59,8 @@ bool kiln_rendering_next(struct kiln_rendering *r, bool *drawn, struct kiln_prog
     *drawn = false;
     if (!kiln_sized_check(progress, "kiln_progress", error))
         return false;
-    if (!kiln_device_make_current(r->device, &r->failure) ||
+    if (!kiln_hold_check(r->device, r->scene, &r->failure) ||
+        !kiln_device_make_current(r->device, &r->failure) ||
         !kiln_job_next(r->job, drawn, &r->failure))
         return kiln_error_set(error, r->failure.code, "%s", r->failure.message);
     r->ended = !*drawn;
@@ -82,8 +87,9 @@ bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_st
     if (!r)
         return true;
     struct kiln_render_stats done = kiln_render_stats_empty();
-    bool ok = kiln_sized_check(stats, "kiln_render_stats", error) &&
-              kiln_device_make_current(r->device, error);
+    bool ok = kiln_device_make_current(r->device, error) &&
+              kiln_sized_check(stats, "kiln_render_stats", error) &&
+              kiln_hold_check(r->device, r->scene, error);
     if (ok && !r->ended)
         ok = kiln_error_set(error, KILN_INTERRUPTED, "ended before the last frame");
     ok = ok && kiln_job_finish(r->job, &done, error);
@@ -92,6 +98,7 @@ bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_st
     else
         kiln_job_fail(r->job, r->failure.code ? &r->failure : error);
     kiln_job_destroy(&r->job);
+    kiln_hold_release(r->device, r->scene);
     free(r);
     *rendering = NULL;
     return ok;

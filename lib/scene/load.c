@@ -125,7 +125,7 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
                                  const struct kiln_scene_params *params, struct kiln_error *error)
 {
     struct kiln_arena *arena = kiln_arena_create(), *scratch = kiln_arena_create();
-    struct kiln_scene *scene = arena ? kiln_arena_alloc(arena, 1, sizeof *scene) : NULL;
+    struct kiln_scene *scene = calloc(1, sizeof *scene);
     char *name_copy = arena ? kiln_arena_text(arena, name, strlen(name)) : NULL;
     bool ok = false;
     if (!scratch || !scene || !name_copy) {
@@ -134,6 +134,7 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
         const struct kiln_origin origin = kiln_scene_origin(name_copy);
         struct kiln_reader reader = {
             .origin = &origin, .arena = arena, .scratch = scratch, .error = error, .target = scene};
+        kiln_handle_mark(&scene->handle, KILN_HANDLE_SCENE);
         scene->arena = arena;
         scene->name = name_copy;
         scene->budget = params->budget;
@@ -150,9 +151,12 @@ static struct kiln_scene *create(const char *text, size_t size, const char *name
         kiln_mesh_library_destroy(&scene->meshes);
         kiln_loader_destroy(&scene->loader);
     }
-    if (!ok)
+    if (!ok) {
         kiln_arena_destroy(&arena);
-    return ok ? scene : NULL;
+        free(scene);
+        scene = NULL;
+    }
+    return scene;
 }
 
 /* Checks that a scene file in the asset root is no link out of it, since such a link would come

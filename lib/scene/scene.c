@@ -191,13 +191,16 @@ struct kiln_terrain_params kiln_scene_terrain(const struct kiln_scene *scene,
 
 void kiln_scene_destroy(struct kiln_scene **scene)
 {
-    if (!scene || !*scene)
+    struct kiln_scene *s = scene ? *scene : NULL;
+    if (!s)
         return;
-    struct kiln_arena *arena = (*scene)->arena; /* the scene itself lies in this arena */
-    kiln_mesh_library_destroy(&(*scene)->meshes);
-    kiln_loader_destroy(&(*scene)->loader);
-    kiln_arena_destroy(&arena);
     *scene = NULL;
+    if (!kiln_handle_retire(&s->handle, KILN_HANDLE_SCENE))
+        return;
+    kiln_mesh_library_destroy(&s->meshes);
+    kiln_loader_destroy(&s->loader);
+    kiln_arena_destroy(&s->arena);
+    kiln_handle_free(&s->handle, sizeof *s);
 }
 
 struct kiln_derived_params kiln_scene_derived(const struct kiln_scene *scene, uint32_t system)

@@ -9,6 +9,7 @@
 #include "asset/geometry/mesh_library.h"
 #include "asset/geometry/terrain.h"
 #include "base/arena.h"
+#include "base/handle.h"
 #include "base/text.h"
 #include "kiln_program.h"
 #include "option/values.h"
@@ -418,7 +419,8 @@ struct kiln_scene_file {
 };
 
 struct kiln_scene {
-    struct kiln_arena *arena;
+    struct kiln_handle handle;
+    struct kiln_arena *arena;         /* of all but this struct */
     const char *name;                 /* name of the file, as given */
     struct kiln_scene_file *files;    /* all files that were read, except those that meshes name */
     const char *asset_root;           /* absolute folder that paths start from */
