@@ -184,7 +184,8 @@ KILN_API void kiln_scene_get_info(const struct kiln_scene *scene, struct kiln_sc
 
 /* ---- Devices ------------------------------------------------------------------------------ */
 
-/* A device to draw on. It may be closed when all jobs on it have ended. */
+/* A device to draw on. Only the thread that opened it may begin jobs on it; on other threads they
+ * fail with KILN_USAGE. It may be closed when all jobs on it have ended. */
 struct kiln_device;
 
 /* The name of the device that is not a GL device: the threads and vector units of this machine,
@@ -491,8 +492,8 @@ KILN_API bool kiln_render(struct kiln_device *device, const struct kiln_scene *s
                           const struct kiln_render_params *params, struct kiln_render_stats *stats,
                           struct kiln_error *error);
 
-/* A job that is rendered frame by frame, for a program with a loop of its own. All calls are
- * made on the device's thread. */
+/* A job that is rendered frame by frame, for a program with a loop of its own. It belongs to the
+ * thread that began it. On another thread, the calls below do nothing but fail with KILN_USAGE. */
 struct kiln_rendering;
 
 /* Begins a job, which the caller ends. The device, the scene and everything that `params` point to
@@ -508,7 +509,8 @@ KILN_API bool kiln_rendering_next(struct kiln_rendering *rendering, bool *drawn,
                                   struct kiln_progress *progress, struct kiln_error *error);
 
 /* Waits until the outputs are whole and destroys the job. A job that still has frames to draw is
- * given up with KILN_INTERRUPTED, and after any error, too, the job is destroyed. */
+ * given up with KILN_INTERRUPTED. After any error, too, the job is destroyed, but not on another
+ * thread. */
 KILN_API bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_stats *stats,
                                  struct kiln_error *error);
 

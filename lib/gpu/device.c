@@ -479,6 +479,7 @@ struct kiln_device *kiln_device_open(const struct kiln_device_params *given,
         goto fail;
     *device = *chosen;
     kiln_handle_mark(&device->handle, KILN_HANDLE_DEVICE);
+    device->thread = pthread_self();
     device_list->devices[chosen - device_list->devices].context = NULL;
     close_list(device_list);
     free(device_list);

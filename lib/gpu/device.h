@@ -4,6 +4,7 @@
 #define KILN_GPU_DEVICE_H
 
 #include <epoxy/gl.h>
+#include <pthread.h>
 
 #include "base/handle.h"
 
@@ -27,6 +28,7 @@ struct kiln_device {
     uint32_t work_group_size;    /* for programs created from now on; 0: each kernel's own
                                   * default */
     void *display, *context;     /* EGL; NULL without GL */
+    pthread_t thread;            /* the one that opened it */
     bool debug;
     bool gl_failed;       /* the debug callback received an error since the last
                            * kiln_device_check */

@@ -12,6 +12,9 @@ bool kiln_hold_take(const struct kiln_device *device, const struct kiln_scene *s
                               device ? "scene" : "device");
     if (!kiln_hold_check(device, scene, error))
         return false;
+    if (!pthread_equal(device->thread, pthread_self()))
+        return kiln_error_set(error, KILN_USAGE,
+                              "the device belongs to another thread: open one in each");
     kiln_handle_begin_job(&device->handle);
     kiln_handle_begin_job(&scene->handle);
     return true;

@@ -5,9 +5,9 @@
 
 #include "gpu/device.h"
 
-/* Takes hold of a device and a scene for a job. Returns false with KILN_USAGE for NULL and, in debug
- * builds, for what was destroyed or is something else (base/handle.h); then there is no hold to
- * release. */
+/* Takes hold of a device and a scene for a job of this thread. Returns false with KILN_USAGE for
+ * NULL, for a device of another thread and, in debug builds, for what was destroyed or is something
+ * else (base/handle.h); then there is no hold to release. */
 bool kiln_hold_take(const struct kiln_device *device, const struct kiln_scene *scene,
                     struct kiln_error *error);
 

@@ -1,5 +1,6 @@
 /* Implements the library's calls to render: a whole job (kiln_render), or a job frame by frame in
  * the program's own loop (kiln_rendering_next). */
+#include <pthread.h>
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -13,6 +14,7 @@ struct kiln_rendering {
     struct kiln_flipbook flipbook;
     struct kiln_device *device;
     const struct kiln_scene *scene;
+    pthread_t thread; /* the one that began the job */
     struct kiln_job *job;
     bool ended;                /* no frame is left to draw */
     struct kiln_error failure; /* the error of a frame; code 0: none */
@@ -43,6 +45,7 @@ struct kiln_rendering *kiln_rendering_begin(struct kiln_device *device,
     }
     r->device = device;
     r->scene = scene;
+    r->thread = pthread_self();
     if (take(r, params, error) && kiln_hold_take(device, scene, error)) {
         r->job = kiln_job_create(device, scene, &r->params, error);
         if (r->job)
@@ -53,11 +56,21 @@ struct kiln_rendering *kiln_rendering_begin(struct kiln_device *device,
     return NULL;
 }
 
+/* Returns false with KILN_USAGE on another thread than the job's. Reads nothing that the job's own
+ * thread may be changing. */
+static bool check_thread(const struct kiln_rendering *r, struct kiln_error *error)
+{
+    return pthread_equal(r->thread, pthread_self()) ||
+           kiln_error_set(
+               error, KILN_USAGE,
+               "the job belongs to another thread: the one that began it draws and ends it");
+}
+
 bool kiln_rendering_next(struct kiln_rendering *r, bool *drawn, struct kiln_progress *progress,
                          struct kiln_error *error)
 {
     *drawn = false;
-    if (!kiln_sized_check(progress, "kiln_progress", error))
+    if (!check_thread(r, error) || !kiln_sized_check(progress, "kiln_progress", error))
         return false;
     if (!kiln_hold_check(r->device, r->scene, &r->failure) ||
         !kiln_device_make_current(r->device, &r->failure) ||
@@ -71,6 +84,8 @@ bool kiln_rendering_next(struct kiln_rendering *r, bool *drawn, struct kiln_prog
 
 struct kiln_frame *kiln_rendering_take_frame(struct kiln_rendering *r, struct kiln_error *error)
 {
+    if (!check_thread(r, error))
+        return NULL;
     struct kiln_picture *picture = kiln_job_take_picture(r->job);
     if (picture)
         return kiln_frame_create(picture, error);
@@ -86,6 +101,8 @@ bool kiln_rendering_end(struct kiln_rendering **rendering, struct kiln_render_st
     struct kiln_rendering *r = rendering ? *rendering : NULL;
     if (!r)
         return true;
+    if (!check_thread(r, error))
+        return false;
     struct kiln_render_stats done = kiln_render_stats_empty();
     bool ok = kiln_device_make_current(r->device, error) &&
               kiln_sized_check(stats, "kiln_render_stats", error) &&

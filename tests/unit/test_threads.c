@@ -104,10 +104,88 @@ static void any_thread_may_cancel(void **state)
     assert_false(kiln_cancel_is_requested(NULL));
 }
 
+/* A job and its device, which another thread tries to use. */
+struct foreign {
+    struct kiln_device *device;
+    struct kiln_scene *scene;
+    struct kiln_rendering *job;
+    struct kiln_error next, take, end, begin, render, bake, plan;
+    bool refused; /* all calls failed, and the job was not ended */
+};
+
+static void *use(void *user)
+{
+    struct foreign *f = user;
+    bool drawn = true;
+    struct kiln_render_stats stats = kiln_render_stats_empty();
+    struct kiln_bake_params baking = kiln_bake_defaults();
+    struct kiln_rendering *job = f->job;
+    baking.states = "states";
+    f->refused = !kiln_rendering_next(job, &drawn, NULL, &f->next) && !drawn &&
+                 !kiln_rendering_take_frame(job, &f->take) &&
+                 !kiln_rendering_end(&job, &stats, &f->end) && job == f->job &&
+                 !kiln_rendering_begin(f->device, f->scene, NULL, &f->begin) &&
+                 !kiln_render(f->device, f->scene, NULL, NULL, &f->render) &&
+                 !kiln_bake(f->device, f->scene, &baking, NULL, &f->bake) &&
+                 !kiln_plan_tasks(f->device, f->scene, NULL, NULL, &f->plan);
+    return NULL;
+}
+
+static void assert_refused(const struct kiln_error *error, const char *message)
+{
+    assert_string_equal(error->message, message);
+    assert_int_equal(error->code, KILN_USAGE);
+}
+
+static void another_thread_cannot_use_a_job_or_its_device(void **state)
+{
+    (void)state;
+    static const struct kiln_frame_range ranges = {0, 1};
+    static struct foreign f;
+    static const char job[] =
+        "the job belongs to another thread: the one that began it draws and ends it";
+    static const char device[] = "the device belongs to another thread: open one in each";
+    struct kiln_error error = kiln_error_empty();
+    struct kiln_device_params cpu = kiln_device_defaults();
+    struct kiln_render_params params = kiln_render_defaults();
+    bool drawn = false;
+    pthread_t thread;
+    cpu.wanted = KILN_DEVICE_CPU;
+    params.ranges = &ranges;
+    params.range_count = 1;
+    params.keep_frames = true;
+    f.scene = load(NULL, &error);
+    f.device = kiln_device_open(&cpu, &error);
+    f.job = kiln_rendering_begin(f.device, f.scene, &params, &error);
+    assert_true(kiln_rendering_next(f.job, &drawn, NULL, &error) && drawn);
+
+    assert_int_equal(pthread_create(&thread, NULL, use, &f), 0);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    assert_true(f.refused);
+    assert_refused(&f.next, job);
+    assert_refused(&f.take, job);
+    assert_refused(&f.end, job);
+    assert_refused(&f.begin, device);
+    assert_refused(&f.render, device);
+    assert_refused(&f.bake, device);
+    assert_refused(&f.plan, device);
+
+    struct kiln_frame *frame = kiln_rendering_take_frame(f.job, &error);
+    assert_non_null(frame); /* the job goes on as if nobody had called */
+    kiln_frame_destroy(&frame);
+    assert_true(kiln_rendering_next(f.job, &drawn, NULL, &error) && drawn);
+    assert_true(kiln_rendering_next(f.job, &drawn, NULL, &error) && !drawn);
+    assert_true(kiln_rendering_end(&f.job, NULL, &error));
+    kiln_device_close(&f.device);
+    kiln_scene_destroy(&f.scene);
+}
+
 int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_share_a_scene),
+        cmocka_unit_test_setup_teardown(another_thread_cannot_use_a_job_or_its_device,
+                                        test_enter_folder, test_leave_folder),
         cmocka_unit_test_setup_teardown(any_thread_may_cancel, test_enter_folder,
                                         test_leave_folder),
     };
