@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "base/error.h"
-#include "shared/sort_layout.h"
+#include "shared/bench_layout.h"
 
 /* Bits of a word of the tables. */
 enum { PARTNER_BEFORE = 1, TAKE_GREATER = 2 };
@@ -100,14 +100,16 @@ static void run_pass(struct kiln_bitonic_field *field, struct pass pass, uint32_
 {
     const uint32_t width = kiln_bitonic_field_width(count);
     const uint32_t elements = field->constants == KILN_FIELD_PACKED ? count / 2 : count;
-    if (field->constants == KILN_FIELD_COMPUTED)
-        kiln_network_dispatch(field->device, field->program, (uint32_t[]){count, number, sorted}, 3,
-                              elements, SORT_GROUP_SIZE);
-    else
-        kiln_network_dispatch(
-            field->device, field->program,
-            (uint32_t[]){count, pass.distance, width, number * (width + count / width)}, 4,
-            elements, SORT_GROUP_SIZE);
+    const struct kiln_network_uniform computed[] = {
+        {SORT_AT_COUNT, count}, {FIELD_AT_PASS, number}, {FIELD_AT_SORTED, sorted}};
+    const struct kiln_network_uniform passed[] = {
+        {SORT_AT_COUNT, count},
+        {SORT_AT_DISTANCE, pass.distance},
+        {FIELD_AT_WIDTH, width},
+        {FIELD_AT_FIRST_WORD, number * (width + count / width)}};
+    const bool computes = field->constants == KILN_FIELD_COMPUTED;
+    kiln_network_dispatch(field->device, field->program, computes ? computed : passed,
+                          computes ? 3 : 4, elements, SORT_GROUP_SIZE);
 }
 
 static bool sort_padded(void *context, struct kiln_buffer *pairs, uint32_t count,

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "gpu/image.h"
 #include "gpu/program.h"
+#include "shared/bench_layout.h"
 
 enum { ROW = 128 }; /* texels in a row of the textures */
 
@@ -76,8 +77,8 @@ bool kiln_force_splat_run(struct kiln_force_splat *splat, const float4 *sources,
     const double before_s = kiln_clock_seconds();
     glClearBufferfv(GL_COLOR, 0, (const GLfloat[4]){0.0f, 0.0f, 0.0f, 0.0f});
     glUseProgram(splat->program);
-    glUniform1ui(0, ROW);
-    glUniform1f(1, softening_square);
+    glUniform1ui(SPLAT_AT_ROW, ROW);
+    glUniform1f(SPLAT_AT_SOFTENING, softening_square);
     glBindTexture(GL_TEXTURE_2D, bodies);
     glBindVertexArray(splat->vertex_array);
     glEnable(GL_BLEND);

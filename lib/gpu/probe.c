@@ -71,9 +71,9 @@ static size_t word_index(const struct probe *probe, uint32_t vector, uint32_t wo
 
 static void run_compute(struct probe *probe, uint32_t count, GLuint vectors, GLuint results)
 {
-    glUniform1ui(0, count);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vectors);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, results);
+    glUniform1ui(PROBE_AT_COUNT, count);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PROBE_BIND_VECTORS, vectors);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PROBE_BIND_RESULTS, results);
     kiln_device_dispatch(probe->device, count, 64);
 }
 

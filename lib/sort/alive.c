@@ -62,12 +62,12 @@ static void run_systems(struct kiln_alive *alive, const struct kiln_pool *pool, 
         uint32_t used = kiln_pool_used(system);
         if (!(systems >> i & 1u) || used == 0)
             continue;
-        glUniform1ui(0, system->base);
-        glUniform1ui(1, system->capacity);
-        glUniform1ui(2, (uint32_t)((system->next_serial - used) % system->capacity));
-        glUniform1ui(3, used);
-        glUniform1ui(4, first_block);
-        glUniform1ui(5, i);
+        glUniform1ui(SORT_AT_BASE, system->base);
+        glUniform1ui(SORT_AT_CAPACITY, system->capacity);
+        glUniform1ui(SORT_AT_OLDEST, (uint32_t)((system->next_serial - used) % system->capacity));
+        glUniform1ui(SORT_AT_USED, used);
+        glUniform1ui(SORT_AT_FIRST_BLOCK, first_block);
+        glUniform1ui(SORT_AT_SYSTEM, i);
         kiln_device_dispatch(alive->device, used, SORT_BLOCK);
         first_block += blocks_of(used);
     }
@@ -108,8 +108,8 @@ bool kiln_alive_run(struct kiln_alive *alive, struct kiln_pool *pool,
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, counts);
     glUseProgram(pairs ? alive->pair_program : alive->list_program);
     if (pairs) {
-        glUniform3f(6, params->eye.x, params->eye.y, params->eye.z);
-        glUniform3f(7, params->forward.x, params->forward.y, params->forward.z);
+        glUniform3f(SORT_AT_EYE, params->eye.x, params->eye.y, params->eye.z);
+        glUniform3f(SORT_AT_FORWARD, params->forward.x, params->forward.y, params->forward.z);
     }
     run_systems(alive, pool, params->systems);
     return kiln_device_check(alive->device, "sort: list", error) &&

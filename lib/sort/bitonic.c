@@ -36,9 +36,10 @@ static void run_far(struct kiln_bitonic *bitonic, uint32_t padded, uint32_t size
         while (levels < MAX_LEVELS && distance >> levels >= bitonic->block)
             levels++;
         uint32_t spacing = distance >> (levels - 1); /* the distance of the last of these passes */
-        kiln_network_dispatch(bitonic->device, bitonic->far_programs[levels - 1],
-                              (uint32_t[]){padded, size, spacing}, 3, padded >> levels,
-                              bitonic->group_size);
+        const struct kiln_network_uniform uniforms[] = {
+            {SORT_AT_COUNT, padded}, {SORT_AT_BUNCH, size}, {SORT_AT_DISTANCE, spacing}};
+        kiln_network_dispatch(bitonic->device, bitonic->far_programs[levels - 1], uniforms, 3,
+                              padded >> levels, bitonic->group_size);
         distance = spacing / 2;
     }
 }
@@ -49,12 +50,14 @@ static bool sort_padded(void *context, struct kiln_buffer *pairs, uint32_t padde
     (void)pairs; /* bound to SORT_BIND_PAIRS already (kiln_network_sort) */
     (void)error;
     struct kiln_bitonic *bitonic = context;
-    kiln_network_dispatch(bitonic->device, bitonic->sort_program, (uint32_t[]){padded}, 1, padded,
+    struct kiln_network_uniform uniforms[] = {{SORT_AT_COUNT, padded}, {SORT_AT_BUNCH, 0}};
+    kiln_network_dispatch(bitonic->device, bitonic->sort_program, uniforms, 1, padded,
                           bitonic->block);
     for (uint32_t size = bitonic->block * 2; size <= padded; size *= 2) {
         run_far(bitonic, padded, size);
-        kiln_network_dispatch(bitonic->device, bitonic->merge_program, (uint32_t[]){padded, size},
-                              2, padded, bitonic->block);
+        uniforms[1].value = size;
+        kiln_network_dispatch(bitonic->device, bitonic->merge_program, uniforms, 2, padded,
+                              bitonic->block);
     }
     return true;
 }

@@ -64,12 +64,13 @@ uint32_t kiln_network_padded(uint32_t count)
     return padded;
 }
 
-void kiln_network_dispatch(struct kiln_device *device, GLuint program, const uint32_t *uniforms,
-                           GLint uniform_count, uint32_t work, uint32_t group_work)
+void kiln_network_dispatch(struct kiln_device *device, GLuint program,
+                           const struct kiln_network_uniform *uniforms, size_t uniform_count,
+                           uint32_t work, uint32_t group_work)
 {
     glUseProgram(program);
-    for (GLint i = 0; i < uniform_count; i++)
-        glUniform1ui(i, uniforms[i]);
+    for (size_t i = 0; i < uniform_count; i++)
+        glUniform1ui(uniforms[i].location, uniforms[i].value);
     kiln_device_dispatch(device, work, group_work);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -87,15 +88,19 @@ bool kiln_network_pairs(struct kiln_network *network, struct kiln_buffer *pairs,
         return false;
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_PAIRS, pair_buffer);
     uint32_t padded = kiln_network_padded(count);
-    kiln_network_dispatch(network->device, network->pad_program, (uint32_t[]){count, padded}, 2,
-                          padded - count, SORT_GROUP_SIZE);
+    const struct kiln_network_uniform pad_uniforms[] = {{SORT_AT_COUNT, count},
+                                                        {SORT_AT_PADDED, padded}};
+    kiln_network_dispatch(network->device, network->pad_program, pad_uniforms, 2, padded - count,
+                          SORT_GROUP_SIZE);
     if (!network->sort(network->context, pairs, padded, error))
         return false;
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_PAIRS, pairs->gl);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, list_buffer);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_ENTRIES, sorted);
-    kiln_network_dispatch(network->device, network->take_program, (uint32_t[]){count, reverse}, 2,
-                          count, SORT_GROUP_SIZE);
+    const struct kiln_network_uniform take_uniforms[] = {{SORT_AT_COUNT, count},
+                                                         {SORT_AT_REVERSE, reverse}};
+    kiln_network_dispatch(network->device, network->take_program, take_uniforms, 2, count,
+                          SORT_GROUP_SIZE);
     return kiln_device_check(network->device, "sort: network", error);
 }
 

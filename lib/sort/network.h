@@ -54,9 +54,16 @@ struct kiln_network_kernel {
 bool kiln_network_programs(struct kiln_device *device, const struct kiln_network_kernel *kernels,
                            size_t count, struct kiln_error *error);
 
-/* Dispatches a program over `work` items, `group_work` of them a work group, with its uniforms at
- * the locations from 0, and sets a barrier for storage buffers. */
-void kiln_network_dispatch(struct kiln_device *device, GLuint program, const uint32_t *uniforms,
-                           GLint uniform_count, uint32_t work, uint32_t group_work);
+/* Holds the value of a uniform of a kernel. */
+struct kiln_network_uniform {
+    GLint location; /* SORT_AT_* of shared/sort_layout.h, or of the kernel's own layout */
+    uint32_t value;
+};
+
+/* Dispatches a program over `work` items, `group_work` of them a work group, with these uniforms,
+ * and sets a barrier for storage buffers. */
+void kiln_network_dispatch(struct kiln_device *device, GLuint program,
+                           const struct kiln_network_uniform *uniforms, size_t uniform_count,
+                           uint32_t work, uint32_t group_work);
 
 #endif

@@ -24,20 +24,30 @@ uint32_t kiln_oddeven_passes(uint32_t padded)
     return stages * (stages + 1) / 2;
 }
 
+static void run_far(struct kiln_oddeven *oddeven, uint32_t padded, uint32_t stage,
+                    uint32_t distance)
+{
+    const struct kiln_network_uniform uniforms[] = {
+        {SORT_AT_COUNT, padded}, {SORT_AT_STAGE, stage}, {SORT_AT_DISTANCE, distance}};
+    kiln_network_dispatch(oddeven->device, oddeven->far_program, uniforms, 3, padded / 2,
+                          oddeven->group_size);
+}
+
 void kiln_oddeven_run_passes(struct kiln_oddeven *oddeven, uint32_t padded, uint32_t first,
                              uint32_t end)
 {
     const uint32_t in_blocks = kiln_oddeven_passes(oddeven->block);
-    if (first < end && first < in_blocks)
-        kiln_network_dispatch(oddeven->device, oddeven->block_program,
-                              (uint32_t[]){padded, first, end}, 3, padded, oddeven->block);
+    if (first < end && first < in_blocks) {
+        const struct kiln_network_uniform uniforms[] = {
+            {SORT_AT_COUNT, padded}, {SORT_AT_FIRST_PASS, first}, {SORT_AT_END_PASS, end}};
+        kiln_network_dispatch(oddeven->device, oddeven->block_program, uniforms, 3, padded,
+                              oddeven->block);
+    }
     uint32_t pass = 0;
     for (uint32_t stage = 0; pass < end; stage++)
         for (uint32_t distance = 1u << stage; distance > 0 && pass < end; distance /= 2, pass++)
             if (pass >= first && pass >= in_blocks)
-                kiln_network_dispatch(oddeven->device, oddeven->far_program,
-                                      (uint32_t[]){padded, stage, distance}, 3, padded / 2,
-                                      oddeven->group_size);
+                run_far(oddeven, padded, stage, distance);
 }
 
 static bool sort_padded(void *context, struct kiln_buffer *pairs, uint32_t padded,

@@ -133,11 +133,11 @@ static uint32_t tile_size(const struct kiln_radix *radix)
 static void dispatch(struct kiln_radix *radix, GLuint program, const struct pass *pass)
 {
     glUseProgram(program);
-    glUniform1ui(0, pass->count);
-    glUniform1ui(1, pass->shift);
-    glUniform1ui(2, pass->tiles);
+    glUniform1ui(SORT_AT_COUNT, pass->count);
+    glUniform1ui(SORT_AT_SHIFT, pass->shift);
+    glUniform1ui(SORT_AT_TILES, pass->tiles);
     if (program == radix->last_program)
-        glUniform1ui(3, pass->reverse);
+        glUniform1ui(SORT_AT_REVERSE, pass->reverse);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_PAIRS, pass->from);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, pass->counts);
     kiln_device_dispatch(radix->device, pass->count, tile_size(radix));

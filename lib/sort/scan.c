@@ -40,7 +40,7 @@ static void run_top(struct kiln_scan *scan, GLuint words, uint32_t count)
 {
     glUseProgram(scan->top_program);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_SUMS, words);
-    glUniform1ui(0, count);
+    glUniform1ui(SORT_AT_COUNT, count);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -63,12 +63,12 @@ bool kiln_scan_run(struct kiln_scan *scan, GLuint words, uint32_t count, struct 
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_COUNTS, words);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SORT_BIND_SUMS, sums);
     glUseProgram(scan->sum_program);
-    glUniform1ui(0, count);
+    glUniform1ui(SORT_AT_COUNT, count);
     kiln_device_dispatch(scan->device, count, SORT_BLOCK);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     run_top(scan, sums, blocks);
     glUseProgram(scan->block_program);
-    glUniform1ui(0, count);
+    glUniform1ui(SORT_AT_COUNT, count);
     kiln_device_dispatch(scan->device, count, SORT_BLOCK);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return true;

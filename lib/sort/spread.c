@@ -12,9 +12,6 @@
 
 enum { PAIR_BYTES = 8 };
 
-/* Uniform locations of shaders/sort/spread.glsl and spread_rank.comp. */
-enum { AT_EYE = 6, AT_FORWARD = 7, AT_SYSTEM_COUNT = 8, AT_SYSTEMS = 9 };
-
 bool kiln_sort_spread_init(struct kiln_sort_spread *spread, struct kiln_device *device,
                            struct kiln_oddeven *oddeven, uint32_t part_count,
                            struct kiln_error *error)
@@ -57,8 +54,8 @@ static void set_systems(const struct kiln_pool *pool)
         systems[i][1] = system->capacity;
         systems[i][2] = used ? (uint32_t)((system->next_serial - used) % system->capacity) : 0;
     }
-    glUniform1ui(AT_SYSTEM_COUNT, pool->system_count);
-    glUniform3uiv(AT_SYSTEMS, KILN_MAX_SYSTEMS, systems[0]);
+    glUniform1ui(SORT_AT_SYSTEM_COUNT, pool->system_count);
+    glUniform3uiv(SORT_AT_SYSTEMS, KILN_MAX_SYSTEMS, systems[0]);
 }
 
 static bool bind(struct kiln_sort_spread *spread, struct kiln_pool *pool, struct kiln_error *error)
@@ -77,8 +74,8 @@ static void run_over_pairs(struct kiln_sort_spread *spread, GLuint program,
 {
     glUseProgram(program);
     set_systems(pool);
-    kiln_network_dispatch(spread->device, program, &pool->slot_count, 1, pool->slot_count,
-                          SORT_GROUP_SIZE);
+    const struct kiln_network_uniform uniform = {SORT_AT_COUNT, pool->slot_count};
+    kiln_network_dispatch(spread->device, program, &uniform, 1, pool->slot_count, SORT_GROUP_SIZE);
 }
 
 bool kiln_sort_spread_advance(struct kiln_sort_spread *spread, struct kiln_pool *pool, float3 eye,
@@ -97,13 +94,15 @@ bool kiln_sort_spread_advance(struct kiln_sort_spread *spread, struct kiln_pool 
         end = passes * (spread->next_part + 1) / spread->part_count;
         spread->next_part = (spread->next_part + 1) % spread->part_count;
     } else {
-        kiln_network_dispatch(spread->device, spread->pad_program, (uint32_t[]){0, padded}, 2,
-                              padded, SORT_GROUP_SIZE);
+        const struct kiln_network_uniform uniforms[] = {{SORT_AT_COUNT, 0},
+                                                        {SORT_AT_PADDED, padded}};
+        kiln_network_dispatch(spread->device, spread->pad_program, uniforms, 2, padded,
+                              SORT_GROUP_SIZE);
     }
     spread->started = true;
     glUseProgram(spread->rank_program);
-    glUniform3f(AT_EYE, eye.x, eye.y, eye.z);
-    glUniform3f(AT_FORWARD, forward.x, forward.y, forward.z);
+    glUniform3f(SORT_AT_EYE, eye.x, eye.y, eye.z);
+    glUniform3f(SORT_AT_FORWARD, forward.x, forward.y, forward.z);
     run_over_pairs(spread, spread->rank_program, pool);
     kiln_oddeven_run_passes(spread->oddeven, padded, first, end);
     run_over_pairs(spread, spread->slot_program, pool);
@@ -154,9 +153,9 @@ static void run_over_slots(struct kiln_sort_spread *spread, GLuint program,
 {
     glUseProgram(program);
     set_systems(pool);
-    glUniform1ui(3, pool->slot_count);
-    glUniform1ui(4, params->systems);
-    glUniform1ui(5, params->order == KILN_SORT_FRONT_TO_BACK);
+    glUniform1ui(SORT_AT_USED, pool->slot_count);
+    glUniform1ui(SORT_AT_CHOSEN, params->systems);
+    glUniform1ui(SORT_AT_REVERSE, params->order == KILN_SORT_FRONT_TO_BACK);
     kiln_device_dispatch(spread->device, pool->slot_count, SORT_BLOCK);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }

@@ -8,7 +8,7 @@
 // variant: COMPUTED=1
 // variant: PASSED=1
 // variant: PASSED=1 PACKED=1
-#include "shared/sort_layout.h"
+#include "shared/bench_layout.h"
 #include "sort/index.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
@@ -31,16 +31,17 @@ layout(std430, binding = SORT_BIND_PAIRS_OUT) writeonly buffer pair_out_block
     ELEMENT elements_out[];
 };
 
-layout(location = 0) uniform uint count; /* pairs; a power of two */
+layout(location = SORT_AT_COUNT) uniform uint count; /* pairs; a power of two */
 
 #ifdef COMPUTED
-layout(location = 1) uniform uint pass;
-layout(location = 2) uniform uint sorted; /* pairs that are sorted together; a power of two */
+layout(location = FIELD_AT_PASS) uniform uint pass;
+/* pairs that are sorted together; a power of two */
+layout(location = FIELD_AT_SORTED) uniform uint sorted;
 #else
-layout(location = 1) uniform uint distance;
-layout(location = 2) uniform uint width;      /* pairs of a row */
-layout(location = 3) uniform uint first_word; /* index in `words` of the pass's words: its columns,
-                                               * then its rows */
+layout(location = SORT_AT_DISTANCE) uniform uint distance;
+layout(location = FIELD_AT_WIDTH) uniform uint width; /* pairs of a row */
+/* index in `words` of the pass's words: its columns, then its rows */
+layout(location = FIELD_AT_FIRST_WORD) uniform uint first_word;
 
 layout(std430, binding = SORT_BIND_COUNTS) readonly buffer table_block
 {

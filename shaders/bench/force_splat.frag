@@ -1,10 +1,12 @@
 /* Computes the acceleration that the body of a quad gives to the body of a texel. It is softened as
  * in shared/interact_gravity.h, which has its own arithmetic. Blending sums the accelerations of
  * all quads (Drone 2007, 7.4.3.1). */
+#include "shared/bench_layout.h"
+
 layout(binding = 0) uniform sampler2D bodies; /* place, m, and strength, m/s^2 at 1 m */
 
-layout(location = 0) uniform uint row; /* texels in a row */
-layout(location = 1) uniform float softening_square;
+layout(location = SPLAT_AT_ROW) uniform uint row; /* texels in a row */
+layout(location = SPLAT_AT_SOFTENING) uniform float softening_square;
 
 flat in uint number;
 

@@ -4,17 +4,17 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) readonly buffer vector_block
+layout(std430, binding = PROBE_BIND_VECTORS) readonly buffer vector_block
 {
     uint4 vectors[];
 };
 
-layout(std430, binding = 1) writeonly buffer result_block
+layout(std430, binding = PROBE_BIND_RESULTS) writeonly buffer result_block
 {
     probe_result results[];
 };
 
-layout(location = 0) uniform uint count;
+layout(location = PROBE_AT_COUNT) uniform uint count;
 
 void main()
 {

@@ -16,6 +16,28 @@
 #define KILN_BIND_CORNERS  2
 #define KILN_BIND_SPINS    3
 
+/* Storage blocks of the kernel that computes particles within a step (shared/between.h): before the
+ * step, after it, and at the time within it. The host binds each three as a row. */
+#define BETWEEN_BIND_BEFORE       0
+#define BETWEEN_BIND_AFTER        1
+#define BETWEEN_BIND_BETWEEN      2
+#define BETWEEN_BIND_SPIN_BEFORE  3
+#define BETWEEN_BIND_SPIN_AFTER   4
+#define BETWEEN_BIND_SPIN_BETWEEN 5
+
+/* Locations of uniforms of this kernel. */
+#define BETWEEN_AT_SYSTEM     0
+#define BETWEEN_AT_BASE       1
+#define BETWEEN_AT_USED       2
+#define BETWEEN_AT_STEP       3
+#define BETWEEN_AT_BACK       4
+#define BETWEEN_AT_FIRST_SPIN 5
+
+/* A storage block, and locations of uniforms, of the kernel that counts hidden particles. */
+#define OCCLUSION_BIND_HIDDEN 2
+#define OCCLUSION_AT_COUNT    0
+#define OCCLUSION_AT_SPACING  1
+
 /* Edge in pixels of the tiles in which the backdrop is antialiased. */
 #define KILN_EDGE_TILE 8
 

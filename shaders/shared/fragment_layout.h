@@ -14,6 +14,10 @@
 #define KILN_BIND_FRAGMENT_MERGED 6 /* keys, in a pass of the sort */
 #define KILN_BIND_FRAGMENT_BLOCKS 7 /* long lists: pixel, fragments before the block */
 
+/* Locations of uniforms of the kernel that merges runs of long lists. */
+#define KILN_AT_FRAGMENT_BLOCK_COUNT 0
+#define KILN_AT_FRAGMENT_RUN         1
+
 /* A list up to this length is sorted by its pixel's invocation, in at most 0.7 n^2 + 10 n
  * iterations. Longer lists are sorted by one invocation a fragment, in blocks. */
 #define KILN_FRAGMENT_SHORT 256

@@ -1,4 +1,5 @@
-/* Defines the sizes of tables and the binding points of the simulation, for host and shaders. */
+/* Defines the sizes of tables, the binding points and the uniform locations of the simulation, for
+ * host and shaders. */
 #ifndef KILN_SHARED_LIMITS_H
 #define KILN_SHARED_LIMITS_H
 
@@ -46,6 +47,13 @@
 #define SIM_BIND_SPINS   6
 #define SIM_BIND_VOLUMES 7
 
+/* Locations of uniforms of the kernels that hash or copy the state. */
+#define SIM_AT_SYSTEM     0
+#define SIM_AT_BASE       1
+#define SIM_AT_USED       2
+#define SIM_AT_FIRST_SPIN 3
+#define SIM_AT_SLOTS      4
+
 /* Blocks of the kernels that compute pushes, which also use SIM_BIND_KEYS, _RECORDS and _PUSHES. */
 #define INTERACT_BIND_PARAMS   3 /* uniform block */
 #define INTERACT_BIND_BODIES   1
@@ -55,6 +63,17 @@
 #define INTERACT_BIND_ENTRIES  6 /* entries of the two grids, which are sorted */
 #define INTERACT_BIND_ORDER    7 /* order of the second grid */
 #define INTERACT_BIND_SPINS    8 /* spins of bodies; every device in use has this binding point */
+
+/* Locations of uniforms of these kernels. */
+#define INTERACT_AT_CELL_COUNT     0
+#define INTERACT_AT_ENTRY_COUNT    1
+#define INTERACT_AT_RUN            2
+#define INTERACT_AT_DISTANCE       3
+#define INTERACT_AT_IS_LATER_ROUND 4
+#define INTERACT_AT_FIRST_SOURCE   5
+#define INTERACT_AT_END_SOURCE     6
+#define INTERACT_AT_ALL_SOURCES    7
+#define INTERACT_AT_SUMS           8
 
 /* Invocations of the work group that sums up all cells. */
 #define INTERACT_SCAN_GROUP 256

@@ -7,6 +7,11 @@
 
 #define PROBE_WORDS 32
 
+/* Storage blocks, and the location of a uniform, in the compute stage. */
+#define PROBE_BIND_VECTORS 0
+#define PROBE_BIND_RESULTS 1
+#define PROBE_AT_COUNT     0
+
 struct probe_result {
     uint4 sums;   /* a + b, a - b, a * b, a * b + c, of numbers from probe_plain */
     uint4 orders; /* min, max, floor, comparisons */

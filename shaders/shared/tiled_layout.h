@@ -23,6 +23,21 @@
 #define TILED_UNIT_SPRITES 11
 #define TILED_UNIT_BEFORE  12
 
+/* Locations of uniforms. A kernel has some of them. */
+#define TILED_AT_COUNT          0
+#define TILED_AT_FIRST          1
+#define TILED_AT_ADDITIVE_ALPHA 2
+#define TILED_AT_BIN_COLUMNS    3
+#define TILED_AT_MASK_WORDS     4
+#define TILED_AT_PIECES         5
+#define TILED_AT_BIN_COUNT      6
+#define TILED_AT_TILE_COLUMNS   7
+#define TILED_AT_FIRST_LAST_RUN 8
+#define TILED_AT_KEEP_GLOW      9
+#define TILED_AT_OCCLUDES       10
+#define TILED_AT_MIN_LIGHT      11
+#define TILED_AT_SPAN           12
+
 /* Invocations of a work group, unless another size is given. */
 #ifndef TILED_GROUP_SIZE
 #define TILED_GROUP_SIZE 256

@@ -22,9 +22,9 @@ layout(std430, binding = SORT_BIND_COUNTS) buffer count_block
 
 #include "sort/spread.glsl"
 
-layout(location = 3) uniform uint used; /* slots of the pool */
-layout(location = 4) uniform uint chosen; /* bit i: system i takes part */
-layout(location = 5) uniform uint reverse; /* not 0: the order is read from its end */
+layout(location = SORT_AT_USED) uniform uint used; /* slots of the pool */
+layout(location = SORT_AT_CHOSEN) uniform uint chosen; /* bit i: system i takes part */
+layout(location = SORT_AT_REVERSE) uniform uint reverse; /* not 0: the order is read from its end */
 
 const uint first_block = 0u;
 
@@ -40,12 +40,13 @@ uint system_of(uint slot)
 
 #else
 
-layout(location = 0) uniform uint base; /* the system's first slot */
-layout(location = 1) uniform uint capacity;
-layout(location = 2) uniform uint oldest;      /* slot of the oldest serial, from base */
-layout(location = 3) uniform uint used;        /* slots that have held a particle */
-layout(location = 4) uniform uint first_block; /* index of the first block in `counts` */
-layout(location = 5) uniform uint system;
+layout(location = SORT_AT_BASE) uniform uint base; /* the system's first slot */
+layout(location = SORT_AT_CAPACITY) uniform uint capacity;
+layout(location = SORT_AT_OLDEST) uniform uint oldest; /* slot of the oldest serial, from base */
+layout(location = SORT_AT_USED) uniform uint used; /* slots that have held a particle */
+/* index of the first block in `counts` */
+layout(location = SORT_AT_FIRST_BLOCK) uniform uint first_block;
+layout(location = SORT_AT_SYSTEM) uniform uint system;
 
 /* Returns the slot of the i-th oldest serial. */
 uint slot_of(uint i)

@@ -23,8 +23,8 @@ layout(std430, binding = SORT_BIND_PAIRS) writeonly buffer pair_block
     uvec2 pairs[];
 };
 
-layout(location = 6) uniform vec3 eye;     /* m */
-layout(location = 7) uniform vec3 forward; /* unit length */
+layout(location = SORT_AT_EYE) uniform vec3 eye; /* m */
+layout(location = SORT_AT_FORWARD) uniform vec3 forward; /* unit length */
 #endif
 
 void write(uint place, uint slot)

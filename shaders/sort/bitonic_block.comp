@@ -10,8 +10,9 @@
 
 layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
-layout(location = 0) uniform uint count; /* a power of two */
-layout(location = 1) uniform uint size;  /* pairs of a bunch, which is ordered in one direction */
+layout(location = SORT_AT_COUNT) uniform uint count; /* a power of two */
+/* pairs of a bunch, which is ordered in one direction */
+layout(location = SORT_AT_BUNCH) uniform uint size;
 
 shared uvec2 block[NETWORK_BLOCK];
 

@@ -10,9 +10,10 @@ layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
 #define PAIRS (1u << LEVELS)
 
-layout(location = 0) uniform uint count;   /* a power of two */
-layout(location = 1) uniform uint bunch;   /* pairs of a bunch, ordered in one direction */
-layout(location = 2) uniform uint spacing; /* the least distance of these passes */
+layout(location = SORT_AT_COUNT) uniform uint count; /* a power of two */
+/* pairs of a bunch, ordered in one direction */
+layout(location = SORT_AT_BUNCH) uniform uint bunch;
+layout(location = SORT_AT_DISTANCE) uniform uint spacing; /* the least distance of these passes */
 
 void main()
 {

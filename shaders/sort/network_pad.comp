@@ -3,8 +3,8 @@
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 
-layout(location = 0) uniform uint count; /* pairs of the list */
-layout(location = 1) uniform uint padded;
+layout(location = SORT_AT_COUNT) uniform uint count; /* pairs of the list */
+layout(location = SORT_AT_PADDED) uniform uint padded;
 
 void main()
 {

@@ -13,8 +13,9 @@ layout(std430, binding = SORT_BIND_ENTRIES) writeonly buffer entry_block
     uint entries[];
 };
 
-layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint reverse; /* not 0: the pairs are read from their end */
+layout(location = SORT_AT_COUNT) uniform uint count;
+/* not 0: the pairs are read from their end */
+layout(location = SORT_AT_REVERSE) uniform uint reverse;
 
 void main()
 {

@@ -5,9 +5,10 @@
 
 layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
-layout(location = 0) uniform uint count;      /* a power of two */
-layout(location = 1) uniform uint first_pass; /* number of a pass, as in oddeven.glsl */
-layout(location = 2) uniform uint end_pass;
+layout(location = SORT_AT_COUNT) uniform uint count; /* a power of two */
+/* number of a pass, as in oddeven.glsl */
+layout(location = SORT_AT_FIRST_PASS) uniform uint first_pass;
+layout(location = SORT_AT_END_PASS) uniform uint end_pass;
 
 shared uvec2 block[NETWORK_BLOCK];
 

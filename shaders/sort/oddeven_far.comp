@@ -3,9 +3,9 @@
 
 layout(local_size_x = NETWORK_GROUP_SIZE) in;
 
-layout(location = 0) uniform uint count; /* a power of two */
-layout(location = 1) uniform uint stage;
-layout(location = 2) uniform uint distance;
+layout(location = SORT_AT_COUNT) uniform uint count; /* a power of two */
+layout(location = SORT_AT_STAGE) uniform uint stage;
+layout(location = SORT_AT_DISTANCE) uniform uint distance;
 
 void main()
 {

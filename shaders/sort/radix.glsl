@@ -21,9 +21,9 @@ layout(std430, binding = SORT_BIND_COUNTS) buffer count_block
     uint counts[]; /* by digit, then by tile */
 };
 
-layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint shift; /* lowest bit of the digit in a key */
-layout(location = 2) uniform uint tiles;
+layout(location = SORT_AT_COUNT) uniform uint count;
+layout(location = SORT_AT_SHIFT) uniform uint shift; /* lowest bit of the digit in a key */
+layout(location = SORT_AT_TILES) uniform uint tiles;
 
 /* A row has one word more than it needs, so that invocations that walk along rows access different
  * banks of shared memory. */

@@ -14,7 +14,8 @@ layout(std430, binding = SORT_BIND_ENTRIES) writeonly buffer entry_block
     uint entries[];
 };
 
-layout(location = 3) uniform uint reverse; /* not 0: the list is written from its end */
+/* not 0: the list is written from its end */
+layout(location = SORT_AT_REVERSE) uniform uint reverse;
 #else
 layout(std430, binding = SORT_BIND_PAIRS_OUT) writeonly buffer pair_out_block
 {

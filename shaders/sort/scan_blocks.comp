@@ -14,7 +14,7 @@ layout(std430, binding = SORT_BIND_SUMS) readonly buffer sum_block
     uint sums[];
 };
 
-layout(location = 0) uniform uint count;
+layout(location = SORT_AT_COUNT) uniform uint count;
 
 void main()
 {

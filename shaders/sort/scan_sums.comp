@@ -15,7 +15,7 @@ layout(std430, binding = SORT_BIND_SUMS) writeonly buffer sum_block
     uint sums[];
 };
 
-layout(location = 0) uniform uint count;
+layout(location = SORT_AT_COUNT) uniform uint count;
 
 void main()
 {

@@ -7,9 +7,9 @@
 #include "shared/particle.h"
 #include "sort/network.glsl"
 
-layout(location = 8) uniform uint pool_system_count;
+layout(location = SORT_AT_SYSTEM_COUNT) uniform uint pool_system_count;
 /* For each system: its first slot, its capacity, and its oldest serial's slot from the first. */
-layout(location = 9) uniform uvec3 pool_systems[KILN_MAX_SYSTEMS];
+layout(location = SORT_AT_SYSTEMS) uniform uvec3 pool_systems[KILN_MAX_SYSTEMS];
 
 /* Returns the system of a slot, or of a rank. */
 uint pool_system_of(uint slot)

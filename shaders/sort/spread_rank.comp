@@ -11,9 +11,10 @@ layout(std430, binding = SORT_BIND_RECORDS) readonly buffer record_block
     kiln_particle records[];
 };
 
-layout(location = 0) uniform uint slots; /* slots of the pool; pairs behind them are padding */
-layout(location = 6) uniform vec3 eye;     /* m */
-layout(location = 7) uniform vec3 forward; /* unit length */
+/* slots of the pool; pairs behind them are padding */
+layout(location = SORT_AT_COUNT) uniform uint slots;
+layout(location = SORT_AT_EYE) uniform vec3 eye; /* m */
+layout(location = SORT_AT_FORWARD) uniform vec3 forward; /* unit length */
 
 void main()
 {

@@ -4,7 +4,7 @@
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 
-layout(location = 0) uniform uint slots;
+layout(location = SORT_AT_COUNT) uniform uint slots;
 
 void main()
 {

@@ -81,7 +81,7 @@ static void the_largest_table_of_cells_is_scanned(void **state)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INTERACT_BIND_CELLS,
                      kiln_buffer_gl(&cells, KILN_READ_WRITE, &error));
     glUseProgram(program);
-    glUniform1ui(0, CELLS);
+    glUniform1ui(INTERACT_AT_CELL_COUNT, CELLS);
     glDispatchCompute(1, 1, 1);
     const uint32_t *begins = kiln_buffer_host(&cells, KILN_READ, &error);
     assert_non_null(begins);

@@ -54,7 +54,7 @@ static const char GEOMETRY[] = "#version 450\n"
                                "in vec3 place[];\n"
                                "flat in int slice[];\n"
                                "flat out uint triangle;\n"
-                               "layout(location = 0) uniform vec3 size;\n"
+                               "uniform vec3 size;\n"
                                "void main()\n"
                                "{\n"
                                "    for (int i = 0; i < 3; i++) {\n"
@@ -147,7 +147,8 @@ static void draw(const struct kiln_voxels *v, uint32_t *kept)
     assert_int_equal(glCheckFramebufferStatus(GL_FRAMEBUFFER), GL_FRAMEBUFFER_COMPLETE);
     glViewport(0, 0, (GLsizei)v->size[0], (GLsizei)v->size[1]);
     glUseProgram(program);
-    glUniform3f(0, (float)v->size[0], (float)v->size[1], (float)v->size[2]);
+    glUniform3f(glGetUniformLocation(program, "size"), (float)v->size[0], (float)v->size[1],
+                (float)v->size[2]);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);

@@ -40,6 +40,8 @@ printf '\nint kiln_sum(int a,  int b);\n' >>lib/base/sum.h
 said "a format" 1 "refused: format"
 printf '#include "draw/picture.h"\n' >lib/base/sum.h
 said "an include" 1 'lib/base/sum.h:1: "draw/picture.h" is not a header of lib/'
+printf 'void kiln_sum(void)\n{\n    glUniform1i(0, 1);\n}\n' >lib/base/sum.c
+said "a uniform" 1 "refused: uniforms"
 printf '/* Long. */\n%.0s' {1..601} >lib/base/sum.h
 said "a size" 1 "refused: sizes"
 printf '#!/bin/sh\n' >tools/new

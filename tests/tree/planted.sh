@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks that includes.sh and symbols.sh find faults: planted.sh CC. If this fails, one of them
-# passes a tree that breaks its rules. In a small tree, each rule is broken once, and the script
-# must name the place.
+# Checks that includes.sh, symbols.sh and uniforms.sh find faults: planted.sh CC. If this fails, one
+# of them passes a tree that breaks its rules. In a small tree, each rule is broken once, and the
+# script must name the place.
 set -euo pipefail
 compiler=$1
 scripts=$(dirname "$(realpath "$0")")
@@ -11,7 +11,7 @@ trap 'rm -rf "$tree"' EXIT
 # plant: makes a small tree that breaks no rule.
 plant() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{cmd,decode,lib/{base,draw/{moment,light},sort},shaders/{shared,draw/light}}
+    mkdir -p "$tree"/{cmd,decode,tests,lib/{base,draw/{moment,light},sort},shaders/{shared,draw/light}}
     cd "$tree"
     : >lib/kiln.h
     : >lib/base/error.h
@@ -61,6 +61,27 @@ plant && echo '/* Flat. */' >lib/draw/flat.c
 refused "a file beside the rooms of draw" 'lib/draw/flat.c:1: a folder that' includes
 plant && echo '/* Blurs. */' >shaders/draw/light/other.frag
 refused "a shader of no C file" 'shaders/draw/light/other.frag:1: no C file' includes
+
+uniforms() { "$scripts/uniforms.sh" "$tree"; }
+
+plant
+echo 'void f(void) { glUniform1ui(SIM_AT_USED, 3); glUniform1i(f->unit, 0); }' >lib/draw/light/smoke.c
+echo 'layout(location = SIM_AT_USED) uniform uint used; layout(location = 0) out vec4 color;' \
+    >shaders/draw/light/smoke_blur.frag
+uniforms >/dev/null
+
+plant && printf 'void f(void)\n{\n    glUniform1ui(3, used);\n}\n' >lib/draw/light/smoke.c
+refused "a bare location" 'lib/draw/light/smoke.c:3: a uniform is set at a bare number' uniforms
+plant && printf 'void f(void)\n{\n    glUniform2f(\n        0, a, b);\n}\n' >lib/draw/light/smoke.c
+refused "a bare location in the next line" 'lib/draw/light/smoke.c:3: a uniform is set at' uniforms
+plant && echo 'void f(GLuint p) { glProgramUniform1i(p, 2, 1); }' >lib/draw/light/smoke.c
+refused "a bare location of a program" 'lib/draw/light/smoke.c:1: a uniform is set at' uniforms
+plant && printf '\nlayout(location = 3) uniform uint used;\n' >shaders/draw/light/smoke_blur.frag
+refused "a bare location in a shader" \
+    'shaders/draw/light/smoke_blur.frag:2: the location of a uniform is a bare number' uniforms
+plant && echo 'layout(location=1, binding = 2)uniform sampler2D smoke;' >shaders/draw/light/smoke_blur.frag
+refused "a bare location beside a binding" \
+    'shaders/draw/light/smoke_blur.frag:1: the location of a uniform is a bare number' uniforms
 
 # symbols.sh is given objects in which lib/base calls a function that lib/sort defines. includes.sh
 # would not find that when the function is declared in kiln.h, which every room may include.

@@ -171,20 +171,21 @@ static bool run_in_gl(struct kiln_between *between, struct kiln_pool *before,
 {
     struct kiln_pool *pool = &between->pool;
     if (!kiln_moment_bind_looks(between->moment, error) ||
-        !bind_three(0, &before->records, &after->records, &pool->records, error) ||
+        !bind_three(BETWEEN_BIND_BEFORE, &before->records, &after->records, &pool->records,
+                    error) ||
         (pool->spins.size > 0 &&
-         !bind_three(3, &before->spins, &after->spins, &pool->spins, error)))
+         !bind_three(BETWEEN_BIND_SPIN_BEFORE, &before->spins, &after->spins, &pool->spins, error)))
         return false;
     for (uint32_t i = 0; i < after->system_count; i++) {
         const struct kiln_pool_system *system = &after->systems[i];
         glUseProgram(system->spins ? between->spins_program : between->program);
-        glUniform1ui(0, i);
-        glUniform1ui(1, system->base);
-        glUniform1ui(2, kiln_pool_used(system));
-        glUniform1ui(3, instant.step);
-        glUniform1f(4, instant.back);
+        glUniform1ui(BETWEEN_AT_SYSTEM, i);
+        glUniform1ui(BETWEEN_AT_BASE, system->base);
+        glUniform1ui(BETWEEN_AT_USED, kiln_pool_used(system));
+        glUniform1ui(BETWEEN_AT_STEP, instant.step);
+        glUniform1f(BETWEEN_AT_BACK, instant.back);
         if (system->spins)
-            glUniform1ui(5, system->first_spin);
+            glUniform1ui(BETWEEN_AT_FIRST_SPIN, system->first_spin);
         kiln_device_dispatch(between->device, kiln_pool_used(system), GROUP_SIZE);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

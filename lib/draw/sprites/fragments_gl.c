@@ -329,13 +329,13 @@ static bool sort_long_lists(struct kiln_fragments_gl *f, const struct kiln_image
     kiln_buffer_reserve(&f->merged, f->keys.size);
     struct kiln_buffer *from = &f->keys, *to = &f->merged;
     glUseProgram(f->programs[MERGE]);
-    glUniform1ui(0, number);
+    glUniform1ui(KILN_AT_FRAGMENT_BLOCK_COUNT, number);
     uint32_t run = 1;
     for (uint32_t pass = 0; run < part->longest || pass % 2 > 0; pass++) {
         if (!bind_buffer(from, KILN_BIND_FRAGMENT_KEYS, KILN_READ_WRITE, error) ||
             !bind_buffer(to, KILN_BIND_FRAGMENT_MERGED, KILN_OVERWRITE, error))
             return false;
-        glUniform1ui(1, run);
+        glUniform1ui(KILN_AT_FRAGMENT_RUN, run);
         kiln_device_dispatch(f->device, number * KILN_FRAGMENT_BLOCK, KILN_FRAGMENT_BLOCK);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         struct kiln_buffer *other = from;

@@ -80,10 +80,10 @@ static bool sample(struct kiln_occlusion *o, uint32_t count, struct kiln_error *
     GLuint gl = kiln_buffer_gl(&o->hidden, KILN_READ_WRITE, error);
     if (!gl)
         return false;
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, gl);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, OCCLUSION_BIND_HIDDEN, gl);
     glUseProgram(o->sample_program);
-    glUniform1ui(0, count);
-    glUniform1ui(1, spacing);
+    glUniform1ui(OCCLUSION_AT_COUNT, count);
+    glUniform1ui(OCCLUSION_AT_SPACING, spacing);
     kiln_device_dispatch(o->device, samples, 64);
     hidden = kiln_buffer_host(&o->hidden, KILN_READ, error);
     o->is_enabled = hidden && *hidden >= samples / MIN_HIDDEN_DIVISOR;

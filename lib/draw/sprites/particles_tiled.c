@@ -264,11 +264,11 @@ static bool make_sprites(struct kiln_tiled *tiled, const struct run *run, struct
     glBindBuffer(GL_COPY_WRITE_BUFFER, tiled->bin_masks.gl);
     glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     glUseProgram(tiled->make_program);
-    glUniform1ui(0, run->count);
-    glUniform1ui(1, run->first);
-    glUniform1f(2, run->additive_alpha);
-    glUniform1ui(3, run->columns);
-    glUniform1ui(4, words);
+    glUniform1ui(TILED_AT_COUNT, run->count);
+    glUniform1ui(TILED_AT_FIRST, run->first);
+    glUniform1f(TILED_AT_ADDITIVE_ALPHA, run->additive_alpha);
+    glUniform1ui(TILED_AT_BIN_COLUMNS, run->columns);
+    glUniform1ui(TILED_AT_MASK_WORDS, words);
     kiln_device_dispatch(tiled->device, run->count, tiled->group_size);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return true;
@@ -284,7 +284,7 @@ static bool place_lists(struct kiln_tiled *tiled, struct run *run, struct kiln_e
         return false;
     if (run->count > 0) {
         glUseProgram(tiled->count_program);
-        glUniform1ui(0, mask_words(run));
+        glUniform1ui(TILED_AT_MASK_WORDS, mask_words(run));
         dispatch(run->columns, run->rows);
     }
     const uint32_t *counts = kiln_buffer_host(&tiled->counts, KILN_READ, error);
@@ -312,15 +312,15 @@ static bool fill_bins(struct kiln_tiled *tiled, const struct run *run, struct ki
     if (run->entries == 0)
         return true;
     glUseProgram(tiled->list_program);
-    glUniform1ui(0, mask_words(run));
+    glUniform1ui(TILED_AT_MASK_WORDS, mask_words(run));
     dispatch(run->columns, run->rows);
 
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TILED_BIND_FARTHEST, tiled->farthest.gl);
     glUseProgram(tiled->mark_program);
-    glUniform1ui(0, run->entries / TILED_PIECE);
-    glUniform1ui(1, run->bins);
-    glUniform1ui(2, run->columns);
-    glUniform1ui(3, run->tile_columns);
+    glUniform1ui(TILED_AT_PIECES, run->entries / TILED_PIECE);
+    glUniform1ui(TILED_AT_BIN_COUNT, run->bins);
+    glUniform1ui(TILED_AT_BIN_COLUMNS, run->columns);
+    glUniform1ui(TILED_AT_TILE_COLUMNS, run->tile_columns);
     kiln_device_dispatch(tiled->device, run->entries, TILED_PIECE);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return true;
@@ -364,8 +364,8 @@ static void draw_spans(const struct kiln_tiled *tiled, const struct run *run, bo
     uint32_t words = divide_up(run->longest, 32), from = 0;
     do {
         uint32_t until = words - from > tiled->max_words ? from + tiled->max_words : words;
-        glUniform2i(2, first && from == 0, last && until == words);
-        glUniform2ui(6, from, until);
+        glUniform2i(TILED_AT_FIRST_LAST_RUN, first && from == 0, last && until == words);
+        glUniform2ui(TILED_AT_SPAN, from, until);
         dispatch(run->tile_columns, run->tile_rows);
         from = until;
     } while (from < words);
@@ -386,10 +386,11 @@ static bool draw_tiles(struct kiln_tiled *tiled, const struct run *run, struct k
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     glUseProgram(tiled->draw_program);
     glUniform1f(tiled->additive_alpha, run->additive_alpha);
-    glUniform1ui(1, run->columns);
-    glUniform1i(3, run->draw->keep_bloom);
-    glUniform1f(4, run->draw->sum_alpha ? 0.0f : 1.0f);
-    glUniform1f(5, all > 0 ? NEGLIGIBLE * ((float)run->count / (float)all) : NEGLIGIBLE);
+    glUniform1ui(TILED_AT_BIN_COLUMNS, run->columns);
+    glUniform1i(TILED_AT_KEEP_GLOW, run->draw->keep_bloom);
+    glUniform1f(TILED_AT_OCCLUDES, run->draw->sum_alpha ? 0.0f : 1.0f);
+    glUniform1f(TILED_AT_MIN_LIGHT,
+                all > 0 ? NEGLIGIBLE * ((float)run->count / (float)all) : NEGLIGIBLE);
     draw_spans(tiled, run, first, last);
     return true;
 }

@@ -169,7 +169,7 @@ static void sort_into_cells(const struct kiln_interact *interact,
     empty_cells(interact, params->cell_mask + 2);
     run(interact, count, params->used);
     glUseProgram(interact->programs[KILN_INTERACT_SCAN]);
-    glUniform1ui(0, params->cell_mask + 1);
+    glUniform1ui(INTERACT_AT_CELL_COUNT, params->cell_mask + 1);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     run(interact, KILN_INTERACT_PLACE, params->used);
@@ -179,11 +179,11 @@ static void sort_into_cells(const struct kiln_interact *interact,
 static void sort_entries(const struct kiln_interact *interact, uint32_t count)
 {
     glUseProgram(interact->programs[KILN_INTERACT_BITONIC]);
-    glUniform1ui(0, count);
+    glUniform1ui(INTERACT_AT_ENTRY_COUNT, count);
     for (uint32_t length = 2; length <= count; length *= 2) {
         for (uint32_t distance = length / 2; distance > 0; distance /= 2) {
-            glUniform1ui(1, length);
-            glUniform1ui(2, distance);
+            glUniform1ui(INTERACT_AT_RUN, length);
+            glUniform1ui(INTERACT_AT_DISTANCE, distance);
             kiln_device_dispatch(interact->device, count / 2, interact->group_size);
             glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         }
@@ -238,7 +238,7 @@ static bool collide(const struct kiln_interact *interact, const struct kiln_inte
         const enum kiln_interact_kernel find =
             exact ? KILN_INTERACT_FIND : KILN_INTERACT_FIND_STAGGERED;
         glUseProgram(interact->programs[find]);
-        glUniform1ui(0, round > 0);
+        glUniform1ui(INTERACT_AT_IS_LATER_ROUND, round > 0);
         run(interact, find, params->used);
         run(interact, KILN_INTERACT_ANSWER, params->used);
         const GLuint before = bodies;
@@ -267,14 +267,14 @@ static bool pull(struct kiln_interact *interact, const struct kiln_interact_work
     if (!set_params(interact, &work->params, error))
         return false;
     glUseProgram(interact->programs[KILN_INTERACT_GRAVITY_TILES]);
-    glUniform1ui(2, all);
-    glUniform1ui(3, interact->half);
+    glUniform1ui(INTERACT_AT_ALL_SOURCES, all);
+    glUniform1ui(INTERACT_AT_SUMS, interact->half);
     uint32_t first = 0;
     do {
         const uint32_t left = all - first;
         const uint32_t end = first + (left < SOURCES_AT_A_TIME ? left : SOURCES_AT_A_TIME);
-        glUniform1ui(0, first);
-        glUniform1ui(1, end);
+        glUniform1ui(INTERACT_AT_FIRST_SOURCE, first);
+        glUniform1ui(INTERACT_AT_END_SOURCE, end);
         run(interact, KILN_INTERACT_GRAVITY_TILES, work->params.used);
         first = end;
     } while (first < all);

@@ -36,9 +36,9 @@ static void add_system(const struct kiln_sim_hash *hash, const struct kiln_pool 
                        uint32_t system)
 {
     const uint32_t used = kiln_pool_used(&pool->systems[system]);
-    glUniform1ui(0, system);
-    glUniform1ui(1, pool->systems[system].base);
-    glUniform1ui(2, used);
+    glUniform1ui(SIM_AT_SYSTEM, system);
+    glUniform1ui(SIM_AT_BASE, pool->systems[system].base);
+    glUniform1ui(SIM_AT_USED, used);
     kiln_device_dispatch(hash->device, (used + SIM_HASH_SLOTS - 1) / SIM_HASH_SLOTS,
                          SIM_GROUP_SIZE);
 }
@@ -58,7 +58,7 @@ static bool add_spins(struct kiln_sim_hash *hash, struct kiln_pool *pool, struct
     glUseProgram(hash->spins);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SIM_BIND_SPINS, spins);
     for (uint32_t i = 0; i < pool->system_count; i++) {
-        glUniform1ui(3, pool->systems[i].first_spin);
+        glUniform1ui(SIM_AT_FIRST_SPIN, pool->systems[i].first_spin);
         if (pool->systems[i].spins)
             add_system(hash, pool, i);
     }

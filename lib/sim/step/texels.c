@@ -58,7 +58,7 @@ static void copy(const struct kiln_texels *texels, struct kiln_device *device, G
         glBindImageTexture(i, texels->state.textures[i], 0, GL_FALSE, 0, access, GL_RGBA32UI);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glUseProgram(program);
-    glUniform1ui(0, slots);
+    glUniform1ui(SIM_AT_SLOTS, slots);
     kiln_device_dispatch(device, slots, SIM_GROUP_SIZE);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                     GL_FRAMEBUFFER_BARRIER_BIT);

@@ -1,5 +1,5 @@
 /* Computes the particles of a system at a time within a step, a slot in each invocation
- * (lib/draw/moment/between_gl.c). */
+ * (lib/draw/moment/between.c). */
 // variant:
 // variant: SPINS=1
 #include "shared/draw_layout.h"
@@ -11,21 +11,22 @@ layout(std140, binding = KILN_BIND_KEYS) uniform key_block { float4 value_keys[K
 layout(local_size_x = 64) in;
 
 layout(std140, binding = KILN_BIND_LOOKS) uniform look_block { kiln_draw_look looks[KILN_MAX_SYSTEMS]; };
-layout(std430, binding = 0) readonly buffer before_block { kiln_particle before[]; };
-layout(std430, binding = 1) readonly buffer after_block { kiln_particle after[]; };
-layout(std430, binding = 2) writeonly buffer between_block { kiln_particle between[]; };
+layout(std430, binding = BETWEEN_BIND_BEFORE) readonly buffer before_block { kiln_particle before[]; };
+layout(std430, binding = BETWEEN_BIND_AFTER) readonly buffer after_block { kiln_particle after[]; };
+layout(std430, binding = BETWEEN_BIND_BETWEEN) writeonly buffer between_block { kiln_particle between[]; };
 #ifdef SPINS
-layout(std430, binding = 3) readonly buffer spin_before_block { kiln_spin spins_before[]; };
-layout(std430, binding = 4) readonly buffer spin_after_block { kiln_spin spins_after[]; };
-layout(std430, binding = 5) writeonly buffer spin_between_block { kiln_spin spins_between[]; };
+layout(std430, binding = BETWEEN_BIND_SPIN_BEFORE) readonly buffer spin_before_block { kiln_spin spins_before[]; };
+layout(std430, binding = BETWEEN_BIND_SPIN_AFTER) readonly buffer spin_after_block { kiln_spin spins_after[]; };
+layout(std430, binding = BETWEEN_BIND_SPIN_BETWEEN) writeonly buffer spin_between_block { kiln_spin spins_between[]; };
 #endif
 
-layout(location = 0) uniform uint system;
-layout(location = 1) uniform uint base; /* the system's first slot */
-layout(location = 2) uniform uint used; /* slots that have held a particle */
-layout(location = 3) uniform uint step_number; /* the step that the time is in */
-layout(location = 4) uniform float back;       /* from the time to the step's end, in steps */
-layout(location = 5) uniform uint first_spin;
+layout(location = BETWEEN_AT_SYSTEM) uniform uint system;
+layout(location = BETWEEN_AT_BASE) uniform uint base; /* the system's first slot */
+layout(location = BETWEEN_AT_USED) uniform uint used; /* slots that have held a particle */
+layout(location = BETWEEN_AT_STEP) uniform uint step_number; /* the step that the time is in */
+/* from the time to the step's end, in steps */
+layout(location = BETWEEN_AT_BACK) uniform float back;
+layout(location = BETWEEN_AT_FIRST_SPIN) uniform uint first_spin;
 
 void main()
 {

@@ -15,8 +15,9 @@ layout(std430, binding = KILN_BIND_FRAGMENT_BLOCKS) readonly buffer block_block
     uvec2 blocks[];
 };
 
-layout(location = 0) uniform uint block_count;
-layout(location = 1) uniform uint run; /* length of a run in fragments, a power of two */
+layout(location = KILN_AT_FRAGMENT_BLOCK_COUNT) uniform uint block_count;
+/* length of a run in fragments, a power of two */
+layout(location = KILN_AT_FRAGMENT_RUN) uniform uint run;
 
 /* Returns how many fragments between two places of the other run come before a key. Fragments of
  * the left run come before equal ones of the right run. */

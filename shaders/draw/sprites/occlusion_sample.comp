@@ -8,13 +8,13 @@ layout(local_size_x = 64) in;
 
 layout(binding = 2) uniform sampler2D scene_depth;
 
-layout(std430, binding = 2) buffer hidden_block
+layout(std430, binding = OCCLUSION_BIND_HIDDEN) buffer hidden_block
 {
     uint hidden;
 };
 
-layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint spacing; /* one in so many entries is sampled */
+layout(location = OCCLUSION_AT_COUNT) uniform uint count;
+layout(location = OCCLUSION_AT_SPACING) uniform uint spacing; /* one in so many entries is sampled */
 
 void main()
 {

@@ -48,13 +48,18 @@ layout(binding = TILED_UNIT_BEFORE) uniform sampler2D bloom_before;
 layout(binding = TILED_IMAGE_COLOR) writeonly uniform image2D color_image;
 layout(binding = TILED_IMAGE_BLOOM) writeonly uniform image2D bloom_image;
 
-layout(location = 1) uniform uint bin_columns;
-layout(location = 2) uniform bvec2 first_last_run; /* this is the picture's first run; its last */
-layout(location = 3) uniform bool keep_glow;       /* the glow of an earlier pass is kept */
-layout(location = 4) uniform float occludes; /* 1: sprites hide others behind; 0: they are summed */
-layout(location = 5) uniform float min_light; /* of a chunk: less light may be left out */
-layout(location = 6) uniform uvec2 span;      /* first and end of the words of masks that this run
-                                               * draws; the first is a multiple of TILED_ROUND_WORDS */
+layout(location = TILED_AT_BIN_COLUMNS) uniform uint bin_columns;
+/* this is the picture's first run; its last */
+layout(location = TILED_AT_FIRST_LAST_RUN) uniform bvec2 first_last_run;
+/* the glow of an earlier pass is kept */
+layout(location = TILED_AT_KEEP_GLOW) uniform bool keep_glow;
+/* 1: sprites hide others behind; 0: they are summed */
+layout(location = TILED_AT_OCCLUDES) uniform float occludes;
+/* of a chunk: less light may be left out */
+layout(location = TILED_AT_MIN_LIGHT) uniform float min_light;
+/* first and end of the words of masks that this run draws; the first is a multiple of
+ * TILED_ROUND_WORDS */
+layout(location = TILED_AT_SPAN) uniform uvec2 span;
 
 #include "draw/sprites/place.glsl"
 #include "draw/sprites/shade.glsl"

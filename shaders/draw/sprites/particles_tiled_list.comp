@@ -22,7 +22,8 @@ layout(std430, binding = TILED_BIND_LISTS) writeonly buffer list_block
     uint lists[];
 };
 
-layout(location = 0) uniform uint mask_words; /* 32-bit words in the mask of a bin */
+/* 32-bit words in the mask of a bin */
+layout(location = TILED_AT_MASK_WORDS) uniform uint mask_words;
 
 void main()
 {

@@ -26,11 +26,13 @@ layout(std430, binding = TILED_BIND_BIN_MASKS) buffer bin_mask_block
     uint bin_masks[];
 };
 
-layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint first; /* index in `entries` of the nearest particle */
-layout(location = 2) uniform float additive_alpha;
-layout(location = 3) uniform uint bin_columns;
-layout(location = 4) uniform uint mask_words; /* 32-bit words in the mask of a bin */
+layout(location = TILED_AT_COUNT) uniform uint count;
+/* index in `entries` of the nearest particle */
+layout(location = TILED_AT_FIRST) uniform uint first;
+layout(location = TILED_AT_ADDITIVE_ALPHA) uniform float additive_alpha;
+layout(location = TILED_AT_BIN_COLUMNS) uniform uint bin_columns;
+/* 32-bit words in the mask of a bin */
+layout(location = TILED_AT_MASK_WORDS) uniform uint mask_words;
 
 vec4 center, right, up;
 billboard particle;

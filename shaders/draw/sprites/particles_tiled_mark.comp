@@ -49,10 +49,11 @@ layout(std430, binding = TILED_BIND_MASKS) writeonly buffer mask_block
     uint masks[]; /* the marks, in the order that mask_word of tiled.glsl defines */
 };
 
-layout(location = 0) uniform uint pieces; /* number of pieces of all lists */
-layout(location = 1) uniform uint bin_count;
-layout(location = 2) uniform uint bin_columns;  /* bins in a row of the picture */
-layout(location = 3) uniform uint tile_columns; /* tiles in a row of the picture */
+layout(location = TILED_AT_PIECES) uniform uint pieces; /* number of pieces of all lists */
+layout(location = TILED_AT_BIN_COUNT) uniform uint bin_count;
+layout(location = TILED_AT_BIN_COLUMNS) uniform uint bin_columns; /* bins in a row of the picture */
+/* tiles in a row of the picture */
+layout(location = TILED_AT_TILE_COLUMNS) uniform uint tile_columns;
 
 const uint WORDS = uint(TILED_PIECE / 32);
 shared uint marks[TILED_TILES * WORDS]; /* for each tile, a bit for each sprite of the piece */

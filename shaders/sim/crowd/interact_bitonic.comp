@@ -9,9 +9,10 @@ layout(std430, binding = INTERACT_BIND_ENTRIES) buffer entry_block
     uvec4 entries[];
 };
 
-layout(location = 0) uniform uint count;    /* a power of two */
-layout(location = 1) uniform uint run;      /* length of a run; every other run descends */
-layout(location = 2) uniform uint distance; /* between two entries that are compared */
+layout(location = INTERACT_AT_ENTRY_COUNT) uniform uint count; /* a power of two */
+layout(location = INTERACT_AT_RUN) uniform uint run; /* length of a run; every other run descends */
+/* between two entries that are compared */
+layout(location = INTERACT_AT_DISTANCE) uniform uint distance;
 
 bool is_before(uvec4 a, uvec4 b)
 {

@@ -11,7 +11,8 @@
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
 
-layout(location = 0) uniform uint is_later_round; /* 1: not the first round */
+/* 1: not the first round */
+layout(location = INTERACT_AT_IS_LATER_ROUND) uniform uint is_later_round;
 
 #ifdef MOST_AROUND
 

@@ -7,10 +7,10 @@
 
 layout(local_size_x = SIM_GROUP_SIZE) in;
 
-layout(location = 0) uniform uint first_source;
-layout(location = 1) uniform uint end_source;
-layout(location = 2) uniform uint all_sources;
-layout(location = 3) uniform uint sums_at; /* entry of the sum of the first slot */
+layout(location = INTERACT_AT_FIRST_SOURCE) uniform uint first_source;
+layout(location = INTERACT_AT_END_SOURCE) uniform uint end_source;
+layout(location = INTERACT_AT_ALL_SOURCES) uniform uint all_sources;
+layout(location = INTERACT_AT_SUMS) uniform uint sums_at; /* entry of the sum of the first slot */
 
 shared uvec4 tile[SIM_GROUP_SIZE];
 

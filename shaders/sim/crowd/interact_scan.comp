@@ -13,7 +13,7 @@ layout(std430, binding = INTERACT_BIND_CELLS) buffer cell_block
     uint cells[];
 };
 
-layout(location = 0) uniform uint count;
+layout(location = INTERACT_AT_CELL_COUNT) uniform uint count;
 
 uint bodies_of(uint cell, uint last)
 {

@@ -18,11 +18,12 @@ layout(std430, binding = SIM_BIND_SUMS) buffer sum_block
     uint sum_a, sum_b, alive;
 };
 
-layout(location = 0) uniform uint system;
-layout(location = 1) uniform uint base; /* the system's first slot */
-layout(location = 2) uniform uint used; /* the system's slots that have held a particle */
+layout(location = SIM_AT_SYSTEM) uniform uint system;
+layout(location = SIM_AT_BASE) uniform uint base; /* the system's first slot */
+layout(location = SIM_AT_USED) uniform uint used; /* the system's slots that have held a particle */
 #ifdef SPINS
-layout(location = 3) uniform uint first_spin; /* index in `spins` of the system's first slot */
+/* index in `spins` of the system's first slot */
+layout(location = SIM_AT_FIRST_SPIN) uniform uint first_spin;
 
 layout(std430, binding = SIM_BIND_SPINS) readonly buffer spin_block
 {

@@ -15,7 +15,7 @@ layout(std430, binding = SIM_BIND_RECORDS) buffer record_block
     kiln_particle records[];
 };
 
-layout(location = 0) uniform uint slots;
+layout(location = SIM_AT_SLOTS) uniform uint slots;
 
 void main()
 {
