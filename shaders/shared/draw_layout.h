@@ -16,6 +16,14 @@
 #define KILN_BIND_CORNERS  2
 #define KILN_BIND_SPINS    3
 
+/* Texture units of several stages that draw particles. */
+#define KILN_UNIT_LOOK_TABLE   0
+#define KILN_UNIT_ATLAS        1
+#define KILN_UNIT_SCENE_DEPTH  2
+#define KILN_UNIT_ATLAS_MOTION 3
+#define KILN_UNIT_SMOKE_SUN    4 /* depths of smoke towards the sun */
+#define KILN_UNIT_SMOKE_SKY    5
+
 /* Storage blocks of the kernel that computes particles within a step (shared/between.h): before the
  * step, after it, and at the time within it. The host binds each three as a row. */
 #define BETWEEN_BIND_BEFORE       0

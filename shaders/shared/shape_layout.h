@@ -12,8 +12,8 @@
 
 #define KILN_BIND_SHAPES 4 /* a uniform block */
 
-/* Texture units of the backdrop. Units 4 and 5 are those of smoke, 10 is in draw_layout.h, 12 is in
- * tiled_layout.h, and the shaders of solid particles read the scene's depth from 2. */
+/* Texture units of the backdrop. Those that other stages use, too, are in draw_layout.h, 12 is in
+ * tiled_layout.h. */
 #define KILN_UNIT_SURFACES    0
 #define KILN_UNIT_MESH_HITS   1 /* hits of a pixel's rays: centre, then samples */
 #define KILN_UNIT_FLOOR       3

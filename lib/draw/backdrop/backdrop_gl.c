@@ -143,7 +143,7 @@ static bool cast(struct kiln_backdrop_gl *stage, const struct kiln_draw_shapes *
         return false;
     uint32_t width = stage->color->width, height = stage->color->height;
     glUseProgram(stage->antialias);
-    glActiveTexture(GL_TEXTURE0);
+    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_SURFACES);
     glBindTexture(GL_TEXTURE_2D, surfaces);
     glEnable(GL_PROGRAM_POINT_SIZE);
     uint32_t columns = (width + KILN_EDGE_TILE - 1) / KILN_EDGE_TILE;

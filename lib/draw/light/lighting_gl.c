@@ -4,9 +4,6 @@
 
 #include <stdlib.h>
 
-/* Texture units of the smoke's grids. */
-enum { UNIT_SMOKE_SUN = 4, UNIT_SMOKE_SKY = 5 };
-
 enum texture {
     SMOKE_SUN,
     SMOKE_SKY,
@@ -27,8 +24,8 @@ static const struct {
     GLuint unit;
     const char *label;
 } ABOUT[TEXTURE_COUNT] = {
-    [SMOKE_SUN] = {GL_TEXTURE_3D, UNIT_SMOKE_SUN, "smoke towards the sun"},
-    [SMOKE_SKY] = {GL_TEXTURE_3D, UNIT_SMOKE_SKY, "smoke towards the sky"},
+    [SMOKE_SUN] = {GL_TEXTURE_3D, KILN_UNIT_SMOKE_SUN, "smoke towards the sun"},
+    [SMOKE_SKY] = {GL_TEXTURE_3D, KILN_UNIT_SMOKE_SKY, "smoke towards the sky"},
     [SOLID_BINS] = {GL_TEXTURE_2D, KILN_UNIT_SOLID_BINS, "solid bins"},
     [SOLID_LIST] = {GL_TEXTURE_2D, KILN_UNIT_SOLID_LIST, "solid list"},
     [SOLID_TILES] = {GL_TEXTURE_2D, KILN_UNIT_SOLID_TILES, "solid tiles"},

@@ -71,7 +71,7 @@ static bool make(const struct kiln_moment *moment, struct kiln_error *error)
 static void bind_look_table(const struct kiln_moment *moment)
 {
     struct kiln_moment_gl *gl = moment->gl;
-    glActiveTexture(GL_TEXTURE0);
+    glActiveTexture(GL_TEXTURE0 + KILN_UNIT_LOOK_TABLE);
     glBindTexture(GL_TEXTURE_2D, gl->look_table);
     if (gl->uploaded_changes == moment->look_changes)
         return;

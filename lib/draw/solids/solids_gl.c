@@ -161,7 +161,7 @@ bool kiln_solids_gl_draw(struct kiln_solids_gl *stage, const struct kiln_moment 
             return false;
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, KILN_BIND_SPINS, spins);
     }
-    bind_texture(2, GL_TEXTURE_2D, depth);
+    bind_texture(KILN_UNIT_SCENE_DEPTH, GL_TEXTURE_2D, depth);
     if (!cast(stage, count, error))
         return false;
 

@@ -126,9 +126,9 @@ bool kiln_geometry_bind_draw(struct kiln_geometry *stage, const struct kiln_part
     if (!depth || !kiln_lighting_bind(draw->lighting, error) ||
         !kiln_moment_bind(draw->moment, draw->entries, error))
         return false;
-    bind_texture(1, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
-    bind_texture(2, GL_TEXTURE_2D, depth);
-    bind_texture(3, GL_TEXTURE_2D_ARRAY, stage->atlas->motion);
+    bind_texture(KILN_UNIT_ATLAS, GL_TEXTURE_2D_ARRAY, stage->atlas->texture);
+    bind_texture(KILN_UNIT_SCENE_DEPTH, GL_TEXTURE_2D, depth);
+    bind_texture(KILN_UNIT_ATLAS_MOTION, GL_TEXTURE_2D_ARRAY, stage->atlas->motion);
     bind_texture(KILN_UNIT_STRIPS, GL_TEXTURE_2D_ARRAY, stage->atlas->strips);
     return true;
 }

@@ -1,7 +1,9 @@
 /* Finds edges in the picture of numbers that backdrop.frag draws first (shared/draw_layout.h):
  * backdrop_edges.vert finds the tiles that may have some, backdrop.frag their pixels. Pixels beside
  * the picture repeat those at its border. */
-layout(binding = 0) uniform sampler2D surfaces;
+#include "shared/shape_layout.h"
+
+layout(binding = KILN_UNIT_SURFACES) uniform sampler2D surfaces;
 
 float edge_number(ivec2 at)
 {

@@ -9,8 +9,8 @@
 #include "shared/lamp_smoke.h"
 #include "shared/smoke_grid.h"
 
-layout(binding = 4) uniform sampler3D smoke_to_sun;
-layout(binding = 5) uniform sampler3D smoke_to_sky;
+layout(binding = KILN_UNIT_SMOKE_SUN) uniform sampler3D smoke_to_sun;
+layout(binding = KILN_UNIT_SMOKE_SKY) uniform sampler3D smoke_to_sky;
 layout(binding = KILN_UNIT_LAMP_SMOKE) uniform sampler2DArray smoke_to_lamps;
 
 float smoke_depth_in(sampler3D depth, vec4 row_x, vec4 row_y, vec4 row_z, vec3 position)

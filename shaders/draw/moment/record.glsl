@@ -14,7 +14,8 @@ layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_LOOKS) uniform look_block { kiln_draw_look looks[KILN_MAX_SYSTEMS]; };
 layout(std430, binding = KILN_BIND_RECORDS) readonly buffer record_block { kiln_particle records[]; };
 layout(std430, binding = KILN_BIND_ENTRIES) readonly buffer entry_block { uint entries[]; };
-layout(binding = 0) uniform sampler2D look_table; /* rows KILN_LOOK_* of each system */
+/* rows KILN_LOOK_* of each system */
+layout(binding = KILN_UNIT_LOOK_TABLE) uniform sampler2D look_table;
 
 /* Returns a row of the system's table (KILN_LOOK_*) at a part of life, 0 at birth and 1 at death.
  * It interpolates between two samples as the host does (kiln_look_place_at); a sampler's filter may

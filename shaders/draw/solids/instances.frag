@@ -10,7 +10,7 @@
 layout(std140, binding = KILN_BIND_VIEW) uniform view_block { kiln_view view; };
 layout(std140, binding = KILN_BIND_BACKDROP) uniform backdrop_block { kiln_draw_backdrop backdrop; };
 layout(std140, binding = KILN_BIND_SHAPES) uniform shape_block { kiln_draw_shapes shapes; };
-layout(binding = 2) uniform sampler2D scene_depth;
+layout(binding = KILN_UNIT_SCENE_DEPTH) uniform sampler2D scene_depth;
 
 #include "draw/backdrop/surface.glsl"
 

@@ -3,7 +3,7 @@
 #include "draw/sprites/billboard.glsl"
 #include "draw/sprites/place.glsl"
 
-layout(binding = 2) uniform sampler2D scene_depth;
+layout(binding = KILN_UNIT_SCENE_DEPTH) uniform sampler2D scene_depth;
 
 layout(location = 0) flat in vec4 place_u;
 layout(location = 1) flat in billboard quad;

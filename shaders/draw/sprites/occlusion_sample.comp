@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(binding = 2) uniform sampler2D scene_depth;
+layout(binding = KILN_UNIT_SCENE_DEPTH) uniform sampler2D scene_depth;
 
 layout(std430, binding = OCCLUSION_BIND_HIDDEN) buffer hidden_block
 {

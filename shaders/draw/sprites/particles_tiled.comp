@@ -42,7 +42,7 @@ layout(std430, binding = TILED_BIND_CARRY) buffer carry_block
     vec4 carry[]; /* two for each pixel: colour and alpha; glow and transmittance */
 };
 
-layout(binding = 2) uniform sampler2D scene_depth;
+layout(binding = KILN_UNIT_SCENE_DEPTH) uniform sampler2D scene_depth;
 layout(binding = TILED_UNIT_SPRITES) uniform samplerBuffer sprites;
 layout(binding = TILED_UNIT_BEFORE) uniform sampler2D bloom_before;
 layout(binding = TILED_IMAGE_COLOR) writeonly uniform image2D color_image;

@@ -7,6 +7,7 @@
  * are compared as the bits of floats, whose order is right only for numbers that are not negative;
  * therefore the kernel clamps them at 0. */
 // variant: TILED_EDGE=16
+#include "shared/draw_layout.h"
 #include "shared/tiled_layout.h"
 
 layout(local_size_x = TILED_EDGE, local_size_y = TILED_EDGE) in;
@@ -16,7 +17,7 @@ layout(std430, binding = TILED_BIND_FARTHEST) writeonly buffer farthest_block
     uint farthest[];
 };
 
-layout(binding = 2) uniform sampler2D scene_depth;
+layout(binding = KILN_UNIT_SCENE_DEPTH) uniform sampler2D scene_depth;
 
 shared uint largest_depth; /* the largest depth so far: bits of a float */
 

@@ -7,8 +7,8 @@
  * quad.bloom.rgb (Heinz 2019, 3.2.5). Colours are premultiplied. */
 #include "shared/billboard_place.h"
 
-layout(binding = 1) uniform sampler2DArray atlas;
-layout(binding = 3) uniform sampler2DArray atlas_motion;
+layout(binding = KILN_UNIT_ATLAS) uniform sampler2DArray atlas;
+layout(binding = KILN_UNIT_ATLAS_MOTION) uniform sampler2DArray atlas_motion;
 layout(binding = KILN_UNIT_STRIPS) uniform sampler2DArray atlas_strips;
 
 /* The factor on the alpha of additive particles. It is 0 where they cover nothing, and 1 where they
