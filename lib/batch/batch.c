@@ -39,7 +39,7 @@ struct kiln_batch {
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-#define AT(field) offsetof(struct entry, field)
+#define FILLS struct entry
 
 /* Reads a text with its line and column: the program checks the text later, and reports errors
  * there by kiln_batch_refuse. */
@@ -62,32 +62,30 @@ static void schema_located(const struct kiln_option *option, struct kiln_text *o
     kiln_type_text.schema(option, out);
 }
 
+typedef struct kiln_batch_text kiln_fills_located;
 static const struct kiln_option_type kiln_type_located = {
     .read = read_located, .describe = describe_located, .schema = schema_located};
 
 /* Makes the row of a text: type, name, field, smallest length, default, help. */
 #define TEXT(type, n, f, least, def, h)                                                            \
     {                                                                                              \
-        ROW(NO_PART, n, type, AT(f), def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                  \
+        ROW(NO_PART, n, type, f, def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                      \
     }
 
-static const struct kiln_option override_item = {.type = &kiln_type_override,
-                                                 LIMITS(KILN_PLAIN, 1, MAX_TEXT)};
+ITEM(override_item, override, LIMITS(KILN_PLAIN, 1, MAX_TEXT));
 
-static const struct kiln_option job_rows[] = {
+TABLE(job_rows) = {
     TEXT(text, "name", name, 0, "\"\"",
          "Name of the job in the results. Without a name, results have its number."),
     TEXT(text, "scene", scene, 1, NULL, "The scene's path, from the folder of the file of jobs."),
     TEXT(located, "output", output, 1, NULL,
          "Where to write, like --output, from the folder of the file of jobs. 'none' writes "
          "nothing."),
-    {ROW(NO_PART, "set", list, AT(set), "[]", "Changes of keys of the scene."),
-     .item = &override_item, .kind_offset = KILN_KIND_NONE, .item_size = sizeof(const char *),
-     .count_offset = AT(set_count), .max_count = MAX_OVERRIDES},
+    LIST(NO_PART, "set", set, override_item, set_count, "[]", "Changes of keys of the scene."),
     TEXT(located, "frames", frames, 0, "\"\"",
          "Frames to draw, like --frames. Without it, all frames are drawn."),
     TEXT(located, "limits", limits, 0, "\"\"", "Limits of the job, like --limits."),
-    {ROW(NO_PART, "timeout", number, AT(timeout_s), "0 s",
+    {ROW(NO_PART, "timeout", number, timeout_s, "0 s",
          "Time limit of the job, like --timeout: seconds, or a time with a unit, ms, s, min or h. "
          "0 is no limit."),
      LIMITS(KILN_SECONDS, 0, 1e7)},
@@ -99,16 +97,14 @@ static const struct kiln_option job_rows[] = {
     END,
 };
 
-static const struct kiln_option job_item = {.type = &kiln_type_group, .members = job_rows};
+ITEM_OF_ROWS(job_item, job_rows);
 
-#undef AT
-#define AT(field) offsetof(struct document, field)
+#undef FILLS
+#define FILLS struct document
 
-static const struct kiln_option rows[] = {
+TABLE(rows) = {
     INTEGER(NO_PART, "kiln_jobs", version, 1, 1, NULL, "Version of the format of files of jobs."),
-    {ROW(NO_PART, "jobs", list, AT(jobs), NULL, "The jobs. They begin in this order."),
-     .item = &job_item, .kind_offset = KILN_KIND_NONE, .item_size = sizeof(struct entry),
-     .count_offset = AT(job_count), .max_count = MAX_JOBS},
+    LIST(NO_PART, "jobs", jobs, job_item, job_count, NULL, "The jobs. They begin in this order."),
     END,
 };
 

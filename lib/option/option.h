@@ -37,26 +37,43 @@ struct kiln_option_type {
     void (*list_choices)(const struct kiln_option *option, struct kiln_text *out);
 };
 
-/* Types of options. Each comment gives an example of the value in a file, then the field's type in
- * C. */
-extern const struct kiln_option_type kiln_type_boolean;  /* true; bool */
-extern const struct kiln_option_type kiln_type_integer;  /* 7; uint32_t */
-extern const struct kiln_option_type kiln_type_rational; /* 30000/1001; struct kiln_rational */
-extern const struct kiln_option_type kiln_type_number;   /* 2 s; double */
-extern const struct kiln_option_type kiln_type_choice;   /* a word of `choices`; an enum */
-extern const struct kiln_option_type kiln_type_text;     /* "so", of min to max bytes; char * */
-extern const struct kiln_option_type kiln_type_pair;     /* [1280, 720]; uint32_t[2] */
-extern const struct kiln_option_type kiln_type_bounds;   /* {min, max} or none; kiln_bounds */
-extern const struct kiln_option_type kiln_type_value;    /* animated number; struct kiln_value */
-extern const struct kiln_option_type kiln_type_vector;   /* animated vector; struct kiln_value3 */
-extern const struct kiln_option_type kiln_type_color;    /* animated colour; struct kiln_value3 */
-extern const struct kiln_option_type kiln_type_range;    /* [1, 2] or 1; struct kiln_range */
-extern const struct kiln_option_type kiln_type_group;    /* a mapping of `members` */
-extern const struct kiln_option_type kiln_type_switch;   /* {members} or none; bool */
-extern const struct kiln_option_type kiln_type_map;      /* names to mappings of `members` */
-/* list of `item`; an array and its count */
-extern const struct kiln_option_type kiln_type_list;
-extern const struct kiln_option_type kiln_type_kind; /* {kind: members}; `kinds` */
+/* Types of options. Each comment gives an example of the value in a file. */
+extern const struct kiln_option_type kiln_type_boolean;  /* true */
+extern const struct kiln_option_type kiln_type_integer;  /* 7 */
+extern const struct kiln_option_type kiln_type_rational; /* 30000/1001 */
+extern const struct kiln_option_type kiln_type_number;   /* 2 s */
+extern const struct kiln_option_type kiln_type_choice;   /* a word of `choices` */
+extern const struct kiln_option_type kiln_type_text;     /* "so", of min to max bytes */
+extern const struct kiln_option_type kiln_type_pair;     /* [1280, 720] */
+extern const struct kiln_option_type kiln_type_bounds;   /* {min, max} or none */
+extern const struct kiln_option_type kiln_type_value;    /* animated number */
+extern const struct kiln_option_type kiln_type_vector;   /* animated vector */
+extern const struct kiln_option_type kiln_type_color;    /* animated colour */
+extern const struct kiln_option_type kiln_type_range;    /* [1, 2] or 1 */
+
+/* kiln_fills_NAME is the C type of the fields that kiln_type_NAME reads and prints. A row of
+ * another field does not compile (option/rows.h). An array without a length stands for an array of
+ * any length, whose entries the row's count_offset counts. */
+typedef bool kiln_fills_boolean;
+typedef uint32_t kiln_fills_integer;
+typedef struct kiln_rational kiln_fills_rational;
+typedef double kiln_fills_number;
+typedef unsigned kiln_fills_choice; /* an enum, of which the compiler makes an unsigned */
+typedef const char *kiln_fills_text;
+typedef uint32_t kiln_fills_pair[2];
+typedef struct kiln_bounds kiln_fills_bounds;
+typedef struct kiln_value kiln_fills_value;
+typedef struct kiln_value3 kiln_fills_vector;
+typedef struct kiln_value3 kiln_fills_color;
+typedef struct kiln_range kiln_fills_range;
+
+/* Types of options with members. They fill what the members' table fills, or, of a map or a list,
+ * an array of it. */
+extern const struct kiln_option_type kiln_type_group;  /* a mapping of `members` */
+extern const struct kiln_option_type kiln_type_switch; /* {members} or none, and a bool */
+extern const struct kiln_option_type kiln_type_map;    /* names to mappings of `members` */
+extern const struct kiln_option_type kiln_type_list;   /* list of `item` */
+extern const struct kiln_option_type kiln_type_kind;   /* {kind: members} of `kinds`, and an enum */
 
 /* Describes one of the kinds of items that a value may be. Each kind has members of its own. */
 struct kiln_option_kind {

@@ -15,20 +15,36 @@ extern const struct kiln_option kiln_options_post[];
 extern const struct kiln_option_kind kiln_force_kinds[];
 extern const struct kiln_option_kind kiln_interaction_kinds[];
 
-/* Types of options. Each comment gives an example of the value in a scene, then the field's type in
- * C. */
-extern const struct kiln_option_type kiln_type_assets;       /* builtin:name, a path, or a list; */
-                                                             /* const char *[], count */
-extern const struct kiln_option_type kiln_type_motion;       /* a word of `choices`, or a path; */
-                                                             /* const char * */
-extern const struct kiln_option_type kiln_type_motion_scale; /* auto, 0.5, [0.5, -0.5]; */
-                                                             /* struct kiln_motion_scale */
-extern const struct kiln_option_type kiln_type_picture; /* an image's path or none; const char * */
-extern const struct kiln_option_type kiln_type_mesh;    /* a mesh's path; const char * */
-extern const struct kiln_option_type kiln_type_grid;    /* a wind file's path; const char * */
-extern const struct kiln_option_type kiln_type_clip;    /* a clip's name or number; const char * */
-extern const struct kiln_option_type kiln_type_name;    /* a system's name; const char * */
-extern const struct kiln_option_type kiln_type_bursts;  /* {1 s: 100}; kiln_burst[], count */
+/* The structs that these tables fill (option/rows.h). */
+typedef struct kiln_scene kiln_options_root_fills;
+typedef struct kiln_system kiln_options_system_fills;
+typedef struct kiln_look kiln_options_look_fills;
+typedef struct kiln_backdrop kiln_options_backdrop_fills;
+typedef struct kiln_post kiln_options_post_fills;
+typedef struct kiln_force kiln_force_kinds_fills;
+typedef struct kiln_interaction kiln_interaction_kinds_fills;
+
+/* Types of options. Each comment gives an example of the value in a scene. */
+extern const struct kiln_option_type kiln_type_assets;       /* builtin:name, a path, or a list */
+extern const struct kiln_option_type kiln_type_motion;       /* a word of `choices`, or a path */
+extern const struct kiln_option_type kiln_type_motion_scale; /* auto, 0.5, [0.5, -0.5] */
+extern const struct kiln_option_type kiln_type_picture;      /* an image's path or none */
+extern const struct kiln_option_type kiln_type_mesh;         /* a mesh's path */
+extern const struct kiln_option_type kiln_type_grid;         /* a wind file's path */
+extern const struct kiln_option_type kiln_type_clip;         /* a clip's name or number */
+extern const struct kiln_option_type kiln_type_name;         /* a system's name */
+extern const struct kiln_option_type kiln_type_bursts;       /* {1 s: 100} */
+
+/* The C types of their fields (option/option.h). */
+typedef const char *kiln_fills_assets[];
+typedef const char *kiln_fills_motion;
+typedef struct kiln_motion_scale kiln_fills_motion_scale;
+typedef const char *kiln_fills_picture;
+typedef const char *kiln_fills_mesh;
+typedef const char *kiln_fills_grid;
+typedef const char *kiln_fills_clip;
+typedef const char *kiln_fills_name;
+typedef struct kiln_burst kiln_fills_bursts[];
 
 /* Returns the origin of a scene's text: a file of that name. */
 static inline struct kiln_origin kiln_scene_origin(const char *name)

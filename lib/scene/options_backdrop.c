@@ -7,7 +7,7 @@
 #include "asset/geometry/field.h"
 #include "scene/rows.h"
 
-#define AT(field) offsetof(struct kiln_object, field)
+#define FILLS struct kiln_object
 
 /* The options of how particles bounce off an object and slide along it. */
 #define SURFACE_FACTORS                                                                            \
@@ -25,7 +25,7 @@
     COLOR(LOOK, "color", color, 1, TIME, "[0.35, 0.34, 0.33]",                                     \
           "Fraction of the incoming light that it reflects.")
 
-static const struct kiln_option box[] = {
+TABLE(box) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
            "Centre of the box."),
     VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, TIME, "[1, 1, 1]",
@@ -39,7 +39,7 @@ static const struct kiln_option box[] = {
     END,
 };
 
-static const struct kiln_option sphere[] = {
+TABLE(sphere) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
            "Centre of the sphere."),
     VALUE(MOTION, "radius", radius, KILN_METRES, 0.001, FAR, TIME, "0.5 m",
@@ -49,7 +49,7 @@ static const struct kiln_option sphere[] = {
     END,
 };
 
-static const struct kiln_option cylinder[] = {
+TABLE(cylinder) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0.5, 0]",
            "Centre of the cylinder."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
@@ -63,7 +63,7 @@ static const struct kiln_option cylinder[] = {
     END,
 };
 
-static const struct kiln_option capsule[] = {
+TABLE(capsule) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]",
            "Centre of the capsule."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
@@ -77,7 +77,7 @@ static const struct kiln_option capsule[] = {
     END,
 };
 
-static const struct kiln_option plane[] = {
+TABLE(plane) = {
     VECTOR(MOTION, "center", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "A point of the plane. The plane turns about this point."),
     VECTOR(MOTION, "normal", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
@@ -89,8 +89,8 @@ static const struct kiln_option plane[] = {
     END,
 };
 
-static const struct kiln_option animation[] = {
-    {ROW(MOTION, "clip", clip, AT(animation.clip), "0",
+TABLE(animation) = {
+    {ROW(MOTION, "clip", clip, animation.clip, "0",
          "Name of the animation in the file, or its number from 0.")},
     VALUE(MOTION, "start", animation.start, KILN_SECONDS, -FAR, FAR, 0, "0 s",
           "Time in the animation at clip time 0."),
@@ -104,17 +104,15 @@ static const struct kiln_option animation[] = {
 static const char *const colliders[] = {"field", "volume", "depth_maps", NULL};
 static const char *const sides[] = {"one", "two", NULL};
 
-static const struct kiln_option direction = {ROW(MOTION, "direction", vector, 0, NULL,
-                                                 "Direction from which the mesh is seen. The mesh "
-                                                 "is also seen from the opposite direction."),
-                                             LIMITS(KILN_PLAIN, -FAR, FAR)};
+ITEM(direction, vector, .name = "direction", .parts = MOTION, LIMITS(KILN_PLAIN, -FAR, FAR),
+     .help = "Direction from which the mesh is seen. The mesh is also seen from the opposite "
+             "direction.");
 
-static const struct kiln_option depth_maps[] = {
-    {ROW(MOTION, "directions", list, AT(depth_directions), "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+TABLE(depth_maps) = {
+    LIST(MOTION, "directions", depth_directions, direction, depth_direction_count,
+         "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
          "Directions from which the mesh is seen, in its own frame; vectors of any length but 0. "
          "Each gives a depth map of the front and, from the opposite direction, one of the back."),
-     .item = &direction, .item_size = sizeof(struct kiln_value3),
-     .count_offset = AT(depth_direction_count), .max_count = KILN_MAX_DEPTH_DIRECTIONS},
     INTEGER(MOTION, "resolution", depth_resolution, KILN_MIN_DEPTH_RESOLUTION,
             KILN_MAX_DEPTH_RESOLUTION, "128", "Samples along each edge of a map."),
     END,
@@ -126,7 +124,7 @@ static const char *const gathers[] = {
     NULL,
 };
 
-static const struct kiln_option paint[] = {
+TABLE(paint) = {
     INTEGER(MOTION, "size", paint.size, KILN_MIN_CHART, KILN_MAX_CHART, "512",
             "Texels along an edge of the painted texture, a power of two."),
     CHOICE(
@@ -139,8 +137,8 @@ static const struct kiln_option paint[] = {
     END,
 };
 
-static const struct kiln_option mesh[] = {
-    {ROW(MOTION, "file", mesh, AT(file), NULL,
+TABLE(mesh) = {
+    {ROW(MOTION, "file", mesh, file, NULL,
          "An OBJ, glTF or GLB file of triangles, in metres and y up. Its materials are left out.")},
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "Position of the file's origin."),
@@ -148,9 +146,8 @@ static const struct kiln_option mesh[] = {
            "[0, 0, 0]", "Angles about x, then y, then z."),
     VALUE(MOTION, "scale", scale, KILN_PLAIN, 0.000001, FAR, TIME, "1",
           "Metres per unit of the file."),
-    {ROW(MOTION, "animation", switch, 0, "none",
-         "An animation of the glTF or GLB file: it moves nodes, and bones that vertices follow."),
-     .members = animation, .count_offset = AT(animation.enabled)},
+    SWITCH(MOTION, "animation", animation, animation.enabled, "none",
+           "An animation of the glTF or GLB file: it moves nodes, and bones that vertices follow."),
     REFLECTANCE,
     BOOLEAN(MOTION, "collide", collide, "false",
             "Particles of systems that collide bounce off it."),
@@ -173,18 +170,17 @@ static const struct kiln_option mesh[] = {
            "For collider `volume`: sides of the mesh that stop particles. `one` suits closed "
            "meshes: a particle behind a plane is put in front of it. `two` suits sheets: particles "
            "meet a plane from both sides."),
-    GROUP(MOTION, "depth_maps", 0, depth_maps,
+    GROUP(MOTION, "depth_maps", depth_maps,
           "Settings of collider `depth_maps`. Depth maps do not miss thin parts, and the mesh need "
           "not be closed."),
-    {ROW(MOTION, "paint", switch, 0, "none",
-         "The mesh takes paint of systems that paint (Drone 2007, 7.6.1). Its file must have "
-         "texture coordinates from 0 to 1, in which no two triangles overlap."),
-     .members = paint, .count_offset = AT(paint.enabled)},
+    SWITCH(MOTION, "paint", paint, paint.enabled, "none",
+           "The mesh takes paint of systems that paint (Drone 2007, 7.6.1). Its file must have "
+           "texture coordinates from 0 to 1, in which no two triangles overlap."),
     END,
 };
 
-static const struct kiln_option terrain[] = {
-    {ROW(MOTION, "image", picture, AT(file), "none",
+TABLE(terrain) = {
+    {ROW(MOTION, "image", picture, file, "none",
          "A picture whose brightness gives the heights, its top towards -z. With none, the hills "
          "are noise.")},
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, 0, "[0, 0, 0]",
@@ -192,7 +188,7 @@ static const struct kiln_option terrain[] = {
     VECTOR(MOTION, "size", size, KILN_METRES, 0.001, FAR, 0, "[20, 2, 20]",
            "Width, height and depth. The height is that from black to white or from the deepest "
            "valley to the highest peak."),
-    {ROW(MOTION, "samples", pair, AT(samples), "[129, 129]",
+    {ROW(MOTION, "samples", pair, samples, "[129, 129]",
          "Numbers of points along x and z. Two triangles lie between each four neighbours."),
      LIMITS(KILN_PLAIN, 2, KILN_MAX_TERRAIN_EDGE)},
     VALUE(MOTION, "hills", hills, KILN_METRES, 0.001, FAR, 0, "8 m", "Size of the largest hills."),
@@ -212,41 +208,37 @@ static const struct kiln_option terrain[] = {
     END,
 };
 
-static const struct kiln_option_kind object_kinds[] = {
-    {.name = "box", .value = KILN_OBJECT_BOX, .members = box, .help = "A box."},
-    {.name = "sphere", .value = KILN_OBJECT_SPHERE, .members = sphere, .help = "A sphere."},
+KINDS(object_kinds) = {
+    {.name = "box", .value = KILN_OBJECT_BOX, MEMBERS(box), .help = "A box."},
+    {.name = "sphere", .value = KILN_OBJECT_SPHERE, MEMBERS(sphere), .help = "A sphere."},
     {.name = "cylinder",
      .value = KILN_OBJECT_CYLINDER,
-     .members = cylinder,
+     MEMBERS(cylinder),
      .help = "A cylinder with flat ends, along any axis."},
     {.name = "capsule",
      .value = KILN_OBJECT_CAPSULE,
-     .members = capsule,
+     MEMBERS(capsule),
      .help = "A cylinder with round ends, along any axis."},
     {.name = "plane",
      .value = KILN_OBJECT_PLANE,
-     .members = plane,
+     MEMBERS(plane),
      .help = "An infinite plane and all that is behind it. No sunlight passes it: where the sun is "
              "behind the plane, the sun does not shine."},
     {.name = "mesh",
      .value = KILN_OBJECT_MESH,
-     .members = mesh,
+     MEMBERS(mesh),
      .help = "A mesh from a file. Meshes and terrains together may be at most 8."},
     {.name = "terrain",
      .value = KILN_OBJECT_TERRAIN,
-     .members = terrain,
+     MEMBERS(terrain),
      .help = "A landscape from a picture or from noise (UberFlow 2004, 4.6)."},
     {.name = NULL},
 };
 
-static const struct kiln_option object = {.name = "object",
-                                          .type = &kiln_type_kind,
-                                          .parts = IF_PARTICLES_HIT_OBJECT,
-                                          .kinds = object_kinds,
-                                          .kind_offset = AT(kind)};
+ITEM_OF_KINDS(object, object_kinds, kind, .name = "object", .parts = IF_PARTICLES_HIT_OBJECT);
 
-#undef AT
-#define AT(field) offsetof(struct kiln_light, field)
+#undef FILLS
+#define FILLS struct kiln_light
 
 /* The options that a point light and a spot share. */
 #define SMALL_LIGHT                                                                                \
@@ -264,12 +256,12 @@ static const struct kiln_option object = {.name = "object",
     VECTOR(LOOK, "direction", direction, KILN_PLAIN, -FAR, FAR, TIME, "[0, -1, 0]",                \
            "Direction in which the light shines, of any length but 0.")
 
-static const struct kiln_option point[] = {
+TABLE(point) = {
     SMALL_LIGHT,
     END,
 };
 
-static const struct kiln_option spot[] = {
+TABLE(spot) = {
     SMALL_LIGHT,
     LIGHT_DIRECTION,
     VALUE(LOOK, "angle", angle, KILN_ANGLE, KILN_DEG(1), KILN_DEG(180), TIME, "30 deg",
@@ -279,7 +271,7 @@ static const struct kiln_option spot[] = {
     END,
 };
 
-static const struct kiln_option rectangle[] = {
+TABLE(rectangle) = {
     VECTOR(LOOK, "center", position, KILN_METRES, -FAR, FAR, TIME, "[0, 2, 0]",
            "Centre of the rectangle."),
     VALUE(LOOK, "width", width, KILN_METRES, 0.01, 1000, TIME, "1 m",
@@ -302,33 +294,32 @@ static const struct kiln_option rectangle[] = {
     END,
 };
 
-static const struct kiln_option_kind light_kinds[] = {
+KINDS(light_kinds) = {
     {.name = "point",
      .value = KILN_LIGHT_POINT,
-     .members = point,
+     MEMBERS(point),
      .help = "A light that shines to all sides."},
     {.name = "spot",
      .value = KILN_LIGHT_SPOT,
-     .members = spot,
+     MEMBERS(spot),
      .help = "A light that shines into a cone."},
     {.name = "rectangle",
      .value = KILN_LIGHT_RECTANGLE,
-     .members = rectangle,
+     MEMBERS(rectangle),
      .help = "A panel that shines from its front, such as a window or a lamp at a ceiling. It is "
              "not drawn itself."},
     {.name = NULL},
 };
 
-static const struct kiln_option light = {
-    .name = "light", .type = &kiln_type_kind, .kinds = light_kinds, .kind_offset = AT(kind)};
+ITEM_OF_KINDS(light, light_kinds, kind, .name = "light");
 
-#undef AT
-#define AT(field) offsetof(struct kiln_backdrop, field)
+#undef FILLS
+#define FILLS struct kiln_backdrop
 
-static const struct kiln_option sky[] = {
+TABLE(sky) = {
     COLOR(LOOK, "top", sky_top, 1000, TIME, "[0.02, 0.03, 0.05]", "Colour overhead."),
     COLOR(LOOK, "horizon", sky_horizon, 1000, TIME, "[0.12, 0.13, 0.16]", "Colour at eye level."),
-    {ROW(LOOK, "image", picture, AT(sky_image), "none",
+    {ROW(LOOK, "image", picture, sky_image, "none",
          "The whole sphere around the scene as one picture, left to right and top to bottom, in "
          "place of the gradient. Its middle lies towards -z. Averages of its colours over parts of "
          "the sky light the scene.")},
@@ -339,14 +330,14 @@ static const struct kiln_option sky[] = {
     END,
 };
 
-static const struct kiln_option floor_rows[] = {
+TABLE(floor_rows) = {
     COLOR(LOOK, "color", floor_color, 1, TIME, "[0.35, 0.34, 0.33]",
           "Fraction of the incoming light that it reflects."),
     VALUE(MOTION, "height", floor_height, KILN_METRES, -FAR, FAR, TIME, "0 m",
           "Height of the floor. It may vary over time only if `collide` is false."),
     VALUE(LOOK, "checker", floor_checker, KILN_METRES, 0, FAR, TIME, "0 m",
           "Edge length of lighter and darker squares; 0 is a plain floor."),
-    {ROW(LOOK, "image", picture, AT(floor_image), "none",
+    {ROW(LOOK, "image", picture, floor_image, "none",
          "A picture that repeats, its top towards -z, in place of colour and squares.")},
     VALUE(LOOK, "tile", floor_tile, KILN_METRES, 0.001, FAR, TIME, "1 m", "Width of the picture."),
     VALUE(LOOK, "gloss", floor_gloss, KILN_PLAIN, 0, 10, TIME, "0",
@@ -369,7 +360,7 @@ static const struct kiln_option floor_rows[] = {
     END,
 };
 
-static const struct kiln_option sun[] = {
+TABLE(sun) = {
     VECTOR(LOOK, "direction", sun_direction, KILN_PLAIN, -FAR, FAR, TIME, "[0.5, 1, 0.3]",
            "Direction towards the sun, of any length but 0."),
     COLOR(LOOK, "color", sun_color, 1000000, TIME, "[0.8, 0.75, 0.65]",
@@ -387,20 +378,15 @@ static const struct kiln_option sun[] = {
     END,
 };
 
-const struct kiln_option kiln_options_backdrop[] = {
+PUBLIC_TABLE(kiln_options_backdrop) = {
     BOOLEAN(LOOK, "transparent", transparent, "false",
             "Pictures have alpha in place of the sky. The floor stays, unless it is `none`."),
-    GROUP(LOOK, "sky", 0, sky, "The sky: a gradient or an image."),
-    {ROW(IF_PARTICLES_HIT_FLOOR, "floor", switch, 0, "{}", "An endless plane."),
-     .members = floor_rows, .count_offset = AT(floor_enabled)},
-    GROUP(LOOK, "sun", 0, sun, "The sun, the one light with a shadow."),
+    GROUP(LOOK, "sky", sky, "The sky: a gradient or an image."),
+    SWITCH(IF_PARTICLES_HIT_FLOOR, "floor", floor_rows, floor_enabled, "{}", "An endless plane."),
+    GROUP(LOOK, "sun", sun, "The sun, the one light with a shadow."),
     VALUE(LOOK, "haze", haze, KILN_PER_METRE, 0, 100, TIME, "0.02",
           "How fast, per metre of distance, the floor fades into the horizon."),
-    {ROW(MOTION, "objects", list, AT(objects), "[]", "Objects of the scene."), .item = &object,
-     .item_size = sizeof(struct kiln_object), .count_offset = AT(object_count),
-     .max_count = KILN_MAX_OBJECTS},
-    {ROW(LOOK, "lights", list, AT(lights), "[]", "Lights besides the sun."), .item = &light,
-     .item_size = sizeof(struct kiln_light), .count_offset = AT(light_count),
-     .max_count = KILN_MAX_LIGHTS},
+    LIST(MOTION, "objects", objects, object, object_count, "[]", "Objects of the scene."),
+    LIST(LOOK, "lights", lights, light, light_count, "[]", "Lights besides the sun."),
     END,
 };

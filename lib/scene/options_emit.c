@@ -1,11 +1,10 @@
 /* This file has the option tables of a particle system: how its particles are born (Heinz 2019,
  * 2.1.2), collide, paint and die. Tables for its look, its forces and its interactions are in
  * options_look.c, options_forces.c and options_interact.c. option/rows.h and scene/rows.h define
- * the macros of the rows; AT(field) is the offset of a field in the struct that the next tables
- * fill. */
+ * the macros of the rows; FILLS is the struct that the next tables fill. */
 #include "scene/rows.h"
 
-#define AT(field) offsetof(struct kiln_emitter, field)
+#define FILLS struct kiln_emitter
 
 /* Options that every shape has. `spread` is the default of `angle`. */
 #define PLACE(spread)                                                                              \
@@ -22,12 +21,12 @@
           "Angular speed at which the shape turns about its direction. Particles get the "         \
           "velocity that the turning shape has where they are born.")
 
-static const struct kiln_option point[] = {
+TABLE(point) = {
     PLACE("0 deg"),
     END,
 };
 
-static const struct kiln_option sphere[] = {
+TABLE(sphere) = {
     PLACE("0 deg"),
     VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0.1 m", "Radius."),
     BOOLEAN(MOTION, "outward", outward, "false",
@@ -37,7 +36,7 @@ static const struct kiln_option sphere[] = {
     END,
 };
 
-static const struct kiln_option box[] = {
+TABLE(box) = {
     PLACE("0 deg"),
     VECTOR(MOTION, "size", size, KILN_METRES, 0, FAR, TIME, "[1, 1, 1]", "Lengths of the edges."),
     BOOLEAN(MOTION, "surface", surface, "false", "Particles are born on the six faces only."),
@@ -45,7 +44,7 @@ static const struct kiln_option box[] = {
     END,
 };
 
-static const struct kiln_option disc[] = {
+TABLE(disc) = {
     PLACE("0 deg"),
     VALUE(MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0.5 m",
           "Radius of the disc, which faces the direction."),
@@ -54,7 +53,7 @@ static const struct kiln_option disc[] = {
     END,
 };
 
-static const struct kiln_option cone[] = {
+TABLE(cone) = {
     PLACE("15 deg"),
     VALUE(
         MOTION, "radius", radius, KILN_METRES, 0, FAR, TIME, "0 m",
@@ -63,7 +62,7 @@ static const struct kiln_option cone[] = {
     END,
 };
 
-static const struct kiln_option line[] = {
+TABLE(line) = {
     PLACE("0 deg"),
     VECTOR(
         MOTION, "span", size, KILN_METRES, -FAR, FAR, TIME, "[1, 0, 0]",
@@ -77,21 +76,21 @@ static const struct kiln_option line[] = {
     END,
 };
 
-static const struct kiln_option_kind shapes[] = {
-    {.name = "point", .value = KILN_EMITTER_POINT, .members = point, .help = "One place."},
-    {.name = "sphere", .value = KILN_EMITTER_SPHERE, .members = sphere, .help = "A ball."},
+KINDS(shapes) = {
+    {.name = "point", .value = KILN_EMITTER_POINT, MEMBERS(point), .help = "One place."},
+    {.name = "sphere", .value = KILN_EMITTER_SPHERE, MEMBERS(sphere), .help = "A ball."},
     {.name = "box",
      .value = KILN_EMITTER_BOX,
-     .members = box,
+     MEMBERS(box),
      .help = "A box whose edges lie along the axes."},
-    {.name = "disc", .value = KILN_EMITTER_DISC, .members = disc, .help = "A flat disc."},
+    {.name = "disc", .value = KILN_EMITTER_DISC, MEMBERS(disc), .help = "A flat disc."},
     {.name = "cone",
      .value = KILN_EMITTER_CONE,
-     .members = cone,
+     MEMBERS(cone),
      .help = "A nozzle, whose jet widens."},
     {.name = "line",
      .value = KILN_EMITTER_LINE,
-     .members = line,
+     MEMBERS(line),
      .help = "A line, or a rake of nozzles, whose smoke shows how air flows."},
     {.name = NULL},
 };
@@ -118,16 +117,16 @@ static const char *const aligns_in_flight[] = {
     NULL,
 };
 
-static const struct kiln_option death[] = {COUNT, ALIGN(aligns_in_flight, TO_VELOCITY), END};
+TABLE(death) = {COUNT, ALIGN(aligns_in_flight, TO_VELOCITY), END};
 
-static const struct kiln_option bounce[] = {
+TABLE(bounce) = {
     COUNT,
     ALIGN(aligns, "`velocity` turns it to the velocity of the parent's particle after the bounce. "
                   "`normal` turns it away from the surface."),
     END,
 };
 
-static const struct kiln_option trail[] = {
+TABLE(trail) = {
     VALUE(MOTION, "rate", parent.rate, KILN_PER_SECOND, 0, 1e6, KILN_ALLOW_LIFE, "20",
           "Particles born a second while a particle of the parent lives. The rate may vary over "
           "the life of the parent's particle."),
@@ -135,64 +134,60 @@ static const struct kiln_option trail[] = {
     END,
 };
 
-static const struct kiln_option_kind events[] = {
+KINDS(events) = {
     {.name = "death",
      .value = KILN_EVENT_DEATH,
-     .members = death,
+     MEMBERS(death),
      .shortcut = "count",
      .help = "Particles are born when a particle of the parent reaches the end of its life. A "
              "death by bounds, by a demitter or at an impact does not count."},
     {.name = "bounce",
      .value = KILN_EVENT_BOUNCE,
-     .members = bounce,
+     MEMBERS(bounce),
      .shortcut = "count",
      .help = "Particles are born when a particle of the parent first meets a surface. They inherit "
              "its velocity after the bounce."},
     {.name = "trail",
      .value = KILN_EVENT_TRAIL,
-     .members = trail,
+     MEMBERS(trail),
      .shortcut = "rate",
      .help = "Particles are born all along the way of a particle of the parent, the first one "
              "where it is born."},
     {.name = NULL},
 };
 
-static const struct kiln_option parent[] = {
-    {ROW(MOTION, "system", name, AT(parent.name), NULL,
+TABLE(parent) = {
+    {ROW(MOTION, "system", name, parent.name, NULL,
          "Name of the system whose particles give birth to these.")},
-    {ROW(MOTION, "on", kind, 0, "{death: {}}",
+    KIND(MOTION, "on", events, parent.event, "{death: {}}",
          "The event at which particles are born, and how many are born."),
-     .kinds = events, .kind_offset = AT(parent.event)},
     END,
 };
 
-static const struct kiln_option emit_options[] = {
-    {ROW(MOTION, "parent", switch, 0, "none",
-         "The particles are born of another system's particles, not by `rate` and `bursts`. The "
-         "shape `from` then lies around the parent's particle."),
-     .members = parent, .count_offset = AT(parent.enabled)},
+TABLE(emit_options) = {
+    SWITCH(MOTION, "parent", parent, parent.enabled, "none",
+           "The particles are born of another system's particles, not by `rate` and `bursts`. The "
+           "shape `from` then lies around the parent's particle."),
     VALUE(MOTION, "rate", rate, KILN_PER_SECOND, 0, 1e7, TIME, "0", "Particles born a second."),
-    {ROW(MOTION, "bursts", bursts, AT(bursts), "{}",
+    {ROW(MOTION, "bursts", bursts, bursts, "{}",
          "Particles that are born at once: a map of clip times, in seconds, to their numbers. The "
          "frame at 0 s shows those of 0 s, at age 0; another frame shows the bursts before its "
          "time."),
-     LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), .count_offset = AT(burst_count),
-     .max_count = KILN_MAX_BURSTS},
+     LIMITS(KILN_PLAIN, 0, KILN_MAX_PARTICLES), COUNTED(bursts, burst_count)},
     RANGE(MOTION, "life", life, KILN_SECONDS, 0.001, 10000, TIME, "1 s",
           "How long a particle lives. The value is drawn at its birth."),
     RANGE(MOTION, "speed", speed, KILN_SPEED, 0, 10000, TIME, "1 m/s",
           "Speed of a particle along its direction. The value is drawn at its birth."),
-    {ROW(MOTION, "from", kind, 0, "{point: {}}",
+    KIND(MOTION, "from", shapes, shape, "{point: {}}",
          "The shape in which particles are born, and the directions in which they start."),
-     .kinds = shapes, .kind_offset = AT(shape)},
     VALUE(MOTION, "inherit", inherit, KILN_FRACTION, 0, 1, TIME, "0",
           "Fraction of the velocity of the emitter, or of the parent's particle, that a particle "
           "gets at its birth."),
     END,
 };
 
-#undef AT
-#define AT(field) offsetof(struct kiln_collide, field)
+#undef FILLS
+#define FILLS struct kiln_collide
 
 static const char *const collide_modes[] = {
     [KILN_COLLIDE_SWEPT] = "swept",
@@ -200,7 +195,7 @@ static const char *const collide_modes[] = {
     NULL,
 };
 
-static const struct kiln_option collide_options[] = {
+TABLE(collide_options) = {
     CHOICE(
         MOTION, "mode", mode, collide_modes, "swept",
         "`swept` finds the point of impact on the way of a particle. `clamp` moves a particle that "
@@ -223,8 +218,8 @@ static const struct kiln_option collide_options[] = {
     END,
 };
 
-#undef AT
-#define AT(field) offsetof(struct kiln_painting, field)
+#undef FILLS
+#define FILLS struct kiln_painting
 
 static const char *const paint_times[] = {
     [KILN_PAINT_IMPACT] = "impact",
@@ -232,7 +227,7 @@ static const char *const paint_times[] = {
     NULL,
 };
 
-static const struct kiln_option paint_options[] = {
+TABLE(paint_options) = {
     CHOICE(MOTION, "when", when, paint_times, "impact",
            "`impact` paints in each step where a particle bounces or ends. `near` paints all "
            "surface within the radius of a particle at the end of each step."),
@@ -245,44 +240,28 @@ static const struct kiln_option paint_options[] = {
     END,
 };
 
-#undef AT
-#define AT(field) offsetof(struct kiln_system, field)
+#undef FILLS
+#define FILLS struct kiln_system
 
-static const struct kiln_option demitter = {
-    .name = "demitter", .type = &kiln_type_bounds, LIMITS(KILN_METRES, -FAR, FAR)};
+ITEM(demitter, bounds, .name = "demitter", LIMITS(KILN_METRES, -FAR, FAR));
+ITEM_OF_KINDS(force, kiln_force_kinds, kind, .name = "force");
+ITEM_OF_KINDS(interaction, kiln_interaction_kinds, kind, .name = "interaction");
 
-static const struct kiln_option force = {.name = "force",
-                                         .type = &kiln_type_kind,
-                                         .kinds = kiln_force_kinds,
-                                         .kind_offset = offsetof(struct kiln_force, kind)};
-
-static const struct kiln_option interaction = {.name = "interaction",
-                                               .type = &kiln_type_kind,
-                                               .kinds = kiln_interaction_kinds,
-                                               .kind_offset =
-                                                   offsetof(struct kiln_interaction, kind)};
-
-const struct kiln_option kiln_options_system[] = {
+PUBLIC_TABLE(kiln_options_system) = {
     BOOLEAN(MOTION, "enabled", enabled, "true", "A system that is not enabled has no particles."),
-    GROUP(MOTION, "emit", AT(emit), emit_options, "How particles are born."),
-    {ROW(MOTION, "forces", list, AT(forces), "[]",
+    GROUP_AT(MOTION, "emit", emit, emit_options, "How particles are born."),
+    LIST(MOTION, "forces", forces, force, force_count, "[]",
          "Forces that accelerate the particles. Their accelerations are added up."),
-     .item = &force, .item_size = sizeof(struct kiln_force), .count_offset = AT(force_count),
-     .max_count = KILN_MAX_FORCES},
-    {ROW(MOTION, "collide", switch, AT(collide), "none",
-         "How particles bounce off the objects and the floor."),
-     .members = collide_options, .count_offset = AT(collide.enabled)},
-    {ROW(MOTION, "interact", list, AT(interactions), "[]",
+    SWITCH_AT(MOTION, "collide", collide, collide_options, collide.enabled, "none",
+              "How particles bounce off the objects and the floor."),
+    LIST(MOTION, "interact", interactions, interaction, interaction_count, "[]",
          "What the particles of the system do to each other."),
-     .item = &interaction, .item_size = sizeof(struct kiln_interaction),
-     .count_offset = AT(interaction_count), .max_count = KILN_MAX_INTERACTIONS},
-    {ROW(MOTION, "paint", switch, AT(paint), "none",
-         "Particles leave the colour of their look on meshes that take paint (Drone 2007, 7.6.1)."),
-     .members = paint_options, .count_offset = AT(paint.enabled)},
-    {ROW(MOTION, "demitters", list, AT(demitters), "[]", "Boxes in which particles die."),
-     .item = &demitter, .item_size = sizeof(struct kiln_bounds), .count_offset = AT(demitter_count),
-     .max_count = KILN_MAX_DEMITTERS},
+    SWITCH_AT(
+        MOTION, "paint", paint, paint_options, paint.enabled, "none",
+        "Particles leave the colour of their look on meshes that take paint (Drone 2007, 7.6.1)."),
+    LIST(MOTION, "demitters", demitters, demitter, demitter_count, "[]",
+         "Boxes in which particles die."),
     BOUNDS(MOTION, "bounds", bounds, "none", "A box outside of which particles die."),
-    GROUP(MOTION, "look", AT(look), kiln_options_look, "What the particles look like."),
+    GROUP_AT(MOTION, "look", look, kiln_options_look, "What the particles look like."),
     END,
 };

@@ -4,16 +4,16 @@
  * scene/rows.h defines MOTION, TIME, BOTH and FAR. */
 #include "scene/rows.h"
 
-#define AT(field) offsetof(struct kiln_force, field)
+#define FILLS struct kiln_force
 
-static const struct kiln_option gravity[] = {
+TABLE(gravity) = {
     VECTOR(MOTION, "acceleration", acceleration, KILN_ACCELERATION, -10000, 10000, BOTH,
            "[0, -9.81, 0]",
            "Acceleration of the particles. It points upwards for gas that is lighter than air."),
     END,
 };
 
-static const struct kiln_option drag[] = {
+TABLE(drag) = {
     VALUE(MOTION, "strength", pull, KILN_PER_SECOND, 0, 1000, BOTH, "0.5",
           "Linear drag: the deceleration is `strength` times the speed."),
     VALUE(MOTION, "quadratic", quadratic, KILN_PER_METRE, 0, 1000, BOTH, "0",
@@ -35,7 +35,7 @@ static const char *const modes[] = {
         "air in each step, regardless of `pull` (UberFlow 2004, 4.2, equation 1), so that "        \
         "smaller steps accelerate particles more.")
 
-static const struct kiln_option wind[] = {
+TABLE(wind) = {
     VECTOR(MOTION, "velocity", air, KILN_SPEED, -10000, 10000, BOTH, "[1, 0, 0]",
            "Velocity of the air."),
     VALUE(MOTION, "pull", pull, KILN_PER_SECOND, 0, 1000, BOTH, "1",
@@ -45,7 +45,7 @@ static const struct kiln_option wind[] = {
     END,
 };
 
-static const struct kiln_option curl[] = {
+TABLE(curl) = {
     VALUE(MOTION, "strength", strength, KILN_SPEED, 0, 10000, BOTH, "1 m/s",
           "Typical velocity of the air in the eddies."),
     VALUE(MOTION, "scale", scale, KILN_METRES, 0.001, FAR, TIME, "1 m",
@@ -60,8 +60,8 @@ static const struct kiln_option curl[] = {
     END,
 };
 
-static const struct kiln_option grid[] = {
-    {ROW(MOTION, "file", grid, AT(file), NULL,
+TABLE(grid) = {
+    {ROW(MOTION, "file", grid, file, NULL,
          "A grid of air velocities. They are interpolated between the points of the grid. Outside "
          "of the grid, the air moves as at the nearest edge.")},
     VALUE(MOTION, "strength", strength, KILN_PLAIN, -1000, 1000, BOTH, "1",
@@ -81,7 +81,7 @@ static const char *const falloffs[] = {
     NULL,
 };
 
-static const struct kiln_option attract[] = {
+TABLE(attract) = {
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "Point that particles are drawn to."),
     VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -100000, 100000, BOTH, "1 m/s^2",
@@ -104,7 +104,7 @@ static const char *const profiles[] = {
     NULL,
 };
 
-static const struct kiln_option vortex[] = {
+TABLE(vortex) = {
     VECTOR(MOTION, "position", center, KILN_METRES, -FAR, FAR, TIME, "[0, 0, 0]",
            "A point of the axis."),
     VECTOR(MOTION, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
@@ -129,63 +129,63 @@ static const struct kiln_option vortex[] = {
     END,
 };
 
-static const struct kiln_option limit[] = {
+TABLE(limit) = {
     VALUE(MOTION, "speed", speed, KILN_SPEED, 0, 10000, BOTH, "10 m/s",
           "Highest speed. Each step slows faster particles down to it."),
     END,
 };
 
-const struct kiln_option_kind kiln_force_kinds[] = {
+PUBLIC_KINDS(kiln_force_kinds) = {
     {.name = "gravity",
      .value = KILN_FORCE_GRAVITY,
-     .members = gravity,
+     MEMBERS(gravity),
      .shortcut = "acceleration",
      .help = "The same acceleration everywhere."},
     {.name = "drag",
      .value = KILN_FORCE_DRAG,
-     .members = drag,
+     MEMBERS(drag),
      .shortcut = "strength",
      .help = "Slows particles down."},
     {.name = "curl",
      .value = KILN_FORCE_CURL,
-     .members = curl,
+     MEMBERS(curl),
      .shortcut = "strength",
      .help = "Turbulent air in which smoke swirls: noise without divergence."},
     {.name = "attract",
      .value = KILN_FORCE_ATTRACT,
-     .members = attract,
+     MEMBERS(attract),
      .shortcut = "strength",
      .help = "A point that attracts particles or repels them (Drone 2007, 7.5.1)."},
     {.name = "vortex",
      .value = KILN_FORCE_VORTEX,
-     .members = vortex,
+     MEMBERS(vortex),
      .shortcut = "speed",
      .help = "Air that turns around an axis: a whirlwind, or water at a drain."},
     {.name = "limit",
      .value = KILN_FORCE_LIMIT,
-     .members = limit,
+     MEMBERS(limit),
      .shortcut = "speed",
      .help = "An upper limit of the speed. Of several limits, the lowest counts."},
     {.name = "wind",
      .variant = "uniform",
      .value = KILN_FORCE_WIND,
-     .members = wind,
+     MEMBERS(wind),
      .shortcut = "velocity",
      .help = "Air that has the same velocity everywhere."},
     {.name = "wind",
      .variant = "curl",
      .value = KILN_FORCE_CURL,
-     .members = curl,
+     MEMBERS(curl),
      .help = "Another way to write the force curl."},
     {.name = "wind",
      .variant = "vortex",
      .value = KILN_FORCE_VORTEX,
-     .members = vortex,
+     MEMBERS(vortex),
      .help = "Another way to write the force vortex."},
     {.name = "wind",
      .variant = "grid",
      .value = KILN_FORCE_FIELD,
-     .members = grid,
+     MEMBERS(grid),
      .help = "Air whose velocities come from a file (UberFlow 2004, 4.2)."},
     {.name = NULL},
 };

@@ -2,7 +2,7 @@
  * row in kiln_interaction_kinds and a table of members. */
 #include "scene/rows.h"
 
-#define AT(field) offsetof(struct kiln_interaction, field)
+#define FILLS struct kiln_interaction
 
 static const char *const contact_modes[] = {
     [KILN_CONTACT_EXACT] = "exact",
@@ -10,7 +10,7 @@ static const char *const contact_modes[] = {
     NULL,
 };
 
-static const struct kiln_option collide[] = {
+TABLE(collide) = {
     CHOICE(
         MOTION, "mode", mode, contact_modes, "exact",
         "`exact` misses no pair that touches. `staggered` tests 8 neighbours to each side in the "
@@ -25,7 +25,7 @@ static const struct kiln_option collide[] = {
           "energy."),
     VALUE(MOTION, "apart", apart, KILN_FRACTION, 0, 1, TIME, "0.5",
           "Fraction of an overlap of two particles that is pushed apart in a round."),
-    {ROW(MOTION, "fastest", value, AT(fastest), "auto",
+    {ROW(MOTION, "fastest", value, fastest, "auto",
          "Speed of approach up to which a pair is found before it meets, for mode exact. Such a "
          "pair does not pass through each other, unless one of the two has another collision first "
          "in the same step. `auto` takes the speed from the particles of each step, up to two "
@@ -53,14 +53,14 @@ static const struct kiln_option collide[] = {
     END,
 };
 
-static const struct kiln_option gravity[] = {
+TABLE(gravity) = {
     VALUE(MOTION, "strength", strength, KILN_ACCELERATION, -1e6, 1e6, BOTH, "0.01",
           "Acceleration that each particle causes at a distance of 1 m. With a value below 0, "
           "particles repel each other."),
     VALUE(MOTION, "softening", softening, KILN_METRES, 0.0001, 1000, TIME, "5 cm",
           "Softening length: the distance below which attraction fades, as if each particle were a "
           "cloud of this size."),
-    {ROW(MOTION, "of", name, AT(of), "self",
+    {ROW(MOTION, "of", name, of, "self",
          "The system whose particles attract the particles of this system. `self` means that "
          "particles of this system attract each other. A few heavy particles that attract many "
          "light ones take little work. `strength` varies over the life of the particles that "
@@ -68,7 +68,7 @@ static const struct kiln_option gravity[] = {
     END,
 };
 
-static const struct kiln_option flock_global[] = {
+TABLE(flock_global) = {
     VALUE(
         MOTION, "cohesion", flock.all_cohesion, KILN_ACCELERATION, 0, 1e6, TIME, "0",
         "Acceleration towards the average position of all particles, for each metre of distance."),
@@ -77,7 +77,7 @@ static const struct kiln_option flock_global[] = {
     END,
 };
 
-static const struct kiln_option flock[] = {
+TABLE(flock) = {
     VALUE(MOTION, "radius", flock.radius, KILN_METRES, 0.001, 1000, TIME, "1 m",
           "Radius within which a particle sees others. The work grows with the number of particles "
           "that are seen."),
@@ -100,7 +100,7 @@ static const struct kiln_option flock[] = {
     VALUE(MOTION, "alignment", flock.alignment, KILN_PER_SECOND, 0, 1000, TIME, "1",
           "Rate at which a particle takes up the average velocity of the particles that it sees. "
           "Differences of velocity count up to twice `fastest`."),
-    GROUP(MOTION, "global", 0, flock_global,
+    GROUP(MOTION, "global", flock_global,
           "Cohesion and alignment with all particles of the system at any distance, as in the "
           "paper."),
     VALUE(MOTION, "acceleration", flock.acceleration, KILN_ACCELERATION, 0, 1e6, TIME, "20 m/s^2",
@@ -112,10 +112,10 @@ static const struct kiln_option flock[] = {
     END,
 };
 
-const struct kiln_option_kind kiln_interaction_kinds[] = {
+PUBLIC_KINDS(kiln_interaction_kinds) = {
     {.name = "collide",
      .value = KILN_INTERACT_COLLIDE,
-     .members = collide,
+     MEMBERS(collide),
      .shortcut = "radius",
      .help = "Particles bounce off each other like balls (UberFlow 2004, 4.4 and 4.5), from the "
              "step after their birth on. They meet surfaces with their radius, but volumes and "
@@ -123,14 +123,14 @@ const struct kiln_option_kind kiln_interaction_kinds[] = {
              "faster particles collide without passing through each other."},
     {.name = "gravity",
      .value = KILN_INTERACT_GRAVITY,
-     .members = gravity,
+     MEMBERS(gravity),
      .shortcut = "strength",
      .help = "Each particle attracts all others (Drone 2007, 7.4.3), or the particles of another "
              "system attract the particles of this one. The work grows with the number that "
              "attract times the number that are attracted."},
     {.name = "flock",
      .value = KILN_INTERACT_FLOCK,
-     .members = flock,
+     MEMBERS(flock),
      .shortcut = "radius",
      .help = "Particles fly like birds (Drone 2007, 7.4.4): they keep apart, avoid each other, "
              "stay together and fly the same way. Forces add goals and dangers: attract is a goal, "

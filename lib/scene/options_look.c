@@ -5,10 +5,7 @@
  * of the clip or over BOTH that and a particle's life. */
 #include "scene/rows.h"
 
-#define AT(field) offsetof(struct kiln_look, field)
-
-_Static_assert(AT(rows) == AT(columns) + sizeof(uint32_t),
-               "the option `cells` writes columns and rows as an array of two");
+#define FILLS struct kiln_look
 
 static const char *const blends[] = {
     [KILN_BLEND_ALPHA] = "alpha",
@@ -33,7 +30,7 @@ static const char *const line_ends[] = {
     NULL,
 };
 
-static const struct kiln_option point[] = {
+TABLE(point) = {
     VALUE(
         LOOK, "size", point_size, KILN_PIXELS, 0, 10000, BOTH, "0 px",
         "Diameter of a point in pixels; 0 uses look.size, in metres. A point of less than a pixel "
@@ -42,7 +39,7 @@ static const struct kiln_option point[] = {
     END,
 };
 
-static const struct kiln_option line[] = {
+TABLE(line) = {
     VALUE(LOOK, "width", line_width, KILN_PIXELS, 0, 1000, BOTH, "1.5 px",
           "Width of a line in pixels. A line of less than a pixel is drawn a pixel wide, and "
           "fainter."),
@@ -59,8 +56,8 @@ static const char *const orients[] = {
     NULL,
 };
 
-static const struct kiln_option mesh[] = {
-    {ROW(LOOK, "file", mesh, AT(mesh.file), "none",
+TABLE(mesh) = {
+    {ROW(LOOK, "file", mesh, mesh.file, "none",
          "An OBJ, glTF or GLB file of triangles, z ahead and y up. Its materials are left out. The "
          "longest edge of its bounding box is scaled to the size.")},
     CHOICE(LOOK, "orient", mesh.orient, orients, "velocity",
@@ -79,7 +76,7 @@ static const char *const patterns[] = {
     NULL,
 };
 
-static const struct kiln_option sphere[] = {
+TABLE(sphere) = {
     CHOICE(
         LOOK, "pattern", sphere.pattern, patterns, "plain",
         "`plain` has one colour. `stripe` draws look.color as a band about the equator. `segments` "
@@ -107,7 +104,7 @@ static const char *const greens[] = {
     NULL,
 };
 
-static const struct kiln_option fade[] = {
+TABLE(fade) = {
     VALUE(LOOK, "in", fade_in, KILN_FRACTION, 0, 1, TIME, "0.1",
           "Fraction of the life in which a particle fades in to its full opacity."),
     VALUE(LOOK, "out", fade_out, KILN_FRACTION, 0, 1, TIME, "0.3",
@@ -115,15 +112,15 @@ static const struct kiln_option fade[] = {
     END,
 };
 
-const struct kiln_option kiln_options_look[] = {
-    {ROW(LOOK, "atlas", assets, AT(atlas), "\"builtin:smoke\"",
+PUBLIC_TABLE(kiln_options_look) = {
+    {ROW(LOOK, "atlas", assets, atlas, "\"builtin:smoke\"",
          "The texture, whose cells play in order. Of several textures, each particle gets one."),
-     .count_offset = AT(atlas_count), .max_count = KILN_MAX_TEXTURES},
-    {ROW(LOOK, "cells", pair, AT(columns), "[8, 8]",
+     COUNTED(atlas, atlas_count)},
+    {ROW(LOOK, "cells", pair, cells, "[8, 8]",
          "Columns and rows of cells in an atlas file. Their product is the number of cells: a "
          "built-in atlas is made with that many, and a video gives its first frames."),
      LIMITS(KILN_PLAIN, 1, 64)},
-    {ROW(LOOK, "motion", motion, AT(motion), "auto",
+    {ROW(LOOK, "motion", motion, motion, "auto",
          "An image of the motion from each cell to the next, so that few cells play smoothly: red "
          "is right, green is as `motion_green` says, 128 of 255 is no motion. `auto` takes the "
          "motion that a built-in atlas has. `none` cross-fades the cells."),
@@ -132,7 +129,7 @@ const struct kiln_option kiln_options_look[] = {
            "Where green of a motion file points: `up` as in Houdini and Unity, or `down` as in "
            "Unreal. `auto` is what FILE.json says beside FILE_motion.png, where kiln wrote them; "
            "without it, `up`."),
-    {ROW(LOOK, "motion_scale", motion_scale, AT(motion_scale), "auto",
+    {ROW(LOOK, "motion_scale", motion_scale, motion_scale, "auto",
          "Motion that full red and full green of a motion file stand for, in edges of a cell. A "
          "pair is for files whose axes have scales of their own, a negative number for vectors "
          "that point back. `auto` is the scale of FILE.json beside FILE_motion.png, where kiln "
@@ -160,10 +157,10 @@ const struct kiln_option kiln_options_look[] = {
         "can."),
     VECTOR(LOOK, "axis", axis, KILN_PLAIN, -FAR, FAR, TIME, "[0, 1, 0]",
            "Axis that axial billboards turn about, of any length but 0."),
-    GROUP(LOOK, "point", 0, point, "How points look."),
-    GROUP(LOOK, "line", 0, line, "How lines look."),
-    GROUP(LOOK, "sphere", 0, sphere, "How spheres look."),
-    GROUP(LOOK, "mesh", 0, mesh,
+    GROUP(LOOK, "point", point, "How points look."),
+    GROUP(LOOK, "line", line, "How lines look."),
+    GROUP(LOOK, "sphere", sphere, "How spheres look."),
+    GROUP(LOOK, "mesh", mesh,
           "How meshes look. All of them are instances of one mesh from a file."),
     VALUE(LOOK, "stretch", stretch, KILN_SECONDS, 0, 10, BOTH, "0 s",
           "The billboard is longer along the velocity by the speed times this. 0 keeps it square."),
@@ -189,7 +186,7 @@ const struct kiln_option kiln_options_look[] = {
           "Temperature of the black body whose colour the particle glows with; 0 is no glow."),
     VALUE(LOOK, "intensity", intensity, KILN_PLAIN, 0, 1000000, BOTH, "1",
           "Factor on emitted light."),
-    GROUP(LOOK, "fade", 0, fade, "Opacity at birth and death."),
+    GROUP(LOOK, "fade", fade, "Opacity at birth and death."),
     VALUE(LOOK, "soft", soft, KILN_PER_METRE, 0, 1000, BOTH, "2",
           "How fast a particle fades where it nears a surface. A larger value fades over a shorter "
           "distance. 0 gives a hard edge."),

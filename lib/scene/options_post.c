@@ -4,7 +4,7 @@
 
 #include "scene/rows.h"
 
-#define AT(field) offsetof(struct kiln_post, field)
+#define FILLS struct kiln_post
 
 static const char *const composes[] = {
     [KILN_COMPOSE_MERGED] = "merged",
@@ -53,7 +53,7 @@ bool kiln_tonemap_find(const char *name, enum kiln_tonemap *tonemap)
     return false;
 }
 
-static const struct kiln_option particles[] = {
+TABLE(particles) = {
     CHOICE(LOOK, "resolution", resolution, resolutions, "full",
            "Width of the picture that particles are drawn into, as a part of the frame's width. A "
            "smaller picture is faster and softer. It suits large, soft sprites."),
@@ -64,7 +64,7 @@ static const struct kiln_option particles[] = {
     END,
 };
 
-static const struct kiln_option bloom[] = {
+TABLE(bloom) = {
     CHOICE(LOOK, "kind", bloom, bloom_kinds, "pyramid",
            "How the glow is spread: gaussian evenly around, by `sigma`; pyramid into a bright core "
            "and a wide skirt, by `radius`. Both look the same in pictures of all sizes. thesis is "
@@ -83,15 +83,15 @@ static const struct kiln_option bloom[] = {
     END,
 };
 
-const struct kiln_option kiln_options_post[] = {
+PUBLIC_TABLE(kiln_options_post) = {
     CHOICE(LOOK, "compose", compose, composes, "merged",
            "`merged` sorts fire and smoke together. `separate` draws fire over smoke. `alpha` "
            "works like "
            "`merged`, and fire covers what is behind it. `oit` works like `merged`, and sorts the "
            "particles "
            "of each pixel on its own, by the depths that the pixel sees (look.thickness)."),
-    GROUP(LOOK, "particles", 0, particles, "How finely particles are drawn."),
-    GROUP(LOOK, "bloom", 0, bloom, "The glow around bright things."),
+    GROUP(LOOK, "particles", particles, "How finely particles are drawn."),
+    GROUP(LOOK, "bloom", bloom, "The glow around bright things."),
     VALUE(LOOK, "exposure", exposure, KILN_STOPS, -20, 20, TIME, "0",
           "Exposure in stops; each stop doubles the light."),
     CHOICE(LOOK, "tonemap", tonemap, tonemaps, "agx",

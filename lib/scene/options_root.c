@@ -1,16 +1,16 @@
 /* This file has the option tables of the top of a scene: its output, clock, camera and systems. */
 #include "scene/rows.h"
 
-#define AT(field) offsetof(struct kiln_camera, field)
+#define FILLS struct kiln_camera
 
-static const struct kiln_option shutter[] = {
+TABLE(shutter) = {
     INTEGER(ORDER, "samples", shutter_samples, 1, 256, "1",
             "Number of moments whose mean is a frame. 1 gives a sharp picture. A moment that lies "
             "within a simulation step is drawn between the states before and after that step."),
-    {ROW(ORDER, "angle", number, AT(shutter_angle), "180 deg",
+    {ROW(ORDER, "angle", number, shutter_angle, "180 deg",
          "Shutter angle: 360 deg keeps the shutter open for the whole time of a frame."),
      LIMITS(KILN_ANGLE, KILN_DEG(1), KILN_DEG(360))},
-    {ROW(ORDER, "phase", number, AT(shutter_phase), "0 deg",
+    {ROW(ORDER, "phase", number, shutter_phase, "0 deg",
          "Part of a frame's time, of 360 deg, after which the first moment lies: of a sharp "
          "picture, its only one. Clips of several phases are the frames of a slow motion of the "
          "same simulation."),
@@ -18,7 +18,7 @@ static const struct kiln_option shutter[] = {
     END,
 };
 
-static const struct kiln_option camera[] = {
+TABLE(camera) = {
     VECTOR(ORDER, "position", position, KILN_METRES, -FAR, FAR, TIME, "[0, 1.5, 6]",
            "Position of the eye."),
     VECTOR(ORDER, "target", target, KILN_METRES, -FAR, FAR, TIME, "[0, 1, 0]",
@@ -33,27 +33,25 @@ static const struct kiln_option camera[] = {
           "Diameter of the lens, which blurs what is out of focus: a point at distance d is a disc "
           "of diameter aperture * |d - focus| / d in the plane of focus. 0 m is a pinhole, which "
           "blurs nothing. It takes output.samples or camera.shutter.samples."),
-    {ROW(ORDER, "focus", value, AT(focus), "target",
+    {ROW(ORDER, "focus", value, focus, "target",
          "Distance along the line of sight at which the picture is sharp. target is the distance "
          "of the point that the camera looks at."),
      LIMITS(KILN_METRES, 0.001, 1000000), .clocks = TIME, .special_word = "target"},
-    GROUP(ORDER, "shutter", 0, shutter, "Motion blur: a frame is the mean of several moments."),
+    GROUP(ORDER, "shutter", shutter, "Motion blur: a frame is the mean of several moments."),
     END,
 };
 
-#undef AT
-#define AT(field) offsetof(struct kiln_scene, field)
+#undef FILLS
+#define FILLS struct kiln_scene
 
-_Static_assert(AT(height) == AT(width) + sizeof(uint32_t), "size is read as a pair");
-
-static const struct kiln_option output[] = {
-    {ROW(LOOK, "size", pair, AT(width), "[1280, 720]", "Width and height of the pictures."),
+TABLE(output) = {
+    {ROW(LOOK, "size", pair, size, "[1280, 720]", "Width and height of the pictures."),
      LIMITS(KILN_PIXELS, KILN_MIN_EDGE, KILN_MAX_EDGE)},
     INTEGER(ORDER, "samples", pixel_samples, 1, 256, "1",
             "Number of places in each pixel whose mean is its colour, by a filter that reaches a "
             "pixel beyond its middle: 4 or 16 for a still with smooth edges. A frame is drawn once "
             "for each of them; moments of the shutter count as such."),
-    {ROW(ORDER, "fps", rational, AT(fps), "30",
+    {ROW(ORDER, "fps", rational, fps, "30",
          "Frames a second: 30, 30000/1001 or 29.97 (= 2997/100)."),
      LIMITS(KILN_PLAIN, 1, KILN_MAX_RATE)},
     INTEGER(LOOK, "frames", frames, 1, KILN_MAX_FRAMES, "150", "Number of frames in the clip."),
@@ -68,12 +66,12 @@ static const char *const integrations[] = {
     NULL,
 };
 
-static const struct kiln_option simulation[] = {
-    {ROW(MOTION, "rate", rational, AT(rate), "auto",
+TABLE(simulation) = {
+    {ROW(MOTION, "rate", rational, rate, "auto",
          "Simulation steps a second, a whole multiple of output.fps. `auto` takes the smallest "
          "rate that is at least 60."),
      LIMITS(KILN_PLAIN, 1, 100000), .special_word = "auto"},
-    {ROW(MOTION, "warmup", number, AT(warmup_s), "0 s",
+    {ROW(MOTION, "warmup", number, warmup_s, "0 s",
          "Time that is simulated before the first frame, in whole steps. Clip time is negative "
          "during the warm-up."),
      LIMITS(KILN_SECONDS, 0, 100000)},
@@ -88,20 +86,19 @@ static const struct kiln_option simulation[] = {
     END,
 };
 
-const struct kiln_option kiln_options_root[] = {
+PUBLIC_TABLE(kiln_options_root) = {
     INTEGER(LOOK, "kiln", format_version, 1, 1, NULL, "Version of the scene format."),
     INTEGER(MOTION, "seed", seed, 0, UINT32_MAX, "0",
             "Another seed gives another run of the same scene."),
-    GROUP(ORDER, "output", 0, output, "The clip."),
-    GROUP(MOTION, "simulation", 0, simulation, "The clock of the simulation."),
-    GROUP(ORDER, "camera", AT(camera), camera, "The camera that takes the pictures."),
-    GROUP(MOTION, "backdrop", AT(backdrop), kiln_options_backdrop,
-          "Sky, sun, floor, objects and lights around the particles."),
-    {ROW(MOTION, "systems", map, AT(systems), "{}", "The particle systems by their names."),
-     .members = kiln_options_system, .item_size = sizeof(struct kiln_system),
-     .count_offset = AT(system_count), .max_count = KILN_MAX_SYSTEMS},
-    GROUP(LOOK, "post", AT(post), kiln_options_post,
-          "Post-processing: composition, bloom, exposure and tone mapping turn light into the "
-          "picture."),
+    GROUP(ORDER, "output", output, "The clip."),
+    GROUP(MOTION, "simulation", simulation, "The clock of the simulation."),
+    GROUP_AT(ORDER, "camera", camera, camera, "The camera that takes the pictures."),
+    GROUP_AT(MOTION, "backdrop", backdrop, kiln_options_backdrop,
+             "Sky, sun, floor, objects and lights around the particles."),
+    MAP(MOTION, "systems", systems, kiln_options_system, system_count, "{}",
+        "The particle systems by their names."),
+    GROUP_AT(LOOK, "post", post, kiln_options_post,
+             "Post-processing: composition, bloom, exposure and tone mapping turn light into the "
+             "picture."),
     END,
 };

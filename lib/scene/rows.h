@@ -25,8 +25,7 @@
 /* name, field, default, help */
 #define BOUNDS(part, n, f, def, h)                                                                 \
     {                                                                                              \
-        ROW(part, n, bounds, AT(f), def, h), LIMITS(KILN_METRES, -FAR, FAR),                       \
-            .special_word = "none"                                                                 \
+        ROW(part, n, bounds, f, def, h), LIMITS(KILN_METRES, -FAR, FAR), .special_word = "none"    \
     }
 
 #endif

@@ -194,7 +194,12 @@ struct kiln_motion_scale {
 struct kiln_look {
     const char *atlas[KILN_MAX_TEXTURES]; /* "builtin:NAME" or absolute file paths, of which each */
     uint32_t atlas_count;                 /* particle gets one */
-    uint32_t columns, rows;               /* cells of each atlas */
+    union {                               /* cells of each atlas; an option fills both at once */
+        uint32_t cells[2];
+        struct {
+            uint32_t columns, rows;
+        };
+    };
     const char *motion; /* "none", "auto" (of built-in atlases) or an absolute file path */
     enum kiln_motion_green motion_green;
     struct kiln_motion_scale motion_scale;
@@ -430,7 +435,12 @@ struct kiln_scene {
 
     uint32_t format_version; /* always 1 */
     uint32_t seed;
-    uint32_t width, height; /* px */
+    union { /* px; an option fills both at once */
+        uint32_t size[2];
+        struct {
+            uint32_t width, height;
+        };
+    };
     uint32_t pixel_samples; /* places in each pixel that are averaged */
     struct kiln_rational fps;
     uint32_t frames;

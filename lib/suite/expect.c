@@ -62,18 +62,15 @@ static void describe_hex(const struct kiln_option *option, struct kiln_text *out
     kiln_text_add(out, "a hash of %.0f hex digits", option->max);
 }
 
-static const struct kiln_option_type type_hex = {.read = read_hex, .describe = describe_hex};
+typedef const char *kiln_fills_hex;
+static const struct kiln_option_type kiln_type_hex = {.read = read_hex, .describe = describe_hex};
 
-#define AT(field) offsetof(struct kiln_expect_pixels, field)
+#define FILLS struct kiln_expect_pixels
 
-static const struct kiln_option pixels_rows[] = {
-    {.name = "hash", .type = &type_hex, .offset = AT(hash), LIMITS(KILN_PLAIN, 64, 64)},
-    {.name = "golden",
-     .type = &type_hex,
-     .offset = AT(golden),
-     .fallback = "\"\"",
-     LIMITS(KILN_PLAIN, 0, 64)},
-    {ROW(NO_PART, "kiln", text, AT(kiln), "\"\"", "State and pixels that were accepted."),
+TABLE(pixels_rows) = {
+    {ROW(NO_PART, "hash", hex, hash, NULL, NULL), LIMITS(KILN_PLAIN, 64, 64)},
+    {ROW(NO_PART, "golden", hex, golden, "\"\"", NULL), LIMITS(KILN_PLAIN, 0, 64)},
+    {ROW(NO_PART, "kiln", text, kiln, "\"\"", "State and pixels that were accepted."),
      LIMITS(KILN_PLAIN, 0, 60)},
     END,
 };
@@ -116,19 +113,16 @@ static void describe_pixels(const struct kiln_option *option, struct kiln_text *
     kiln_text_add(out, "{device: {hash: ..., golden: ...}, ...}");
 }
 
-static const struct kiln_option_type type_pixels = {.read = read_pixels,
-                                                    .describe = describe_pixels};
+typedef struct kiln_expect_frame kiln_fills_pixels;
+static const struct kiln_option_type kiln_type_pixels = {.read = read_pixels,
+                                                         .describe = describe_pixels};
 
-#undef AT
-#define AT(field) offsetof(struct kiln_expect_frame, field)
+#undef FILLS
+#define FILLS struct kiln_expect_frame
 
-static const struct kiln_option frame_rows[] = {
-    {.name = "state",
-     .type = &type_hex,
-     .offset = AT(state),
-     .fallback = "\"\"",
-     LIMITS(KILN_PLAIN, 0, 16)},
-    {.name = "pixels", .type = &type_pixels, .offset = 0, .fallback = "{}"},
+TABLE(frame_rows) = {
+    {ROW(NO_PART, "state", hex, state, "\"\"", NULL), LIMITS(KILN_PLAIN, 0, 16)},
+    {ROW_OF_ALL(NO_PART, "pixels", pixels, "{}", NULL)},
     END,
 };
 
@@ -177,40 +171,32 @@ static void describe_frames(const struct kiln_option *option, struct kiln_text *
     kiln_text_add(out, "{number: {state: ..., pixels: ...}, ...}");
 }
 
-static const struct kiln_option_type type_frames = {.read = read_frames,
-                                                    .describe = describe_frames};
+typedef struct document kiln_fills_document_frames;
+static const struct kiln_option_type kiln_type_document_frames = {.read = read_frames,
+                                                                  .describe = describe_frames};
 
 /* ---- the file ------------------------------------------------------------------------------- */
 
-#undef AT
-#define AT(field) offsetof(struct document, field)
+#undef FILLS
+#define FILLS struct document
 
-static const struct kiln_option technique_item = {.type = &kiln_type_text,
-                                                  LIMITS(KILN_PLAIN, 1, 60)};
+ITEM(technique_item, text, LIMITS(KILN_PLAIN, 1, 60));
 
-static const struct kiln_option rows[] = {
+TABLE(rows) = {
     INTEGER(NO_PART, "kiln_expect", version, 1, 1, NULL, "Version of the format."),
-    {.name = "scene_hash",
-     .type = &type_hex,
-     .offset = AT(scene_hash),
-     .fallback = "\"\"",
-     LIMITS(KILN_PLAIN, 0, 64)},
-    {ROW(NO_PART, "techniques", list, AT(techniques), "[]",
+    {ROW(NO_PART, "scene_hash", hex, scene_hash, "\"\"", NULL), LIMITS(KILN_PLAIN, 0, 64)},
+    LIST(NO_PART, "techniques", techniques, technique_item, technique_count, "[]",
          "Scene, kiln and device that were accepted."),
-     .item = &technique_item, .item_size = sizeof(const char *),
-     .count_offset = AT(technique_count), .max_count = KILN_TEST_MAX_TECHNIQUES},
-    {ROW(NO_PART, "limits", limits, AT(limits), "{}", "Over those of the test."),
-     .count_offset = AT(limit_count), .max_count = KILN_MAX_COLUMNS},
-    {ROW(NO_PART, "reason", text, AT(reason), "\"\"", "Why these limits."),
+    {ROW(NO_PART, "limits", limits, limits, "{}", "Over those of the test."),
+     COUNTED(limits, limit_count)},
+    {ROW(NO_PART, "reason", text, reason, "\"\"", "Why these limits."),
      LIMITS(KILN_PLAIN, 0, MAX_TEXT)},
-    {ROW(NO_PART, "warn", number, AT(warn), "-1", "A score; below 0 is the test's."),
+    {ROW(NO_PART, "warn", number, warn, "-1", "A score; below 0 is the test's."),
      LIMITS(KILN_PLAIN, -1, 1)},
-    {ROW(NO_PART, "masks", list, AT(masks), "[]", "More than those of the test."),
-     .item = &kiln_mask_item, .item_size = sizeof(struct kiln_test_mask),
-     .count_offset = AT(mask_count), .max_count = KILN_TEST_MAX_MASKS},
-    {ROW(NO_PART, "measured", limits, AT(measured), "{}", "The worst values of calibration."),
-     .count_offset = AT(measured_count), .max_count = KILN_MAX_COLUMNS},
-    {.name = "frames", .type = &type_frames, .offset = 0, .fallback = "{}"},
+    LIST(NO_PART, "masks", masks, kiln_mask_item, mask_count, "[]", "More than those of the test."),
+    {ROW(NO_PART, "measured", limits, measured, "{}", "The worst values of calibration."),
+     COUNTED(measured, measured_count)},
+    {ROW_OF_ALL(NO_PART, "frames", document_frames, "{}", NULL)},
     END,
 };
 

@@ -12,9 +12,9 @@
 #include "suite/result.h"
 
 #include <math.h>
-#include <stddef.h>
 
 #include "base/error.h"
+#include "base/field.h"
 #include "suite/result_member.h"
 
 static const char *const judged_by_names[KILN_JUDGED_BY_COUNT] = {
@@ -65,7 +65,9 @@ size_t kiln_result_worst_frame(const struct kiln_result *result)
 /* A row of a table: the name, the kind, and where the member is in the struct. */
 #define MEMBER(type, kind, name)                                                                   \
     {                                                                                              \
-#name, KILN_MEMBER_##kind, offsetof(struct type, name)                                     \
+#name, KILN_MEMBER_##kind,                                                                 \
+            KILN_FIELD_OFFSET(struct type, name, kiln_member_of_##kind,                            \
+                              #name " is not of the C type of KILN_MEMBER_" #kind)                 \
     }
 #define MEMBERS_END                                                                                \
     {                                                                                              \

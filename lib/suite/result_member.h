@@ -21,6 +21,17 @@ enum kiln_member_kind {
     KILN_MEMBER_END
 };
 
+/* The C type of a member of a kind. A row of a member that has another type does not compile. */
+typedef const char *kiln_member_of_TEXT;
+typedef const char *kiln_member_of_FILE;
+typedef char kiln_member_of_NAME[KILN_METRIC_NAME_SIZE];
+typedef uint32_t kiln_member_of_UINT32;
+typedef double kiln_member_of_DOUBLE;
+typedef bool kiln_member_of_BOOL;
+typedef enum kiln_code kiln_member_of_CODE;
+typedef enum kiln_test_status kiln_member_of_STATUS;
+typedef enum kiln_judged_by kiln_member_of_JUDGED_BY;
+
 struct kiln_member {
     const char *name;
     enum kiln_member_kind kind;

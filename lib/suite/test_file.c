@@ -51,68 +51,56 @@ static const char *const goldens[] = {
     NULL,
 };
 
-static const struct kiln_option override_item = {.type = &kiln_type_override,
-                                                 LIMITS(KILN_PLAIN, 1, MAX_TEXT)};
-static const struct kiln_option device_item = {.type = &kiln_type_device,
-                                               LIMITS(KILN_PLAIN, 1, 127)};
-static const struct kiln_option technique_item = {.type = &kiln_type_technique,
-                                                  LIMITS(KILN_PLAIN, 1, 60)};
+ITEM(override_item, override, LIMITS(KILN_PLAIN, 1, MAX_TEXT));
+ITEM(device_item, device, LIMITS(KILN_PLAIN, 1, 127));
+ITEM(technique_item, technique, LIMITS(KILN_PLAIN, 1, 60));
 
-#define AT(field) offsetof(struct document, field)
+#define FILLS struct document
 
-/* name, field, item, count, largest count, help */
-#define LIST(n, f, i, c, most, h)                                                                  \
-    {                                                                                              \
-        ROW(NO_PART, n, list, AT(f), "[]", h), .item = &(i), .kind_offset = KILN_KIND_NONE,        \
-                                               .item_size = sizeof((struct document *)0)->f[0],    \
-                                               .count_offset = AT(c), .max_count = most            \
-    }
 /* name, field, smallest and largest length, default, help */
 #define TEXT(n, f, least, def, h)                                                                  \
     {                                                                                              \
-        ROW(NO_PART, n, text, AT(f), def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                  \
+        ROW(NO_PART, n, text, f, def, h), LIMITS(KILN_PLAIN, least, MAX_TEXT)                      \
     }
 
-static const struct kiln_option rows[] = {
+TABLE(rows) = {
     INTEGER(NO_PART, "kiln_test", version, 1, 1, NULL, "Version of the format of test files."),
     TEXT("scene", scene, 1, NULL, "The scene's path, from the test file's folder."),
     TEXT("about", about, 0, "\"\"", "Purpose of the test, which reports show."),
-    LIST("set", set, override_item, set_count, MAX_OVERRIDES, "Changes of keys of the scene."),
-    {ROW(NO_PART, "size", size, AT(size), "scene", "Width and height of the pictures."),
+    LIST(NO_PART, "set", set, override_item, set_count, "[]", "Changes of keys of the scene."),
+    {ROW(NO_PART, "size", size, size, "scene", "Width and height of the pictures."),
      LIMITS(KILN_PIXELS, 16, 16384)},
-    {ROW(NO_PART, "frames", frames, AT(frames), "auto",
+    {ROW(NO_PART, "frames", frames, frames, "auto",
          "The frames to judge. auto takes the middle frame and the last frame of the scene."),
-     .count_offset = AT(frame_count), .max_count = KILN_TEST_MAX_FRAMES},
+     COUNTED(frames, frame_count)},
     CHOICE(NO_PART, "format", format, formats, "png", "Format of the pictures, goldens included."),
     CHOICE(NO_PART, "golden", golden, goldens, "picture",
            "What is kept of an accepted frame: pictures, or only the hashes of state and pixels. "
            "With hashes alone, any change fails."),
-    LIST("devices", devices, device_item, device_count, KILN_TEST_MAX_DEVICES,
+    LIST(NO_PART, "devices", devices, device_item, device_count, "[]",
          "Devices to test. Several devices make a test for each. A test is skipped where its "
          "device is missing. With none, the device of the run is used."),
-    LIST("techniques", techniques, technique_item, technique_count, KILN_TEST_MAX_TECHNIQUES,
+    LIST(NO_PART, "techniques", techniques, technique_item, technique_count, "[]",
          "Techniques of stages. Other stages use cpu or, where a stage has no such technique, its "
          "first one."),
-    {ROW(NO_PART, "limits", limits, AT(limits), "{}",
+    {ROW(NO_PART, "limits", limits, limits, "{}",
          "The worst values that pass, in place of the default limits, which "
          "are " KILN_COMPARE_DEFAULT_LIMITS "."),
-     .count_offset = AT(limit_count), .max_count = KILN_MAX_COLUMNS},
+     COUNTED(limits, limit_count)},
     TEXT("reason", reason, 0, "\"\"", "Reason for these limits."),
-    {ROW(NO_PART, "warn", number, AT(warn), "0.5",
+    {ROW(NO_PART, "warn", number, warn, "0.5",
          "A frame that passes with a score above this is a warning. A score of 1 is just within "
          "the limits."),
      LIMITS(KILN_PLAIN, 0, 1)},
-    {ROW(NO_PART, "threshold", number, AT(threshold), "2",
+    {ROW(NO_PART, "threshold", number, threshold, "2",
          "Threshold in 1/255 of sRGB's range. Pixels that differ by more are counted."),
      LIMITS(KILN_PLAIN, 0, 255)},
     INTEGER(
         NO_PART, "window", window, 1, 16384, "32",
         "Edge in pixels of the window that is searched for where differing pixels are densest."),
-    {ROW(NO_PART, "masks", list, AT(masks), "[]", "Parts of the pictures that are not judged."),
-     .item = &kiln_mask_item, .kind_offset = KILN_KIND_NONE,
-     .item_size = sizeof(struct kiln_test_mask), .count_offset = AT(mask_count),
-     .max_count = KILN_TEST_MAX_MASKS},
-    {ROW(NO_PART, "time_limit", number, AT(time_limit_s), "120 s",
+    LIST(NO_PART, "masks", masks, kiln_mask_item, mask_count, "[]",
+         "Parts of the pictures that are not judged."),
+    {ROW(NO_PART, "time_limit", number, time_limit_s, "120 s",
          "Time limit. A test that takes longer is stopped."),
      LIMITS(KILN_SECONDS, 0.1, 86400)},
     END,

@@ -303,17 +303,16 @@ static void describe_mask(const struct kiln_option *option, struct kiln_text *ou
 
 const struct kiln_option_type kiln_type_mask = {.read = read_mask, .describe = describe_mask};
 
-#define AT(field) offsetof(struct kiln_test_mask, field)
+#define FILLS struct kiln_test_mask
 
-static const struct kiln_option mask_members[] = {
-    {ROW(NO_PART, "rect", rectangle, AT(rect), "none",
-         "Parts of the pictures that are not judged."),
+TABLE(mask_members) = {
+    {ROW(NO_PART, "rect", rectangle, rect, "none", "Parts of the pictures that are not judged."),
      LIMITS(KILN_PLAIN, 0, 16384)},
-    {ROW(NO_PART, "picture", text, AT(picture), "\"\"",
+    {ROW(NO_PART, "picture", text, picture, "\"\"",
          "A picture of the same size. Places where it is black are not judged."),
      LIMITS(KILN_PLAIN, 0, 4000)},
-    {ROW(NO_PART, "reason", text, AT(reason), "\"\"", "Why not."), LIMITS(KILN_PLAIN, 0, 4000)},
+    {ROW(NO_PART, "reason", text, reason, "\"\"", "Why not."), LIMITS(KILN_PLAIN, 0, 4000)},
     END,
 };
 
-const struct kiln_option kiln_mask_item = {.type = &kiln_type_mask, .members = mask_members};
+const struct kiln_option kiln_mask_item = {.type = &kiln_type_mask, MEMBERS(mask_members)};

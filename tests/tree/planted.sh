@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks that includes.sh, symbols.sh and uniforms.sh find faults: planted.sh CC. If this fails, one
-# of them passes a tree that breaks its rules. In a small tree, each rule is broken once, and the
-# script must name the place.
+# Checks that includes.sh, symbols.sh, uniforms.sh and rows.sh find faults, and that rows of option
+# tables with faults do not compile: planted.sh CC. If this fails, a tree passes that breaks the
+# rules. In a small tree, each rule is broken once, and the script or the compiler must say so.
 set -euo pipefail
 compiler=$1
 scripts=$(dirname "$(realpath "$0")")
@@ -82,6 +82,90 @@ refused "a bare location in a shader" \
 plant && echo 'layout(location=1, binding = 2)uniform sampler2D smoke;' >shaders/draw/light/smoke_blur.frag
 refused "a bare location beside a binding" \
     'shaders/draw/light/smoke_blur.frag:1: the location of a uniform is a bare number' uniforms
+
+rows() { "$scripts/rows.sh" "$tree"; }
+
+plant && echo '{ROW(NO_PART, "size", pair, size, NULL, NULL)}, r->offset = 4' >lib/sort/keys.h
+rows >/dev/null
+plant && printf '\n{.name = "size", .type = &kiln_type_pair, .offset = AT(size)},\n' >lib/sort/keys.h
+refused "a row with an offset" 'lib/sort/keys.h:2:{.name = "size", .type = &kiln_type_pair, .offset' rows
+
+# row CC ROW: compiles a table with this row, in the source tree's lib/.
+source=$(realpath "$scripts/../..")
+row() {
+    "$1" -std=c17 -Wall -Wextra -Wconversion -pedantic -Werror -fsyntax-only -I "$source/lib" -I "$source/shaders" \
+        -x c - <<C
+#include "option/rows.h"
+enum shade { LIGHT, DARK };
+struct lid { bool tight; };
+struct bean { const char *name; double size_m; };
+struct pot {
+    double height_m;
+    uint32_t handles, bean_count, size[2], other_count;
+    bool full;
+    enum shade shade;
+    const char *label, *marks[3];
+    struct lid lid;
+    struct bean beans[4];
+};
+static const char *const shades[] = {"light", "dark", NULL};
+#define FILLS struct lid
+TABLE(lid) = {BOOLEAN(NO_PART, "tight", tight, "true", ""), END};
+#undef FILLS
+#define FILLS struct bean
+TABLE(bean) = {{ROW(NO_PART, "size", number, size_m, "0", "")}, END};
+ITEM(mark, text, LIMITS(KILN_PLAIN, 0, 9));
+#undef FILLS
+#define FILLS struct pot
+TABLE(pot) = {BOOLEAN(NO_PART, "full", full, "true", ""), END};
+KINDS(kinds) = {{.name = "pot", MEMBERS(pot)}, {.name = NULL}};
+TABLE(rows) = {
+    $2,
+    END,
+};
+const void *tables(int i)
+{
+    const void *const all[] = {rows, lid, bean, pot, kinds, &mark, shades};
+    return all[i];
+}
+C
+}
+
+# fits ROW: the compilers take it. unfit ROW MESSAGE: they refuse it with the message.
+compilers=("$compiler")
+if command -v clang >/dev/null; then compilers+=(clang); fi
+fits() { for cc in "${compilers[@]}"; do row "$cc" "$1"; done; }
+unfit() { for cc in "${compilers[@]}"; do refused "$1 by $cc" "$2" row "$cc" "$1"; done; }
+
+fits '{ROW(NO_PART, "height", number, height_m, NULL, "")}'
+unfit '{ROW(NO_PART, "height", integer, height_m, NULL, "")}' \
+    'height_m is not of the C type that kiln_type_integer fills'
+unfit '{ROW(NO_PART, "handles", number, handles, NULL, "")}' \
+    'handles is not of the C type that kiln_type_number fills'
+fits '{ROW(NO_PART, "size", pair, size, NULL, "")}'
+unfit '{ROW(NO_PART, "size", pair, handles, NULL, "")}' \
+    'handles is not of the C type that kiln_type_pair fills'
+fits 'CHOICE(NO_PART, "shade", shade, shades, NULL, "")'
+unfit 'CHOICE(NO_PART, "shade", full, shades, NULL, "")' \
+    'full is not of the C type that kiln_type_choice fills'
+fits 'GROUP_AT(NO_PART, "lid", lid, lid, "")'
+unfit 'GROUP_AT(NO_PART, "lid", label, lid, "")' 'label is not of the struct that the table lid fills'
+fits 'GROUP(NO_PART, "pot", pot, "")'
+unfit 'GROUP(NO_PART, "pot", lid, "")' 'the table lid fills another struct'
+fits 'SWITCH_AT(NO_PART, "lid", lid, lid, full, "none", "")'
+unfit 'SWITCH_AT(NO_PART, "lid", lid, lid, shade, "none", "")' \
+    'shade is not of the C type that kiln_type_boolean fills'
+fits 'KIND(NO_PART, "kind", kinds, shade, NULL, "")'
+unfit 'KIND(NO_PART, "kind", kinds, height_m, NULL, "")' \
+    'height_m is not of the C type that kiln_type_choice fills'
+fits 'LIST(NO_PART, "marks", marks, mark, other_count, "[]", "")'
+unfit 'LIST(NO_PART, "marks", beans, mark, other_count, "[]", "")' \
+    'beans is not an array of what mark fills'
+unfit 'LIST(NO_PART, "marks", marks, mark, full, "[]", "")' \
+    'full is not of the C type that kiln_type_integer fills'
+fits 'MAP(NO_PART, "beans", beans, bean, bean_count, "{}", "")'
+unfit 'MAP(NO_PART, "beans", marks, bean, bean_count, "{}", "")' \
+    'marks is not an array of what bean fills'
 
 # symbols.sh is given objects in which lib/base calls a function that lib/sort defines. includes.sh
 # would not find that when the function is declared in kiln.h, which every room may include.

@@ -41,37 +41,36 @@ struct plotter {
     uint32_t mark_count;
 };
 
-#define AT(field) offsetof(struct tray, field)
+#define FILLS struct tray
 
-static const struct kiln_option tray[] = {
+TABLE(tray) = {
     INTEGER(NO_PART, "sheets", sheets, 0, 500, "100", "What is in it."),
     END,
 };
 
-#undef AT
-#define AT(field) offsetof(struct mark_of, field)
+#undef FILLS
+#define FILLS struct mark_of
 
-static const struct kiln_option dot[] = {
-    {ROW(NO_PART, "radius", number, AT(radius), "1 mm", "Of the dot."), LIMITS(KILN_METRES, 0, 1)},
+TABLE(dot) = {
+    {ROW(NO_PART, "radius", number, radius, "1 mm", "Of the dot."), LIMITS(KILN_METRES, 0, 1)},
     END,
 };
 
-static const struct kiln_option bar[] = {
-    {ROW(NO_PART, "length", number, AT(length), NULL, "Of the bar."), LIMITS(KILN_METRES, 0, 1)},
+TABLE(bar) = {
+    {ROW(NO_PART, "length", number, length, NULL, "Of the bar."), LIMITS(KILN_METRES, 0, 1)},
     END,
 };
 
-static const struct kiln_option_kind mark_kinds[] = {
-    {.name = "dot", .value = MARK_DOT, .members = dot, .shortcut = "radius", .help = "A dot."},
-    {.name = "bar", .value = MARK_BAR, .members = bar, .help = "A bar."},
+KINDS(mark_kinds) = {
+    {.name = "dot", .value = MARK_DOT, MEMBERS(dot), .shortcut = "radius", .help = "A dot."},
+    {.name = "bar", .value = MARK_BAR, MEMBERS(bar), .help = "A bar."},
     {.name = NULL},
 };
 
-static const struct kiln_option mark = {
-    .type = &kiln_type_kind, .kinds = mark_kinds, .kind_offset = AT(kind)};
+ITEM_OF_KINDS(mark, mark_kinds, kind, .name = NULL);
 
-#undef AT
-#define AT(field) offsetof(struct plotter, field)
+#undef FILLS
+#define FILLS struct plotter
 
 static const char *const media[] = {
     [MEDIUM_PAPER] = "paper",
@@ -79,41 +78,38 @@ static const char *const media[] = {
     NULL,
 };
 
-static const struct kiln_option pens[] = {
+TABLE(pens) = {
     INTEGER(NO_PART, "count", pens, 1, 8, "4", "How many."),
     END,
 };
 
-static const struct kiln_option limit[] = {
-    {ROW(NO_PART, "time", number, AT(limit_s), "60 s", "After so long it stops."),
+TABLE(limit) = {
+    {ROW(NO_PART, "time", number, limit_s, "60 s", "After so long it stops."),
      LIMITS(KILN_SECONDS, 1, 3600)},
     END,
 };
 
-static const struct kiln_option rows[] = {
+TABLE(rows) = {
     INTEGER(NO_PART, "plotter", version, 1, 1, NULL, "Version of the format."),
-    GROUP(NO_PART, "pens", 0, pens, "What it draws with."),
-    {ROW(NO_PART, "limit", switch, 0, "none", "When it gives up."), .members = limit,
-     .count_offset = AT(limited)},
-    {ROW(NO_PART, "width", pair, AT(width), "[1, 2]", "Of thin and thick lines."),
+    GROUP(NO_PART, "pens", pens, "What it draws with."),
+    SWITCH(NO_PART, "limit", limit, limited, "none", "When it gives up."),
+    {ROW(NO_PART, "width", pair, width, "[1, 2]", "Of thin and thick lines."),
      LIMITS(KILN_PIXELS, 1, 9)},
     BOOLEAN(NO_PART, "quiet", quiet, "false", "It makes no noise."),
-    {ROW(NO_PART, "rate", rational, AT(rate), "auto", "Lines a second."),
-     LIMITS(KILN_PLAIN, 1, 100), .special_word = "auto"},
-    {ROW(NO_PART, "pause", number, AT(pause_s), "0 s", "Between two lines."),
+    {ROW(NO_PART, "rate", rational, rate, "auto", "Lines a second."), LIMITS(KILN_PLAIN, 1, 100),
+     .special_word = "auto"},
+    {ROW(NO_PART, "pause", number, pause_s, "0 s", "Between two lines."),
      LIMITS(KILN_SECONDS, 0, 10)},
     CHOICE(NO_PART, "medium", medium, media, "paper", "What it draws on."),
-    {ROW(NO_PART, "title", text, AT(title), "\"\"", "What it draws."), LIMITS(KILN_PLAIN, 0, 20)},
-    {ROW(NO_PART, "room", bounds, AT(room), "none", "Where the pen may be."),
+    {ROW(NO_PART, "title", text, title, "\"\"", "What it draws."), LIMITS(KILN_PLAIN, 0, 20)},
+    {ROW(NO_PART, "room", bounds, room, "none", "Where the pen may be."),
      LIMITS(KILN_METRES, -9, 9), .special_word = "none"},
     VALUE(NO_PART, "speed", speed, KILN_SPEED, 0, 10, BOTH, "1 m/s", "Of the pen."),
     VECTOR(NO_PART, "place", place, KILN_METRES, -9, 9, TIME, "[0, 0, 0]", "Of the plotter."),
     COLOR(NO_PART, "ink", ink, 1, TIME, "0", "What it draws with."),
     RANGE(NO_PART, "pressure", pressure, KILN_PLAIN, 0, 1, TIME, "0.5", "Of the pen."),
-    {ROW(NO_PART, "trays", map, AT(trays), "{}", "The trays by their names."), .members = tray,
-     .item_size = sizeof(struct tray), .count_offset = AT(tray_count), .max_count = 2},
-    {ROW(NO_PART, "marks", list, AT(marks), "[]", "What it draws."), .item = &mark,
-     .item_size = sizeof(struct mark_of), .count_offset = AT(mark_count), .max_count = 3},
+    MAP(NO_PART, "trays", trays, tray, tray_count, "{}", "The trays by their names."),
+    LIST(NO_PART, "marks", marks, mark, mark_count, "[]", "What it draws."),
     END,
 };
 
