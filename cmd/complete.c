@@ -381,14 +381,8 @@ static const struct option *find_long(const struct command *command, const char 
                                       const char **attached)
 {
     const size_t length = strcspn(word + 2, "=");
-    for (size_t i = 0; i < command->option_count; i++) {
-        const struct option *option = &command->options[i];
-        if (strlen(option->name) != length || strncmp(word + 2, option->name, length) != 0)
-            continue;
-        *attached = word[2 + length] ? word + 3 + length : NULL;
-        return option;
-    }
-    return NULL;
+    *attached = word[2 + length] ? word + 3 + length : NULL;
+    return option_of_name(command->options, command->option_count, word + 2, length);
 }
 
 /* Finds the last option of "-n", "-qn" or "-qnVALUE"; *attached is the value, or NULL. */

@@ -28,6 +28,31 @@ struct parser {
     char **argv;
 };
 
+static bool is_name(const char *name, const char *text, size_t length)
+{
+    return name && strlen(name) == length && strncmp(name, text, length) == 0;
+}
+
+const struct option *option_of_name(const struct option *options, size_t count, const char *name,
+                                    size_t length)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (is_name(options[i].name, name, length) || is_name(options[i].older_name, name, length))
+            return &options[i];
+    }
+    return NULL;
+}
+
+const struct option *option_of_letter(const struct option *options, size_t count, char letter)
+{
+    for (size_t i = 0; letter && i < count; i++) {
+        if (options[i].letter == letter || options[i].older_letter == letter ||
+            options[i].lost_letter == letter)
+            return &options[i];
+    }
+    return NULL;
+}
+
 const char *suggest(char out[SUGGESTION_SIZE], const char *prefix, const char *found,
                     const char *const *names, size_t count)
 {
@@ -44,13 +69,19 @@ static void suggest_option(const struct parser *parser, const char *typed, char 
 {
     if (foreign_suggest(out, typed, parser->options, parser->option_count))
         return;
+    const char *name = typed + strspn(typed, "-");
+    const struct option *option =
+        option_of_name(parser->options, parser->option_count, name, strlen(name));
+    if (option) { /* one dash is missing; the name may be an older one */
+        snprintf(out, FOREIGN_SIZE, " (did you mean '--%s'?)", option->name);
+        return;
+    }
     const char *names[MAX_OPTIONS];
     size_t count = 0;
     for (; count < parser->option_count && count < MAX_OPTIONS; count++)
         names[count] = parser->options[count].name;
     char suggestion[SUGGESTION_SIZE];
-    snprintf(out, FOREIGN_SIZE, "%s",
-             suggest(suggestion, "--", typed + strspn(typed, "-"), names, count));
+    snprintf(out, FOREIGN_SIZE, "%s", suggest(suggestion, "--", name, names, count));
 }
 
 static int unknown_option(const struct parser *parser, const char *argument)
@@ -297,26 +328,29 @@ static int use_option(struct parser *parser, const struct option *option, const 
     return read_value(parser, use);
 }
 
-static int read_long(struct parser *parser, const char *argument)
+/* Warns of an older spelling of an option; `typed` has its dashes. */
+static void warn_of_older(const struct parser *parser, const char *typed,
+                          const struct option *option)
 {
-    size_t length = strcspn(argument + 2, "=");
-    for (size_t i = 0; i < parser->option_count; i++) {
-        const struct option *option = &parser->options[i];
-        if (strlen(option->name) == length && strncmp(option->name, argument + 2, length) == 0) {
-            const char *equals = argument + 2 + length;
-            return use_option(parser, option, *equals ? equals + 1 : NULL);
-        }
-    }
-    return unknown_option(parser, argument);
+    char now[64];
+    snprintf(now, sizeof now, "--%s", option->name);
+    report_deprecated(parser->place, typed, now);
 }
 
-const struct option *option_of_letter(const struct option *options, size_t count, char letter)
+static int read_long(struct parser *parser, const char *argument)
 {
-    for (size_t i = 0; i < count; i++) {
-        if (options[i].letter == letter)
-            return &options[i];
+    const size_t length = strcspn(argument + 2, "=");
+    const struct option *option =
+        option_of_name(parser->options, parser->option_count, argument + 2, length);
+    if (!option)
+        return unknown_option(parser, argument);
+    if (!is_name(option->name, argument + 2, length)) {
+        char typed[64];
+        snprintf(typed, sizeof typed, "%.*s", (int)length + 2, argument);
+        warn_of_older(parser, typed, option);
     }
-    return NULL;
+    const char *equals = argument + 2 + length;
+    return use_option(parser, option, *equals ? equals + 1 : NULL);
 }
 
 /* Reports a word of letters after one dash, of which `letter` is no option. The message is about
@@ -337,16 +371,27 @@ static int unknown_letter(const struct parser *parser, const char *argument, cha
                   advice);
 }
 
+/* Uses the option of a letter. `joined` is the rest of the word as in use_option. */
+static int use_letter(struct parser *parser, char letter, const char *joined)
+{
+    const char typed[] = {'-', letter, '\0'};
+    const struct option *option = option_of_letter(parser->options, parser->option_count, letter);
+    if (option->lost_letter == letter)
+        return report(KILN_USAGE, "%s: %s is --%s in other commands; write '--%s %s'",
+                      parser->place, typed, option->lost_to, option->name, option->placeholder);
+    if (option->older_letter == letter)
+        warn_of_older(parser, typed, option);
+    return use_option(parser, option, joined);
+}
+
 /* Reads options by their letters. As POSIX says, several letters may follow one dash: flags, and at
  * the end an option with a value. The value is the rest of the word or the next word: "-qo r.png"
  * and "-qor.png" are the same. No option is used before all letters of the word are known. */
 static int read_short(struct parser *parser, const char *argument)
 {
-    for (size_t i = 0; i < parser->option_count; i++) {
-        if (strcmp(parser->options[i].name, argument + 1) == 0) /* "-output" is not "-o utput" */
-            return unknown_option(parser, argument);
-    }
-    size_t count = 0; /* letters of the word that are options */
+    if (option_of_name(parser->options, parser->option_count, argument + 1, strlen(argument + 1)))
+        return unknown_option(parser, argument); /* "-output" is not "-o utput" */
+    size_t count = 0;                            /* letters of the word that are options */
     const struct option *option;
     do {
         const char letter = argument[1 + count++];
@@ -357,8 +402,7 @@ static int read_short(struct parser *parser, const char *argument)
     int code = 0;
     for (size_t i = 1; i <= count && code == 0; i++) {
         const char *rest = i == count && argument[1 + count] ? argument + 1 + count : NULL;
-        option = option_of_letter(parser->options, parser->option_count, argument[i]);
-        code = use_option(parser, option, rest);
+        code = use_letter(parser, argument[i], rest);
     }
     return code;
 }

@@ -26,9 +26,13 @@ enum option_kind {
 enum file_access { ACCESS_NONE, ACCESS_READ, ACCESS_WRITE };
 
 struct option {
-    const char *name; /* without its dashes */
-    char letter;      /* short form, or 0 */
-    bool repeats;     /* every use counts; otherwise, only the last use */
+    const char *name;       /* without its dashes; it means the same in every command */
+    char letter;            /* short form, or 0; it belongs to one name in all commands */
+    const char *older_name; /* an older spelling, which works with a warning; or NULL */
+    char older_letter;      /* an older short form, which works with a warning; or 0 */
+    char lost_letter;       /* an older short form, which is refused; or 0 */
+    const char *lost_to;    /* the option of other commands that has the lost letter, "dry-run" */
+    bool repeats;           /* every use counts; otherwise, only the last use */
     bool
         value_is_optional; /* the value may be left out, and must be joined by '=' if it is there */
     bool value_may_be_separate; /* with value_is_optional: the value may be the next argument, an
@@ -75,7 +79,10 @@ int arguments_parse(struct arguments *arguments, const struct option *options, s
                     const char *place, int argc, char **argv);
 void arguments_free(struct arguments *arguments);
 
-/* Returns the option of a letter, or NULL. */
+/* Return the option of a name, of which `length` bytes count, or of a letter; NULL if there is
+ * none. Older spellings are known, too, also those that arguments_parse refuses. */
+const struct option *option_of_name(const struct option *options, size_t count, const char *name,
+                                    size_t length);
 const struct option *option_of_letter(const struct option *options, size_t count, char letter);
 
 /* Returns the last use of the option of that name, or NULL. */
