@@ -5,8 +5,8 @@
  * main.c runs it through bench_command, which its table of commands lists; help and completion read
  * the same struct. What is measured is decided in lib/bench. The words of --format must keep the
  * order of enum kiln_bench_format, since the number of the word is used as the format. Scripts use
- * the names of options, so these must not be renamed. An option that has no effect on what is
- * measured must be refused by check_options. */
+ * the names of options, so an option that is renamed keeps its older name for a version. An option
+ * that has no effect on what is measured must be refused by check_options. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,8 +37,10 @@ static const struct option options[] = {
      .help = "What to print: text, JSON or CSV with a row for each measurement, or Markdown with "
              "medians side by side.",
      .fallback = "text"},
-    {.name = "repetitions",
-     .letter = 'n',
+    {.name = "repeat",
+     .older_name = "repetitions",
+     .lost_letter = 'n',
+     .lost_to = "dry-run",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
      .help = "Number of turns of a comparison. In a turn, every technique draws one frame.",
@@ -175,7 +177,7 @@ static struct kiln_bench_params make_params(const struct arguments *arguments, s
     params.techniques = lists->techniques.items;
     params.technique_count = lists->techniques.count;
     params.threads = arguments_integer(arguments, "threads", params.threads);
-    params.repetitions = arguments_integer(arguments, "repetitions", params.repetitions);
+    params.repetitions = arguments_integer(arguments, "repeat", params.repetitions);
     params.seconds = arguments_number(arguments, "seconds", params.seconds);
     params.quick = arguments_flag(arguments, "quick");
     const char *scratch = getenv("TMPDIR");

@@ -17,13 +17,14 @@
 #include "signals.h"
 
 static const struct option options[] = {
-    {.name = "limit",
-     .letter = 'l',
+    {.name = "tolerance",
+     .older_name = "limit",
+     .older_letter = 'l',
      .repeats = true,
      .splits_at_commas = true,
      .kind = OPTION_PAIRS,
      .placeholder = "METRIC=VALUE",
-     .help = "The worst value of a metric that passes; separate several limits by commas (see "
+     .help = "The worst value of a metric that passes, its limit; separate several by commas (see "
              "'kiln help metrics').",
      .fallback = KILN_COMPARE_DEFAULT_LIMITS},
     {.name = "diff",
@@ -40,7 +41,7 @@ static const struct option options[] = {
          "Write a PNG of FLIP's error map alone, in the pictures' size. Names work as for --diff."},
     {.name = "force",
      .kind = OPTION_FLAG,
-     .help = "Let --diff, --error-map and --json replace files that exist."},
+     .help = "Replace files of --diff, --error-map and --json that exist."},
     {.name = "ignore",
      .letter = 'i',
      .repeats = true,
@@ -150,9 +151,9 @@ static int report_failure(const struct kiln_error *error)
     return report((enum kiln_code)(128 + number), "compare: %s", error->message);
 }
 
-/* Reads --limit, --ignore and --mask, which may be repeated. --limit is the only option of kind
- * OPTION_PAIRS, and --ignore the only one of OPTION_RECT. Both arrays have room for as many items
- * as options were given. */
+/* Reads --tolerance, --ignore and --mask, which may be repeated. --tolerance is the only option of
+ * kind OPTION_PAIRS, and --ignore the only one of OPTION_RECT. Both arrays have room for as many
+ * items as options were given. */
 static void read_lists(const struct arguments *arguments, const char **limits,
                        struct kiln_compare_mask *masks, struct kiln_compare_params *params)
 {
@@ -224,7 +225,7 @@ const struct command compare_command = {
         "\n"
         "Exit code 0: the same within the limits; 1: different; 2: usage; 3: something cannot be "
         "read or has values that are not finite outside of masks; 6: --diff or --error-map cannot "
-        "be written. --limit replaces all default limits.",
+        "be written. --tolerance replaces all default limits.",
     .options = options,
     .option_count = sizeof options / sizeof *options,
     .least_operands = 2,

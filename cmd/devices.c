@@ -12,7 +12,7 @@ enum { MAX_DEVICES = 64 };
 
 static const struct option options[] = {
     JSON_OPTION("one object."),
-    {.name = "force", .kind = OPTION_FLAG, .help = "Let --json replace a file that exists."},
+    {.name = "force", .kind = OPTION_FLAG, .help = "Replace a file of --json that exists."},
     EVENTS_OPTION,
     HELP_OPTION,
 };

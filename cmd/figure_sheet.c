@@ -24,7 +24,7 @@ static const struct option options[] = {
      .placeholder = "KEY=VALUE;...",
      .help = "Draw a picture with these changes. Variants that follow each other are one sweep."},
     {.name = "frames",
-     .letter = 'f',
+     .older_letter = 'f',
      .kind = OPTION_FRAMES,
      .placeholder = "RANGES",
      .help = "The frame to show. Several frames, such as 0-100/10, give one picture each; 'last' "

@@ -6,7 +6,7 @@
 static const struct option options[] = {
     FIGURE_OUTPUT_OPTIONS,
     {.name = "count",
-     .letter = 'n',
+     .older_letter = 'n', /* sidecars of figures may have it */
      .kind = OPTION_INTEGER,
      .placeholder = "N",
      .help = "Number of frames, spread evenly from the first to the last.",
@@ -14,7 +14,7 @@ static const struct option options[] = {
      .min = 1,
      .max = 1024},
     {.name = "frames",
-     .letter = 'f',
+     .older_letter = 'f',
      .kind = OPTION_FRAMES,
      .placeholder = "RANGES",
      .help = "The frames to show instead, such as 0-100/10 or 3,last."},

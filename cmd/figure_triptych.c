@@ -1,7 +1,7 @@
 /* Runs kiln figure triptych, which shows a reference, a result and their difference. main.c calls
  * run for the command. figure.c parses the same options again when it checks a figure by the
- * arguments of its sidecar, so a sidecar fails its check once an option that it uses is renamed or
- * removed. figure_make.c draws the figure. */
+ * arguments of its sidecar, so a sidecar fails its check once the parser does not know an option
+ * that it uses, not even as an older spelling. figure_make.c draws the figure. */
 #include "event.h"
 #include "figure_make.h"
 

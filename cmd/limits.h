@@ -14,8 +14,8 @@
 #define TIMEOUT_OPTION                                                                             \
     {                                                                                              \
         .name = "timeout", .kind = OPTION_TIME, .placeholder = "TIME",                             \
-        .help = "End with exit code 8 after that time, loading and encoding included. The time "   \
-                "is in seconds, or has a unit: ms, s, min or h.",                                  \
+        .help = "End the command with exit code 8 after that time, loading and encoding "          \
+                "included. The time is in seconds, or has a unit: ms, s, min or h.",               \
         .fallback = "none", .min = 0.001, .max = 1e7                                               \
     }
 

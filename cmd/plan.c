@@ -44,7 +44,7 @@ static const struct option options[] = {
     TECHNIQUE_OPTION,
     THREADS_OPTION,
     JSON_OPTION("one object."),
-    {.name = "force", .kind = OPTION_FLAG, .help = "Let --json replace a file that exists."},
+    {.name = "force", .kind = OPTION_FLAG, .help = "Replace a file of --json that exists."},
     EVENTS_OPTION,
     HELP_OPTION,
 };

@@ -74,11 +74,12 @@ static const struct option options[] = {
      .fallback = "1",
      .min = 1,
      .max = 1000},
-    {.name = "time-limit",
+    {.name = "test-timeout",
+     .older_name = "time-limit",
      .kind = OPTION_TIME,
      .placeholder = "TIME",
-     .help = "Time limit of a test. A test that takes longer is ended, and is an error.",
-     .fallback = "the limits of the tests, or 120",
+     .help = "End a test that takes longer than this, as an error.",
+     .fallback = "time_limit of the test file, or 120 s",
      .min = 0.001,
      .max = 86400},
     {.name = "ignore-hashes",
@@ -312,7 +313,7 @@ static int read_options(struct test_run *run, struct test_outputs *outputs,
     params->build = build_name();
     params->against = arguments_text(arguments, "against", NULL);
     params->log = report_log();
-    run->time_limit_s = arguments_number(arguments, "time-limit", 0);
+    run->time_limit_s = arguments_number(arguments, "test-timeout", 0);
     run->lines.quiet = arguments_flag(arguments, "quiet");
     if (params->dry_run && params->update == KILN_UPDATE_NONE)
         return report(KILN_USAGE, "test: --dry-run: needs --update missing, failed or all; it "

@@ -16,7 +16,7 @@
 
 static const struct option options[] = {
     {.name = "results",
-     .letter = 'o',
+     .older_letter = 'o',
      .kind = OPTION_TEXT,
      .placeholder = "FOLDER",
      .help = "The results of the run.",

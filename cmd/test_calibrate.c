@@ -25,10 +25,11 @@ static const struct option options[] = {
      .help = "Render on this device: a number from 'kiln devices', a part of its name, 'cpu' or "
              "'software'.",
      .fallback = "'cpu', and the first GPU or the software device for techniques that need it"},
-    {.name = "renders",
+    {.name = "repeat",
+     .older_name = "renders",
      .kind = OPTION_INTEGER,
      .placeholder = "N",
-     .help = "Number of renders of each test, with different threads and techniques.",
+     .help = "Render each test N times, with different threads and techniques.",
      .fallback = "8",
      .min = 2,
      .max = 1000},
@@ -99,7 +100,7 @@ static int run(const struct arguments *arguments)
     struct kiln_calibrate_params params = kiln_calibrate_defaults();
     params.devices = devices.items;
     params.device_count = devices.count;
-    params.renders = arguments_integer(arguments, "renders", params.renders);
+    params.renders = arguments_integer(arguments, "repeat", params.renders);
     params.margin = arguments_number(arguments, "margin", params.margin);
     params.write = arguments_flag(arguments, "write");
     const char *scratch = getenv("TMPDIR");

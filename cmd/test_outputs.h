@@ -15,7 +15,7 @@
         {.name = "no-report", .kind = OPTION_FLAG, .help = "Write no page."},                      \
         {.name = "force",                                                                          \
          .kind = OPTION_FLAG,                                                                      \
-         .help = "Let reports replace files that are not reports by kiln."},                       \
+         .help = "Replace also files that are not reports by kiln."},                              \
         {.name = "link",                                                                           \
          .kind = OPTION_FLAG,                                                                      \
          .help = "Let the page refer to the pictures in the results, instead of holding them."},   \

@@ -14,7 +14,7 @@
     }
 #define RESULTS_OPTION                                                                             \
     {                                                                                              \
-        .name = "results", .letter = 'o', .kind = OPTION_TEXT, .placeholder = "FOLDER",            \
+        .name = "results", .older_letter = 'o', .kind = OPTION_TEXT, .placeholder = "FOLDER",      \
         .help =                                                                                    \
             "Folder of the results: FOLDER/TEST/result.json, pictures and log.txt. Everything in " \
             "the folder must be written by kiln, as its list .kiln-results says.",                 \

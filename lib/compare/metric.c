@@ -317,7 +317,7 @@ bool kiln_write_metrics(FILE *out)
             "\n"
             "A limit is the worst value that passes: the least value of ssim and psnr, and the "
             "greatest value\n"
-            "of the other metrics. Without --limit it is %s.\n",
+            "of the other metrics. Without --tolerance it is %s.\n",
             KILN_COMPARE_DEFAULT_LIMITS);
     return !ferror(out);
 }

@@ -40,7 +40,7 @@ CASES = [
     ("kiln render --progress nd", "kiln render --progress ndjson "),
     ("kiln test approve --as dev", "kiln test approve --as device "),
     ("kiln render --device softw", "kiln render --device software "),
-    ("kiln compare --limit flip.mea", "kiln compare --limit flip.mean="),
+    ("kiln compare --tolerance flip.mea", "kiln compare --tolerance flip.mean="),
     ("kiln render effects/to", "kiln render effects/torch.yaml "),
     ("kiln test effects/to", "kiln test effects/torch.yaml "),
     ("kiln check effects/no", {  # zsh offers other files where no scene fits

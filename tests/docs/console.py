@@ -99,7 +99,7 @@ def compare_pictures(path, lines, folder, environment):
         drawn = os.path.join(folder, f"{stem}.png")
         if not os.path.exists(drawn):
             continue
-        done = subprocess.run(["kiln", "compare", drawn, shown, "--limit",
+        done = subprocess.run(["kiln", "compare", drawn, shown, "--tolerance",
                                "flip.mean=0.04,flip.p99=0.2"], env=environment, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode:

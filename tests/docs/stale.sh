@@ -22,7 +22,7 @@ expect() {
 cp -r "$source/tests/cli/scenes" "$work/"
 cd "$work"
 "$kiln" figure sheet scenes/tiny.yaml -o docs/a/seeds.png --sweep seed=1,2
-"$kiln" figure strip scenes/tiny.yaml -o docs/strip.pdf -n 2
+"$kiln" figure strip scenes/tiny.yaml -o docs/strip.pdf --count 2
 cp -r docs/a/seeds.png before.png
 cd /
 expect 0 "$work/docs/a/seeds.png: up to date" "$kiln" figure --check "$work/docs"
@@ -32,7 +32,7 @@ expect 1 "$work/docs/a/seeds.png: stale: the scene has changed in 'seed = 1'" \
 cmp "$work/before.png" "$work/docs/a/seeds.png" # a check writes nothing
 cd "$work"
 "$kiln" figure sheet scenes/tiny.yaml -o docs/a/seeds.png --sweep seed=1,2 --force
-"$kiln" figure strip scenes/tiny.yaml -o docs/strip.pdf -n 2 --force
+"$kiln" figure strip scenes/tiny.yaml -o docs/strip.pdf --count 2 --force
 expect 0 "docs/strip.pdf: up to date" "$kiln" figure --check docs
 printf x >>docs/strip.pdf
 expect 1 "docs/strip.pdf: stale: the file is not the one that was written together with its sidecar" \

@@ -45,7 +45,7 @@ done <"$folder/$name.txt"
 
 # The limit 0 gives equal pictures the verdict "same". `kiln compare` exits with 1 if some differ.
 status=0
-"$kiln" compare --json --limit abs.max=0 "$work/before" "$work/after" >"$work/pairs" || status=$?
+"$kiln" compare --json --tolerance abs.max=0 "$work/before" "$work/after" >"$work/pairs" || status=$?
 compared=$(jq 'select(.event == "result").counts | .same + .different' "$work/pairs")
 if ((status > 1)) || [[ $compared != "${#rows[@]}" ]]; then
     echo "kiln compare: exit $status, $compared of ${#rows[@]} pictures" >&2

@@ -92,8 +92,8 @@ $ kiln bench --stage sortt scenes/tiny.yaml
 $ kiln bench --size 32x32 seed
 2|kiln: bench: --size is for scenes, and no scene is given
 = 2
-$ kiln bench --repetitions 2 seed
-2|kiln: bench: --repetitions: found '2', expected a whole number from 3 to 101
+$ kiln bench --repeat 2 seed
+2|kiln: bench: --repeat: found '2', expected a whole number from 3 to 101
 = 2
 $ kiln bench --technique sort=quick scenes/tiny.yaml --quick 2>&1 | sed 's/; there is.*//'
 1|kiln: bench: technique: sort 'quick' is not known; allowed are cpu, radix, bitonic, oddeven, auto

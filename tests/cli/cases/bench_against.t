@@ -102,7 +102,7 @@ $ kiln bench scenes/tiny.yaml --against ./same --stage sort
 
 A signal leaves nothing behind.
 
-$ mkdir scratch && (TMPDIR=$PWD/scratch exec env --default-signal timeout --foreground --preserve-status -s INT 2 kiln bench scenes/tiny.yaml --against ./same --device cpu --quiet -n 101 --seconds 100)
+$ mkdir scratch && (TMPDIR=$PWD/scratch exec env --default-signal timeout --foreground --preserve-status -s INT 2 kiln bench scenes/tiny.yaml --against ./same --device cpu --quiet --repeat 101 --seconds 100)
 2|kiln: bench: stopped by SIGINT; nothing is written
 = 130
 $ ls -A scratch

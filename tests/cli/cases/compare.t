@@ -59,23 +59,23 @@ $ kiln compare -q grey.png lighter.png
 
 Limits are the caller's, all of them.
 
-$ kiln compare -q grey.png lighter.png --limit abs.max=8 --limit psnr=30,flip.p99.9=0.2
-$ kiln compare -q grey.png lighter.png --limit abs.max=7.9
+$ kiln compare -q grey.png lighter.png --tolerance abs.max=8 --tolerance psnr=30,flip.p99.9=0.2
+$ kiln compare -q grey.png lighter.png --tolerance abs.max=7.9
 = 1
-$ kiln compare grey.png box.png -l flip.p10=0.5 --window 5 --threshold 0 | grep -E 'p10|window'
+$ kiln compare grey.png box.png --tolerance flip.p10=0.5 --window 5 --threshold 0 | grep -E 'p10|window'
 1|  window.share                1          -
 1|  flip.p10              0.17468        0.5  within
 1|  largest difference at 20,10; densest window of 5x5 at 20,10: 25 pixels
-$ kiln compare grey.png grey.png -l flip.maen=0.1
+$ kiln compare grey.png grey.png --tolerance flip.maen=0.1
 2|kiln: limit 'flip.maen=0.1': unknown metric 'flip.maen' (did you mean 'flip.mean'?)
 = 2
-$ kiln compare grey.png grey.png -l flip.mean=x
+$ kiln compare grey.png grey.png --tolerance flip.mean=x
 2|kiln: limit 'flip.mean=x': expected a number, 0 to 1
 = 2
-$ kiln compare grey.png grey.png -l flip.mean
-2|kiln: compare: --limit: found 'flip.mean', expected METRIC=VALUE
+$ kiln compare grey.png grey.png --tolerance flip.mean
+2|kiln: compare: --tolerance: found 'flip.mean', expected METRIC=VALUE
 = 2
-$ kiln compare grey.png grey.png -l flip.p200=0.5
+$ kiln compare grey.png grey.png --tolerance flip.p200=0.5
 2|kiln: limit 'flip.p200=0.5': found the percentile '200'; allowed are 0 to 100, as in flip.p99.9
 = 2
 $ kiln help metrics
@@ -93,7 +93,7 @@ $ kiln help metrics
 1|  window.share             part of the densest --window that differs by more than --threshold levels; it finds small faults
 1|
 1|A limit is the worst value that passes: the least value of ssim and psnr, and the greatest value
-1|of the other metrics. Without --limit it is flip.mean=0.01,flip.p99=0.1,window.share=0.1.
+1|of the other metrics. Without --tolerance it is flip.mean=0.01,flip.p99=0.1,window.share=0.1.
 
 What does not match is no pass.
 
@@ -191,16 +191,16 @@ $ kiln compare -q grey.png box.png --error-map out/map.exr
 What is not judged: rectangles and masks, black where nothing is.
 
 $ kiln compare -q grey.png box.png --ignore 20,10,5x5
-$ kiln compare -q grey.png box.png --ignore 20,10,5x4 --limit abs.max=0
+$ kiln compare -q grey.png box.png --ignore 20,10,5x4 --tolerance abs.max=0
 = 1
-$ kiln compare -q grey.png box.png -i 20,10,5x4 -i 0,14,4000000000x1 --limit abs.max=0
+$ kiln compare -q grey.png box.png -i 20,10,5x4 -i 0,14,4000000000x1 --tolerance abs.max=0
 $ . ./picture.sh; picture 'color=c=white:s=64x48,format=rgb24,drawbox=x=20:y=10:w=5:h=5:color=black:t=fill' mask.png
-> kiln compare -q grey.png box.png --mask mask.png --limit abs.max=0
+> kiln compare -q grey.png box.png --mask mask.png --tolerance abs.max=0
 $ . ./picture.sh; picture 'color=c=white:s=64x48,format=rgb24,drawbox=x=21:y=10:w=5:h=5:color=black:t=fill' aside.png
 > kiln compare grey.png box.png --mask aside.png | grep -E 'differing.count|largest'
 1|  differing.count             5          -
 1|  largest difference at 20,10; densest window of 32x32 at 0,0: 5 pixels
-$ kiln compare -q grey.png box.png --mask aside.png --ignore 20,0,1x48 --limit abs.max=0
+$ kiln compare -q grey.png box.png --mask aside.png --ignore 20,0,1x48 --tolerance abs.max=0
 $ kiln compare -q grey.png grey.png --ignore 0,0,64x48
 2|kiln: the masks cover all 64 x 48 pixels: nothing is left to judge
 = 2
@@ -320,10 +320,10 @@ $ kiln render scenes/tiny.yaml -q -o v.mp4 --frames 0-9
 > kiln render scenes/tiny.yaml -q -o w.mp4 --frames 0-8
 > kiln render scenes/tiny.yaml -q -o v_%02d.png --frames 0-9
 $ kiln compare -q v.mp4 v.mp4
-$ kiln compare v.mp4 w.mp4 --limit flip.mean=0.1 | grep -E 'missing'
+$ kiln compare v.mp4 w.mp4 --tolerance flip.mean=0.1 | grep -E 'missing'
 1|  9                        missing     only in the reference
 1|  10 frames: 9 same, 1 missing; the worst is 9
-$ kiln compare -q v.mp4 v_%02d.png --limit flip.mean=0.2
+$ kiln compare -q v.mp4 v_%02d.png --tolerance flip.mean=0.2
 $ head -c $(($(wc -c <v.mp4) - 1)) v.mp4 >short.mp4
 $ kiln compare -q v.mp4 short.mp4 2>&1 | sed 's/ (.*//'; echo ${PIPESTATUS[0]}
 1|short.mp4: the video is cut short
@@ -385,7 +385,7 @@ $ kiln compare -q inf.exr one.exr --range ldr
 = 3
 
 $ kiln compare -q one.exr nan.exr --ignore 1,1,1x1
-$ kiln compare -q nan.exr one.exr --ignore 1,1,1x1 --limit abs.max=0
+$ kiln compare -q nan.exr one.exr --ignore 1,1,1x1 --tolerance abs.max=0
 $ kiln compare -q inf.exr nan.exr --ignore 1,1,1x1
 2|inf.exr: pixel 1,0 has a value that is not finite
 = 3

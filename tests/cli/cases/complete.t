@@ -39,7 +39,7 @@ $ kiln complete -- render --technique sort=cpu,
 1|word	sort=cpu,bloom=gl	fragment shaders
 1|word	sort=cpu,composite=cpu	host threads, rows
 1|word	sort=cpu,composite=gl	one fragment shader
-$ kiln complete -- compare --limit ss
+$ kiln complete -- compare --tolerance ss
 1|part	ssim=	structural similarity of luma (Wang 2004): 1 for equal pictures
 $ kiln complete -- render --device ''
 1|word	cpu	this machine without OpenGL

@@ -72,7 +72,7 @@ $ kiln figure sheet scenes/tiny.yaml -o a.png --inset 0.5,0.5,0.2x0.2 --inset 0.
 $ kiln figure triptych scenes/puff.png scenes/puff.png -o a.png --inset 30,0,10x10
 2|kiln: figure triptych: --inset 30,0,10x10: found a part that is not in a picture of 32 x 32
 = 2
-$ kiln figure strip scenes/puff.png -o a.png -n 1 --inset 30,0,10x10
+$ kiln figure strip scenes/puff.png -o a.png --count 1 --inset 30,0,10x10
 2|kiln: figure strip: --inset 30,0,10x10: found a part that is not in a picture of 32 x 32
 = 2
 $ kiln figure sheet scenes/tiny.yaml -o a.png --plain --title T
@@ -171,12 +171,12 @@ $ kiln figure sheet scenes/tiny.yaml -o doc/again.png --sweep systems.*.emit.rat
 $ cmp doc/rates.png doc/again.png && rm doc/again.png*
 
 The other kinds, and vectors.
-$ kiln figure strip scenes/tiny.yaml -n 3 -o doc/strip.svg --dark && xmllint --noout doc/strip.svg
+$ kiln figure strip scenes/tiny.yaml --count 3 -o doc/strip.svg --dark && xmllint --noout doc/strip.svg
 $ kiln render scenes/tiny.yaml -q -o clip/f_####.png --frames 8-11
 $ kiln figure triptych clip/f_0008.png clip/f_0011.png -o doc/pair.pdf --inset 0.3,0.3,0.25x0.25
 $ head -c 8 doc/pair.pdf; tail -n 1 doc/pair.pdf
 1|%PDF-1.4%%EOF
-$ kiln figure strip clip/f_####.png -n 2 -o doc/clip.png
+$ kiln figure strip clip/f_####.png --count 2 -o doc/clip.png
 $ grep -o '"label": "[^"]*"' doc/clip.png.figure.json
 1|"label": "frame 8"
 1|"label": "frame 11"
@@ -193,7 +193,7 @@ $ kiln figure sheet scenes/tiny.yaml --plain --frames 8 --force -o doc/alone.jpg
 $ grep '"command"\|"size"' doc/alone.jpg.figure.json
 1|"command": ["figure", "sheet", "scenes/tiny.yaml", "--plain", "--frames", "8", "-o", "doc/alone.jpg"],
 1|"size": [64, 36],
-$ kiln compare clip/f_0008.png doc/alone.jpg --quiet --limit psnr=40
+$ kiln compare clip/f_0008.png doc/alone.jpg --quiet --tolerance psnr=40
 $ rm doc/alone.jpg
 $ kiln figure sheet scenes/tiny.yaml --plain --frames 8 -o doc/alone.jpg
 2|kiln: figure sheet: doc/alone.jpg.figure.json: the file exists (--force replaces it)

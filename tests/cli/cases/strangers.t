@@ -12,7 +12,7 @@ $ kiln check over.yaml
 $ kiln check "$(printf 'no\033]0;title\007 such\nfile.yaml')"
 2|no\x1b]0;title\x07 such\nfile.yaml: No such file or directory
 = 3
-$ kiln render scenes/tiny.yaml --progress none -o "$(printf 'a\033[2J')/%02d.png" --frames 0-1 && cp -r a* b && kiln compare a* b --limit nonsense=1
+$ kiln render scenes/tiny.yaml --progress none -o "$(printf 'a\033[2J')/%02d.png" --frames 0-1 && cp -r a* b && kiln compare a* b --tolerance nonsense=1
 1|device: <device>
 1|a\x1b[2J/00.png and 1 more: 2 frames in <s> s
 2|kiln: limit 'nonsense=1': unknown metric 'nonsense'; 'kiln help metrics' lists them

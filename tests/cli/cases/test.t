@@ -269,14 +269,14 @@ $ kiln test wrong -q --junit fire.test.yaml/junit.xml
 1|0 frames: 0 by pixels, 0 by metrics
 2|kiln: fire.test.yaml: the path is not a folder, but fire.test.yaml/junit.xml needs a folder here
 = 3
-$ kiln test slow -q --time-limit 0.25 --junit fire.test.yaml/junit.xml
+$ kiln test slow -q --test-timeout 0.25 --junit fire.test.yaml/junit.xml
 1|error   slow  took longer than 0.25 s
 1|1 test in <s> s: 1 error
 1|report: out/test/report.html
 1|0 frames: 0 by pixels, 0 by metrics
 2|kiln: fire.test.yaml: the path is not a folder, but fire.test.yaml/junit.xml needs a folder here
 = 5
-$ kiln test fire -o fire.test.yaml
+$ kiln test fire --results fire.test.yaml
 2|kiln: fire.test.yaml: cannot open the folder: Not a directory
 = 6
 $ kiln test fire --no-report >/dev/full
@@ -312,7 +312,7 @@ $ diff -r golden kept; diff -rq golden/fire out/nested/fire; rm -r kept link
 
 Shards are merged.
 
-$ kiln test fire wrong --shard 1/2 -o out/1 --no-report -q; kiln test fire wrong --shard 2/2 -o out/2 --no-report -q
+$ kiln test fire wrong --shard 1/2 --results out/1 --no-report -q; kiln test fire wrong --shard 2/2 --results out/2 --no-report -q
 1|error   wrong  wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 1|1 test in <s> s: 1 error
 1|0 frames: 0 by pixels, 0 by metrics
@@ -350,7 +350,7 @@ $ cat >child <<'END'
 > done
 > echo $children
 > END
-$ kiln test fire slow -j1 -o out/crash --no-report & run=$!
+$ kiln test fire slow -j1 --results out/crash --no-report & run=$!
 > child=$(bash child crash $run); kill -SEGV $child; wait $run
 1|pass    fire  1 frame in <s> s
 1|error   slow  crashed: signal 11 (Segmentation fault)
@@ -360,17 +360,17 @@ $ kiln test fire slow -j1 -o out/crash --no-report & run=$!
 
 A signal to the run ends its tests, and leaves neither processes nor half-written files.
 
-$ env --default-signal kiln test slow fire -j2 -o out/stop >/dev/null & run=$! # may end before
+$ env --default-signal kiln test slow fire -j2 --results out/stop >/dev/null & run=$! # may end before
 > child=$(bash child stop $run); kill -TERM $run; wait $run; code=$?
 > for id in $child; do [ ! -d /proc/$id ] || echo "$id is left"; done
 > find out/stop -name '*.tmp'; exit $code
 2|kiln: test: stopped by SIGTERM after <n> of 2 tests
 = 143
-$ env --default-signal kiln test slow -o out/int & run=$!
+$ env --default-signal kiln test slow --results out/int & run=$!
 > child=$(bash child int $run); kill -INT $run; wait $run
 2|kiln: test: stopped by SIGINT after <n> of 1 tests
 = 130
-$ env --default-signal kiln test slow -o out/killed & run=$!
+$ env --default-signal kiln test slow --results out/killed & run=$!
 > child=$(bash child killed $run); kill -KILL $run; wait $run 2>/dev/null
 > for try in {1..300}; do
 >     left=$(grep -s '^State' /proc/$child/status | grep -v zombie) || break
@@ -381,8 +381,8 @@ $ env --default-signal kiln test slow -o out/killed & run=$!
 
 Two runs do not share a folder of results.
 
-$ env --default-signal kiln test slow -o out/both & run=$!
-> bash child both $run >/dev/null; kiln test fire -o out/both; echo $?
+$ env --default-signal kiln test slow --results out/both & run=$!
+> bash child both $run >/dev/null; kiln test fire --results out/both; echo $?
 > kill -TERM $run; wait $run
 1|2
 2|kiln: out/both: another run writes its results there; give this one another folder by --results
@@ -391,7 +391,7 @@ $ env --default-signal kiln test slow -o out/both & run=$!
 
 Limits from measurements.
 
-$ kiln test calibrate fire --renders 2 | sed 's/^  threads=.*/  <threads and techniques>/'
+$ kiln test calibrate fire --repeat 2 | sed 's/^  threads=.*/  <threads and techniques>/'
 1|fire
 1|  <threads and techniques>
 1|  <threads and techniques>
@@ -400,7 +400,7 @@ $ kiln test calibrate fire --renders 2 | sed 's/^  threads=.*/  <threads and tec
 1|  flip.mean                0.01            0        0.001
 1|  flip.p99                  0.1            0        0.025
 1|  window.share              0.1            0         0.01
-$ kiln test calibrate fire --renders 2 -q --write; grep -E '^(measured|limits)' golden/fire/expect.yaml
+$ kiln test calibrate fire --repeat 2 -q --write; grep -E '^(measured|limits)' golden/fire/expect.yaml
 1|limits: {flip.mean: 0.001, flip.p99: 0.025, window.share: 0.01}
 1|measured: {flip.mean: 0, flip.p99: 0, window.share: 0}
 $ kiln test fire --no-report
@@ -414,6 +414,6 @@ $ kiln test calibrate wrong
 1|wrong
 2|wrong.test.yaml:1:1: scne: unknown key (did you mean 'scene'?)
 = 3
-$ kiln test calibrate fire --renders 1
-2|kiln: test calibrate: --renders: found '1', expected a whole number from 2 to 1000
+$ kiln test calibrate fire --repeat 1
+2|kiln: test calibrate: --repeat: found '1', expected a whole number from 2 to 1000
 = 2

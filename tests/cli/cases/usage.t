@@ -258,9 +258,10 @@ $ kiln help render
 1|                              than these limits. 'service' stands for a preset
 1|                              (see 'kiln help limits'). Default: the
 1|                              environment's KILN_LIMITS.
-1|      --timeout TIME          End with exit code 8 after that time, loading and
-1|                              encoding included. The time is in seconds, or has
-1|                              a unit: ms, s, min or h. Default: none.
+1|      --timeout TIME          End the command with exit code 8 after that time,
+1|                              loading and encoding included. The time is in
+1|                              seconds, or has a unit: ms, s, min or h. Default:
+1|                              none.
 1|      --sandbox[=on|require|off]
 1|                              Give up all rights that the job does not need, on
 1|                              the device 'cpu': other files, sockets, other
@@ -315,10 +316,11 @@ $ kiln help compare
 1|
 1|Exit code 0: the same within the limits; 1: different; 2: usage; 3: something
 1|cannot be read or has values that are not finite outside of masks; 6: --diff or
-1|--error-map cannot be written. --limit replaces all default limits.
+1|--error-map cannot be written. --tolerance replaces all default limits.
 1|
-1|  -l, --limit METRIC=VALUE    The worst value of a metric that passes; separate
-1|                              several limits by commas (see 'kiln help
+1|      --tolerance METRIC=VALUE
+1|                              The worst value of a metric that passes, its
+1|                              limit; separate several by commas (see 'kiln help
 1|                              metrics'). Default:
 1|                              flip.mean=0.01,flip.p99=0.1,window.share=0.1.
 1|  -d, --diff FILE             Write a PNG of reference, test and FLIP's error
@@ -327,7 +329,7 @@ $ kiln help compare
 1|                              gets one file for each frame.
 1|      --error-map FILE        Write a PNG of FLIP's error map alone, in the
 1|                              pictures' size. Names work as for --diff.
-1|      --force                 Let --diff, --error-map and --json replace files
+1|      --force                 Replace files of --diff, --error-map and --json
 1|                              that exist.
 1|  -i, --ignore X,Y,WxH        Do not judge this rectangle. Its pixels of the
 1|                              test are taken from the reference.
@@ -361,7 +363,7 @@ $ kiln help compare
 1|  -h, --help                  Print this help.
 1|
 1|Options and operands may come in any order; '--' ends the options. If an option is
-1|given twice, the last one counts, but these options add up: --limit --ignore --mask.
+1|given twice, the last one counts, but these options add up: --tolerance --ignore --mask.
 $ kiln help check
 1|usage: kiln check [OPTION...] SCENE...
 1|
@@ -382,9 +384,10 @@ $ kiln help check
 1|                              than these limits. 'service' stands for a preset
 1|                              (see 'kiln help limits'). Default: the
 1|                              environment's KILN_LIMITS.
-1|      --timeout TIME          End with exit code 8 after that time, loading and
-1|                              encoding included. The time is in seconds, or has
-1|                              a unit: ms, s, min or h. Default: none.
+1|      --timeout TIME          End the command with exit code 8 after that time,
+1|                              loading and encoding included. The time is in
+1|                              seconds, or has a unit: ms, s, min or h. Default:
+1|                              none.
 1|      --sandbox[=on|require|off]
 1|                              Give up all rights that the job does not need, on
 1|                              the device 'cpu': other files, sockets, other
@@ -418,7 +421,7 @@ $ kiln help devices
 1|
 1|      --json[=FILE]           Print JSON instead of text, or also write it into
 1|                              FILE: one object.
-1|      --force                 Let --json replace a file that exists.
+1|      --force                 Replace a file of --json that exists.
 1|      --events STREAM         Tell other programs how the command goes, in lines
 1|                              of JSON: 'ndjson' on standard output,
 1|                              'ndjson:FILE' at the end of a file, 'ndjson:fd=N'
