@@ -35,7 +35,12 @@ said() {
     git clean -qf
 }
 
-said "all is well" 0 "and 0 C files of the change: all well"
+said "all is well" 0 "0 C files of the change and 0 unit tests of its rooms: all well"
+mkdir -p tests/unit build/sanitize/tests
+printf '#include "base/sum.h"\n\nint main(void)\n{\n    return kiln_sum(1, -1);\n}\n' >tests/unit/test_sum.c
+printf '#!/bin/sh\nmkdir -p "$2/tests"\nprintf "#!/bin/sh\\necho a leak\\nexit 1\\n" >"$2/tests/$3"\nchmod +x "$2/tests/$3"\n' \
+    >tests/tree/sanitize.sh
+said "a test that fails with the sanitizers" 1 "unit.sum fails with the sanitizers:"
 printf '\nint kiln_sum(int a,  int b);\n' >>lib/base/sum.h
 said "a format" 1 "refused: format"
 printf '#include "draw/picture.h"\n' >lib/base/sum.h

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Builds a target with the address and undefined-behaviour sanitizers, in a build folder of its own:
-# sanitize.sh SOURCE BUILD TARGET. The build has only the machine's widest level of vectors, since code for vectors
-# takes long to compile.
+# Builds targets with the address and undefined-behaviour sanitizers, in a build folder of its own:
+# sanitize.sh SOURCE BUILD TARGET... The build has only the machine's widest level of vectors, since code
+# for vectors takes long to compile.
 set -euo pipefail
 # With -O1 the code compiles in half the time of -O2. -Werror is off, since GCC optimises less and then warns of
 # variables that may be uninitialised.
 cmake -S "$1" -B "$2" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DCMAKE_C_FLAGS_RELWITHDEBINFO='-O1 -g1' -DKILN_SANITIZE=ON -DKILN_WERROR=OFF \
     -DKILN_TESTS=ON -DKILN_SIMD_LEVELS=native >/dev/null
-exec cmake --build "$2" -j 2 --target "$3"
+exec cmake --build "$2" -j 2 --target "${@:3}"
