@@ -415,7 +415,8 @@ static bool check_params(const struct kiln_calibrate_params *params, struct kiln
 {
     bool margin = params->margin >= 1 && params->margin <= 1000;
     if (params->renders < 2)
-        kiln_error_set(error, KILN_USAGE, "found %u renders; a calibration needs 2 or more",
+        kiln_error_set(error, KILN_USAGE,
+                       "found %u as the number of renders; a calibration needs 2 or more",
                        params->renders);
     else if (!margin)
         kiln_error_set(error, KILN_USAGE, "found a margin of %g; allowed are 1 to 1000",

@@ -126,8 +126,8 @@ bool kiln_test_read_note(const struct kiln_suite *suite, size_t index, uint32_t 
     if (ok)
         snprintf(text, KILN_MESSAGE_SIZE, "%s", result->notes[note]);
     else if (result)
-        kiln_error_set(error, KILN_USAGE, "%s: note %u of %zu", test->full_name, note,
-                       result->note_count);
+        kiln_error_set(error, KILN_USAGE, "%s: there is no note %u; the result has %zu",
+                       test->full_name, note, result->note_count);
     kiln_arena_destroy(&arena);
     return ok;
 }

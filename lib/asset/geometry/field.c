@@ -250,8 +250,8 @@ static uint32_t find_margin(float spacing, uint32_t cells, float reach, const ch
     const float along = reach / spacing;
     if (!(along <= (float)KILN_MAX_FIELD_CELLS)) {
         kiln_error_set(error, KILN_INVALID_INPUT,
-                       "%s: balls with a radius of %.3g units of the file reach %.0f of %u cells "
-                       "around the mesh; at most %d cells are allowed",
+                       "%s: balls with a radius of %.3g units of the file reach %.0f cells beyond "
+                       "the mesh, which has %u along its longest side; at most %d are allowed",
                        name, (double)reach, (double)along, cells, KILN_MAX_FIELD_CELLS);
         return 0;
     }
@@ -278,9 +278,9 @@ static bool place(struct kiln_field *field, const struct kiln_mesh *mesh, const 
     }
     if (sample_count(field) > KILN_MAX_GRID_SAMPLES)
         return kiln_error_set(error, KILN_INVALID_INPUT,
-                              "%s: %zu samples in and around the mesh, out of %u cells and balls "
-                              "with a radius of %.3g units of the file; at most %d are allowed",
-                              name, sample_count(field), cells, (double)reach,
+                              "%s: %u cells and balls with a radius of %.3g units of the file need "
+                              "%zu samples in and around the mesh; at most %d are allowed",
+                              name, cells, (double)reach, sample_count(field),
                               KILN_MAX_GRID_SAMPLES);
     return true;
 }

@@ -220,7 +220,7 @@ static bool saw_all(const struct kiln_interact *interact, const struct kiln_inte
     return kiln_error_set(
         error, KILN_DEVICE_FAILED,
         "systems.%s.interact: a particle has %u others near enough to collide with; software GL "
-        "tests at most %u: use --technique simulate=cpu, or a smaller radius or lower fastest",
+        "tests at most %u: use --technique simulate=cpu, a smaller `radius` or a lower `fastest`",
         work->system, around, (unsigned)MOST_AROUND);
 }
 
