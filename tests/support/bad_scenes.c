@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/scenes.h"
 
 void expect_all(const struct bad *cases, size_t count)
@@ -13,9 +14,6 @@ void expect_all(const struct bad *cases, size_t count)
         struct kiln_scene *scene = try_scene(cases[i].text, NULL, &error);
         if (scene)
             fail_msg("accepted:\n%s", cases[i].text);
-        char expected[KILN_MESSAGE_SIZE];
-        snprintf(expected, sizeof expected, "%s%s", SCENE_NAME, cases[i].message);
-        assert_string_equal(error.message, expected);
-        assert_int_equal(error.code, KILN_INVALID_INPUT);
+        expect_error(&error, KILN_INVALID_INPUT, SCENE_NAME "%s", cases[i].message);
     }
 }
