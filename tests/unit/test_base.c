@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "base/thread.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 
 static void arena_refuses_overflow(void **state)
 {
@@ -129,15 +130,14 @@ static void loops_stop_when_the_caller_wants_no_more(void **state)
         kiln_threads_set_caller(threads, &(struct kiln_caller){says_no_the_third_time, &asked});
         memset(seen, 0, sizeof seen);
         assert_false(kiln_threads_try(threads, sizeof seen, 1, count_slowly, seen, &error));
-        assert_int_equal(error.code, KILN_INTERRUPTED);
-        assert_string_equal(error.message, "no more");
+        expect_error(&error, KILN_INTERRUPTED, "no more");
         for (size_t i = 0; i < sizeof seen; i++)
             done += seen[i];
         assert_in_range(done, 1, sizeof seen / 2);
         memset(seen, 0, sizeof seen);
         error = (struct kiln_error){0};
         assert_false(kiln_threads_try(threads, 20, 1, count_piece, seen, &error));
-        assert_int_equal(error.code, KILN_INTERRUPTED);
+        expect_error(&error, KILN_INTERRUPTED, "no more");
         assert_int_equal(asked, 3);
         assert_int_equal(seen[0], 0);
         kiln_threads_for(threads, 20, 1, count_piece, seen); /* has to run to its end */

@@ -7,6 +7,7 @@
 
 #include "asset/atlas/cells_in.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/pictures.h"
 
 struct picture {
@@ -273,9 +274,8 @@ static void frames_of_a_video_are_cells(void **state)
     }
     source.rows = 4;
     assert_false(kiln_cells_load(&source, cells, f->threads, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_non_null(
-        strstr(error.message, "the video has 12 frames; 4 columns and 4 rows need 16 frames"));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "%s: the video has 12 frames; 4 columns and 4 rows need 16 frames", path);
     free(cells);
 }
 
@@ -320,9 +320,8 @@ static void cells_must_divide_the_image(void **state)
     struct kiln_error error = {0};
     const struct kiln_cells_source source = {f->path, 2, 3, 4, NULL};
     assert_false(kiln_cells_load(&source, cells, f->threads, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_non_null(
-        strstr(error.message, "32 x 16 pixels do not divide into 2 columns and 3 rows"));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "%s: 32 x 16 pixels do not divide into 2 columns and 3 rows", f->path);
     assert_false(kiln_cells_check_layout(&source, &error));
     assert_true(kiln_cells_check_layout(
         &(struct kiln_cells_source){.path = f->path, .columns = 2, .rows = 4}, &error));

@@ -6,6 +6,7 @@
 
 #include "asset/image/image.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/pictures.h"
 
 enum { MASK_SIZE = sizeof(struct kiln_compare_mask) };
@@ -95,7 +96,7 @@ static void frames_are_told_and_summed_up(void **state)
     struct seen stopped = {.stop_after = 2};
     params.user = &stopped;
     assert_false(kiln_compare(&params, &result, &error));
-    assert_int_equal(error.code, KILN_INTERRUPTED);
+    expect_error(&error, KILN_INTERRUPTED, "stopped after 2 frames");
     assert_int_equal(stopped.frames, 2);
     assert_false(result.same);
     test_remove_folder(s.folder);
@@ -123,6 +124,14 @@ static void threads_change_nothing(void **state)
 static void requests_without_sense_are_refused(void **state)
 {
     (void)state;
+    static const char *const messages[] = {
+        "found 3 pixels a degree; allowed are 4 to 400",
+        "found nan pixels a degree; allowed are 4 to 400",
+        "found a threshold of -1 levels; allowed are 0 to 255",
+        "found a window of 0 pixels; it needs 1 or more",
+        "the name of the layer is empty",
+        "limit 'flip.mean=2': expected a number, 0 to 1",
+    };
     struct sequences s = make_sequences();
     for (int i = 0; i < 6; i++) {
         struct kiln_compare_params params = params_of(&s);
@@ -136,8 +145,8 @@ static void requests_without_sense_are_refused(void **state)
         struct kiln_compare_result result = {.size = sizeof result, .same = true};
         struct kiln_error error = {0};
         assert_false(kiln_compare(&params, &result, &error));
-        assert_int_equal(error.code, KILN_USAGE);
-        assert_true(error.message[0] != '\0' && !result.same);
+        expect_error(&error, KILN_USAGE, "%s", messages[i]);
+        assert_false(result.same);
     }
     test_remove_folder(s.folder);
 }
@@ -220,7 +229,8 @@ static void masked_rectangles_are_not_judged(void **state)
     assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 64, 0, 5, 5, NULL}), 24);
     assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 0, 0, 0, 36, NULL}), 24);
     assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 0, 0, 64, 36, NULL}), -1);
-    assert_int_equal(m.error.code, KILN_USAGE);
+    expect_error(&m.error, KILN_USAGE,
+                 "the masks cover all 64 x 36 pixels: nothing is left to judge");
     assert_int_equal(differing(&m, &(struct kiln_compare_mask){MASK_SIZE, 0, 0, 64, 35, NULL}), 0);
     test_remove_folder(m.folder);
 }
@@ -239,11 +249,12 @@ static void mask_pictures_must_fit(void **state)
     assert_int_equal(differing(&m, &mask), 24);
     write_box(m.mask, 64, 36, 0, fault, 0);
     assert_int_equal(differing(&m, &mask), -1);
-    assert_int_equal(m.error.code, KILN_USAGE);
+    expect_error(&m.error, KILN_USAGE,
+                 "the masks cover all 64 x 36 pixels: nothing is left to judge");
     write_box(m.mask, 63, 36, 255, fault, 0);
     assert_int_equal(differing(&m, &mask), -1);
-    assert_int_equal(m.error.code, KILN_INVALID_INPUT);
-    assert_non_null(strstr(m.error.message, "63 x 36"));
+    expect_error(&m.error, KILN_INVALID_INPUT,
+                 "%s: the mask has 63 x 36 pixels, the pictures 64 x 36", m.mask);
     assert_int_equal(m.result.counts[KILN_COMPARE_UNREADABLE], 1);
     test_remove_folder(m.folder);
 }

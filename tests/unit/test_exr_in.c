@@ -9,6 +9,7 @@
 #include "base/file_in.h"
 #include "decode.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/pictures.h"
 
 /* Writes frame 5 of the test picture and returns the file's bytes. */
@@ -75,26 +76,28 @@ static void layers_come_back(void **state)
     }
 }
 
-static void assert_refused(const unsigned char *bytes, size_t size, const char *layer,
-                           const char *words)
+/* OpenEXR says in its own words what is wrong. */
+static void assert_broken(const unsigned char *bytes, size_t size)
 {
     struct kiln_error error = {0};
-    assert_null(parse(bytes, size, layer, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
-    if (!strstr(error.message, words))
-        fail_msg("'%s' does not say '%s'", error.message, words);
+    assert_null(parse(bytes, size, "beauty", &error));
+    expect_error_around(&error, KILN_INVALID_INPUT, ")", "the EXR image is broken or cut short (");
 }
 
 static void an_unknown_layer_is_refused(void **state)
 {
     (void)state;
+    static const char *const unknown[] = {"smoke", "fir", ""};
     size_t size = 0;
     unsigned char *bytes = write_exr(16, &size);
-    assert_refused(bytes, size, "smoke",
-                   "no layer 'smoke' whose lines have full size; the file has the channels A, B, "
-                   "G, R, Z, fire.A, fire.B, fire.G, fire.R");
-    assert_refused(bytes, size, "fir", "no layer 'fir'");
-    assert_refused(bytes, size, "", "no layer ''");
+    for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
+        struct kiln_error error = {0};
+        assert_null(parse(bytes, size, unknown[i], &error));
+        expect_error(&error, KILN_INVALID_INPUT,
+                     "no layer '%s' whose lines have full size; the file has the channels A, B, G, "
+                     "R, Z, fire.A, fire.B, fire.G, fire.R",
+                     unknown[i]);
+    }
     free(bytes);
 }
 
@@ -105,8 +108,8 @@ static void a_file_that_was_cut_short_is_refused(void **state)
     size_t size = 0;
     unsigned char *bytes = write_exr(16, &size);
     for (size_t length = 0; length < size; length += 1 + length / 16)
-        assert_refused(bytes, length, "beauty", "");
-    assert_refused(bytes, size - 1, "beauty", "broken or cut short");
+        assert_broken(bytes, length);
+    assert_broken(bytes, size - 1);
     free(bytes);
 }
 
@@ -114,7 +117,7 @@ static void other_bytes_are_refused(void **state)
 {
     (void)state;
     unsigned char zeros[256] = {0};
-    assert_refused(zeros, sizeof zeros, "beauty", "broken or cut short");
+    assert_broken(zeros, sizeof zeros);
 }
 
 enum { TILED_SIZE = 12, TILE = 8 };
@@ -187,7 +190,9 @@ static void tiles_are_read_by_the_other_decoder(void **state)
     }
     kiln_asset_image_destroy(&image);
     assert_null(kiln_asset_image_load_layer(NULL, path, "fire", &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(
+        &error, KILN_INVALID_INPUT,
+        "%s: no layer 'fire' whose lines have full size; the file has the channels B, G, R", path);
     test_remove_folder(folder);
 }
 

@@ -10,6 +10,7 @@
 
 #include "suite/golden.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/folders.h"
 #include "support/pictures.h"
 
@@ -68,8 +69,7 @@ static void expect_not_found(const char *message, enum kiln_code code)
     struct kiln_error error = {0};
     assert_non_null(goldens);
     assert_false(kiln_goldens_find(&fire, 24, llvmpipe, goldens, &error));
-    assert_string_equal(error.message, message);
-    assert_int_equal(error.code, code);
+    expect_error(&error, code, "%s", message);
     free(goldens);
 }
 
@@ -153,8 +153,8 @@ static void there_are_at_most_sixteen(void **state)
     free(goldens);
     char path[KILN_PATH_SIZE];
     assert_false(kiln_goldens_place(&fire, 24, llvmpipe, KILN_APPROVE_ALTERNATIVE, path, &error));
-    assert_string_equal(error.message,
-                        "golden/fire: frame 24 has 16 accepted pictures; no more are allowed");
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "golden/fire: frame 24 has 16 accepted pictures; no more are allowed");
     put("~17.png");
     expect_not_found("golden/fire: more than 16 accepted pictures of frame 24; no more are allowed",
                      KILN_INVALID_INPUT);
@@ -233,10 +233,13 @@ static void hashes_are_of_pixels(void **state)
     expect_hashes("a_00.png", "b_00.png", false);
     char hex[65];
     assert_false(kiln_pixel_hash("gone.png", hex, &error));
-    assert_int_equal(error.code, KILN_IO);
+    expect_error(&error, KILN_IO,
+                 "gone.png: the image cannot be opened: No such file or directory");
     test_write_file("bad.png", "\x89PNG");
     assert_false(kiln_pixel_hash("bad.png", hex, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "bad.png: the file is not an image: it starts with the bytes 89 50 4e 47; allowed "
+                 "are PNG, JPEG, WebP, TIFF, BMP or EXR files");
 }
 
 static void copies_replace_links_not_what_they_lead_to(void **state)
@@ -255,12 +258,11 @@ static void copies_replace_links_not_what_they_lead_to(void **state)
 
     assert_int_equal(mkfifo("pipe", 0666), 0);
     assert_false(kiln_file_copy("pipe", "to", &error));
-    assert_string_equal(error.message, "pipe: the path is not a regular file");
+    expect_error(&error, KILN_INVALID_INPUT, "pipe: the path is not a regular file");
     assert_false(kiln_file_copy("gone", "to", &error));
-    assert_string_equal(error.message, "gone: No such file or directory");
-    assert_int_equal(error.code, KILN_IO);
+    expect_error(&error, KILN_IO, "gone: No such file or directory");
     assert_false(kiln_file_copy("from", "pipe", &error));
-    assert_string_equal(error.message, "pipe: a device, pipe or socket has this name");
+    expect_error(&error, KILN_USAGE, "pipe: a device, pipe or socket has this name");
     assert_int_equal(access("to", F_OK), -1);
 }
 
@@ -297,8 +299,8 @@ static void the_lock_lets_one_in(void **state)
     test_write_file("file", "");
     const struct kiln_test wrong = {.golden = "file"};
     assert_int_equal(kiln_goldens_lock(&wrong, &error), -1);
-    assert_string_equal(error.message,
-                        "file: the path is not a folder, but file/ needs a folder here");
+    expect_error(&error, KILN_USAGE,
+                 "file: the path is not a folder, but file/ needs a folder here");
 }
 
 /* ---- Accepting ---------------------------------------------------------------------------- */
@@ -363,7 +365,9 @@ static void accepted_pictures_are_found(void **state)
     test_write_file("broken.png", "no picture");
     same.picture = "broken.png";
     assert_false(kiln_goldens_accept(arena, &fire, expect, &same, path, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "broken.png: the file is not an image: it starts with the bytes 6e 6f 20 70; "
+                 "allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files");
     expect_hashes("golden/fire/frame_0024.png", "new_01.png", true);
     kiln_arena_destroy(&arena);
 }

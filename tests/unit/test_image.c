@@ -13,24 +13,29 @@
 
 #include "asset/image/image.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 
 enum { WIDTH = 29, HEIGHT = 13 };
 
+#define NOT_FINITE "the EXR image is cut short or has pixels that are not finite numbers"
+#define ALLOWED    "allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files"
+
 static const struct source {
+    const char *name; /* in messages */
     enum AVCodecID codec;
     enum AVPixelFormat pixels;
     enum kiln_image_type type;
     bool alpha;
     int tolerance; /* 8-bit steps */
 } sources[] = {
-    {AV_CODEC_ID_PNG, AV_PIX_FMT_RGBA, KILN_IMAGE_U8, true, 0},
-    {AV_CODEC_ID_PNG, AV_PIX_FMT_RGB24, KILN_IMAGE_U8, false, 0},
-    {AV_CODEC_ID_PNG, AV_PIX_FMT_RGBA64BE, KILN_IMAGE_U16, true, 0},
-    {AV_CODEC_ID_TIFF, AV_PIX_FMT_RGB24, KILN_IMAGE_U8, false, 0},
-    {AV_CODEC_ID_BMP, AV_PIX_FMT_BGR24, KILN_IMAGE_U8, false, 0},
-    {AV_CODEC_ID_MJPEG, AV_PIX_FMT_YUVJ444P, KILN_IMAGE_U8, false, 8},
-    {AV_CODEC_ID_WEBP, AV_PIX_FMT_BGRA, KILN_IMAGE_U8, true, 0},
-    {AV_CODEC_ID_EXR, AV_PIX_FMT_GBRAPF32, KILN_IMAGE_F32, true, 1},
+    {"PNG", AV_CODEC_ID_PNG, AV_PIX_FMT_RGBA, KILN_IMAGE_U8, true, 0},
+    {"PNG", AV_CODEC_ID_PNG, AV_PIX_FMT_RGB24, KILN_IMAGE_U8, false, 0},
+    {"PNG", AV_CODEC_ID_PNG, AV_PIX_FMT_RGBA64BE, KILN_IMAGE_U16, true, 0},
+    {"TIFF", AV_CODEC_ID_TIFF, AV_PIX_FMT_RGB24, KILN_IMAGE_U8, false, 0},
+    {"BMP", AV_CODEC_ID_BMP, AV_PIX_FMT_BGR24, KILN_IMAGE_U8, false, 0},
+    {"JPEG", AV_CODEC_ID_MJPEG, AV_PIX_FMT_YUVJ444P, KILN_IMAGE_U8, false, 8},
+    {"WebP", AV_CODEC_ID_WEBP, AV_PIX_FMT_BGRA, KILN_IMAGE_U8, true, 0},
+    {"EXR", AV_CODEC_ID_EXR, AV_PIX_FMT_GBRAPF32, KILN_IMAGE_F32, true, 1},
 };
 
 static uint8_t expected(int x, int y, int channel)
@@ -159,6 +164,24 @@ static void every_format_is_decoded(void **state)
     }
 }
 
+/* Where a file ends within its header, it is not known as an image, or FFmpeg says why it cannot
+ * read it. */
+static void expect_cut(const struct source *source, size_t size, const struct kiln_error *error)
+{
+    enum { WEBP_SIGNATURE = 12, EXR_HEADER = 500 };
+    if (size == 0)
+        expect_error(error, KILN_INVALID_INPUT, "cut.img: the image file is empty");
+    else if (source->codec == AV_CODEC_ID_WEBP && size < WEBP_SIGNATURE)
+        expect_error(
+            error, KILN_INVALID_INPUT,
+            "cut.img: the file is not an image: it starts with the bytes 52 49 46 46; " ALLOWED);
+    else if (source->codec == AV_CODEC_ID_EXR && size > EXR_HEADER)
+        expect_error(error, KILN_INVALID_INPUT, "cut.img: " NOT_FINITE);
+    else
+        expect_error_decoding(error, KILN_INVALID_INPUT,
+                              "cut.img: the %s image is broken or cut short", source->name);
+}
+
 static void truncated_files_are_refused(void **state)
 {
     (void)state;
@@ -173,8 +196,7 @@ static void truncated_files_are_refused(void **state)
                 printf("src %zu cut %zu of %zu\n", i, size, whole);
                 continue;
             }
-            assert_int_equal(error.code, KILN_INVALID_INPUT);
-            assert_non_null(strstr(error.message, "cut.img: "));
+            expect_cut(&sources[i], size, &error);
         }
         av_packet_free(&file);
     }
@@ -203,11 +225,7 @@ static void claimed_sizes_are_limited(void **state)
     (void)state;
     static const struct {
         uint32_t width, height;
-        const char *found;
-    } claims[] = {
-        {0, 0, "Invalid IHDR data"},         {100000, 1, "100000 x 1"},     {1, 16385, "1 x 16385"},
-        {100000, 100000, "100000 x 100000"}, {16384, 8192, "16384 x 8192"},
-    };
+    } claims[] = {{0, 0}, {100000, 1}, {1, 16385}, {100000, 100000}, {16384, 8192}};
     for (size_t i = 0; i < sizeof claims / sizeof *claims; i++) {
         AVPacket *file = encode(&sources[0]);
         assert_non_null(file);
@@ -216,8 +234,14 @@ static void claimed_sizes_are_limited(void **state)
         put_be32(file->data + 29, png_crc(file->data + 12, 17));
         struct kiln_error error = {0};
         assert_null(kiln_asset_image_parse(file->data, (size_t)file->size, "big.png", &error));
-        assert_int_equal(error.code, KILN_INVALID_INPUT);
-        assert_non_null(strstr(error.message, claims[i].found));
+        if (claims[i].width == 0) /* libpng says so */
+            expect_error_decoding(&error, KILN_INVALID_INPUT,
+                                  "big.png: the PNG image is broken or cut short");
+        else
+            expect_error(&error, KILN_INVALID_INPUT,
+                         "big.png: PNG image of %u x %u pixels; allowed are 1 to 16384 a side and "
+                         "at most 67108864 in all",
+                         claims[i].width, claims[i].height);
         av_packet_free(&file);
     }
 }
@@ -239,27 +263,32 @@ static void files_are_told_from_other_things(void **state)
 
     struct kiln_error error = {0};
     assert_false(kiln_asset_image_check(NULL, path, &error));
-    assert_int_equal(error.code, KILN_IO);
+    expect_error(&error, KILN_IO, "%s: the image cannot be opened: No such file or directory",
+                 path);
     assert_false(kiln_asset_image_check(NULL, folder, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(&error, KILN_INVALID_INPUT, "%s: the path is not a file but a folder; " ALLOWED,
+                 folder);
     assert_int_equal(mkfifo(path, 0600), 0);
     assert_false(kiln_asset_image_check(NULL, path, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "%s: the path is not a file but a device or pipe; " ALLOWED, path);
     assert_int_equal(unlink(path), 0);
     assert_false(kiln_asset_image_check(NULL, "/proc/self/mem", &error)); /* nothing lies at 0 */
-    assert_int_equal(error.code, KILN_IO);
-    assert_non_null(strstr(error.message, "cannot be read"));
+    expect_error(&error, KILN_IO,
+                 "/proc/self/mem: the image file cannot be read: Input/output error");
 
     write_file(path, "", 0);
     assert_false(kiln_asset_image_check(NULL, path, &error));
-    assert_non_null(strstr(error.message, "empty"));
+    expect_error(&error, KILN_INVALID_INPUT, "%s: the image file is empty", path);
     write_file(path, "kiln: 1\n", 8);
     assert_false(kiln_asset_image_check(NULL, path, &error));
-    assert_non_null(strstr(error.message, "6b 69 6c 6e"));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "%s: the file is not an image: it starts with the bytes 6b 69 6c 6e; " ALLOWED,
+                 path);
     assert_int_equal(truncate(path, (off_t)KILN_MAX_IMAGE_BYTES + 1), 0);
     assert_false(kiln_asset_image_check(NULL, path, &error));
-    assert_non_null(strstr(error.message, "268435457"));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "%s: the image file has 268435457 bytes; allowed are at most 268435456", path);
 
     AVPacket *file = encode(&sources[0]);
     assert_non_null(file);
@@ -286,7 +315,7 @@ static void floats_must_be_finite(void **state)
     assert_true(found);
     struct kiln_error error = {0};
     assert_null(kiln_asset_image_parse(file->data, (size_t)file->size, "inf.exr", &error));
-    assert_non_null(strstr(error.message, "finite"));
+    expect_error(&error, KILN_INVALID_INPUT, "inf.exr: " NOT_FINITE);
     av_packet_free(&file);
 }
 
@@ -296,8 +325,9 @@ static void an_animated_webp_says_so(void **state)
     static const unsigned char bytes[32] = "RIFF\x18\0\0\0WEBPVP8X\x0a\0\0\0\x02";
     struct kiln_error error = {0};
     assert_null(kiln_asset_image_parse(bytes, sizeof bytes, "moving.webp", &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_non_null(strstr(error.message, "moving.webp: the file is an animated WebP"));
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "moving.webp: the file is an animated WebP, which FFmpeg does not decode; use a "
+                 "video or APNG");
 }
 
 int main(void)

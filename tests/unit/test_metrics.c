@@ -9,6 +9,7 @@
 #include "compare/magma.h"
 #include "compare/metric.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/pictures.h"
 
 struct level_picture {
@@ -336,8 +337,8 @@ static void what_is_not_finite_is_refused(void **state)
             struct kiln_error error = {0};
             struct kiln_threads *threads = kiln_threads_create(1);
             assert_null(kiln_compare_picture_create(&image, NULL, "x.exr", threads, &error));
-            assert_int_equal(error.code, KILN_INVALID_INPUT);
-            assert_string_equal(error.message, "x.exr: pixel 1,1 has a value that is not finite");
+            expect_error(&error, KILN_INVALID_INPUT,
+                         "x.exr: pixel 1,1 has a value that is not finite");
             kiln_threads_destroy(&threads);
         }
     }
@@ -351,8 +352,7 @@ static void assert_mismatch(struct level_picture a, struct level_picture b, cons
     struct kiln_threads *threads = kiln_threads_create(1);
     const struct kiln_measure_params params = {false, 67.0206, 2, 8};
     assert_false(kiln_measurement_take(&m, p, q, &params, threads, &error));
-    assert_int_equal(error.code, KILN_FRAME_FAILED);
-    assert_string_equal(error.message, message);
+    expect_error(&error, KILN_FRAME_FAILED, "%s", message);
     kiln_measurement_finish(&m);
     kiln_threads_destroy(&threads);
     kiln_compare_picture_destroy(&p);
@@ -395,8 +395,7 @@ static void limits_are_read_strictly(void **state)
         struct kiln_metric_set set;
         struct kiln_error error = {0};
         assert_false(kiln_metric_set_make(&set, &bad[i][0], 1, &error));
-        assert_int_equal(error.code, KILN_USAGE);
-        assert_string_equal(error.message, bad[i][1]);
+        expect_error(&error, KILN_USAGE, "%s", bad[i][1]);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/pictures.h"
 
 struct decoded {
@@ -103,8 +104,7 @@ static void other_depths_are_refused(void **state)
     params.png_bits = 12;
     struct kiln_error error = {0};
     assert_null(kiln_output_open(&params, &error));
-    assert_int_equal(error.code, KILN_USAGE);
-    assert_string_equal(error.message, "found 12 bits a channel for a PNG; allowed are 8 or 16");
+    expect_error(&error, KILN_USAGE, "found 12 bits a channel for a PNG; allowed are 8 or 16");
 }
 
 int main(void)

@@ -5,6 +5,7 @@
 
 #include "kiln.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/folders.h"
 
 static struct kiln_device *device;
@@ -104,9 +105,9 @@ static void a_job_that_is_given_up_leaves_whole_frames(void **state)
     for (int i = 0; i < 3; i++)
         assert_true(next(images, NULL) && next(clip, NULL));
     assert_false(kiln_rendering_end(&images, NULL, &error));
-    assert_int_equal(error.code, KILN_INTERRUPTED);
+    expect_error(&error, KILN_INTERRUPTED, "ended before the last frame");
     assert_false(kiln_rendering_end(&clip, NULL, &error));
-    assert_int_equal(error.code, KILN_INTERRUPTED);
+    expect_error(&error, KILN_INTERRUPTED, "ended before the last frame");
     assert_int_equal(access("b_05.png", F_OK), -1);
     assert_int_equal(access("b.mp4", F_OK), -1);
     assert_null(clip);
@@ -121,8 +122,7 @@ static void what_cannot_begin_says_why(void **state)
     params.ranges = &range;
     params.range_count = 1;
     assert_null(kiln_rendering_begin(device, scene, &params, &error));
-    assert_int_equal(error.code, KILN_USAGE);
-    assert_string_equal(error.message, "frames 4-6: expected ascending ranges within 0-5");
+    expect_error(&error, KILN_USAGE, "frames 4-6: expected ascending ranges within 0-5");
 }
 
 /* What was told of a frame while it was drawn. */
@@ -180,7 +180,7 @@ static void frames_outlive_their_job(void **state)
     assert_true(kiln_rendering_end(&heard, NULL, &error));
     struct kiln_rendering *job = begin_keeping("kept_##.png", NULL);
     assert_null(kiln_rendering_take_frame(job, &error));
-    assert_int_equal(error.code, KILN_USAGE);
+    expect_error(&error, KILN_USAGE, "no frame was drawn since one was taken");
     for (size_t i = 0; i < 6; i++) {
         assert_true(next(job, NULL));
         frames[i] = kiln_rendering_take_frame(job, &error);
@@ -197,14 +197,14 @@ static void frames_outlive_their_job(void **state)
         layer = layer_of(frames[i], "beauty");
         assert_memory_equal(layer.pixels, told[i].beauty, sizeof told[i].beauty);
         assert_false(kiln_frame_get_layer(frames[i], "fire", &layer, &error));
-        assert_int_equal(error.code, KILN_USAGE);
+        expect_error(&error, KILN_USAGE, "frame %u has no layer 'fire'", i);
         kiln_frame_destroy(&frames[i]);
         assert_null(frames[i]);
     }
     struct kiln_rendering *none = begin(NULL, NULL, 0);
     assert_true(next(none, NULL));
     assert_null(kiln_rendering_take_frame(none, &error));
-    assert_string_equal(error.message, "frames are not kept: set keep_frames to take them");
+    expect_error(&error, KILN_USAGE, "frames are not kept: set keep_frames to take them");
     assert_false(kiln_rendering_end(&none, NULL, &error));
 }
 
@@ -235,20 +235,21 @@ static void layers_are_written_as_pictures(void **state)
     assert_true(kiln_compare(&params, &result, &error) && result.same && result.hdr);
 
     assert_false(kiln_layer_write(&display, "written.png", false, &error));
-    assert_int_equal(error.code, KILN_USAGE);
+    expect_error(&error, KILN_USAGE, "written.png: the file exists (--force replaces it)");
     assert_true(kiln_layer_write(&display, "written.png", true, &error));
     assert_false(kiln_layer_write(&display, "display.exr", false, &error));
-    assert_string_equal(error.message, "display.exr: integer samples go into a file '*.png'");
+    expect_error(&error, KILN_USAGE, "display.exr: integer samples go into a file '*.png'");
     display.channels = 3;
     assert_false(kiln_layer_write(&display, "three.png", false, &error));
-    assert_string_equal(error.message, "three.png: found 3 channels; allowed are 4");
+    expect_error(&error, KILN_USAGE, "three.png: found 3 channels; allowed are 4");
     display.channels = 4;
     display.row_bytes = 47 * 4;
     assert_false(kiln_layer_write(&display, "short.png", false, &error));
-    assert_string_equal(error.message, "short.png: found rows of 188 bytes; 48 pixels have 192");
+    expect_error(&error, KILN_USAGE, "short.png: found rows of 188 bytes; 48 pixels have 192");
     display.width = 0;
     assert_false(kiln_layer_write(&display, "none.png", false, &error));
-    assert_int_equal(error.code, KILN_USAGE);
+    expect_error(&error, KILN_USAGE,
+                 "none.png: found 0 x 32 pixels; allowed are 1 to 16384 a side");
     assert_int_equal(access("three.png", F_OK), -1);
     kiln_frame_destroy(&frame);
 }

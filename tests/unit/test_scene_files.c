@@ -10,6 +10,7 @@
 
 #include "scene/scene.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
 
@@ -48,38 +49,37 @@ static void write_file(const char *path, const void *bytes, size_t size)
     assert_int_equal(fclose(file), 0);
 }
 
-static void expect_error(const char *path, const struct kiln_scene_params *params,
-                         const char *message)
+static void expect_refusal(const char *path, const struct kiln_scene_params *params,
+                           const char *message)
 {
     struct kiln_error error = {0};
     struct kiln_scene *scene = kiln_scene_load(path, params, &error);
     if (scene)
         fail_msg("accepted: %s", path);
-    assert_string_equal(error.message, message);
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(&error, KILN_INVALID_INPUT, "%s", message);
 }
 
 static void files_that_are_no_scenes(void **state)
 {
     (void)state;
     const struct kiln_scene_params *params = NULL;
-    expect_error("missing.yaml", params, "missing.yaml: No such file or directory");
-    expect_error("scenes", params, "scenes: the path is a folder, not a scene file");
-    expect_error("/dev/zero", params, "/dev/zero: the path is not a regular file");
+    expect_refusal("missing.yaml", params, "missing.yaml: No such file or directory");
+    expect_refusal("scenes", params, "scenes: the path is a folder, not a scene file");
+    expect_refusal("/dev/zero", params, "/dev/zero: the path is not a regular file");
     assert_int_equal(mkfifo("pipe.yaml", 0666), 0);
-    expect_error("pipe.yaml", params,
-                 "pipe.yaml: the path is not a regular file"); /* and does not wait */
+    expect_refusal("pipe.yaml", params,
+                   "pipe.yaml: the path is not a regular file"); /* and does not wait */
     write_file("empty.yaml", "", 0);
-    expect_error("empty.yaml", params,
-                 "empty.yaml: the file is empty; a scene starts with 'kiln: 1'");
+    expect_refusal("empty.yaml", params,
+                   "empty.yaml: the file is empty; a scene starts with 'kiln: 1'");
     static const char elf[] = "\x7f"
                               "ELF\2\1\1\0\0\0";
     write_file("binary.yaml", elf, sizeof elf);
-    expect_error("binary.yaml", params, "binary.yaml:1:8: not a text: a zero byte");
+    expect_refusal("binary.yaml", params, "binary.yaml:1:8: not a text: a zero byte");
     write_file("latin.yaml", "kiln: 1\n# caf\xe9\n", 15);
-    expect_error("latin.yaml", params, "latin.yaml:2:6: not a text: invalid UTF-8 (byte 0xe9)");
+    expect_refusal("latin.yaml", params, "latin.yaml:2:6: not a text: invalid UTF-8 (byte 0xe9)");
     write_file("utf16.yaml", "\xff\xfek\0", 4);
-    expect_error("utf16.yaml", params, "utf16.yaml:1:1: not a text: invalid UTF-8 (byte 0xff)");
+    expect_refusal("utf16.yaml", params, "utf16.yaml:1:1: not a text: invalid UTF-8 (byte 0xff)");
     write_file("bom.yaml", "\xef\xbb\xbfkiln: 1\n", 11);
     struct kiln_scene *scene = load_scene_file("bom.yaml");
     kiln_scene_destroy(&scene);
@@ -93,15 +93,15 @@ static void huge_files_are_refused_early(void **state)
     assert_true(file >= 0);
     assert_int_equal(ftruncate(file, (off_t)100 << 30), 0);
     close(file);
-    expect_error("huge.yaml", NULL,
-                 "huge.yaml: the file has 107374182400 bytes; a scene file has at most 4194304");
+    expect_refusal("huge.yaml", NULL,
+                   "huge.yaml: the file has 107374182400 bytes; a scene file has at most 4194304");
 
     struct kiln_error error = {0};
     size_t size = 5 << 20;
     char *text = calloc(size, 1);
     assert_null(kiln_scene_parse(text, size, "memory", NULL, &error));
-    assert_string_equal(error.message,
-                        "memory: the scene file has 5242880 bytes; at most 4194304 are allowed");
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "memory: the scene file has 5242880 bytes; at most 4194304 are allowed");
     free(text);
 }
 
@@ -126,7 +126,7 @@ static void expect_atlas_error(const char *atlas, const char *message)
     char expected[512];
     snprintf(expected, sizeof expected, "scenes/s.yaml:2:29: systems.a.look.atlas: %s", message);
     write_scene("scenes/s.yaml", atlas);
-    expect_error("scenes/s.yaml", NULL, expected);
+    expect_refusal("scenes/s.yaml", NULL, expected);
 }
 
 static void assets_stay_below_the_scene(void **state)
@@ -176,10 +176,10 @@ static void assets_must_be_pictures(void **state)
     write_scene("scenes/s.yaml", "text.png");
     struct kiln_error error = {0};
     assert_null(kiln_scene_load("scenes/s.yaml", NULL, &error));
-    static const char start[] = "scenes/s.yaml:2:29: systems.a.look.atlas: 'text.png': ";
-    assert_memory_equal(error.message, start, sizeof start - 1);
-    assert_null(strstr(error.message, "/tmp"));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(
+        &error, KILN_INVALID_INPUT,
+        "scenes/s.yaml:2:29: systems.a.look.atlas: 'text.png': the file is not an image: it starts "
+        "with the bytes 68 65 6c 6c; allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files");
 
     unsigned char flat[sizeof bitmap];
     memcpy(flat, bitmap, sizeof flat);
@@ -190,7 +190,9 @@ static void assets_must_be_pictures(void **state)
     flat[18] = 0xa0, flat[19] = 0x86, flat[20] = 1; /* 100,000 of them */
     write_file("scenes/flat.bmp", flat, sizeof flat);
     assert_null(kiln_scene_load("scenes/s.yaml", NULL, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "scenes/s.yaml:2:29: systems.a.look.atlas: 'flat.bmp': BMP image of 100000 x 1 "
+                 "pixels; allowed are 1 to 16384 a side and at most 67108864 in all");
 }
 
 /* Motion is read from images only, while an atlas may be a video. */
@@ -209,7 +211,7 @@ static void motion_is_no_video(void **state)
     static const char text[] =
         "kiln: 1\nsystems: {a: {look: {atlas: x.mp4, motion: x.mp4, cells: [1, 1]}}}\n";
     write_file("scenes/a.yaml", text, sizeof text - 1);
-    expect_error(
+    expect_refusal(
         "scenes/a.yaml", NULL,
         "scenes/a.yaml:2:44: systems.a.look.motion: 'x.mp4': the file is not an image: it "
         "starts with the bytes 00 00 00 20; allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files");
@@ -221,15 +223,15 @@ static void asset_root_may_be_given(void **state)
     write_file("scenes/textures/in.bmp", bitmap, sizeof bitmap);
     write_scene("s.yaml", "textures/in.bmp");
     struct kiln_scene_params params = kiln_scene_defaults();
-    expect_error(
+    expect_refusal(
         "s.yaml", &params,
         "s.yaml:2:29: systems.a.look.atlas: cannot open 'textures/in.bmp': No such file "
         "or directory"
         "; a path starts at the scene's folder, or at the asset root that is given instead");
     params.asset_root = "nowhere";
-    expect_error("s.yaml", &params, "asset root 'nowhere': No such file or directory");
+    expect_refusal("s.yaml", &params, "asset root 'nowhere': No such file or directory");
     params.asset_root = "s.yaml";
-    expect_error("s.yaml", &params, "asset root 's.yaml' is not a folder");
+    expect_refusal("s.yaml", &params, "asset root 's.yaml' is not a folder");
     params.asset_root = "scenes";
     struct kiln_error error = {0};
     struct kiln_scene *scene = kiln_scene_load("s.yaml", &params, &error);
@@ -276,11 +278,10 @@ static void what_collides_must_be_closed(void **state)
     write_file("scenes/open.yaml", text, sizeof text - 1);
     write_file("scenes/textures/open.obj", triangle, strlen(triangle));
     assert_null(kiln_scene_load("scenes/open.yaml", &params, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_string_equal(error.message,
-                        "scenes/open.yaml:2:64: backdrop.objects.0.mesh.collide: "
-                        "'textures/open.obj': the mesh is not closed, so it has no inside: 1 "
-                        "triangle is at the edge from 0 0 0 to 0 1 0, where there must be two");
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "scenes/open.yaml:2:64: backdrop.objects.0.mesh.collide: "
+                 "'textures/open.obj': the mesh is not closed, so it has no inside: 1 "
+                 "triangle is at the edge from 0 0 0 to 0 1 0, where there must be two");
 }
 
 static void depth_maps_need_directions_and_no_inside(void **state)
@@ -289,9 +290,15 @@ static void depth_maps_need_directions_and_no_inside(void **state)
     static const char *const cases[][2] = {
         {"{}", NULL},
         {"{directions: [[1, 2, 3]], resolution: 64}", NULL},
-        {"{directions: []}", "must name at least one direction"},
-        {"{directions: [[1, 0, 0], [0, 0, 0]]}", "directions.1: must not be [0, 0, 0]"},
-        {"{directions: [[1, 0, 0], [0, {keys: {0 s: 1}}, 0]]}", "cannot vary"},
+        {"{directions: []}",
+         "scenes/depths.yaml:2:117: backdrop.objects.0.mesh.depth_maps.directions: must name at "
+         "least one direction"},
+        {"{directions: [[1, 0, 0], [0, 0, 0]]}",
+         "scenes/depths.yaml:2:129: backdrop.objects.0.mesh.depth_maps.directions.1: must not be "
+         "[0, 0, 0]"},
+        {"{directions: [[1, 0, 0], [0, {keys: {0 s: 1}}, 0]]}",
+         "scenes/depths.yaml:2:134: backdrop.objects.0.mesh.depth_maps.directions.1.1.keys: cannot "
+         "vary over time here; allowed is a constant"},
     };
     const struct kiln_scene_params params = kiln_scene_defaults();
     const char *triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -306,8 +313,8 @@ static void depth_maps_need_directions_and_no_inside(void **state)
         write_file("scenes/depths.yaml", text, (size_t)size);
         struct kiln_scene *scene = kiln_scene_load("scenes/depths.yaml", &params, &error);
         assert_int_equal(scene != NULL, cases[i][1] == NULL);
-        if (!scene && cases[i][1] && !strstr(error.message, cases[i][1]))
-            fail_msg("'%s' is not in '%s'", cases[i][1], error.message);
+        if (!scene && cases[i][1])
+            expect_error(&error, KILN_INVALID_INPUT, "%s", cases[i][1]);
         if (scene)
             assert_int_equal(scene->backdrop.objects[0].depth_direction_count, i == 0 ? 3 : 1);
         kiln_scene_destroy(&scene);
@@ -333,10 +340,10 @@ static void depth_maps_are_summed_up(void **state)
         struct kiln_scene *scene = kiln_scene_load("scenes/sum.yaml", NULL, &error);
         assert_int_equal(scene != NULL, i <= 5);
         if (i == 6)
-            assert_string_equal(error.message,
-                                "scenes/sum.yaml:4:46: backdrop.objects.0.mesh.collide: wind, "
-                                "terrain and meshes that move particles have 4718700 samples "
-                                "altogether; a scene has at most 4194304");
+            expect_error(&error, KILN_INVALID_INPUT,
+                         "scenes/sum.yaml:4:46: backdrop.objects.0.mesh.collide: wind, "
+                         "terrain and meshes that move particles have 4718700 samples "
+                         "altogether; a scene has at most 4194304");
         kiln_scene_destroy(&scene);
     }
 }
@@ -377,11 +384,9 @@ static void meshes_are_checked_and_hashed(void **state)
     write_file("scenes/textures/m.obj", "v 0 0 0\n", 8);
     struct kiln_error error = {0};
     assert_null(kiln_scene_load("scenes/m.yaml", NULL, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
-    const char *start = "scenes/m.yaml:2:36: backdrop.objects.0.mesh.file: 'textures/m.obj': the "
-                        "mesh is broken";
-    if (strncmp(error.message, start, strlen(start)) != 0)
-        fail_msg("%s", error.message);
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "scenes/m.yaml:2:36: backdrop.objects.0.mesh.file: 'textures/m.obj': the mesh is "
+                 "broken: OBJ-file is too small.");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)

@@ -5,6 +5,7 @@
 
 #include "scene/scene.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/scenes.h"
 
 static const char text[] = "kiln: 1\n"
@@ -164,8 +165,7 @@ static void bad_overrides_are_named(void **state)
         struct kiln_scene *scene = try_scene(text, overrides, &error);
         if (scene)
             fail_msg("accepted: %s", bad[i].override);
-        assert_string_equal(error.message, bad[i].message);
-        assert_int_equal(error.code, bad[i].code);
+        expect_error(&error, bad[i].code, "%s", bad[i].message);
     }
 }
 

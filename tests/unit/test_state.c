@@ -7,6 +7,7 @@
 #include "job/state.h"
 #include "job/states.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/folders.h"
 #include "support/scenes.h"
 #include "support/simulation.h"
@@ -145,8 +146,7 @@ static void orders_are_kept(void **state)
     struct kiln_error error = {0};
     with.pool = &run.pool;
     assert_false(kiln_state_read(&with, FILE_NAME, run.threads, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_string_equal(error.message, FILE_NAME ": the state has no order of a spread sort");
+    expect_error(&error, KILN_INVALID_INPUT, FILE_NAME ": the state has no order of a spread sort");
     free(slots);
     free(read);
     simulation_end(&run);
@@ -175,15 +175,26 @@ static void write_bytes(const char *bytes, size_t size)
     fclose(file);
 }
 
-static void check_refused(const char *bytes, size_t size, const char *what, size_t where)
+/* Lengths of the first words of a state, and of all that is read before its head. */
+enum { MAGIC = 11, FIRST_LINE = 13, START = 17 };
+
+#define NO_STATE "the file is not a saved state"
+#define FORMAT   "the state has another format; this kiln reads format 1"
+#define DAMAGED  "the file is damaged"
+#define CUT_OFF  "the file is cut off"
+
+static void check_refused(const char *bytes, size_t size, const char *what, size_t where,
+                          const char *message)
 {
     struct kiln_state_info info;
     struct kiln_error error = {0};
     write_bytes(bytes, size);
     if (kiln_state_check(FILE_NAME, &info, &error))
         fail_msg("a state %s at byte %zu is taken for one", what, where);
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
-    assert_memory_equal(error.message, FILE_NAME ": ", sizeof FILE_NAME ": " - 1);
+    /* A changed length of a block may reach beyond the end of the file. */
+    if (strcmp(message, DAMAGED) == 0 && strcmp(error.message, FILE_NAME ": " CUT_OFF) == 0)
+        message = CUT_OFF;
+    expect_error(&error, KILN_INVALID_INPUT, FILE_NAME ": %s", message);
 }
 
 static void damage_is_seen(void **state)
@@ -208,13 +219,16 @@ static void damage_is_seen(void **state)
     for (size_t i = 0; i < size; i += STRIDE) {
         const char before = bytes[i];
         bytes[i] = before == 'k' ? 'x' : 'k';
-        check_refused(bytes, size, "changed", i);
+        check_refused(bytes, size, "changed", i,
+                      i < MAGIC        ? NO_STATE
+                      : i < FIRST_LINE ? FORMAT
+                                       : DAMAGED);
         bytes[i] = before;
     }
     for (size_t i = 0; i < size; i += i < 300 ? 1 : 13)
-        check_refused(bytes, i, "cut off", i);
+        check_refused(bytes, i, "cut off", i, i < START ? NO_STATE : CUT_OFF);
     bytes[size] = 0;
-    check_refused(bytes, size + 1, "that goes on", size);
+    check_refused(bytes, size + 1, "that goes on", size, "the file has bytes after its end");
     free(bytes);
     simulation_end(&run);
     kiln_scene_destroy(&scene);
@@ -226,24 +240,25 @@ static void other_files_are_refused(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"", FILE_NAME ": the file is not a saved state"},
-        {"kiln: 1\nseed: 12345678\n", FILE_NAME ": the file is not a saved state"},
-        {"kiln state 2\n____",
-         FILE_NAME ": the state has another format; this kiln reads format 1"},
+        {"", NO_STATE},
+        {"kiln: 1\nseed: 12345678\n", NO_STATE},
+        {"kiln state 2\n____", FORMAT},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kiln_state_info info;
         struct kiln_error error = {0};
         write_bytes(cases[i].text, strlen(cases[i].text));
         assert_false(kiln_state_check(FILE_NAME, &info, &error));
-        assert_string_equal(error.message, cases[i].message);
+        expect_error(&error, KILN_INVALID_INPUT, FILE_NAME ": %s", cases[i].message);
     }
     struct kiln_state_info info;
     struct kiln_error error = {0};
     assert_false(kiln_state_check("nowhere", &info, &error));
-    assert_int_equal(error.code, KILN_IO);
+    expect_error(&error, KILN_IO,
+                 "nowhere: the saved state cannot be opened: No such file or directory");
     assert_false(kiln_state_check(".", &info, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(&error, KILN_INVALID_INPUT,
+                 ".: the path is not a file but a folder; allowed are kiln bake files");
 }
 
 /* A state of other systems, whatever its hash says. */
@@ -259,7 +274,7 @@ static void other_systems_are_refused(void **state)
     struct kiln_state loaded = {.pool = &stranger.pool};
     struct kiln_error error = {0};
     assert_false(kiln_state_read(&loaded, FILE_NAME, run.threads, &error));
-    assert_string_equal(error.message, FILE_NAME ": the state belongs to other systems");
+    expect_error(&error, KILN_INVALID_INPUT, FILE_NAME ": the state belongs to other systems");
     simulation_end(&run);
     simulation_end(&stranger);
     kiln_scene_destroy(&scene);

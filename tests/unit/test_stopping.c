@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/pictures.h"
 
 /* Of each one-file output, and the least times that it asks: so often that the next one is never
@@ -62,8 +63,7 @@ static void refuse(size_t i, const char *folder, uint32_t at, bool overwrite)
     struct caller caller = {.refused_at = at};
     struct kiln_error error = {0};
     assert_false(complete(i, folder, &caller, overwrite, &error));
-    assert_int_equal(error.code, KILN_INTERRUPTED);
-    assert_string_equal(error.message, "enough of it");
+    expect_error(&error, KILN_INTERRUPTED, "enough of it");
     assert_int_equal(caller.asked, at); /* ended there */
 }
 

@@ -9,6 +9,7 @@
 #include "suite/suite.h"
 #include "suite/test_name.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/folders.h"
 
 static const char scene[] = "kiln: 1\nsystems: {}\n";
@@ -29,8 +30,7 @@ static void expect_usage(const struct kiln_suite_params *params, const char *mes
     struct kiln_suite *suite = kiln_suite_load(params, &error);
     if (suite)
         fail_msg("loaded %zu tests, but expected: %s", kiln_suite_count(suite), message);
-    assert_string_equal(error.message, message);
-    assert_int_equal(error.code, KILN_USAGE);
+    expect_error(&error, KILN_USAGE, "%s", message);
 }
 
 /* Loads the paths and compares the full names, which are joined by blanks. */
@@ -153,8 +153,7 @@ static void scenes_with_faults_are_not_passed_over(void **state)
     assert_int_equal(symlink("gone.yaml", "x.yaml"), 0);
     struct kiln_error error = {0};
     assert_null(kiln_suite_load(&params, &error));
-    assert_string_equal(error.message, "x.yaml: No such file or directory");
-    assert_int_equal(error.code, KILN_IO);
+    expect_error(&error, KILN_IO, "x.yaml: No such file or directory");
 }
 
 static void operands_that_are_no_tests(void **state)
@@ -213,8 +212,7 @@ static void expect_sanitized(const char *path, const char *name, const char *quo
              "%s: '%s' cannot name a test: a name has up to 200 bytes of letters, digits, '.', '_' "
              "and '-', and does not start with '.' or '-'",
              shown, quoted);
-    assert_string_equal(suite->tests[0].problem.message, message);
-    assert_int_equal(suite->tests[0].problem.code, KILN_INVALID_INPUT);
+    expect_error(&suite->tests[0].problem, KILN_INVALID_INPUT, "%s", message);
     kiln_suite_destroy(&suite);
 }
 
@@ -522,10 +520,7 @@ static void wrong_test_files_say_where(void **state)
     for (size_t i = 0; i < sizeof wrong_files / sizeof *wrong_files; i++) {
         struct kiln_suite *suite;
         const struct kiln_test *test = load_one(wrong_files[i].text, &suite);
-        char message[512];
-        snprintf(message, sizeof message, "x/t.test.yaml%s", wrong_files[i].message);
-        assert_string_equal(test->problem.message, message);
-        assert_int_equal(test->problem.code, KILN_INVALID_INPUT);
+        expect_error(&test->problem, KILN_INVALID_INPUT, "x/t.test.yaml%s", wrong_files[i].message);
         assert_string_equal(test->name, "x/t");
         assert_true(test->time_limit_s > 0);
         kiln_suite_destroy(&suite);
@@ -543,11 +538,10 @@ static void test_files_that_cannot_be_read(void **state)
     static const char *const files[] = {"b.test.yaml", "c.test.yaml"};
     struct kiln_suite_params params = paths(files, 2);
     struct kiln_suite *suite = load(&params);
-    assert_string_equal(suite->tests[0].problem.message,
-                        "b.test.yaml: the path is not a regular file");
-    assert_string_equal(
-        suite->tests[1].problem.message,
-        "c.test.yaml: the file has 1073741824 bytes; a test file has at most 1048576");
+    expect_error(&suite->tests[0].problem, KILN_INVALID_INPUT,
+                 "b.test.yaml: the path is not a regular file");
+    expect_error(&suite->tests[1].problem, KILN_INVALID_INPUT,
+                 "c.test.yaml: the file has 1073741824 bytes; a test file has at most 1048576");
     kiln_suite_destroy(&suite);
 }
 

@@ -8,9 +8,12 @@
 
 #include "kiln.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/folders.h"
 
 enum { WIDTH = 96, HEIGHT = 54, THREADS = 3 };
+
+#define SCENE KILN_SOURCE_DIR "/scenes/campfire.yaml"
 
 static const char *const SMALL[] = {"output.size=[96, 54]"};
 
@@ -20,7 +23,7 @@ static struct kiln_scene *load(const struct kiln_cancel *cancel, struct kiln_err
     params.overrides = SMALL;
     params.override_count = 1;
     params.cancel = cancel;
-    return kiln_scene_load(KILN_SOURCE_DIR "/scenes/campfire.yaml", &params, error);
+    return kiln_scene_load(SCENE, &params, error);
 }
 
 /* A job of a thread's own, of a scene that all share. */
@@ -94,11 +97,14 @@ static void any_thread_may_cancel(void **state)
         usleep(1000);
     kiln_cancel_request(cancel);
     assert_int_equal(pthread_join(thread, NULL), 0);
-    assert_int_equal(job.error.code, KILN_INTERRUPTED);
+    expect_error(&job.error, KILN_INTERRUPTED, "stopped");
     assert_int_equal(access("f_0149.png", F_OK), -1);
 
     assert_null(load(cancel, &error)); /* its pictures are decoded, which asks */
-    assert_int_equal(error.code, KILN_INTERRUPTED);
+    expect_error(&error, KILN_INTERRUPTED,
+                 "%s:22:18: backdrop.floor.image: 'textures/soil.jpg': stopped while reading the "
+                 "files of a scene",
+                 SCENE);
     kiln_scene_destroy(&scene);
     kiln_cancel_destroy(&cancel);
     assert_false(kiln_cancel_is_requested(NULL));
