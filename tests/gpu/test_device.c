@@ -11,6 +11,7 @@
 #include "gpu/probe.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/errors.h"
 
 static struct kiln_device *open_named(const char *wanted, struct kiln_error *error)
 {
@@ -130,7 +131,12 @@ static void software_is_chosen_by_name(void **state)
     struct kiln_error error = {0};
     struct kiln_device *device = open_named("software", &error);
     if (!device) {
-        assert_int_equal(error.code, KILN_NO_DEVICE);
+        char names[512];
+        test_device_names(names, sizeof names);
+        expect_error(&error, KILN_NO_DEVICE,
+                     "there is no device 'software'; there are: %s; the packages libegl-mesa0 and "
+                     "libgl1-mesa-dri bring a software device",
+                     names);
         skip();
     }
     assert_true(kiln_device_get_info(device)->software);
@@ -150,20 +156,20 @@ static void software_is_chosen_by_name(void **state)
 static void a_wrong_choice_lists_the_devices(void **state)
 {
     struct kiln_error error;
-    const char *name = kiln_device_get_info(*state)->name;
+    char names[512];
+    test_device_names(names, sizeof names);
     assert_null(open_named("no such device", &error));
-    assert_int_equal(error.code, KILN_NO_DEVICE);
-    assert_non_null(strstr(error.message, "'no such device'"));
-    assert_non_null(strstr(error.message, name));
+    expect_error(&error, KILN_NO_DEVICE, "there is no device 'no such device'; there are: %s",
+                 names);
 
     static const char *const numbers[] = {"99", "18446744073709551615"};
     for (size_t i = 0; i < 2; i++) {
         assert_null(open_named(numbers[i], &error));
-        assert_int_equal(error.code, KILN_NO_DEVICE);
-        assert_non_null(strstr(error.message, name));
+        expect_error(&error, KILN_NO_DEVICE, "there is no device '%s'; there are: %s", numbers[i],
+                     names);
     }
     assert_null(open_named("", &error));
-    assert_int_equal(error.code, KILN_USAGE);
+    expect_error(&error, KILN_USAGE, "the name of the device is empty");
     assert_true(kiln_device_make_current(*state, &error));
 }
 
@@ -199,6 +205,7 @@ static void two_devices_live_side_by_side(void **state)
     assert_true(kiln_device_check(first, "first", &error));
 }
 
+/* The driver's words for an error, which its debug callback gets, are not compared. */
 static void gl_errors_are_found_once(void **state)
 {
     struct kiln_device *device = *state;
@@ -207,8 +214,7 @@ static void gl_errors_are_found_once(void **state)
     device->log = (struct kiln_log){0};
     glEnable(GL_TEXTURE_2D_ARRAY);
     assert_false(kiln_device_check(device, "here", &error));
-    assert_int_equal(error.code, KILN_DEVICE_FAILED);
-    assert_non_null(strstr(error.message, "here: GL: invalid enum (0x0500)"));
+    expect_error_around(&error, KILN_DEVICE_FAILED, "", "here: GL: invalid enum (0x0500): ");
     assert_true(kiln_device_check(device, "here", &error));
 
     /* An error that the debug callback received counts even if glGetError has cleared it. */
@@ -216,7 +222,7 @@ static void gl_errors_are_found_once(void **state)
     glBufferData(GL_ARRAY_BUFFER, 16, NULL, GL_STATIC_DRAW);
     assert_int_equal(glGetError(), GL_INVALID_OPERATION);
     assert_false(kiln_device_check(device, "there", &error));
-    assert_non_null(strstr(error.message, "there: GL: "));
+    expect_error_around(&error, KILN_DEVICE_FAILED, "", "there: GL: ");
     assert_true(kiln_device_check(device, "there", &error));
     device->log = log;
 }
@@ -249,16 +255,16 @@ static void out_of_memory_is_named(void **state)
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
     glBufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)1 << 50, NULL, GL_STATIC_DRAW);
     assert_false(kiln_device_check(device, "pool", &error));
-    assert_int_equal(error.code, KILN_DEVICE_FAILED);
-    assert_non_null(strstr(error.message, "out of memory"));
+    expect_error_around(&error, KILN_DEVICE_FAILED, "",
+                        "pool: GL: the device is out of memory (0x0505): ");
     glDeleteBuffers(1, &buffer);
     device->log = log;
 }
 
-/* Fails unless a process with a changed environment variable finds no device and names a package in
- * its advice. A process looks for drivers and libraries only once, so a child process runs this
+/* Fails unless a process with a changed environment variable finds no device with GL and gives this
+ * advice. A process looks for drivers and libraries only once, so a child process runs this
  * program with --list. */
-static void assert_explained(const char *variable, const char *value, const char *package)
+static void assert_explained(const char *variable, const char *value, const char *advice)
 {
     int ends[2];
     assert_int_equal(pipe(ends), 0);
@@ -278,14 +284,15 @@ static void assert_explained(const char *variable, const char *value, const char
     assert_true(waitpid(child, &status, 0) == child);
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == KILN_NO_DEVICE);
     assert_true(length > 0);
-    if (!strstr(text, package))
-        fail_msg("'%s' is not in '%s'", package, text);
+    expect_message(text, "1 devices; %s; no device with OpenGL: %s\n", advice, advice);
 }
 
 static void missing_drivers_are_explained(void **state)
 {
     (void)state;
-    assert_explained("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", "libegl-mesa0");
+    assert_explained("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent",
+                     "EGL has no driver that works without a display; install the package "
+                     "libegl-mesa0, or the GPU vendor's EGL");
 }
 
 /* An empty file hides the library of the same name in a later folder of the search path. */
@@ -298,7 +305,8 @@ static void missing_libraries_are_explained(void **state)
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fclose(file);
-    assert_explained("LD_LIBRARY_PATH", dir, "install the package libegl1");
+    assert_explained("LD_LIBRARY_PATH", dir,
+                     "libEGL.so.1 cannot be loaded; install the package libegl1");
     unlink(path);
     rmdir(dir);
 }

@@ -9,6 +9,7 @@
 #include "job/job.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/errors.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
 
@@ -138,14 +139,14 @@ static void exceeded_device_limits_are_errors(void **state)
     struct kiln_error error = {0};
     device->info.max_texture_size = 32;
     assert_false(kiln_render(device, scene, NULL, NULL, &error));
-    assert_int_equal(error.code, KILN_DEVICE_FAILED);
-    assert_non_null(strstr(error.message, "64 x 48 pixels"));
+    expect_error(&error, KILN_DEVICE_FAILED,
+                 "output.size: found 64 x 48 pixels; %s draws up to 32 a side", info.name);
     device->info = info;
     device->info.software = false;
     device->info.max_storage_block_bytes = 32;
     assert_false(kiln_render(device, scene, NULL, NULL, &error));
-    assert_int_equal(error.code, KILN_DEVICE_FAILED);
-    assert_non_null(strstr(error.message, "draws up to 1"));
+    expect_error(&error, KILN_DEVICE_FAILED,
+                 "systems: found up to 20 particles at once; %s draws up to 1", info.name);
     device->info = info;
     kiln_scene_destroy(&scene);
 }
@@ -183,7 +184,7 @@ static void clips_stop_until_they_are_complete(void **state)
         job.stop = is_enough;
         job.user = &stopper;
         assert_false(kiln_render(*state, scene, &job, NULL, &error));
-        assert_int_equal(error.code, KILN_INTERRUPTED);
+        expect_error(&error, KILN_INTERRUPTED, "stopped");
         assert_int_equal(stopper.done, after);
         assert_int_equal(test_count_files(folder), 0);
         test_remove_folder(folder);

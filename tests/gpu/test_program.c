@@ -13,6 +13,7 @@
 #include "gpu/source.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/errors.h"
 
 struct fixture {
     struct kiln_device *device;
@@ -77,15 +78,23 @@ static GLuint create_quietly(struct fixture *fixture, const struct kiln_program_
     return program;
 }
 
-/* Checks that main.comp is an error with this code, whose text contains `message`. */
-static void assert_refused(struct fixture *fixture, enum kiln_code code, const char *message)
+/* Checks that main.comp is refused with this message. */
+static void assert_refused(struct fixture *fixture, const char *message)
 {
     struct kiln_error error = {0};
     struct kiln_program_params params = {.compute = "main.comp"};
     assert_int_equal(create_quietly(fixture, &params, &error), 0);
-    assert_int_equal(error.code, code);
-    if (!strstr(error.message, message))
-        fail_msg("'%s' is not in '%s'", message, error.message);
+    expect_error(&error, KILN_DEVICE_FAILED, "%s", message);
+    assert_true(kiln_device_check(fixture->device, "after a refusal", &error));
+}
+
+/* Checks that main.comp is refused by the driver's compiler, whose words follow `place`. */
+static void assert_not_compiled(struct fixture *fixture, const char *place)
+{
+    struct kiln_error error = {0};
+    struct kiln_program_params params = {.compute = "main.comp"};
+    assert_int_equal(create_quietly(fixture, &params, &error), 0);
+    expect_error_around(&error, KILN_DEVICE_FAILED, "", "%s", place);
     assert_true(kiln_device_check(fixture->device, "after a refusal", &error));
 }
 
@@ -159,32 +168,33 @@ static void compile_errors_name_file_and_line(void **state)
     write_file(fixture, "part.h", "\n\nuint part() { return unknown_word; }\n");
     write_file(fixture, "main.comp",
                "layout(local_size_x = 1) in;\n#include \"part.h\"\nvoid main() { part(); }\n");
-    assert_refused(fixture, KILN_DEVICE_FAILED, "shaders/part.h:3: ");
+    assert_not_compiled(fixture, "shaders/part.h:3: ");
 
     write_file(fixture, "part.h", "uint part() { return 1u; }\n");
     write_file(fixture, "main.comp",
                "layout(local_size_x = 1) in;\n#include \"part.h\"\n\nvoid main() { other(); }\n");
-    assert_refused(fixture, KILN_DEVICE_FAILED, "shaders/main.comp:4: ");
+    assert_not_compiled(fixture, "shaders/main.comp:4: ");
 }
 
 static void wrong_includes_name_file_and_line(void **state)
 {
     struct fixture *fixture = *state;
     write_file(fixture, "main.comp", "\n#include \"missing.h\"\n");
-    assert_refused(fixture, KILN_DEVICE_FAILED,
-                   "shaders/main.comp:2: includes \"missing.h\", which is not a file");
+    assert_refused(
+        fixture, "shaders/main.comp:2: includes \"missing.h\", which is not a file under shaders/");
     write_file(fixture, "main.comp", "#include \"../main.comp\"\n");
-    assert_refused(fixture, KILN_DEVICE_FAILED, "shaders/main.comp:1: includes \"../main.comp\"");
+    assert_refused(
+        fixture,
+        "shaders/main.comp:1: includes \"../main.comp\", which is not a file under shaders/");
     write_file(fixture, "main.comp", "#include missing.h\n");
-    assert_refused(fixture, KILN_DEVICE_FAILED, "shaders/main.comp:1: #include must be followed");
+    assert_refused(fixture, "shaders/main.comp:1: #include must be followed by \"path\"");
     write_file(fixture, "main.comp", "void main() {}\n/* open\n");
-    assert_refused(fixture, KILN_DEVICE_FAILED, "shaders/main.comp: a comment is not closed");
+    assert_refused(fixture, "shaders/main.comp: a comment is not closed");
 
     write_file(fixture, "main.comp", "#include \"cycle_a.h\"\n");
     write_file(fixture, "cycle_a.h", "// \n#include \"cycle_b.h\"\n");
     write_file(fixture, "cycle_b.h", "#include \"cycle_a.h\"\n");
-    assert_refused(fixture, KILN_DEVICE_FAILED,
-                   "shaders/cycle_b.h:1: includes \"cycle_a.h\", which includes itself");
+    assert_refused(fixture, "shaders/cycle_b.h:1: includes \"cycle_a.h\", which includes itself");
 }
 
 static void link_errors_name_the_files(void **state)
@@ -195,8 +205,7 @@ static void link_errors_name_the_files(void **state)
     write_file(fixture, "t.frag", "in vec2 shade;\nout vec4 c;\nvoid main() { c = shade.xyxy; }\n");
     struct kiln_program_params params = {.vertex = "test.vert", .fragment = "t.frag"};
     assert_int_equal(create_quietly(fixture, &params, &error), 0);
-    assert_int_equal(error.code, KILN_DEVICE_FAILED);
-    assert_non_null(strstr(error.message, "test.vert + t.frag: "));
+    expect_error_around(&error, KILN_DEVICE_FAILED, "", "test.vert + t.frag: ");
     assert_true(kiln_device_check(fixture->device, "after a refusal", &error));
 
     params = (struct kiln_program_params){.compute = NULL};
@@ -231,13 +240,14 @@ static void unreadable_overrides_are_errors(void **state)
     snprintf(path, sizeof path, "%s/main.comp", fixture->dir);
     unlink(path);
     assert_int_equal(mkdir(path, 0700), 0);
-    assert_refused(fixture, KILN_IO, "main.comp");
+    assert_int_equal(
+        create_quietly(fixture, &(struct kiln_program_params){.compute = "main.comp"}, &error), 0);
+    expect_error(&error, KILN_IO, "shader %s: Is a directory", path);
     assert_int_equal(rmdir(path), 0);
 
     setenv("KILN_SHADER_DIR", "/nonexistent", 1);
     assert_null(kiln_program_source("shared/value.h", NULL, &error));
-    assert_int_equal(error.code, KILN_IO);
-    assert_non_null(strstr(error.message, "KILN_SHADER_DIR '/nonexistent'"));
+    expect_error(&error, KILN_IO, "KILN_SHADER_DIR '/nonexistent': No such file or directory");
     setenv("KILN_SHADER_DIR", fixture->dir, 1);
 }
 

@@ -14,6 +14,7 @@
 #include "scene/work.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/errors.h"
 #include "support/scenes.h"
 
 enum { WIDTH = 48, HEIGHT = 32, MOMENTS = 4, FRAME = 12 };
@@ -194,9 +195,9 @@ static void phase_and_angle_fit_into_a_frame(void **state)
     struct kiln_error error = {0};
     static const char text[] = "kiln: 1\ncamera: {shutter: {phase: 200 deg, samples: 2}}\n";
     assert_null(try_scene(text, NULL, &error));
-    assert_string_equal(error.message,
-                        SCENE_NAME ":2:27: camera.shutter.phase: phase and angle together are "
-                                   "more than the 360 deg of a frame");
+    expect_error(&error, KILN_INVALID_INPUT,
+                 SCENE_NAME ":2:27: camera.shutter.phase: phase and angle together are "
+                            "more than the 360 deg of a frame");
     /* With a single sample the picture is sharp, and the angle does not count. */
     struct kiln_scene *scene = load_scene("kiln: 1\ncamera: {shutter: {phase: 360 deg}}\n", NULL);
     assert_int_equal(kiln_scene_instant(scene, 3, 0).step, kiln_scene_frame_step(scene, 4));

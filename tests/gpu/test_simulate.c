@@ -7,6 +7,7 @@
 
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/errors.h"
 #include "support/family_fixture.h"
 #include "support/parts.h"
 #include "support/simulation.h"
@@ -412,7 +413,9 @@ static void work_groups_may_have_any_size(void **state)
     device->work_group_size = (uint32_t)device->info.max_work_group_invocations + 1;
     assert_null(
         kiln_simulate_create(device, &fixture.scene, KILN_SIMULATE_INPLACE, cpu.threads, &error));
-    assert_int_equal(error.code, KILN_USAGE);
+    expect_error(&error, KILN_USAGE, "a work group has %u invocations; %s takes at most %d",
+                 device->work_group_size, device->info.name,
+                 device->info.max_work_group_invocations);
     device->work_group_size = 0;
     simulation_end(&cpu);
 }
@@ -435,11 +438,13 @@ static void an_exact_device_is_needed(void **state)
     for (size_t i = 0; i < DEVICE_WAYS; i++) {
         struct kiln_error error = {0};
         assert_null(kiln_simulate_create(NULL, &fixture.scene, WAYS[i].technique, NULL, &error));
-        assert_int_equal(error.code, KILN_USAGE);
+        expect_error(&error, KILN_USAGE, "without a device, only simulate=cpu is allowed");
         error = (struct kiln_error){0};
         device->info.exact = false;
         assert_null(kiln_simulate_create(device, &fixture.scene, WAYS[i].technique, NULL, &error));
-        assert_int_equal(error.code, KILN_USAGE);
+        expect_error(&error, KILN_USAGE,
+                     "%s computes inexactly and cannot simulate; use simulate=cpu",
+                     device->info.name);
         device->info.exact = exact;
     }
 }

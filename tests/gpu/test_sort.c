@@ -13,6 +13,7 @@
 #include "sort/sort.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/errors.h"
 #include "support/parts.h"
 #include "support/pools.h"
 #include "support/scene_fixture.h"
@@ -532,7 +533,7 @@ static void small_pools_are_spread(void **state)
     }
     assert_null(kiln_sort_create_spread(*state, 0, NULL, &error));
     assert_null(kiln_sort_create_spread(*state, KILN_SORT_MAX_SPREAD + 1, NULL, &error));
-    assert_int_equal(error.code, KILN_USAGE);
+    expect_error(&error, KILN_USAGE, "a sort can be spread over 1 to 64 frames, not 65");
 }
 
 static void records_stay_on_the_device(void **state)
@@ -567,10 +568,11 @@ static void device_techniques_need_an_exact_device(void **state)
     for (int technique = KILN_SORT_RADIX; technique < TECHNIQUES; technique++) {
         device->info.exact = exact;
         assert_null(kiln_sort_create(NULL, (enum kiln_sort_technique)technique, NULL, &error));
-        assert_int_equal(error.code, KILN_USAGE);
+        expect_error(&error, KILN_USAGE, "this sort needs a device; use sort=cpu");
         device->info.exact = false;
         assert_null(kiln_sort_create(device, (enum kiln_sort_technique)technique, NULL, &error));
-        assert_int_equal(error.code, KILN_USAGE);
+        expect_error(&error, KILN_USAGE, "%s computes inexactly and cannot sort; use sort=cpu",
+                     device->info.name);
     }
     device->info.exact = exact;
 }

@@ -10,6 +10,7 @@
 #include "sort/pairs.h"
 #include "support/cmocka.h"
 #include "support/device.h"
+#include "support/errors.h"
 #include "support/simulation.h"
 #include "support/sort_keys.h"
 
@@ -112,7 +113,8 @@ static void a_device_is_needed(void **state)
     for (int kind = KILN_SORT_TIMER_RADIX; kind < KILN_SORT_TIMER_COUNT; kind++) {
         error = (struct kiln_error){0};
         assert_null(kiln_sort_timer_create(NULL, NULL, (enum kiln_sort_timer_kind)kind, 1, &error));
-        assert_int_equal(error.code, KILN_USAGE);
+        expect_error(&error, KILN_USAGE, "sort %s needs a device",
+                     kiln_sort_timer_name((enum kiln_sort_timer_kind)kind));
     }
 }
 

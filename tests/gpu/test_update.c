@@ -10,6 +10,7 @@
 
 #include "suite/golden.h"
 #include "support/cmocka.h"
+#include "support/errors.h"
 #include "support/folders.h"
 #include "support/suite.h"
 
@@ -162,7 +163,8 @@ static void update_all_accepts_equal_pixels_of_a_new_device(void **state)
     struct file_state first = file_state(SPARK_GOLDEN);
     spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_METRICS);
     run = run_update(KILN_UPDATE_ALL, false);
-    assert_true(spark_has_note(&run, "accepted the hashes of frame 3 on "));
+    assert_true(
+        spark_has_note(&run, "accepted the hashes of frame 3 on %s", run.result->device_name));
     spark_end(&run);
     assert_true(is_untouched(SPARK_GOLDEN, &first));
     spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
@@ -216,7 +218,10 @@ static void update_failed_replaces_broken_goldens(void **state)
     struct file_state first = file_state(SPARK_GOLDEN), second = file_state(SECOND_GOLDEN);
     struct spark_run run = run_update(KILN_UPDATE_MISSING, false);
     assert_int_equal(run.summary.status, KILN_TEST_ERROR);
-    assert_non_null(strstr(run.summary.message, "; --update failed replaces it"));
+    expect_message(run.summary.message,
+                   "frame 3: golden/spark/frame_0003.png: the file is not an image: it starts with "
+                   "the bytes 6e 6f 20 70; allowed are PNG, JPEG, WebP, TIFF, BMP or EXR files; "
+                   "--update failed replaces it");
     spark_end(&run);
     assert_true(is_untouched(SPARK_GOLDEN, &first));
     run = run_update(KILN_UPDATE_FAILED, true);
@@ -259,10 +264,14 @@ static void repeats_must_have_the_same_hashes(void **state)
     struct spark_run run = spark_run(&params);
     assert_true(run.ok);
     assert_int_equal(run.summary.status, KILN_TEST_FAIL);
-    assert_non_null(strstr(run.summary.message, "render 2 of 3 differs from the first: frame "));
     assert_int_equal(access("out/test/spark/frame_0003_render2.png", R_OK), 0);
-    spark_end(&run);
     assert_true(is_untouched(SPARK_GOLDEN, &first));
+    struct spark_run other = spark_run(NULL); /* with the other seed */
+    expect_message(run.summary.message,
+                   "render 2 of 3 differs from the first: frame 3 has the state %s, not %s",
+                   other.result->frames[0].state, run.result->frames[0].state);
+    spark_end(&other);
+    spark_end(&run);
 }
 
 static bool stop_at_once(void *user)
@@ -279,7 +288,7 @@ static void a_stopped_run_has_no_result(void **state)
     params.stop = stop_at_once;
     struct spark_run run = spark_run(&params);
     assert_false(run.ok);
-    assert_int_equal(run.error.code, KILN_INTERRUPTED);
+    expect_error(&run.error, KILN_INTERRUPTED, "stopped");
     assert_int_equal(access("out/test/spark/result.json", F_OK), -1);
     spark_end(&run);
 }
@@ -299,11 +308,17 @@ static void settings_that_judge_less_are_noted(void **state)
     spark_write(loose);
     struct spark_run run = spark_run(NULL);
     assert_int_equal(run.summary.status, KILN_TEST_PASS);
-    assert_true(spark_has_note(&run, "flip.mean has no limit, although its default limit is 0.01"));
-    assert_true(spark_has_note(&run, "window.share has no limit"));
-    assert_true(spark_has_note(&run, "threshold 255 is above the default threshold, 2"));
-    assert_true(spark_has_note(&run, "window 4000 is above the default window, 32"));
-    assert_true(spark_has_note(&run, "the masks leave only 6.2 % of the picture to judge"));
+    assert_true(spark_has_note(
+        &run,
+        "flip.mean has no limit, although its default limit is 0.01, and no reason is given"));
+    assert_true(spark_has_note(
+        &run,
+        "window.share has no limit, although its default limit is 0.1, and no reason is given"));
+    assert_true(spark_has_note(
+        &run, "threshold 255 is above the default threshold, 2, and no reason is given"));
+    assert_true(spark_has_note(
+        &run, "window 4000 is above the default window, 32, and no reason is given"));
+    assert_true(spark_has_note(&run, "the masks leave only 6.2 %% of the picture to judge"));
     spark_end(&run);
     snprintf(text, sizeof text, "%sreason: fog\n", loose);
     spark_write(text);
@@ -326,7 +341,8 @@ static void goldens_of_no_frame_are_noted(void **state)
     spark_end(&run);
     assert_true(kiln_file_copy(SPARK_GOLDEN, "golden/spark/frame_3.png", &error));
     run = spark_run(NULL);
-    assert_true(spark_has_note(&run, SECOND_GOLDEN " and 1 more are goldens of frames that"));
+    assert_true(spark_has_note(&run, SECOND_GOLDEN
+                               " and 1 more are goldens of frames that the test does not have"));
     spark_end(&run);
 }
 
@@ -341,18 +357,21 @@ static void stale_limits_are_noted(void **state)
 
     /* Nothing was measured yet, so it is unknown whether a limit is stale. */
     struct spark_run run = spark_run(&usual);
-    assert_true(spark_has_note(&run, "limit flip.mean=0.3 is looser than the default limit"));
-    assert_false(spark_has_note(&run, "stale"));
+    assert_true(spark_has_note(
+        &run,
+        "limit flip.mean=0.3 is looser than the default limit, 0.01, and no reason is given"));
+    assert_int_equal(run.summary.notes, 2); /* and one on window.share */
     spark_end(&run);
 
     run = spark_run(&params);
-    assert_true(spark_has_note(&run, "limit flip.mean=0.3 is stale: no value above 0 was ever"));
-    assert_false(spark_has_note(&run, "flip.p99"));
+    assert_true(
+        spark_has_note(&run, "limit flip.mean=0.3 is stale: no value above 0 was ever measured"));
+    assert_int_equal(run.summary.notes, 3); /* and none on flip.p99 */
     char note[KILN_MESSAGE_SIZE];
     assert_true(kiln_test_read_note(run.suite, 0, 0, note, &run.error));
     assert_string_equal(note, run.result->notes[0]);
     assert_false(kiln_test_read_note(run.suite, 0, run.summary.notes, note, &run.error));
-    assert_int_equal(run.error.code, KILN_USAGE);
+    expect_error(&run.error, KILN_USAGE, "spark: there is no note 3; the result has 3");
     spark_end(&run);
 
     spark_replace(EXPECT, "kiln_expect: 1\n", "kiln_expect: 1\nmeasured: {flip.mean: 0.05}\n");
@@ -365,13 +384,15 @@ static void stale_limits_are_noted(void **state)
 
 static void other_techniques_and_missing_states_are_noted(void **state)
 {
+#define OTHERS "sort=cpu backdrop=cpu raster=cpu bloom=cpu composite=cpu"
     (void)state;
     spark_write("");
     spark_update(KILN_UPDATE_MISSING);
     spark_replace(EXPECT, "simulate=cpu", "simulate=inplace");
     struct spark_run run = spark_run(NULL);
     assert_int_equal(run.summary.status, KILN_TEST_PASS);
-    assert_true(spark_has_note(&run, "but simulate=inplace "));
+    assert_true(spark_has_note(&run, "the techniques are simulate=cpu " OTHERS
+                                     ", but simulate=inplace " OTHERS " were accepted"));
     char accepted[32];
     snprintf(accepted, sizeof accepted, "state: \"%s\"", run.result->frames[0].state);
     spark_end(&run);
@@ -412,7 +433,8 @@ static void crashes_are_recorded(void **state)
     struct kiln_test_summary summary;
     struct kiln_error error = {0};
     assert_false(kiln_test_read_summary(suite, 0, &summary, &error));
-    assert_int_equal(error.code, KILN_INVALID_INPUT);
+    expect_error(&error, KILN_INVALID_INPUT,
+                 "out/test/spark/result.json: No such file or directory");
     assert_true(
         kiln_test_record_error(suite, 0, KILN_DEVICE_FAILED, "crashed: signal 11", 2.5, &error));
     assert_true(kiln_test_read_summary(suite, 0, &summary, &error));

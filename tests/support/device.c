@@ -18,6 +18,21 @@ struct kiln_device *test_device(void)
     return test_opened_device;
 }
 
+void test_device_names(char *names, size_t size)
+{
+    struct kiln_device_info infos[32];
+    for (size_t i = 0; i < 32; i++)
+        infos[i] = kiln_device_info_empty();
+    const size_t count = kiln_device_list(infos, sizeof *infos, 32, NULL);
+    size_t length = 0;
+    assert_in_range(count, 1, 32);
+    for (size_t i = 0; i < count; i++) {
+        length += (size_t)snprintf(names + length, size - length, "%s%zu '%s'", i ? ", " : "", i,
+                                   infos[i].name);
+        assert_true(length < size);
+    }
+}
+
 double test_rounding(void)
 {
     return test_device()->info.software ? 0x1p-24 : 0x1p-11;

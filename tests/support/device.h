@@ -12,6 +12,9 @@ void test_log(void *user, enum kiln_log_level level, const char *line);
 /* Returns the device that test_device_open opened, for tests whose *state is something else. */
 struct kiln_device *test_device(void);
 
+/* Writes the devices of this machine as an error lists them: 0 'cpu', 1 'llvmpipe'. */
+void test_device_names(char *names, size_t size);
+
 /* Returns the largest relative rounding error of a value in a render target of a frame. A GPU has
  * targets of half floats, which round by up to 2^-11; software GL has targets of 32-bit floats,
  * which round by up to 2^-24 (lib/frame/stages.c). */

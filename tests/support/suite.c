@@ -80,12 +80,19 @@ void spark_end(struct spark_run *run)
     kiln_arena_destroy(&run->arena);
 }
 
-bool spark_has_note(const struct spark_run *run, const char *part)
+bool spark_has_note(const struct spark_run *run, const char *format, ...)
 {
+    char note[KILN_MESSAGE_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(note, sizeof note, format, args);
+    va_end(args);
     for (size_t i = 0; i < run->result->note_count; i++) {
-        if (strstr(run->result->notes[i], part))
+        if (strcmp(run->result->notes[i], note) == 0)
             return true;
     }
+    for (size_t i = 0; i < run->result->note_count; i++)
+        print_error("note: %s\n", run->result->notes[i]);
     return false;
 }
 

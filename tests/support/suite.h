@@ -34,8 +34,10 @@ struct spark_run spark_run(const struct kiln_test_params *params);
 
 void spark_end(struct spark_run *run);
 
-/* Returns whether one of the result's notes contains `part`. */
-bool spark_has_note(const struct spark_run *run, const char *part);
+/* Returns whether one of the result's notes is this one, which is formatted as by printf. Prints
+ * all notes if not. */
+bool spark_has_note(const struct spark_run *run, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /* Runs the golden test. Fails unless its status is `status` and both frames were judged by
  * `judged_by`. Returns the number of notes. */
