@@ -47,6 +47,8 @@ printf '#include "draw/picture.h"\n' >lib/base/sum.h
 said "an include" 1 'lib/base/sum.h:1: "draw/picture.h" is not a header of lib/'
 printf 'void kiln_sum(void)\n{\n    glUniform1i(0, 1);\n}\n' >lib/base/sum.c
 said "a uniform" 1 "refused: uniforms"
+printf '/* "%%" PRIu64 PRIu64 */\n' >lib/base/sum.h
+said "a message" 1 "refused: texts"
 printf '/* Long. */\n%.0s' {1..601} >lib/base/sum.h
 said "a size" 1 "refused: sizes"
 printf '#!/bin/sh\n' >tools/new

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks that includes.sh, symbols.sh, uniforms.sh and rows.sh find faults, and that rows of option
+# Checks that includes.sh, symbols.sh, uniforms.sh, texts.sh and rows.sh find faults, and that rows of option
 # tables with faults do not compile: planted.sh CC. If this fails, a tree passes that breaks the
 # rules. In a small tree, each rule is broken once, and the script or the compiler must say so.
 set -euo pipefail
@@ -11,7 +11,7 @@ trap 'rm -rf "$tree"' EXIT
 # plant: makes a small tree that breaks no rule.
 plant() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{cmd,decode,tests,lib/{base,draw/{moment,light},sort},shaders/{shared,draw/light}}
+    mkdir -p "$tree"/{cmd,decode,tests/unit,lib/{base,draw/{moment,light},sort},shaders/{shared,draw/light}}
     cd "$tree"
     : >lib/kiln.h
     : >lib/base/error.h
@@ -166,6 +166,25 @@ unfit 'LIST(NO_PART, "marks", marks, mark, full, "[]", "")' \
 fits 'MAP(NO_PART, "beans", beans, bean, bean_count, "{}", "")'
 unfit 'MAP(NO_PART, "beans", marks, bean, bean_count, "{}", "")' \
     'marks is not an array of what bean fills'
+
+texts() { "$scripts/texts.sh" "$tree"; }
+
+plant
+printf '    if (strstr(text, "an error"))\n    strstr(error.message, "no"); /* partly: why */\n' \
+    >tests/unit/test_thing.c
+printf '    "%%" PRIu64 "%%" PRIu32, a, b);\n    "%%" PRIu64\n    "%%" PRIu32, a, b);\n' >lib/sort/keys.h
+texts >/dev/null
+
+plant && echo '    assert_non_null(strstr(error->message, "no"));' >tests/unit/test_thing.c
+refused "a part of a message" 'tests/unit/test_thing.c:1: looks for a part of a message' texts
+plant && printf '    assert_true(strstr(\n        run.summary.message, "no"));\n' >tests/unit/test_thing.c
+refused "a part of a message, on two lines" 'tests/unit/test_thing.c:2: looks for a part' texts
+plant && echo '    strncmp(error.message, "no", 2);' >tests/unit/test_thing.c
+refused "the start of a message" 'tests/unit/test_thing.c:1: looks for a part of a message' texts
+plant && echo '    "%" PRIu64 "/%" PRIu64 PRIu64, a, b);' >lib/sort/keys.h
+refused "two PRI macros" 'lib/sort/keys.h:1: two PRI macros in sequence' texts
+plant && printf '    "%%" PRIu64\n\n    PRIx32, a);\n' >tests/unit/test_thing.c
+refused "two PRI macros on two lines" 'tests/unit/test_thing.c:3: two PRI macros in sequence' texts
 
 # symbols.sh is given objects in which lib/base calls a function that lib/sort defines. includes.sh
 # would not find that when the function is declared in kiln.h, which every room may include.
