@@ -131,7 +131,7 @@ static void occlusion_changes_no_bit_of_a_picture(void **state)
     const bool software = device->info.software;
     char folder[32], path[128];
     test_make_folder(folder);
-    snprintf(path, sizeof path, "%s/draw/occlusion.frag", folder);
+    snprintf(path, sizeof path, "%s/draw/sprites/occlusion.frag", folder);
     test_write_file(path, "void main() { gl_FragDepth = 1.0; }\n"); /* hides nothing */
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         device->info.software = false; /* GPUs always use the depth test */
