@@ -18,7 +18,7 @@ set(kiln_test_times
         docs.jobs docs.library docs.python farm.schemas farm.tasks faults.address faults.flat_png
         faults.kill_flipbook faults.starved_mp4 fuzz.answers fuzz.part gpu.backdrop gpu.backdrop_turned
         gpu.bloom gpu.calibrate gpu.coarse gpu.exact gpu.frame gpu.lamp_kinds gpu.lamps gpu.post_techniques
-        gpu.small_billboards gpu.solid_lamps gpu.sort_trial gpu.spheres gpu.stages gpu.suite gpu.update
+        gpu.small_billboards gpu.solid_lamps gpu.sort_spread gpu.sort_trial gpu.spheres gpu.stages gpu.suite gpu.update
         mutation.none schema.ajv shader.sim.step tree.check tree.entrance tree.format tree.size unit.bounces
         unit.depth_maps unit.fragments unit.image unit.output unit.parts unit.sort unit.state unit.stopping
         unit.surface_cache unit.threads unit.triangles unit.video_in unit.volume"

@@ -144,8 +144,8 @@ struct kiln_compare_picture *kiln_compare_picture_create(const struct kiln_asset
 {
     struct conversion conversion = {.image = image, .masked = masked, .picture = allocate(image)};
     if (!conversion.picture) {
-        kiln_error_no_memory(error, "%s: comparing %u x %u pixels", name, image->width,
-                             image->height);
+        kiln_error_no_memory(error, "comparing %u x %u pixels of %s", image->width, image->height,
+                             name);
         return NULL;
     }
     atomic_init(&conversion.bad, SIZE_MAX);

@@ -49,8 +49,8 @@ static bool allocate_host(struct kiln_buffer *buffer, struct kiln_error *error)
     const size_t size = storage_size(buffer);
     buffer->host = kiln_alloc_pages(size);
     if (!buffer->host)
-        return kiln_error_no_memory(error, "%s: %zu bytes on the host", buffer->label,
-                                    buffer->size);
+        return kiln_error_no_memory(error, "%zu bytes of the buffer '%s' on the host", buffer->size,
+                                    buffer->label);
     if (!buffer->gl_valid)
         memset(buffer->host, 0, size);
     return true;
@@ -94,7 +94,8 @@ static bool allocate_gl(struct kiln_buffer *buffer, struct kiln_error *error)
         return kiln_error_set(error, KILN_DEVICE_FAILED, "%s: a host buffer is not in GL",
                               buffer->label);
     if (size > PTRDIFF_MAX)
-        return kiln_error_no_memory(error, "%s: %zu bytes in GL", buffer->label, size);
+        return kiln_error_no_memory(error, "%zu bytes of the buffer '%s' in GL", size,
+                                    buffer->label);
     GLuint gl = 0;
     glGenBuffers(1, &gl);
     glBindBuffer(GL_COPY_WRITE_BUFFER, gl);

@@ -39,8 +39,8 @@ void kiln_image_exchange(struct kiln_image *image, float **pixels)
 static bool refuse_memory(const struct kiln_image *image, const char *place,
                           struct kiln_error *error)
 {
-    return kiln_error_no_memory(error, "%s: %u x %u pixels %s", image->label, image->width,
-                                image->height, place);
+    return kiln_error_no_memory(error, "%u x %u pixels of the image '%s' %s", image->width,
+                                image->height, image->label, place);
 }
 
 static bool allocate_host(struct kiln_image *image, struct kiln_error *error)

@@ -184,8 +184,8 @@ static void *open_stream(const struct kiln_output_params *params, struct kiln_te
         if (pixel_bytes || write_y4m_header(stream, error))
             return stream;
     } else {
-        kiln_error_no_memory(error, "%s: frames of %u x %u pixels", params->path, params->width,
-                             params->height);
+        kiln_error_no_memory(error, "frames of %u x %u pixels for %s", params->width,
+                             params->height, params->path);
     }
     if (stream)
         close_stream(stream);

@@ -22,7 +22,7 @@ bool kiln_canvas_init(struct kiln_canvas *canvas, uint32_t edge, uint32_t slot_c
         canvas->pending = calloc(slot_count, sizeof *canvas->pending);
     if (canvas->texels && (canvas->pending || slot_count == 0))
         return true;
-    kiln_error_no_memory(error, "the paint: %u x %u texels", edge, edge);
+    kiln_error_no_memory(error, "paint of %u x %u texels", edge, edge);
     return false;
 }
 

@@ -173,16 +173,16 @@ static void too_much_memory_is_an_error(void **state)
         kiln_buffer_init(&buffer, device, sizes[i], "huge");
         assert_int_equal(kiln_buffer_gl(&buffer, KILN_OVERWRITE, &error), 0);
         if (sizes[i] > PTRDIFF_MAX)
-            expect_error(&error, KILN_DEVICE_FAILED, "huge: no memory for %zu bytes in GL",
-                         sizes[i]);
+            expect_error(&error, KILN_DEVICE_FAILED,
+                         "out of memory for %zu bytes of the buffer 'huge' in GL", sizes[i]);
         else /* the driver says more */
             expect_error_around(
                 &error, KILN_DEVICE_FAILED, "",
                 "huge, %zu bytes: GL: the device is out of memory (0x0505): ", sizes[i]);
         error = (struct kiln_error){0};
         assert_null(kiln_buffer_host(&buffer, KILN_OVERWRITE, &error));
-        expect_error(&error, KILN_DEVICE_FAILED, "huge: no memory for %zu bytes on the host",
-                     sizes[i]);
+        expect_error(&error, KILN_DEVICE_FAILED,
+                     "out of memory for %zu bytes of the buffer 'huge' on the host", sizes[i]);
         kiln_buffer_finish(&buffer);
     }
     device->log = log;

@@ -105,7 +105,8 @@ static void impossible_sizes_are_errors(void **state)
     kiln_image_init(&image, NULL, UINT32_MAX, UINT32_MAX, GL_RGBA32F, "impossible");
     assert_null(kiln_image_host(&image, KILN_OVERWRITE, &error));
     expect_error(&error, KILN_DEVICE_FAILED,
-                 "impossible: no memory for 4294967295 x 4294967295 pixels on the host");
+                 "out of memory for 4294967295 x 4294967295 pixels of the image 'impossible' on "
+                 "the host");
     assert_int_equal(kiln_image_gl(&image, KILN_OVERWRITE, &error), 0);
     kiln_image_finish(&image);
 }

@@ -173,7 +173,7 @@ static bool add_part(struct kiln_fragments_gl *f, const struct part *part, struc
         size_t room = f->part_room ? 2 * f->part_room : 64;
         struct part *parts = realloc(f->parts, room * sizeof *parts);
         if (!parts) {
-            kiln_error_no_memory(error, "the fragments: %zu parts", room);
+            kiln_error_no_memory(error, "%zu parts of the fragments", room);
             return false;
         }
         f->parts = parts;

@@ -210,7 +210,7 @@ static bool make_lists(struct gathering *g, struct kiln_error *error)
     }
     if (total > 0 && !grid->list) {
         grid->list_capacity = 0;
-        kiln_error_no_memory(error, "the paint: %u splats", g->count);
+        kiln_error_no_memory(error, "%u splats of paint", g->count);
         return false;
     }
     kiln_threads_for(g->gather->threads, CHUNKS, 1, write_chunks, g);

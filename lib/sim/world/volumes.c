@@ -75,7 +75,7 @@ static struct kiln_volume *load(const struct kiln_scene *scene, uint32_t index,
     volume->before = calloc(count, sizeof *volume->before);
     volume->after = calloc(count, sizeof *volume->after);
     if (!volume->mesh || !volume->before || !volume->after) {
-        kiln_error_no_memory(error, "%s: %zu vertices", object->file, count);
+        kiln_error_no_memory(error, "%zu vertices of %s", count, object->file);
         kiln_mesh_destroy(&volume->mesh);
         return volume; /* the caller frees it */
     }

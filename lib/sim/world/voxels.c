@@ -104,7 +104,7 @@ static bool grow(void **block, size_t count, size_t each, struct kiln_error *err
     free(*block);
     *block = calloc(count, each);
     if (!*block)
-        return kiln_error_no_memory(error, "the volume: %zu times %zu bytes", count, each);
+        return kiln_error_no_memory(error, "%zu times %zu bytes of a volume", count, each);
     return true;
 }
 
