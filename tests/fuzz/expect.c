@@ -1,6 +1,7 @@
-/* Fuzzes the reader of expect.yaml: any bytes are expectations or an error, never a crash.
- * Expectations that are read and written twice give the same text. If this fails, `kiln test
- * approve` may lose what was accepted before, or crash on a damaged file. */
+/* Fuzzes the reader of expect.yaml, the file that records which frames of a golden test were
+ * accepted. Any bytes must give expectations or an error, never a crash; reading and writing
+ * expectations twice must give the same text. If this fails, `kiln test approve` may lose earlier
+ * acceptances, or crash on a damaged file. */
 #include "suite/expect.h"
 
 #include <stdlib.h>
@@ -27,8 +28,8 @@ static void check_round_trip(struct kiln_arena *arena, const struct kiln_expect 
     kiln_text_free(&text_again);
 }
 
-/* Accepts a picture of frame 24 on one device, and checks that all other frames and devices keep
- * their entries. */
+/* Records that a picture of frame 24 is accepted on one device, and checks that the entries of all
+ * other frames and devices stay. */
 static void check_accepting(struct kiln_arena *arena, struct kiln_expect *expect)
 {
     static const char hash[] = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";

@@ -1,5 +1,6 @@
-/* Fuzzes the reader of kiln-grid files: any bytes are a grid of finite samples within the limits or
- * an error. If this fails, a damaged grid file crashes kiln or moves particles to NaN. */
+/* Fuzzes the reader of kiln-grid files, which hold vector fields such as wind. Any bytes must give
+ * an error, or a grid of finite samples whose number is within the limit. If this fails, a damaged
+ * grid file crashes kiln or moves particles to NaN. */
 #include <math.h>
 
 #include "asset/geometry/grid_in.h"

@@ -1,6 +1,7 @@
-/* Fuzzes the reader of journals: any bytes are lines of the job's journal or an error, never a
- * crash. Reading a journal twice gives the same, and the settings of an accepted head are within
- * their limits. If this fails, a job that was killed while it wrote its journal may not resume. */
+/* Fuzzes the reader of journals, the files that list a job's finished frames. Any bytes must give a
+ * journal or an error, never a crash. Reading a journal twice must give the same frames, and the
+ * settings in the head (the first line) must be within their limits. If this fails, a job that was
+ * killed while it wrote its journal may not resume. */
 #include "job/journal.h"
 
 #include <stdio.h>
@@ -14,7 +15,8 @@
 
 static const struct kiln_frame_range clip = {0, 63};
 
-/* Describes the job whose journals are the corpus: 64 frames as PNG files. */
+/* Makes the head of the journals in the corpus, those of a job that writes 64 frames as PNG files.
+ */
 static bool make_head(struct kiln_journal_head *head, const char *output)
 {
     struct kiln_error error = {0};
@@ -32,8 +34,8 @@ static bool make_head(struct kiln_journal_head *head, const char *output)
     return complete.format && kiln_journal_head_make(head, &complete, "fuzz", "{}");
 }
 
-/* Opens the journal as a job that resumes does. Returns the number of frames whose state it
- * records. */
+/* Opens the journal as a job does that resumes. Returns the number of frames for which the journal
+ * has a state hash. */
 static uint32_t open_journal(const struct kiln_journal_head *head)
 {
     struct kiln_error error = {0};
@@ -51,8 +53,8 @@ static uint32_t open_journal(const struct kiln_journal_head *head)
     return known;
 }
 
-/* Reads the head of the output's journal, as `kiln join` does, which does not know the job. Returns
- * whether the head was accepted. */
+/* Reads the head of the output's journal as `kiln join` does, which learns the job's settings only
+ * from that head. Returns whether the head was accepted. */
 static bool find_head(const char *output)
 {
     struct kiln_error error = {0};
@@ -70,8 +72,9 @@ static bool find_head(const char *output)
     return found;
 }
 
-/* Writes a journal of a head alone, with the input's numbers as settings. The head has the hash of
- * these settings; otherwise each would be refused for its hash before its settings are checked. */
+/* Writes a journal that has only a head, with numbers from the fuzzer's input as settings. The head
+ * gets the correct hash of these settings; with a wrong hash it would be refused before its
+ * settings are checked. */
 static bool put_settings(const char *path, const struct kiln_journal_head *like,
                          const uint8_t *data, size_t size)
 {
@@ -96,9 +99,10 @@ static bool put_settings(const char *path, const struct kiln_journal_head *like,
     return fclose(file) == 0 && written;
 }
 
-/* Writes the journal of an input. The first byte decides what the other bytes are: numbers for the
- * settings of a head (3 mod 4), lines behind a correct head (even), without which mutations would
- * rarely get past the head, or a whole journal (1 mod 4). */
+/* Writes a journal from the fuzzer's input. The first byte, b, decides what the other bytes are. If
+ * b is even, they are the lines that follow a correct head; mutations of a whole journal would
+ * rarely keep the head correct. If b mod 4 is 1, they are a whole journal. If b mod 4 is 3, they
+ * are numbers for the settings of a head. */
 static bool put(const char *path, const struct kiln_journal_head *head, const uint8_t *data,
                 size_t size)
 {

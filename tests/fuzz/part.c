@@ -1,6 +1,7 @@
-/* Fuzzes the joining of the parts of a clip: any bytes in the file of a part are a part or an
- * error, never a crash. If this fails, a damaged part can crash `kiln join`. The target first
- * corrects the checksum of each input, since a wrong one is refused before anything else is read.
+/* Fuzzes kiln_parts_join, which joins part files, each with some frames of a clip, into the clip.
+ * Any bytes in a part file must give a clip or an error, never a crash. If this fails, a damaged
+ * part file can crash `kiln join`. The target first corrects the checksum of each input, since a
+ * file with a wrong checksum is refused before anything else is read.
  */
 #include "output/part.h"
 
@@ -14,7 +15,7 @@
 #include "base/ffmpeg.h"
 #include "fuzz.h"
 
-/* Frames of the clip whose parts are the corpus: two seconds at 4 frames a second, in one part. */
+/* Frame range of the clip in the corpus: two seconds at 4 frames a second, which make one part. */
 static const struct kiln_frame_range clip = {0, 7};
 
 static struct kiln_output_params params_of(const char *path, const char *parts)
@@ -40,8 +41,8 @@ static struct kiln_output_params params_of(const char *path, const char *parts)
     return kiln_output_complete(&params, &error);
 }
 
-/* Joins the clip from the one part in the folder. `kind`, the first byte of the input, chooses the
- * format of the clip. */
+/* Joins a clip from the only part file in the folder. kind: the first byte of the input; modulo 3,
+ * it chooses the format of the clip. */
 static void join(const char *folder, uint8_t kind)
 {
     static const char *const suffixes[] = {"mp4", "webm", "gif"};
@@ -55,8 +56,9 @@ static void join(const char *folder, uint8_t kind)
     unlink(path);
 }
 
-/* Writes into the head the hash of this clip and the versions of this kiln and FFmpeg. The file of
- * another clip or version would be refused before its frames are read. */
+/* Overwrites the clip's hash and the versions of kiln and FFmpeg in the head of the part file,
+ * bytes + 1, with the correct ones. With others, the file would be refused before its frames are
+ * read. */
 static void repair(uint8_t *bytes, size_t length)
 {
     enum { CLIP_AT = 12 + 5 * 4, MADE_BY_AT = CLIP_AT + 65, END_AT = MADE_BY_AT + 128 };
@@ -73,7 +75,7 @@ static void repair(uint8_t *bytes, size_t length)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char folder[] = "/tmp/kiln-fuzz-XXXXXX", path[64];
-    /* kiln_parts_join expects that a job has opened FFmpeg. */
+    /* kiln_parts_join relies on its caller to open FFmpeg's libraries. */
     require(kiln_ffmpeg_open(KILN_FFMPEG_CLIPS, NULL), "FFmpeg is missing");
     uint8_t *copy = size < 5 ? NULL : malloc(size);
     if (!copy || !mkdtemp(folder)) {
@@ -85,7 +87,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     snprintf(path, sizeof path, "%s/00000.part", folder);
     FILE *file = fopen(path, "wb");
     if (file) {
-        const size_t length = size - 5; /* without the first byte, and the 4 of the checksum */
+        const size_t length = size - 5; /* bytes, without the first one and the checksum */
         const uint32_t crc = (uint32_t)crc32_z(0, copy + 1, length);
         const uint8_t sum[] = {(uint8_t)crc, (uint8_t)(crc >> 8), (uint8_t)(crc >> 16),
                                (uint8_t)(crc >> 24)};

@@ -1,6 +1,7 @@
-/* Fuzzes the reader of the results of `kiln test`: any bytes are a result or an error, never a
- * crash. A result that is read and written twice gives the same text. If this fails, a report may
- * show other results than the run had, or a damaged file crashes kiln. */
+/* Fuzzes the reader of result.json, the file in which `kiln test` records the result of one golden
+ * test. Any bytes must give a result or an error, never a crash; reading and writing a result twice
+ * must give the same text. If this fails, a report may show wrong results, or a damaged file
+ * crashes kiln. */
 #include "suite/result.h"
 
 #include <stdlib.h>

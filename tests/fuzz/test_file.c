@@ -1,6 +1,7 @@
-/* Fuzzes the reader of files *.test.yaml: any bytes are a test whose values are in the ranges of
- * their keys, or a test with a problem, never a crash. If this fails, a wrong test file ends the
- * whole run of `kiln test`, or a test runs with values that no check has seen. */
+/* Fuzzes the reader of files *.test.yaml, which describe golden tests. Any bytes must give a test
+ * whose values are all within their documented ranges, or a test with an error in its member
+ * `problem`, never a crash. If this fails, one wrong test file ends the whole run of `kiln test`,
+ * or a test runs with values out of range. */
 #include "suite/test_file.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
-/* Checks spheres, cylinders and meshes of the backdrop with their shadows against a ray caster in
- * doubles, and images as floor and sky, by each of its techniques. If this fails, shapes and
- * shadows have the wrong place, size or brightness, images are mirrored or rotated, or floors
- * alias. */
+/* Checks the backdrop's spheres, cylinders and meshes, with their shadows, against a ray caster in
+ * double precision, and its floors and skies made of images, each drawn by GL and by the CPU. If
+ * this fails, shapes and shadows have the wrong place, size or brightness, images are mirrored or
+ * rotated, or floors alias. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -82,8 +82,10 @@ static void soft_shadows_match_c(void **state)
     finish(&p);
 }
 
-/* Compares a scene of MESH_OBJECTS with the ray caster: the depth of the mesh, its normals by the
- * light on it, and its shadows on itself, the floor and the box. */
+/* Compares the picture of `text`, a scene with MESH_OBJECTS, with the ray caster: the depth and
+ * shading of the mesh, and its shadows on itself, the floor and the box. sun_radius: angle of the
+ * sun's disc, rad; tolerance: the largest allowed absolute difference of red light; step: only
+ * every step-th pixel of every step-th row is compared. */
 static void check_mesh(void *device, const char *text, double sun_radius, double tolerance,
                        int step)
 {
@@ -128,7 +130,8 @@ static void meshes_match_c(void **state)
                0.08, 3);
 }
 
-/* Returns the mean of a channel over the pixels from (x0, y0) to before (x1, y1). */
+/* Returns the mean of a colour channel over the rectangle of pixels from (x0, y0), inclusive, to
+ * (x1, y1), exclusive. */
 static double mean_of(const struct picture *p, int x0, int y0, int x1, int y1, int channel)
 {
     double sum = 0;
@@ -139,8 +142,9 @@ static double mean_of(const struct picture *p, int x0, int y0, int x1, int y1, i
     return sum / ((x1 - x0) * (y1 - y0));
 }
 
-/* A sun with a disc of 10 degrees softens the edges of a mesh's shadow: pixels there change, but
- * the mean light of the picture stays that of a sun without a disc. */
+/* A sun whose disc has a diameter of 10 degrees gives a mesh's shadow a penumbra: compared with a
+ * sun without a disc, 1 to 20 % of the pixels change, and the picture's mean light changes by less
+ * than 2 %. */
 static void mesh_shadows_soften(void **state)
 {
     struct picture hard =
@@ -167,7 +171,8 @@ static void mesh_shadows_soften(void **state)
 
 enum { SKY_WIDTH = 64, SKY_HEIGHT = 32 };
 
-/* Writes a BMP file whose quarters have four colours: red and green above, blue and white below. */
+/* Writes a BMP file with four quarters of one colour each: from left to right, red and green above,
+ * blue and white below. */
 static void write_quarters(const char *path)
 {
     enum { ROW = SKY_WIDTH * 3, SIZE = 54 + ROW * SKY_HEIGHT };
@@ -213,8 +218,9 @@ static void assert_color(const float *pixel, double red, double green, double bl
     }
 }
 
-/* The middle of a sky's image lies towards -z, its left half to the left of that, and `rotation`
- * turns it. */
+/* A viewer who looks along -z sees the middle of the sky's image ahead, and its left half on the
+ * left. The key `rotation` turns the image about the vertical axis, and `intensity` multiplies its
+ * light. */
 static void skies_lie_where_they_should(void **state)
 {
     char folder[32], path[64];
@@ -229,11 +235,12 @@ static void skies_lie_where_they_should(void **state)
     finish(&p);
     p = draw_in(*state, folder,
                 LEVEL "  floor: none\n  sky: {image: sky.bmp, rotation: 90 deg, intensity: 0.5}\n");
-    assert_color(p.colors + 4 * (1 * WIDTH + 2), 0, 0.5, 0); /* the upper right quarter, dimmed */
+    assert_color(p.colors + 4 * (1 * WIDTH + 2), 0, 0.5,
+                 0); /* green, the upper right quarter, at half intensity */
     finish(&p);
 
-    /* A surface that faces up is lit by the upper half alone, red and green; the band at the
-     * horizon has the blue of the lower half, too. */
+    /* The image's upper half, red and green, alone lights a surface that faces up. The light of the
+     * band at the horizon also has blue from the lower half. */
     struct kiln_error error = {0};
     struct kiln_sky_light light;
     assert_true(kiln_sky_light_measure(&light, NULL, path, &error));
@@ -242,9 +249,9 @@ static void skies_lie_where_they_should(void **state)
     test_remove_folder(folder);
 }
 
-/* The sky is black, so a pixel shows the sun's disc and glow alone. `third` is the distance between
- * unit vectors that are glow_size apart; about a third of the glow is left there. Pixels at the
- * disc's edge are skipped. */
+/* The sun's disc and the glow around it follow the formula below in each pixel of a black sky;
+ * pixels at the disc's edge are skipped. third: the distance between two unit vectors at an angle
+ * of glow_size, 8 degrees, at which 2^-1.5, about a third, of the glow is left. */
 static void sun_has_a_disc_and_a_glow(void **state)
 {
     const double degree = acos(-1.0) / 180, radius = 5 * degree, third = 2 * sin(4 * degree);
@@ -269,9 +276,9 @@ static void sun_has_a_disc_and_a_glow(void **state)
     finish(&p);
 }
 
-/* A floor whose tiles are 8 m wide shows its image in that size. A floor whose tiles are 2 mm wide
- * shows the mean of its image without a moire pattern, since about a thousand tiles or more share a
- * pixel. */
+/* A floor repeats its image in tiles of the width that the scene asks for, 8 m. With tiles of 2 mm,
+ * of which about a thousand or more lie in each pixel, every pixel shows the mean colour of the
+ * image, without a moire pattern. */
 static void floors_repeat_without_aliasing(void **state)
 {
     char folder[32], path[64];

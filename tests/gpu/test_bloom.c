@@ -1,6 +1,7 @@
-/* Checks the bloom (lib/post/bloom*.c) by each of its techniques: the thesis's and the pyramid
- * against references in doubles, the width of the Gaussian, and the bright pass. If this fails, the
- * glow has the wrong width or brightness, depends on the size of the picture, or spreads infinity.
+/* Checks the bloom, the glow around bright light (lib/post/bloom*.c), by GL and by the CPU. The
+ * blurs of the thesis (Heinz 2019) and of the pyramid are compared with references in double
+ * precision; of the Gaussian blur, the width is checked. If this fails, the glow has the wrong
+ * width or brightness, depends on the picture's size, or spreads infinity.
  */
 #include <math.h>
 #include <stddef.h>
@@ -31,7 +32,7 @@ static int clamp(int x, int high)
     return x < 0 ? 0 : x > high ? high : x;
 }
 
-/* Returns a pixel; places outside give the nearest pixel at the edge. */
+/* Returns the pixel at (x, y); coordinates outside of the picture are clamped to its edge. */
 static double *at(const struct plane *p, int x, int y)
 {
     return p->pixels +
@@ -39,7 +40,8 @@ static double *at(const struct plane *p, int x, int y)
                4;
 }
 
-/* Returns a picture whose pixels are means of factor x factor pixels; frees `from`. */
+/* Returns a picture that is reduced by `factor` along each axis: each pixel is the mean of factor x
+ * factor pixels of `from`. Frees the pixels of `from`. */
 static struct plane shrink(struct plane from, int factor)
 {
     struct plane to =
@@ -57,8 +59,8 @@ static struct plane shrink(struct plane from, int factor)
     return to;
 }
 
-/* Blurs along (dx, dy) by eleven weights of a normal distribution with a sigma of 2 px; frees
- * `from`.
+/* Returns a picture blurred along (dx, dy) by eleven weights of a Gaussian with a standard
+ * deviation of 2 px. Frees the pixels of `from`.
  */
 static struct plane blur(struct plane from, int dx, int dy)
 {
@@ -79,13 +81,13 @@ static struct plane blur(struct plane from, int dx, int dy)
     return to;
 }
 
-/* Holds a bloom stage for an image, and the scene that it reads. */
+/* Holds a bloom stage, the image that it blurs, and the scene that it reads. */
 struct fixture {
     struct kiln_scene *scene;
     struct kiln_image source;
     struct kiln_threads *threads;
     struct kiln_bloom_stage *stage;
-    double scale; /* size of the last result divided by that of the source */
+    double scale; /* width of the last result divided by the source's width */
 };
 
 static struct kiln_scene *parse(const char *post)
@@ -99,7 +101,9 @@ static struct kiln_scene *parse(const char *post)
     return scene;
 }
 
-/* Makes the stage. Returns the source's pixels, which the test writes before the first run. */
+/* Makes the stage for a source of width x height pixels. post: keys of the scene's section `post`;
+ * format: of the source and the intermediate images. Returns the source's pixels, which the test
+ * writes before the first run. */
 static float *fixture_init(struct fixture *f, struct kiln_device *device, const char *post,
                            int width, int height, GLenum format)
 {
@@ -124,7 +128,8 @@ static void fixture_finish(struct fixture *f)
     kiln_scene_destroy(&f->scene);
 }
 
-/* Runs the stage and returns the pixels of its result on the host. */
+/* Runs the stage. Sets `size` to the width and height of the result, px, and returns its pixels on
+ * the host. */
 static const float *run(struct fixture *f, const struct kiln_bloom_inputs *inputs, uint32_t size[2])
 {
     struct kiln_error error = {0};
@@ -184,8 +189,8 @@ static void thesis_matches_c(void **state)
     }
 }
 
-/* Returns a picture of half the size. A pixel is a mean of 4 x 4 pixels, weighted by a tent that
- * reaches into its neighbours. */
+/* Returns a picture of half the size. Each pixel is the mean of 4 x 4 pixels of `from`, weighted by
+ * a tent filter, whose outer pixels also count for the neighbours. */
 static struct plane halve(const struct plane *from)
 {
     static const double weights[4] = {0.125, 0.375, 0.375, 0.125};
@@ -200,14 +205,15 @@ static struct plane halve(const struct plane *from)
     return to;
 }
 
-/* Returns the quadratic B-spline at a distance in pixels. */
+/* Returns the value of the quadratic B-spline at a distance x from its centre, px. */
 static double spline(double x)
 {
     x = fabs(x);
     return x < 0.5 ? 0.75 - x * x : x < 1.5 ? 0.5 * (1.5 - x) * (1.5 - x) : 0;
 }
 
-/* Mixes a level with the next smaller one, enlarged by splines. radius: the part of the latter. */
+/* Mixes a pyramid level in place with `below`, the next smaller level, enlarged by quadratic
+ * B-splines. radius: the share of `below` in the mix, 0 to 1. */
 static void join(struct plane *level, const struct plane *below, double radius)
 {
     for (int y = 0; y < level->height; y++) {
@@ -227,15 +233,16 @@ static void join(struct plane *level, const struct plane *below, double radius)
     }
 }
 
-/* Returns the area of a triangle of width 2 and height 1 about 0, left of x. */
+/* Returns the integral of the tent function max(0, 1 - |t|) over t from minus infinity to x. */
 static double triangle_left_of(double x)
 {
     x = x < -1 ? -1 : x > 1 ? 1 : x;
     return x < 0 ? (1 + x) * (1 + x) / 2 : 1 - (1 - x) * (1 - x) / 2;
 }
 
-/* Returns a picture that is reduced by a ratio. Each pixel of the source is weighted by the
- * integral of a tent over it. */
+/* Returns a picture that is smaller by the factor `ratio` along each axis. Each pixel is a weighted
+ * mean: the weight of a source pixel is the integral over it of a tent filter, which reaches
+ * `ratio` source pixels to each side. */
 static struct plane reduce(const struct plane *from, double ratio)
 {
     struct plane to =
@@ -260,8 +267,9 @@ static struct plane reduce(const struct plane *from, double ratio)
     return to;
 }
 
-/* Returns a level after it was joined with all levels below it. missing: the number of finer levels
- * that larger pictures have. */
+/* Returns a level after it was mixed with the `levels` - 1 smaller levels below it. The pixels are
+ * those of `level`, changed in place. missing: how many finer levels a larger picture's pyramid
+ * has; for each of them, the share of the levels below is multiplied by `radius` once more. */
 static struct plane pyramid(struct plane level, int missing, int levels, double radius)
 {
     if (levels > 1) {
@@ -272,8 +280,10 @@ static struct plane pyramid(struct plane level, int missing, int levels, double 
     return level;
 }
 
-/* The first level has 360, 180, 90, 45, 22.5 or 11.25 rows. The pictures have more rows than 360,
- * fewer than 11.25, and numbers of rows between two levels; small pictures have few levels. */
+/* The pyramid equals the reference for pictures of several heights: taller than its finest level
+ * (360 rows), lower than its coarsest (11.25 rows), and between two levels. The first level is the
+ * largest of 360, 180, 90, 45, 22.5 and 11.25 rows that the picture can fill, so a small picture
+ * has few levels. */
 static void pyramid_matches_c(void **state)
 {
     static const struct {
@@ -309,15 +319,17 @@ static void pyramid_matches_c(void **state)
     }
 }
 
-/* Returns the cubic B-spline by which the composite stage enlarges the glow. */
+/* Returns the value of the cubic B-spline, by which the composite stage enlarges the glow, at a
+ * distance x from its centre, in pixels of the glow. */
 static double cubic_spline(double x)
 {
     x = fabs(x);
     return x < 1 ? (4 - 6 * x * x + 3 * x * x * x) / 6 : x < 2 ? pow(2 - x, 3) / 6 : 0;
 }
 
-/* Returns the red channel of the enlarged glow at a place, in pixels of the frame. ratio: the
- * frame's size divided by that of the glow. */
+/* Returns the red channel of the glow, enlarged to the frame's size, at the place (x, y), px of the
+ * frame. size: width and height of the glow, px; ratio: the frame's width divided by the glow's
+ * width. */
 static double glow_at(const float *glow, const uint32_t size[2], double ratio, double x, double y)
 {
     double cx = (x + 0.5) / ratio - 0.5, cy = (y + 0.5) / ratio - 0.5, sum = 0;
@@ -330,12 +342,14 @@ static double glow_at(const float *glow, const uint32_t size[2], double ratio, d
     return sum;
 }
 
-enum { ROOM = 4 }; /* beside its spot, a picture is a ROOMth of its height wide on each side */
+enum {
+    ROOM = 4
+}; /* the margin on each side of the bright square is a fourth (1 / ROOM) of the picture's height */
 
-/* Measures the glow of a bright square in the middle of a black picture. values: the red channel at
- * some distances to the right of the square's middle, in parts of the picture's height. height,
- * spot: of the picture and the square, px. The square's light is that of height^2 / 1000 pixels of
- * brightness 1. */
+/* Measures the glow of a bright square in the middle of a black picture. height: of the picture,
+ * px; spot: the square's edge, px; distances: `count` distances to the right of the square's
+ * middle, as fractions of the picture's height; values: the red light of the glow at these
+ * distances. The light of the square's pixels sums to height^2 / 1000. */
 static void measure_spot(struct kiln_device *device, const char *post, int height, int spot,
                          const double *distances, size_t count, double *values)
 {
@@ -357,8 +371,9 @@ static void measure_spot(struct kiln_device *device, const char *post, int heigh
     fixture_finish(&f);
 }
 
-/* One bright pixel becomes a Gaussian of the wanted standard deviation, sigma, in parts of the
- * picture's height. Small and large pictures, narrow and wide Gaussians are tested. */
+/* The Gaussian bloom turns one bright pixel into a Gaussian whose standard deviation is the scene's
+ * `sigma`, a fraction of the picture's height. This holds in small and large pictures, for narrow
+ * and wide Gaussians, within 2 % of the peak. */
 static void gaussian_is_as_wide_as_asked(void **state)
 {
     static const struct {
@@ -386,8 +401,9 @@ static void gaussian_is_as_wide_as_asked(void **state)
     }
 }
 
-/* Returns the largest difference of a spot's glow in a picture of `height` rows from that in one of
- * 720 rows, as a part of the peak in the latter. The spot is a twentieth of the height wide. */
+/* Returns how much a picture's height changes the glow of a bright square: the largest absolute
+ * difference between the glows in pictures of `height` rows and of 720 rows, divided by the peak at
+ * 720 rows. The square's edge is a twentieth of each picture's height. */
 static double size_error(struct kiln_device *device, const char *post, int height)
 {
     static const double distances[] = {0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.2};
@@ -410,13 +426,14 @@ static void glow_is_the_same_part_of_any_picture(void **state)
         if (gaussian > 0.01 || pyramid > 0.05)
             fail_msg("%d rows: gaussian differs by %g, pyramid by %g of the peak", heights[i],
                      gaussian, pyramid);
-        /* The glow of the thesis has a width in pixels, so size_error must show a difference. */
+        /* The thesis's bloom has a fixed width in pixels, so its glow must differ. */
         assert_true(thesis > 0.05);
     }
 }
 
-/* The bright pass takes exposed light above the threshold. The scene's light counts, too, dimmed by
- * particles before it and with fire added. */
+/* The bright pass lets through the part of the light that exceeds the threshold after exposure. The
+ * light is the composition of all layers: the scene, attenuated by the particles in front of it,
+ * and fire added to both. */
 static void bright_pass_takes_what_is_bright(void **state)
 {
     enum { SIZE = 64 };
@@ -428,9 +445,10 @@ static void bright_pass_takes_what_is_bright(void **state)
                  SIZE, SIZE, GL_RGBA32F);
     struct kiln_image inputs[3];
     static const char *const labels[] = {"scene", "particles", "fire"};
-    /* The exposure doubles light. The scene alone becomes 4 in green, which exceeds the threshold 3
-     * by a quarter of itself. Half covered by particles, it becomes 2. With a fire of 2 added, red
-     * becomes 2 * (0.5 + 2) = 5, which exceeds 3 by 0.4 of itself. */
+    /* The exposure doubles light. The scene's green becomes 4, of which a quarter is above the
+     * threshold 3, so a quarter of the scene's light passes. Where particles of alpha 0.5 cover the
+     * scene, green becomes 2, and nothing passes. With fire of red 2 added there, red becomes 2 *
+     * (0.5 + 2) = 5, and 0.4 of the light passes. */
     static const float colors[3][4] = {{1, 2, 0, 1}, {0, 0, 0, 0.5f}, {2, 0, 0, 0}};
     for (int i = 0; i < 3; i++) {
         kiln_image_init(&inputs[i], *state, SIZE, SIZE, GL_RGBA32F, labels[i]);
@@ -446,7 +464,8 @@ static void bright_pass_takes_what_is_bright(void **state)
     const struct kiln_bloom_inputs all = {&inputs[0], &inputs[1], &inputs[2], 0};
     uint32_t size[2];
     const float *got = run(&f, &all, size);
-    static const uint32_t places[3][2] = {{1, 1}, {1, 3}, {3, 3}}; /* in quarters of the size */
+    static const uint32_t places[3][2] = {
+        {1, 1}, {1, 3}, {3, 3}}; /* x and y, in quarters of the width and height */
     static const float expected[3][3] = {
         {0.25f, 0.5f, 0}, {0, 0, 0}, {2.5f * 0.4f, 1.0f * 0.4f, 0}};
     for (int i = 0; i < 3; i++) {
@@ -462,9 +481,10 @@ static void bright_pass_takes_what_is_bright(void **state)
 
 enum { EDGE = 240, MOST = EDGE };
 
-/* Blurs a black square picture with one bright pixel near its middle, with images of a format.
- * Returns the edge of the result, px. red: its red channel; *scale: its size divided by that of the
- * source. */
+/* Blurs a black picture of EDGE x EDGE pixels, with one pixel of red `brightness` near its middle.
+ * format: of the source and the intermediate images. Copies the red channel of the result, row by
+ * row, to `red`, sets *scale to the result's width divided by EDGE, and returns the result's width,
+ * which is its height too, px. */
 static int spread_spark(struct kiln_device *device, const char *post, GLenum format,
                         float brightness, float red[MOST * MOST], double *scale)
 {
@@ -485,8 +505,8 @@ static const char *const KINDS[] = {"bloom: {kind: gaussian}", "bloom: {kind: th
                                     "bloom: {kind: pyramid, radius: 0.5}"};
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
-/* Blurring keeps the sum of the light as long as none leaves the picture. A pixel of the result is
- * as large as 1 / scale^2 pixels of the source. */
+/* Blurring keeps the sum of the picture's light, if the blur does not reach the picture's edge. A
+ * pixel of the result counts 1 / scale^2 times, since it covers that many pixels of the source. */
 static void bloom_keeps_the_light(void **state)
 {
     static float red[MOST * MOST];
@@ -500,8 +520,8 @@ static void bloom_keeps_the_light(void **state)
     }
 }
 
-/* A pixel that overflowed a half float to infinity glows like one with the largest half float,
- * 65504. Otherwise infinity would spread over the picture. */
+/* A pixel of infinity, to which half floats overflow, glows exactly as a pixel of 65504, the
+ * largest half float. Otherwise the blur would spread infinity over the picture. */
 static void infinity_does_not_spread(void **state)
 {
     static float red[MOST * MOST], bright[MOST * MOST];

@@ -1,6 +1,7 @@
-/* Checks the composite stage (lib/post/composite*.c) by each of its techniques: composition,
- * exposure and tone mapping against formulas in doubles, dither, and transparent pictures. If this
- * fails, pictures have wrong colours, bands or holes, or lose light over another background. */
+/* Checks the composite stage (lib/post/composite*.c), which makes the final picture, by GL and by
+ * the CPU: how it composes scene, particles and fire, exposure and tone mapping against formulas in
+ * double precision, dither, and pictures with alpha. If this fails, pictures have wrong colours,
+ * bands or holes, or lose light over another background. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -14,7 +15,8 @@
 enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
 
 static enum kiln_composite_technique technique = KILN_COMPOSITE_GL;
-static bool texture = false; /* kiln_composite_params.texture of the next fixtures */
+static bool texture =
+    false; /* the value of kiln_composite_params.texture in fixtures made from now on */
 
 static struct kiln_scene *parse(const char *post)
 {
@@ -31,8 +33,8 @@ static struct kiln_scene *parse(const char *post)
     return scene;
 }
 
-/* Makes an image of random premultiplied colours. scale: the most light in a channel of an opaque
- * pixel; opaque: whether all alphas are 1. */
+/* Makes an image of random premultiplied colours. scale: the largest light that a channel has where
+ * alpha is 1; opaque: true if all alphas are 1, false if they are random. */
 static void fill(struct kiln_image *image, void *device, const char *label, float scale,
                  bool opaque)
 {
@@ -47,7 +49,7 @@ static void fill(struct kiln_image *image, void *device, const char *label, floa
     }
 }
 
-/* Encodes display light, 0 to 1, as sRGB. */
+/* Returns the sRGB value, 0 to 1, of linear display light from 0 to 1. */
 static double encode(double x)
 {
     return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
@@ -58,7 +60,8 @@ static double clamp01(double x)
     return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 
-/* Maps light in place by Stephen Hill's fit of the ACES tone mapping. */
+/* Replaces linear red, green and blue by the result of Stephen Hill's fit of the ACES tone mapping,
+ * linear and from 0 to 1. */
 static void aces(double v[3])
 {
     static const double in[3][3] = {
@@ -76,7 +79,9 @@ static void aces(double v[3])
         v[i] = clamp01(out[i][0] * b[0] + out[i][1] * b[1] + out[i][2] * b[2]);
 }
 
-/* Computes the sRGB colour of a pixel without bloom. fire: NULL for none; exposure: stops. */
+/* Computes the expected display colour of a pixel without bloom: sRGB and alpha, 0 to 1. scene,
+ * particles, fire: premultiplied, linear; fire is NULL for none; exposure: in stops; use_aces:
+ * false for no tone mapping. */
 static void reference(const float *scene, const float *particles, const float *fire,
                       double exposure, bool use_aces, double out[4])
 {
@@ -97,7 +102,8 @@ static void reference(const float *scene, const float *particles, const float *f
     out[3] = 1.0;
 }
 
-/* Holds a stage for a scene and images, of which a test's `inputs` name those that take part. */
+/* Holds a composite stage, its scene and its images. Only the images in `inputs` are composed; a
+ * test sets them. */
 struct fixture {
     struct kiln_scene *scene;
     struct kiln_threads *threads;
@@ -106,8 +112,9 @@ struct fixture {
     struct kiln_composite_inputs inputs;
 };
 
-/* Makes the stage. The backdrop is random and opaque. light: the `scale` of the random particles,
- * or 0 for clear ones. bits: of a channel of the display picture. */
+/* Makes the stage, a random opaque backdrop, and random particles and fire. light: the largest
+ * light in a channel of particles of alpha 1; 0 makes all particles fully transparent. bits: per
+ * channel of the display picture, 8 or 16. */
 static void fixture_init(struct fixture *f, void *device, const char *post, uint32_t bits,
                          float light)
 {
@@ -138,7 +145,8 @@ static void fixture_finish(struct fixture *f)
     kiln_scene_destroy(&f->scene);
 }
 
-/* Returns the backdrop's pixels, which a test writes before the first run. */
+/* Returns the backdrop's pixels, linear RGBA, all of which the test must write before the first
+ * run. */
 static float *backdrop_pixels(struct fixture *f)
 {
     struct kiln_error error = {0};
@@ -147,7 +155,8 @@ static float *backdrop_pixels(struct fixture *f)
     return pixels;
 }
 
-/* Runs the stage and reads the display picture: 4 * PIXELS channels of the stage's bits. */
+/* Runs the stage and reads the display picture into `got`: 4 * PIXELS values, uint8_t or uint16_t,
+ * as the stage has 8 or 16 bits a channel. */
 static void run(struct fixture *f, void *got)
 {
     struct kiln_error error = {0};
@@ -155,7 +164,7 @@ static void run(struct fixture *f, void *got)
     assert_true(kiln_composite_read_display(f->stage, got, &error));
 }
 
-/* Compares a picture of random inputs with `reference`. */
+/* Compares the picture of random images with the colours of `reference`, pixel by pixel. */
 static void check(void *device, const char *post, uint32_t bits, bool with_fire, double exposure,
                   bool use_aces)
 {
@@ -165,7 +174,8 @@ static void check(void *device, const char *post, uint32_t bits, bool with_fire,
     uint16_t got[PIXELS * 4];
     run(&f, got);
     double levels = bits == 16 ? 65535.0 : 255.0;
-    double tolerance = bits == 16 ? 6.0 : 1.0; /* levels, for the driver's pow and log2 */
+    double tolerance = bits == 16 ? 6.0 : 1.0; /* largest allowed difference, levels, since pow and
+                                                  log2 of GL drivers are not exact */
     for (int i = 0; i < PIXELS; i++) {
         double expected[4];
         reference(f.back.host + 4 * i, f.particles.host + 4 * i,
@@ -195,8 +205,8 @@ static void aces_matches_c(void **state)
     check(*state, "tonemap: aces", 16, false, 0.0, true);
 }
 
-/* AgX maps greys to greys that grow with the light: 0.18 to about the middle, ten stops below it to
- * black, ten stops above it to white. */
+/* AgX tone mapping turns grey light into greys that grow with the light: light 0.18 becomes about
+ * the middle of the range, light ten stops darker black, and light ten stops brighter white. */
 static void agx_keeps_greys_neutral(void **state)
 {
     struct fixture f;
@@ -216,13 +226,14 @@ static void agx_keeps_greys_neutral(void **state)
     }
     assert_true(got[0] < 1000);
     assert_true(got[4 * (PIXELS - 1)] > 64000);
-    double middle = got[4 * (PIXELS / 2)] / 65535.0; /* of light 0.18 */
+    double middle = got[4 * (PIXELS / 2)] / 65535.0; /* display value of light 0.18, 0 to 1 */
     assert_true(middle > 0.42 && middle < 0.52);
     fixture_finish(&f);
 }
 
-/* Light of 1e20, whose square overflows a float, and infinity, to which half floats overflow, are
- * shown white. A NaN on the way would leave a dark hole. */
+/* Each tone mapping shows extreme light as white: 1e20, whose square overflows a float, and
+ * infinity, to which half floats overflow. If its arithmetic made a NaN of such light, the pixel
+ * would be black. */
 static void any_brightness_is_white(void **state)
 {
     static const char *const posts[] = {"tonemap: none", "tonemap: agx", "tonemap: aces"};
@@ -240,8 +251,8 @@ static void any_brightness_is_white(void **state)
     }
 }
 
-/* Dither changes a pixel by few levels and keeps the mean of the picture. The same frame is
- * dithered alike each time, another frame differently. */
+/* Dither changes each pixel by at most two levels and keeps the mean of the picture. It gives the
+ * same picture each time for the same frame, and another picture for another frame. */
 static void dither_is_small_and_repeatable(void **state)
 {
     struct fixture f;
@@ -249,7 +260,8 @@ static void dither_is_small_and_repeatable(void **state)
     f.scene->post.dither = true;
     float *p = backdrop_pixels(&f);
     for (int i = 0; i < PIXELS * 4; i++)
-        p[i] = i % 4 == 3 ? 1.0f : 0.2160f; /* is encoded as 128.04 levels */
+        p[i] =
+            i % 4 == 3 ? 1.0f : 0.2160f; /* linear light whose sRGB value is 128.04 of 255 levels */
     f.inputs.frame = 5;
     uint8_t first[PIXELS * 4], again[PIXELS * 4], other[PIXELS * 4];
     run(&f, first);
@@ -267,8 +279,9 @@ static void dither_is_small_and_repeatable(void **state)
     fixture_finish(&f);
 }
 
-/* A picture without a backdrop has straight alpha. Alpha times the encoded colour is the encoded
- * light of the particles, as a viewer that blends over black shows it. */
+/* A picture without a backdrop has straight (not premultiplied) alpha: alpha times the sRGB value
+ * equals the sRGB value of the particles' light. So a viewer that blends sRGB values over black
+ * shows the right light. */
 static void transparent_pictures_keep_the_light(void **state)
 {
     struct fixture f;
@@ -288,14 +301,15 @@ static void transparent_pictures_keep_the_light(void **state)
     fixture_finish(&f);
 }
 
-/* Decodes sRGB to display light, 0 to 1. */
+/* Returns the linear display light, 0 to 1, of an sRGB value from 0 to 1. */
 static double decode(double x)
 {
     return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
 }
 
-/* Renderers blend textures as light. In a picture made as a texture, alpha times the decoded colour
- * is the light that the usual picture shows over black. */
+/* Other renderers blend textures in linear light. So in a picture made as a texture, alpha times
+ * the linear light of the colour equals the linear light that the usual picture shows over black.
+ */
 static void textures_keep_the_light(void **state)
 {
     static const char *const posts[] = {"tonemap: none", "tonemap: agx", "tonemap: aces"};
@@ -308,7 +322,8 @@ static void textures_keep_the_light(void **state)
             fixture_init(&f, *state, posts[k], 16, 0.9f);
             texture = false;
             memset(backdrop_pixels(&f), 0, sizeof(float) * PIXELS * 4);
-            for (int p = 0; p < PIXELS; p += 2) /* like fire: more light than alpha */
+            for (int p = 0; p < PIXELS;
+                 p += 2) /* like fire, these pixels have more light than alpha */
                 f.particles.host[4 * p + 3] *= 0.1f;
             run(&f, got[i]);
             for (int p = 0; p < PIXELS && i == 1; p++) {

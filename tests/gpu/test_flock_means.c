@@ -1,6 +1,7 @@
-/* Checks the mean position and velocity of a flock as the simulation computes them, by sums of
- * integers, and as the paper does, by the last mip level of float textures (Drone 2007, 7.4.4.2).
- * If this fails, a flock steers towards a wrong place or velocity. The errors of both are printed.
+/* Checks two ways to compute the mean position and velocity of a flock: sums of integers, as in the
+ * simulation, and the last mip level of a float texture, as in Drone 2007, 7.4.4.2. Both are
+ * compared with means in double precision, and their errors are printed. If the sums are wrong, a
+ * flock steers towards a wrong place or velocity.
  */
 #include <math.h>
 #include <stddef.h>
@@ -15,12 +16,13 @@ enum { SIDE = 64, BIRDS = SIDE * SIDE };
 
 static struct scene_fixture fixture; /* too large for a stack */
 
-/* Holds the means of x, y and z of positions, m, then of velocities, m/s. */
+/* Means over all birds: x, y and z of the positions, m, then of the velocities, m/s. */
 struct averages {
     double values[6];
 };
 
-/* Simulates a flock for a second about a place at x = far_m, m, and returns its birds. */
+/* Simulates a flock for one second, and writes its birds to `birds`. The flock starts around the
+ * point (far_m, 0, 0), m. */
 static void fly(struct kiln_body *birds, float far_m)
 {
     balls_init(&fixture, BIRDS, 0.01f);
@@ -44,7 +46,7 @@ static void fly(struct kiln_body *birds, float far_m)
     simulation_end(&run);
 }
 
-/* Returns the averages in doubles, to compare with. */
+/* Returns the means computed in double precision, which are the reference. */
 static struct averages in_double(const struct kiln_body *birds)
 {
     struct averages mean = {{0}};
@@ -68,7 +70,9 @@ static struct averages by_integers(const struct kiln_body *birds)
                               (double)means.velocity.y, (double)means.velocity.z}};
 }
 
-/* Sets mean to the last mip level, one texel, of a texture in which each texel is a bird. */
+/* Computes a mean by GL: uploads a texture in which each texel holds one bird, generates its mip
+ * levels, and copies the single texel of the last level to mean[0] to mean[2]. velocities: true for
+ * velocities, m/s, false for positions, m. */
 static void mip_maps(const struct kiln_body *birds, GLenum format, bool velocities, double *mean)
 {
     static float texels[BIRDS][4];
@@ -98,7 +102,8 @@ static struct averages by_mip_maps(const struct kiln_body *birds, GLenum format)
     return mean;
 }
 
-/* Returns the largest error in positions (first: 0) or velocities (first: 3). */
+/* Returns the largest absolute error of three of the means, from index `first` on: 0 for positions,
+ * m, 3 for velocities, m/s. */
 static double error_of(const struct averages *found, const struct averages *expected, int first)
 {
     double largest = 0.0;

@@ -1,6 +1,7 @@
-/* Checks that the device hashes a state like the host, for numbers of particles around the sizes of
- * work groups, and that the hash notices each changed bit. If this fails, checks of the state hash
- * report false differences, or miss real ones. */
+/* Checks that the GPU and the CPU compute the same hash of a simulation's state, for numbers of
+ * particles around multiples of the work group's size, and that any changed bit of a living
+ * particle changes the hash. If this fails, checks of the state hash report false differences, or
+ * miss real ones. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -12,13 +13,15 @@
 
 static struct scene_fixture fixture; /* too large for a stack */
 
-/* Fills records with arbitrary words. */
+/* Fills particle records with arbitrary words. */
 static void fill(struct kiln_particle *records, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
         records[i] = (struct kiln_particle){
             .position_serial = {random_mix(i), i * 7, i * 11, i},
-            .velocity_birth = {i * 3, i * 5, ~i, random_mix(~i)}}; /* about half are marked alive */
+            .velocity_birth = {
+                i * 3, i * 5, ~i,
+                random_mix(~i)}}; /* about half of the particles are marked as alive */
 }
 
 static void both_hashes_agree(void **state)
@@ -52,8 +55,8 @@ static void both_hashes_agree(void **state)
     }
 }
 
-/* Any changed bit of a living particle changes both lanes of the hash. A bit of a dead particle
- * changes nothing, unless it makes the particle live. */
+/* Changing any bit of a living particle changes both 32-bit lanes of the hash. Changing a bit of a
+ * dead particle leaves the hash as it is, except for the bit that makes the particle alive. */
 static void every_bit_counts(void **state)
 {
     fixture_init(&fixture);
@@ -77,7 +80,7 @@ static void every_bit_counts(void **state)
         words[bit % 256 / 32] ^= 1u << bit % 32;
         memcpy(&records[slot], words, sizeof words);
         struct kiln_state_hash after = simulation_hash(&run, &alive);
-        bool revived = bit == 256 + 7 * 32; /* KILN_PARTICLE_ALIVE of the dead one */
+        bool revived = bit == 256 + 7 * 32; /* the bit KILN_PARTICLE_ALIVE of the dead particle */
         assert_int_equal(before.lane[0] != after.lane[0], slot == 0 || revived);
         assert_int_equal(before.lane[1] != after.lane[1], slot == 0 || revived);
     }

@@ -1,6 +1,7 @@
-/* Checks shadows of objects under lamps, by each technique of the backdrop, against a ray caster in
- * doubles that sends rays to all parts of a lamp. If this fails, shadows of lamps have the wrong
- * place or softness, or an object hides a lamp that it should not. */
+/* Checks the shadows that boxes, round shapes and meshes cast under a spherical lamp, drawn by GL
+ * and by the CPU, against a ray caster in double precision that sends rays to all parts of the
+ * lamp. If this fails, shadows of lamps have the wrong place or penumbra, or an object hides a lamp
+ * that it should not. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -19,8 +20,9 @@
 
 static const struct vec FLOOR_COLOR = {{0.6, 0.5, 0.4}};
 
-/* Compares the picture of a scene, a floor with a shape and a lamp, with the ray caster. lamp,
- * radius: m; tolerance: of the light; step: every step-th pixel is compared. */
+/* Compares the picture of `text`, a scene of a floor, one shape and one lamp, with the ray caster.
+ * lamp: the lamp's centre, m; radius: the lamp's radius, m; tolerance: the largest allowed absolute
+ * difference of red light; step: only every step-th pixel of every step-th row is compared. */
 static void check(void *device, const char *text, const struct shape *shape, struct vec lamp,
                   double radius, double tolerance, int step)
 {
@@ -36,7 +38,7 @@ static void check(void *device, const char *text, const struct shape *shape, str
     finish(&p);
 }
 
-/* The place of lamps above the shapes, m. */
+/* Centre of the lamp in most tests, above the shape, m. */
 static const struct vec ABOVE = {{1.2, 2.2, 0.8}};
 
 static void a_box_hides_a_lamp(void **state)
@@ -102,7 +104,7 @@ static void round_shapes_hide_a_lamp(void **state)
           &capsule, ABOVE, 0.2, 0.04, 3);
 }
 
-/* The lamp is between the floor and a shape above it, which hides nothing from the floor. */
+/* A shape above a lamp casts no shadow on the floor below the lamp. */
 static void a_shape_behind_a_lamp_hides_nothing(void **state)
 {
     const struct shape box = {
@@ -114,8 +116,8 @@ static void a_shape_behind_a_lamp_hides_nothing(void **state)
           &box, (struct vec){{0, 1.2, -0.6}}, 0.1, 0.01, 3);
 }
 
-/* A mesh shadows itself and the floor by shadow maps, under a small lamp and under a large one,
- * whose shadow is soft. */
+/* A mesh shadows itself and the floor, by shadow maps, under a small lamp with hard shadows and
+ * under a large lamp with soft shadows. */
 static void a_mesh_hides_a_lamp(void **state)
 {
     struct kiln_error error = {0};
@@ -147,8 +149,8 @@ static void a_mesh_hides_a_lamp(void **state)
 #define GLOBE "    - sphere: {center: [0, 1.2, 0], radius: 0.3 m, color: 0}\n"
 #define LID   "    - box: {center: [0, 0.8, 0], size: [0.6, 0.05, 0.6], color: 0}\n"
 
-/* A globe around a lamp lets its light out, and a lid below the globe hides a part of it. A lamp
- * without shadows shines through both. */
+/* A sphere that encloses a lamp lets the lamp's light out. A box below the sphere hides a part of
+ * the light from the floor, unless the lamp's shadows are switched off. */
 static void a_shape_around_a_lamp_does_not_hide_it(void **state)
 {
     const double globe =
@@ -162,8 +164,8 @@ static void a_shape_around_a_lamp_does_not_hide_it(void **state)
 
 #define POST "  objects:\n    - box: {center: [0.8, 0.5, -0.5], size: [0.5, 1, 0.5]}\n"
 
-/* A lamp halfway below the floor gives half of the light of one without shadows. A lamp that is
- * wholly below the floor gives none. */
+/* A lamp whose centre is at floor level gives half of the light of the same lamp with shadows
+ * switched off. A lamp that is entirely below the floor gives no light. */
 static void the_floor_hides_lamps_below_it(void **state)
 {
     const double half = sum_of_red(*state, HEAD LAMP("[0, 0, 0]", "0.5", "") POST);
