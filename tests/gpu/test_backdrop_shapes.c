@@ -235,8 +235,8 @@ static void skies_lie_where_they_should(void **state)
     finish(&p);
     p = draw_in(*state, folder,
                 LEVEL "  floor: none\n  sky: {image: sky.bmp, rotation: 90 deg, intensity: 0.5}\n");
-    assert_color(p.colors + 4 * (1 * WIDTH + 2), 0, 0.5,
-                 0); /* green, the upper right quarter, at half intensity */
+    /* Turned by 90 degrees, the upper left corner shows green at half intensity, not red. */
+    assert_color(p.colors + 4 * (1 * WIDTH + 2), 0, 0.5, 0);
     finish(&p);
 
     /* The image's upper half, red and green, alone lights a surface that faces up. The light of the

@@ -342,9 +342,8 @@ static double glow_at(const float *glow, const uint32_t size[2], double ratio, d
     return sum;
 }
 
-enum {
-    ROOM = 4
-}; /* the margin on each side of the bright square is a fourth (1 / ROOM) of the picture's height */
+/* The margin on each side of the bright square is a ROOMth of the picture's height wide. */
+enum { ROOM = 4 };
 
 /* Measures the glow of a bright square in the middle of a black picture. height: of the picture,
  * px; spot: the square's edge, px; distances: `count` distances to the right of the square's
@@ -464,8 +463,7 @@ static void bright_pass_takes_what_is_bright(void **state)
     const struct kiln_bloom_inputs all = {&inputs[0], &inputs[1], &inputs[2], 0};
     uint32_t size[2];
     const float *got = run(&f, &all, size);
-    static const uint32_t places[3][2] = {
-        {1, 1}, {1, 3}, {3, 3}}; /* x and y, in quarters of the width and height */
+    static const uint32_t places[3][2] = {{1, 1}, {1, 3}, {3, 3}}; /* x, y in quarters of `size` */
     static const float expected[3][3] = {
         {0.25f, 0.5f, 0}, {0, 0, 0}, {2.5f * 0.4f, 1.0f * 0.4f, 0}};
     for (int i = 0; i < 3; i++) {

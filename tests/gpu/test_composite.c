@@ -15,8 +15,7 @@
 enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
 
 static enum kiln_composite_technique technique = KILN_COMPOSITE_GL;
-static bool texture =
-    false; /* the value of kiln_composite_params.texture in fixtures made from now on */
+static bool texture = false; /* fixture_init sets kiln_composite_params.texture to this */
 
 static struct kiln_scene *parse(const char *post)
 {
@@ -174,8 +173,7 @@ static void check(void *device, const char *post, uint32_t bits, bool with_fire,
     uint16_t got[PIXELS * 4];
     run(&f, got);
     double levels = bits == 16 ? 65535.0 : 255.0;
-    double tolerance = bits == 16 ? 6.0 : 1.0; /* largest allowed difference, levels, since pow and
-                                                  log2 of GL drivers are not exact */
+    double tolerance = bits == 16 ? 6.0 : 1.0; /* levels; pow and log2 of drivers are inexact */
     for (int i = 0; i < PIXELS; i++) {
         double expected[4];
         reference(f.back.host + 4 * i, f.particles.host + 4 * i,
@@ -260,8 +258,7 @@ static void dither_is_small_and_repeatable(void **state)
     f.scene->post.dither = true;
     float *p = backdrop_pixels(&f);
     for (int i = 0; i < PIXELS * 4; i++)
-        p[i] =
-            i % 4 == 3 ? 1.0f : 0.2160f; /* linear light whose sRGB value is 128.04 of 255 levels */
+        p[i] = i % 4 == 3 ? 1.0f : 0.2160f; /* light whose sRGB value is 128.04 of 255 levels */
     f.inputs.frame = 5;
     uint8_t first[PIXELS * 4], again[PIXELS * 4], other[PIXELS * 4];
     run(&f, first);
@@ -322,8 +319,7 @@ static void textures_keep_the_light(void **state)
             fixture_init(&f, *state, posts[k], 16, 0.9f);
             texture = false;
             memset(backdrop_pixels(&f), 0, sizeof(float) * PIXELS * 4);
-            for (int p = 0; p < PIXELS;
-                 p += 2) /* like fire, these pixels have more light than alpha */
+            for (int p = 0; p < PIXELS; p += 2) /* like fire, with more light than alpha */
                 f.particles.host[4 * p + 3] *= 0.1f;
             run(&f, got[i]);
             for (int p = 0; p < PIXELS && i == 1; p++) {

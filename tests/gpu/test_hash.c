@@ -19,9 +19,7 @@ static void fill(struct kiln_particle *records, uint32_t count)
     for (uint32_t i = 0; i < count; i++)
         records[i] = (struct kiln_particle){
             .position_serial = {random_mix(i), i * 7, i * 11, i},
-            .velocity_birth = {
-                i * 3, i * 5, ~i,
-                random_mix(~i)}}; /* about half of the particles are marked as alive */
+            .velocity_birth = {i * 3, i * 5, ~i, random_mix(~i)}}; /* about half are alive */
 }
 
 static void both_hashes_agree(void **state)

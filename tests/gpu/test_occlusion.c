@@ -1,6 +1,6 @@
-/* Checks that billboards behind the scene are not shaded (lib/draw/sprites/occlusion.c), and that
- * this changes no bit of the picture. If this fails, hidden smoke costs as much as visible smoke,
- * or particles close to surfaces vanish. */
+/* Checks that the depth test rejects billboards behind the scene's surfaces before they are shaded
+ * (lib/draw/sprites/occlusion.c), and that this changes no bit of the picture. If this fails,
+ * hidden smoke costs as much time as visible smoke, or particles close to surfaces vanish. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -12,8 +12,9 @@
 #include "support/frame.h"
 #include "support/pictures.h"
 
-/* Billboards of system a, 10 m from the camera. They are parallel to the picture; the tests enable
- * system b to use the program for all shapes. */
+/* The scene of the first test. System `a` has billboards parallel to the picture. System `b` has no
+ * particles, but if a test enables it, kiln draws `a` with the shader program for all shapes
+ * instead of the one for such billboards. */
 static const char CARDS[] =
     "kiln: 1\n"
     "output: {size: [160, 90], fps: 30, frames: 100}\n"
@@ -25,8 +26,9 @@ static const char CARDS[] =
     "    look: {fade: {in: 0, out: 0}, size: 2 m}\n"
     "  b: {enabled: false, emit: {rate: 1}, look: {shape: point}}\n";
 
-/* Returns how many fragments pass the depth test: those of billboards at 10 m, and those of a wall
- * at wall_m that fills the depth buffer. */
+/* Draws 150 billboards 10 m from the camera. Returns how many fragments pass the depth test,
+ * including one for each pixel of a wall, wall_m in front of the camera, that fills the depth
+ * buffer first. */
 static uint32_t shaded(struct kiln_device *device, const char *const *overrides, size_t count,
                        float wall_m)
 {
@@ -48,8 +50,8 @@ static uint32_t shaded(struct kiln_device *device, const char *const *overrides,
     return passed;
 }
 
-/* All billboards are shaded in front of a wall, also if the wall is only 10 cm behind them. If they
- * are behind the wall, only the wall itself passes the depth test. */
+/* All fragments of billboards in front of a wall are shaded, even if the wall is only 10 cm behind
+ * them. Behind the wall, none is: only the wall's own fragments pass the depth test. */
 static void hidden_billboards_are_not_shaded(void **state)
 {
     static const char *const overrides[] = {"systems.b.enabled=true",
@@ -69,8 +71,8 @@ static void hidden_billboards_are_not_shaded(void **state)
     drawing_technique = KILN_RASTER_GEOMETRY;
 }
 
-/* Smoke, billboards about an axis, lines and fire lie in front of two boxes, behind and across
- * them, and around the camera. */
+/* The scene of the second test. Its smoke, fire, axial billboards and lines lie in front of two
+ * boxes, behind them, across their surfaces, and around the camera. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -108,8 +110,9 @@ static struct kiln_picture *draw(struct kiln_device *device, const struct frame_
     return frame_draw(device, SCENE, 20, setting);
 }
 
-/* Compares pictures with those of a shader that writes the greatest depth everywhere, so that the
- * depth test rejects nothing. */
+/* A picture has the same bits with and without the depth test. For the picture without it, another
+ * shader occlusion.frag fills the depth buffer with the greatest depth, so that the test rejects
+ * nothing. */
 static void occlusion_changes_no_bit_of_a_picture(void **state)
 {
     static const char *const all = "systems.*.enabled=true",
@@ -132,9 +135,9 @@ static void occlusion_changes_no_bit_of_a_picture(void **state)
     char folder[32], path[128];
     test_make_folder(folder);
     snprintf(path, sizeof path, "%s/draw/sprites/occlusion.frag", folder);
-    test_write_file(path, "void main() { gl_FragDepth = 1.0; }\n"); /* hides nothing */
+    test_write_file(path, "void main() { gl_FragDepth = 1.0; }\n"); /* 1: rejects no fragment */
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
-        device->info.software = false; /* GPUs always use the depth test */
+        device->info.software = false; /* as on a GPU, where the depth test is always used */
         struct kiln_picture *found = draw(*state, &settings[i]);
         setenv("KILN_SHADER_DIR", folder, 1);
         struct kiln_picture *expected = draw(*state, &settings[i]);

@@ -1,6 +1,7 @@
-/* Checks how shader programs are made (lib/gpu/program.h, source.h): includes are resolved, errors
- * name the file and line of a shader, and KILN_SHADER_DIR replaces embedded files. If this fails,
- * errors in shaders name wrong lines, or changed shader files have no effect. */
+/* Checks how shader programs are compiled and linked (lib/gpu/program.h, source.h): #include is
+ * resolved, errors name the file and line of a shader, and files in the folder KILN_SHADER_DIR
+ * replace embedded ones. If this fails, errors in shaders name wrong lines, or changed shader files
+ * have no effect. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -18,10 +19,10 @@
 struct fixture {
     struct kiln_device *device;
     struct kiln_log log;
-    char dir[64]; /* KILN_SHADER_DIR: a folder of the test's own */
+    char dir[64]; /* a temporary folder, the value of KILN_SHADER_DIR */
 };
 
-/* all files that tests write to `dir` */
+/* names of all files that the tests write to `dir`, which tear_down removes */
 static const char *const written[] = {"main.comp",   "part.h",    "deep.h", "cycle_a.h",
                                       "cycle_b.h",   "test.vert", "t.frag", "shared/platform.h",
                                       "sharedplat.h"};
@@ -67,8 +68,8 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* Creates a program without the log, since some shaders are wrong on purpose and drivers warn about
- * them. */
+/* Creates a program with the log switched off, since some shaders are wrong on purpose and drivers
+ * would print warnings about them. */
 static GLuint create_quietly(struct fixture *fixture, const struct kiln_program_params *params,
                              struct kiln_error *error)
 {
@@ -78,7 +79,7 @@ static GLuint create_quietly(struct fixture *fixture, const struct kiln_program_
     return program;
 }
 
-/* Checks that main.comp is refused with this message. */
+/* Fails unless kiln refuses main.comp with exactly this message, and leaves no GL error. */
 static void assert_refused(struct fixture *fixture, const char *message)
 {
     struct kiln_error error = {0};
@@ -88,7 +89,8 @@ static void assert_refused(struct fixture *fixture, const char *message)
     assert_true(kiln_device_check(fixture->device, "after a refusal", &error));
 }
 
-/* Checks that main.comp is refused by the driver's compiler, whose words follow `place`. */
+/* Fails unless the driver's compiler refuses main.comp and kiln's message starts with `place`, a
+ * file and a line. The rest of the message is the driver's own and is not checked. */
 static void assert_not_compiled(struct fixture *fixture, const char *place)
 {
     struct kiln_error error = {0};
@@ -132,7 +134,9 @@ static void includes_and_defines_reach_the_driver(void **state)
     assert_true(kiln_device_check(fixture->device, "dispatch", &error));
 }
 
-/* GL guarantees 65535 work groups an axis; kiln_device_dispatch uses two axes for more. */
+/* kiln_device_dispatch runs each index exactly once, also for more work groups than GL guarantees
+ * along one axis, 65535, when it spreads them over two axes. A dispatch of 0 work groups runs
+ * nothing. */
 static void a_dispatch_reaches_every_index(void **state)
 {
     enum { MORE_THAN_ONE_AXIS = 3 * 65535 + 5 };
@@ -245,15 +249,16 @@ static void unreadable_overrides_are_errors(void **state)
     expect_error(&error, KILN_IO, "shader %s: Is a directory", path);
     assert_int_equal(rmdir(path), 0);
 
-    snprintf(path, sizeof path, "%s/no_folder", fixture->dir); /* in a folder of the test's own */
+    snprintf(path, sizeof path, "%s/no_folder", fixture->dir); /* a folder that does not exist */
     setenv("KILN_SHADER_DIR", path, 1);
     assert_null(kiln_program_source("shared/value.h", NULL, &error));
     expect_error(&error, KILN_IO, "KILN_SHADER_DIR '%s': No such file or directory", path);
     setenv("KILN_SHADER_DIR", fixture->dir, 1);
 }
 
-/* In the joined text, lines 1 and 2 are the version and the defines, lines 3 to 5 and 8 are lines 1
- * to 3 and 5 of main.comp, and lines 6 and 7 are part.h. */
+/* Line numbers in messages of each driver become a shader's file and line; other messages stay. The
+ * driver sees one text: lines 1 and 2 are the version and the defines, 3 to 5 are lines 1 to 3 of
+ * main.comp, 6 and 7 are part.h, and 8 is line 5 of main.comp. */
 static void driver_messages_are_mapped(void **state)
 {
     struct fixture *fixture = *state;

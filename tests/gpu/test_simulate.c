@@ -1,6 +1,7 @@
-/* Checks that each technique of stage `simulate` computes the same bits as `cpu` after every step,
- * for scenes with every emitter, force, collider, interaction and family. If this fails, the state
- * of a simulation depends on the technique or the device (docs/determinism.md). */
+/* Checks that each technique of the stage `simulate` computes the same bits as `cpu` after every
+ * step, for scenes with every kind of emitter, force, collider and interaction, and with particles
+ * born of other particles (families). If this fails, the state of a simulation depends on the
+ * technique or the device (docs/determinism.md). */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -19,7 +20,7 @@ enum { STEPS = 300 };
 static const struct {
     enum kiln_simulate_technique technique;
     uint32_t threads;
-    uint32_t steps; /* steps that it takes part in; software GL is slow with texels */
+    uint32_t steps; /* how many steps are compared; few for `texels`, slow on software GL */
     const char *name;
 } WAYS[] = {
     {KILN_SIMULATE_INPLACE, 1, STEPS, "inplace"},   {KILN_SIMULATE_PINGPONG, 1, STEPS, "pingpong"},
@@ -28,10 +29,11 @@ static const struct {
 };
 enum { WAY_COUNT = sizeof WAYS / sizeof *WAYS, DEVICE_WAYS = WAY_COUNT - 2 };
 
-/* Steps the scene with `cpu` and in the first `ways` of WAYS, and compares the states after each
- * step. Software GL takes long to compile the larger variants of kernels. All ways are compared
- * where they differ: in what they bind, and in how they keep particles that are born, move and die.
- * One is enough for code of the shared step alone, whose source is the same for all. */
+/* Runs the scene with `cpu` and with the first `ways` rows of WAYS, and compares the state hashes
+ * after each step. A test gives WAY_COUNT if it checks what each technique does in its own way:
+ * binding buffers, and storing particles that are born, move and die. A test of the step itself,
+ * whose source all techniques share, gives 1, since software GL takes long to compile large
+ * kernels. */
 static void some_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t steps,
                        size_t ways)
 {
@@ -66,7 +68,7 @@ static void some_agree(struct kiln_device *device, const struct kiln_scene *scen
     simulation_end(&cpu);
 }
 
-/* Compares all ways; in a sample of the tests, the first one alone. */
+/* Compares all rows of WAYS if test_is_full, otherwise only the first row. */
 static void all_agree(struct kiln_device *device, const struct kiln_scene *scene, uint32_t steps)
 {
     some_agree(device, scene, steps, test_is_full() ? WAY_COUNT : 1);
@@ -131,8 +133,9 @@ static void depth_maps_agree(void **state)
     some_agree(*state, &fixture.scene, 60, 1);
 }
 
-/* Adds a system whose particles collide with and attract each other; with KILN_CONTACT_EXACT they
- * flock, too. Values of the interactions follow the clocks of time and of life. */
+/* Adds a system of particles that collide with each other and attract each other; with
+ * KILN_CONTACT_EXACT they flock, too. x: of the emitter's centre, m. Some values of the
+ * interactions vary over time, others over the life, so that both clocks are tested. */
 static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
 {
     struct kiln_system *s = fixture_add_system(&fixture, name, 400.0f);
@@ -164,8 +167,8 @@ static void add_crowd(const char *name, float x, enum kiln_contact_mode mode)
             fixture_ramp(&fixture, KILN_CLOCK_TIME, 0.0f, 0.1f, 2.0f, 0.4f);
 }
 
-/* Makes the particles of each system collide among themselves, and adds crowds: two that collide,
- * one in each mode, stars that attract each other, and birds that flock. */
+/* Makes the particles of each system collide among themselves, and adds four systems: two of
+ * add_crowd, one for each mode of contact, stars that attract each other, and birds that flock. */
 static void crowd_the_fixture(void)
 {
     for (uint32_t i = 0; i < fixture.scene.system_count; i++) {
@@ -188,8 +191,9 @@ static void crowds_agree(void **state)
     all_agree(*state, &fixture.scene, 24);
 }
 
-/* A scene has families, wind from a file, terrain, a moving mesh and crowds. Kernels with families
- * take long to compile, so only one technique is compared. */
+/* `inplace` agrees with `cpu` in a scene that combines families, wind from a file, terrain, a
+ * moving mesh and crowds. Other techniques are not compared, since kernels with families take long
+ * to compile. */
 static void families_among_all_agree(void **state)
 {
     fixture_family(&fixture, KILN_INTEGRATE_POSITION_FIRST);
@@ -200,8 +204,8 @@ static void families_among_all_agree(void **state)
     some_agree(*state, &fixture.scene, 40, 1);
 }
 
-/* A scene with every kind of force, some with several options, runs with each integrator; in a
- * sample of the tests, with the first and the last one. */
+/* A scene with many kinds of force, some with several options, agrees with each integrator; unless
+ * test_is_full, only the first and the last integrator are tested. */
 static void whirls_agree(void **state)
 {
     for (int order = 0; order < 4; order += test_is_full() ? 1 : 3) {
@@ -213,7 +217,8 @@ static void whirls_agree(void **state)
     }
 }
 
-/* Each kind of force has a scene of its own, whose kernels could lack the force. */
+/* Each kind of force agrees in a scene with only this force. Kernels are compiled with only the
+ * forces that the scene has, so the code of the force could be missing there. */
 static void each_force_alone_agrees(void **state)
 {
     enum kiln_force_kind kinds[FIXTURE_MAX_FORCE_KINDS];
@@ -238,8 +243,9 @@ static void families_by_rk4_agree(void **state)
     some_agree(*state, &fixture.scene, 60, 1);
 }
 
-/* A step has far more births than an emitter spawns (SIM_EMITTER_BIRTHS), and no multiple of that
- * number; later steps have that number, one fewer, or none. */
+/* No birth is lost or doubled where the technique `feedback` splits the births of a step among
+ * emitters of SIM_EMITTER_BIRTHS births each. The steps have 500 times this number plus one, this
+ * number, one less, or none. */
 static void births_are_split_among_emitters(void **state)
 {
     fixture_init(&fixture);
@@ -272,7 +278,7 @@ static void no_systems_and_no_births(void **state)
     }
 }
 
-/* The loader makes the scene of a file; each system gets 2000 births a second. */
+/* All techniques agree in a scene loaded from a file, with 2000 births a second in each system. */
 static void a_scene_from_a_file(void **state)
 {
     struct kiln_error error = {0};
@@ -299,8 +305,9 @@ static struct kiln_state_hash hash_shown(struct simulation *run, uint64_t *alive
     return hash;
 }
 
-/* A state can show the bursts at its own time (docs/determinism.md, 7): the same particles with
- * each technique. The states of this step and of later steps stay as they are. */
+/* kiln_simulate_show_births adds the bursts at a state's own time to the state, so that a frame
+ * shows them (docs/determinism.md, 7). It adds the same particles with each technique, and after
+ * kiln_simulate_hide_births the states of this step and of later steps have their usual hashes. */
 static void bursts_are_shown_at_their_time(void **state)
 {
     static const char text[] =
@@ -312,7 +319,7 @@ static void bursts_are_shown_at_their_time(void **state)
         "  balls:\n"
         "    emit: {bursts: {0 s: 50}, from: {box: {size: [2, 1, 1]}}}\n"
         "    interact: [{collide: {radius: 8 cm, spin: true, turning: [1 rad/s, 3 rad/s]}}]\n";
-    static const uint32_t at[] = {0, 6}; /* steps: the start of the run, and 0 s */
+    static const uint32_t at[] = {0, 6}; /* steps at -0.1 s, the start of the run, and at 0 s */
     static const uint64_t born[] = {70, 350};
     struct kiln_error error = {0};
     struct kiln_scene_params params = kiln_scene_defaults();
@@ -322,12 +329,12 @@ static void bursts_are_shown_at_their_time(void **state)
     struct simulation plain, run;
     struct kiln_state_hash shown[2], states[3];
     uint64_t alive, before;
-    simulation_start(&plain, scene, NULL, 2); /* a run that never shows bursts */
+    simulation_start(&plain, scene, NULL, 2); /* the reference, which never shows bursts */
     for (size_t k = 0; k < 3; k++) {
         simulation_run(&plain, k < 2 ? at[k] - plain.step : 5);
         states[k] = simulation_hash(&plain, &alive);
     }
-    for (size_t i = WAY_COUNT; i-- > 0;) { /* `cpu` comes first */
+    for (size_t i = WAY_COUNT; i-- > 0;) { /* from the last row, so that `cpu` comes first */
         const bool host = WAYS[i].technique == KILN_SIMULATE_CPU;
         if (!host && i > 0 && !test_is_full())
             continue;
@@ -350,7 +357,7 @@ static void bursts_are_shown_at_their_time(void **state)
     kiln_scene_destroy(&scene);
 }
 
-/* Runs `steps` steps of a run with another technique. */
+/* Continues a run for `steps` steps with another technique. device: NULL for `cpu`. */
 static void continue_with(struct simulation *run, struct kiln_device *device,
                           enum kiln_simulate_technique technique, uint32_t steps)
 {
@@ -364,8 +371,8 @@ static void continue_with(struct simulation *run, struct kiln_device *device,
     kiln_simulate_destroy(&other);
 }
 
-/* A run may change its technique between steps: its records move to where the next technique runs.
- * Traces of families are not part of the state, and are not moved. */
+/* A run that changes its technique between steps ends with the same particles as a run with `cpu`
+ * alone. The particles' records are moved to the memory of the next technique. */
 static void a_run_can_change_its_technique(void **state)
 {
     struct simulation cpu, run;
@@ -387,7 +394,8 @@ static void a_run_can_change_its_technique(void **state)
     simulation_end(&run);
 }
 
-/* The size of work groups, which divides the slots, changes no particle. */
+/* The size of work groups, the number of particles that a group of GPU threads computes, changes no
+ * bit of the state. A size beyond the device's limit is refused. */
 static void work_groups_may_have_any_size(void **state)
 {
     struct kiln_device *device = *state;
@@ -403,7 +411,7 @@ static void work_groups_may_have_any_size(void **state)
         enum kiln_simulate_technique technique =
             i % 2 ? KILN_SIMULATE_PINGPONG : KILN_SIMULATE_INPLACE;
         simulation_start_with(&run, &fixture.scene, device, technique, 1);
-        device->work_group_size = 0; /* a run keeps the size of its creation */
+        device->work_group_size = 0; /* the run keeps the size that it was created with */
         simulation_run(&run, 60);
         struct kiln_state_hash hash = simulation_hash(&run, &alive);
         assert_memory_equal(&hash, &expected, sizeof hash);
@@ -451,7 +459,8 @@ static void an_exact_device_is_needed(void **state)
 
 int main(int argc, char **argv)
 {
-    /* The longest come first, so that each is in a part of its own (tests/times.cmake). */
+    /* The longest tests come first, so that each falls into another part when tests/times.cmake
+     * splits this file into parts that run side by side. */
     static const struct CMUnitTest full[] = {
         test_on_device(families_among_all_agree),       test_on_device(depth_maps_agree),
         test_on_device(a_run_can_change_its_technique), test_on_device(families_by_rk4_agree),

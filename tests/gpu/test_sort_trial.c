@@ -1,5 +1,6 @@
-/* Checks that every sort that lib/bench/sort_timer.c times gives the sorted list. If this fails, a
- * benchmark compares the time of a sort that does not sort. */
+/* Checks that every sort that the benchmark of sorts times (lib/bench/sort_timer.c) lists the keys'
+ * places in the order of the keys. If this fails, the benchmark compares the time of a sort that
+ * does not sort. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -18,10 +19,11 @@ enum { MOST = 1 << 16 };
 
 struct task {
     uint32_t keys[MOST];
-    kiln_sort_pair expected[MOST]; /* (key, place), sorted */
+    kiln_sort_pair expected[MOST]; /* pairs of key and place in the expected order */
 };
 
-/* Fills a task in which each set of `set` consecutive keys is sorted by itself. */
+/* Fills a task with `count` keys of a pattern, and with their expected order when each run of `set`
+ * consecutive keys is sorted by itself. */
 static void fill(struct task *task, enum pattern pattern, uint32_t count, uint32_t set)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -72,8 +74,9 @@ static void all_kinds_sort(void **state)
     kiln_threads_destroy(&threads);
 }
 
-/* The variants of bitonic sorting sort each set of rows by itself; no key leaves its set. A count
- * of 0 rows stands for the whole field. */
+/* After kiln_sort_timer_restrict, the three variants of bitonic sort sort each set of `rows`
+ * consecutive rows of the square field of keys by itself, and no key leaves its set. With 0 rows
+ * they sort the whole field. */
 static void variants_sort_sets_of_rows(void **state)
 {
     static struct task task;

@@ -1,6 +1,7 @@
-/* Checks how a golden test judges its frames (lib/suite/judge.c): by hashes of states and pixels,
- * by metrics against the nearest golden, and with limits and masks. It also checks which files a
- * run writes and removes. If this fails, changed pictures pass or unchanged ones fail. */
+/* Checks how `kiln test` compares rendered frames with goldens, accepted pictures
+ * (lib/suite/judge.c): by hashes of states and pixels, by metrics against the nearest golden, and
+ * with limits and masks. It also checks which files a run writes and removes. If this fails,
+ * changed pictures pass or unchanged pictures fail. */
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -13,7 +14,8 @@
 #include "support/folders.h"
 #include "support/suite.h"
 
-/* Writes the test, with `more` in its file, and accepts what it draws. */
+/* Writes the golden test of support/suite.h, with the lines `more` in its file, runs it, and
+ * accepts its frames as goldens. */
 static void accept_goldens(const char *more)
 {
     spark_write(more);
@@ -27,7 +29,8 @@ static struct kiln_test_params without_hashes(void)
     return params;
 }
 
-/* Returns what was measured of a frame, by the name of the metric. */
+/* Returns the value of a metric, such as "flip.mean", that the run measured for a frame. frame:
+ * index in the result, from 0. */
 static double value(const struct spark_run *run, size_t frame, const char *metric)
 {
     size_t i = 0;
@@ -37,7 +40,7 @@ static double value(const struct spark_run *run, size_t frame, const char *metri
     return run->result->frames[frame].values[i];
 }
 
-/* ---- Goldens that are missing, pixels that are known --------------------------------------- */
+/* ---- Missing goldens, and frames with accepted hashes -------------------------------------- */
 
 static void a_missing_golden_is_new_and_nothing_is_written(void **state)
 {
@@ -148,7 +151,9 @@ static void a_changed_state_fails_even_with_equal_pixels(void **state)
 
 /* ---- Metrics ------------------------------------------------------------------------------ */
 
-/* A golden whose file has changed loses its accepted hashes, so that metrics judge the frame. */
+/* Differences within the limits pass, with a warning if their score exceeds the test's `warn`. The
+ * test repaints a golden's file; the hash that was accepted with the old file then no longer
+ * counts, so metrics judge the frame. */
 static void small_differences_are_within_limits(void **state)
 {
     (void)state;
@@ -261,7 +266,8 @@ static void the_nearest_of_several_goldens_counts(void **state)
     assert_true(run.result->frames[0].score == 0);
     spark_end(&run);
 
-    /* The accepted hash is that of a golden that is still there, under another name. */
+    /* The accepted hash still counts, since the golden that it was accepted with is still there,
+     * under another name. */
     run = spark_run(NULL);
     assert_int_equal(run.result->frames[0].judged_by, KILN_JUDGED_BY_PIXELS);
     assert_string_equal(run.result->frames[0].golden, "golden/spark/frame_0003~2.png");
@@ -327,7 +333,7 @@ static void strict_passes_known_pixels_only(void **state)
 
 /* ---- What cannot be judged ---------------------------------------------------------------- */
 
-/* Runs the test, and checks that it ends with this error. */
+/* Runs the golden test, and fails unless it ends with this error. */
 static void expect_unjudged(enum kiln_code code, const char *message)
 {
     struct spark_run run = spark_run(NULL);

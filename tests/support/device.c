@@ -1,4 +1,5 @@
-/* Opens, checks and closes the device of a group of GPU tests. */
+/* Opens the GL device that a group of GPU tests shares, checks it for GL errors after each test,
+ * and closes it. Without a device, the test program ends as skipped. */
 #include "support/device.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* Compares messages of errors with expected texts, and prints both where they differ. */
+/* Compares error codes and messages with expected ones for tests of error handling, and prints both
+ * where they differ. */
 #include "support/errors.h"
 
 #include <stdio.h>
@@ -6,8 +7,8 @@
 
 #include "base/simd.h"
 
-/* Prints a message and the text that was expected instead. `more` follows the latter. Returns
- * false. */
+/* Prints an error, and the code and message that were expected instead. more: a text to print after
+ * the expected message. Returns false. */
 static bool print_both(const struct kiln_error *error, enum kiln_code code, const char *expected,
                        const char *more)
 {
@@ -16,7 +17,8 @@ static bool print_both(const struct kiln_error *error, enum kiln_code code, cons
     return false;
 }
 
-/* Returns whether a text starts with `start`, ends with `end`, and has characters between both. */
+/* Returns whether a text starts with `start`, ends with `end`, and has at least one character
+ * between them. */
 static bool surrounds(const char *text, const char *start, const char *end)
 {
     const size_t length = strlen(text), before = strlen(start), after = strlen(end);

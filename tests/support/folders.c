@@ -1,4 +1,5 @@
-/* Makes and removes temporary working directories for tests, and writes and reads files. */
+/* Runs a test in a temporary working directory of its own, which is removed afterwards, and writes
+ * and reads small files. */
 #include "support/folders.h"
 
 #include <fcntl.h>

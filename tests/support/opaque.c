@@ -1,4 +1,5 @@
-/* Creates the stage of solids and its targets, and draws opaque particles with it. */
+/* Creates the stage that draws opaque particles (kiln_solids) and the images that it draws to, and
+ * draws particles, for tests that read the pixels. */
 #include "support/opaque.h"
 
 #include "support/cmocka.h"

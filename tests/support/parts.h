@@ -1,5 +1,6 @@
-/* Splits groups of slow tests into parts, and says whether a test is to check all of its cases.
- * CTest runs each part in a process of its own, so that the parts run on several cores at once. */
+/* Splits groups of slow tests into parts, and says whether a test checks all of its cases or a
+ * sample. CTest runs each part in its own process, so that the parts run on several cores at once.
+ */
 #ifndef KILN_TESTS_PARTS_H
 #define KILN_TESTS_PARTS_H
 
@@ -10,11 +11,12 @@
 
 enum { TEST_LIST_SIZE = 256 };
 
-/* Returns whether all cases are to be checked, as by `tools/test --all`: the environment variable
- * KILN_TESTS is "all". Otherwise slow tests check a sample of their cases, always the same ones. */
+/* Returns whether tests check all of their cases: whether the environment variable KILN_TESTS is
+ * "all", as `tools/test --all` sets it. If not, slow tests check a sample of their cases, the same
+ * in each run. */
 bool test_is_full(void);
 
-/* The state of a test that runs once for each scene. */
+/* What a test finds in *state if it runs once for each scene file. */
 struct test_scene {
     const char *path;
     size_t number; /* index among all scene files, sorted by name */
@@ -34,14 +36,15 @@ void test_list_add(struct test_list *list, const struct CMUnitTest *tests, size_
 /* Appends copies of the tests to the list if test_is_full. */
 void test_list_add_full(struct test_list *list, const struct CMUnitTest *tests, size_t count);
 
-/* Appends a test for every scene file of scenes/, or, unless test_is_full, for every stride-th one,
- * from the first on. The test has the file's name, and its *state is a struct test_scene. A list
- * may have scenes from one call only. */
+/* Appends copies of `test`, one for each scene file of scenes/, or, unless test_is_full, for the
+ * first and every stride-th file after it. Each copy has the name of its file, and its *state is a
+ * struct test_scene. Call this at most once for a list. */
 void test_list_add_scenes(struct test_list *list, struct CMUnitTest test, size_t stride);
 
-/* Runs the group and frees the list. The program's argument "2/3" chooses the second of three
- * parts: the second test, the fifth, the eighth and so on, so that each test is in exactly one
- * part. Without an argument all tests run. Returns the program's exit status. */
+/* Runs the group and frees the list. argc, argv: the program's arguments. Without an argument, all
+ * tests run. The argument "2/3" chooses the second of three parts, which has the second test, the
+ * fifth, the eighth and so on; each test is in exactly one part. Returns the program's exit status.
+ */
 int test_list_run(struct test_list *list, const char *name, int argc, char **argv,
                   CMFixtureFunction setup, CMFixtureFunction teardown);
 

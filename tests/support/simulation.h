@@ -1,4 +1,4 @@
-/* Runs the simulation of a scene step by step, without drawing, so that tests can look at particles
+/* Runs the simulation of a scene step by step, without drawing, so that tests can check particles
  * and state hashes after each step. */
 #ifndef KILN_TESTS_SIMULATION_H
 #define KILN_TESTS_SIMULATION_H
@@ -25,19 +25,21 @@ void simulation_start(struct simulation *run, const struct kiln_scene *scene,
 /* Runs `steps` more steps. */
 void simulation_run(struct simulation *run, uint32_t steps);
 
-/* Returns the hash of the state, and sets *alive to the number of living particles. */
+/* Returns the hash of the state after the last step, and sets *alive to the number of living
+ * particles. */
 struct kiln_state_hash simulation_hash(struct simulation *run, uint64_t *alive);
 
 /* Runs `steps` more steps, and returns a hash of the state hashes after each of them. */
 struct kiln_state_hash simulation_run_hashed(struct simulation *run, uint32_t steps);
 
-/* Returns the records of all slots on the host, valid until the next step. */
+/* Returns the particle records of all slots, in host memory, valid until the next step. */
 const struct kiln_particle *simulation_records(struct simulation *run);
 void simulation_end(struct simulation *run);
 
-/* A group set-up for cmocka that opens the device. If the device does not compute exactly
- * (shared/exact.h), it ends the program as skipped, since states would differ from those of the
- * CPU; the test gpu.exact fails for a device that should compute exactly. */
+/* A group set-up for cmocka that opens the device. If the device does not round as the CPU does
+ * (shared/exact.h), the program ends as skipped, since states on it may differ from those of the
+ * CPU. Such a device does not go unnoticed: gpu.exact fails if a device should be exact but is not.
+ */
 int simulation_device_open(void **state);
 
 #endif

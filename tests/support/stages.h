@@ -6,9 +6,9 @@
 #include "frame/stages.h"
 #include "sim/step/simulate.h"
 
-/* Creates the stages for particles in `pool`, with a timer. They draw the layers of an EXR if
- * `layers` is true. Creates the simulation, too, unless `simulate` is NULL. An error fails the
- * test. */
+/* Creates the stages for particles in `pool`, and a timer for them. layers: true if the stages also
+ * draw the layers of an EXR file. simulate: set to a new simulation; NULL for none. An error fails
+ * the test. */
 void stages_open(struct kiln_stages *stages, struct kiln_simulate **simulate,
                  struct kiln_device *device, const struct kiln_scene *scene,
                  const struct kiln_techniques *techniques, bool layers,

@@ -1,5 +1,5 @@
-/* Lists colliders of many kinds, each with its top at the origin, so that tests can throw the same
- * particles at each of them and expect the same answer. */
+/* Lists colliders of many kinds, each with its highest point at the origin, so that tests can throw
+ * the same particles at each collider and expect the same bounce. */
 #ifndef KILN_TESTS_SURFACES_H
 #define KILN_TESTS_SURFACES_H
 
@@ -15,10 +15,10 @@ enum { SURFACES = 12 };
 
 extern const struct surface {
     const char *name; /* for messages */
-    struct kiln_object *(*add)(
-        void); /* adds it to the scene of thrown.h; returns NULL for the floor */
+    /* Adds the collider to the scene of thrown.h, and returns it; returns NULL for the floor. */
+    struct kiln_object *(*add)(void);
     enum surface_form form;
-    bool moves; /* a test may animate its centre */
+    bool moves; /* true: a test may animate the collider's centre */
 } surfaces[SURFACES];
 
 #endif

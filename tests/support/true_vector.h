@@ -1,5 +1,6 @@
-/* Declares vectors in double precision for the reference rasteriser (true_sprite.h), and reads
- * looks of systems with the same precision. */
+/* Declares vectors in double precision for the reference rasteriser (true_billboards.h), and a
+ * function that reads how particles look at an age, such as colour and size, in double precision.
+ */
 #ifndef KILN_TESTS_TRUE_VECTOR_H
 #define KILN_TESTS_TRUE_VECTOR_H
 
@@ -47,16 +48,18 @@ static inline dvec dvec_unit(dvec a)
     return dvec_scale(a, 1 / sqrt(dvec_dot(a, a)));
 }
 
-/* Returns one coordinate of a point after an affine map. row: the map's row, with its offset in w.
+/* Returns one coordinate of the point p after an affine transformation. row: the matrix row of that
+ * coordinate, with the translation in w.
  */
 double dvec_row(float4 row, dvec p);
 
-/* Transform a point (dvec_view) or a direction (dvec_turn) from the world to view space. */
+/* Transform from world space to view space: dvec_view a point, m, and dvec_turn a direction. */
 dvec dvec_view(const struct kiln_view *view, dvec p);
 dvec dvec_turn(const struct kiln_view *view, dvec v);
 
-/* Reads a row (KILN_LOOK_*) of a system's look at a part of the life, 0 to 1, from the table of
- * shared/look_layout.h. Interpolates linearly between its samples. */
+/* Reads four values of a system's look from the table of shared/look_layout.h, interpolated
+ * linearly between its samples. system: index; row: which values, KILN_LOOK_*; life: the particle's
+ * age as a fraction of its life, 0 to 1. */
 void dvec_look(const float4 *table, uint32_t system, uint32_t row, float life, double out[4]);
 
 #endif
