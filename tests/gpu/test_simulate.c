@@ -204,7 +204,7 @@ static void families_among_all_agree(void **state)
     some_agree(*state, &fixture.scene, 40, 1);
 }
 
-/* A scene with many kinds of force, some with several options, agrees with each integrator; unless
+/* A scene with every kind of force, some with several options, agrees with each integrator; unless
  * test_is_full, only the first and the last integrator are tested. */
 static void whirls_agree(void **state)
 {
@@ -244,8 +244,8 @@ static void families_by_rk4_agree(void **state)
 }
 
 /* No birth is lost or doubled where the technique `feedback` splits the births of a step among
- * emitters of SIM_EMITTER_BIRTHS births each. The steps have 500 times this number plus one, this
- * number, one less, or none. */
+ * invocations of a geometry shader, each with up to SIM_EMITTER_BIRTHS births. One step has 500
+ * times this number plus one; others have this number, one less, or none. */
 static void births_are_split_among_emitters(void **state)
 {
     fixture_init(&fixture);

@@ -26,7 +26,7 @@ float balls_random(uint32_t *seed);
 /* Total mass, momentum and kinetic energy of living balls, in double precision. Elastic collisions
  * conserve all three. */
 struct balls_sums {
-    double mass, momentum[3], energy; /* mass units; m/s times mass; kinetic, (m/s)^2 times mass */
+    double mass, momentum[3], energy; /* kg, kg m/s, J (kinetic), for masses in kg */
 };
 
 /* Sums up the living balls in slots 0 to count - 1. mass: returns a ball's mass by its serial,

@@ -74,8 +74,9 @@ void fixture_map_depths(struct kiln_object *mesh, uint32_t resolution);
 /* Adds the mesh of a tetrahedron that moves, turns and grows. */
 struct kiln_object *fixture_add_moving_mesh(struct scene_fixture *f);
 
-/* Adds two moving meshes with colliders of kind KILN_COLLIDER_VOLUME. The first mesh is solid on
- * one side (KILN_SIDES_ONE), the second on both (KILN_SIDES_TWO). */
+/* Adds two moving meshes with colliders of kind KILN_COLLIDER_VOLUME. The first mesh is solid
+ * behind its surface (KILN_SIDES_ONE); particles meet the surface of the second from both sides
+ * (KILN_SIDES_TWO). */
 void fixture_add_moving_volumes(struct scene_fixture *f);
 
 /* Adds a system as fixture_add_system does, but its particles are born of the particles of system
@@ -109,8 +110,8 @@ struct kiln_force *fixture_add_field(struct kiln_system *system);
 /* Makes the particles of a system collide with each other as balls. radius: m. */
 struct kiln_interaction *fixture_add_collisions(struct kiln_system *system, float radius);
 
-/* Makes the particles of a system attract each other. strength: its `strength` in a scene; below 0
- * they repel. */
+/* Makes the particles of a system attract each other. strength: the acceleration that each particle
+ * causes at a distance of 1 m, m/s^2. */
 struct kiln_interaction *fixture_add_gravity(struct kiln_system *system, float strength);
 
 /* Makes the particles of a system a flock. radius: the distance up to which each particle sees

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks that README.md names the two commands with which a newcomer starts, tools/demo and
-# tools/test, and that every script is executable: entrance.sh SOURCE. If this fails, a newcomer
-# does not find the commands, or a script ends with "Permission denied".
+# Checks that README.md names tools/demo and tools/test, the two commands with which a newcomer
+# starts, and that every script has its executable bit: entrance.sh SOURCE. If this fails, a
+# newcomer does not find the commands, or a script ends with "Permission denied".
 set -euo pipefail
 cd "$1"
 failed=0

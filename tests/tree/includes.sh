@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Checks which headers the files of lib/, cmd/, decode/ and shaders/ include: includes.sh SOURCE. If
 # this fails, the layers of the library depend on each other in a circle, or the program needs more
-# than the public API. The folders of lib/ and shaders/ are called rooms and are ordered by
-# rooms.awk. A file includes headers of its own room and of rooms before it. Every file of lib/,
-# cmd/ and decode/ may include kiln*.h, and every file of lib/ shaders/shared. cmd/ includes no
-# other header of lib/, and decode/ only those of the rooms base and asset. Only decode/ includes
-# assimp, and only base/ffmpeg.h includes FFmpeg. The stem of a shader begins with that of a C file
-# of the same room.
+# than the public API. The folders of lib/ and shaders/ are called rooms; rooms.awk orders them.
+#   lib/      may include headers of the same room, of rooms before it, of shaders/shared, and
+#             lib/kiln*.h, the public headers
+#   shaders/  as lib/; but shaders/shared includes only headers of its own
+#   cmd/      may include lib/kiln*.h, its own headers and those of libc
+#   decode/   may include lib/kiln*.h, its own headers and those of the rooms base and asset
+# Only decode/ includes assimp, and only lib/base/ffmpeg.h includes FFmpeg. The name of a shader
+# file begins with the name of a C file of the same room.
 set -euo pipefail
 rooms=$(dirname "$(realpath "$0")")/rooms.awk
 cd "$1"
@@ -16,7 +18,8 @@ mapfile -t files < <(find lib cmd decode shaders -name '*.[ch]' -o -path 'shader
 awk -f "$rooms" -f - "${files[@]}" <<'AWK'
 function complain(text) { printf "%s:%d: %s\n", FILENAME, FNR, text; failed = 1 }
 
-# Returns the room of a file, or "cmd", "decode", "shared", or "" for the root of lib/.
+# Returns the room of a file below lib/ or shaders/, and "" for a file in the root of lib/. For a
+# file of cmd/, decode/ or shaders/shared, returns "cmd", "decode" or "shared".
 function where(path) {
     if (path ~ /^cmd\//) return "cmd"
     if (path ~ /^decode\//) return "decode"
@@ -25,8 +28,9 @@ function where(path) {
     return room_of(path)
 }
 
-# Returns whether a C file has the name of the shader without its suffix, or the start of the name
-# up to a "_". In the names of C files, _gl, _cpu and _simd at the end do not count.
+# Returns whether a C file of lib/ belongs to a shader: its name is the shader's, or the start of
+# the shader's name up to a "_". Suffixes like .frag, and _gl, _cpu or _simd at the end of the C
+# file's name are ignored. So bloom_gl.c belongs to bloom_down.frag.
 function has_file(path,    stem) {
     sub(/^shaders\//, "", path)
     sub(/\.[a-z]*$/, "", path)
@@ -38,7 +42,7 @@ function has_file(path,    stem) {
 }
 
 BEGIN {
-    # The headers of the system that cmd/ may include: those of C, POSIX and Linux.
+    # The system headers that cmd/ may include, those of C, POSIX and Linux.
     split("assert ctype errno fcntl float fnmatch inttypes limits locale math poll pthread sched setjmp " \
           "signal spawn stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib string strings " \
           "sys/file sys/ioctl sys/mman sys/prctl sys/resource sys/stat sys/time sys/types sys/wait termios " \

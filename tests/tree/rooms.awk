@@ -1,5 +1,6 @@
-# Defines the order of the rooms (folders) of lib/, for includes.sh and symbols.sh. A room may use
-# rooms with smaller numbers; rooms with the same number may not use each other.
+# Defines the order of the rooms (folders) of lib/ for includes.sh and symbols.sh, which check that
+# no room depends on a later one. A room may use rooms with smaller ranks; rooms of the same rank
+# may not use each other.
 BEGIN {
     rank["base"] = 1; rank["option"] = 2; rank["gpu"] = 3
     rank["asset"] = rank["particles"] = 4; rank["scene"] = 5
@@ -8,7 +9,8 @@ BEGIN {
     rank["report"] = 11; rank["figure"] = 12; rank["bench"] = 13
     rank["start"] = 14; rank["batch"] = 15
 
-    # The folders inside of three rooms are rooms, too. They are ordered within their room.
+    # asset, sim and draw are divided: the folders inside of them are rooms, ranked within asset,
+    # sim or draw.
     inner["asset/loader"] = 1; inner["asset/image"] = 2
     inner["asset/geometry"] = inner["asset/atlas"] = 3
     inner["sim/world"] = 1; inner["sim/crowd"] = inner["sim/paint"] = 2; inner["sim/step"] = 3

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Checks that glslangValidator accepts the shaders of a folder: shader.sh PRINTER OUT SHADERS FOLDER. If this
-# fails, a driver may refuse a shader when kiln runs. A shader is checked with each set of defines that its file
-# lists in a line "// variant: ..."; if it lists 20 sets or more, only every fourth is checked, unless
-# KILN_TESTS=all. PRINTER is the program shader_source, which prints a shader with its includes and defines. The
-# texts are kept in OUT/FOLDER, since the validator's messages name their line numbers.
+# Checks that glslangValidator accepts every shader of a folder: shader.sh PRINTER OUT SHADERS FOLDER. If this
+# fails, a driver may refuse a shader when kiln runs. A line "// variant: ..." in a shader file lists one set of
+# defines with which kiln compiles the shader. Each variant is checked; of 20 variants or more, only every fourth,
+# unless KILN_TESTS=all. PRINTER is the program shader_source, which prints a shader's complete text with its
+# includes and defines. These texts stay in OUT/FOLDER, since the validator's messages give their line numbers.
 set -euo pipefail
 printer=$1 out=$2/$4 shaders=$3 folder=$4
 rm -rf "$out"

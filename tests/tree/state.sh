@@ -1,29 +1,30 @@
 #!/usr/bin/env bash
-# Checks that the library has no writable variable at file scope, except those listed below:
+# Checks that the library has no writable global or static variable, except those listed below:
 # state.sh SOURCE LIBRARY. If this fails, two renderers in one process may disturb each other.
 set -euo pipefail
 library=$2
 
-# The exceptions, each as "object symbol":
+# The allowed variables, each as "object-file symbol":
 allowed=(
-    # The names of unfinished files. A signal handler removes these files, and it gets no pointer by
-    # which it could find the names elsewhere.
+    # The names of unfinished files, which a signal handler removes. They are global since a signal
+    # handler gets no pointer to data of the program.
     "temporary.c.o slots"
     "temporary.c.o ending"
-    # The receiver of FFmpeg's messages, one per thread. FFmpeg's log callback gets no user pointer.
+    # Where each thread receives FFmpeg's messages. It is a variable of the thread since FFmpeg's
+    # log callback gets no user pointer.
     "ffmpeg.c.o current"
-    # FFmpeg's libraries, which are opened once a process, and pointers to their functions.
+    # Handles of FFmpeg's libraries, which a process opens once, and pointers to their functions.
     "ffmpeg.c.o libraries"
     "ffmpeg.c.o mutex.0"
     "ffmpeg.c.o kiln_ff"
-    # libdeflate, which is opened once a process.
+    # The handle of libdeflate, which a process opens once.
     "libdeflate.c.o library"
     "libdeflate.c.o is_open.1"
     "libdeflate.c.o mutex.2"
 )
 
-# A symbol is writable if its section is .data, .bss, .tdata, .tbss or *COM*. .data.rel.ro is not:
-# it holds tables of pointers, which are constant after the dynamic linker has relocated them.
+# A variable is writable if its section is .data, .bss, .tdata, .tbss or *COM*. Section .data.rel.ro
+# is not writable: the dynamic linker relocates its tables of pointers, and then makes it read-only.
 failed=0
 while read -r object symbol; do
     for entry in "${allowed[@]}"; do

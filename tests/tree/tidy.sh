@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Checks by clang-tidy that C files and the headers that they include follow the rules of .clang-tidy, and have no
-# warning of clang: tidy.sh SOURCE BUILD [OPTION...] [PART/COUNT | -- FILE...]. Without FILE, all C files are
-# checked. A file that BUILD compiles by several commands, such as a file *_simd.c, is checked with each of them.
-# OPTION is one of clang-tidy: tests give --checks=-clang-analyzer-*, since the analyzer takes nine tenths of the
-# time, and the build target `analyze` runs all checks. With "2/3" one process checks every third file, from the
-# second on.
+# Runs clang-tidy over C files and the headers that they include: tidy.sh SOURCE BUILD [OPTION...] [PART/COUNT |
+# -- FILE...]. If this fails, a file breaks a rule of .clang-tidy or has a warning of clang, often a sign of a bug.
+# Without FILE, all C files are checked. A file that BUILD compiles by several commands, such as a file *_simd.c,
+# is checked with each command. OPTION is an option of clang-tidy: tests give --checks=-clang-analyzer-*, since
+# the analyzer takes nine tenths of the time; the build target `analyze` runs all checks. PART/COUNT checks a part
+# of the files in one process: "2/3" every third file, from the second on.
 set -uo pipefail
 cd "$1" || exit
 build=$2
