@@ -1,8 +1,8 @@
-# Writes the header OUTPUT, which defines KILN_COMMIT as the name of the commit that SOURCE has checked out:
-# cmake -D SOURCE=FOLDER -D OUTPUT=FILE -P commit.cmake. The name is like "254e4dc", with a '+' if tracked files
-# have changed since the commit. In an archive made by `git archive`, it is the archived commit, which git has
-# written into commit.txt. Without git it is "". If OUTPUT would stay the same, it is not written, so that nothing
-# is compiled again.
+# Writes the C header OUTPUT, which defines KILN_COMMIT, the short name of the git commit that the folder SOURCE
+# has checked out: cmake -D SOURCE=FOLDER -D OUTPUT=FILE -P commit.cmake. `kiln --version` prints it. The name is
+# like "254e4dc", with a '+' if tracked files differ from the commit. In an archive made by `git archive`, it is
+# the name of the archived commit, which git has written into commit.txt. Where neither git nor commit.txt tells
+# the commit, it is "". A header that would stay the same is not written, so that nothing is compiled again.
 find_program(git git)
 file(READ ${SOURCE}/cmake/commit.txt archived)
 set(commit "")
@@ -11,7 +11,7 @@ if(archived MATCHES "^([0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f])
 elseif(git)
     execute_process(COMMAND ${git} -C ${SOURCE} rev-parse --show-prefix --short=7 HEAD
         OUTPUT_VARIABLE found ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed)
-    if(NOT failed AND found MATCHES "^\n([0-9a-f]+)$") # no prefix: SOURCE is the top folder of a repository
+    if(NOT failed AND found MATCHES "^\n([0-9a-f]+)$") # The empty first line, the prefix, says that SOURCE is the top folder.
         set(commit ${CMAKE_MATCH_1})
         execute_process(COMMAND ${git} -C ${SOURCE} diff --quiet HEAD --
             ERROR_QUIET RESULT_VARIABLE changed)

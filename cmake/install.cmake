@@ -1,10 +1,11 @@
-# Lists what `cmake --install` installs: the program and kiln-decode; the library with its headers, pkg-config file
-# and CMake package; the scenes, examples and documents; the completions of bash and zsh. docs/CMakeLists.txt adds
-# the manual pages and the JSON schemas, and python/CMakeLists.txt the Python module.
+# Lists what `cmake --install` installs: the program kiln, and kiln-decode, the separate process that decodes
+# strangers' files; the library with its headers, pkg-config file and CMake package; the scenes, examples and
+# documents; the completions of bash and zsh. docs/CMakeLists.txt adds the manual pages and the JSON schemas, and
+# python/CMakeLists.txt the Python module.
 
-# The pkg-config file finds the prefix from the folder in which it lies, so that any --prefix works. A program that
-# links libkiln.a needs the libraries that kiln uses, too. `pkg-config --static` and the CMake target
-# kiln::kiln_static name them.
+# The pkg-config file computes the prefix of the installation from the folder in which it lies, so that any
+# --prefix works. A program that links the static library libkiln.a must also link the libraries that kiln uses.
+# `pkg-config --static` and the CMake target kiln::kiln_static name them.
 include(CMakePackageConfigHelpers)
 file(RELATIVE_PATH kiln_pc_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(JOIN " " kiln_pc_requires ${kiln_linked_packages})

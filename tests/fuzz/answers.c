@@ -1,7 +1,7 @@
-/* Fuzzes kiln's reading of the answers of kiln-decode: any bytes from that process are a picture,
- * video, mesh or skin within the limits, or an error. If this fails, a malicious file that has
- * taken over kiln-decode can crash kiln or go on to take it over. The bytes are sent by kiln_feeder
- * (feeder.c), which runs in the place of kiln-decode. */
+/* Fuzzes how kiln reads the answers of kiln-decode, the separate process that decodes strangers'
+ * files: kiln must take any bytes as a picture, video, mesh or skin within the limits, or report an
+ * error. If this fails, a malicious file that has taken over kiln-decode can crash kiln or take
+ * over kiln, too. kiln_feeder (feeder.c) runs in the place of kiln-decode and sends the bytes. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "image_check.h"
 #include "mesh_check.h"
 
-static char fed[64]; /* path of the file with the input, which kiln_feeder sends */
+static char fed[64]; /* path of the file that holds the input; kiln_feeder sends it */
 
 static void begin(void)
 {

@@ -1,6 +1,6 @@
-/* Stands in for kiln-decode in the fuzz target `answers`: it says that it is ready, waits for a
- * request, and whatever the request is, sends the bytes of the file that the environment variable
- * KILN_FEED names. */
+/* Stands in for kiln-decode, the separate process that decodes strangers' files, in the fuzz target
+ * `answers`. The program tells kiln that it is ready, waits for a request, and answers any request
+ * with the bytes of the file that the environment variable KILN_FEED names. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>

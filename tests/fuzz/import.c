@@ -1,8 +1,9 @@
-/* Fuzzes kiln-decode's conversion of the scenes that assimp imports: any bytes are a mesh within
- * the limits or an error. If this fails, a malicious mesh may take over kiln-decode by kiln's own
- * code. assimp runs in this process here, so that libFuzzer sees the code that an input reaches. A
- * crash inside assimp is not a fault of kiln, which confines assimp to a process of its own; the
- * target `mesh` covers that arrangement. */
+/* Fuzzes how kiln-decode, the separate process that decodes strangers' files, converts the scenes
+ * that the library assimp imports: any bytes must give a mesh within the limits or an error. If
+ * this fails, a malicious mesh may take over kiln-decode through kiln's own code. Here assimp runs
+ * in the fuzzer's process, so that libFuzzer sees the code that an input reaches. A crash inside
+ * assimp is not a fault of kiln, which runs assimp only in kiln-decode; the target `mesh` tests
+ * kiln with that process. */
 #include <stdlib.h>
 
 #include "decode.h"

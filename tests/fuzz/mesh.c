@@ -1,6 +1,7 @@
-/* Fuzzes the mesh loader: any bytes are a mesh and a skinned mesh within the limits, at any time of
- * its clip, or an error. If this fails, a damaged OBJ or glTF file crashes kiln. The importer may
- * crash, since it runs in a process of its own, kiln-decode; kiln must report that as an error. */
+/* Fuzzes the mesh loader: any bytes must give a mesh and a skinned mesh within the limits, at any
+ * time of its animation clip, or an error. If this fails, a damaged OBJ or glTF file crashes kiln.
+ * The importer may crash, since it runs in kiln-decode, the separate process that decodes
+ * strangers' files; kiln must then report an error. */
 #include <string.h>
 
 #include "fuzz.h"

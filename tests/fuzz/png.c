@@ -1,5 +1,6 @@
-/* Fuzzes the decoder of PNG: any bytes are an image within the limits or an error, never a crash.
- * If this fails, a malicious PNG file may take over kiln-decode. */
+/* Fuzzes the PNG decoder of kiln-decode, the separate process that decodes strangers' files: any
+ * bytes must give an image within the limits or an error, never a crash. If this fails, a malicious
+ * PNG file may take over kiln-decode. */
 #include "decode.h"
 #include "fuzz.h"
 #include "image_check.h"

@@ -1,6 +1,7 @@
-/* Fuzzes the reader of the sidecars of figures: any bytes are a sidecar or an error, never a crash.
- * A sidecar that is read and written twice gives the same text. If this fails, a figure may not be
- * made again by the command that its sidecar records, or a damaged sidecar crashes kiln. */
+/* Fuzzes the reader of sidecars, the files beside figures that record the commands by which the
+ * figures were made: any bytes must give a sidecar or an error, never a crash. A sidecar that is
+ * written, read and written again must give the same text. If this fails, a figure may not be made
+ * again by the command that its sidecar records, or a damaged sidecar crashes kiln. */
 #include <stdlib.h>
 #include <string.h>
 

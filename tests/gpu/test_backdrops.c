@@ -1,7 +1,7 @@
-/* Checks that the techniques of stage `backdrop`, in GL and in C, draw the same picture of every
- * scene in scenes/ and of fixtures with every feature, and that the one in C gives the same bytes
- * for any number of threads and any vector width. If this fails, a clip looks different on another
- * machine. */
+/* Checks the stage `backdrop`, which draws sky, floor, objects and solid particles. Its techniques
+ * in GL and in C must draw the same picture of every scene in scenes/ and of fixtures with every
+ * feature, and the technique in C must give the same bytes for any number of threads and any SIMD
+ * level. If this fails, a clip looks different on another machine. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -18,20 +18,21 @@
 
 enum { WIDTH = 384, HEIGHT = 216, PIXELS = WIDTH * HEIGHT, COLORS = 4 * PIXELS };
 
-/* Holds the picture before billboards are drawn: the backdrop and the solid particles. */
+/* Holds the picture before billboards are drawn: the backdrop and the solid particles. color and
+ * bloom are RGBA; depth is the view depth, m. */
 struct picture {
     float color[COLORS], bloom[COLORS], depth[PIXELS];
 };
 
 /* ---- a moment of a scene --------------------------------------------------------------------- */
 
-/* Holds a scene and its particles after `step` steps. */
+/* Holds a scene and its particles at one instant, after `step` steps. */
 struct moment {
     struct kiln_device *device;
     struct kiln_scene *scene;
     struct kiln_pool pool;
     uint32_t step;
-    uint32_t before; /* a step whose moment the stages draw first; 0: none */
+    uint32_t before; /* a step that the stages draw before `step`, to leave traces; 0: none */
 };
 
 static void step_to(struct moment *m, uint32_t step)
@@ -49,7 +50,9 @@ static void step_to(struct moment *m, uint32_t step)
     kiln_threads_destroy(&threads);
 }
 
-enum { MOST_STEPS = 200 }; /* limits the simulated steps of a scene, and the test's time */
+enum {
+    MOST_STEPS = 200
+}; /* limits the simulated steps of a scene, and so the duration of the test */
 
 static void open_moment(struct moment *m, struct kiln_device *device, struct kiln_scene *scene,
                         uint32_t frame)
@@ -138,14 +141,15 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Holds `mean`, the sum of all errors divided by the sum of all values, and `most`, the relative
- * error that one value in a thousand exceeds. */
+/* Holds two measures of how images a and b differ. mean: the sum of |a - b| divided by the sum of
+ * |a|; most: the relative error that only one value in a thousand exceeds. */
 struct difference {
     double mean, most;
 };
 
-/* Compares two pictures by the first `used` of their channels. A hundredth of the mean value is
- * added to each value that an error is relative to, so that dark pixels do not count too much. */
+/* Compares the first `used` of the `channels` values of each pixel of two images. The relative
+ * error of a value is |a - b| divided by |a| plus a hundredth of the mean of |a|, so that dark
+ * pixels do not count too much. */
 static struct difference compare(const float *a, const float *b, int channels, int used)
 {
     double sum = 0, light = 1e-12;
@@ -165,7 +169,8 @@ static struct difference compare(const float *a, const float *b, int channels, i
     return (struct difference){sum / light, (double)errors[count - 1 - count / 1000]};
 }
 
-/* Replaces a picture's depth by 1 / depth, 1/m, which is 0 for the sky. */
+/* Replaces a picture's view depth, m, in place by its reciprocal, 1/m, which is 0 for the sky, and
+ * returns the result. */
 static const float *nearness(struct picture *picture)
 {
     for (int p = 0; p < PIXELS; p++)
@@ -173,9 +178,9 @@ static const float *nearness(struct picture *picture)
     return picture->depth;
 }
 
-/* Compares both techniques by the limits of docs/determinism.md: a mean relative error of at most
- * 1e-3, and at most one value in a thousand that is off by more than 1 %. Pixels at edges count,
- * too. */
+/* Fails unless the pictures of both techniques agree within the limits of docs/determinism.md: a
+ * mean relative error of at most 1e-3, and at most one value in a thousand that is off by more than
+ * 1 %. Pixels at edges count, too. */
 static void check_agreement(struct moment *m, const char *name)
 {
     struct picture *gl = draw(m, KILN_BACKDROP_GL, 2), *cpu = draw(m, KILN_BACKDROP_CPU, 2);
@@ -309,8 +314,8 @@ static void techniques_agree_on_a_fixture(void **state)
     close_moment(&m);
 }
 
-/* A moving mesh at step 40 or 60 is drawn with the same bytes whether or not the stages drew the
- * other step before. If this fails, the stages keep something of the earlier pose. */
+/* A moving mesh at step 40 or 60 must be drawn with the same bytes whether or not the stages drew
+ * the other step before. If this fails, the stages keep something of the earlier pose. */
 static void an_earlier_pose_of_a_mesh_leaves_no_trace(void **state)
 {
     (void)state;
@@ -333,8 +338,8 @@ static void an_earlier_pose_of_a_mesh_leaves_no_trace(void **state)
     close_moment(&m);
 }
 
-/* Fails unless the technique in C draws the expected bytes with a vector width and a number of
- * threads. simd: NULL for the machine's own. */
+/* Fails unless the technique in C draws the expected bytes at a SIMD level and with a number of
+ * threads. simd: the level's name, or NULL for the level that kiln chooses itself. */
 static void check_bytes(struct moment *m, const struct picture *expected, const char *simd,
                         uint32_t threads)
 {

@@ -1,7 +1,7 @@
-/* Checks kiln_test_calibrate (lib/suite/calibrate.c), which proposes limits of a golden test from
- * the differences between renders with several thread counts and techniques. If this fails,
- * proposed limits are too strict for another driver, too loose to find faults, or hide that the
- * simulation changed. */
+/* Checks kiln_test_calibrate (lib/suite/calibrate.c), which renders the frames of a golden test
+ * with several thread counts and techniques, and proposes limits for the test from how much the
+ * renders differ from the golden pictures. If this fails, proposed limits are too strict for
+ * another driver, too loose to find faults, or hide that the simulation changed. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -21,7 +21,7 @@
 struct calibrated {
     struct kiln_calibration calibration;
     struct kiln_error error;
-    char renders[8][128]; /* the last renders that were reported: threads, techniques, device */
+    char renders[8][128]; /* the last reported renders as text: threads, techniques, device */
     uint32_t told;        /* number of reported renders */
     bool ok;
 };
@@ -68,11 +68,12 @@ static void renders_differ_in_threads_and_techniques(void **state)
 {
     (void)state;
     const char *device;
-    /* Layers are so faint that their sums depend on the rounding of the rasteriser. */
+    /* Many faint billboards overlap, so that their sums depend on the rounding of the rasteriser.
+     * */
     spark_write("set: [systems.sparks.look.size=1, systems.sparks.look.opacity=0.01, "
                 "systems.sparks.emit.rate=20000]\n");
     struct kiln_calibrate_params params = calibrate_params(&device);
-    params.renders = 8; /* enough for the raster technique to change */
+    params.renders = 8; /* so many renders that the raster technique changes */
     struct calibrated seen = calibrate(&params);
     if (!seen.ok)
         fail_msg("%s", seen.error.message);
@@ -130,8 +131,8 @@ static void the_worst_value_is_measured_against_the_golden(void **state)
     free(expect);
 }
 
-/* A stop callback that stops nothing. Before the second render it changes the scene's seed, as if
- * the simulation were not deterministic. */
+/* A stop callback that never stops the calibration. Before the second render it changes the scene's
+ * seed, as if the simulation were not deterministic. */
 static bool change_scene(void *user)
 {
     struct calibrated *seen = user;

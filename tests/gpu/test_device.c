@@ -1,6 +1,7 @@
-/* Checks how devices are listed, chosen and opened (lib/gpu/device.h), how GL errors are reported,
- * and the sizes of work groups. If this fails, a user gets the wrong device, cannot learn why there
- * is none, or misses an error of GL. */
+/* Checks how devices, which are GL drivers or the CPU without GL, are listed, chosen and opened
+ * (lib/gpu/device.h), how GL errors are reported, and which sizes of work groups are chosen. If
+ * this fails, a user gets the wrong device, cannot learn why there is none, or misses an error of
+ * GL. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static struct kiln_device *open_named(const char *wanted, struct kiln_error *err
     return kiln_device_open(&params, error);
 }
 
-/* Prepares entries for kiln_device_list, which needs their size. */
+/* Prepares entries for kiln_device_list. Each entry must hold the size of its struct. */
 static void empty(struct kiln_device_info *infos, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -53,7 +54,7 @@ static void list_describes_usable_devices(void **state)
     }
     assert_true(usable >= 1);
 
-    /* The list returns the number of all devices even if it fills in fewer. */
+    /* kiln_device_list returns the number of all devices even if it fills in fewer. */
     struct kiln_device_info first = {.size = sizeof first, .index = 77};
     assert_int_equal(kiln_device_list(&first, sizeof(struct kiln_device_info), 1, NULL), count);
     assert_string_equal(first.name, infos[0].name);
@@ -105,7 +106,7 @@ static void a_device_is_chosen_by_number_and_name(void **state)
         kiln_device_close(&device);
         assert_null(device);
     }
-    /* The default device is a GPU if there is one, otherwise this machine without GL. */
+    /* The default device is a GPU if there is one, otherwise the CPU without GL. */
     bool has_gpu = false;
     for (size_t i = 0; i < count && i < 32; i++)
         has_gpu = has_gpu || (infos[i].usable && !infos[i].software);
@@ -173,8 +174,8 @@ static void a_wrong_choice_lists_the_devices(void **state)
     assert_true(kiln_device_make_current(*state, &error));
 }
 
-/* The open device, a new probe and the list agree on whether the device computes exactly. On
- * llvmpipe it must. */
+/* The open device, a new probe of it and the list of devices must agree on whether the device
+ * computes the same bits as C. Mesa's software GL, llvmpipe, must do so. */
 static void exactness_is_probed(void **state)
 {
     const struct kiln_device_info *info = kiln_device_get_info(*state);
@@ -205,7 +206,8 @@ static void two_devices_live_side_by_side(void **state)
     assert_true(kiln_device_check(first, "first", &error));
 }
 
-/* The driver's words for an error, which its debug callback gets, are not compared. */
+/* kiln_device_check must report a GL error once, and not again at the next call. The end of the
+ * message is not compared, since the driver words it. */
 static void gl_errors_are_found_once(void **state)
 {
     struct kiln_device *device = *state;
@@ -217,7 +219,7 @@ static void gl_errors_are_found_once(void **state)
     expect_error_around(&error, KILN_DEVICE_FAILED, "", "here: GL: invalid enum (0x0500): ");
     assert_true(kiln_device_check(device, "here", &error));
 
-    /* An error that the debug callback received counts even if glGetError has cleared it. */
+    /* An error that kiln's debug callback received counts even if glGetError has cleared it. */
     glBindBuffer(GL_ARRAY_BUFFER, 0);
     glBufferData(GL_ARRAY_BUFFER, 16, NULL, GL_STATIC_DRAW);
     assert_int_equal(glGetError(), GL_INVALID_OPERATION);
@@ -261,9 +263,9 @@ static void out_of_memory_is_named(void **state)
     device->log = log;
 }
 
-/* Fails unless a process with a changed environment variable finds no device with GL and gives this
- * advice. A process looks for drivers and libraries only once, so a child process runs this
- * program with --list. */
+/* Fails unless a process in which an environment variable has this value finds no device with GL
+ * and gives this advice. A process looks for drivers and libraries only once, so a child process
+ * runs this program with --list. */
 static void assert_explained(const char *variable, const char *value, const char *advice)
 {
     int ends[2];
@@ -290,7 +292,7 @@ static void assert_explained(const char *variable, const char *value, const char
 static void missing_drivers_are_explained(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/kiln-drivers-XXXXXX"; /* describes no driver */
+    char folder[] = "/tmp/kiln-drivers-XXXXXX"; /* an empty folder: it describes no driver */
     assert_non_null(mkdtemp(folder));
     assert_explained("__EGL_VENDOR_LIBRARY_DIRS", folder,
                      "EGL has no driver that works without a display; install the package "
@@ -298,7 +300,8 @@ static void missing_drivers_are_explained(void **state)
     rmdir(folder);
 }
 
-/* An empty file hides the library of the same name in a later folder of the search path. */
+/* A library that cannot be loaded must be explained. An empty file libEGL.so.1 hides the library of
+ * this name in later folders of the search path. */
 static void missing_libraries_are_explained(void **state)
 {
     (void)state;

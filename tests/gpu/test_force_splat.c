@@ -1,5 +1,6 @@
-/* Checks gravity as the blending unit adds it up (lib/bench/force_splat.c; Drone 2007, 7.4.3.1) and
- * as the simulation does, in a fixed order, against sums in doubles. If this fails, the benchmark
+/* Checks the gravity of bodies that is summed by force splatting, which is additive blending on the
+ * device (lib/bench/force_splat.c; Drone 2007, 7.4.3.1), and gravity that is summed in a fixed
+ * order, as the simulation does it, against sums in double precision. If this fails, the benchmark
  * compares the simulation with a technique that computes something else. */
 #include <stddef.h>
 #include <stdint.h>
@@ -10,16 +11,19 @@
 #include "support/cmocka.h"
 #include "support/device.h"
 
-enum { BODIES = 300 /* not a multiple of a row of texels */, WAYS = 3 };
+enum { BODIES = 300 /* not a multiple of the texels in a row, 128 */, WAYS = 3 };
 
+/* The square of the softening length of gravity, m^2. */
 static const float SOFTENING_SQUARE = 0.0025f;
 
+/* Holds the acceleration of a body by all bodies, summed in double precision. */
 struct sums {
     double x, y, z;
-    double size; /* sum of the magnitudes of all terms */
+    double size; /* sum of the magnitudes of all terms, to which errors are relative */
 };
 
-/* Makes a cluster of bodies. Every seventh attracts nothing, and two are in one place. */
+/* Makes a cluster of bodies. Every seventh body has no mass and attracts nothing, and bodies 1 and
+ * 2 are at the same place. */
 static void fill(float4 *sources)
 {
     uint32_t seed = 31;
@@ -68,7 +72,7 @@ static void by_blending(struct kiln_device *device, GLenum format, const float4 
         fail_msg("%s", error.message);
         return;
     }
-    for (int run = 0; run < 2; run++) /* the second must not add to the sums of the first */
+    for (int run = 0; run < 2; run++) /* the second run must not add to the sums of the first */
         if (!kiln_force_splat_run(splat, sources, BODIES, SOFTENING_SQUARE, &ms, &error))
             fail_msg("%s", error.message);
     const float4 *sums = kiln_force_splat_sums(splat, &error);
@@ -81,7 +85,8 @@ static void by_blending(struct kiln_device *device, GLenum format, const float4 
     assert_null(splat);
 }
 
-/* Holds errors divided by the `size` of a sum: the largest, and the root of the mean square. */
+/* Holds the errors of all sums, each divided by its sum's `size`: the largest error and the root of
+ * the mean square. */
 struct error_of {
     double largest, mean;
 };
@@ -101,8 +106,9 @@ static struct error_of compare(const float4 *sources, const float4 *found)
     return e;
 }
 
-/* A sum of n terms is rounded n times, each time by at most 2^-24 of its size in floats or 2^-11 in
- * half floats. The limits allow for 32 more such errors in the terms. */
+/* Both ways to sum must be as exact as their number format allows. A sum of n terms is rounded n
+ * times, each time by at most 2^-24 of its size in floats or 2^-11 in half floats. The limits allow
+ * for 32 more such errors in the terms. */
 static void blending_adds_up_as_exactly_as_its_format(void **state)
 {
     static float4 sources[BODIES], found[BODIES];
@@ -123,7 +129,8 @@ static void blending_adds_up_as_exactly_as_its_format(void **state)
     assert_true(errors[2].largest <= (BODIES + 32) * 0x1p-11);
     assert_true(errors[0].mean < 2e-6 && errors[1].mean < 2e-6);
     assert_true(errors[2].mean < 0.05);
-    assert_true(errors[2].mean > 20.0 * errors[0].mean); /* half floats were added */
+    assert_true(errors[2].mean >
+                20.0 * errors[0].mean); /* otherwise floats were added instead of half floats */
 }
 
 int main(void)

@@ -1,7 +1,8 @@
-/* Checks particles that are meshes (lib/draw/solids/solids.c) against triangles that are
- * intersected in doubles: their orientation, depth, silhouettes and light. Also checks that
- * techniques agree, and that order, threads and vector width change nothing. If this fails, meshes
- * fly sideways, have holes or wrong shading, or depend on the machine. */
+/* Checks particles that are drawn as meshes (lib/draw/solids/solids.c) against rays that are
+ * intersected with the mesh's triangles in double precision: orientation, depth, silhouettes and
+ * light. Also checks that the techniques in GL and in C agree, and that order, threads and SIMD
+ * level change nothing. If this fails, meshes fly sideways, have holes or wrong shading, or depend
+ * on the machine. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -17,7 +18,7 @@
 
 enum { STEP = 30, COUNT = 24 };
 
-/* tests/mutation/tetrahedron.obj has the corners (0 0 0), (1 0 0), (0 1 0), (0 0 1). */
+/* The mesh, tests/mutation/tetrahedron.obj, has the corners (0 0 0), (1 0 0), (0 1 0), (0 0 1). */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [320, 240], fps: 30, frames: 100}\n"
@@ -33,6 +34,7 @@ static const char SCENE[] =
     "    look: {shape: mesh, mesh: {file: tetrahedron.obj}, size: 1.6 m, scale: 0.5,\n"
     "           fade: {in: 0, out: 0}, color: [0.8, 0.4, 0.2], bloom: [1, 0.5, 0]}\n";
 
+/* The mesh's scale, m per unit of the file (size * scale), and its colour. */
 static const double SIZE = 0.8, ALBEDO[3] = {0.8, 0.4, 0.2};
 
 static void init(struct fixture *f, struct kiln_device *device, const char *const *overrides,
@@ -60,7 +62,7 @@ static void place_cloud(struct fixture *f, struct kiln_particle *particles, uint
 
 /* ---- the reference in doubles ---------------------------------------------------------------- */
 
-/* Holds a tetrahedron in the world, m. */
+/* Holds a tetrahedron in the world, m. middle: the position of its particle. */
 struct solid {
     vec corners[4], middle;
 };
@@ -78,8 +80,8 @@ static struct solid solid_of(vec at, const vec axes[3])
     return s;
 }
 
-/* Returns the depth, m, at which a ray from the eye enters a tetrahedron, or 1e9 for a miss. *side
- * becomes the number of the face. */
+/* Returns the view depth, m, at which a ray from the eye enters a tetrahedron beyond the near
+ * plane, or 1e9 for a miss. *side becomes the index of the face, unless the ray misses. */
 static double enter(const struct solid *s, vec eye, vec ray, int *side)
 {
     static const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -103,9 +105,9 @@ static double enter(const struct solid *s, vec eye, vec ray, int *side)
     return nearest;
 }
 
-/* Draws one particle and compares it with its tetrahedron: depth and colour of the pixels in which
- * all of 17 rays meet the same face or none, and the area that the particle covers in the picture.
- */
+/* Draws one particle and fails unless it matches its tetrahedron, whose unit axes are given. Depth
+ * and colour are compared in pixels in which all of 17 rays meet the same face or all miss. The
+ * area that the particle covers in the picture is compared, too. */
 static void check_solid(struct fixture *f, const struct kiln_particle *particle, const vec axes[3])
 {
     const struct drawing *d = &f->drawing;
@@ -144,8 +146,8 @@ static const float3 PLACE = {0.7f, 1.1f, 0.9f};
 
 /* ---- orientation ----------------------------------------------------------------------------- */
 
-/* A mesh's z axis points along the velocity, and its x axis is level. A mesh that moves straight up
- * keeps the world's x axis, and one at rest the world's z axis. */
+/* A mesh's z axis must point along the particle's velocity, and its x axis must be level. A mesh
+ * that moves straight up must keep the world's x axis, and a mesh at rest the world's z axis. */
 static void meshes_point_along_the_velocity(void **state)
 {
     static const float3 velocities[] = {{0.0f, 0.0f, 3.0f},
@@ -173,8 +175,8 @@ static vec turned(vec v, vec axis, double angle)
     return vec_add(y, axis, vec_dot(v, axis) * (1 - cos(angle)));
 }
 
-/* With the orientation `upright` a mesh rotates about y, with `spin` about a random axis, by its
- * rotation and its spin since birth. */
+/* A mesh must rotate by its initial rotation and by its spin since birth: about y with the
+ * orientation `upright`, about a random axis with `spin`. */
 static void meshes_rotate_about_their_axis(void **state)
 {
     static const char *const overrides[] = {
@@ -205,7 +207,7 @@ static void meshes_rotate_about_their_axis(void **state)
     }
 }
 
-/* A mesh whose collisions make it spin has the orientation of the quaternion in the pool. */
+/* A mesh that spins by its collisions must have the orientation of the quaternion in the pool. */
 static void meshes_have_the_pose_of_their_collisions(void **state)
 {
     static const char *const overrides[] = {
@@ -231,8 +233,8 @@ static void meshes_have_the_pose_of_their_collisions(void **state)
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-/* A mesh casts no shadow on its own face that the sun shines on: the brightest pixel is as bright
- * as Lambert's law makes the face along (1, 1, 1). */
+/* A mesh must cast no shadow on its own sunlit face: the brightest pixel must be as bright as
+ * Lambert's law makes the face with the normal (1, 1, 1). */
 static void the_sun_lights_meshes(void **state)
 {
     static const char *const overrides[] = {
@@ -260,8 +262,8 @@ static void the_sun_lights_meshes(void **state)
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
-/* Returns copies of colour, bloom and 1 / (1 + depth), which is finite for the sky, one behind the
- * other. The caller frees them. */
+/* Returns copies of colour (RGBA), bloom (RGBA) and 1 / (1 + depth), which is finite for the sky,
+ * in one array in this order. The caller frees the array. */
 static float *copy_of(const struct fixture *f)
 {
     float *copy = malloc((size_t)PIXELS * 9 * sizeof *copy);
@@ -273,7 +275,7 @@ static float *copy_of(const struct fixture *f)
     return copy;
 }
 
-/* Meshes drawn in the reverse order give the same picture, except for the rounding of sums. */
+/* Meshes drawn in the reverse order must give the same picture, except for the rounding of sums. */
 static void order_is_no_matter(void **state)
 {
     struct fixture f;
@@ -296,8 +298,8 @@ static void order_is_no_matter(void **state)
     opaque_finish(&f);
 }
 
-/* A mesh behind the camera, one that its opacity shrinks to nothing, or no mesh at all leave the
- * backdrop as it is. A mesh around the eye is cut at the near plane. */
+/* A mesh behind the camera, a mesh of opacity 0, which has no size, and no mesh at all must leave
+ * the backdrop as it is. A mesh around the eye must be cut at the near plane, 0.1 m. */
 static void the_near_plane_cuts(void **state)
 {
     static const char *const gone[] = {"systems.a.look.opacity=0"};
@@ -331,7 +333,8 @@ static void the_near_plane_cuts(void **state)
 
 enum { CROWD = 400 };
 
-/* Returns copies of the images of a lit crowd by a technique, which the caller frees. */
+/* Draws CROWD lit meshes by a technique. Returns the images as copy_of does; the caller frees them.
+ * */
 static float *draw_crowd(void *device, enum kiln_backdrop_technique technique)
 {
     static const char *const overrides[] = {"systems.a.look.lit=1", "systems.a.look.size=0.3 m"};
@@ -380,7 +383,7 @@ static void threads_and_vectors_change_no_byte(void **state)
     free(first);
 }
 
-/* The technique `cpu` takes memory in proportion to the particles, not to their triangles or
+/* The technique `cpu` must take memory in proportion to the particles, not to their triangles or
  * pixels: less than 64 MiB for 100000 meshes. */
 static void many_take_little_memory(void **state)
 {
