@@ -1,7 +1,7 @@
-/* Checks that the backdrop shows the light of particles (lib/draw/light/lighting.c): fire lights
- * the floor, and smoke shades it as much as its optical depth says. If this fails, flames shed no
- * light, or puffs throw shadows that are too dark or missing. Each technique of the backdrop runs
- * all tests. */
+/* Checks that particles light and shade the backdrop (lib/draw/light/lighting.c): fire lights the
+ * floor, and smoke attenuates the light on it by the transmittance exp(-optical depth). If this
+ * fails, flames shed no light, or the shadows of smoke are too dark or missing. Each technique of
+ * the backdrop runs all tests. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -16,7 +16,7 @@
 
 enum { WIDTH = 64, HEIGHT = 36, STEP = 30, SLOTS = 512 };
 
-/* The camera looks down at the floor, 5 m below it, and the sun is in the zenith. */
+/* The camera looks straight down at the floor, 5 m below it, and the sun is in the zenith. */
 static const char SCENE[] = "kiln: 1\n"
                             "output: {size: [64, 36], fps: 60}\n"
                             "camera: {position: [0, 5, 0], target: [0, 0, 0], fov: 40 deg}\n"
@@ -72,6 +72,7 @@ static void tear_down(struct fixture *f)
     kiln_scene_destroy(&f->scene);
 }
 
+/* Adds a particle to a system: at rest at (x, y, z), m, and born at the start of step 1. */
 static void place(struct fixture *f, uint32_t system, float x, float y, float z)
 {
     struct kiln_error error = {0};
@@ -84,7 +85,7 @@ static void place(struct fixture *f, uint32_t system, float x, float y, float z)
         .velocity_birth = {0, 0, 0, 1u << KILN_BIRTH_STEP_SHIFT | KILN_PARTICLE_ALIVE}};
 }
 
-/* Draws the floor and copies the colour of a pixel to rgb. */
+/* Draws the backdrop at step STEP, and copies the linear colour of pixel (x, y) to rgb. */
 static void draw(struct fixture *f, int x, int y, float rgb[3])
 {
     struct kiln_error error = {0};
@@ -97,9 +98,9 @@ static void draw(struct fixture *f, int x, int y, float rgb[3])
     memcpy(rgb, pixels + 4 * (y * WIDTH + x), 3 * sizeof *rgb);
 }
 
-/* A layer of 400 puffs, 100 a square metre, lies 1 m above the floor. Where the layer covers sun
- * and sky, the floor is darker by the layer's optical depth; the corner of the picture stays
- * bright. */
+/* Under smoke, the light of sun and sky on the floor must fall by the smoke's transmittance, here
+ * that of 400 puffs, 100 for each square metre, 1 m above the floor. The corner of the picture,
+ * beside the smoke, must stay as bright. */
 static void smoke_shades_the_floor(void **state)
 {
     struct fixture f;
@@ -112,7 +113,8 @@ static void smoke_shades_the_floor(void **state)
     draw(&f, WIDTH / 2, HEIGHT / 2, shaded);
     draw(&f, 1, 1, aside);
     const double pi = acos(-1.0);
-    /* puffs a square metre times the extinction of a puff, m^2 (find_extinction, light_simd.c) */
+    /* optical depth: puffs per m^2 times the extinction cross section of a puff, m^2
+     * (find_extinction, light_simd.c) */
     double depth = 100 * -log(1 - 0.6 * 0.5) * 15 / 16 * 0.25 * 0.25 * 32 * pi / 105;
     for (int c = 0; c < 3; c++) {
         double expected = (double)clear[c] * exp(-depth);
@@ -123,7 +125,8 @@ static void smoke_shades_the_floor(void **state)
     tear_down(&f);
 }
 
-/* The floor next to a fire is brighter and redder than without it; far away it is less bright. */
+/* A fire must make the floor next to it brighter and redder, and the floor far away less bright.
+ * Its light must go out with its particle. */
 static void fire_lights_the_floor(void **state)
 {
     struct fixture f;
@@ -136,7 +139,7 @@ static void fire_lights_the_floor(void **state)
     assert_true(with[0] > 1.1f * without[0]);
     assert_true(with[0] / with[2] > 1.1f * without[0] / without[2]);
     assert_true(far[0] > without[0] && far[0] < with[0]);
-    /* The light goes out with its particle. */
+    /* Without the particle, the floor is as dark as before. */
     f.pool.systems[1].next_serial = 0;
     draw(&f, WIDTH / 2 + 4, HEIGHT / 2, with);
     assert_memory_equal(with, without, sizeof with);

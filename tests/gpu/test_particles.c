@@ -1,6 +1,6 @@
-/* Checks each technique of lib/draw/sprites/particles.c against a plain C rasteriser, which follows
- * equations 3.1 to 3.3 of Heinz 2019 pixel by pixel in double precision. If this fails, a technique
- * places, lights, blends or fades billboards wrongly. */
+/* Checks that each technique that draws billboards (lib/draw/sprites/particles.c) matches a plain C
+ * rasteriser, which follows equations 3.1 to 3.3 of Heinz 2019 pixel by pixel in double precision.
+ * If this fails, a technique places, lights, blends or fades billboards wrongly. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -44,7 +44,9 @@ static const char SCENE[] =
     "           temperature: {life: [1900, 1200]}, soft: 0, bloom: [1, 0.5, 0.25],\n"
     "           rotation: [0 deg, 360 deg], near_fade: 0.5 m}\n";
 
-enum { FIRE_CELLS = 16 }; /* cells of the fire's flipbook; smoke has 32, without motion */
+enum {
+    FIRE_CELLS = 16
+}; /* cells of the fire's flipbook; the smoke has 32, without motion vectors */
 
 struct fixture {
     struct kiln_device *device;
@@ -58,11 +60,11 @@ struct fixture {
     struct kiln_buffer entries;
     struct kiln_framebuffer framebuffer;
     struct kiln_moment moment;
-    struct kiln_lighting lighting; /* zero: no light and no shadows of particles */
-    float *cells[2];               /* texels of the systems' flipbooks */
+    struct kiln_lighting lighting; /* all zero: particles shed no light and cast no shadows */
+    float *cells[2];               /* texels of the systems' flipbooks, RGBA */
     uint32_t cell_count[2];
     float motion[FIRE_CELLS * KILN_ATLAS_MOTION * KILN_ATLAS_MOTION * 2];
-    bool literal; /* smoke fades by equation 3.3 as it is printed */
+    bool literal; /* smoke has the soft-particle fade of equation 3.3 as it is printed */
 };
 
 static float random_within(float low, float high)
@@ -70,8 +72,8 @@ static float random_within(float low, float high)
     return low + (high - low) * (float)(rand() % 10001) / 10000.0f;
 }
 
-/* Places particles of both systems, with random positions, ages and velocities. The entries list
- * the farthest first. */
+/* Places particles of both systems, with random positions, ages and velocities. The draw entries
+ * list the farthest particle first. */
 static void place_particles(struct fixture *f)
 {
     struct kiln_error error = {0};
@@ -85,7 +87,8 @@ static void place_particles(struct fixture *f)
     srand(17);
     for (uint32_t i = 0; i < COUNT; i++) {
         uint32_t system = i & 1, slot = system * COUNT + i;
-        float z = -1.0f + 2.6f * (float)i / COUNT; /* each nearer than the one before */
+        float z = -1.0f + 2.6f * (float)i /
+                              COUNT; /* each particle is nearer to the camera than the one before */
         uint32_t birth = 1 + (uint32_t)(rand() % (STEP - 1));
         records[slot] = (struct kiln_particle){
             .position_serial = {FLOAT_BITS(random_within(-1.0f, 1.0f)),
@@ -110,11 +113,11 @@ static void make_targets(struct fixture *f)
     assert_true(kiln_framebuffer_init(&f->framebuffer, f->device, targets, 2, &error));
 }
 
-/* the technique that set_up_with creates */
+/* The technique of drawing billboards with which set_up_with makes the fixture. */
 static enum kiln_raster_technique technique;
 
-/* Makes the cells of a system's flipbook for the reference, and the motion of the fire's cells,
- * without the rounding of the atlas. */
+/* Makes the reference's cells of a system's flipbook, and the motion vectors of the fire's cells,
+ * in floats, without the rounding of the atlas. */
 static void make_cells(struct fixture *f, int system, const char *name)
 {
     const size_t floats = (size_t)KILN_ATLAS_CELL * KILN_ATLAS_CELL * 4;
@@ -179,8 +182,8 @@ static int set_up(void **state)
     return set_up_with(state, NULL, 0);
 }
 
-/* Makes smoke fade by equation 3.3 as it is printed. `soft` is so small that alpha stays below its
- * limit of 1 in front of the floor and the box. */
+/* Makes a fixture whose smoke has the soft-particle fade of equation 3.3 as it is printed. `soft`
+ * is so small that alpha stays below its limit of 1 in front of the floor and the box. */
 static int set_up_literal(void **state)
 {
     static const char *const literal[] = {"systems.smoke.look.soft_formula=literal",
@@ -213,17 +216,21 @@ static int tear_down(void **state)
 
 /* ---- the reference --------------------------------------------------------------------------- */
 
+/* Holds what the reference knows of a billboard. life: the fraction of its life that has passed;
+ * soft: rate of the soft-particle fade, 1/m; cover: reflected colour; hot, cool: emitted light
+ * where a cell's heat is 1 and 0; bloom: factors on the light that goes to the bloom. */
 struct sprite {
     uint32_t system;
     bool additive;
-    double center[3], right[2], up[2]; /* view space; unit axes */
+    double center[3], right[2], up[2]; /* view space: centre, m; unit axes */
     double half_width, half_height, depth;
     double life, opacity, soft;
     double distance; /* from the eye, m; 0 unless the literal formula is used */
     double cover[3], hot[3], cool[3], bloom[3];
-    double light[4][3]; /* constant part, and parts along right, up and towards the viewer */
+    double light[4][3]; /* light from all sides; parts along right, up and to the viewer */
 };
 
+/* Interpolates a row (KILN_LOOK_*) of a system's look table at a fraction of a particle's life. */
 static float4 look(const struct fixture *f, uint32_t system, int row, double life)
 {
     double x = life * (KILN_LOOK_SAMPLES - 1);
@@ -235,6 +242,7 @@ static float4 look(const struct fixture *f, uint32_t system, int row, double lif
                     p[0].z + (p[1].z - p[0].z) * t, p[0].w + (p[1].w - p[0].w) * t};
 }
 
+/* Transforms a vector from the world to view space. w: 1 for a position, 0 for a direction. */
 static void to_view(const struct fixture *f, float3 v, double w, double out[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -244,6 +252,7 @@ static void to_view(const struct fixture *f, float3 v, double w, double out[3])
     }
 }
 
+/* Adds light from a direction in the world, of any length, to the light on a sprite. */
 static void add_light(struct sprite *s, const struct fixture *f, float3 towards,
                       const double radiance[3])
 {
@@ -260,8 +269,8 @@ static void add_light(struct sprite *s, const struct fixture *f, float3 towards,
     }
 }
 
-/* Adds the light of SCENE to a sprite: sky, sun and one lamp for smoke. Fire is not lit; it shows
- * its own colour. */
+/* Computes the light on a sprite in SCENE: smoke is lit by sky, sun and one lamp. Fire is not lit;
+ * it shows its own colour. */
 static void light_sprite(struct sprite *s, const struct fixture *f, float3 position)
 {
     static const double horizon[3] = {0.12, 0.13, 0.16}, top[3] = {0.02, 0.03, 0.05};
@@ -332,7 +341,7 @@ static struct sprite make_sprite(const struct fixture *f, uint32_t entry)
         double v[3];
         to_view(f, particle_velocity(record), 0, v);
         double speed = hypot(v[0], v[1]);
-        assert_true(speed > 0.2); /* else `angle` counts, too (billboard.h) */
+        assert_true(speed > 0.2); /* at lower speeds the rotation counts, too (billboard.h) */
         s.up[0] = v[0] / speed;
         s.up[1] = v[1] / speed;
         s.half_height += 0.5 * speed * (double)shape.y;
@@ -344,8 +353,8 @@ static struct sprite make_sprite(const struct fixture *f, uint32_t entry)
     return s;
 }
 
-/* Samples level 0 of a cell bilinearly; x and y in 0..1. Texels are rounded to 8 bits, as the atlas
- * stores them. */
+/* Samples level 0 of a cell bilinearly at texture coordinates x and y, 0 to 1. Texels are rounded
+ * to 8 bits, as the atlas stores them. */
 static void sample_cell(const float *cell, double x, double y, double out[4])
 {
     double tx = x * KILN_ATLAS_CELL - 0.5, ty = y * KILN_ATLAS_CELL - 0.5;
@@ -364,7 +373,8 @@ static void sample_cell(const float *cell, double x, double y, double out[4])
     }
 }
 
-/* Samples the motion to the next cell bilinearly, without rounding; x and y in 0..1. */
+/* Samples the motion vectors from a cell to the next one bilinearly, without rounding, at texture
+ * coordinates x and y, 0 to 1. out: in widths of a cell. */
 static void sample_motion(const float *motion, double x, double y, double out[2])
 {
     double tx = x * KILN_ATLAS_MOTION - 0.5, ty = y * KILN_ATLAS_MOTION - 0.5;
@@ -380,8 +390,8 @@ static void sample_motion(const float *motion, double x, double y, double out[2]
     }
 }
 
-/* Computes the fragment of a sprite at a pixel: premultiplied colour and alpha in `out`, and the
- * colour that goes to the bloom. */
+/* Computes the fragment of a sprite at pixel (px, py). out: its premultiplied colour and alpha;
+ * bloom: the colour that it adds to the bloom. */
 static void shade(const struct fixture *f, const struct sprite *s, int px, int py, double out[4],
                   double bloom[3])
 {
@@ -435,8 +445,9 @@ static void reverse(struct fixture *f)
     }
 }
 
-/* Draws the particles, each over those before it in the entries. A technique that takes the nearest
- * first gets the entries in reverse. */
+/* Draws the particles in the order of the entries, each over the particles before it. A technique
+ * that draws the nearest particle first gets the entries in reverse. sum_alpha: sums up colours and
+ * alpha instead of blending. */
 static void draw(struct fixture *f, bool sum_alpha)
 {
     if (kiln_particles_nearest_first(f->particles))
@@ -462,9 +473,10 @@ static void draw(struct fixture *f, bool sum_alpha)
         reverse(f);
 }
 
-/* Checks the limits of docs/determinism.md: a mean relative error of 1e-3, and at most one value in
- * a thousand off by more than 1 %. A tenth is added to the value that the error is relative to,
- * since drivers filter 8-bit texels with 8-bit weights. */
+/* Each technique must match the reference within the limits of docs/determinism.md: a mean relative
+ * error of 1e-3, and at most one value in a thousand off by more than 1 %. For the second limit,
+ * 0.1 is added to the value that the error is relative to, since drivers filter 8-bit texels with
+ * 8-bit weights. */
 static void particles_match_the_reference(void **state)
 {
     struct fixture *f = *state;
@@ -478,7 +490,8 @@ static void particles_match_the_reference(void **state)
     int off = 0;
     for (int p = 0; p < PIXELS; p++) {
         double color[4] = {0}, bloom[4] = {0};
-        /* In front of the distant sky, the literal formula makes even faint texels opaque. */
+        /* Pixels in front of the distant sky are left out: there the literal formula makes even
+         * faint texels opaque. */
         if (f->literal && f->depth.host[p] > 8.0f)
             continue;
         for (int i = 0; i < COUNT; i++) {
@@ -505,7 +518,7 @@ static void particles_match_the_reference(void **state)
     assert_true(off <= PIXELS * 7 / 1000);
 }
 
-/* With sum_alpha the order of particles does not matter, and fire adds to alpha, too. */
+/* With sum_alpha, the order of particles must not change the picture, except for rounding. */
 static void sums_do_not_depend_on_order(void **state)
 {
     struct fixture *f = *state;

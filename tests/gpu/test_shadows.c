@@ -1,6 +1,6 @@
-/* Checks the shadows that the sun throws of spheres, meshes and objects, on the floor, on spheres
- * and on smoke, by counted rays or by a mesh's corners. If this fails, shadows lie in wrong places,
- * or are cut off, too dark or too hard. Each technique of the backdrop runs all tests. */
+/* Checks the shadows that spheres, meshes and objects cast in sunlight on the floor, on spheres and
+ * on smoke, against rays or projected corners. If this fails, shadows lie in wrong places, or are
+ * cut off, too dark or too hard. Each technique of the backdrop runs all tests. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -17,8 +17,8 @@
 
 enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
 
-/* The camera looks down at a white floor that only the sun lights, with an irradiance of pi across
- * its rays: pixels in the sun are 0.8, the cosine at the floor. */
+/* The camera looks down at a white floor that only the sun lights, with an irradiance of pi. So
+ * sunlit pixels have the value 0.8, the cosine between the sun and the floor's normal. */
 #define HEAD                                                                                       \
     "kiln: 1\n"                                                                                    \
     "output: {size: [160, 90], fps: 60}\n"                                                         \
@@ -42,8 +42,8 @@ enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
     "    look: {shape: mesh, mesh: {file: tetrahedron.obj, orient: upright}, size: 0.9 m,\n"       \
     "           rotation: [40 deg, 40 deg], color: 1, lit: 1, fade: {in: 0, out: 0}}\n"
 
-static const double RADIUS = 0.3, EDGE = 0.9;
-static const vec TOWARDS = {-0.6, 0.8, 0}; /* to the sun */
+static const double RADIUS = 0.3, EDGE = 0.9; /* of spheres and of meshes, m */
+static const vec TOWARDS = {-0.6, 0.8, 0};    /* unit direction to the sun */
 
 struct fixture {
     struct drawing drawing;
@@ -91,7 +91,7 @@ static void finish(struct fixture *f)
     drawing_finish(&f->drawing);
 }
 
-/* Draws the backdrop into drawing.backdrop_color, and particles at these places: solids over the
+/* Draws the backdrop into drawing.backdrop_color, and particles at `places`, m: solids over the
  * backdrop into color and depth, billboards into drawing.color. */
 static void draw(struct fixture *f, const vec *places, uint32_t count)
 {
@@ -116,7 +116,7 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
     assert_non_null(kiln_image_host(&f->depth, KILN_READ, &error));
 }
 
-/* Returns where the ray through a pixel's middle meets the floor. */
+/* Returns the point at which the ray through a pixel's middle meets the floor. */
 static vec floor_at(const struct drawing *d, int x, int y)
 {
     vec eye = drawing_eye(d), ray = drawing_ray(d, x + 0.5, y + 0.5);
@@ -126,7 +126,7 @@ static vec floor_at(const struct drawing *d, int x, int y)
 enum { SUN_RAYS = 300 };
 static vec sun_rays[SUN_RAYS]; /* unit vectors to all parts of the sun's disc */
 
-/* Spreads sun_rays evenly over a disc of an angular radius, rad. */
+/* Spreads sun_rays evenly over the sun's disc. sun_radius: its angular radius, rad. */
 static void aim_at_sun(double sun_radius)
 {
     const vec right = {0.8, 0.6, 0}, up = {0, 0, 1};
@@ -136,7 +136,7 @@ static void aim_at_sun(double sun_radius)
     }
 }
 
-/* Returns the part of the sun's disc that a point sees past spheres. */
+/* Returns the fraction, 0 to 1, of the sun's disc that a point sees past spheres. */
 static double sun_seen(vec point, const vec *places, uint32_t count)
 {
     int seen = 0;
@@ -154,8 +154,8 @@ static double sun_seen(vec point, const vec *places, uint32_t count)
     return (double)seen / SUN_RAYS;
 }
 
-/* Compares the floor with rays, and returns the number of pixels in penumbra. sun_radius: rad;
- * tolerance: a part of the whole sunlight. */
+/* Compares the sunlight on the floor with rays. Returns the number of pixels in penumbra.
+ * sun_radius: angular, rad; tolerance: the largest absolute difference; full sunlight is 1. */
 static int check_floor(const struct fixture *f, const vec *places, uint32_t count,
                        double sun_radius, double tolerance)
 {
@@ -169,7 +169,7 @@ static int check_floor(const struct fixture *f, const vec *places, uint32_t coun
             double found = (double)d->backdrop_color.host[4 * (y * WIDTH + x)] / 0.8;
             partly += found > 0.05 && found < 0.95;
             dark += found < 0.05;
-            bool even = true; /* false at sharp edges, where the backdrop mixes four samples */
+            bool even = true; /* false at sharp edges, where a pixel is the mean of 4 samples */
             for (int k = 0; k < 4; k++) {
                 vec aside = {at.x + (k & 1 ? 0.05 : -0.05), 0, at.z + (k & 2 ? 0.05 : -0.05)};
                 even = even && fabs(sun_seen(aside, places, count) - expected) < 0.5;
@@ -187,7 +187,8 @@ static int check_floor(const struct fixture *f, const vec *places, uint32_t coun
     return partly;
 }
 
-/* A sphere 2 m above the floor throws its shadow 1.5 m aside; a larger sun widens the penumbra. */
+/* A sphere 2 m above the floor must cast its shadow 1.5 m aside, and a larger sun must widen the
+ * shadow's penumbra. */
 static void the_shadow_of_a_sphere_lies_where_geometry_says(void **state)
 {
     static const char *const sizes[] = {NULL, "backdrop.sun.size=4 deg", "backdrop.sun.size=12 deg",
@@ -210,14 +211,15 @@ static void the_shadow_of_a_sphere_lies_where_geometry_says(void **state)
     assert_true(penumbra[3] > penumbra[2]);
 }
 
-/* The axes of a mesh: turned about y by 40 degrees, and turned by the quaternion POSE. */
+/* The axes of the mesh in the world: turned about y by 40 degrees (UPRIGHT), and turned by the
+ * quaternion POSE (POSED). */
 static const vec UPRIGHT[3] = {
     {0.766044443, 0, -0.642787610}, {0, 1, 0}, {0.642787610, 0, 0.766044443}};
 static const double POSE[4] = {0.48, -0.6, 0.0, 0.64};
 static const vec POSED[3] = {
     {0.28, -0.576, 0.768}, {-0.576, 0.5392, 0.6144}, {-0.768, -0.6144, -0.1808}};
 
-/* Returns whether the tetrahedron hides the middle of the sun from a place. */
+/* Returns whether the tetrahedron about `middle` hides the sun's centre from `place`. */
 static bool is_behind(vec place, vec middle, const vec axes[3])
 {
     double x[5], y[5];
@@ -251,7 +253,7 @@ static double darkness(const struct fixture *f)
     return sum;
 }
 
-/* Checks that the floor is dark where the tetrahedron hides the sun, but for pixels at the edge. */
+/* Fails unless the floor is dark exactly where the tetrahedron hides the sun. Skips edge pixels. */
 static void check_shape(const struct fixture *f, vec place, const vec axes[3])
 {
     int dark = 0;
@@ -270,9 +272,9 @@ static void check_shape(const struct fixture *f, vec place, const vec axes[3])
     assert_true(dark > 30);
 }
 
-/* Under a sun without a size the shadow has the mesh's shape. A sun of 8 degrees blurs the shadow
- * and keeps the sum of its darkness. For a sun of 30 degrees a sphere stands for the mesh
- * (lib/draw/light/solid_shadow.h), and keeps the sum roughly. */
+/* With a sun of no size the shadow must have the mesh's shape. A sun of 8 degrees must blur it and
+ * keep its total darkness within 2 %. For 30 degrees, where a sphere stands for the mesh
+ * (lib/draw/light/solid_shadow.h), the total must stay within 20 %. */
 static void the_shadow_of_a_mesh_has_its_shape(void **state)
 {
     static const char *const suns[] = {NULL, "backdrop.sun.size=8 deg", "backdrop.sun.size=30 deg"};
@@ -292,7 +294,7 @@ static void the_shadow_of_a_mesh_has_its_shape(void **state)
     drawing_asset_root = NULL;
 }
 
-/* A mesh that collisions have turned throws the shadow of its turned shape. */
+/* A mesh that collisions have turned must cast the shadow of its turned shape. */
 static void the_shadow_of_a_mesh_turns_with_it(void **state)
 {
     const vec place = {0, 2, 0};
@@ -308,8 +310,8 @@ static void the_shadow_of_a_mesh_turns_with_it(void **state)
     drawing_asset_root = NULL;
 }
 
-/* A second mesh, 900 m away, makes all bins larger: it changes nothing if none cuts a shadow off.
- */
+/* The bins that list meshes must not cut shadows off. A second mesh, 900 m away, makes all bins
+ * larger; it must change no pixel by more than 1e-4. */
 static void the_soft_shadow_of_a_mesh_is_whole(void **state)
 {
     static const char *const suns[] = {"backdrop.sun.size=4 deg", "backdrop.sun.size=16 deg"};
@@ -335,8 +337,8 @@ static void the_soft_shadow_of_a_mesh_is_whole(void **state)
     free(alone);
 }
 
-/* If meshes are too many for silhouettes, each throws the shadow of a sphere, whose disc is as
- * large as the mesh's mean shadow over all poses: a quarter of its surface. */
+/* Where meshes are too many for silhouettes, each must cast the shadow of a sphere whose cross
+ * section is the mesh's mean projected area over all poses: a quarter of its surface. */
 static void meshes_that_are_too_many_have_round_shadows(void **state)
 {
     const vec place = {0, 2, 0};
@@ -351,7 +353,8 @@ static void meshes_that_are_too_many_have_round_shadows(void **state)
     drawing_asset_root = NULL;
 }
 
-/* Bins list several of 24 spheres. Covers are multiplied, which is exact outside of penumbras. */
+/* All of 24 spheres must cast shadows, several of them from one bin. Their visible fractions are
+ * multiplied, which is exact outside of penumbras. */
 static void spheres_of_a_cloud_all_throw_shadows(void **state)
 {
     struct fixture f;
@@ -374,8 +377,8 @@ static void spheres_of_a_cloud_all_throw_shadows(void **state)
     finish(&f);
 }
 
-/* Draws the backdrop with the shadow of a sphere. `buried` more spheres lie below the floor in line
- * with the shadow: they come first in its lists, and shade nothing. Returns false with an error. */
+/* Draws the backdrop with a sphere's shadow. `buried` more spheres below the floor, in line with
+ * the shadow, come first in the bins' lists and shade nothing. Returns false with an error. */
 static bool draw_buried(struct fixture *f, uint32_t buried, struct kiln_error *error)
 {
     struct drawing *d = &f->drawing;
@@ -393,8 +396,8 @@ static bool draw_buried(struct fixture *f, uint32_t buried, struct kiln_error *e
     return ok && kiln_image_host(&d->backdrop_color, KILN_READ, error);
 }
 
-/* A list of 20001 spheres is read to its end. A list of 40001 needs more loop iterations than
- * llvmpipe runs (KILN_SOFTWARE_ITERATIONS); there backdrop=gl reports an error. */
+/* A bin's list of 20001 spheres must be read to its end. A list of 40001 needs more loop iterations
+ * than llvmpipe runs (KILN_SOFTWARE_ITERATIONS); there backdrop=gl must report an error. */
 static void a_list_of_spheres_may_be_long(void **state)
 {
     const struct kiln_device *device = *state;
@@ -423,7 +426,7 @@ static void a_list_of_spheres_may_be_long(void **state)
     free(alone);
 }
 
-/* Returns the light of the pixel that shows the top of the sphere at a place. */
+/* Returns the red light of the pixel at which the middle of the sphere at `place` is projected. */
 static double light_of(const struct fixture *f, vec place)
 {
     vec at = drawing_project(&f->drawing, place);
@@ -432,7 +435,7 @@ static double light_of(const struct fixture *f, vec place)
     return (double)f->color.host[4 * pixel];
 }
 
-/* The second sphere is in the shadow of the first, and the third is beside the shadow. */
+/* The second sphere must be dark in the first one's shadow, and the third bright beside it. */
 static void spheres_shade_each_other(void **state)
 {
     const vec places[] = {{-0.75, 2, 0}, {0.375, 0.5, 0}, {0.375, 0.5, 1.5}};
@@ -444,7 +447,7 @@ static void spheres_shade_each_other(void **state)
     finish(&f);
 }
 
-/* For each kind of object, the first sphere is in its shadow, and the second is beside it. */
+/* For each kind of object, a sphere in its shadow must be dark, and a sphere beside it bright. */
 static void the_backdrop_shades_spheres(void **state)
 {
     static const char *const objects[] = {
@@ -462,7 +465,7 @@ static void the_backdrop_shades_spheres(void **state)
     }
 }
 
-/* Returns the part of the sun's disc, 6 degrees wide, that a point sees past the box below. */
+/* Returns the fraction of the sun's disc, 6 degrees wide, that a point sees past the box below. */
 static double sun_seen_past_box(vec point)
 {
     enum { RAYS = 400 };
@@ -484,8 +487,8 @@ static double sun_seen_past_box(vec point)
     return (double)seen / RAYS;
 }
 
-/* The sun stands across the box's z axis. On all four sides of the shadow, the penumbra is about
- * what rays find. The corners are left out: there two covers are multiplied. */
+/* On all four sides of a box's shadow, the sunlight in the penumbra must match rays to within 0.13.
+ * Corners are left out, since there the covers of two edges are multiplied. */
 static void penumbras_of_a_box_match_rays(void **state)
 {
     static const char text[] =
@@ -515,7 +518,8 @@ static void penumbras_of_a_box_match_rays(void **state)
     finish(&f);
 }
 
-/* The shadow of a cylinder under the sun is a disc: the floor 1.1 m from the axis is bright. */
+/* A cylinder under a zenith sun must cast a round shadow: the floor 1.1 m from the axis is bright.
+ * */
 static void a_cylinder_is_round_from_above(void **state)
 {
     static const char text[] =
@@ -544,7 +548,8 @@ static void a_cylinder_is_round_from_above(void **state)
     "    emit: {life: 1 s}\n"                                                                      \
     "    look: {size: 0.4 m, color: 1, lit: 1, soft: 0, fade: {in: 0, out: 0}}\n"
 
-/* Smoke is dark in an object's shadow, bright before and beside it, and in between at the edge. */
+/* Smoke must be dark in an object's shadow, bright before and beside it, and half lit at its edge.
+ * */
 static void the_backdrop_shades_smoke(void **state)
 {
     static const char *const objects[] = {

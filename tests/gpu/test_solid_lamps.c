@@ -1,6 +1,7 @@
-/* Checks the shadows that solid particles throw in the light of a lamp, on the floor and on each
- * other, against rays to all parts of the lamp. If this fails, these shadows lie in wrong places or
- * are too hard, or solids shade themselves. Each technique of the backdrop runs all tests. */
+/* Checks the shadows that solid particles, which are balls or meshes, cast in the light of a lamp
+ * on the floor and on each other, against rays to all parts of the lamp. If this fails, these
+ * shadows lie in wrong places or are too hard, or solids shade themselves. Each technique of the
+ * backdrop runs all tests. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -39,7 +40,8 @@ enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
     " 40 deg]"
 
 static const vec LAMP = {-1.5, 4, 0.3};
-static const double RADIUS = 0.3, EDGE = 0.9, COLOR = 16; /* balls, m; meshes, m; lamp */
+static const double RADIUS = 0.3, EDGE = 0.9,
+                    COLOR = 16; /* of balls, m; of meshes, m; of the lamp */
 
 struct fixture {
     struct drawing drawing;
@@ -81,7 +83,7 @@ static void finish(struct fixture *f)
     drawing_finish(&f->drawing);
 }
 
-/* Draws the backdrop and particles at these places. The floor is in drawing.backdrop_color, and the
+/* Draws the backdrop and particles at `places`, m. The floor is in drawing.backdrop_color, and the
  * floor with the particles in color. */
 static void draw(struct fixture *f, const vec *places, uint32_t count)
 {
@@ -108,7 +110,7 @@ static void draw(struct fixture *f, const vec *places, uint32_t count)
 
 /* ---- rays ------------------------------------------------------------------------------------ */
 
-/* Finds the corners of the mesh at a place; its axes are turned about y by 40 degrees. */
+/* Finds the corners of the mesh at a place, m; its axes are turned about y by 40 degrees. */
 static void corners_of(vec place, vec corners[4])
 {
     static const vec axes[3] = {
@@ -120,6 +122,7 @@ static void corners_of(vec place, vec corners[4])
     }
 }
 
+/* Returns whether the segment from `from` to from + ray meets the triangle a, b, c. */
 static bool meets_triangle(vec from, vec ray, vec a, vec b, vec c)
 {
     const vec u = vec_add(b, a, -1), v = vec_add(c, a, -1), to = vec_add(from, a, -1);
@@ -129,8 +132,9 @@ static bool meets_triangle(vec from, vec ray, vec a, vec b, vec c)
     return s >= 0 && t >= 0 && s + t <= 1 && reach > 1e-6 && reach < 1;
 }
 
-/* Returns whether a particle at `place` blocks a ray. ray: the way from the point to a part of the
- * lamp, m. */
+/* Returns whether a particle at `place` blocks the segment from a point to a part of the lamp.
+ * from: the point, m; ray: from the point to the lamp, m; mesh: the particle is a mesh, not a ball.
+ * */
 static bool is_blocked(vec from, vec ray, vec place, bool mesh)
 {
     if (!mesh) {
@@ -147,7 +151,8 @@ static bool is_blocked(vec from, vec ray, vec place, bool mesh)
            meets_triangle(from, ray, p[1], p[2], p[3]);
 }
 
-/* Returns the part of the lamp's disc that a point sees past all particles but `own`. */
+/* Returns the fraction, 0 to 1, of the lamp's disc that a point sees past all particles, except for
+ * the particle with the index `own`. */
 static double lamp_seen(vec point, double lamp_radius, const vec *places, uint32_t count,
                         uint32_t own, bool mesh)
 {
@@ -167,7 +172,7 @@ static double lamp_seen(vec point, double lamp_radius, const vec *places, uint32
     return (double)seen / RAYS;
 }
 
-/* Returns the red light that a white surface reflects if nothing hides the lamp. */
+/* Returns the red light that a white surface reflects if nothing hides the lamp. normal: unit. */
 static double whole_light(vec point, vec normal, double lamp_radius)
 {
     const vec way = vec_add(LAMP, point, -1);
@@ -184,8 +189,9 @@ static vec floor_at(const struct drawing *d, double x, double y)
     return vec_add(eye, ray, -eye.y / ray.y);
 }
 
-/* Compares the floor with the rays, except in pixels next to hard edges. Returns how many pixels
- * are in penumbra. tolerance: a part of the whole lamp. */
+/* Compares the fraction of the lamp's light that reaches the floor with rays, except in pixels next
+ * to hard edges. tolerance: the largest absolute difference of this fraction. Returns how many
+ * pixels are in penumbra. */
 static int check_floor(const struct fixture *f, double lamp_radius, const vec *places,
                        uint32_t count, bool mesh, double tolerance)
 {
@@ -217,14 +223,15 @@ static int check_floor(const struct fixture *f, double lamp_radius, const vec *p
     return partly;
 }
 
-/* A wide lamp makes a wide penumbra, and a lamp of 1 cm nearly none. */
+/* Balls must shade the floor as rays say. A wider lamp must make a wider penumbra; a lamp of 1 cm
+ * has nearly none. */
 static void a_ball_hides_a_lamp(void **state)
 {
     static const char *const texts[] = {SCENE("0.01 m", BALL), SCENE("0.2 m", BALL),
                                         SCENE("0.5 m", BALL)};
     static const double radii[] = {0.01, 0.2, 0.5};
-    /* A ball that lies on the floor throws a shadow as soft as if it began at the ball's middle, so
-     * wide lamps need more tolerance. */
+    /* Kiln makes a shadow as soft as if it began at the ball's middle. Where a ball lies on the
+     * floor this is wrong, so wide lamps need more tolerance. */
     static const double tolerances[] = {0.05, 0.13, 0.25};
     const vec places[] = {{-0.5, 1.5, 0.2}, {1, 0.3, -0.8}, {-2.2, 2.2, 1.2}};
     int partly[3];
@@ -252,8 +259,8 @@ static void a_mesh_hides_a_lamp(void **state)
     }
 }
 
-/* A lamp that is wider than a ball shines past the ball, however near the ball is to it. In the
- * middle of the shadow, the ball hides the same part of the lamp as from rays. */
+/* A lamp that is wider than a ball must shine past the ball, however near the ball is to the lamp.
+ * In the middle of the shadow, the fraction of light must match rays to within 0.1. */
 static void a_wide_lamp_shines_past_a_ball(void **state)
 {
     static const char *const texts[] = {SCENE("0.5 m", BALL), SCENE("0.8 m", BALL)};
@@ -277,8 +284,8 @@ static void a_wide_lamp_shines_past_a_ball(void **state)
     }
 }
 
-/* Specks darken the floor by the part of the lamp that they hide, although each has only about a
- * tenth of the area of a texel of the lamp's maps. */
+/* Specks must darken the floor by as much light as they hide, although each has only about a tenth
+ * of the area of a texel of the lamp's shadow maps. */
 static void specks_hide_their_share(void **state)
 {
     enum { COUNT = 3000 };
@@ -316,7 +323,7 @@ static void specks_hide_their_share(void **state)
 
 /* ---- solids ---------------------------------------------------------------------------------- */
 
-/* Returns whether solids fill a pixel and its eight neighbours. */
+/* Returns whether solid particles cover a pixel and its eight neighbours. */
 static bool is_filled(const struct fixture *f, int p)
 {
     const int x = p % WIDTH, y = p / WIDTH;
@@ -328,8 +335,8 @@ static bool is_filled(const struct fixture *f, int p)
     return filled;
 }
 
-/* Finds the ball that a pixel shows, and the point where the pixel's ray meets it. Returns false if
- * there is none. */
+/* Finds the ball that a pixel shows. *which becomes its index, and *point the point where the
+ * pixel's ray meets the ball. Returns false if the pixel shows no ball. */
 static bool ball_at(const struct fixture *f, int x, int y, const vec *places, uint32_t count,
                     uint32_t *which, vec *point)
 {
@@ -351,7 +358,8 @@ static bool ball_at(const struct fixture *f, int x, int y, const vec *places, ui
     return nearest < 1e9;
 }
 
-/* Compares the light of balls with rays, in pixels that balls fill. Returns how many pixels are in
+/* Compares the light of balls with rays, in pixels that balls fill. tolerance: the largest
+ * difference divided by the unhidden light, or by 0.5 if it is less. Returns how many pixels are in
  * penumbra. */
 static int check_balls(const struct fixture *f, double lamp_radius, const vec *places,
                        uint32_t count, double tolerance)
@@ -380,7 +388,7 @@ static int check_balls(const struct fixture *f, double lamp_radius, const vec *p
     return partly;
 }
 
-/* A ball alone is lit as if nothing hid the lamp, wherever it is in the lamp's maps. */
+/* A ball alone must be lit as if nothing hid the lamp, wherever it is in the lamp's shadow maps. */
 static void a_ball_does_not_shade_itself(void **state)
 {
     const vec places[] = {{0, 0.3, 0}, {-1.5, 3, 0.3}, {1.6, 3.4, 0.3}, {-2.4, 2.9, 1.2}};
@@ -393,7 +401,7 @@ static void a_ball_does_not_shade_itself(void **state)
     }
 }
 
-/* A mesh alone looks as it does under a lamp without shadows. */
+/* A mesh alone must look as it does under a lamp without shadows. */
 static void a_mesh_does_not_shade_itself(void **state)
 {
     static const char *const overrides[] = {"backdrop.lights.0.point.shadow=true",
@@ -419,7 +427,7 @@ static void a_mesh_does_not_shade_itself(void **state)
     finish(&f[1]);
 }
 
-/* The upper balls hide a part of the lamp from the lower balls, as they do from rays. */
+/* The upper balls must hide as much of the lamp from the lower balls as rays say. */
 static void balls_shade_each_other(void **state)
 {
     static const char *const texts[] = {SCENE("0.01 m", BALL), SCENE("0.15 m", BALL),

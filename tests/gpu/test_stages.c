@@ -1,6 +1,7 @@
-/* Checks how the stages of a frame work together (lib/frame/stages.c), and what the layers of an
- * EXR hold. If this fails, fire and smoke cover each other wrongly, layers have the wrong content,
- * or a frame depends on which frames were drawn before. */
+/* Checks that the stages of a frame, from particles to the composed picture, work together
+ * (lib/frame/stages.c), and what the layers of an EXR hold. If this fails, fire and smoke cover
+ * each other wrongly, layers have the wrong content, or a frame depends on which frames were drawn
+ * before. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -28,7 +29,7 @@ static const char SCENE[] =
     "    look: {atlas: 'builtin:fire', blend: add, size: 0.7 m, temperature: 1800,\n"
     "           bloom: [1, 0.5, 0.25]}\n";
 
-/* A run and its last drawn frame. */
+/* Holds a run of SCENE, the stages that draw it, and the last frame that was drawn. */
 struct frame {
     struct kiln_scene *scene;
     struct kiln_threads *threads;
@@ -36,10 +37,10 @@ struct frame {
     struct kiln_stages stages;
     struct kiln_simulate *simulate;
     struct kiln_picture *picture;
-    uint32_t drawn;
+    uint32_t drawn; /* number of particles drawn */
 };
 
-/* Runs to the state after `steps` steps, and draws it. */
+/* Simulates SCENE up to the end of step `steps`, draws that instant and reads the picture. */
 static void step_and_draw(struct frame *f, uint32_t steps)
 {
     struct kiln_error error = {0};
@@ -110,7 +111,7 @@ static void layers_hold_what_they_say(void **state)
     step_and_draw(&f, 50);
     assert_true(f.drawn > 60 && f.drawn <= 100);
     assert_true(sum(layer(&f, FIRE), 0, 4) > 10.0);
-    assert_true(sum(layer(&f, FIRE), 3, 4) == 0.0); /* fire covers nothing */
+    assert_true(sum(layer(&f, FIRE), 3, 4) == 0.0); /* additive fire has no alpha */
     assert_true(sum(layer(&f, SMOKE), 3, 4) > 100.0);
     /* The smoke is dark. */
     assert_true(sum(layer(&f, SMOKE), 0, 4) < 0.2 * sum(layer(&f, SMOKE), 3, 4));
@@ -122,8 +123,8 @@ static void layers_hold_what_they_say(void **state)
     frame_finish(&f);
 }
 
-/* Smoke is in front of fire. With merged, smoke covers the fire and its glow; with separate, fire
- * shines through (Heinz 2019, figure 4.3). */
+/* Where smoke is in front of fire, post.compose=merged must let smoke cover the fire and its bloom,
+ * and post.compose=separate must let fire shine through (Heinz 2019, figure 4.3). */
 static void fire_shines_through_only_when_separate(void **state)
 {
     struct frame merged, separate;
@@ -141,8 +142,8 @@ static void fire_shines_through_only_when_separate(void **state)
     frame_finish(&separate);
 }
 
-/* The smoke in front of the fire is drawn as spheres. They belong to the depth of the scene, which
- * hides fire, and not to the layer of smoke. They keep their bloom. */
+/* Spheres must belong to the scene: here they replace the smoke in front of the fire. They must be
+ * in the depth of the scene, hide fire, be absent from the layer of smoke, and keep their bloom. */
 static void spheres_belong_to_the_scene(void **state)
 {
     struct frame smoke, spheres;
@@ -162,15 +163,16 @@ static void spheres_belong_to_the_scene(void **state)
         nearer++;
         fire += (double)layer(&spheres, FIRE)[4 * i];
         unhidden += (double)layer(&smoke, FIRE)[4 * i];
-        assert_true(layer(&spheres, BLOOM)[4 * i] > 0.45f); /* two samples of four are white */
+        assert_true(layer(&spheres, BLOOM)[4 * i] >
+                    0.45f); /* at least two of four samples show a sphere, whose bloom is 1 */
     }
     assert_true(nearer > 200 && unhidden > 10.0 && fire < 0.1 * unhidden);
-    assert_true(sum(layer(&spheres, FIRE), 0, 4) > 10.0); /* beside the spheres */
+    assert_true(sum(layer(&spheres, FIRE), 0, 4) > 10.0); /* fire is visible beside the spheres */
     frame_finish(&smoke);
     frame_finish(&spheres);
 }
 
-/* The bloom adds as much light to the picture as its layer has. */
+/* The bloom must add as much red light to the picture as its layer has. */
 static void bloom_adds_light(void **state)
 {
     struct frame with, without;
@@ -186,7 +188,7 @@ static void bloom_adds_light(void **state)
     frame_finish(&without);
 }
 
-/* Checks that a frame has the same bytes in all layers whether earlier frames were drawn and read
+/* Fails unless a frame has the same bytes in all layers whether earlier frames were drawn and read
  * or not. */
 static void expect_same_after_others(void **state, const char *override)
 {
@@ -223,7 +225,7 @@ static void no_particles_are_no_error(void **state)
     frame_finish(&f);
 }
 
-/* Returns whether the list of the last pass is in the order of systems and serials. */
+/* Returns whether the draw entries of the last pass are in the order of systems and serials. */
 static bool is_in_order(struct frame *f)
 {
     struct kiln_error error = {0};
@@ -240,8 +242,8 @@ static bool is_in_order(struct frame *f)
     return in_order;
 }
 
-/* Passes of additive particles keep the order of serials, since sums need no other order. Passes
- * with particles that cover are sorted by depth. */
+/* Passes with particles that cover must be sorted by depth. Passes of additive particles alone must
+ * keep the order of serials, since sums need no other order. */
 static void only_covering_particles_are_sorted(void **state)
 {
     static const struct {

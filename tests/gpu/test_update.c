@@ -1,6 +1,7 @@
-/* Checks what `kiln test --update` writes, and what it leaves as it is; that repeated renders must
- * be equal; and which notes a test gets. If this fails, an update replaces goldens that should
- * stay, or a test that hardly judges anything passes without a note. */
+/* Checks which golden pictures and accepted hashes `kiln test --update` writes, and which it leaves
+ * as they are. Also checks that repeated renders must be equal, and which notes (warnings) a test
+ * gets. If this fails, an update replaces goldens that should stay, or a test that hardly judges
+ * anything passes without a note. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -17,8 +18,8 @@
 #define EXPECT        "golden/spark/expect.yaml"
 #define SECOND_GOLDEN "golden/spark/frame_0005.png"
 
-/* A file at some time. Another inode or time tells later that it was written again, even with the
- * same bytes. */
+/* Holds a file's inode, times and bytes. Another inode or time tells later that the file was
+ * written again, even with the same bytes. */
 struct file_state {
     struct stat status;
     char *bytes;
@@ -33,7 +34,7 @@ static struct file_state file_state(const char *path)
     return file;
 }
 
-/* Returns whether a file is as it was before, and frees that state. */
+/* Returns whether a file was not written since `before` was taken, and frees `before`. */
 static bool is_untouched(const char *path, struct file_state *before)
 {
     struct file_state now = file_state(path);
@@ -146,9 +147,9 @@ static void update_all_alone_replaces_goldens_that_pass_by_metrics(void **state)
     spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS);
 }
 
-/* On a device without accepted hashes, equal pixels pass by metrics. `--update all` accepts the
- * hashes of this device, and writes no golden. To imitate a new device, the accepted hashes get the
- * name of another one. */
+/* On a device without accepted hashes, equal pixels must pass by metrics. `--update all` must
+ * accept the hashes of this device, and write no golden. To imitate a new device, the test gives
+ * the accepted hashes the name of another device. */
 static void update_all_accepts_equal_pixels_of_a_new_device(void **state)
 {
     (void)state;
@@ -190,8 +191,8 @@ static void update_failed_accepts_a_changed_state(void **state)
     spark_end(&run);
 }
 
-/* A test whose scene has changed and looks the same passes with a note. `--update all` accepts the
- * scene's text. */
+/* A test whose scene has changed and looks the same must pass with a note. `--update all` must
+ * accept the scene's text. */
 static void update_all_accepts_a_scene_that_looks_the_same(void **state)
 {
     (void)state;
@@ -235,8 +236,8 @@ static void update_failed_replaces_broken_goldens(void **state)
 
 /* ---- Repeats ------------------------------------------------------------------------------ */
 
-/* A stop callback that changes the scene file when it is first called, after the file was read. It
- * never stops the run. */
+/* A stop callback that never stops the run. When it is first called, after the scene file was read,
+ * it changes the seed in the file. */
 static bool change_scene(void *user)
 {
     bool *changed = user;
@@ -266,7 +267,8 @@ static void repeats_must_have_the_same_hashes(void **state)
     assert_int_equal(run.summary.status, KILN_TEST_FAIL);
     assert_int_equal(access("out/test/spark/frame_0003_render2.png", R_OK), 0);
     assert_true(is_untouched(SPARK_GOLDEN, &first));
-    struct spark_run other = spark_run(NULL); /* with the other seed */
+    struct spark_run other =
+        spark_run(NULL); /* the expected state of the second render, with seed 8 */
     expect_message(run.summary.message,
                    "render 2 of 3 differs from the first: frame 3 has the state %s, not %s",
                    other.result->frames[0].state, run.result->frames[0].state);
@@ -295,8 +297,8 @@ static void a_stopped_run_has_no_result(void **state)
 
 /* ---- Notes and crashes ---------------------------------------------------------------------- */
 
-/* Settings by which a test judges less are noted, unless it gives a reason. Masks that leave little
- * of the picture are noted in any case. */
+/* Settings that make a test judge less must give a note, unless the test gives a reason. Masks that
+ * leave little of the picture must give a note in any case. */
 static void settings_that_judge_less_are_noted(void **state)
 {
     (void)state;
@@ -360,13 +362,13 @@ static void stale_limits_are_noted(void **state)
     assert_true(spark_has_note(
         &run,
         "limit flip.mean=0.3 is looser than the default limit, 0.01, and no reason is given"));
-    assert_int_equal(run.summary.notes, 2); /* and one on window.share */
+    assert_int_equal(run.summary.notes, 2); /* the other note is on window.share */
     spark_end(&run);
 
     run = spark_run(&params);
     assert_true(
         spark_has_note(&run, "limit flip.mean=0.3 is stale: no value above 0 was ever measured"));
-    assert_int_equal(run.summary.notes, 3); /* and none on flip.p99 */
+    assert_int_equal(run.summary.notes, 3); /* none of them is on flip.p99 */
     char note[KILN_MESSAGE_SIZE];
     assert_true(kiln_test_read_note(run.suite, 0, 0, note, &run.error));
     assert_string_equal(note, run.result->notes[0]);
@@ -406,7 +408,8 @@ static void other_techniques_and_missing_states_are_noted(void **state)
     assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 0);
 }
 
-/* Of several goldens of a frame, the nearest one, which judged the picture, is replaced. */
+/* Of several goldens of a frame, `--update failed` must replace the one that is nearest to the
+ * picture, which judged the picture. */
 static void update_failed_replaces_the_nearest_golden(void **state)
 {
     (void)state;
