@@ -50,9 +50,8 @@ static void step_to(struct moment *m, uint32_t step)
     kiln_threads_destroy(&threads);
 }
 
-enum {
-    MOST_STEPS = 200
-}; /* limits the simulated steps of a scene, and so the duration of the test */
+/* Limits the simulated steps of a scene, and so the duration of the test. */
+enum { MOST_STEPS = 200 };
 
 static void open_moment(struct moment *m, struct kiln_device *device, struct kiln_scene *scene,
                         uint32_t frame)

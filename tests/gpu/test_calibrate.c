@@ -68,8 +68,7 @@ static void renders_differ_in_threads_and_techniques(void **state)
 {
     (void)state;
     const char *device;
-    /* Many faint billboards overlap, so that their sums depend on the rounding of the rasteriser.
-     * */
+    /* Many faint billboards overlap, so that their sums depend on how the rasteriser rounds. */
     spark_write("set: [systems.sparks.look.size=1, systems.sparks.look.opacity=0.01, "
                 "systems.sparks.emit.rate=20000]\n");
     struct kiln_calibrate_params params = calibrate_params(&device);

@@ -129,8 +129,8 @@ static void blending_adds_up_as_exactly_as_its_format(void **state)
     assert_true(errors[2].largest <= (BODIES + 32) * 0x1p-11);
     assert_true(errors[0].mean < 2e-6 && errors[1].mean < 2e-6);
     assert_true(errors[2].mean < 0.05);
-    assert_true(errors[2].mean >
-                20.0 * errors[0].mean); /* otherwise floats were added instead of half floats */
+    /* A smaller error would mean that floats were added instead of half floats. */
+    assert_true(errors[2].mean > 20.0 * errors[0].mean);
 }
 
 int main(void)

@@ -333,8 +333,7 @@ static void the_near_plane_cuts(void **state)
 
 enum { CROWD = 400 };
 
-/* Draws CROWD lit meshes by a technique. Returns the images as copy_of does; the caller frees them.
- * */
+/* Draws CROWD lit meshes by a technique. Returns a copy of the images, which the caller frees. */
 static float *draw_crowd(void *device, enum kiln_backdrop_technique technique)
 {
     static const char *const overrides[] = {"systems.a.look.lit=1", "systems.a.look.size=0.3 m"};

@@ -125,8 +125,8 @@ static void smoke_shades_the_floor(void **state)
     tear_down(&f);
 }
 
-/* A fire must make the floor next to it brighter and redder, and the floor far away less bright.
- * Its light must go out with its particle. */
+/* A fire must make the floor next to it brighter and redder, and distant floor brighter by less.
+ * The light must go out with its particle. */
 static void fire_lights_the_floor(void **state)
 {
     struct fixture f;

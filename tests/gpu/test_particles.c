@@ -44,9 +44,8 @@ static const char SCENE[] =
     "           temperature: {life: [1900, 1200]}, soft: 0, bloom: [1, 0.5, 0.25],\n"
     "           rotation: [0 deg, 360 deg], near_fade: 0.5 m}\n";
 
-enum {
-    FIRE_CELLS = 16
-}; /* cells of the fire's flipbook; the smoke has 32, without motion vectors */
+/* The number of cells of the fire's flipbook; the smoke has 32, without motion vectors. */
+enum { FIRE_CELLS = 16 };
 
 struct fixture {
     struct kiln_device *device;
@@ -87,8 +86,8 @@ static void place_particles(struct fixture *f)
     srand(17);
     for (uint32_t i = 0; i < COUNT; i++) {
         uint32_t system = i & 1, slot = system * COUNT + i;
-        float z = -1.0f + 2.6f * (float)i /
-                              COUNT; /* each particle is nearer to the camera than the one before */
+        /* Each particle is nearer to the camera than the one before. */
+        float z = -1.0f + 2.6f * (float)i / COUNT;
         uint32_t birth = 1 + (uint32_t)(rand() % (STEP - 1));
         records[slot] = (struct kiln_particle){
             .position_serial = {FLOAT_BITS(random_within(-1.0f, 1.0f)),

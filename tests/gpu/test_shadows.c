@@ -518,8 +518,7 @@ static void penumbras_of_a_box_match_rays(void **state)
     finish(&f);
 }
 
-/* A cylinder under a zenith sun must cast a round shadow: the floor 1.1 m from the axis is bright.
- * */
+/* Under a zenith sun a cylinder's shadow must be round: the floor 1.1 m from the axis is bright. */
 static void a_cylinder_is_round_from_above(void **state)
 {
     static const char text[] =
@@ -548,8 +547,7 @@ static void a_cylinder_is_round_from_above(void **state)
     "    emit: {life: 1 s}\n"                                                                      \
     "    look: {size: 0.4 m, color: 1, lit: 1, soft: 0, fade: {in: 0, out: 0}}\n"
 
-/* Smoke must be dark in an object's shadow, bright before and beside it, and half lit at its edge.
- * */
+/* Smoke must be dark in an object's shadow, bright before and beside it, half lit at its edge. */
 static void the_backdrop_shades_smoke(void **state)
 {
     static const char *const objects[] = {

@@ -40,8 +40,8 @@ enum { WIDTH = 160, HEIGHT = 90, STEP = 30 };
     " 40 deg]"
 
 static const vec LAMP = {-1.5, 4, 0.3};
-static const double RADIUS = 0.3, EDGE = 0.9,
-                    COLOR = 16; /* of balls, m; of meshes, m; of the lamp */
+/* The radius of balls, m; the edge of meshes, m; the red light of the lamp. */
+static const double RADIUS = 0.3, EDGE = 0.9, COLOR = 16;
 
 struct fixture {
     struct drawing drawing;
@@ -133,8 +133,8 @@ static bool meets_triangle(vec from, vec ray, vec a, vec b, vec c)
 }
 
 /* Returns whether a particle at `place` blocks the segment from a point to a part of the lamp.
- * from: the point, m; ray: from the point to the lamp, m; mesh: the particle is a mesh, not a ball.
- * */
+ * from: the point, m; ray: from the point to the lamp, m; mesh: the particle is a mesh, else a
+ * ball. */
 static bool is_blocked(vec from, vec ray, vec place, bool mesh)
 {
     if (!mesh) {

@@ -163,8 +163,8 @@ static void spheres_belong_to_the_scene(void **state)
         nearer++;
         fire += (double)layer(&spheres, FIRE)[4 * i];
         unhidden += (double)layer(&smoke, FIRE)[4 * i];
-        assert_true(layer(&spheres, BLOOM)[4 * i] >
-                    0.45f); /* at least two of four samples show a sphere, whose bloom is 1 */
+        /* At least two of the pixel's four samples show a sphere, whose bloom is 1. */
+        assert_true(layer(&spheres, BLOOM)[4 * i] > 0.45f);
     }
     assert_true(nearer > 200 && unhidden > 10.0 && fire < 0.1 * unhidden);
     assert_true(sum(layer(&spheres, FIRE), 0, 4) > 10.0); /* fire is visible beside the spheres */
@@ -172,7 +172,7 @@ static void spheres_belong_to_the_scene(void **state)
     frame_finish(&spheres);
 }
 
-/* The bloom must add as much red light to the picture as its layer has. */
+/* The bloom must add as much red light to the picture as the layer of bloom has. */
 static void bloom_adds_light(void **state)
 {
     struct frame with, without;

@@ -267,8 +267,8 @@ static void repeats_must_have_the_same_hashes(void **state)
     assert_int_equal(run.summary.status, KILN_TEST_FAIL);
     assert_int_equal(access("out/test/spark/frame_0003_render2.png", R_OK), 0);
     assert_true(is_untouched(SPARK_GOLDEN, &first));
-    struct spark_run other =
-        spark_run(NULL); /* the expected state of the second render, with seed 8 */
+    /* Finds the state that the second render must have, with seed 8. */
+    struct spark_run other = spark_run(NULL);
     expect_message(run.summary.message,
                    "render 2 of 3 differs from the first: frame 3 has the state %s, not %s",
                    other.result->frames[0].state, run.result->frames[0].state);

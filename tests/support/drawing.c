@@ -1,5 +1,7 @@
-/* Makes a scene, its stages and its targets, and draws hand-made particles. The atlas is built
- * here, so that each texel's colour tells its place. */
+/* Draws hand-made particles for tests. drawing_init makes a scene, its stages and their target
+ * images; drawing_place takes the particles; drawing_run draws them; drawing_run_rasters runs tests
+ * with several techniques that draw billboards. The texture atlas is built here, so that each
+ * texel's colour tells its place in the texture. */
 #include "support/drawing.h"
 
 #include <math.h>
@@ -12,16 +14,16 @@
 #include "support/parts.h"
 #include "support/pools.h"
 
-enum { DRAWING_CELL = 128 }; /* texels along an edge of the finest level */
+enum { DRAWING_CELL = 128 }; /* texels along an edge of the finest level of detail */
 
 enum kiln_raster_technique drawing_technique = KILN_RASTER_GEOMETRY;
 uint32_t drawing_most = 32;
 uint32_t drawing_threads = 2;
 const char *drawing_asset_root;
 
-/* Fills a level of the texture: red grows to the right, green grows downwards, blue and alpha
- * are 1. Texels hold square roots, since shaders square the texels of colour cells
- * (KILN_CELL_COLOR). */
+/* Fills a level of detail of the texture: red grows to the right from 0 to 1, green grows
+ * downwards, and blue and alpha are 1. Texels hold square roots, since shaders square the texels of
+ * colour cells (KILN_CELL_COLOR). */
 static void drawing_fill_level(unsigned char *texels, int columns, int rows)
 {
     for (int i = 0; i < columns * rows; i++) {

@@ -1,9 +1,11 @@
-/* Builds a scene of rockets and rain, whose particles give birth to other particles. */
+/* Builds a scene for tests of families, which are particles born of other particles: stars, glow,
+ * embers and sparks come from rockets, and splashes and drips from rain. */
 #include "support/family_fixture.h"
 
-/* Adds rockets, their stars, the glow that stars trail and the embers of that glow: four
- * generations. Their numbers go from the youngest generation to the oldest, so that tests meet
- * children that have lower numbers than their parents. The sparks that rockets trail follow. */
+/* Adds rockets, the stars that dying rockets give birth to, the glow that stars trail, and the
+ * embers that dying glow gives birth to: four generations. Their system indices go from the
+ * youngest generation to the oldest, so that tests meet children with lower indices than their
+ * parents. The sparks that rockets trail have a higher index than rockets. */
 static void fixture_family_fireworks(struct scene_fixture *f)
 {
     struct kiln_system *ember = fixture_add_child(f, "ember", FAMILY_GLOW, KILN_EVENT_DEATH, 2);
@@ -52,7 +54,7 @@ static void fixture_family_fireworks(struct scene_fixture *f)
     spark->emit.inherit = fixture_ramp(f, KILN_CLOCK_TIME, 0.0f, 0.0f, 3.0f, 1.0f);
 }
 
-/* Adds rain that splashes where it first bounces and drips where it dies. */
+/* Adds rain, which gives birth to splashes where it first bounces, and to drips where it dies. */
 static void fixture_family_rain(struct scene_fixture *f)
 {
     struct kiln_system *rain = fixture_add_system(f, "rain", 200.0f);

@@ -1,4 +1,5 @@
-/* Simulates a scene, draws one frame of it by all stages, and compares layers of two pictures. */
+/* Simulates a scene and draws one frame of it by all stages (frame_try, frame_draw), and measures
+ * how much a layer of two pictures differs (frame_difference). */
 #include "support/frame.h"
 
 #include <math.h>
@@ -13,7 +14,8 @@ const struct kiln_techniques FRAME_CPU = {
 const struct kiln_techniques FRAME_GL = {
     .raster = KILN_RASTER_GEOMETRY, .bloom = KILN_BLOOM_GL, .composite = KILN_COMPOSITE_GL};
 
-/* Simulates and draws the scene into a picture. Returns false with an error of drawing. */
+/* Simulates `steps` steps of the scene and draws the last one into a picture. Returns false with an
+ * error if drawing fails; an error of the simulation fails the test. */
 static bool frame_stage(struct kiln_device *device, const struct kiln_scene *scene,
                         const struct frame_setting *setting, uint32_t steps,
                         struct kiln_threads *threads, struct kiln_picture *picture,

@@ -1,6 +1,6 @@
-# Checks that the npm packages of a test are installed. Tests source this file. It fetches nothing:
-# only tools/setup does, so that tests need no network, and no two tests fetch into the same folder
-# at the same time.
+# Lets a test end as skipped if the npm packages that it needs are not installed. Tests source this
+# file, which has the function needs_packages. It fetches nothing: only tools/setup does, so that
+# tests need no network, and no two tests fetch into the same folder at the same time.
 
 # needs_packages SOURCE NAME...: ends the test as skipped (status 77) unless node and these packages
 # are installed. SOURCE is the root of the source tree.

@@ -1,5 +1,5 @@
-/* Makes pictures whose pixels follow from formulas, so that tests of lib/output know what a file
- * must hold, and temporary folders for the files. */
+/* Makes pictures whose pixels follow from formulas, so that tests of lib/output, which writes
+ * pictures and videos, know what a file must hold. Also makes temporary folders for the files. */
 #ifndef KILN_TESTS_PICTURES_H
 #define KILN_TESTS_PICTURES_H
 
@@ -9,14 +9,14 @@
 extern const char test_scene_hash[];
 
 /* Returns the level, 0 to 255, of a channel of a pixel of test_picture. It changes smoothly with x,
- * y and the frame, in another way in each channel. */
+ * y and the frame, in each channel differently. */
 uint32_t test_level(uint32_t frame, uint32_t width, uint32_t x, uint32_t y, int channel);
 
-/* Returns the sample of a channel of a layer of floats of test_picture. */
+/* Returns the sample of a channel of test_picture's layer of floats with this index. */
 float test_layer_value(uint32_t frame, uint32_t x, uint32_t y, uint32_t layer, uint32_t channel);
 
 /* Returns parameters of an output of one range of frames, with 64 x 36 pixels and 30 frames a
- * second. path and range must outlive them. */
+ * second. path and range must outlive the parameters. */
 struct kiln_output_params test_output_params(const char *path,
                                              const struct kiln_frame_range *range);
 

@@ -1,5 +1,6 @@
-/* Casts rays at the simple shapes of small scenes in double precision, and compares the backdrop
- * that kiln draws with the result. It is simple enough to be the reference for all techniques. */
+/* Casts rays at the simple shapes of small scenes in double precision (`light`), and compares the
+ * backdrop that kiln draws with the result (`compare`). The ray caster is simple enough to be the
+ * reference for all techniques that draw backdrops. */
 #ifndef KILN_TESTS_RAY_CASTER_H
 #define KILN_TESTS_RAY_CASTER_H
 
@@ -10,8 +11,9 @@
 enum { WIDTH = 128, HEIGHT = 72 };
 
 /* The beginning of each scene's text: a picture of WIDTH x HEIGHT pixels, the camera and the floor.
- * The sky is black, so all light is that of sun and lamps. The exposure is so low that the samples
- * of a pixel at an edge weigh nearly the same and the pixel is their mean (shared/edge_mean.h). */
+ * The sky is black, so that only the sun and lamps give light. The exposure is so low that the
+ * samples of a pixel at an edge weigh nearly the same, so that the pixel is their mean
+ * (shared/edge_mean.h). */
 #define HEAD                                                                                       \
     "kiln: 1\n"                                                                                    \
     "output: {size: [128, 72], frames: 1}\n"                                                       \
@@ -51,21 +53,21 @@ enum kind { FLOOR, BOX, SPHERE, CYLINDER, MESH, CAPSULE, PLANE };
 
 struct shape {
     enum kind kind;
-    struct vec center, half_size, axis, albedo; /* axis: unit */
-    double radius, half_height;                 /* half_height of a capsule: without its caps */
-    struct vec angles;            /* of a box: rotation about x, then y, then z, rad */
+    struct vec center, half_size, axis, albedo; /* axis: unit; centre, half size: m */
+    double radius, half_height;                 /* m; half_height of a capsule is without caps */
+    struct vec angles;            /* of a box: rotations about x, then y, then z, rad */
     const struct kiln_mesh *mesh; /* scaled by `scale`, then rotated about y by `angle`, rad */
     double angle, scale;
 };
 
-/* The place of the camera of HEAD, and the direction of its ray through a place of the picture, px
- * from the top left. The point eye + t * direction has view depth t. */
+/* The position of the camera of HEAD, m, and the direction of its ray through a point of the
+ * picture, in px from the top left. The point eye + t * direction has view depth t. */
 extern const struct vec eye;
 struct vec pixel_ray(double px, double py);
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
-/* A drawn backdrop, and all that was made to draw it. */
+/* Holds a drawn backdrop, and all that was made to draw it. `finish` frees it. */
 struct picture {
     struct kiln_scene *scene;
     struct kiln_image color, depth;
@@ -76,20 +78,21 @@ struct picture {
     const float *colors, *depths; /* RGBA; view depth, m */
 };
 
-/* Draw the backdrop of a scene, with the technique of backdrop_create (backdrops.h). The caller
- * calls `finish`. draw_below finds assets below asset_root, `draw` below scenes/. */
+/* Draw the backdrop of a scene's text with the technique backdrop_technique (backdrops.h). The
+ * caller frees the result by `finish`. draw_below finds assets below the folder asset_root, and
+ * `draw` below scenes/. */
 struct picture draw_below(void *device, const char *text, const char *asset_root);
 struct picture draw(void *device, const char *text);
 void finish(struct picture *p);
 
-/* What the ray caster draws: shapes in the light of the sun or of one lamp. */
+/* Describes what the ray caster draws: shapes in the light of the sun or of one lamp. */
 struct expected {
     const struct shape *shapes;
     int count;
     struct vec sun;    /* unit direction towards the sun */
-    double sun_radius; /* angle of the disc's radius, rad */
-    double tolerance;  /* greatest difference of red light; white in full sun has 1 */
-    /* A lamp in place of the sun: its centre, m; its radius, m; its red light, 0: there is none. */
+    double sun_radius; /* angular radius of its disc, rad */
+    double tolerance;  /* largest absolute difference of red light; white in full sun has 1 */
+    /* A lamp instead of the sun: its centre, m; its radius, m; its red light, or 0 for no lamp. */
     struct vec lamp;
     double lamp_radius, lamp_color;
     struct vec lamp_facing;         /* unit direction in which a spot or a rectangle shines */
@@ -97,9 +100,9 @@ struct expected {
     struct vec lamp_right, lamp_up; /* from a rectangle's centre to its edges, m; 0: no rectangle */
 };
 
-/* Returns the red light that the surface at a place of the picture, px, sends to the eye. The lamp
- * lights it or, if there is none, a sun of irradiance pi. Sets *depth to the view depth, m, or to
- * 1e9 for the sky. */
+/* Returns the red light that the surface at a point of the picture, px from the top left, sends to
+ * the eye. The lamp lights it or, if there is no lamp, a sun of irradiance pi. Sets *depth to the
+ * view depth, m, or to 1e9 for the sky. */
 double light(const struct expected *e, double px, double py, double *depth);
 
 /* Compares every step-th pixel of every step-th row with the ray caster. Leaves out pixels within

@@ -4,7 +4,7 @@
 
 #include "kiln.h"
 
-/* The file name that messages about a scene from a text give. */
+/* The file name in messages about a scene that is loaded from a text. */
 #define SCENE_NAME "test.yaml"
 
 /* Returns the scene of a text, which the caller destroys, or NULL with an error. overrides: a

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""Tests tools/flicker with frames that are made here, and with scenes: flicker.py SOURCE KILN.
+"""Tests tools/flicker, which measures how much a clip flickers: flicker.py SOURCE KILN.
 
-If this fails, tools/flicker calls motion flicker, or does not see flicker. An edge that moves, a
-field of drops and one fast drop must not count as flicker. A pixel that blinks, a picture that is
-brighter for one frame, and noise must count. Discs that turn and cross each other must not count,
-since they move smoothly in slow motion, even when they fly more pixels a frame than the slow motion
-has pictures. Discs that live for less than a frame must count, with and without fades.
+If this fails, tools/flicker mistakes motion for flicker, or misses flicker. The test makes frames
+of its own and also draws scenes with kiln. An edge that moves, a field of drops and one fast drop
+must not count as flicker. A pixel that blinks, a picture that is brighter for one frame, and noise
+must count. Discs that turn and cross each other must not count, since they move smoothly in slow
+motion, even if they fly more pixels a frame than the slow motion has pictures. Discs that live for
+less than a frame must count, with and without fades.
 """
 import pathlib
 import subprocess
@@ -74,10 +75,11 @@ systems:
 
 
 def measure_scene(source, kiln, rate, life, turn=200, fade=0):
-    """Returns the shares that tools/flicker prints for a scene: spikes, moving, smooth, flicker.
+    """Returns the shares of pixels, 0 to 1, that tools/flicker prints for a scene.
 
-    The scene emits `rate` discs a second that live for `life`. The camera rolls by `turn` degrees a
-    second. A disc fades in during the first share `fade` of its life, and out during the last.
+    They are spikes, moving, smooth and flicker. The scene emits `rate` discs a second that live for
+    `life`, such as "4 ms". The camera rolls by `turn` degrees a second. A disc fades in during the
+    first part of its life and out during the last, each the fraction `fade` of its life.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "discs.yaml")
@@ -92,7 +94,7 @@ def row_of(source, *arguments):
 
 
 def measure(source, frames, *options):
-    """Returns the shares that tools/flicker prints for frames: spikes, moving, smooth, flicker."""
+    """Returns the shares of pixels that tools/flicker prints for frames, as measure_scene does."""
     with tempfile.TemporaryDirectory() as folder:
         for t, frame in enumerate(frames):
             Image.fromarray(frame.astype(numpy.uint8)).convert("RGB").save(f"{folder}/{t:03d}.png")

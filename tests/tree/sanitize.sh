@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds targets with the address and undefined-behaviour sanitizers, in a build folder of its own:
-# sanitize.sh SOURCE BUILD TARGET... The build has only the machine's widest level of vectors, since code
-# for vectors takes long to compile.
+# sanitize.sh SOURCE BUILD TARGET... If this fails, the tests sanitize.NAME have no programs to run.
+# The build has only the machine's widest SIMD level, since code for SIMD takes long to compile.
 set -euo pipefail
 # With -O1 the code compiles in half the time of -O2. -Werror is off, since GCC optimises less and then warns of
 # variables that may be uninitialised.

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Checks that no file is longer than 600 lines, so that each can be read at once; the public header
-# kiln.h may have 700: size.sh SOURCE. clang-tidy limits the length of functions.
+# Checks that no file is longer than 600 lines; the public header kiln.h may have 700: size.sh
+# SOURCE. If this fails, a file is too long to be read at once. clang-tidy limits the length of
+# functions.
 set -euo pipefail
 cd "$1"
 failed=0

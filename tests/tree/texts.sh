@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Checks how messages of errors are formatted and tested: texts.sh SOURCE. If this fails, a message
-# may have a typo that no test sees. A test compares a message as a whole (tests/support/errors.h)
-# instead of looking for a part of it. A line that must look for a part says why in a comment that
-# starts with "partly:". Two PRI macros in sequence are forbidden in lib/, cmd/, decode/ and tests/,
-# since the second one prints its letters instead of a number.
+# Checks how the code formats error messages, and how tests compare them: texts.sh SOURCE. If this
+# fails, a message may have a typo that no test sees. A test must compare a message as a whole
+# (tests/support/errors.h) instead of looking for a part of it. A line that must look for a part
+# says why in a comment that starts with "partly:". Two PRI macros in sequence, such as PRIu32
+# PRIu32, are forbidden in lib/, cmd/, decode/ and tests/, since printf prints the second as letters
+# instead of a number.
 set -euo pipefail
 cd "$1"
 
@@ -14,7 +15,7 @@ function complain(text) { printf "%s:%d: %s\n", FILENAME, FNR, text; failed = 1 
 
 FNR == 1 { carried = "" }
 {
-    # Both rules hold across line breaks: `carried` is the unfinished end of the lines before.
+    # Both rules hold across line breaks: `carried` is the unfinished end of the earlier lines.
     line = carried " " $0
     if (line ~ /(^|[^A-Za-z0-9_])PRI[A-Za-z0-9]+[ \t]+PRI[A-Za-z0-9]/)
         complain("two PRI macros in sequence")

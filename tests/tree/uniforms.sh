@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Checks that the locations of uniforms have names: uniforms.sh SOURCE. If this fails, a location is
-# a bare number in C or in a shader, and a change of one of them sets another uniform without an
-# error. The names stand beside the binding points, in the headers that C and GLSL share: SIM_AT_USED
-# in shaders/shared/limits.h is one.
+# Checks that the locations of uniforms are named constants in C and in shaders: uniforms.sh SOURCE.
+# If this fails, a location is a bare number in C or in a shader. If it were then changed on one
+# side only, C would set another uniform without an error. The names stand beside the binding
+# points, in the headers that C and GLSL share: SIM_AT_USED in shaders/shared/limits.h is one.
 set -euo pipefail
 cd "$1"
 
 mapfile -t files < <(find lib cmd decode tests -name '*.[ch]' -not -path '*/node_modules/*'
     find shaders -type f)
 
-# Reads each file as one record, since a call may be broken into lines.
+# Reads each file as one record, since a call may span several lines.
 awk '
 BEGIN { RS = "\001" }
 
