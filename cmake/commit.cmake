@@ -11,7 +11,8 @@ if(archived MATCHES "^([0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f])
 elseif(git)
     execute_process(COMMAND ${git} -C ${SOURCE} rev-parse --show-prefix --short=7 HEAD
         OUTPUT_VARIABLE found ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed)
-    if(NOT failed AND found MATCHES "^\n([0-9a-f]+)$") # The empty first line, the prefix, says that SOURCE is the top folder.
+    # The first line is the prefix; it is empty if SOURCE is the top folder of its repository.
+    if(NOT failed AND found MATCHES "^\n([0-9a-f]+)$")
         set(commit ${CMAKE_MATCH_1})
         execute_process(COMMAND ${git} -C ${SOURCE} diff --quiet HEAD --
             ERROR_QUIET RESULT_VARIABLE changed)
