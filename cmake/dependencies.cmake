@@ -1,15 +1,15 @@
-# Finds the libraries that kiln needs, by pkg-config, and defines the target kiln_dependencies, which links them.
-# If a library is missing, the error names the script that installs it.
+# Finds the libraries that kiln needs, by pkg-config, and defines the target kiln_dependencies, which links them. If
+# a library is missing, the error names the script that installs it.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 set(kiln_linked_packages epoxy libpng zlib libfyaml libzstd nettle)
 pkg_check_modules(KILN_DEPS IMPORTED_TARGET ${kiln_linked_packages})
-# Only the headers of EGL are needed: libepoxy loads EGL at the first call, so a machine without EGL gets an error
+# kiln needs only the headers of EGL: libepoxy loads EGL at the first call, so a machine without EGL gets an error
 # from kiln and not from the dynamic linker.
 pkg_check_modules(KILN_EGL egl)
-# Only the headers of assimp are needed: it is loaded when a scene has a mesh (decode/mesh.c).
+# kiln needs only the headers of assimp, which is loaded when a scene has a mesh (decode/mesh.c).
 pkg_check_modules(KILN_ASSIMP assimp>=5)
-# Only the headers of libseccomp are needed: it is loaded when a process confines itself (lib/base/confine.c).
+# kiln needs only the headers of libseccomp, which is loaded when a process gives up rights (lib/base/confine.c).
 pkg_check_modules(KILN_SECCOMP libseccomp)
 # kiln needs only the headers of libdeflate, which is loaded when a small PNG is written (lib/output/libdeflate.c).
 # Tests link the library.
@@ -19,7 +19,8 @@ pkg_check_modules(KILN_DEFLATE IMPORTED_TARGET libdeflate)
 pkg_check_modules(KILN_FFMPEG IMPORTED_TARGET libavcodec libavformat libavutil libswscale)
 # cglm has only headers: lib/base/matrix.h uses its inline functions.
 pkg_check_modules(KILN_CGLM cglm)
-# Of OpenEXR only the C core is linked: the rest is C++, and would be loaded at every start of kiln.
+# kiln links only the C core of OpenEXR. The rest of OpenEXR is C++, and the dynamic linker would load it at every
+# start of kiln.
 pkg_check_modules(KILN_EXR OpenEXR)
 find_library(KILN_EXR_CORE OpenEXRCore)
 if(NOT KILN_DEPS_FOUND OR NOT KILN_EGL_FOUND OR NOT KILN_ASSIMP_FOUND OR

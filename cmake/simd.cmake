@@ -1,7 +1,8 @@
-# Chooses the levels of vectors (lib/base/simd.h) that a build has, says how each is compiled, and generates the C
-# files that tell kiln which levels were built.
+# Chooses the SIMD levels that a build has (plain, avx2, avx512, neon: lib/base/simd.h), gives the compiler's flags
+# for each level, and generates the C files that tell kiln which levels were built.
 
-# Each level has the compiler's flags for the instructions that kiln_simd_has (lib/base/simd.c) asks for.
+# The compiler flags of each SIMD level. They allow the instructions whose presence kiln_simd_has (lib/base/simd.c)
+# checks when kiln runs.
 set(kiln_simd_plain)
 set(kiln_simd_avx2 -mavx2 -mbmi -mbmi2)
 set(kiln_simd_avx512 -mbmi -mbmi2 -mavx512f -mavx512bw -mavx512dq -mavx512vl -mprefer-vector-width=512)
@@ -10,8 +11,8 @@ set(kiln_simd_neon)
 set(KILN_SIMD_LEVELS all CACHE STRING
     "Levels of vectors to compile for: all of the target's processor, native (the widest that this machine has), or a list of plain, avx2, avx512, neon")
 
-# Sets `result` to the widest level of the machine on which CMake runs. kiln_simd_has (lib/base/simd.c) asks for
-# the same instructions when kiln runs.
+# Sets `result` to the name of the widest SIMD level that the machine on which CMake runs can execute. A level needs
+# the instructions that kiln_simd_has (lib/base/simd.c) checks when kiln runs.
 function(kiln_native_level result)
     set(level plain)
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
@@ -53,7 +54,7 @@ foreach(level IN LISTS kiln_levels)
     endif()
 endforeach()
 
-# kiln_simd_target(target level source...): adds an object library of sources that are compiled for one level.
+# kiln_simd_target(target level source...): adds an object library of sources that are compiled for one SIMD level.
 function(kiln_simd_target target level)
     add_library(${target} OBJECT ${ARGN})
     string(TOUPPER ${level} upper)
@@ -61,9 +62,10 @@ function(kiln_simd_target target level)
     target_compile_options(${target} PRIVATE ${kiln_simd_${level}})
 endfunction()
 
-# kiln_simd_tables(result folder pattern): writes a C source for each export that a header declares by
-# KILN_SIMD_DECLARE; the source defines the table of the export's addresses by level. The headers are those below
-# `folder` that match `pattern`, and are included by their paths in `folder`. Sets `result` to the sources.
+# kiln_simd_tables(result folder pattern): writes a C source for each function or table of functions that a header
+# exports by KILN_SIMD_DECLARE. The source defines an array of the export's addresses, one for each SIMD level. The
+# headers are the files below `folder` that match `pattern`, and are included by their paths in `folder`. Sets
+# `result` to the list of the written sources.
 function(kiln_simd_tables result folder pattern)
     file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${folder} ${folder}/${pattern})
     list(REMOVE_ITEM headers base/simd.h)
@@ -92,8 +94,8 @@ function(kiln_simd_tables result folder pattern)
     set(${result} ${sources} PARENT_SCOPE)
 endfunction()
 
-# kiln_built_levels(result): writes the C source of kiln_simd_built_levels, the table of the levels that the build
-# has. Sets `result` to its path.
+# kiln_built_levels(result): writes the C source of kiln_simd_built_levels, an array that says for each SIMD level
+# whether the build has it. Sets `result` to the path of the source.
 function(kiln_built_levels result)
     set(text "#include \"base/simd.h\"\n\nconst bool kiln_simd_built_levels[KILN_SIMD_COUNT] = {\n")
     foreach(level IN LISTS kiln_levels)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Prints how many lines of each parser the inputs of the fuzz targets reach, counted by gcov:
-# coverage.sh SOURCE BUILD [FOUND]. The inputs are those of corpus/ and those that fuzz-long has
-# kept in FOUND. A line that no input reaches is not fuzzed.
+# coverage.sh SOURCE BUILD [FOUND]. The inputs are the files of corpus/ and the inputs that
+# libFuzzer has found and the build target fuzz-long has kept in FOUND. A line that no input reaches
+# is not fuzzed.
 set -euo pipefail
 source=$1 build=$2 found=${3:-}
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Debug \

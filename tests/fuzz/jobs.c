@@ -1,7 +1,7 @@
-/* Fuzzes the reader of files of jobs, as YAML and as lines of JSON: any bytes are at least one job
- * whose values are in the ranges of their keys, or an error with a message. If this fails, a wrong
- * file for `kiln render --batch` crashes kiln or starts a job with values that no check has seen.
- */
+/* Fuzzes the reader of batch files, which list the jobs of `kiln render --batch` as YAML or as
+ * lines of JSON. From any bytes it must read at least one job, whose values are in the ranges of
+ * their keys, or report an error with a message. If this fails, a wrong batch file crashes kiln or
+ * starts a job with values that no check has seen. */
 #include <stdlib.h>
 #include <string.h>
 

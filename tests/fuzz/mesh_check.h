@@ -1,4 +1,6 @@
-/* Checks meshes that kiln accepted, and the poses of skinned meshes, for the fuzz targets. */
+/* Checks, for the fuzz targets, meshes that kiln's readers accepted: sizes are within the limits,
+ * vertices are finite, and triangles have only vertices that exist. The same must hold for every
+ * pose of a skinned mesh. */
 #ifndef KILN_FUZZ_MESH_CHECK_H
 #define KILN_FUZZ_MESH_CHECK_H
 
@@ -22,7 +24,8 @@ static inline void check_mesh(const struct kiln_mesh *mesh)
     }
 }
 
-/* Checks the mesh of a skin as it was loaded, and at four times of its first clip. */
+/* Checks a skinned mesh as it was loaded, and in the poses at four times of its first animation
+ * clip, from its start to its end. */
 static inline void check_skin(const struct kiln_skin *skin)
 {
     struct kiln_mesh *mesh = kiln_mesh_copy(kiln_skin_mesh(skin));

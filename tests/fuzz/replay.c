@@ -1,6 +1,6 @@
-/* Runs a fuzz target without libFuzzer: `replay MUTATIONS FOLDER...` gives it every file of the
- * folders, and MUTATIONS mutations of each file. The mutations are the same in every run, so that a
- * failure can be repeated. */
+/* Runs a fuzz target without libFuzzer, as the test fuzz.TARGET: `replay MUTATIONS FOLDER...` gives
+ * the target every file of the folders, and MUTATIONS mutations of each file. The mutations are the
+ * same in every run, so that a failure can be repeated. */
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,8 @@
 
 #include "fuzz.h"
 
-/* Fewer mutations run under sanitizers, which take several times as long. */
+/* A build with sanitizers runs a quarter of the mutations, since each takes several times as
+ * long. */
 #ifdef __SANITIZE_ADDRESS__
 enum { MUTATION_DIVISOR = 4 };
 #else
@@ -24,7 +25,8 @@ static uint32_t next_random(uint64_t *state)
     return (uint32_t)(*state >> 33);
 }
 
-/* Pieces to insert into texts: syntax and values at which readers of YAML and JSON may fail. */
+/* Pieces of text that mutations insert: syntax and values at which readers of YAML and JSON may
+ * fail. */
 static const char *const pieces[] = {
     "{",    "}",    "[",          "]",      ": ",  ", ",       "- ",  "\n",    "\"",   "'",
     "&a ",  "*a",   "<<: ",       "!!int ", "? ",  "|",        "#",   "---\n", "keys", "life",
@@ -39,7 +41,8 @@ static size_t insert(uint8_t *data, size_t size, size_t at, const void *bytes, s
     return size + count;
 }
 
-/* Changes, removes or inserts bytes, at one to four places. Returns the new size. */
+/* Changes, removes or inserts bytes at one to four random places of an input of `size` bytes. The
+ * buffer has room for 256 more bytes. Returns the new size. */
 static size_t mutate(uint8_t *data, size_t size, uint64_t *random)
 {
     uint32_t changes = 1 + next_random(random) % 4;
@@ -67,8 +70,8 @@ static size_t mutate(uint8_t *data, size_t size, uint64_t *random)
     return size;
 }
 
-/* Runs the target on a file and on its mutations. If `good`, the target must accept the file.
- * Returns 1 on failure, else 0. */
+/* Runs the target on a file and on mutations of it. If `good` is true, the target must accept the
+ * file itself. Returns 1 if the file cannot be read or is not accepted, otherwise 0. */
 static int replay_file(const char *path, unsigned mutations, bool good)
 {
     int failed = 0;

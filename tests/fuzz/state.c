@@ -1,7 +1,7 @@
-/* Fuzzes the reader of saved states: any file is a state that can be read into a pool, or an error,
- * never a crash. If this fails, a job that resumes from a damaged state crashes or writes outside
- * the pool. The target first corrects the checksums of each input, since a wrong one is refused
- * before anything else is read. */
+/* Fuzzes the reader of saved simulation states: from any file it must read a state into a pool, or
+ * report an error with a message, and never crash. If this fails, a job that resumes from a damaged
+ * state crashes or writes outside the pool. The reader refuses a file with a wrong checksum before
+ * it reads anything else, so the target first corrects the checksums of each input. */
 #include "job/state.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "fuzz.h"
 
 enum {
-    LINE = 13,       /* bytes of the first line, "kiln state 1\n"; the head's size follows */
+    LINE = 13,       /* bytes of the first line, "kiln state 1\n", before the head's size */
     MAX_HEAD = 1024, /* bytes, as in job/state.c */
 };
 
@@ -27,8 +27,9 @@ static void put_word(uint8_t *bytes, uint32_t word)
         bytes[i] = (uint8_t)(word >> (8 * i));
 }
 
-/* Corrects the checksums of the head and of the blocks that follow. The states of the corpus have
- * few particles, so that each of their tables is one block, with the number 0. */
+/* Corrects the checksums of the head and of the blocks of particles that follow it. The states of
+ * the corpus have few particles, so each of their tables is one block. The block's number, 0, is
+ * part of its checksum. */
 static void repair(uint8_t *data, size_t size)
 {
     if (size < LINE + 4)
@@ -50,8 +51,8 @@ static void repair(uint8_t *data, size_t size)
     }
 }
 
-/* Reads the state into a pool of the two systems that the states of the corpus are of, with the
- * spins and canvases that the state has. */
+/* Reads a state into a pool of two systems, which is the pool of the states in the corpus. The pool
+ * gets the spins and the painted canvases that the state has, by its head. */
 static void read_into_pool(const char *path, const struct kiln_state_info *info)
 {
     struct kiln_pool_layout layout = {.system_count = 2, .capacities = {26, 52}};

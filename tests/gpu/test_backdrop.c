@@ -1,7 +1,8 @@
-/* Checks the backdrop (lib/draw/backdrop/backdrop.c) of small scenes by each of its techniques: its
- * depth against a plain C ray caster, the light of sky and floor, pixels at bright edges, and when
- * it is drawn again. If this fails, objects lie in the wrong place or have the wrong brightness, or
- * the picture of an earlier frame stays. */
+/* Checks how each technique draws the backdrop (floor, sky and solid objects;
+ * lib/draw/backdrop/backdrop.c) of small scenes. The depth must equal that of a ray caster in C,
+ * floor and sky must have the computed light, bright edges must be antialiased, and a frame in
+ * which something moved must be drawn again. If this fails, objects lie in the wrong place, have
+ * the wrong brightness or jagged edges, or an earlier frame stays in the picture. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -73,8 +74,9 @@ static void fixture_end(struct fixture *f)
     kiln_scene_destroy(&f->scene);
 }
 
-/* Sets `direction` to that of the ray through a place of the picture, px, in the world, from the
- * numbers of SCENE. The parameter along the ray is view depth, m. */
+/* Computes the direction, in the world, of the ray from `eye`, m, through the place (px, py) of the
+ * picture, px from the top left. The camera is that of SCENE. The point eye + t * direction has the
+ * view depth t, m. */
 static void camera_ray(double px, double py, const double eye[3], double direction[3])
 {
     const double target[3] = {0.5, 1, 0};
@@ -95,7 +97,8 @@ static void camera_ray(double px, double py, const double eye[3], double directi
         direction[i] = f[i] + x * right[i] + y * up[i];
 }
 
-/* Returns the parameter at which the ray o + t * d enters a box, or 1e9. */
+/* Returns the t at which the ray o + t * d enters a box, or 1e9 if it misses the box. center, size:
+ * of the box, m. */
 static double box_hit(const double center[3], const double size[3], const double o[3],
                       const double d[3])
 {
@@ -109,7 +112,8 @@ static double box_hit(const double center[3], const double size[3], const double
     return in <= out && in > 0 ? in : 1e9;
 }
 
-/* Returns the view depth of SCENE at a place of the picture, px, in m, or 1e9 for the sky. */
+/* Returns the view depth, m, of the surface of SCENE that is seen from `eye` at the place (px, py)
+ * of the picture, px; 1e9 for the sky. */
 static double scene_depth(const double eye[3], double px, double py)
 {
     static const double centers[2][3] = {{0, 0.75, 0}, {1.5, 0, -1}};
@@ -122,6 +126,7 @@ static double scene_depth(const double eye[3], double px, double py)
     return t;
 }
 
+/* The view depth of every pixel equals that of the ray caster, up to a relative error of 2e-4. */
 static void depth_matches_c(void **state)
 {
     struct kiln_error error = {0};
@@ -136,8 +141,8 @@ static void depth_matches_c(void **state)
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
             double t = scene_depth(eye, x + 0.5, y + 0.5);
-            /* The pixel is skipped if the ray hits another surface 0.01 px away: rounding decides
-             * which of the two the driver draws. */
+            /* Skips the pixel if its ray hits another surface at 0.01 px from its middle: rounding
+             * decides which of the two surfaces the driver draws. */
             double near = scene_depth(eye, x + 0.51, y + 0.51);
             double far = scene_depth(eye, x + 0.49, y + 0.49);
             if (fabs(near - t) > 0.05 * t || fabs(far - t) > 0.05 * t)
@@ -152,6 +157,8 @@ static void depth_matches_c(void **state)
     fixture_end(&f);
 }
 
+/* The floor has the light that its albedo reflects of sky and sun, within 2 %, the sky's colour
+ * changes towards the horizon, and alpha is 1 everywhere. */
 static void sky_and_floor_have_their_colors(void **state)
 {
     struct kiln_error error = {0};
@@ -162,8 +169,8 @@ static void sky_and_floor_have_their_colors(void **state)
     const float *color = kiln_image_host(&f.color, KILN_READ, &error);
     assert_non_null(color);
 
-    /* The last row shows the nearest floor, far from the boxes: it is lit by the whole sky, of the
-     * colour of its top, and by the sun, which stands at the zenith. */
+    /* The last row shows the nearest floor, far from the boxes. The whole sky lights it with the
+     * colour of the zenith, and so does the sun, which stands at the zenith. */
     const float *floor_pixel = color + 4 * ((HEIGHT - 1) * WIDTH + WIDTH - 3);
     const double pi = acos(-1.0);
     static const double albedo[3] = {0.5, 0.4, 0.3}, sun[3] = {2, 1, 0.5}, top[3] = {0.1, 0.2, 0.4};
@@ -180,9 +187,10 @@ static void sky_and_floor_have_their_colors(void **state)
 }
 
 /* The edge of a black ball before a bright sky is antialiased on the display (shared/edge_mean.h).
- * The sky is 8 times as bright as white: 2, exposed by two stops. A pixel of which a quarter shows
- * such a sky would be white by the mean of its light, so the edge would be a stair. A pixel has
- * four samples, so the edge has five steps. A sky sample has the weight 1 / (1 + 8). */
+ * A pixel has four samples, so all five steps between black and white must occur. The sky's light
+ * 2, exposed by two stops, is 8 times as bright as white: with a plain mean, a pixel of which a
+ * quarter is sky would be white, and the edge would be jagged. Therefore a sample of the sky has
+ * the weight 1 / (1 + 8), and a black one 1. */
 static void bright_edges_have_all_steps(void **state)
 {
     static const char scene[] = "kiln: 1\n"
@@ -220,8 +228,8 @@ static void bright_edges_have_all_steps(void **state)
     fixture_end(&f);
 }
 
-/* The picture is kept while nothing changes, and drawn again when the camera moves. A depth of -1
- * that the test writes into the picture shows whether it was drawn. */
+/* The backdrop is drawn again only if something changed: not for the same moment, but after the
+ * camera moved. The test writes the depth -1 into the picture to see whether it is drawn over. */
 static void only_changes_are_drawn_again(void **state)
 {
     struct kiln_error error = {0};

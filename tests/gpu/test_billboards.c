@@ -1,7 +1,8 @@
-/* Checks the place, direction, size and opacity of billboards of every facing, of points and of
- * lines (Heinz 2019, 2.1.1) by each raster technique. A camera with a roll draws one particle,
- * which is compared with a plane, disc or segment that this file computes in the world. If this
- * fails, particles face or stretch the wrong way, or have the wrong size. */
+/* Checks that each raster technique draws particles with the right place, direction, size and
+ * opacity: billboards of every facing, points, and lines (Heinz 2019, 2.1.1). A camera with a roll
+ * draws one particle, and the test compares it with a plane, disc or segment that it computes in
+ * the world. If this fails, particles face or stretch in the wrong direction, or have the wrong
+ * size. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -11,8 +12,8 @@
 
 enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, STEP = 30 };
 
-/* With a wall at 10 m, the soft fade makes alpha (10 - depth) * 0.08. Nothing is drawn of system b,
- * but its shape `point` makes the techniques use their programs for all shapes. */
+/* The wall at depth 10 m and the soft-particle fade make alpha (10 - depth) * 0.08. System b has no
+ * particles, but its shape `point` makes techniques take the program that draws all shapes. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [320, 240], fps: 30, frames: 100}\n"
@@ -28,11 +29,12 @@ static const double WALL_M = 10, SOFT = 0.08;
 static const float3 POSITION = {0.9f, 1.3f, 0.4f}, VELOCITY = {1.0f, 2.0f, -0.5f};
 
 struct billboard {
-    vec center, right, up, normal; /* m; right and up: unit vectors, then half edges */
+    vec center, right, up, normal; /* m; right, up: unit vectors, or half edges once scaled */
     bool mirrored;
 };
 
-/* Returns the plane of a billboard by the definitions of Heinz 2019, 2.1.1. */
+/* Returns the plane of a billboard at POSITION, with unit vectors, by the definitions of Heinz
+ * 2019, 2.1.1. axis: of the facing KILN_FACING_AXIAL, of any length. */
 static struct billboard plane_of(const struct drawing *d, enum kiln_facing facing, vec axis)
 {
     const vec y = {0, 1, 0};
@@ -53,7 +55,7 @@ static struct billboard plane_of(const struct drawing *d, enum kiln_facing facin
 }
 
 /* Rotates a billboard by an angle, rad, counterclockwise as the viewer sees it, and scales its unit
- * vectors to half edges, m. */
+ * vectors to half of its width and height, m. */
 static void turn_and_scale(struct billboard *b, double angle, double half_width, double half_height)
 {
     vec up = vec_add((vec){0}, b->up, cos(angle) * half_height);
@@ -63,17 +65,18 @@ static void turn_and_scale(struct billboard *b, double angle, double half_width,
     b->right = vec_add(right, old_up, sin(angle) * half_width);
 }
 
-/* Returns whether a billboard is mirrored: half of them are, those that spin backwards
- * (billboard_side in shared/billboard.h). */
+/* Returns whether the billboard of a particle is mirrored. Particles that spin backwards are
+ * mirrored; the serial chooses them at random, and they are half of all (billboard_side in
+ * shared/billboard.h). */
 static bool is_mirrored(const struct drawing *d, uint32_t serial)
 {
     uint32_t stream = random_stream(random_key(d->scene->seed, 0), serial);
     return random_unit(stream, RANDOM_SPIN + 1) < 0.5f;
 }
 
-/* Checks that every pixel in a billboard shows the texel that its ray meets, with the alpha of the
- * depth there, and that other pixels are clear. The texture's red grows to the right and its
- * green downwards. */
+/* Checks that every pixel inside a billboard shows the texel that the pixel's ray meets, with the
+ * alpha of the soft-particle fade at that depth, and that all other pixels are empty. The texture's
+ * red grows to the right and its green downwards. */
 static void check_plane(const struct drawing *d, const struct billboard *b)
 {
     int inside = 0;
@@ -96,7 +99,7 @@ static void check_plane(const struct drawing *d, const struct billboard *b)
         double alpha = (WALL_M - depth) * SOFT;
         assert_true(fabs((double)pixel[3] - alpha) < 1e-3);
         double sideways = b->mirrored ? -x : x;
-        if (edge < 0.95) { /* nearer to the edge, the filter clamps the texture */
+        if (edge < 0.95) { /* at the edge, filtering clamps texture coordinates */
             assert_true(fabs((double)pixel[0] / alpha - (0.5 + 0.5 * sideways)) < 0.02);
             assert_true(fabs((double)pixel[1] / alpha - (0.5 - 0.5 * y)) < 0.02);
         }
@@ -104,9 +107,9 @@ static void check_plane(const struct drawing *d, const struct billboard *b)
     assert_true(inside > 1000);
 }
 
-/* Checks billboards of a facing with eight serials, of which some are mirrored. angle: rotation,
- * rad; stretch: s; all_shapes: whether system b makes the technique use its program for all shapes.
- */
+/* Checks the billboards of a facing for eight serials, some of which are mirrored. angle: the
+ * rotation, rad; stretch: the duration, s, by whose way the billboard is lengthened; all_shapes:
+ * makes the technique take its program for all shapes. */
 static void check_facing(struct kiln_device *device, enum kiln_facing facing, double angle,
                          double stretch, bool all_shapes)
 {
@@ -143,6 +146,8 @@ static void check_facing(struct kiln_device *device, enum kiln_facing facing, do
     drawing_finish(&d);
 }
 
+/* Billboards of every facing lie as defined, unrotated, rotated, and stretched along the
+ * velocity. */
 static void billboards_face_as_defined(void **state)
 {
     for (int facing = KILN_FACING_SCREEN; facing <= KILN_FACING_VELOCITY; facing++) {
@@ -154,8 +159,8 @@ static void billboards_face_as_defined(void **state)
     }
 }
 
-/* A camera that looks along the up direction of a billboard leaves its right direction undefined.
- * The billboard takes the picture's right, and does not vanish. */
+/* A camera that looks along the up direction of a billboard leaves the billboard's right direction
+ * undefined. The billboard must then take the picture's right direction, and not vanish. */
 static void a_billboard_seen_from_above_does_not_vanish(void **state)
 {
     static const char *const facings[] = {"viewplane", "viewpoint", "axial"};
@@ -172,8 +177,9 @@ static void a_billboard_seen_from_above_does_not_vanish(void **state)
         int covered = 0;
         for (int p = 0; p < PIXELS; p++)
             covered += d.color.host[4 * p + 3] > 0.0f;
-        double edge = 1.2 * HEIGHT / (2 * tan(acos(-1) / 6) * 4.7); /* px, at 4.7 m */
-        /* An axial billboard is seen from its end, as a line at most; the others fill a square. */
+        double edge = 1.2 * HEIGHT / (2 * tan(acos(-1) / 6) * 4.7); /* px, at depth 4.7 m */
+        /* The camera sees an axial billboard end-on, as a line at most; the other facings fill a
+         * square. */
         if (i < 2)
             assert_true(fabs(covered - edge * edge) < 4 * edge);
         else
@@ -189,8 +195,9 @@ static double clamp_unit(double x)
     return fmin(fmax(x, 0), 1);
 }
 
-/* Returns the part of a pixel that a rectangle or a disc covers. (x, y): from the shape's centre to
- * the pixel's; half_x, half_y: half of the shape's size; all px. */
+/* Returns the part of a pixel, 0 to 1, that a rectangle or, if `round` is true, a disc covers. (x,
+ * y): the way from the shape's centre to the pixel's centre, px; half_x, half_y: half of the
+ * shape's width and height, px. */
 static double coverage(double x, double y, double half_x, double half_y, bool round)
 {
     if (round)
@@ -198,8 +205,9 @@ static double coverage(double x, double y, double half_x, double half_y, bool ro
     return clamp_unit(half_x + 0.5 - fabs(x)) * clamp_unit(half_y + 0.5 - fabs(y));
 }
 
-/* Checks that a point is a white disc or square. diameter_px: 0 for the size in metres of SCENE. A
- * point smaller than a pixel covers one pixel, with an opacity that makes up for its area. */
+/* Checks that a point is drawn as a white disc or square. diameter_px: its diameter, px, or 0 for
+ * SCENE's size in metres. A point smaller than a pixel must cover one pixel, with its opacity
+ * multiplied by its area in pixels. */
 static void check_point(struct kiln_device *device, const char *const *overrides, size_t count,
                         double diameter_px, bool round)
 {
@@ -224,6 +232,7 @@ static void check_point(struct kiln_device *device, const char *const *overrides
     drawing_finish(&d);
 }
 
+/* Points have their size in metres or pixels, times look.scale; their facing is ignored. */
 static void points_have_their_size(void **state)
 {
     static const char *const metres[] = {"systems.a.look.shape=point"};
@@ -244,8 +253,8 @@ static void points_have_their_size(void **state)
     check_point(*state, scaled, 3, 15, true);
 }
 
-/* Checks a line from the particle to where it was `seconds` ago. Its square ends reach out by half
- * of its width. */
+/* Checks a line from the particle's position to the position that it had `seconds` earlier. The
+ * line has square ends, which extend it by half of its width. */
 static void check_line(struct kiln_device *device, const char *const *overrides, size_t count,
                        float3 position, float3 velocity, double seconds, double width_px)
 {
@@ -267,7 +276,8 @@ static void check_line(struct kiln_device *device, const char *const *overrides,
         double depth = 1 / (1 / tail.z + (1 / head.z - 1 / tail.z) * part);
         double alpha = coverage(along, across, (length + width_px) / 2, width_px / 2, false) *
                        (WALL_M - depth) * SOFT;
-        /* The ends beyond head and tail have a constant depth, which `depth` does not follow. */
+        /* The square ends have the constant depth of head and tail, while `depth` goes on
+         * changing. */
         double tolerance = fabs(part - 0.5) < 0.5 ? 4e-3 : 2e-2;
         assert_true(fabs((double)d.color.host[4 * p + 3] - alpha) < tolerance);
         sum += alpha;
@@ -276,6 +286,8 @@ static void check_line(struct kiln_device *device, const char *const *overrides,
     drawing_finish(&d);
 }
 
+/* Lines lie along the velocity, and are as long as the way of the particle during look.stretch or,
+ * with `to: previous`, since the last frame. */
 static void lines_lie_along_the_velocity(void **state)
 {
     static const char *const back[] = {"systems.a.look.shape=line", "systems.a.look.stretch=0.4 s",
@@ -288,8 +300,9 @@ static void lines_lie_along_the_velocity(void **state)
     check_line(*state, frame, 3, POSITION, fast, 1.0 / 30, 2);
 }
 
-/* A line whose tail is behind the camera is cut at the near plane, so it reaches the picture's edge
- * and keeps its width. Without the cut, the tail would be projected to the wrong side. */
+/* A line whose tail is behind the camera is cut off at the near plane, so it reaches the edge of
+ * the picture with its full width. Without the cut, the tail would be projected to the wrong
+ * side. */
 static void lines_end_at_the_near_plane(void **state)
 {
     static const char *const overrides[] = {"systems.a.look.shape=line",

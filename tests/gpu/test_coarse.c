@@ -1,7 +1,7 @@
-/* Checks particles at half and a quarter of the resolution: they look nearly as at full resolution,
- * alike by techniques in GL and on the host, and smoke behind an object does not bleed over its
- * edges. If this fails, smoke has halos or holes at the edges of objects, or looks different on
- * another machine. */
+/* Checks particles that are drawn at half or a quarter of the picture's resolution and then
+ * enlarged. They must look nearly as at full resolution and the same in GL and on the host, and
+ * smoke behind an object must not bleed over the object's edges. If this fails, smoke has halos or
+ * holes at edges, or looks different on another machine. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 
 enum { WIDTH = 101, HEIGHT = 67, PIXELS = WIDTH * HEIGHT };
 
-/* The scene has smoke and fire behind a post and before a wall, and a sphere that glows. */
+/* A scene with smoke and fire behind a post and in front of a wall, and a glowing sphere. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [101, 67], fps: 60, frames: 60}\n"
@@ -41,7 +41,8 @@ static const char *const QUARTER = "post.particles.resolution=quarter";
 static const char *const MIXED = "post.particles.mixed=true";
 static const char *const SEPARATE = "post.compose=separate";
 
-/* Draws particles on the host, and enlarges their picture to the frame's size in GL. */
+/* Techniques that draw particles on the host and enlarge their picture to the frame's size in
+ * GL. */
 static const struct kiln_techniques ENLARGED_IN_GL = {
     .raster = KILN_RASTER_CPU, .bloom = KILN_BLOOM_CPU, .composite = KILN_COMPOSITE_GL};
 
@@ -50,8 +51,8 @@ static struct kiln_picture *draw(struct kiln_device *device, const struct frame_
     return frame_draw(device, SCENE, 50, setting);
 }
 
-/* Particles that the host draws look the same, except for rounding, if GL enlarges their picture.
- * Particles that GL draws, too, differ by less than a hundredth. */
+/* GL and the host enlarge the same picture of particles alike, except for rounding. If GL also
+ * draws the particles, layers have a relative difference below 1 %. */
 static void techniques_agree(void **state)
 {
     const struct frame_setting settings[] = {
@@ -79,8 +80,8 @@ static void techniques_agree(void **state)
     }
 }
 
-/* Half resolution is nearer to full resolution than a quarter. Mixed resolution, which is full at
- * edges, is nearer than the same resolution everywhere. */
+/* Half resolution is nearer to full resolution than a quarter. Mixed resolution
+ * (post.particles.mixed), which is full at edges, is nearer than the same resolution everywhere. */
 static void near_full_resolution(void **state)
 {
     const struct frame_setting settings[] = {{{HALF}, 1, FRAME_CPU, 0},
@@ -114,8 +115,9 @@ static void near_full_resolution(void **state)
     }
 }
 
-/* Where a near object hides the smoke at full resolution, lower resolutions show none, either.
- * Where full resolution shows dense smoke, lower ones lose it in at most one pixel of fifty. */
+/* Where a near object hides the smoke at full resolution, there is no smoke (alpha below 0.02) at
+ * lower resolutions either. Of the pixels with dense smoke at full resolution (alpha above 0.5), at
+ * most one in fifty loses it (alpha below 0.25). */
 static void smoke_does_not_bleed_over_edges(void **state)
 {
     const struct frame_setting full = {{NULL}, 0, FRAME_CPU, 0};
@@ -142,7 +144,7 @@ static void smoke_does_not_bleed_over_edges(void **state)
     kiln_picture_destroy(&want);
 }
 
-/* The host draws the same bytes for any vector width and any number of threads. */
+/* The host draws the same bytes at every SIMD level and with any number of threads. */
 static void threads_and_vectors_change_no_byte(void **state)
 {
     struct frame_setting setting = {{QUARTER, MIXED}, 2, FRAME_CPU, 1};

@@ -1,6 +1,7 @@
-/* Checks that the exact arithmetic of shaders/shared gives the same bits in GLSL as in C, in each
- * shader stage that can simulate, on a million vectors. If this fails, a simulation on this device
- * differs from that on other machines, and the probe at start may not notice. */
+/* Checks that the exact arithmetic of shaders/shared gives the same bits in GLSL as in C, for a
+ * million test vectors in each shader stage that can simulate. If this fails, this device simulates
+ * differently from other machines, and the exactness probe (lib/gpu/probe.h), which tests fewer
+ * vectors when kiln starts, may miss it. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -32,7 +33,8 @@ static void fragments_agree_with_c(void **state)
     vectors_agree_with_c(*state, KILN_PROBE_FRAGMENT);
 }
 
-/* The fragment stage takes vectors as whole rows of texels, so a count may end within a row. */
+/* The probe takes any number of vectors. The fragment stage gets vectors as rows of texels, so the
+ * last row may be only partly filled. */
 static void any_number_of_vectors_is_probed(void **state)
 {
     char reason[256];

@@ -1,6 +1,7 @@
-/* Checks the frame loop (lib/frame/loop.c) by jobs of one process that run beside each other, are
- * stopped, skip frames, or go on from another job's particles. If this fails, a frame's bytes
- * depend on what else is rendered or left out, or an unfinished clip stays behind. */
+/* Checks the frame loop (lib/frame/loop.c), which renders the frames of a job one after another.
+ * Jobs of one process run side by side, are stopped, leave out frames, or continue with another
+ * job's particles. If this fails, a frame's bytes depend on what else is rendered or left out, or a
+ * stopped clip leaves a file. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -35,14 +36,14 @@ static const char FIRE[] =
 
 static const char *const ON_DEVICE[] = {"simulate=inplace"};
 
-/* Says what a job's progress callback renders after each frame. */
+/* Says what a job's progress callback, render_beside, does after each frame. */
 struct caller {
-    struct kiln_device *device; /* renders on this device; NULL: on one that it opens */
-    bool stays_away;            /* renders nothing */
+    struct kiln_device *device; /* the device that it renders on; NULL: it opens another */
+    bool stays_away;            /* true: it renders nothing */
     int calls;                  /* number of calls so far */
 };
 
-/* A progress callback that renders another scene, of fire, while the job is under way. */
+/* A progress callback that renders the scene FIRE between two frames of the job. */
 static void render_beside(void *user, const struct kiln_progress *progress)
 {
     struct caller *caller = user;
@@ -71,7 +72,8 @@ static bool never(void *user)
     return false;
 }
 
-/* Renders SMOKE with all layers into a folder, with a caller that renders beside. */
+/* Renders SMOKE into EXR files, one a frame, in a folder; `caller` says what its progress callback
+ * renders meanwhile. */
 static void render_smoke(struct kiln_device *device, struct caller *caller, const char *folder)
 {
     char path[160];
@@ -103,8 +105,8 @@ static size_t read_frame(const char *folder, int frame, char *bytes, size_t size
     return length;
 }
 
-/* Frames have the same bytes whether the thread renders nothing else between them, another job on
- * the same device, or one on another device. */
+/* A job's frames have the same bytes whether or not the thread renders another job between them, on
+ * the same device or on another device. */
 static void jobs_do_not_disturb_each_other(void **state)
 {
     struct caller callers[] = {{.stays_away = true}, {.device = *state}, {.device = NULL}};
@@ -129,8 +131,8 @@ static void jobs_do_not_disturb_each_other(void **state)
         test_remove_folder(folders[i]);
 }
 
-/* A scene that exceeds a limit of the device, here of its textures or storage blocks, is an error
- * that names the excess. */
+/* A scene that needs larger textures or storage blocks than the device allows is an error, whose
+ * message says what is too large. */
 static void exceeded_device_limits_are_errors(void **state)
 {
     struct kiln_device *device = *state;
@@ -153,7 +155,7 @@ static void exceeded_device_limits_are_errors(void **state)
 
 /* Stops a job after a number of frames. */
 struct stopper {
-    uint32_t done, after; /* frames that are done; frames after which to stop */
+    uint32_t done, after; /* frames that are done; number of frames after which to stop */
 };
 
 static void count_frame(void *user, const struct kiln_progress *progress)
@@ -167,8 +169,8 @@ static bool is_enough(void *user)
     return stopper->done == stopper->after;
 }
 
-/* A caller can stop a clip after any frame, even when all its frames are drawn and the file is
- * about to be completed. A stopped clip leaves no file. */
+/* A callback can stop a clip after any frame, even after the last, before the file is complete. A
+ * stopped clip leaves no file. */
 static void clips_stop_until_they_are_complete(void **state)
 {
     struct kiln_scene *scene = load_scene(SMOKE, NULL);
@@ -192,8 +194,8 @@ static void clips_stop_until_they_are_complete(void **state)
     kiln_scene_destroy(&scene);
 }
 
-/* A camera circles dark and light smoke, so that the order of particles changes with every frame,
- * and a sort that is spread over frames is always late. */
+/* A scene in which a camera circles dark and light smoke. The depth order of the particles changes
+ * in every frame, so a sort that is spread over frames always lags behind. */
 static const char ORBIT[] =
     "kiln: 1\n"
     "output: {size: [48, 32], fps: 30, frames: 16}\n"
@@ -211,7 +213,7 @@ static const char ORBIT[] =
 
 enum { ORBIT_FRAMES = 16, ORBIT_BYTES = 48 * 32 * 4 };
 
-/* A callback that copies a frame's picture to its place among those of the clip. */
+/* A callback that copies the picture of a frame into the array of all pictures of the clip. */
 static void keep_picture(void *user, const struct kiln_frame_layer *layer)
 {
     memcpy((uint8_t *)user + (size_t)layer->frame * ORBIT_BYTES, layer->pixels, ORBIT_BYTES);
@@ -235,8 +237,9 @@ static void render_orbit(struct kiln_device *device, const char *sort,
     kiln_scene_destroy(&scene);
 }
 
-/* A sort that is spread over frames goes on in frames that are not drawn, so a frame has the same
- * pixels whichever frames are left out before it. Its pixels differ from those of an exact sort. */
+/* A sort that is spread over frames also advances in frames that are not drawn, so a frame has the
+ * same pixels whichever earlier frames are left out. They differ from the pixels of an exact
+ * sort. */
 static void a_spread_sort_follows_undrawn_frames(void **state)
 {
     struct kiln_device *device = *state;
@@ -253,7 +256,8 @@ static void a_spread_sort_follows_undrawn_frames(void **state)
             assert_memory_equal(whole + frame * ORBIT_BYTES, part + frame * ORBIT_BYTES,
                                 ORBIT_BYTES);
     assert_memory_not_equal(whole + 9 * ORBIT_BYTES, exact + 9 * ORBIT_BYTES, ORBIT_BYTES);
-    /* Spread over one frame, the sort is complete and gives the pixels of an exact sort. */
+    /* A sort that is spread over a single frame is complete, so it gives the pixels of an exact
+     * sort. */
     render_orbit(device, "sort=oddeven:1", some, 3, part);
     assert_memory_equal(part + 9 * ORBIT_BYTES, exact + 9 * ORBIT_BYTES, ORBIT_BYTES);
 }
@@ -272,8 +276,8 @@ static struct kiln_job *make_job(struct kiln_device *device, const struct kiln_s
     return job;
 }
 
-/* A job goes on from a copy of another job's particles, by another technique. All jobs then have
- * the same states as a job that runs from the start. */
+/* Jobs with different simulation techniques, each of which starts from a copy of another job's
+ * particles, have in every frame the state of a job that runs from the start. */
 static void jobs_go_on_from_each_other(void **state)
 {
     static const char *const flags[] = {"simulate=cpu", "simulate=inplace", "simulate=pingpong",

@@ -1,6 +1,7 @@
-/* Checks the light and shadows of spots and rectangles on the backdrop, by each of its techniques,
- * against a ray caster in doubles, which sends a ray to each of many small parts of a rectangle. If
- * this fails, such lamps light the wrong places, or too brightly or darkly. */
+/* Checks the light and the shadows of two kinds of lamps, spots and rectangles, on the backdrop.
+ * Each backdrop technique is compared with a ray caster in double precision, which divides a
+ * rectangle into many small parts and casts a ray to each. If this fails, such lamps light the
+ * wrong places, or too brightly or too darkly. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -17,10 +18,11 @@
 
 static const struct vec FLOOR_COLOR = {{0.6, 0.5, 0.4}};
 
+/* The box of BOX_TEXT, for the ray caster. */
 static const struct shape A_BOX = {
     .kind = BOX, .center = {{0, 0.6, 0}}, .half_size = {{0.4, 0.3, 0.25}}, .albedo = {{0.8}}};
 
-/* The place of lamps above the box, m. */
+/* The position of the spots, m: above the box and beside it. */
 static const struct vec ABOVE = {{1.2, 2.2, 0.8}};
 
 static double degrees(double angle)
@@ -28,7 +30,8 @@ static double degrees(double angle)
     return angle * acos(-1.0) / 180;
 }
 
-/* Compares the picture of a scene, a floor with a shape and a lamp, with the ray caster. */
+/* Compares the picture of a scene with the ray caster. text: the scene; shape: its only shape
+ * besides the floor, for the ray caster; e: the lamp and the tolerance, for the ray caster. */
 static void check(void *device, const char *text, const struct shape *shape, struct expected e)
 {
     const struct shape shapes[] = {{.kind = FLOOR, .albedo = FLOOR_COLOR}, *shape};
@@ -45,7 +48,8 @@ static void check(void *device, const char *text, const struct shape *shape, str
     HEAD LIGHTS "    - spot: {position: [1.2, 2.2, 0.8], color: 4, direction: [-1.2, -2, -0.8]"    \
                 ", " more "}\n" BOX_TEXT
 
-/* Returns the reference for SPOT. radius: m; inner, outer: angles of the cones, degrees. */
+/* Returns the ray caster's lamp for SPOT. radius: of the lamp, m; inner, outer: angles between the
+ * axis and the inner and outer cone, degrees. */
 static struct expected spot(double radius, double inner, double outer)
 {
     return (struct expected){.lamp = ABOVE,
@@ -57,7 +61,8 @@ static struct expected spot(double radius, double inner, double outer)
                              .tolerance = 0.01};
 }
 
-/* Light fades from the outer cone, `angle`, inwards to the inner one, angle * (1 - softness). */
+/* A spot has full light in its inner cone and none outside its outer cone; between them the light
+ * fades. The outer cone has the half angle `angle`, and the inner one angle * (1 - softness). */
 static void a_spot_lights_its_cone(void **state)
 {
     check(*state, SPOT("radius: 0.001 m, angle: 25 deg, softness: 0.4"), &A_BOX,
@@ -71,8 +76,9 @@ static void a_spot_lights_its_cone(void **state)
     HEAD LIGHTS "    - spot: {direction: {keys: {0 s: " start ", 1 s: " end "}}, angle: {keys: "   \
                 "{0 s: 20 deg, 1 s: 60 deg}}, softness: {keys: {0 s: 0, 1 s: 1}}}\n"
 
-/* A spot's direction, angle and softness may have key frames. In a frame at 0 s it shines like a
- * spot with constant values of 0 s, or not at all if it then points up. */
+/* A spot's direction, angle and softness may have key frames. At time 0 it must shine like a spot
+ * with the constant values of the first key frames, and light nothing if its first direction points
+ * up. */
 static void a_spot_has_keys_over_time(void **state)
 {
     const double still = sum_of_red(*state, HEAD LIGHTS "    - spot: {direction: [0.3, -1, 0], "
@@ -82,9 +88,9 @@ static void a_spot_has_keys_over_time(void **state)
     assert_true(still > 10 && fabs(keyed - still) <= 1e-5 * still && away == 0);
 }
 
-/* The edge of a cone without softness is antialiased: some pixels on it have a part of the light.
- * The lamp is far above the floor, 30 m, so the light within the cone is almost even: the floor's
- * albedo 0.6 times 1500 / 30^2. */
+/* The edge of a cone without softness is antialiased: some pixels on it have only a part of the
+ * light. The lamp is 30 m above the floor, so within its cone of 2 degrees each pixel has nearly
+ * the light 0.6 * 1500 / 30^2: albedo times intensity, over the square of the distance. */
 static void the_edge_of_a_cone_is_antialiased(void **state)
 {
     struct picture p =
@@ -106,7 +112,8 @@ static void the_edge_of_a_cone_is_antialiased(void **state)
 
 #define PANEL(more) HEAD LIGHTS "    - rectangle: {color: 3, " more "}\n"
 
-/* Returns the reference for PANEL. right, up: from the centre to the edges, m. */
+/* Returns the ray caster's lamp for PANEL. center: of the rectangle, m; facing: the unit direction
+ * in which it shines; right, up: the vectors from its centre to the middles of its edges, m. */
 static struct expected panel(struct vec center, struct vec facing, struct vec right, struct vec up)
 {
     return (struct expected){.lamp = center,
@@ -117,12 +124,13 @@ static struct expected panel(struct vec center, struct vec facing, struct vec ri
                              .tolerance = 0.004};
 }
 
-/* This box stands for no shape: it lies so far below that it hides nothing and is not seen. */
+/* A box that replaces the shape in scenes without one. It lies so far below the floor that it is
+ * not seen and shadows nothing. */
 static const struct shape NOTHING = {
     .kind = BOX, .center = {{0, -50, 0}}, .half_size = {{0.1, 0.1, 0.1}}, .albedo = {{0.8}}};
 
-/* A rectangle lights the floor as Lambert's law says: from above, rotated, and halfway below the
- * floor, where its lower half lights nothing. */
+/* A rectangle lights the floor as Lambert's law says: from above, halfway below the floor, where
+ * its lower half lights nothing, and rotated. */
 static void a_rectangle_lights_as_lambert_says(void **state)
 {
     check(*state, PANEL("center: [0.3, 1.5, 0], width: 1.5 m, height: 0.5 m"), &NOTHING,
@@ -145,6 +153,7 @@ static void a_rectangle_lights_as_lambert_says(void **state)
                 (struct vec){{0.5 / sqrt(3), 0.5 / sqrt(3), 0.5 / sqrt(3)}}));
 }
 
+/* A box casts the shadow of a rectangle with the right penumbra. */
 static void a_box_hides_a_rectangle(void **state)
 {
     struct expected e = panel((struct vec){{0.3, 2.2, 0}}, (struct vec){{0, -1, 0}},
@@ -157,8 +166,8 @@ static void a_box_hides_a_rectangle(void **state)
     PANEL("center: [0, 0.8, -1], direction: [0, 0, 1], width: 1 m, height: 0.6 m")                 \
     "  objects:\n    - box: {center: [0, 0.8, " wall "], size: [3, 3, 0.2], color: 0}\n"
 
-/* A wall that touches a rectangle from behind does not hide its light. A wall just before the
- * rectangle does. */
+/* A wall that a rectangle hangs on does not shadow its light, although it touches the rectangle
+ * from behind. A wall just in front of the rectangle does. */
 static void a_wall_carries_a_rectangle(void **state)
 {
     const double alone = sum_of_red(*state, ON_A_WALL("-9"));
@@ -167,8 +176,8 @@ static void a_wall_carries_a_rectangle(void **state)
     assert_true(alone > 50 && carried > 0.9 * alone && hidden < 0.02 * alone);
 }
 
-/* A rectangle below the floor lights nothing. The floor hides no part of one that stands on it or
- * lies in it, which lights as much as one without shadows. */
+/* A rectangle below the floor lights nothing. A rectangle that stands on the floor or lies in it is
+ * not shadowed by the floor: it lights as much as with shadows switched off. */
 static void the_floor_hides_rectangles_below_it(void **state)
 {
     static const char *const texts[] = {

@@ -1,7 +1,8 @@
-/* Checks kernels that loop over many sources, cells, neighbours or keys. llvmpipe silently ends the
- * loops of an invocation after 65,535 iterations in all (KILN_SOFTWARE_ITERATIONS). A kernel must
- * then still compute what `cpu` computes, or report an error. If this fails, software GL silently
- * simulates large scenes wrongly. */
+/* Checks compute kernels that loop over many gravity sources, cells, neighbours or key frames. The
+ * software GL of Mesa, llvmpipe, silently ends the loops of an invocation after 65,535 iterations
+ * in all (KILN_SOFTWARE_ITERATIONS). Even for longer loops a kernel must compute what the technique
+ * `cpu` computes, or report an error. If this fails, large scenes are simulated wrongly without a
+ * warning. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,8 +15,8 @@
 
 static struct scene_fixture fixture; /* too large for a stack */
 
-/* Checks that a technique and `cpu` compute the same records in `steps` steps. place: NULL, or puts
- * particles into a run, which is then at step BALLS_FIRST_STEP. */
+/* Checks that a technique and `cpu` compute the same particles in `steps` steps. place: NULL, or a
+ * function that writes particles into a run and sets it to step BALLS_FIRST_STEP. */
 static void expect_as_on_cpu(struct kiln_device *device, enum kiln_simulate_technique technique,
                              void (*place)(struct simulation *run), uint32_t steps)
 {
@@ -38,8 +39,8 @@ static void expect_as_on_cpu(struct kiln_device *device, enum kiln_simulate_tech
 
 enum { SOURCES = 70001, TRACERS = 300 };
 
-/* Places the sources in the first system, and in the second one the tracers, which the sources
- * attract. */
+/* Places SOURCES particles in the first system, and in the second system TRACERS particles, which
+ * the first system attracts. */
 static void place_stars(struct simulation *run)
 {
     uint32_t seed = 5;
@@ -51,6 +52,7 @@ static void place_stars(struct simulation *run)
     run->pool.systems[1].next_serial = TRACERS;
 }
 
+/* Every tracer is attracted by all of more sources than llvmpipe has iterations. */
 static void all_sources_pull(void **state)
 {
     balls_init(&fixture, SOURCES, 0.01f);
@@ -66,7 +68,8 @@ static void all_sources_pull(void **state)
 
 /* ---- cells ---------------------------------------------------------------------------------- */
 
-/* Scans the largest table of cells that there is (MAX_CELLS, lib/sim/crowd/interact.c). */
+/* The kernel that scans the counts of a table of cells gives the right prefix sums for the largest
+ * table that is allowed (MAX_CELLS, lib/sim/crowd/interact.c). */
 static void the_largest_table_of_cells_is_scanned(void **state)
 {
     enum { CELLS = 1 << 24 };
@@ -96,10 +99,10 @@ static void the_largest_table_of_cells_is_scanned(void **state)
     glDeleteProgram(program);
 }
 
-static uint32_t crowd; /* balls that place_crowd places */
+static uint32_t crowd; /* number of balls that place_crowd places */
 
-/* Places all balls within one cell. Cells are wider than 1 m, since init_crowd lets balls fly up to
- * 1 m a step. */
+/* Places all balls within one cell, from 0.1 to 0.9 m along each axis. A cell is wider than 1 m,
+ * since init_crowd allows 60 m/s, which is 1 m a step. */
 static void place_crowd(struct simulation *run)
 {
     uint32_t seed = 11;
@@ -116,8 +119,8 @@ static void init_crowd(uint32_t count)
     balls_init(&fixture, count, 0.02f)->fastest = fixture_constant(60.0f);
 }
 
-/* Software GL finds the partners among 1500 balls in a cell. Among 66000 it would end the search
- * early, so the step fails. */
+/* Software GL finds all colliding pairs among 1500 balls in one cell. It would silently end the
+ * search among 66000 balls, so kiln reports an error instead. */
 static void a_crowd_in_a_cell_is_searched_or_refused(void **state)
 {
     struct kiln_device *device = *state;
@@ -140,8 +143,8 @@ static void a_crowd_in_a_cell_is_searched_or_refused(void **state)
 
 /* ---- keys ----------------------------------------------------------------------------------- */
 
-/* The height of an emitter and the speed of its births follow 1000 keys, nearly as many as a scene
- * may have (KILN_MAX_VALUE_KEYS). */
+/* Births look up values among 1000 key frames, nearly as many as a scene may have
+ * (KILN_MAX_VALUE_KEYS): the height of the emitter and the greatest speed. */
 static void births_find_their_keys(void **state)
 {
     enum { KEYS = 1000 };

@@ -1,6 +1,7 @@
-/* Checks that the techniques of the stages `bloom` and `composite` (lib/post) make the same picture
- * on the host and in GL, for any size and any number of threads. If this fails, the look of a scene
- * depends on the device. */
+/* Checks that the GL and host techniques of the stages `bloom` (blur of bright light) and
+ * `composite` (layers, exposure, tone mapping, dither) give the same picture, for any size. On the
+ * host, the number of threads must change no byte. If this fails, the look of a scene depends on
+ * the device. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -24,7 +25,7 @@ static struct kiln_scene *parse(const char *post, uint32_t width, uint32_t heigh
 }
 
 /* Fills an image with random premultiplied colours, from faint to 16 times as bright as white.
- * Alpha is 1 if `opaque` is set, otherwise up to most_alpha. */
+ * opaque: alpha is 1; otherwise it is random, from 0 to most_alpha. */
 static void fill(struct kiln_image *image, void *device, uint32_t width, uint32_t height,
                  const char *label, bool opaque, float most_alpha)
 {
@@ -45,7 +46,9 @@ struct inputs {
     struct kiln_composite_inputs all;
 };
 
-/* The size of a picture, the layers that it is composed of, and the bits of the result. */
+/* One case for check_composite: the picture's size, px; the bits of each channel of the displayed
+ * picture, 8 or 16; the layers that are composed; and the size of the bloom relative to the
+ * picture. */
 struct variant {
     uint32_t width, height, bits;
     bool transparent, particles, fire, bloom;
@@ -106,9 +109,10 @@ static void composed_free(struct composed *c)
     free(c->beauty);
 }
 
-/* Checks that displayed values differ by at most 1 level of 8 bits or 12 of 16 bits, and on average
- * by far less. Linear values differ by rounding only. If `glow` is set, a smaller bloom is
- * magnified: then the error of GL's texture coordinates counts, too, for light of up to 16. */
+/* Checks that two composites are equal except for rounding. Displayed values may differ by 1 of
+ * 8-bit levels or 12 of 16-bit levels, and on average by 0.02 or 2. Linear values may differ by a
+ * relative 1e-5. glow: bloom is magnified in the picture; then linear values, of up to 16, may also
+ * differ by 1e-3, since GL computes texture coordinates less exactly. */
 static void assert_alike(const struct composed *a, const struct composed *b, size_t channels,
                          uint32_t bits, bool glow, const char *what)
 {
@@ -147,6 +151,8 @@ static void check_composite(void *device, const char *post, const struct variant
     kiln_scene_destroy(&scene);
 }
 
+/* Composites agree for every tone mapping, with and without dither, and for several combinations of
+ * layers. */
 static void composites_are_alike(void **state)
 {
     static const char *const posts[] = {
@@ -175,6 +181,7 @@ static void composites_are_alike(void **state)
     }
 }
 
+/* Composites agree for pictures that are smaller than a work group or have odd sizes. */
 static void composites_of_any_size_are_alike(void **state)
 {
     static const uint32_t sizes[][2] = {{1, 1}, {3, 5}, {5, 3}, {1, 300}, {257, 2}, {128, 9}};
@@ -196,8 +203,8 @@ static void composites_of_any_size_are_alike(void **state)
 
 /* ---- bloom ----------------------------------------------------------------------------------- */
 
-/* Runs the bloom stage. Returns a copy of its result, followed by a copy of the light that glows,
- * and the number of floats of both in *count. The caller frees the copy. */
+/* Runs the bloom stage. Returns an array of floats, RGBA, which the caller frees: first the blurred
+ * bloom, then the bright light that was blurred. *count becomes the number of floats. */
 static float *glow(void *device, const struct kiln_scene *scene,
                    enum kiln_bloom_technique technique, uint32_t threads, struct inputs *in,
                    size_t *count)
@@ -246,6 +253,8 @@ static void check_bloom(void *device, const char *post, const struct variant *v)
     kiln_scene_destroy(&scene);
 }
 
+/* Blooms of every kind agree, for pictures of several sizes and with and without a layer of
+ * fire. */
 static void blooms_are_alike(void **state)
 {
     static const char *const posts[] = {

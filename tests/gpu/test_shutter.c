@@ -1,7 +1,7 @@
-/* Checks motion blur. A frame with a shutter is the mean, in linear light, of the pictures at the
- * moments while the shutter is open; a clip with a higher frame rate shows these pictures one by
- * one. A moment may lie within a step. If this fails, moving particles are blurred by too much or
- * too little, or leave gaps. */
+/* Checks motion blur by frame blending. While the shutter is open, kiln draws the scene at several
+ * instants, which it calls moments, and the frame is the mean of these pictures in linear light. A
+ * moment may lie within a simulation step. If this fails, moving particles are blurred too much or
+ * too little, or their streaks have gaps. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -19,8 +19,8 @@
 
 enum { WIDTH = 48, HEIGHT = 32, MOMENTS = 4, FRAME = 12 };
 
-/* A moving camera, smoke, and fire with bloom. The four %s stand for the frame rate, the step rate,
- * a setting of the camera, and settings of `post`. */
+/* A scene with a moving camera, smoke, and fire with bloom. The four %s are, in this order: the
+ * frame rate, Hz; the step rate, Hz; a setting of the camera; and settings of `post`. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [48, 32], frames: 120, fps: %s}\n"
@@ -36,6 +36,8 @@ static const char SCENE[] =
 
 static const char *const LAYERS[] = {"beauty", "fire", "smoke", "bloom"};
 
+/* Renders the frames `first` to `last` of SCENE into EXR files at the path `output`. The other
+ * arguments replace the %s of SCENE. */
 static void render(struct kiln_device *device, const char *fps, const char *rate,
                    const char *camera, const char *post, const char *output, uint32_t first,
                    uint32_t last)
@@ -56,7 +58,7 @@ static void render(struct kiln_device *device, const char *fps, const char *rate
     kiln_scene_destroy(&scene);
 }
 
-/* Returns a layer of an EXR file: WIDTH * HEIGHT * 4 floats. */
+/* Reads a layer of an EXR file: WIDTH * HEIGHT pixels of 4 floats. The caller destroys it. */
 static struct kiln_asset_image *load_layer(const char *path, const char *layer)
 {
     struct kiln_error error = {0};
@@ -68,12 +70,14 @@ static struct kiln_asset_image *load_layer(const char *path, const char *layer)
     return image;
 }
 
-/* Compares a blurred frame with the mean of the sharp frames of a clip of eight times the rate. */
+/* Checks that every layer of a blurred frame is the mean of 4 sharp frames of a clip that has eight
+ * times the frame rate. */
 static void check(void *device, const char *post)
 {
     char folder[] = "/tmp/kiln-shutter-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
-    /* A frame has 8 steps. The shutter is open for half of them: 4 moments, one a step. */
+    /* At 30 frames and 240 steps a second, a frame has 8 steps. The shutter is open during half of
+     * them, so its 4 moments lie one step apart. */
     snprintf(path, sizeof path, "%s/blurred.exr", folder);
     render(device, "30", "240", "shutter: {samples: 4, angle: 180 deg}", post, path, FRAME, FRAME);
     snprintf(path, sizeof path, "%s/moment_%%02d.exr", folder);
@@ -89,7 +93,7 @@ static void check(void *device, const char *post)
             struct kiln_asset_image *image = load_layer(path, LAYERS[l]);
             for (int i = 0; i < WIDTH * HEIGHT * 4; i++)
                 sum[i] += (double)((const float *)image->pixels)[i] / MOMENTS;
-            if (m == 0) { /* the moments must differ from their mean */
+            if (m == 0) { /* a sharp frame must differ from the blurred one */
                 snprintf(path, sizeof path, "%s/blurred.exr", folder);
                 struct kiln_asset_image *blurred = load_layer(path, LAYERS[l]);
                 for (int i = 0; i < WIDTH * HEIGHT * 4; i++)
@@ -118,14 +122,15 @@ static void check(void *device, const char *post)
     rmdir(folder);
 }
 
+/* A frame is the mean of its moments in every layer, also after bloom, for both ways to compose. */
 static void a_frame_is_the_mean_of_its_moments(void **state)
 {
     check(*state, "bloom: {kind: gaussian}");
     check(*state, "bloom: {kind: pyramid}, compose: alpha");
 }
 
-/* A phase of 135 degrees is three eighths of a frame. So frame 12 at 30 frames a second then shows
- * frame 8 * 12 + 3 at 240 frames a second. */
+/* A shutter's phase delays the picture. 135 degrees are 3/8 of a frame, so frame 12 at 30 frames a
+ * second shows what frame 8 * 12 + 3 shows at 240 frames a second. */
 static void a_phase_shows_a_later_moment(void **state)
 {
     char folder[] = "/tmp/kiln-shutter-XXXXXX", path[3][64];
@@ -152,6 +157,7 @@ static void a_phase_shows_a_later_moment(void **state)
     rmdir(folder);
 }
 
+/* The moments divide the time during which the shutter is open into equal parts. */
 static void moments_lie_where_the_shutter_is_open(void **state)
 {
     (void)state;
@@ -166,8 +172,8 @@ static void moments_lie_where_the_shutter_is_open(void **state)
     assert_false(kiln_scene_has_instants_between(scene));
     kiln_scene_destroy(&scene);
 
-    /* A shutter does not change the number of steps. A frame has two steps here, and the shutter is
-     * open during the first one. */
+    /* A shutter does not change the number of steps: here a frame has two. The shutter is open
+     * during the first step, which the 16 moments divide into equal parts. */
     scene = load_scene("kiln: 1\noutput: {fps: 30}\ncamera: {shutter: {samples: 16}}\n", NULL);
     assert_int_equal(kiln_scene_facts(scene).steps_per_frame, 2);
     assert_true(kiln_scene_has_instants_between(scene));
@@ -181,7 +187,8 @@ static void moments_lie_where_the_shutter_is_open(void **state)
     assert_int_equal(kiln_scene_last_step(scene, 3), 7);
     kiln_scene_destroy(&scene);
 
-    /* A phase of an eighth of a frame is a quarter of a step, since a frame has two steps. */
+    /* A frame has two steps, so a phase of 45 degrees, an eighth of a frame, is a quarter of a
+     * step. */
     scene = load_scene("kiln: 1\noutput: {fps: 30}\ncamera: {shutter: {phase: 45 deg}}\n", NULL);
     assert_true(kiln_scene_has_instants_between(scene));
     const struct kiln_instant sharp = kiln_scene_instant(scene, 3, 0);
@@ -189,6 +196,7 @@ static void moments_lie_where_the_shutter_is_open(void **state)
     kiln_scene_destroy(&scene);
 }
 
+/* A shutter whose phase and angle together exceed a frame, 360 degrees, is an error. */
 static void phase_and_angle_fit_into_a_frame(void **state)
 {
     (void)state;
@@ -198,14 +206,14 @@ static void phase_and_angle_fit_into_a_frame(void **state)
     expect_error(&error, KILN_INVALID_INPUT,
                  SCENE_NAME ":2:27: camera.shutter.phase: phase and angle together are "
                             "more than the 360 deg of a frame");
-    /* With a single sample the picture is sharp, and the angle does not count. */
+    /* With a single sample the picture is sharp, so only the phase must fit into a frame. */
     struct kiln_scene *scene = load_scene("kiln: 1\ncamera: {shutter: {phase: 360 deg}}\n", NULL);
     assert_int_equal(kiln_scene_instant(scene, 3, 0).step, kiln_scene_frame_step(scene, 4));
     kiln_scene_destroy(&scene);
 }
 
-/* Balls that spin and bounce, a fountain of sparks, and smoke that soon dies. Of the 5 moments of a
- * frame, some lie within steps. */
+/* A scene with balls that spin and bounce, a fountain of sparks, and short-lived smoke. The shutter
+ * has 5 moments a frame, some of which lie within simulation steps. */
 static const char BUSY[] =
     "kiln: 1\n"
     "output: {size: [48, 32], frames: 120, fps: 30}\n"
@@ -222,8 +230,8 @@ static const char BUSY[] =
     "           forces: [gravity: {}], collide: {},\n"
     "           look: {shape: line, stretch: 0.01, blend: add, size: 1 cm, intensity: 4}}\n";
 
-/* Renders BUSY from frame `first` on with a technique of stage `simulate`. Returns the picture of
- * frame FRAME, which the caller destroys. */
+/* Renders the frames `first` to FRAME of BUSY with a technique of stage `simulate`. Returns the
+ * picture of frame FRAME, which the caller destroys. */
 static struct kiln_asset_image *draw_busy(struct kiln_device *device, const char *technique,
                                           uint32_t first)
 {
@@ -254,8 +262,8 @@ static struct kiln_asset_image *draw_busy(struct kiln_device *device, const char
     return image;
 }
 
-/* A frame has the same bytes with every technique that computes particles within a step, and from
- * whichever frame the clip is drawn. */
+/* A frame with moments within steps has the same bytes with every simulation technique that
+ * supports them, and whichever frame the clip is rendered from. */
 static void techniques_and_chunks_draw_the_same(void **state)
 {
     struct kiln_asset_image *images[] = {draw_busy(*state, "simulate=cpu", FRAME),
@@ -269,8 +277,9 @@ static void techniques_and_chunks_draw_the_same(void **state)
         kiln_asset_image_destroy(&images[i]);
 }
 
-/* Four moments within one step of 1/60 s show about what four steps of 1/240 s show, since the
- * particles fly straight. Not exactly, since births are rounded to 64ths of a step. */
+/* Moments within a step equal moments at the ends of shorter steps: four moments in one step of
+ * 1/60 s show what four steps of 1/240 s show, since the particles fly straight. The pictures
+ * differ by at most 0.1 %, since births are rounded to 1/64 of a step. */
 static void moments_need_no_steps_of_their_own(void **state)
 {
     static const char *const RATES[] = {"240", "60"};

@@ -1,6 +1,6 @@
-/* Checks that sorts on the device order pairs as qsort does, and that each technique of stage
- * `sort` lists the same particles in the same order as `cpu`. If this fails, particles are lost or
- * blended in a wrong order, and pictures depend on the technique. */
+/* Checks that the sorts on the device order pairs of key and index as qsort does, and that every
+ * technique of stage `sort` lists the same particles in the same order as `cpu`. If this fails,
+ * particles are lost or blended in a wrong order, and pictures depend on the technique. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ static struct scene_fixture fixture; /* too large for a stack */
  * order. */
 struct list {
     struct kiln_buffer pairs, entries, sorted;
-    kiln_sort_pair *expected; /* (key, place), in order */
+    kiln_sort_pair *expected; /* pairs (key, index), sorted by qsort */
 };
 
 enum { MOST = 1 << 18 };
@@ -37,7 +37,8 @@ static uint32_t entry_of(uint32_t place)
     return place * 7u + 1u;
 }
 
-/* Fills a list with keys of a pattern. A pair holds its place in the list, or else its entry. */
+/* Fills a list with keys of a pattern. places: a pair holds the index of its entry; otherwise the
+ * entry. */
 static void fill(struct list *list, enum pattern pattern, uint32_t count, bool places)
 {
     struct kiln_error error = {0};
@@ -85,17 +86,18 @@ static void list_finish(struct list *list)
     free(list->expected);
 }
 
-/* Lengths of lists: around the sizes of work groups and blocks, and long ones. */
+/* Lengths of lists: near the sizes of work groups and of blocks, and long lists. */
 static const uint32_t COUNTS[] = {0, 1, 2, 3, 255, 256, 257, 2047, 2048, 2049, 65536, 100003, MOST};
 enum { COUNT_COUNT = sizeof COUNTS / sizeof *COUNTS };
 
-/* Returns whether a length is tested with a pattern; long lists take few patterns. */
+/* Returns whether a length is tested with a pattern: long lists, which take long, have few
+ * patterns. */
 static bool is_worth_it(uint32_t count, int pattern)
 {
     return count < 100000 || pattern == RANDOM || (count < MOST && pattern == FEW);
 }
 
-/* Tests the radix sort with the sizes that it has on software GL, or with those for GPUs. */
+/* Tests the radix sort with the block sizes for software GL (`software`) or for GPUs. */
 static void expect_radix_sorts(struct kiln_device *device, bool software)
 {
     struct kiln_error error = {0};
@@ -179,11 +181,11 @@ static void fill_large(struct list *list, uint32_t count)
         pairs[2 * i] = large_key(i);
         pairs[2 * i + 1] = i;
         entries[i] = i;
-        sorted[i] = UINT32_MAX; /* removes the result of the technique before */
+        sorted[i] = UINT32_MAX; /* removes the result of an earlier sort */
     }
 }
 
-/* Checks that keys ascend, and that places do among equal keys: then no place occurs twice. */
+/* Checks that the keys ascend, and among equal keys the indices, so no index occurs twice. */
 static void expect_large(struct kiln_buffer *list, uint32_t count)
 {
     struct kiln_error error = {0};
@@ -196,7 +198,8 @@ static void expect_large(struct kiln_buffer *list, uint32_t count)
     }
 }
 
-/* The list is as long as it may be: a draw entry has 24 bits for the slot (KILN_ENTRY). */
+/* The radix sort orders the longest list, since a draw entry has 24 bits for a slot
+ * (KILN_ENTRY). */
 static void the_most_particles_are_sorted(void **state)
 {
     const uint32_t count = 1u << 24;
@@ -213,7 +216,8 @@ static void the_most_particles_are_sorted(void **state)
     kiln_radix_destroy(&radix);
 }
 
-/* An axis of a dispatch takes at most 65535 work groups; a list has more if they are small. */
+/* A dispatch has at most 65535 work groups along an axis; sorts of longer lists use a second
+ * axis. */
 static void networks_take_more_groups_than_an_axis(void **state)
 {
     enum { GROUP = 4 };
@@ -260,7 +264,7 @@ static const char *const NAMES[] = {
 };
 enum { TECHNIQUES = sizeof NAMES / sizeof *NAMES };
 
-/* All techniques, which sort the same pool into a list each. */
+/* Sorts of every technique, and the list that each makes of the same pool. */
 struct contest {
     struct kiln_sort *sorts[TECHNIQUES];
     struct kiln_buffer entries[TECHNIQUES];
@@ -289,7 +293,7 @@ static void contest_finish(struct contest *contest)
     kiln_threads_destroy(&contest->threads);
 }
 
-/* Checks that all techniques list the same entries. Returns how many there are. */
+/* Checks that all techniques list the same entries in the same order. Returns their number. */
 static uint32_t expect_same_lists(struct contest *contest, struct kiln_pool *pool,
                                   const struct kiln_sort_params *params)
 {
@@ -311,8 +315,9 @@ static uint32_t expect_same_lists(struct contest *contest, struct kiln_pool *poo
     return counts[0];
 }
 
-/* Fills a pool with systems whose slots are around the sizes of blocks or far more. Most systems
- * have used all their slots several times. The particles have only 64 different depths. */
+/* Fills a pool with systems that have no slots, few slots, near a block's size, or far more. Most
+ * have reused their slots several times. Particles have only 64 depths, so many depths are
+ * equal. */
 static void fill_pool(struct kiln_pool *pool, struct kiln_device *device)
 {
     static const uint32_t capacities[] = {1, 0, 2048, 20000, 2047, 7, 5000};
@@ -354,8 +359,8 @@ static void all_techniques_list_alike(void **state)
     kiln_pool_finish(&pool);
 }
 
-/* The size of work groups changes no list. 96 is no power of two, groups of 1024 would need more
- * shared memory than every device has, and 2^20 is beyond the limit of every device. */
+/* Techniques list alike for any size of work groups: 96 is no power of two, groups of 1024 need
+ * more shared memory than some devices have, and 2^20 is beyond the limit of every device. */
 static void work_groups_of_any_size_sort_alike(void **state)
 {
     struct kiln_device *device = *state;
@@ -375,7 +380,8 @@ static void work_groups_of_any_size_sort_alike(void **state)
     kiln_pool_finish(&pool);
 }
 
-/* Views are oblique to all axes, so that each rounding of the depth counts. */
+/* All techniques list a simulated scene alike. The view is oblique to all axes, so rounding of the
+ * depth counts. */
 static void all_techniques_sort_a_scene_alike(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 120);

@@ -1,7 +1,8 @@
-/* Checks rendering from saved states (kiln_bake). States that one technique baked serve all
- * techniques, and give the pictures of a run from the start, also after a change of the look. A
- * spread sort continues in the order that was saved. If this fails, a clip that is rendered from
- * states differs from one that is not. */
+/* Checks rendering from saved simulation states, which kiln_bake writes. States that one technique
+ * saved must serve all techniques, and give the pictures of a simulation from the start, even with
+ * another look (colours, camera, exposure). A sort that is spread over frames must continue with
+ * the saved order. If this fails, a clip that starts from a state differs from one that does
+ * not. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +30,7 @@ static const char SCENE[] =
     "    emit: {parent: {system: fire, on: {death: {count: 2}}}, life: 0.3 s, speed: 1 m/s}\n"
     "    look: {shape: point, size: 0.1 m}\n";
 
-/* The pictures of a job, and the number of warnings in its log. */
+/* The pictures of a job, RGBA with 8 bits a channel, and the number of its warnings. */
 struct pictures {
     uint8_t bytes[FRAMES][PICTURE_BYTES];
     uint32_t count;
@@ -90,8 +91,8 @@ static struct kiln_bake_stats bake(struct kiln_device *device, const struct kiln
     return stats;
 }
 
-/* Checks that a job that starts from saved states has the pictures and the last state of one that
- * starts at the beginning, and takes only `steps` steps. */
+/* Checks that a job that starts from the saved states has the same pictures and final state as a
+ * job that starts at time 0, and simulates only `steps` steps. */
 static void compare(struct kiln_device *device, const struct kiln_scene *scene,
                     const char *technique, uint64_t steps)
 {
@@ -111,6 +112,7 @@ static void compare(struct kiln_device *device, const struct kiln_scene *scene,
     free(part);
 }
 
+/* States that `cpu` saved serve jobs of every technique. */
 static void states_serve_every_technique(void **state)
 {
     (void)state;
@@ -118,7 +120,8 @@ static void states_serve_every_technique(void **state)
                                              "simulate=pingpong", "simulate=feedback",
                                              "simulate=texels",   "raster=instanced"};
     struct kiln_scene *scene = load_scene(SCENE, NULL);
-    /* The warm-up takes 12 steps, and a frame 2. States are saved for frames 0, 9, 18 and 27. */
+    /* The warm-up takes 12 steps, and each frame 2 steps. States are saved for frames 0, 9, 18,
+     * 27. */
     const struct kiln_bake_stats baked = bake(test_device(), scene, "simulate=cpu", 9);
     assert_int_equal(baked.states, 4);
     assert_int_equal(baked.steps, 12 + 27 * 2);
@@ -127,6 +130,7 @@ static void states_serve_every_technique(void **state)
     kiln_scene_destroy(&scene);
 }
 
+/* States serve a scene with another colour, camera or exposure. */
 static void states_serve_other_looks(void **state)
 {
     (void)state;
@@ -139,6 +143,7 @@ static void states_serve_other_looks(void **state)
     kiln_scene_destroy(&other);
 }
 
+/* A spread sort continues with the order that a state has; other sorts ignore the order. */
 static void spread_sorts_continue_from_states(void **state)
 {
     (void)state;
@@ -146,8 +151,8 @@ static void spread_sorts_continue_from_states(void **state)
     bake(test_device(), scene, "sort=oddeven:5", 9);
     compare(test_device(), scene, "sort=oddeven:5", (FIRST + FRAMES - 1 - 18) * 2);
     compare(test_device(), scene, "sort=cpu", (FIRST + FRAMES - 1 - 18) * 2);
-    /* A sort that is spread over six frames can not continue in the order of one over five: the job
-     * starts at the beginning, and warns. */
+    /* A sort that is spread over six frames cannot continue with the order of a sort over five
+     * frames. So the job starts at time 0, and warns. */
     struct pictures *pictures = malloc(sizeof *pictures);
     assert_non_null(pictures);
     const struct kiln_render_stats stats =

@@ -1,9 +1,10 @@
-/* Compares kiln's volumes of planes (lib/sim/world/voxels.h) with volumes that are rendered as in
- * Drone 2007, 7.5.2.1: triangles are drawn once for each slice of a volume, a geometry shader clips
- * them to the slice, and the depth test keeps the nearest. The rasteriser asks only whether a
- * triangle covers the middle of a pixel, so it leaves out cells. The test prints and limits how
- * many cells these are, and how often another triangle is kept, for docs/volumes.md. If it fails,
- * kiln's volumes lack planes or keep wrong triangles. kiln itself never renders volumes. */
+/* Compares kiln's volumes (lib/sim/world/voxels.h), lattices of cells in which each cell that a
+ * mesh touches keeps a triangle's plane, with volumes rendered by GL as in Drone 2007, 7.5.2.1:
+ * each slice of the volume is rasterised, a geometry shader clips the triangles to the slice, and
+ * the depth test keeps the nearest. GL misses cells, since it asks only whether a triangle covers a
+ * pixel's centre. The test prints how many cells GL misses and how often it keeps another triangle
+ * (for docs/volumes.md), and limits both. If it fails, kiln's volumes lack planes or keep wrong
+ * ones. kiln itself never renders volumes by GL. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -19,7 +20,7 @@ enum { RINGS = 24, AROUND = 48, VERTICES = (RINGS + 1) * AROUND, TRIANGLES = 2 *
 static struct {
     float vertices[VERTICES][3];
     uint32_t triangles[TRIANGLES][3];
-} ball; /* radius 1 m; its poles consist of triangles without an area */
+} ball; /* a sphere of radius 1 m; half of the triangles at its poles have no area */
 
 static void make_ball(void)
 {
@@ -45,7 +46,7 @@ static const char VERTEX[] = "#version 450\n"
                              "flat out int slice;\n"
                              "void main() { place = cells; slice = gl_InstanceID; }\n";
 
-/* The view is along -z, so that nearer places have a greater z. */
+/* The view is along -z, so the place with the greatest z is the nearest. */
 static const char GEOMETRY[] = "#version 450\n"
                                "layout(triangles) in;\n"
                                "layout(triangle_strip, max_vertices = 3) out;\n"
@@ -113,8 +114,8 @@ static GLuint make_slices(const struct kiln_voxels *v, GLenum format, GLenum att
     return texture;
 }
 
-/* Makes buffers of the ball's vertices, in cells, and of its triangles, for the vertex array that
- * is bound. */
+/* Makes buffers of the ball's vertices, in units of cells, and of its triangles, and attaches them
+ * to the bound vertex array. */
 static void make_buffers(const struct kiln_voxels *v, GLuint buffers[2])
 {
     static float cells[VERTICES][3];
@@ -130,7 +131,8 @@ static void make_buffers(const struct kiln_voxels *v, GLuint buffers[2])
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof ball.triangles, ball.triangles, GL_STATIC_DRAW);
 }
 
-/* Renders the volume: writes 1 + the number of the triangle that each cell keeps, or 0 for none. */
+/* Renders the volume by GL. For each cell, writes 1 + the number of the triangle that it keeps, or
+ * 0 if it has none. */
 static void draw(const struct kiln_voxels *v, uint32_t *kept)
 {
     GLuint array, framebuffer, buffers[2];
@@ -173,7 +175,7 @@ static void draw(const struct kiln_voxels *v, uint32_t *kept)
     glDeleteProgram(program);
 }
 
-/* Builds the volume of the ball without GL. */
+/* Builds kiln's volume of the ball, without GL. spacing: the edge of a cell, m. */
 static void build(struct kiln_voxels *voxels, float spacing)
 {
     struct kiln_error error = {0};
@@ -192,9 +194,9 @@ static void build(struct kiln_voxels *voxels, float spacing)
     kiln_threads_destroy(&threads);
 }
 
-/* Each cell that the rasteriser marks has a plane in kiln's volume, mostly of the same triangle.
- * The rasteriser leaves out cells in which no triangle crosses the line through the cell's middle
- * along the view: about two thirds of a ball's cells, on its sides. */
+/* Each cell that GL fills has a plane in kiln's volume, too, in more than 9 of 10 cells that of the
+ * same triangle. GL leaves out cells in which no triangle crosses the line along the view through
+ * the cell's centre: about two thirds of a sphere's cells, at its sides. */
 static void the_rasteriser_leaves_out_cells(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Creates backdrops with the technique that a test has chosen, and draws them lit by lamps. */
+/* Creates the backdrop stage (floor, sky and solid objects) with the technique that a test has
+ * chosen, draws it in the light of lamps, and runs tests with every technique. */
 #include "support/backdrops.h"
 
 #include "draw/light/lamps.h"
@@ -7,7 +8,7 @@
 
 enum kiln_backdrop_technique backdrop_technique = KILN_BACKDROP_GL;
 
-/* Returns the threads that all backdrops share. The threads live until the program ends. */
+/* Returns the worker threads that all backdrops share. They live until the program ends. */
 static struct kiln_threads *backdrop_threads(void)
 {
     static struct kiln_threads *threads;

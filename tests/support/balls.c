@@ -1,4 +1,5 @@
-/* Makes a system of balls, places balls in it, and sums up their mass, momentum and energy. */
+/* Makes a system of balls for tests of interactions between particles, places balls in it, and sums
+ * up their mass, momentum and kinetic energy. */
 #include "support/balls.h"
 
 #include "support/cmocka.h"

@@ -1,5 +1,5 @@
-/* Includes cmocka.h after the four headers of the C library that it needs but does not include.
- * Here clang-format cannot sort them into another order. */
+/* Includes cmocka.h, the framework of kiln's C tests, after the four headers of the C library that
+ * it needs but does not include. clang-format is off here, since it would change their order. */
 #ifndef KILN_TESTS_CMOCKA_H
 #define KILN_TESTS_CMOCKA_H
 

@@ -1,5 +1,6 @@
-/* Makes lists of cmocka tests, and runs the part of a list that the command line and the
- * environment choose. */
+/* Makes lists of cmocka tests, and runs the part of a list that the command line chooses
+ * (NUMBER/COUNT), so that CTest can run slow groups as several processes at once. The environment
+ * variable KILN_TESTS decides whether the list has all cases or a sample. */
 #include "support/parts.h"
 
 #include <stdio.h>

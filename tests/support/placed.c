@@ -1,4 +1,5 @@
-/* Loads a scene and places particles in its pool, for tests of single stages of drawing. */
+/* Loads a scene and places particles in its pool by hand, so that tests of single drawing stages
+ * need no simulation. */
 #include "support/placed.h"
 
 #include "draw/moment/view.h"

@@ -1,4 +1,5 @@
-/* Makes atlas, targets, records and light for tests of `raster=cpu`, and draws with them. */
+/* Makes the input of the raster technique `cpu` (atlas, target images, particles and light), and
+ * draws with it, all on the host, so that tests of it need no GL. */
 #include "support/raster.h"
 
 #include <stdlib.h>

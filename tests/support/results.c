@@ -1,5 +1,5 @@
-/* Writes the results of a test run that never took place. The tests have every status, and names
- * and messages with characters that reports must escape. */
+/* Writes the result files of an invented `kiln test` run, for tests of reports. The run has a test
+ * of every status, and names and messages with characters that reports must escape. */
 #include "support/results.h"
 
 #include <math.h>
@@ -7,8 +7,8 @@
 
 #include "suite/suite.h"
 
-/* A test's name with characters that would end a string, a line, an element, a comment or a command
- * in one of the formats of reports if a report did not escape them. */
+/* A test's name with characters that would end a string, line, element, comment or command in a
+ * format of reports, if the report did not escape them. */
 #define TEST_NASTY_NAME "a&b<c>\"d'#e\\f%g:h,i]]>j{k}\x01\x1b[31m\nl\tm\r\xc3\xa9\xef\xbf\xbe"
 
 enum { TEST_RESULT_COUNT = 9, TEST_COLUMN_COUNT = 3 };
@@ -21,7 +21,7 @@ struct test_results {
     const char *notes[2];
 };
 
-/* Fills in result `index` with values that all tests share, and returns it. */
+/* Fills in result `index` with values that all tests of the run share, and returns it. */
 static struct kiln_result *test_result(struct test_results *all, size_t index, const char *name,
                                        enum kiln_test_status status, const char *message)
 {
@@ -48,8 +48,8 @@ static struct kiln_result *test_result(struct test_results *all, size_t index, c
     return result;
 }
 
-/* Adds a frame to a result and returns it. flip: the mean FLIP error, from which the other metrics
- * follow; below 0, the frame was not measured. */
+/* Adds a frame to a result and returns it. flip: the mean FLIP error, from which the frame's other
+ * metrics are computed; a negative number means that the frame was not measured. */
 static struct kiln_result_frame *test_frame(struct kiln_result *result, uint32_t number,
                                             enum kiln_test_status status,
                                             enum kiln_judged_by judged_by, double flip)
@@ -75,6 +75,7 @@ static struct kiln_result_frame *test_frame(struct kiln_result *result, uint32_t
     return frame;
 }
 
+/* Fills in results 0 to 2: tests that pass, warn and are skipped. */
 static void test_fill_good(struct test_results *all)
 {
     struct kiln_result *result = test_result(all, 0, "effects/fire", KILN_TEST_PASS, "");
@@ -92,6 +93,7 @@ static void test_fill_good(struct test_results *all)
     test_result(all, 2, "only@nvidia", KILN_TEST_SKIP, "there is no device 'nvidia' # here");
 }
 
+/* Fills in results 3 to 8: failures, a new test, errors and a changed renderer. */
 static void test_fill_bad(struct test_results *all)
 {
     struct kiln_result *result =

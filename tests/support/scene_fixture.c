@@ -1,4 +1,5 @@
-/* Builds scenes in memory: values, key frames, systems, forces, colliders, and larger scenes. */
+/* Builds scenes in memory, without a scene file or parser, for tests of single stages: adds values,
+ * key frames, systems, forces, interactions and colliders, and makes larger scenes of them. */
 #include "support/scene_fixture.h"
 
 #include <string.h>
@@ -38,7 +39,7 @@ struct kiln_value fixture_keys(struct scene_fixture *f, uint32_t clock, uint32_t
         if (i + 1 < count)
             slope = (points[i + 1][1] - points[i][1]) / (points[i + 1][0] - points[i][0]);
         float area =
-            points[0][0] * points[0][1]; /* the integral of the value from 0 to the first key */
+            points[0][0] * points[0][1]; /* integral of the value from 0 to the first key */
         for (uint32_t k = 1; k <= i; k++)
             area += (points[k][0] - points[k - 1][0]) * 0.5f * (points[k][1] + points[k - 1][1]);
         f->keys[f->scene.key_count++] = FLOAT4(points[i][0], points[i][1], slope, area);
@@ -502,7 +503,7 @@ uint32_t fixture_force_kinds(enum kiln_force_kind kinds[FIXTURE_MAX_FORCE_KINDS]
         for (uint32_t i = 0; i < count; i++)
             known = known || (int)kinds[i] == row->value;
         if (known)
-            continue; /* this row is another name of a kind in the list */
+            continue; /* the row is a second name of a kind in the list */
         assert_true(count < FIXTURE_MAX_FORCE_KINDS);
         kinds[count++] = (enum kiln_force_kind)row->value;
     }

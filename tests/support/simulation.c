@@ -1,4 +1,5 @@
-/* Runs the simulation of a scene step by step, and hashes its states. */
+/* Runs the simulation of a scene step by step, without drawing, hashes its states, and gives tests
+ * the particles. */
 #include "support/simulation.h"
 
 #include <stdio.h>

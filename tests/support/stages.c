@@ -1,4 +1,5 @@
-/* Creates and destroys the stages that draw a frame, and their timer, for tests. */
+/* Creates and destroys the stages that draw a frame, and their timer, for tests that run stages one
+ * by one. */
 #include "support/stages.h"
 
 #include "support/cmocka.h"

@@ -1,4 +1,5 @@
-/* Adds a collider of a chosen kind, with its top at the origin, to the scene of thrown.h. */
+/* Adds a collider of each kind to the scene of thrown.h, always with its top at the origin, so that
+ * tests can throw the same particles at each kind. */
 #include "support/surfaces.h"
 
 #include <stdio.h>
@@ -48,8 +49,8 @@ static struct kiln_object *add_cylinder_side(void)
     return cylinder;
 }
 
-/* Adds a cylinder with an animated axis, which kiln treats as an object that turns. The axis only
- * grows longer, so the cylinder keeps its pose. */
+/* Adds a cylinder with an animated axis, so kiln treats it as an object that may turn. Only the
+ * axis's length changes, so the cylinder rests. */
 static struct kiln_object *add_turning_cylinder(void)
 {
     struct kiln_object *cylinder = add_cylinder_side();
@@ -64,7 +65,7 @@ static struct kiln_object *add_lying_capsule(void)
     return capsule;
 }
 
-/* Adds level terrain, whose heights are those of a picture of one black pixel. */
+/* Adds flat terrain: its heights come from a picture of one black pixel. */
 static struct kiln_object *add_flat_terrain(void)
 {
     static const uint8_t pixel[58] = {
@@ -78,14 +79,14 @@ static struct kiln_object *add_flat_terrain(void)
     return terrain;
 }
 
-/* Adds a mesh of a box, which collides by its distance field. */
+/* Adds a mesh of a box, which particles hit by its signed distance field. */
 static struct kiln_object *add_slab(void)
 {
     body_write_box("slab.obj", 40, 2, 40);
     return fixture_add_mesh(&fixture, "slab.obj", 0, -1, 0);
 }
 
-/* Adds the same mesh, which collides by depth maps. */
+/* Adds a mesh of a box, which particles hit by its depth maps. */
 static struct kiln_object *add_mapped_slab(void)
 {
     struct kiln_object *slab = add_slab();

@@ -1,5 +1,6 @@
-/* Draws particles in double precision: blends them in the order of their entries, or sorts the
- * fragments of each pixel by depth and blends them then. */
+/* Draws particles in double precision, as the reference for the techniques of stage `raster`. It
+ * blends particles in the order of their entries, or collects the fragments of each pixel, sorts
+ * them by depth and then blends them. */
 #include "support/true_billboards.h"
 
 #include <math.h>
@@ -8,8 +9,9 @@
 
 #include "support/cmocka.h"
 
-/* A fragment of some pixel. One list holds the fragments of all pixels and is sorted before it is
- * blended. order: the drawing order, which decides between fragments of equal depth. */
+/* One particle's contribution to a pixel: view depth, m; premultiplied colour; bloom weights.
+ * order: the drawing order, which decides between fragments of equal depth. One list holds the
+ * fragments of all pixels. */
 struct true_fragment {
     double depth, rgba[4], glow[3];
     uint64_t order;
@@ -39,8 +41,8 @@ void true_picture_finish(struct true_picture *picture)
     free(picture->glow);
 }
 
-/* Blends premultiplied rgba over a pixel of the picture, and rgba times the bloom weights over its
- * glow. With `sum` set, adds to both instead. */
+/* Blends premultiplied rgba over a pixel of the picture, and rgba times the bloom weights over the
+ * pixel's glow. sum: uses additive blending instead, also for alpha. */
 static void true_blend(struct true_picture *picture, size_t pixel, const double rgba[4],
                        const double weights[3], bool sum)
 {
@@ -63,9 +65,9 @@ static void true_keep(struct true_fragments *list, const struct true_fragment *f
     list->all[list->count++] = *fragment;
 }
 
-/* Adds a fragment to the list. A fragment of a round billboard becomes two sheets of half its
- * density, one in front of the billboard's plane and one behind it (shared/fragment_layout.h).
- * number: place of the sprite in the drawing order. */
+/* Adds a sprite's fragment at a pixel to the list. The fragment of a round billboard becomes two
+ * sheets, each of half its density, one in front of the billboard's plane and one behind it
+ * (shared/fragment_layout.h). number: the sprite's index in the drawing order. */
 static void true_split(struct true_fragments *list, const struct true_sprite *s,
                        const struct true_place *at, const double rgba[4], size_t pixel,
                        size_t number)
@@ -89,7 +91,8 @@ static void true_split(struct true_fragments *list, const struct true_sprite *s,
     true_keep(list, &f);
 }
 
-/* Compares fragments for qsort: by pixel, then the farthest first, then by drawing order. */
+/* Compares two fragments for qsort: by pixel, then by depth from far to near, then by drawing
+ * order. */
 static int true_compare(const void *a, const void *b)
 {
     const struct true_fragment *one = a, *other = b;
@@ -100,7 +103,7 @@ static int true_compare(const void *a, const void *b)
     return one->order < other->order ? -1 : 1;
 }
 
-/* The input and the results of a pass over all entries. depth: of the scene, m, for each pixel. */
+/* What drawing all entries reads and writes. depth: the scene's view depth, m, at each pixel. */
 struct true_pass {
     const struct true_scene *scene;
     const struct kiln_particles_draw *draw;

@@ -1,4 +1,6 @@
-/* Transforms points in double precision, and reads the table of the systems' looks. */
+/* Transforms points and directions from the world to the camera in double precision, and
+ * interpolates the table of particles' looks over life, for the reference rasteriser
+ * (true_sprite.h). */
 #include "support/true_vector.h"
 
 #include "shared/look_layout.h"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Checks that tools/check passes a small correct tree and names each fault that is planted in it:
-# check.sh SOURCE CC. If this fails, a fault is found only when all tests run, after a commit.
+# Checks that tools/check, which developers run before a commit, passes a small correct source tree
+# and names each fault that is planted in it: check.sh SOURCE CC. If this fails, a fault is found
+# only after the commit, when all tests run.
 set -euo pipefail
 source=$1 compiler=$2
 tree=$(mktemp -d)
@@ -21,7 +22,7 @@ git init -q
 git add -A
 git -c user.name=kiln -c user.email=kiln@localhost commit -qm "a tree that is well"
 
-# said NAME STATUS TEXT [ARGUMENT...]: runs tools/check with the arguments, requires that it exits
+# said NAME STATUS TEXT [ARGUMENT...]: runs tools/check with the arguments, fails unless it exits
 # with STATUS and prints TEXT, and then restores the tree.
 said() {
     local name=$1 expected=$2 text=$3 printed status=0

@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# Checks that includes.sh, symbols.sh, uniforms.sh, texts.sh and rows.sh find faults, and that rows of option
-# tables with faults do not compile: planted.sh CC. If this fails, a tree passes that breaks the
-# rules. In a small tree, each rule is broken once, and the script or the compiler must say so.
+# Checks that the scripts for the rules of the source tree (includes.sh, symbols.sh, uniforms.sh,
+# texts.sh, rows.sh) find faults, and that option tables with faulty rows do not compile: planted.sh
+# CC. If this fails, a source tree that breaks the rules passes the tests. The script breaks each
+# rule once in a small tree, and the rule's script or the compiler must report it.
 set -euo pipefail
 compiler=$1
 scripts=$(dirname "$(realpath "$0")")
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 
-# plant: makes a small tree that breaks no rule.
+# plant: makes a small source tree that breaks no rule, and enters it.
 plant() {
     rm -rf "${tree:?}"/*
     mkdir -p "$tree"/{cmd,decode,tests/unit,lib/{base,draw/{moment,light},sort},shaders/{shared,draw/light}}
@@ -90,7 +91,8 @@ rows >/dev/null
 plant && printf '\n{.name = "size", .type = &kiln_type_pair, .offset = AT(size)},\n' >lib/sort/keys.h
 refused "a row with an offset" 'lib/sort/keys.h:2:{.name = "size", .type = &kiln_type_pair, .offset' rows
 
-# row CC ROW: compiles a table with this row, in the source tree's lib/.
+# row CC ROW: compiles an option table with this row, by the compiler CC and the headers of the
+# source tree's lib/.
 source=$(realpath "$scripts/../..")
 row() {
     "$1" -std=c17 -Wall -Wextra -Wconversion -pedantic -Werror -fsyntax-only -I "$source/lib" -I "$source/shaders" \
@@ -131,7 +133,8 @@ const void *tables(int i)
 C
 }
 
-# fits ROW: the compilers take it. unfit ROW MESSAGE: they refuse it with the message.
+# fits ROW: checks that all compilers accept the row. unfit ROW MESSAGE: checks that they refuse it
+# with the message.
 compilers=("$compiler")
 if command -v clang >/dev/null; then compilers+=(clang); fi
 fits() { for cc in "${compilers[@]}"; do row "$cc" "$1"; done; }
@@ -186,8 +189,9 @@ refused "two PRI macros" 'lib/sort/keys.h:1: two PRI macros in sequence' texts
 plant && printf '    "%%" PRIu64\n\n    PRIx32, a);\n' >tests/unit/test_thing.c
 refused "two PRI macros on two lines" 'tests/unit/test_thing.c:3: two PRI macros in sequence' texts
 
-# symbols.sh is given objects in which lib/base calls a function that lib/sort defines. includes.sh
-# would not find that when the function is declared in kiln.h, which every room may include.
+# symbols.sh gets objects in which lib/base calls a function that lib/sort, a room (folder of lib/)
+# above it, defines. includes.sh would miss this if kiln.h, which every room may include, declared
+# the function.
 objects=$tree/build/CMakeFiles/kiln_objects.dir/lib
 compile() { "$compiler" -x c -c -o "$objects/$1.c.o" - <<<"$2"; }
 mkdir -p "$objects"/{base,sort}

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Checks which packages tools/setup installs, and what it says when it cannot: setup.sh SOURCE. If
-# this fails, a newcomer's first command fails or installs the wrong packages. Stubs stand in for
-# apt-get, dpkg-query, sudo, npm and node: apt-get and npm only print their arguments, dpkg-query
-# says that all packages but $ABSENT are installed, and sudo fails.
+# Checks which packages tools/setup installs, and what it prints when it cannot install them:
+# setup.sh SOURCE. If this fails, a newcomer's first command fails or installs the wrong packages.
+# Stubs replace the system's programs: apt-get and npm only print their arguments, dpkg-query says
+# that all packages but $ABSENT are installed, sudo fails, and node does nothing.
 set -euo pipefail
 machine=$(mktemp -d)
 trap 'rm -rf "$machine"' EXIT
@@ -18,8 +18,8 @@ stub sudo 'exit 1'
 stub npm 'echo "npm $*"'
 stub node 'true'
 
-# run NAME EXPECTED_STATUS COMMAND...: runs a command with the stubs and checks its exit status. Its
-# output is left in $said.
+# run NAME EXPECTED_STATUS COMMAND...: runs a command with the stubs, checks its exit status, and
+# leaves its output in $said.
 run() {
     local name=$1 expected=$2 status=0
     shift 2
@@ -29,7 +29,7 @@ run() {
         exit 1
     fi
 }
-# expect PATTERN: checks the output that the last `run` left in $said.
+# expect PATTERN: checks that the output which `run` left in $said matches the pattern.
 expect() {
     if [[ $said != $1 ]]; then
         printf 'said:     %s\nexpected: %s\n' "$said" "$1"
@@ -66,7 +66,7 @@ expect "Packages are missing*apt-get install -y libcmocka-dev"
 run "a wrong word after a right one" 2 "$machine/tools/setup" demo everything
 expect "usage: *"
 
-# Without an optional package, tools/setup goes on and says what will not work.
+# If an optional package is missing, tools/setup succeeds and says what will not work.
 export ABSENT=gnuplot-nox
 run "an optional one is missing, without root" 0 "${unprivileged[@]}" "$machine/tools/setup" test
 expect "gnuplot-nox is not there and not needed: *"

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Checks that the program is linked with at most 10 shared libraries, counting those that its
-# libraries need: start.sh PROGRAM. If this fails, every start of kiln becomes slower. A library
-# that only some runs need is opened by these runs (lib/base/library.h).
+# Checks that kiln is linked with at most 10 shared libraries, including those that its libraries
+# need: start.sh PROGRAM. If this fails, every start of kiln becomes slower. Libraries that only
+# some runs need are not linked but loaded by these runs (lib/base/library.h).
 set -euo pipefail
 program=$1
 most=10

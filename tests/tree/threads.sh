@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Runs the tests of threads under the thread sanitizer, in a build folder of their own: threads.sh
-# SOURCE BUILD CC. If this fails, two threads use the same memory without synchronisation.
+# Builds kiln's tests of threads with the thread sanitizer, in a build folder of their own, and runs
+# them: threads.sh SOURCE BUILD CC. If this fails, two threads use the same memory without
+# synchronisation.
 set -euo pipefail
 source=$1 build=$2 cc=$3
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
