@@ -108,8 +108,9 @@ static void check_plane(const struct drawing *d, const struct billboard *b)
 }
 
 /* Checks the billboards of a facing for eight serials, some of which are mirrored. angle: the
- * rotation, rad; stretch: the duration, s, by whose way the billboard is lengthened; all_shapes:
- * makes the technique take its program for all shapes. */
+ * rotation, rad; stretch: the value of look.stretch, s, by which the speed in the billboard's plane
+ * is multiplied to lengthen the billboard; all_shapes: makes the technique take its program for all
+ * shapes. */
 static void check_facing(struct kiln_device *device, enum kiln_facing facing, double angle,
                          double stretch, bool all_shapes)
 {

@@ -276,8 +276,9 @@ static struct kiln_job *make_job(struct kiln_device *device, const struct kiln_s
     return job;
 }
 
-/* Jobs with different simulation techniques, each of which starts from a copy of another job's
- * particles, have in every frame the state of a job that runs from the start. */
+/* Jobs with different simulation techniques, which start from copies of each other's particles,
+ * have the same state in every frame. Their last state is that of a job that runs from the
+ * start. */
 static void jobs_go_on_from_each_other(void **state)
 {
     static const char *const flags[] = {"simulate=cpu", "simulate=inplace", "simulate=pingpong",

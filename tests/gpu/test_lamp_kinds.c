@@ -153,7 +153,7 @@ static void a_rectangle_lights_as_lambert_says(void **state)
                 (struct vec){{0.5 / sqrt(3), 0.5 / sqrt(3), 0.5 / sqrt(3)}}));
 }
 
-/* A box casts the shadow of a rectangle with the right penumbra. */
+/* In the light of a rectangle, a box casts the right shadow, with the right penumbra. */
 static void a_box_hides_a_rectangle(void **state)
 {
     struct expected e = panel((struct vec){{0.3, 2.2, 0}}, (struct vec){{0, -1, 0}},

@@ -1,6 +1,6 @@
-/* Checks that the sorts on the device order pairs of key and index as qsort does, and that every
- * technique of stage `sort` lists the same particles in the same order as `cpu`. If this fails,
- * particles are lost or blended in a wrong order, and pictures depend on the technique. */
+/* Checks that the sorts on the device order pairs of key and index as qsort does, and that all
+ * techniques of stage `sort` list the same particles in the same order. If this fails, particles
+ * are lost or blended in a wrong order, and pictures depend on the technique. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -37,8 +37,7 @@ static uint32_t entry_of(uint32_t place)
     return place * 7u + 1u;
 }
 
-/* Fills a list with keys of a pattern. places: a pair holds the index of its entry; otherwise the
- * entry. */
+/* Fills a list with keys of a pattern. places: a pair holds its entry's index, not the entry. */
 static void fill(struct list *list, enum pattern pattern, uint32_t count, bool places)
 {
     struct kiln_error error = {0};
@@ -90,8 +89,7 @@ static void list_finish(struct list *list)
 static const uint32_t COUNTS[] = {0, 1, 2, 3, 255, 256, 257, 2047, 2048, 2049, 65536, 100003, MOST};
 enum { COUNT_COUNT = sizeof COUNTS / sizeof *COUNTS };
 
-/* Returns whether a length is tested with a pattern: long lists, which take long, have few
- * patterns. */
+/* Returns whether a length is tested with a pattern: long lists have few patterns. */
 static bool is_worth_it(uint32_t count, int pattern)
 {
     return count < 100000 || pattern == RANDOM || (count < MOST && pattern == FEW);
@@ -185,7 +183,7 @@ static void fill_large(struct list *list, uint32_t count)
     }
 }
 
-/* Checks that the keys ascend, and among equal keys the indices, so no index occurs twice. */
+/* Checks that keys ascend, and indices among equal keys, so that no index occurs twice. */
 static void expect_large(struct kiln_buffer *list, uint32_t count)
 {
     struct kiln_error error = {0};
@@ -198,8 +196,7 @@ static void expect_large(struct kiln_buffer *list, uint32_t count)
     }
 }
 
-/* The radix sort orders the longest list, since a draw entry has 24 bits for a slot
- * (KILN_ENTRY). */
+/* The radix sort orders the longest list: a draw entry has 24 bits for a slot (KILN_ENTRY). */
 static void the_most_particles_are_sorted(void **state)
 {
     const uint32_t count = 1u << 24;
@@ -216,8 +213,7 @@ static void the_most_particles_are_sorted(void **state)
     kiln_radix_destroy(&radix);
 }
 
-/* A dispatch has at most 65535 work groups along an axis; sorts of longer lists use a second
- * axis. */
+/* An axis of a dispatch has at most 65535 work groups; longer lists are sorted along two axes. */
 static void networks_take_more_groups_than_an_axis(void **state)
 {
     enum { GROUP = 4 };
@@ -315,9 +311,8 @@ static uint32_t expect_same_lists(struct contest *contest, struct kiln_pool *poo
     return counts[0];
 }
 
-/* Fills a pool with systems that have no slots, few slots, near a block's size, or far more. Most
- * have reused their slots several times. Particles have only 64 depths, so many depths are
- * equal. */
+/* Fills a pool with systems that have no or few slots, about as many as a block, or far more. Most
+ * have reused their slots several times. Many of the particles have equal depths. */
 static void fill_pool(struct kiln_pool *pool, struct kiln_device *device)
 {
     static const uint32_t capacities[] = {1, 0, 2048, 20000, 2047, 7, 5000};
@@ -359,8 +354,7 @@ static void all_techniques_list_alike(void **state)
     kiln_pool_finish(&pool);
 }
 
-/* Techniques list alike for any size of work groups: 96 is no power of two, groups of 1024 need
- * more shared memory than some devices have, and 2^20 is beyond the limit of every device. */
+/* Lists are the same for any size of work groups, even one that is no power of two or too large. */
 static void work_groups_of_any_size_sort_alike(void **state)
 {
     struct kiln_device *device = *state;
@@ -380,8 +374,7 @@ static void work_groups_of_any_size_sort_alike(void **state)
     kiln_pool_finish(&pool);
 }
 
-/* All techniques list a simulated scene alike. The view is oblique to all axes, so rounding of the
- * depth counts. */
+/* All techniques list a simulated scene alike. In oblique views each rounding of depth counts. */
 static void all_techniques_sort_a_scene_alike(void **state)
 {
     fixture_zoo(&fixture, KILN_INTEGRATE_SEMI_IMPLICIT, 120);

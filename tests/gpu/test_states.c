@@ -130,7 +130,7 @@ static void states_serve_every_technique(void **state)
     kiln_scene_destroy(&scene);
 }
 
-/* States serve a scene with another colour, camera or exposure. */
+/* States serve a scene that has another colour, camera and exposure than the saved scene. */
 static void states_serve_other_looks(void **state)
 {
     (void)state;
