@@ -122,7 +122,7 @@ static void check(void *device, const char *post)
     rmdir(folder);
 }
 
-/* A frame is the mean of its moments in every layer, also after bloom, for both ways to compose. */
+/* Every layer is the mean of its moments, for two kinds of bloom and two ways to compose. */
 static void a_frame_is_the_mean_of_its_moments(void **state)
 {
     check(*state, "bloom: {kind: gaussian}");

@@ -103,7 +103,7 @@ static int true_compare(const void *a, const void *b)
     return one->order < other->order ? -1 : 1;
 }
 
-/* What drawing all entries reads and writes. depth: the scene's view depth, m, at each pixel. */
+/* The input and output of drawing all entries. depth: the scene's view depth, m, at each pixel. */
 struct true_pass {
     const struct true_scene *scene;
     const struct kiln_particles_draw *draw;
