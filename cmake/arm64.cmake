@@ -1,6 +1,6 @@
-# Makes CMake cross-compile kiln for arm64: cmake -DCMAKE_TOOLCHAIN_FILE=cmake/arm64.cmake -DKILN_ROOT=ROOT.
-# ROOT is a folder with unpacked arm64 packages of the libraries that kiln needs; tools/arm64 makes one.
-# `qemu-aarch64-static -L ROOT PROGRAM` runs a program of such a build.
+# Toolchain file with which CMake cross-compiles kiln for arm64: cmake -DCMAKE_TOOLCHAIN_FILE=cmake/arm64.cmake
+# -DKILN_ROOT=ROOT. ROOT is the sysroot: a folder with unpacked arm64 packages of the libraries that kiln needs;
+# tools/arm64 makes one. `qemu-aarch64-static -L ROOT PROGRAM` runs a program of such a build.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

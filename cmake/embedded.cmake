@@ -1,7 +1,9 @@
-# Embeds text files into the library and the program, as C tables (lib/base/embedded.h).
+# Embeds shaders, scenes, templates of scenes and the HTML report's page into the library and the program, as C
+# tables (lib/base/embedded.h), so that kiln has them wherever it is installed.
 
-# kiln_embed(table root pattern...): writes a C source that defines `table`, which has the files below the folder
-# `root` whose names match a pattern. The caller's variable with the name of the table is set to the source's path.
+# kiln_embed(table root pattern...): generates a C source that defines the table `table` with the contents of all
+# files below the folder `root` whose names match a pattern. Sets the variable named `table` in the caller to the
+# path of the source.
 function(kiln_embed table root)
     list(TRANSFORM ARGN PREPEND ${root}/ OUTPUT_VARIABLE globs)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${root} ${globs})

@@ -1,4 +1,6 @@
-# Defines the functions that add tests to CTest, and the table of the tests' times, from which time limits follow.
+# Defines the functions that add tests to CTest, kiln_add_test and kiln_add_host_test, and the table of the tests'
+# durations, from which their time limits follow. A wrong time limit ends a sound test, or lets one that hangs go on
+# too long.
 
 set(KILN_TEST_TIMEOUT_SCALE 1 CACHE STRING
     "Factor on the time limits of tests, for machines that are slow or busy: 1, 2, 3...")
@@ -9,10 +11,11 @@ endif()
 
 option(KILN_ALL_TESTS "Add the tests that only tools/test --all runs, and check all cases of the others" OFF)
 
-# The tests that take more than a second, on two quiet cores with cold caches. Each row begins with a number of
-# seconds, and names the tests that take at most that long. The entry "NAME/PARTS" cuts the test NAME into parts,
-# of which the longest takes that long. The entry "all.NAME" has the time of NAME with KILN_ALL_TESTS, when it
-# checks all its cases and not only a sample (test_is_full, tests/support/parts.h).
+# Durations of the tests that take more than a second, measured on two otherwise idle cores with cold caches. Each
+# row begins with a number of seconds, and then names the tests that take at most so long. The entry "NAME/PARTS"
+# cuts the test NAME into PARTS parts, the longest of which takes at most so long. The entry "all.NAME" is for the
+# test NAME with KILN_ALL_TESTS, when it checks all its cases and not only a sample (test_is_full,
+# tests/support/parts.h).
 set(kiln_test_times
     "3 cli.batch cli.decoder cli.encode cli.events cli.limits cli.output cli.pipe cli.stdin docs.figures
         docs.jobs docs.library docs.python farm.schemas farm.tasks faults.address faults.flat_png
@@ -38,8 +41,9 @@ set(kiln_test_times
     "300 package.release"
 )
 
-# Looks a test up in the table. Sets PREFIX_seconds, PREFIX_parts and PREFIX_found in the caller. PREFIX_found says
-# whether the table has the test; a test that it lacks takes a second and has one part.
+# kiln_test_time(name prefix): looks up the test `name` in the table. Sets three variables in the caller:
+# PREFIX_seconds, its duration; PREFIX_parts, its number of parts; PREFIX_found, whether the table has it. A test
+# that the table lacks takes one second and has one part.
 function(kiln_test_time name prefix)
     set(${prefix}_seconds 1 PARENT_SCOPE)
     set(${prefix}_parts 1 PARENT_SCOPE)
@@ -60,13 +64,14 @@ function(kiln_test_time name prefix)
 endfunction()
 
 # kiln_add_test(name label [ALL] [TIMES test] [SANITIZED] COMMAND command... [PROPERTIES name value...]): adds a
-# test. Its time limit, which ends a test that hangs, is ten times its seconds in the table, but at least two
-# minutes and, unless the label is `package`, at most fifteen. The seconds are also its COST: CTest starts long
-# tests first, so that no core is idle at the end. A test in parts becomes NAME.1, NAME.2 and so on; the command's
-# last argument says which part it runs, such as "1/2". A test of at most a second also has the label `quick`.
-#   ALL        the test is added only with KILN_ALL_TESTS
-#   TIMES      the test whose times in the table are used for this one
-#   SANITIZED  the program has sanitizers even if the build has none, and takes four times as long
+# test. Its time limit, after which CTest ends a test that hangs, is ten times its duration in the table, but at
+# least two minutes and, unless the label is `package`, at most fifteen. The duration is also the test's COST: CTest
+# starts long tests first, so that no core is idle at the end. A test in parts becomes several tests NAME.1, NAME.2
+# and so on; the command's last argument says which part it runs, such as "1/2". A test that takes at most a second
+# also has the label `quick`.
+#   ALL        adds the test only with KILN_ALL_TESTS
+#   TIMES      names another test, whose duration in the table is used for this one
+#   SANITIZED  says that the program has sanitizers even if the build has none, so that it takes four times as long
 function(kiln_add_test name label)
     cmake_parse_arguments(PARSE_ARGV 2 test "SANITIZED;ALL" "TIMES" "COMMAND;PROPERTIES")
     if(test_ALL AND NOT KILN_ALL_TESTS)
@@ -116,15 +121,16 @@ function(kiln_add_test name label)
     endforeach()
 endfunction()
 
-# The build target host_tests builds all programs that kiln_add_host_test runs, and quick_host_tests those that
-# build quickly with sanitizers. sanitize.build builds one of the two targets with sanitizers.
+# The build target host_tests builds all programs that kiln_add_host_test runs. The target quick_host_tests builds
+# only the programs that build quickly with sanitizers. The test sanitize.build builds one of the two targets with
+# sanitizers.
 add_custom_target(host_tests)
 add_custom_target(quick_host_tests)
 
-# kiln_add_host_test(name label sanitized [SANITIZED_QUICKLY] COMMAND target argument...): adds a test that needs
-# no GL device, and a second test, sanitize.SANITIZED, which runs the same program from the build with sanitizers
-# (tests/tree/sanitize.sh). The second test is added with KILN_ALL_TESTS, or if SANITIZED_QUICKLY says that the
-# program builds quickly with sanitizers. A build that has sanitizers itself has no second tests.
+# kiln_add_host_test(name label sanitized [SANITIZED_QUICKLY] COMMAND target argument...): adds a test that needs no
+# GL device, and a second test, sanitize.SANITIZED, which runs the same program from the build with sanitizers
+# (tests/tree/sanitize.sh). The second test is added only with KILN_ALL_TESTS or SANITIZED_QUICKLY, which says that
+# the program builds quickly with sanitizers. A build that itself has sanitizers gets no second tests.
 function(kiln_add_host_test name label sanitized)
     cmake_parse_arguments(PARSE_ARGV 3 test "SANITIZED_QUICKLY" "" "COMMAND")
     set(leaks
@@ -139,8 +145,8 @@ function(kiln_add_host_test name label sanitized)
     endif()
     if(NOT KILN_SANITIZE)
         file(RELATIVE_PATH folder ${CMAKE_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
-        # With allocator_may_return_null, the sanitizer does not end a program that asks for an absurd amount of
-        # memory; kiln must report the error.
+        # With allocator_may_return_null, a sanitizer does not end a program that asks for an absurd amount of
+        # memory: malloc returns NULL, and kiln must report the error.
         kiln_add_test(sanitize.${sanitized} sanitize ${when} SANITIZED TIMES ${name}
             COMMAND ${CMAKE_BINARY_DIR}/sanitize/${folder}/${target} ${test_COMMAND}
             PROPERTIES FIXTURES_REQUIRED sanitized

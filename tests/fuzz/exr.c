@@ -1,5 +1,6 @@
-/* Fuzzes the decoder of layers of EXR files: any bytes are an image within the limits or an error,
- * never a crash. If this fails, a malicious EXR file may take over kiln-decode. */
+/* Fuzzes the decoder of layers of EXR files: for any input it must return an image within the size
+ * limits or an error, and never crash. If this fails, a malicious EXR file may take over
+ * kiln-decode, the separate process that decodes untrusted files. */
 #include "decode.h"
 #include "fuzz.h"
 #include "image_check.h"

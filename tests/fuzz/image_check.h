@@ -1,12 +1,14 @@
-/* Checks the result of a decoder of pictures, for the fuzz targets. */
+/* Checks the result of a decoder of pictures, for the fuzz targets that decode pictures and videos.
+ */
 #ifndef KILN_FUZZ_IMAGE_CHECK_H
 #define KILN_FUZZ_IMAGE_CHECK_H
 
 #include "asset/image/image.h"
 #include "fuzz.h"
 
-/* Checks that the result is an image within the limits, and returns true, or an error with a
- * message, and returns false. Destroys the image. */
+/* Requires that a decoder returned either an image within the size limits, or NULL and an error
+ * with a message. Otherwise crashes, as a fuzz target does to report a fault. Destroys the image.
+ * Returns whether there was an image. */
 static inline bool check_image(struct kiln_asset_image *image, const struct kiln_error *error)
 {
     if (!image) {
@@ -18,7 +20,8 @@ static inline bool check_image(struct kiln_asset_image *image, const struct kiln
                 image->width * image->height <= KILN_MAX_IMAGE_PIXELS,
             "an image beyond the limits");
     require(image->channels >= 1 && image->channels <= 4, "an image without channels");
-    /* The sum reads every byte, so that a sanitizer reports a byte outside the allocation. */
+    /* The sum reads every byte of the image, so that a sanitizer reports an allocation that is too
+     * small. */
     const uint8_t *pixels = image->pixels;
     volatile uint8_t sum = 0;
     for (size_t i = 0; i < kiln_asset_image_bytes(image); i++)

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Runs libFuzzer on every fuzz target: long.sh SOURCE BUILD SECONDS. All targets together get
-# SECONDS of processor time, shared evenly, in turns of a minute of real time.
-# BUILD/found/NAME.spent records the processor time that a target has had. So a run that was stopped
-# goes on with the time that is left, and a run on a busy machine or under `nice` takes longer but
-# tests as much. Inputs that reach new code are kept in BUILD/found/NAME. An input that makes a
-# target fail stays in BUILD/NAME-crash-*, and the log names it. At the end, coverage.sh prints how
-# many lines of kiln's parsers the inputs reach.
+# Runs libFuzzer on every fuzz target: long.sh SOURCE BUILD SECONDS. If this fails, some input
+# crashes a parser or decoder of kiln. All targets together get SECONDS of processor time, shared
+# evenly, in turns of a minute of real time. BUILD/found/NAME.spent records the processor time that
+# the target NAME has had, in seconds. So a run that was stopped goes on with the time that is left,
+# and a run on a busy machine or under `nice` takes longer but tests as much. Inputs that reach new
+# code are kept in BUILD/found/NAME. An input that makes a target fail stays in BUILD/NAME-crash-*,
+# and the log names it. At the end, coverage.sh prints how many lines of kiln's parsers the inputs
+# reach.
 set -euo pipefail
 source=$1 build=$2 seconds=$3
 [[ $seconds =~ ^[1-9][0-9]*$ ]] ||
@@ -28,9 +29,10 @@ mapfile -t names < <(find "$build/tests/fuzz" -maxdepth 1 -name 'fuzz_*' -type f
     sed 's/^fuzz_//' | sort)
 export share=$(((seconds + ${#names[@]} - 1) / ${#names[@]}))
 
-# is_slow NAME: succeeds when a target's failure counts. libFuzzer's timeout counts real time, so on
-# a busy machine a fast input can exceed it. An input that timed out is run again with a limit of
-# 30 s of processor time; if it ends within the limit, it is removed and the failure does not count.
+# is_slow NAME: succeeds if the failure of a target is real. libFuzzer's timeout counts real time,
+# so on a busy machine a fast input can exceed it. An input that timed out is therefore run again
+# with a limit of 30 s of processor time. If that run succeeds, the failure is not real, and the
+# input is removed.
 is_slow() {
     local name=$1 input
     input=$(sed -n 's/.*Test unit written to //p' "$build/found/$name.log" | tail -n 1)
@@ -38,8 +40,8 @@ is_slow() {
     ! (ulimit -t 30 && "$build/tests/fuzz/fuzz_$name" -timeout=0 "$input" >/dev/null 2>&1) || { rm "$input"; false; }
 }
 
-# fuzz NAME: runs a target for one turn. `import` goes on after a crash, since assimp, which kiln
-# does not trust, runs in its process.
+# fuzz NAME: runs a target for one turn. The target `import` goes on after a crash, since its
+# crashes are faults of assimp, which runs in its process and which kiln does not trust.
 fuzz() {
     local name=$1 found=$build/found/$1 spent=0 left corpus options=()
     corpus=$source/tests/fuzz/corpus/${name/import/mesh}

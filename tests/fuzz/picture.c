@@ -1,6 +1,7 @@
-/* Fuzzes the decoding of pictures by FFmpeg: any bytes are an image within the limits or an error,
- * never a crash. If this fails, a malicious picture may take over kiln-decode. The first two bytes
- * choose the format. */
+/* Fuzzes the decoding of pictures by FFmpeg: for any input the decoder must return an image within
+ * the size limits or an error, and never crash. If this fails, a malicious picture may take over
+ * kiln-decode, the separate process that decodes untrusted files. The first two bytes of an input
+ * choose the file format. */
 #include <string.h>
 
 #include "base/ffmpeg.h"

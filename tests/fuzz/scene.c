@@ -1,7 +1,8 @@
-/* Fuzzes the loader of scenes: any bytes are a scene or an error, never a crash. A scene that loads
- * is printed as a text that loads to the same scene. If this fails, a scene with a mistake crashes
- * kiln, or the scene in a manifest is not the one that was rendered. Lines "#set key=value" at the
- * start of an input are overrides. */
+/* Fuzzes the loader of scenes. For any input it must return a scene or an error, and never crash. A
+ * scene that loads is printed, and the printed text must load to the same scene. If this fails, a
+ * mistake in a scene file crashes kiln, or the scene that a manifest records is not the scene that
+ * was rendered. Lines "#set key=value" at the start of an input are overrides of keys of the scene.
+ */
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@
 
 enum { MAX_OVERRIDES = 8 };
 
-/* Prints the scene, loads the text, and checks that both scenes have the same hash. */
+/* Prints the scene, loads the printed text, and checks that both scenes have the same hash. */
 static void check_round_trip(const struct kiln_scene *scene)
 {
     char *text = NULL;

@@ -1,5 +1,6 @@
-/* Fuzzes the decoder of videos: any bytes are frames within the limits or an error, never a crash.
- * If this fails, a malicious video may take over kiln-decode. */
+/* Fuzzes the decoder of videos: for any input each frame must be an image within the size limits,
+ * or decoding must end with an error, and nothing may crash. If this fails, a malicious video may
+ * take over kiln-decode, the separate process that decodes untrusted files. */
 #include <sys/mman.h>
 #include <unistd.h>
 

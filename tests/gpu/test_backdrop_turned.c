@@ -1,6 +1,6 @@
-/* Checks capsules, planes and rotated boxes of the backdrop with their shadows against a ray caster
- * in doubles, by each of its techniques. If this fails, such objects or their shadows have the
- * wrong place, direction or brightness. */
+/* Checks that each technique of the backdrop draws capsules, planes and rotated boxes, and their
+ * shadows, as a ray caster in double precision does. If this fails, such objects or their shadows
+ * have the wrong place, direction or brightness. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -71,9 +71,10 @@ static void turned_shapes_match_c(void **state)
     finish(&p);
 }
 
-/* A ray towards the sun along a capsule's axis passes all points of the axis at the same distance.
- * Which of them is nearest is then decided by rounding, so the shadow must not depend on it. The
- * lengths of the axis vary the rounding. */
+/* Shadows of a capsule equal the reference when the sun shines exactly along the capsule's axis.
+ * All points of the axis then have the same distance from a shadow ray, and rounding decides which
+ * point is found as the nearest; the shadow must not depend on it. The axis vector gets several
+ * lengths to vary the rounding. */
 static void capsules_along_the_sun_match_c(void **state)
 {
     static const double lengths[] = {3, 5, 7};
@@ -118,13 +119,14 @@ static void soft_shadows_match_c(void **state)
     finish(&p);
 }
 
-/* A sun that sets behind a plane lights the floor by all of its disc, by half of it, then not at
- * all. */
+/* A plane hides the part of the sun's disc that is behind it, so that a sun which sets behind the
+ * plane lights the floor with its whole disc, then with half of it, then not at all. */
 static void planes_hide_the_sun(void **state)
 {
     static const struct {
         const char *direction;
-        double light; /* of the floor: albedo 0.6 times the cosine times the visible part */
+        double light; /* expected light of the floor: albedo 0.6 * cosine * visible part of the disc
+                       */
     } suns[] = {{"[0, 1, 0]", 0.6}, {"[0, 1, -0.5]", 0.268328}, {"[0, 1, -1]", 0}};
     for (int i = 0; i < 3; i++) {
         char text[512];

@@ -1,6 +1,7 @@
-/* Checks that a kiln_buffer (lib/gpu/buffer.h) shows the last written bytes on the host and in GL,
- * copies no more than needed, counts what it copies, and reports a lack of memory. If this fails,
- * stages read stale data, or copies slow down each step. */
+/* Checks kiln_buffer (lib/gpu/buffer.h), which keeps the same bytes on the host and in a GL buffer:
+ * each side sees what was written last, no more bytes are copied than needed, copied bytes are
+ * counted, and a lack of memory is an error. If this fails, stages read stale data, or needless
+ * copies slow down each step. */
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -12,14 +13,14 @@
 
 enum { COUNT = 1000 };
 
-/* Reads words of a GL buffer without telling the kiln_buffer. */
+/* Reads words of a GL buffer by calls of GL, of which the kiln_buffer does not know. */
 static void peek(GLuint gl, uint32_t *words, size_t count)
 {
     glBindBuffer(GL_COPY_READ_BUFFER, gl);
     glGetBufferSubData(GL_COPY_READ_BUFFER, 0, (GLsizeiptr)(count * sizeof *words), words);
 }
 
-/* Writes words to a GL buffer without telling the kiln_buffer. */
+/* Writes words to a GL buffer by calls of GL, of which the kiln_buffer does not know. */
 static void poke(GLuint gl, const uint32_t *words, size_t count)
 {
     glBindBuffer(GL_COPY_READ_BUFFER, gl);
@@ -66,7 +67,8 @@ static void each_side_sees_the_last_write(void **state)
     assert_int_equal(words[COUNT - 1], COUNT - 1);
     assert_true(buffer.host_valid && buffer.gl_valid);
 
-    /* After GL writes, the host is stale, and its next read fetches the bytes. */
+    /* After a write in GL, the copy on the host is stale, and the next read on the host fetches the
+     * bytes. */
     assert_int_equal(kiln_buffer_gl(&buffer, KILN_READ_WRITE, &error), gl);
     assert_false(buffer.host_valid);
     for (uint32_t i = 0; i < COUNT; i++)
@@ -76,7 +78,8 @@ static void each_side_sees_the_last_write(void **state)
     assert_int_equal(host[100], 700);
     assert_true(buffer.gl_valid);
 
-    /* After the host writes, GL is stale, and its next read is sent the bytes. */
+    /* After a write on the host, the copy in GL is stale, and the next read in GL sends the bytes
+     * there. */
     kiln_buffer_host(&buffer, KILN_READ_WRITE, &error);
     assert_false(buffer.gl_valid);
     host[3] = 333;
@@ -101,18 +104,18 @@ static void nothing_moves_without_need(void **state)
     kiln_buffer_init(&buffer, *state, sizeof in_gl, "lazy");
     uint32_t *host = kiln_buffer_host(&buffer, KILN_OVERWRITE, &error);
     *host = 1;
-    /* While both sides are valid, the host fetches nothing, so a change behind the buffer's back is
-     * not seen. */
+    /* While the copies on both sides are valid, a read on the host fetches nothing. So the host
+     * does not see a change that poke made. */
     GLuint gl = kiln_buffer_gl(&buffer, KILN_READ, &error);
     poke(gl, &in_gl, 1);
     kiln_buffer_host(&buffer, KILN_READ, &error);
     assert_int_equal(*host, 1);
-    /* When the host overwrites all bytes, it does not fetch those that GL wrote. */
+    /* A host that will overwrite all bytes does not fetch the bytes that GL wrote. */
     kiln_buffer_gl(&buffer, KILN_READ_WRITE, &error);
     poke(gl, &in_gl, 1);
     kiln_buffer_host(&buffer, KILN_OVERWRITE, &error);
     assert_int_equal(*host, 1);
-    /* When GL overwrites all bytes, it is not sent those that the host wrote. */
+    /* If GL will overwrite all bytes, the bytes that the host wrote are not sent to GL. */
     kiln_buffer_gl(&buffer, KILN_OVERWRITE, &error);
     uint32_t seen = 0;
     peek(gl, &seen, 1);
@@ -149,8 +152,8 @@ static void bytes_that_move_are_counted(void **state)
     assert_int_equal(device->traffic.to_device, before.to_device + 1000);
     assert_int_equal(device->traffic.to_host, before.to_host + 1000);
 
-    /* GL is sent only as many bytes as kiln_buffer_set_content says, 24, and all 1000 after the
-     * next write. */
+    /* After kiln_buffer_set_content, the next read in GL copies only that many bytes, 24. After the
+     * next write it copies all 1000 again. */
     for (int turn = 0; turn < 2; turn++) {
         assert_non_null(kiln_buffer_host(&buffer, KILN_READ_WRITE, &error));
         if (turn == 0)
@@ -175,7 +178,7 @@ static void too_much_memory_is_an_error(void **state)
         if (sizes[i] > PTRDIFF_MAX)
             expect_error(&error, KILN_DEVICE_FAILED,
                          "out of memory for %zu bytes of the buffer 'huge' in GL", sizes[i]);
-        else /* the driver says more */
+        else /* the driver adds words of its own */
             expect_error_around(
                 &error, KILN_DEVICE_FAILED, "",
                 "huge, %zu bytes: GL: the device is out of memory (0x0505): ", sizes[i]);

@@ -1,7 +1,7 @@
-/* Checks that the techniques of stage `raster` draw the same picture of crowds of sprites that
- * strain them: sprites larger than the picture, around the camera, thousands in one place, or more
- * than a technique draws at a time. If this fails, a technique loses, doubles or misorders sprites.
- */
+/* Checks that all techniques of stage `raster` draw the same picture of extreme crowds of sprites:
+ * sprites larger than the picture or around the camera, thousands in one place, or more than a
+ * technique draws in one batch. If this fails, a technique loses sprites, draws them twice, or
+ * draws them in the wrong order. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -13,7 +13,8 @@
 
 enum { WIDTH = 600, HEIGHT = 400, VALUES = WIDTH * HEIGHT * 4, STEP = 30, MOST = 1100000 };
 
-/* The camera looks along -z. System b is disabled and draws nothing. */
+/* The camera looks along -z. System b is disabled and draws nothing; particles are placed in system
+ * a. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [600, 400], fps: 30, frames: 100}\n"
@@ -37,13 +38,13 @@ static const struct {
 };
 enum { TECHNIQUE_COUNT = sizeof TECHNIQUES / sizeof *TECHNIQUES, CPU = TECHNIQUE_COUNT - 1 };
 
-/* Holds particles, the farthest first, before a wall. */
+/* Particles in front of a wall, listed from the farthest to the nearest. */
 struct crowd {
     const char *overrides[8];
     size_t override_count;
     uint32_t count;
     struct kiln_particle *particles;
-    float wall_m; /* depth of the wall, m */
+    float wall_m; /* view depth of the wall, m */
 };
 
 static float random_within(float low, float high)
@@ -51,8 +52,8 @@ static float random_within(float low, float high)
     return low + (high - low) * (float)(rand() % 10001) / 10000.0f;
 }
 
-/* Fills a crowd with particles in a box about the z axis, in the order of z from z_from to z_to, m.
- * half: half of the box's width and height, m. */
+/* Fills a crowd with particles at random places in a box about the z axis. Their z goes evenly from
+ * z_from to z_to, m. half: half of the box's width (x) and height (y), m; its z is not used. */
 static void scatter(struct crowd *crowd, uint32_t count, float3 half, float z_from, float z_to)
 {
     srand(7);
@@ -67,8 +68,8 @@ static void scatter(struct crowd *crowd, uint32_t count, float3 half, float z_fr
     }
 }
 
-/* Draws a crowd by a technique. Returns the pixels of the colour, then those of the glow; the
- * caller frees them. */
+/* Draws a crowd with TECHNIQUES[technique]. Returns VALUES values of the colour image, then VALUES
+ * of the image that feeds the bloom; the caller frees them. */
 static float *render(struct kiln_device *device, const struct crowd *crowd, size_t technique)
 {
     drawing_technique = TECHNIQUES[technique].technique;
@@ -85,9 +86,9 @@ static float *render(struct kiln_device *device, const struct crowd *crowd, size
     return values;
 }
 
-/* Compares pictures by the limits of docs/determinism.md for the mean and the 99.9th percentile of
- * the relative error. For the latter, a tenth is added to the value that an error is relative to,
- * since drivers filter textures with 8-bit weights. */
+/* Fails unless two pictures agree within the limits of docs/determinism.md: the mean relative error
+ * is at most 1e-3, and at most one value in a thousand is off by more than 1 % of (value + 0.1).
+ * The 0.1 allows for drivers that filter textures with 8-bit weights. */
 static void compare(const float *expected, const float *found, const char *name)
 {
     double error_sum = 0, light_sum = 1e-9;
@@ -105,8 +106,8 @@ static void compare(const float *expected, const float *found, const char *name)
     assert_true(off <= 2 * VALUES / 1000);
 }
 
-/* Compares the pictures of a crowd by all techniques, and frees its particles. Returns the part of
- * the picture that is covered. */
+/* Fails unless all techniques draw the same picture of a crowd. Frees the crowd's particles.
+ * Returns which part of the picture, 0 to 1, is covered. */
 static double check(struct kiln_device *device, struct crowd *crowd)
 {
     float *expected = render(device, crowd, 0);
@@ -146,9 +147,9 @@ static void sprites_larger_than_the_picture(void **state)
     }
 }
 
-/* Sprites behind the eye, at z = 10, or nearer than the near plane, 0.1 m before it, are not drawn.
- * Nearly all sprites of the first crowd lie there, and all of the second, which leaves the picture
- * clear. */
+/* Sprites behind the eye, at z = 10, or nearer to it than the near plane, 0.1 m, are not drawn by
+ * any technique. Nearly all sprites of the first crowd lie there. All sprites of the second crowd
+ * do, so its picture stays clear. */
 static void sprites_about_the_eye(void **state)
 {
     struct crowd crowd = {.overrides = {"systems.a.look.size=0.3 m", "systems.a.look.opacity=0.5",
@@ -172,8 +173,9 @@ static void thousands_in_one_place(void **state)
     assert_true(covered > 0 && covered < 0.01);
 }
 
-/* There are more sprites than an invocation's loops may run on llvmpipe
- * (KILN_SOFTWARE_ITERATIONS). They are so faint that none hides another, so each must be drawn. */
+/* No sprite is lost if a pixel has more sprites than an invocation may run loop iterations on
+ * llvmpipe (KILN_SOFTWARE_ITERATIONS). The sprites are so faint that none hides another, so each of
+ * them must be drawn. */
 static void tens_of_thousands_in_one_place(void **state)
 {
     struct crowd crowd = {
@@ -185,8 +187,8 @@ static void tens_of_thousands_in_one_place(void **state)
     assert_true(covered > 0 && covered < 0.01);
 }
 
-/* The nearest of opaque sprites hide the others. Additive sprites of the same size hide nothing,
- * and none may be left out. */
+/* Techniques may skip opaque sprites that nearer ones hide, but must not skip additive sprites of
+ * the same size, which hide nothing. */
 static void opaque_sprites_in_one_place(void **state)
 {
     struct crowd crowd = {.overrides = {"systems.a.look.size=2 m", "systems.a.look.soft=0"},
@@ -202,8 +204,9 @@ static void opaque_sprites_in_one_place(void **state)
     assert_true(check(*state, &fire) > 0.02);
 }
 
-/* There are more sprites than the techniques `tiled` and `cpu` draw at a time. They are so faint
- * that one more or less at a pixel, by the rounding of its place, does not show. */
+/* The picture is right if there are more sprites than the techniques `tiled` and `cpu` draw in one
+ * batch. The sprites are so faint that rounding which adds or loses one sprite at a pixel does not
+ * show. */
 static void more_than_are_drawn_at_a_time(void **state)
 {
     struct crowd crowd = {
@@ -214,7 +217,8 @@ static void more_than_are_drawn_at_a_time(void **state)
     assert_true(check(*state, &crowd) > 0.5);
 }
 
-/* Thin lines cross the picture, so their bounding boxes touch tiles that the lines do not. */
+/* Thin lines are drawn right, although their bounding boxes touch many tiles that the lines
+ * themselves do not touch. */
 static void boxes_that_are_mostly_empty(void **state)
 {
     struct crowd crowd = {.overrides = {"systems.a.look.shape=line", "systems.a.look.stretch=10 s",
@@ -226,9 +230,9 @@ static void boxes_that_are_mostly_empty(void **state)
     assert_true(check(*state, &crowd) > 0.9);
 }
 
-/* So many sprites fill the picture that raster=cpu draws them in parts, since the lists of all
- * tiles would take too much memory. The nearest hide the others, so the picture is that of the
- * nearest alone. */
+/* raster=cpu draws so many large sprites in several parts, since the lists of sprites of all tiles
+ * would take too much memory, and the parts must be combined in the right order. The nearest
+ * sprites are opaque, so the picture must be that of the nearest alone. */
 static void lists_that_are_split(void **state)
 {
     enum { COUNT = 70000, NEAREST = 200 };
@@ -246,8 +250,8 @@ static void lists_that_are_split(void **state)
     free(crowd.particles);
 }
 
-/* Draws a crowd by a technique with work groups of a size, 0 for the usual one. software: true to
- * work as on software GL, false as on a GPU. */
+/* Does what `render` does, with work groups of `size` invocations; 0 takes the usual size.
+ * software: true to draw as on software GL, false to draw as on a GPU. */
 static float *render_in_groups(struct kiln_device *device, const struct crowd *crowd,
                                size_t technique, uint32_t size, bool software)
 {
@@ -260,7 +264,7 @@ static float *render_in_groups(struct kiln_device *device, const struct crowd *c
     return values;
 }
 
-/* The number of invocations that share a tile changes no bit of the picture. */
+/* The size of a work group, whose invocations share a tile, changes no bit of the picture. */
 static void tiles_are_the_same_by_any_work_group(void **state)
 {
     static const uint32_t sizes[] = {1, 48, 1024};

@@ -1,6 +1,6 @@
-/* Checks what a glossy floor of the backdrop mirrors against formulas in doubles: the sky and
- * objects by Fresnel's law, lamps by a rough lobe, and moving waves. If this fails, water and wet
- * ground show mirror images of the wrong place or brightness. */
+/* Checks the reflections of a glossy floor of the backdrop against formulas in double precision:
+ * sky and objects by Fresnel's law, lamps by a rough specular lobe, and moving waves. If this
+ * fails, water and wet ground show reflections of the wrong place or brightness. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -13,7 +13,8 @@
 
 enum { WIDTH = 96, HEIGHT = 54 };
 
-/* The eye is at (0, 2, 5) and looks level along -z, with a tangent of 0.5 for half the height. */
+/* The beginning of each scene's text. The eye is at (0, 2, 5) and looks horizontally along -z; the
+ * tangent of half of the vertical field of view is 0.5. */
 #define START                                                                                      \
     "kiln: 1\n"                                                                                    \
     "output: {size: [96, 54], frames: 60}\n"                                                       \
@@ -64,8 +65,8 @@ static void finish(struct picture *p)
     kiln_scene_destroy(&p->scene);
 }
 
-/* Computes the ray through a place of the picture below the horizon, px: its unit direction `way`,
- * and the point where it meets the floor, m. */
+/* Computes the ray through the place (px, py) of the picture, px from the top left, below the
+ * horizon: its unit direction `way`, and the point where it meets the floor, m. */
 static void floor_ray(double px, double py, double way[3], double point[3])
 {
     double d[3] = {(2 * px / WIDTH - 1) * 0.5 * WIDTH / HEIGHT, (1 - 2 * py / HEIGHT) * 0.5, -1};
@@ -82,8 +83,8 @@ static double fresnel(double cosine)
     return 0.02 + 0.98 * pow(1 - cosine, 5);
 }
 
-/* Returns whether the floor of MIRRORS mirrors its box at `point`. way: from the eye to the point.
- */
+/* Returns whether the box of the scene MIRRORS is reflected at `point` of the floor. way: unit
+ * direction from the eye to the point. */
 static bool meets_box(const double way[3], const double point[3])
 {
     const double low[3] = {-1, 0.5, -4}, high[3] = {1, 1.5, -3}, d[3] = {way[0], -way[1], way[2]};
@@ -101,8 +102,8 @@ static const char MIRRORS[] =
           "  floor: {color: 0, gloss: 0.75}\n"
           "  objects: [box: {center: [0, 1, -3.5], size: [2, 1, 1], color: 0}]\n";
 
-/* A black floor mirrors the sky by Fresnel's law, and a black box that hides a part of it. Pixels
- * on the outline of the mirrored box are skipped. */
+/* A black floor reflects the sky by Fresnel's law, and where a black box is reflected, the floor
+ * stays black. Pixels on the outline of the reflected box are skipped. */
 static void sky_and_objects_are_mirrored(void **state)
 {
     struct picture p;
@@ -137,8 +138,9 @@ static const char LIGHT[] =
           "  floor: {color: 0, gloss: 2, roughness: 0.5}\n"
           "  lights: [point: {position: [0.5, 1.5, -3], color: 4, radius: 0.001 m}]\n";
 
-/* Returns the microfacet model GGX of Walter and others (2007) with height-correlated Smith
- * shadowing, times the cosine of the light. eye, to_light: unit vectors; a: roughness squared. */
+/* Returns the GGX microfacet model of Walter and others (2007) with height-correlated Smith
+ * shadowing, times the cosine of the light's angle of incidence. eye, to_light: unit vectors from
+ * the surface; a: the roughness squared. */
 static double lobe(const double eye[3], const double to_light[3], double a)
 {
     double half_way[3], length = 0;
@@ -181,8 +183,8 @@ static void lights_are_mirrored_by_a_lobe(void **state)
 static const char WAVES[] = START "  sky: {top: 0.1, horizon: 0.8}\n"
                                   "  floor: {color: 0, gloss: 1, wave_height: 5 cm}\n";
 
-/* Waves change the mirrored sky from place to place and from time to time. Without waves the
- * mirrored sky stays as it is. */
+/* With waves, the reflected sky differs from place to place and changes with time. Without waves it
+ * does not change with time. */
 static void waves_move(void **state)
 {
     struct picture p;

@@ -1,7 +1,6 @@
-/* Checks that a kiln_image (lib/gpu/image.h) keeps its pixels on their way to GL and back, with
- * rows from the top, and reports impossible sizes. If this fails, pictures are flipped, sheared or
- * stale.
- */
+/* Checks kiln_image (lib/gpu/image.h), a render target that is on the host and in GL: pixels are
+ * unchanged after the way to GL and back, row 0 is the top row, and impossible sizes are errors. If
+ * this fails, pictures are flipped, sheared or stale. */
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -11,10 +10,11 @@
 #include "support/device.h"
 #include "support/errors.h"
 
-/* Sizes are odd, so that a copy that aligns rows would shift them. */
+/* The sizes are odd, so that a copy that pads rows to an alignment would shift the pixels. */
 enum { WIDTH = 37, HEIGHT = 11 };
 
-/* Clears rows of a texture from row y on to a colour, as drawing in GL does. */
+/* Clears `rows` rows of a texture, from row y on, to a colour, as a pass that draws in GL would
+ * write them. */
 static void clear_texel_rows(GLuint gl, GLint y, GLsizei rows, const float color[4])
 {
     GLuint framebuffer = 0;
@@ -28,7 +28,8 @@ static void clear_texel_rows(GLuint gl, GLint y, GLsizei rows, const float color
     glDeleteFramebuffers(1, &framebuffer);
 }
 
-/* Erases the host's pixels while GL has the valid ones, so that they must come back from GL. */
+/* Pixels that the host sends to GL come back unchanged, for each format. The test erases the host's
+ * copy while GL has the valid pixels, so that they can only come from GL. */
 static void pixels_return_as_they_were(void **state)
 {
     static const GLenum formats[] = {GL_R32F, GL_RGBA16F, GL_RGBA32F};
@@ -41,7 +42,8 @@ static void pixels_return_as_they_were(void **state)
         assert_non_null(host);
         assert_int_equal((uintptr_t)host % 64, 0);
         for (size_t i = 0; i < count; i++)
-            host[i] = (float)i * 0.5f; /* exact in half floats, as it is below 1024 */
+            host[i] = (float)i * 0.5f; /* a half float represents it exactly, as it is a multiple of
+                                        * 0.5 below 1024 */
         assert_true(kiln_image_gl(&image, KILN_READ_WRITE, &error) != 0);
         memset(host, 0, count * sizeof *host);
         assert_false(image.host_valid);

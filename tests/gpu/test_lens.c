@@ -1,6 +1,6 @@
-/* Checks depth of field and several samples a pixel: the techniques draw the same picture, and
- * objects out of focus are as blurred as by a thin lens. If this fails, blur depends on the
- * technique, or a lens of a given aperture blurs too much or too little. */
+/* Checks depth of field and antialiasing by several samples a pixel: all techniques draw the same
+ * picture, and the blur of objects out of focus is that of a thin lens. If this fails, blur depends
+ * on the technique, or a lens of a given aperture blurs too much or too little. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -17,9 +17,9 @@
 
 enum { WIDTH = 96, HEIGHT = 64, VALUES = WIDTH * HEIGHT * 4 };
 
-/* This scene has one of each kind of object that has its own drawing code: a box, a mesh, a floor,
- * spheres, meshes as particles, billboards in the picture's plane and in others, points and lines.
- */
+/* A scene with one of each kind of object that has drawing code of its own: a box, a mesh, a floor,
+ * spheres, meshes as particles, billboards parallel to the picture and at an angle to it, points
+ * and lines. */
 static const char ALL[] =
     "kiln: 1\n"
     "output: {size: [96, 64], frames: 30, fps: 30, samples: 8}\n"
@@ -43,8 +43,9 @@ static const char ALL[] =
     "  dots: {emit: {rate: 100, speed: 3, from: {cone: {angle: 40 deg}}},\n"
     "         look: {shape: point, point: {size: 3 px}, blend: add, size: 2 cm}}\n";
 
-/* Renders frame 15 and returns the layer `beauty`, which the caller destroys. overrides: a list
- * that ends with NULL, or NULL. */
+/* Renders frame 15 of a scene and returns its layer `beauty`, which the caller destroys. overrides:
+ * settings of keys of the scene, in a list that ends with NULL, or NULL for none; techniques:
+ * "STAGE=NAME". */
 static struct kiln_asset_image *draw(struct kiln_device *device, const char *text,
                                      const char *const *overrides, const char *const *techniques,
                                      size_t technique_count)
@@ -81,7 +82,8 @@ static struct kiln_asset_image *draw(struct kiln_device *device, const char *tex
     return image;
 }
 
-/* Returns the sum of the differences of two pictures, divided by the sum of the first's values. */
+/* Returns the relative difference of two pictures: the sum of |a - b| over all values, divided by
+ * the sum of |a|. */
 static double difference(const struct kiln_asset_image *a, const struct kiln_asset_image *b)
 {
     double sum = 0, off = 0;
@@ -112,14 +114,14 @@ static void techniques_agree(void **state)
     }
     struct kiln_asset_image *sharp = draw(*state, ALL, SHARP, HOST, 3);
     const double blur = difference(host, sharp);
-    if (!(blur > 0.01)) /* otherwise the scene tests no blur */
+    if (!(blur > 0.01)) /* otherwise the scene has no visible blur, and the test shows nothing */
         fail_msg("blurred by %g", blur);
     kiln_asset_image_destroy(&sharp);
     kiln_asset_image_destroy(&host);
 }
 
-/* A small disc is 4 m before a lens with an aperture of 10 cm, which is focused there. A test moves
- * the disc to 2 m. */
+/* A scene with a small disc at a distance of 4 m from a lens that has an aperture of 10 cm and is
+ * focused at 4 m. A test moves the disc to a distance of 2 m. */
 static const char DISC[] =
     "kiln: 1\n"
     "output: {size: [96, 64], frames: 30, fps: 30, samples: 64}\n"
@@ -131,7 +133,8 @@ static const char DISC[] =
     "         look: {shape: point, point: {size: 2 px}, blend: add, size: 2 cm, fade: {in: 0, out: "
     "0}}}\n";
 
-/* Returns the variance of the place of a picture's light, px^2: of x plus that of y. */
+/* Returns how widely the light of a picture is spread: the variance of its x plus that of its y,
+ * px^2. */
 static double spread(const struct kiln_asset_image *image)
 {
     double sum = 0, x = 0, y = 0, squares = 0;
@@ -147,9 +150,10 @@ static double spread(const struct kiln_asset_image *image)
     return squares / sum - (x * x + y * y) / (sum * sum);
 }
 
-/* In focus, a disc is as wide as through a pinhole. At half of that distance, d, it is spread over
- * the circle of confusion, whose diameter in the plane of focus is aperture * |d - focus| / d.
- * Evenly filled, a circle of radius r has the variance r^2 / 2. */
+/* A disc in focus is as wide as through a pinhole. A disc at the distance d, half of the focus
+ * distance, is blurred over its circle of confusion. The diameter of this circle in the plane of
+ * focus is aperture * |d - focus| / d. An evenly filled circle of radius r has the variance r^2 /
+ * 2. */
 static void the_circle_of_confusion_is_that_of_a_thin_lens(void **state)
 {
     static const char *const WAYS[] = {"raster=cpu", "raster=geometry"};
@@ -171,7 +175,8 @@ static void the_circle_of_confusion_is_that_of_a_thin_lens(void **state)
     }
 }
 
-/* Depth of field is a mean over moments of a frame, so a scene with one moment is an error. */
+/* A scene with a lens but only one moment, an instant that is drawn, per frame is an error, since
+ * depth of field is a mean over several moments. */
 static void a_lens_needs_moments(void **state)
 {
     (void)state;

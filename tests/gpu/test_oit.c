@@ -1,6 +1,7 @@
-/* Checks post.compose=oit: in each pixel nearer fragments cover farther ones, with every technique
- * of stage `raster`, however many fragments there are. If this fails, billboards that cross each
- * other are drawn in a wrong order, or dense smoke loses fragments. */
+/* Checks order-independent transparency (post.compose=oit): in each pixel, nearer fragments of
+ * particles cover farther ones, by every technique of stage `raster` and for any number of
+ * fragments. If this fails, billboards that cross each other are drawn in a wrong order, or dense
+ * smoke loses fragments. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -19,9 +20,9 @@ enum { WIDTH = 96, HEIGHT = 64, STEPS = 20 };
 static const char *const OIT = "post.compose=oit";
 static const char *const MERGED = "post.compose=merged";
 
-/* Two stacks of billboards with the same centre, seen from above. The red stack stands upright. The
- * green stack is parallel to the picture, so that the upper half of the red one is nearer and the
- * lower half is farther. */
+/* Two stacks of billboards with the same centre, seen from above. The red billboards stand upright
+ * and the green ones are parallel to the picture, so that the upper half of the red ones is nearer
+ * than the green ones, and the lower half is farther. */
 static const char CARDS[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -43,8 +44,8 @@ static const char CARDS[] =
     "           opacity: 0.9, thickness: 0}\n"
     "post: {bloom: {kind: none}}\n";
 
-/* Returns (red - green) / (red + green) in the middle columns of the rows from `from` to `to`: 1 is
- * red alone, -1 is green alone. */
+/* Returns (red - green) / (red + green) for the twelve middle columns of the rows `from` to `to` -
+ * 1: 1 for red alone, -1 for green alone. */
 static double redness(const struct kiln_picture *picture, int from, int to)
 {
     double red = 0, green = 0;
@@ -59,8 +60,9 @@ static double redness(const struct kiln_picture *picture, int from, int to)
     return (red - green) / (red + green);
 }
 
-/* oit shows red in the upper half and green in the lower half. merged sorts billboards by their
- * centres, so that one colour covers the other in both halves. */
+/* With oit, crossing billboards are sorted in each pixel: red covers green in the upper half, green
+ * covers red in the lower half. With merged, which sorts whole billboards by their centres, one
+ * colour covers the other in both halves. */
 static void crossing_billboards_are_sorted_by_pixel(void **state)
 {
     static const struct kiln_techniques *const techniques[] = {&FRAME_CPU, &FRAME_GL};
@@ -76,7 +78,8 @@ static void crossing_billboards_are_sorted_by_pixel(void **state)
     }
 }
 
-/* A flame in a round puff, 1 cm nearer to the camera than the puff's centre. */
+/* A scene with a flame inside a round puff of smoke, 1 cm nearer to the camera than the puff's
+ * centre. */
 static const char FLAME[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -96,7 +99,7 @@ static const char FLAME[] =
     "           thickness: 0}\n"
     "post: {bloom: {strength: 0}}\n";
 
-/* Returns the sum of red over a layer of the picture of FLAME. */
+/* Draws FLAME, and returns the sum of red over a layer (FRAME_*) of the picture. */
 static double light_of(struct kiln_device *device, const struct frame_setting *setting, int layer)
 {
     struct kiln_picture *picture = frame_draw(device, FLAME, STEPS, setting);
@@ -107,8 +110,9 @@ static double light_of(struct kiln_device *device, const struct frame_setting *s
     return sum;
 }
 
-/* A round puff dims the glow of a flame within it by its front half. A flat puff dims none of it,
- * since the flame is 1 cm in front of it; so does merged, which has no thickness. */
+/* With oit, a round puff dims the glow of a flame inside it only by its front half. A flat puff
+ * (thickness 0) does not dim a flame that is 1 cm in front of it. With merged, puffs have no
+ * thickness, so the round puff does not dim it either. */
 static void a_puff_half_covers_a_flame_within(void **state)
 {
     static const char *const flat = "systems.puff.look.thickness=0";
@@ -121,7 +125,8 @@ static void a_puff_half_covers_a_flame_within(void **state)
     double all = light_of(*state, &inside_flat, FRAME_BLOOM);
     assert_true(half < 0.8 * all && half > 0.2 * all);
     assert_true(fabs(light_of(*state, &merged, FRAME_BLOOM) / all - 1.0) < 1e-5);
-    /* If the flame is before or behind the whole puff, oit draws it as merged does. */
+    /* If the flame is entirely in front of the puff or behind it, oit draws the same picture as
+     * merged. */
     for (int i = 0; i < 2; i++) {
         const struct frame_setting oit = {{OIT, i ? behind : front}, 2, FRAME_CPU, 0};
         const struct frame_setting by_middle = {{MERGED, i ? behind : front}, 2, FRAME_CPU, 0};
@@ -134,7 +139,8 @@ static void a_puff_half_covers_a_flame_within(void **state)
     }
 }
 
-/* Many puffs, billboards about an axis, flames and lines cross each other and a box. */
+/* A scene in which many puffs, billboards about an axis, flames and lines cross each other and a
+ * box. */
 static const char CROWD[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -177,7 +183,7 @@ static void techniques_agree(void **state)
     for (int i = 0; i < 6; i++)
         pictures[i] = frame_draw(*state, CROWD, STEPS, &settings[i]);
     for (int layer = 0; layer < FRAME_LAYERS; layer++) {
-        /* the fourth compares half resolution with full resolution */
+        /* off[3] compares half with full resolution; the others compare techniques */
         const double off[5] = {frame_difference(pictures[0], pictures[1], layer),
                                frame_difference(pictures[1], pictures[2], layer),
                                frame_difference(pictures[3], pictures[4], layer),
@@ -193,10 +199,10 @@ static void techniques_agree(void **state)
         kiln_picture_destroy(&pictures[i]);
 }
 
-/* So many particles in one place that a pixel's list is sorted in merge passes, and a long one is
- * blended in spans, since llvmpipe ends the loops of an invocation that run too long. With 40000
- * puffs, raster=cpu has more fragments than fit into its memory (KILN_PACKET_PIXELS) and draws rows
- * several times. */
+/* A scene with very many particles in one place. Its pixels have so many fragments that GL sorts a
+ * pixel's list in several merge passes, and blends a long list in several spans, since llvmpipe
+ * ends an invocation's loops that run too long. With 40000 puffs, raster=cpu has more fragments
+ * than its memory holds (KILN_PACKET_PIXELS), and draws rows several times. */
 static const char PILE[] =
     "kiln: 1\n"
     "output: {size: [96, 64], fps: 60, frames: 60}\n"
@@ -253,8 +259,9 @@ static void assert_same_pixels(const struct kiln_picture *a, const struct kiln_p
         assert_same_layer(a, b, layer, 0);
 }
 
-/* A device with small storage blocks draws the picture in parts. If a block is too small for one
- * pixel's list, or for the table of all lists (8 bytes a pixel), an error says what to do. */
+/* A device that allows only small storage blocks draws the same picture in parts. If a block is too
+ * small for the list of a single pixel, or for the table of all pixels' lists (8 bytes a pixel), an
+ * error says what to do. */
 static void small_storage_blocks_are_respected(void **state)
 {
     static const char *const more = "systems.puffs.emit.bursts={0 s: 2000}";
@@ -273,7 +280,7 @@ static void small_storage_blocks_are_respected(void **state)
     assert_string_equal(none.message, "");
     assert_same_pixels(whole, parts);
     assert_true(!too_many && !too_large);
-    char end[256]; /* behind the number of fragments, which depends on how a device draws */
+    char end[256]; /* what follows the number of fragments, which differs between devices */
     snprintf(end, sizeof end,
              " fragments; a storage block of %s takes at most 1536: use raster=cpu, or fewer "
              "particles in one place",
@@ -287,8 +294,9 @@ static void small_storage_blocks_are_respected(void **state)
     kiln_picture_destroy(&parts);
 }
 
-/* If a driver counts fewer fragments than it writes, the surplus does not overwrite the lists of
- * other pixels. To imitate this, the changed shader counts no fragment of the left half. */
+/* If a driver counts fewer fragments than it writes, the surplus fragments are dropped and do not
+ * overwrite the lists of other pixels. To imitate such a driver, a changed shader counts no
+ * fragments in the left half of the picture. */
 static void lists_do_not_outgrow_their_counts(void **state)
 {
     static const char counts[] = "if (!writes) {";
@@ -327,8 +335,9 @@ static void the_number_of_threads_changes_nothing(void **state)
     kiln_picture_destroy(&b);
 }
 
-/* raster=cpu makes sprites in pieces (SORTED_AT_A_TIME), and selects from each piece the sprites
- * that touch the tiles that it draws. 1.1 million unseen particles add pieces, but no change. */
+/* Particles outside the picture change no pixel. raster=cpu makes sprites in batches of
+ * SORTED_AT_A_TIME, and selects from each batch the sprites that touch the tiles being drawn; 1.1
+ * million unseen particles add batches. */
 static void unseen_pieces_change_nothing(void **state)
 {
     static const char *const many = "systems.unseen.emit.bursts={0 s: 1100000}";

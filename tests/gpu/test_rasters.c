@@ -1,7 +1,7 @@
-/* Checks each technique of stage `raster` on every scene of scenes/ against a reference that draws
- * billboards pixel by pixel in double precision (support/true_billboards.h). Layers are compared in
- * linear light. If this fails, pictures of a technique differ by more than docs/determinism.md
- * promises. */
+/* Checks that each technique of stage `raster` draws the particles of every scene in scenes/ as a
+ * reference does, which draws pixel by pixel in double precision (support/true_billboards.h).
+ * Pictures are compared in linear light. If this fails, a technique differs from the reference by
+ * more than docs/determinism.md promises. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -26,7 +26,8 @@ static const struct {
 };
 enum { RASTER_COUNT = sizeof RASTERS / sizeof *RASTERS };
 
-/* A scene at a moment. The stages have drawn it, so its backdrop, light and depth are known. */
+/* A scene at one instant. Its stages have drawn that instant, so that its backdrop, light and depth
+ * are known. Each technique of stage `raster` has a stage of its own. */
 struct subject {
     const char *name;
     struct kiln_scene *scene;
@@ -37,24 +38,28 @@ struct subject {
     struct kiln_particles_stage *rasters[RASTER_COUNT];
     struct kiln_image color, glow;
     struct kiln_framebuffer targets;
-    bool failed; /* a difference was too large */
+    bool failed; /* a technique differed from the reference by more than is allowed */
 };
 
-/* The systems that are drawn together. */
+/* One drawing of some of the scene's systems together. */
 struct pass {
     const char *name;
-    uint32_t systems; /* bit i: system i is drawn */
-    bool over;        /* compares the pass over the backdrop, too */
+    uint32_t systems; /* bit i is set if system i is drawn */
+    bool over;        /* true: the picture is also compared after blending over the backdrop */
 };
 
-enum { MOST_STEPS = 200 }; /* steps before the drawn moment; every scene has particles by then */
+enum {
+    MOST_STEPS = 200
+}; /* largest number of steps before the drawn instant; every scene has
+    * particles by then */
 
-/* A scene whose text is in this file. */
+/* A scene whose text is in this file and not in scenes/. */
 struct text {
     const char *name, *yaml;
 };
 
-/* 70000 particles, each so faint that it adds about one level of 8 bits or less. */
+/* A scene of 70000 particles, each so faint that it changes a pixel by about one 8-bit level or
+ * less. */
 static const struct text FAINT = {
     "faint",
     "kiln: 1\n"
@@ -66,8 +71,9 @@ static const struct text FAINT = {
     "    emit: {bursts: {0 s: 70000}, life: 10 s, from: {box: {size: [6, 3, 2]}}}\n"
     "    look: {atlas: \"builtin:smoke\", size: 20 cm, opacity: 0.004, color: [1, 0.9, 0.8]}\n"};
 
-/* So many particles that raster=cpu mixes cells of the atlas before it draws. They are about 8 to
- * 24 pixels wide and of all ages: it mixes cells of several levels, with motion, at many phases. */
+/* So many particles that raster=cpu blends pairs of flipbook cells before it draws
+ * (lib/draw/sprites/cells.h). The particles are about 8 to 24 pixels wide and of all ages, so that
+ * it blends cells of several levels of detail, with motion vectors, at many phases. */
 static const struct text MIXED = {
     "mixed",
     "kiln: 1\n"
@@ -87,8 +93,8 @@ static const struct text MIXED = {
     "      opacity: 0.01\n"
     "      temperature: 1700\n"};
 
-/* Loads a scene and creates its stages and a stage for each technique. path: the scene's file, or
- * NULL for `text`. */
+/* Loads a scene, and creates its stages and a stage for each technique. path: the scene's file, or
+ * NULL to load `text`. */
 static void open_subject(struct subject *s, struct kiln_device *device, const char *path,
                          const struct text *text)
 {
@@ -120,7 +126,8 @@ static void open_subject(struct subject *s, struct kiln_device *device, const ch
     assert_true(kiln_framebuffer_init(&s->targets, device, images, 2, &error));
 }
 
-/* Draws the frame in the middle of the clip, or the state after MOST_STEPS if that is earlier. */
+/* Simulates and draws the frame in the middle of the clip, or the state after MOST_STEPS steps if
+ * that is earlier. */
 static void draw_subject(struct subject *s)
 {
     struct kiln_error error = {0};
@@ -158,7 +165,9 @@ static uint32_t systems_of(const struct kiln_scene *scene, enum kiln_blend blend
     return mask;
 }
 
-/* Lists the particles of a pass: the farthest first, or by serial if all are additive. */
+/* Lists the particles of a pass from the farthest to the nearest, or by serial number if all are
+ * blended additively, for which the order does not matter. Returns the parameters for drawing them.
+ */
 static struct kiln_particles_draw list_pass(struct subject *s, const struct pass *pass)
 {
     struct kiln_error error = {0};
@@ -201,13 +210,14 @@ static void reverse(const struct kiln_particles_draw *draw)
     }
 }
 
-/* The mean relative error, and the share of values that are off by more than 1 % of the value plus
- * a tenth. */
+/* The difference of two pictures. mean: the relative error, which is the sum of |a - b| divided by
+ * the sum of |a|; off: the share of values, 0 to 1, whose error exceeds 1 % of (value + 0.1). */
 struct difference {
     double mean, off;
 };
 
-/* Measures the difference of two premultiplied pictures, over `behind` unless it is NULL. */
+/* Returns the difference of two premultiplied pictures, or, if `behind` is not NULL, of the
+ * pictures blended over `behind`. */
 static struct difference measure(const double (*truth)[4], const float *drawn, const float *behind,
                                  size_t pixels, int channels)
 {
@@ -226,8 +236,9 @@ static struct difference measure(const double (*truth)[4], const float *drawn, c
     return (struct difference){error_sum / light_sum, off / (double)(pixels * (size_t)channels)};
 }
 
-/* Compares what a technique drew of a pass with the reference. docs/determinism.md allows a mean
- * relative error of 1e-3, and one value in a thousand that is off by more than 1 %. */
+/* Compares a technique's picture of a pass with the reference, and notes in s->failed if they
+ * differ too much. docs/determinism.md allows a mean relative error of 1e-3, and one value in a
+ * thousand that is off by more than 1 %. */
 static void compare(struct subject *s, const struct pass *pass, const char *raster,
                     const struct true_picture *truth)
 {
@@ -281,8 +292,9 @@ static void draw_pass(struct subject *s, const struct pass *pass)
     free(scene.table);
 }
 
-/* Compares all billboards of a scene. If it has both fire and smoke, each is also compared alone,
- * as in the layers of an EXR. Returns false if a difference is too large. */
+/* Compares pictures of all billboards of a scene with the reference. If the scene has both additive
+ * and alpha-blended systems (fire and smoke), also compares each kind alone, as in the layers of an
+ * EXR file. Returns false if a difference is too large. */
 static bool agree_on(struct kiln_device *device, const char *path, const struct text *text)
 {
     struct subject s;

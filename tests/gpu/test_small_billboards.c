@@ -1,5 +1,6 @@
-/* Checks that a billboard smaller than a few pixels sheds the light of its area, wherever its
- * centre lies between the pixels. If this fails, moving stars and streaks twinkle. */
+/* Checks that a billboard smaller than a few pixels adds the same total light to the picture,
+ * proportional to its area, wherever its centre lies between the pixels. If this fails, moving
+ * stars and streaks twinkle. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -9,9 +10,9 @@
 
 enum { WIDTH = 64, HEIGHT = 48, PIXELS = WIDTH * HEIGHT, STEP = 30, PLACES = 4 };
 
-/* With a wall at 10 m, the soft fade makes alpha (10 - depth) * 0.08: 0.4 for the particles, which
- * are 5 m from the camera. System b draws nothing; while it is enabled, the program for all shapes
- * draws system a. */
+/* The particles are 5 m from the camera and a wall is at 10 m. The soft-particle fade, (wall -
+ * depth) * 0.08, thus gives them an alpha of 0.4. System b draws nothing. While it is enabled,
+ * system a is drawn by the shader program for all shapes instead of the one for billboards. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [64, 48], fps: 30, frames: 100}\n"
@@ -24,17 +25,17 @@ static const char SCENE[] =
     "           bloom: [0.5, 0.25, 0.125]}\n"
     "  b: {enabled: true, emit: {rate: 1}, look: {shape: point}}\n";
 
-/* HALF_VIEW: the tangent of half the field of view. */
+/* HALF_VIEW: the tangent of half of the vertical field of view; ALPHA: alpha of the particles. */
 static const double HALF_VIEW = 0.11547005, DISTANCE_M = 5, WALL_M = 10, ALPHA = 0.4;
 
 struct small {
     double width_px, length_px;
-    double angle_deg; /* anticlockwise; streaks get it by their velocity */
+    double angle_deg; /* anticlockwise; facing=velocity takes it from the velocity */
     const char *facing;
-    double tolerance; /* the largest relative error of the sum */
+    double tolerance; /* largest allowed relative error of the sum of alpha */
 };
 
-/* Returns the sum of a channel over the picture. */
+/* Returns the sum of a channel over all pixels of an image. */
 static double sum_of(const struct kiln_image *image, int channel)
 {
     double sum = 0;
@@ -43,9 +44,10 @@ static double sum_of(const struct kiln_image *image, int channel)
     return sum;
 }
 
-/* Draws a billboard at places that differ by parts of a pixel, and checks the sums of its light.
- * The texture is opaque everywhere. dims: the billboard sheds only the light of a square of its
- * width (look.stretch_dims). all_shapes: the program for all shapes draws it. */
+/* Draws a billboard at places that differ by fractions of a pixel, and checks the sums of alpha,
+ * blue and bloom over the picture. The texture is opaque everywhere. dims: look.stretch_dims is
+ * set, so that a stretched billboard has only the light of a square of its width; all_shapes: the
+ * shader program for all shapes draws it. */
 static void check_small(struct kiln_device *device, const struct small *s, bool dims,
                         bool all_shapes)
 {
@@ -108,9 +110,9 @@ static void a_stretch_that_dims_keeps_the_light(void **state)
     }
 }
 
-/* A billboard that is seen nearly edge-on is thinner than a pixel, too. Its axis misses the camera
- * by 6 degrees, so that its length of 6 pixels looks like 0.6 pixels. While it moves by a pixel,
- * this changes by 4 %. */
+/* The light of a billboard that is seen nearly edge-on stays steady as it moves by a pixel. Its
+ * axis misses the camera by 6 degrees, so that its length of 6 pixels is foreshortened to 0.6
+ * pixels. The foreshortening itself changes by 4 % over the movement. */
 static void thin_slivers_are_faint(void **state)
 {
     static const char *const overrides[] = {"systems.a.look.facing=axial",
@@ -134,8 +136,8 @@ static void thin_slivers_are_faint(void **state)
     drawing_finish(&d);
 }
 
-/* Returns the mean of the texture's green in the rows from `from` to `to` of the picture. The
- * billboard, in the middle, is 40 px long. */
+/* Returns the mean of the texture's green in the rows `from` to `to` - 1 of the picture, which has
+ * a billboard of 40 px length in its middle. */
 static double green_between(const struct kiln_image *image, int from, int to)
 {
     double green = 0, alpha = 0;
@@ -147,8 +149,8 @@ static double green_between(const struct kiln_image *image, int from, int to)
     return green / alpha;
 }
 
-/* The texture's green grows from 0 at the top to 1 at the bottom. A streak shows this over its
- * whole length, although its width alone would choose the level of one texel. */
+/* A streak shows its texture over its whole length, although its width alone would choose the level
+ * of detail with a single texel. The texture's green grows from 0 at the top to 1 at the bottom. */
 static void long_thin_billboards_show_their_cell_from_end_to_end(void **state)
 {
     static const char *const overrides[] = {"systems.a.look.facing=velocity",

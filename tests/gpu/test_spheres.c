@@ -1,7 +1,7 @@
-/* Checks opaque spheres (lib/draw/solids/solids.c) against rays that meet spheres, in double
- * precision: depth, silhouettes, light and patterns. If this fails, spheres have wrong shapes or
- * colours, rough edges, or cover each other by their order in the list. Each technique of the
- * backdrop runs all tests. */
+/* Checks that each technique of the backdrop draws opaque spheres (lib/draw/solids/solids.c) as
+ * rays that are intersected with spheres in double precision show them: depth, silhouettes, light
+ * and patterns. If this fails, spheres have wrong shapes or colours, jagged edges, or cover each
+ * other in the order of the list. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,7 +14,8 @@
 
 enum { STEP = 30, COUNT = 24 };
 
-/* A box hides some of the spheres, and the floor cuts others. Their radius is 0.2 m. */
+/* A scene in which a box hides some of the spheres and the floor cuts others. The radius of the
+ * spheres is 0.2 m. */
 static const char SCENE[] =
     "kiln: 1\n"
     "output: {size: [320, 240], fps: 30, frames: 100}\n"
@@ -54,12 +55,13 @@ static void place_cloud(struct fixture *f, struct kiln_particle particles[COUNT]
 }
 
 struct meeting {
-    double depth;   /* of the nearest sphere, or of the backdrop, m */
-    vec normal;     /* of the sphere; zero for the backdrop */
-    double edge_px; /* distance to the nearest silhouette */
+    double depth;   /* view depth of the nearest sphere or of the backdrop, m */
+    vec normal;     /* unit normal of the sphere; zero for the backdrop */
+    double edge_px; /* distance to the nearest silhouette of a sphere, px */
 };
 
-/* Returns what the ray through a place in the picture meets first. x, y: px. */
+/* Returns what the ray through the place (x, y) of the picture, px, meets first: one of the
+ * spheres, whose radius is in m, or the backdrop. */
 static struct meeting meet(const struct fixture *f, const struct kiln_particle *particles,
                            uint32_t count, double radius, double x, double y)
 {
@@ -111,9 +113,9 @@ static void depth_is_where_the_ray_meets_a_sphere(void **state)
     opaque_finish(&f);
 }
 
-/* One sphere is at the side of the picture, where perspective makes it an ellipse. It covers the
- * part of each pixel that 256 rays find, and so has the right area. With an opacity of 0.5 the
- * sphere is half as large. */
+/* A sphere at the side of the picture, where perspective makes it an ellipse, covers as much of
+ * each pixel as 256 rays through the pixel show, and its total area is right. With an opacity of
+ * 0.5 a sphere has half of its diameter. */
 static void silhouettes_are_smooth(void **state)
 {
     static const char *const half[] = {"systems.a.look.opacity=0.5"};
@@ -135,7 +137,8 @@ static void silhouettes_are_smooth(void **state)
             double seen = (double)f.bloom.host[4 * p] / ALBEDO[0];
             assert_true(fabs(seen - part) < 0.3);
             bool is_sphere = f.depth.host[p] < f.drawing.backdrop_depth.host[p];
-            assert_true(is_sphere == (seen > 0.4)); /* two of four samples decide */
+            assert_true(is_sphere == (seen > 0.4)); /* a pixel takes the depth of the sphere if at
+                                                     * least two of its four samples hit it */
             drawn += seen;
             expected += part;
             partly += seen > 0.1 && seen < 0.9;
@@ -146,8 +149,9 @@ static void silhouettes_are_smooth(void **state)
     }
 }
 
-/* A sphere with a diameter of a fifth of a pixel sheds the light of its area, on average over its
- * places in the pixel. It hides no particles behind it: the depth stays that of the backdrop. */
+/* A sphere with a diameter of a fifth of a pixel adds light in proportion to its area, on average
+ * over its positions in the pixel. It hides no particles behind it: the depth stays the backdrop's.
+ */
 static void spheres_below_a_pixel_are_fainter(void **state)
 {
     enum { PLACES = 8 };
@@ -179,16 +183,18 @@ static void spheres_below_a_pixel_are_fainter(void **state)
     opaque_finish(&f);
 }
 
-/* Returns the value, 0 to 1, that a display shows of a pixel across the edge between a bright and a
- * dark side. Samples count 1 / (1 + their light). bright: the part of the pixel that is bright. */
+/* Returns the value, 0 to 1, that a display shows of a pixel at an edge, from samples that are
+ * weighted with 1 / (1 + their light). light, dark: light of the two sides of the edge; bright:
+ * part of the pixel, 0 to 1, on the side of `light`. */
 static double shown_mean(double light, double dark, double bright)
 {
     const double weight = bright / (1 + light), other = (1 - bright) / (1 + dark);
     return fmin((light * weight + dark * other) / (weight + other), 1);
 }
 
-/* The edge of a sphere that is eight times as bright as white, with two stops of exposure, still
- * has all five steps from dark to bright. */
+/* The edge of a very bright sphere is antialiased: with four samples a pixel it shows all five
+ * steps from dark to bright. With two stops of exposure the sphere is eight times as bright as
+ * white. */
 static void bright_edges_have_all_steps(void **state)
 {
     static const char *const overrides[] = {
@@ -240,7 +246,7 @@ static void order_is_no_matter(void **state)
     opaque_finish(&f);
 }
 
-/* A lit sphere reflects the light of sky, sun and a lamp by Lambert's law. */
+/* A lit sphere reflects the light of the sky, the sun and a lamp by Lambert's law. */
 static void spheres_are_lit_by_the_backdrop(void **state)
 {
     static const char *const overrides[] = {
@@ -280,7 +286,8 @@ static void spheres_are_lit_by_the_backdrop(void **state)
     opaque_finish(&f);
 }
 
-/* A hot sphere adds its glow to its colour, and the bloom gets the same glow. */
+/* The light that a hot sphere emits is added to its colour and, in the same amount, to the image
+ * that feeds the bloom. */
 static void hot_spheres_shine(void **state)
 {
     static const char *const overrides[] = {"systems.a.look.temperature=1500 K",
@@ -294,7 +301,8 @@ static void hot_spheres_shine(void **state)
         opaque_draw(&f[i], COUNT);
         for (int p = 0; p < PIXELS; p++) {
             if (f[i].bloom.host[4 * p + 3] < 1.0f)
-                continue; /* bright samples count less at edges, which are left out */
+                continue; /* pixels at edges are left out, since bright samples have smaller weights
+                           * there */
             red[i] += (double)f[i].color.host[4 * p];
             bloom[i] += (double)f[i].bloom.host[4 * p];
         }
@@ -304,7 +312,8 @@ static void hot_spheres_shine(void **state)
     assert_true(fabs((red[1] - red[0]) - (bloom[1] - bloom[0])) < 0.01 * red[1]);
 }
 
-/* A sphere around the camera is not drawn, nor is one with an opacity of 0, which has no size. */
+/* A sphere that contains the camera is not drawn. A sphere with an opacity of 0 is not drawn, since
+ * opacity scales its size. */
 static void no_sphere_fills_the_picture(void **state)
 {
     static const char *const gone[] = {"systems.a.look.opacity=0"};
@@ -323,7 +332,8 @@ static void no_sphere_fills_the_picture(void **state)
     }
 }
 
-/* Returns v in the axes of a ball. pose: the quaternion that has turned the ball. */
+/* Returns the vector v of the world in the axes of a ball. pose: the ball's rotation, a unit
+ * quaternion. */
 static vec into_ball(float4 pose, vec v)
 {
     const vec u = {-(double)pose.x, -(double)pose.y, -(double)pose.z};
@@ -331,8 +341,9 @@ static vec into_ball(float4 pose, vec v)
     return vec_add(vec_add(v, twice, (double)pose.w), vec_cross(u, twice), 1);
 }
 
-/* Returns 1 where a ball shows the colour of its pattern, 0 where its own, and 0.5 near the edge
- * between them. n: unit vector in the ball's axes. */
+/* Returns 1 where a ball shows the second colour of its pattern, 0 where it shows its own colour,
+ * and 0.5 near the edge between the two. n: unit vector from the ball's centre, in the ball's axes;
+ * stripe: the pattern is `stripe`, otherwise `segments` with three segments of each colour. */
 static double other_part(vec n, bool stripe)
 {
     const double high = fabs(n.y), lune = sin(3 * atan2(n.z, n.x)) * hypot(n.x, n.z) / 3;
@@ -340,7 +351,7 @@ static double other_part(vec n, bool stripe)
     return distance > 0.06 ? 1 : distance < -0.06 ? 0 : 0.5;
 }
 
-/* Turns the particle of slot 5. */
+/* Sets the rotation of the particle in slot 5 to a unit quaternion. */
 static void place_turned(struct fixture *f, float4 pose)
 {
     struct kiln_error error = {0};
@@ -351,7 +362,7 @@ static void place_turned(struct fixture *f, float4 pose)
                                  true, &error));
 }
 
-/* A ball that collisions have turned shows its pattern turned. */
+/* The pattern of a ball that collisions have rotated is drawn with that rotation. */
 static void patterns_turn_with_the_ball(void **state)
 {
     static const char *const overrides[] = {

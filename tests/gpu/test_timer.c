@@ -1,6 +1,6 @@
-/* Checks kiln_timer (lib/gpu/timer.h): the times of a pass add up, work on the host counts, and GL
- * work counts for the pass that submits it. If this fails, benchmarks charge time to the wrong
- * pass. */
+/* Checks kiln_timer (lib/gpu/timer.h), which measures how long each pass of a frame takes: the
+ * times of a pass that runs twice are added, work on the host is measured, and GL work is charged
+ * to the pass that submits it. If this fails, benchmarks charge time to the wrong pass. */
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -41,7 +41,7 @@ static void check_host_passes(struct kiln_timer *timer)
     assert_true(sum <= elapsed_ms + 1);
     assert_true(ms[KILN_PASS_bloom] == 0);
 
-    /* The next frame starts at 0. */
+    /* After kiln_timer_collect, the times of the next frame start at 0. */
     kiln_timer_collect(timer, ms);
     for (size_t i = 0; i < KILN_PASS_COUNT; i++)
         assert_true(ms[i] == 0);
@@ -66,7 +66,8 @@ static void host_passes_count_on_a_device(void **state)
     kiln_timer_destroy(&timer);
 }
 
-/* The timer uses timestamp queries, as on a GPU, even if the device is software GL. */
+/* Work on the host is measured also if the timer uses GL timestamp queries, as on a GPU. The test
+ * makes the timer use them even if the device is software GL. */
 static void host_passes_count_beside_queries(void **state)
 {
     struct kiln_device *device = *state;
@@ -80,8 +81,9 @@ static void host_passes_count_beside_queries(void **state)
     kiln_timer_destroy(&timer);
 }
 
-/* Eight clears of a large image are quick to submit and slow to do. Their time counts for the pass
- * that submits them, not for the pass that reads a texel and waits for them. */
+/* GL work is charged to the pass that submits it, and not to the later pass that waits for its
+ * result. Eight clears of a large image are quick to submit and slow to do; the second pass reads a
+ * texel of the image and so waits for them. */
 static void gl_work_is_charged_to_its_pass(void **state)
 {
     GLuint texture = 0, framebuffer = 0;
@@ -111,7 +113,8 @@ static void gl_work_is_charged_to_its_pass(void **state)
     assert_true(texel[0] == 7);
     assert_true(ms[KILN_PASS_bloom] > 0);
     assert_true(ms[KILN_PASS_bloom] + ms[KILN_PASS_readback] <= elapsed_ms + 1);
-    /* On software GL, reading a texel is quick if the clears are already done. */
+    /* On software GL the timer waits for the clears at the end of their pass, so that reading a
+     * texel is quick. */
     assert_true(ms[KILN_PASS_bloom] > ms[KILN_PASS_readback] ||
                 !kiln_device_get_info(*state)->software);
     kiln_timer_destroy(&timer);

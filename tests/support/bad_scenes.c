@@ -1,4 +1,5 @@
-/* Loads the faulty scenes of a table, and compares their error messages with the expected ones. */
+/* Loads the faulty scenes of a test's table, and compares each error message with the message that
+ * the table expects. */
 #include "support/bad_scenes.h"
 
 #include <stdio.h>

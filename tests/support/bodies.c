@@ -1,4 +1,4 @@
-/* Writes the vertices and faces of boxes and balls as OBJ files, and loads them as meshes. */
+/* Writes boxes and balls as OBJ files, and loads them as meshes, for tests of mesh colliders. */
 #include "support/bodies.h"
 
 #include <math.h>

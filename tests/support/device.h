@@ -9,15 +9,16 @@
 /* A log callback that prints only warnings, to stderr. */
 void test_log(void *user, enum kiln_log_level level, const char *line);
 
-/* Returns the device that test_device_open opened, for tests whose *state is something else. */
+/* Returns the device that test_device_open opened, for tests whose *state does not point to it. */
 struct kiln_device *test_device(void);
 
-/* Writes the devices of this machine as an error lists them: 0 'cpu', 1 'llvmpipe'. */
+/* Lists the devices of this machine as error messages do, such as "0 'cpu', 1 'llvmpipe'". size:
+ * bytes of `names`. */
 void test_device_names(char *names, size_t size);
 
-/* Returns the largest relative rounding error of a value in a render target of a frame. A GPU has
- * targets of half floats, which round by up to 2^-11; software GL has targets of 32-bit floats,
- * which round by up to 2^-24 (lib/frame/stages.c). */
+/* Returns the largest relative rounding error of a value in a render target of a frame. On a GPU
+ * the render targets have half floats, which round by up to 2^-11; on software GL they have 32-bit
+ * floats, which round by up to 2^-24 (lib/frame/stages_set_up.c). */
 double test_rounding(void);
 
 /* A group set-up for cmocka. It opens the device that KILN_TEST_DEVICE names, or else the first one
@@ -25,8 +26,8 @@ double test_rounding(void);
  * means skipped. */
 int test_device_open(void **state);
 
-/* Does what test_device_open does, but sets *state to NULL. cmocka ignores the initial states of
- * tests if their group has a state. */
+/* Does what test_device_open does, but sets *state to NULL. A group uses it if its tests have
+ * initial states of their own, which cmocka ignores when the group has a state. */
 int test_device_open_alone(void **state);
 
 /* A group tear-down for cmocka. It closes the device. */

@@ -1,5 +1,5 @@
 /* Gives each test a temporary working directory of its own, so that tests cannot disturb each
- * other, and writes and reads text files. */
+ * other. Also writes and reads text files. */
 #ifndef KILN_TESTS_FOLDERS_H
 #define KILN_TESTS_FOLDERS_H
 
@@ -8,8 +8,8 @@ struct test_place {
     int before;      /* file descriptor of the working directory before the test */
 };
 
-/* Set-up and tear-down of a test for cmocka. The set-up makes the folder and enters it; the
- * tear-down leaves it and removes it with all its files. */
+/* Set-up and tear-down of a test for cmocka. test_enter_folder makes the temporary folder and
+ * changes to it. test_leave_folder changes back and removes the folder with all its files. */
 int test_enter_folder(void **state);
 int test_leave_folder(void **state);
 

@@ -1,4 +1,5 @@
-/* Makes pictures whose pixels follow from formulas, writes them, and makes temporary folders. */
+/* Makes pictures whose pixels follow from formulas and writes them as files, and makes, counts and
+ * removes files and temporary folders, for tests of output. */
 #include "support/pictures.h"
 
 #include <dirent.h>
@@ -14,7 +15,7 @@ const char test_scene_hash[] = "0123456789abcdef0123456789abcdef0123456789abcdef
 static const char *const test_layer_names[] = {"beauty", "depth", "fire"};
 static const uint32_t test_layer_channels[] = {4, 1, 4};
 
-/* Returns a triangle wave between 0 and 200, with a period of 400. */
+/* Returns a triangle wave, which rises from 0 to 200 and falls again within a period of 400. */
 static uint32_t test_wave(uint32_t phase)
 {
     return phase % 400 < 200 ? phase % 400 : 400 - phase % 400;

@@ -1,4 +1,5 @@
-/* Makes pools, and fails the test where that fails. */
+/* Makes pools of particles for tests that place particles by hand, or run a scene. A pool that
+ * cannot be made fails the test. */
 #include "support/pools.h"
 
 #include <string.h>

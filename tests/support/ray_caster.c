@@ -1,4 +1,5 @@
-/* Traces rays to simple shapes in double precision, draws backdrops, and compares the two. */
+/* Casts rays at simple shapes in double precision to compute the light and depth of each pixel of a
+ * backdrop, draws the backdrop with kiln, and compares the two. */
 #include "support/ray_caster.h"
 
 #include <stdlib.h>
@@ -16,21 +17,23 @@ static struct vec cross(struct vec a, struct vec b)
                          a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
 }
 
-/* The nearest hit of a ray so far: origin + t * direction, with t > 0. */
+/* The nearest hit of a ray so far, at origin + t * direction with t > 0. `any` is false while there
+ * is no hit. */
 struct found {
     double t;
     struct vec normal, albedo;
     bool any;
 };
 
-/* Replaces the hit by another one if that is in front of the origin and nearer. */
+/* Replaces the nearest hit by a hit at t, if t is in front of the origin and nearer. */
 static void keep(struct found *found, double t, struct vec normal, struct vec albedo)
 {
     if (t > 1e-6 && (!found->any || t < found->t))
         *found = (struct found){t, normal, albedo, true};
 }
 
-/* Returns v rotated about x, then y, then z. With `back` set, returns the inverse rotation of v. */
+/* Returns v rotated by angles.v[0] about x, then by angles.v[1] about y, then by angles.v[2] about
+ * z, rad. With `back` set, applies the inverse rotation instead. */
 static struct vec rotated(struct vec v, struct vec angles, bool back)
 {
     for (int k = 0; k < 3; k++) {
@@ -99,9 +102,9 @@ static void hit_plane(const struct shape *s, struct vec o, struct vec d, struct 
         keep(found, dot(along(s->center, o, -1), s->axis) / climb, s->axis, s->albedo);
 }
 
-/* Finds the nearest of the hits of the capsule's side and of the balls at its ends. Parts of a
- * ball's surface lie inside of the capsule, but a ray from outside always meets the capsule's own
- * surface first. */
+/* Finds where a ray first hits a capsule: on its cylinder or on one of the balls at its ends. Half
+ * of each ball lies inside the capsule, but a ray from outside always hits the capsule's surface
+ * first. */
 static void hit_capsule(const struct shape *s, struct vec o, struct vec d, struct found *found)
 {
     struct found outside = {.any = false};
@@ -123,7 +126,8 @@ static void hit_capsule(const struct shape *s, struct vec o, struct vec d, struc
         keep(found, outside.t, outside.normal, s->albedo);
 }
 
-/* Returns a vector of the mesh's file, scaled and then rotated about y by the shape's angle. */
+/* Returns a vector of the mesh's file in the world's axes: scaled by `scale`, then rotated about y
+ * by the shape's angle. */
 static struct vec turned(const struct shape *s, const float v[3], double scale)
 {
     double c = cos(s->angle), n = sin(s->angle);
@@ -190,9 +194,10 @@ struct vec pixel_ray(double px, double py)
     return along(d, up, (1 - 2 * py / HEIGHT) * tan_y);
 }
 
-/* Returns the part of the disc of the sun, or of a lamp, that a point sees. Traces rays to places
- * on rings of the disc. sun: unit direction to the disc; radius: angle of the disc's radius, rad;
- * reach: distance of the light, m, since what lies behind the light does not hide it. */
+/* Returns which part, 0 to 1, of the disc of the sun or of a lamp is visible from `point`, so that
+ * shadows get a penumbra. Casts rays at places on rings of the disc. sun: unit direction to the
+ * disc's centre; radius: half of the disc's angular diameter, rad; reach: distance of the light, m,
+ * beyond which an object does not hide it. */
 static double sun_seen(const struct shape *shapes, int count, struct vec point, struct vec sun,
                        double radius, double reach)
 {
@@ -224,7 +229,7 @@ struct picture draw_below(void *device, const char *text, const char *asset_root
         fail_msg("%s", error.message);
     kiln_image_init(&p.color, device, WIDTH, HEIGHT, GL_RGBA32F, "color");
     kiln_image_init(&p.depth, device, WIDTH, HEIGHT, GL_R32F, "depth");
-    p.moment = calloc(1, sizeof *p.moment); /* allocated, since the stage points to it */
+    p.moment = calloc(1, sizeof *p.moment); /* allocated, since the stage keeps its address */
     assert_non_null(p.moment);
     if (!kiln_moment_init(p.moment, device, p.scene, NULL, &error) ||
         !kiln_moment_fill(p.moment, NULL, kiln_instant_at_step(0), false, &error))
@@ -259,7 +264,8 @@ void finish(struct picture *p)
     kiln_scene_destroy(&p->scene);
 }
 
-/* Returns the part of its light, 0 to 1, that a spot sends in the direction `from` away from it. */
+/* Returns the attenuation, 0 to 1, of a spot light's cone for a surface. from: direction from the
+ * lamp to the surface. Returns 1 for a lamp that is no spot. */
 static double cone_part(const struct expected *e, struct vec from)
 {
     if (e->lamp_outer <= 0)
@@ -270,8 +276,9 @@ static double cone_part(const struct expected *e, struct vec from)
     return part * part * (3 - 2 * part);
 }
 
-/* Returns 1 / pi of the irradiance at a point by a rectangle of radiance 1. Sums over PARTS x PARTS
- * small parts of the rectangle, and traces a ray to each for shadows. */
+/* Returns the irradiance, divided by pi, of a point by a rectangular light of radiance 1. Sums over
+ * PARTS x PARTS small parts of the rectangle, and casts a shadow ray to each of them. normal: unit
+ * normal of the surface at the point. */
 static double by_rectangle(const struct expected *e, struct vec point, struct vec normal)
 {
     enum { PARTS = 14 };

@@ -1,4 +1,5 @@
-/* Writes a skinned mesh as a glTF file in memory, and loads it. */
+/* Writes a mesh that is skinned to a chain of three joints as a glTF file in memory, and loads it,
+ * for tests of skinned meshes. */
 #include "support/rig.h"
 
 #include <math.h>
@@ -8,10 +9,11 @@
 #include "support/cmocka.h"
 #include "support/errors.h"
 
-/* The glTF file, a format for snprintf. Its arguments are second, skin, attributes and animations
- * of struct variant, the buffer views, the buffer's size and the buffer in base64. Accessors 0 to 9
- * are the members of struct rig, one for each joint's rotations; 10 and 11 are the first key frame
- * alone of the times and of the first joint's rotations. */
+/* Format for snprintf of the glTF file. Its arguments are, in order: `second`, `skin`, `attributes`
+ * and `animations` of struct variant; the buffer views; the buffer's size, bytes; the buffer in
+ * base64. Accessors 0 to 9 are the members of struct rig in order, where `turns` has three
+ * accessors, one for each joint. Accessors 10 and 11 are only the first key frame of the times and
+ * of the first joint's rotations. */
 static const char JSON[] =
     "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 4]}],"
     " \"nodes\": [{\"name\": \"hips\", \"children\": [1]},"
@@ -111,7 +113,7 @@ void set_turn(float out[4], const double axis[3], double angle)
     out[3] = (float)cos(0.5 * angle);
 }
 
-/* Returns a pseudo-random number from 0 to 1. */
+/* Returns a pseudo-random number from 0 to 1, and advances the generator's state. */
 static double chance(uint32_t *state)
 {
     *state = *state * 1664525u + 1013904223u;

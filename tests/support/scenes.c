@@ -1,4 +1,5 @@
-/* Loads scenes from texts and files, and prints them, for tests. */
+/* Loads scenes from texts and files, and prints them as texts, for tests. Only try_scene returns an
+ * error; in the other functions an error fails the test. */
 #include "support/scenes.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* Writes and runs a golden test of a few sparks, updates its goldens, and changes its files. */
+/* Writes a golden-image test of a small scene into the working directory, runs it, updates its
+ * goldens, and changes its files, for tests of lib/suite. */
 #include "support/suite.h"
 
 #include <stdio.h>
@@ -11,7 +12,7 @@
 #include "support/folders.h"
 #include "support/pictures.h"
 
-/* A scene of a few sparks, 48 x 32 pixels. */
+/* Text of the scene: a few sparks, drawn in 48 x 32 pixels. */
 static const char spark_scene[] = "kiln: 1\n"
                                   "seed: 7\n"
                                   "output: {size: [48, 32], fps: 30, frames: 8}\n"
@@ -25,7 +26,7 @@ static const char spark_scene[] = "kiln: 1\n"
                                   "      speed: [0.5, 1]\n"
                                   "    look: {atlas: \"builtin:spark\", blend: add, size: 0.2}\n";
 
-/* The golden test of the scene. The path of the scene is relative to the test's own folder. */
+/* Text of the golden test. It names the scene by a path relative to its own folder. */
 #define SPARK_TEST "kiln_test: 1\nscene: spark.yaml\nframes: [3, 5]\n"
 
 void spark_write(const char *more)

@@ -1,4 +1,5 @@
-/* Makes scenes of thrown particles, runs them, and checks positions and velocities. */
+/* Makes scenes of particles that fly at colliders, runs them, and checks positions and velocities,
+ * for tests of collisions. */
 #include "support/thrown.h"
 
 #include <math.h>
@@ -118,7 +119,8 @@ void no_bounce_makes_faster(float nearest)
     simulation_end(&run);
 }
 
-/* Returns the number of objects that a particle is inside of at a time; 0 for a dead particle. */
+/* Returns the number of backdrop objects that contain a particle at a time, s. Returns 0 for a dead
+ * particle. */
 static uint32_t count_inside(const struct kiln_particle *p, float time_s, in_object *is_inside)
 {
     const struct kiln_scene *scene = &fixture.scene;

@@ -1,5 +1,5 @@
-/* Makes the sprite of a particle, finds which place of it a pixel shows, and shades that place, in
- * double precision. */
+/* Draws one particle in double precision, as a reference: makes its sprite, finds which place of it
+ * a pixel shows, and shades the place. */
 #include "support/true_sprite.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@
 
 /* ---- light ----------------------------------------------------------------------------------- */
 
-/* Reads a grid of the smoke's optical depth, trilinearly between its cells. at: 0 to 1 along each
- * axis. */
+/* Reads a grid of the smoke's optical depth, interpolated trilinearly between the centres of its
+ * cells. at: position in the grid, 0 to 1 along each axis. */
 static double true_grid(const float *depth, const double at[3])
 {
     int cell[3], next[3];
@@ -39,8 +39,8 @@ static double true_grid(const float *depth, const double at[3])
 }
 
 /* Returns the optical depth of the smoke that the light of the sun, or of the sky, crosses on its
- * way to p. It is 0 for a place beside the smoke, or between the smoke and the light. depth: the
- * grid, or NULL for no smoke; to_grid: rows that map the world to the grid. */
+ * way to the world position p; 0 if p is beside the smoke, or between smoke and light. depth: the
+ * grid, or NULL for no smoke; to_grid: rows of the matrix from the world to the grid. */
 static double true_smoke(const float *depth, const float4 to_grid[3], dvec p)
 {
     if (!depth)
@@ -53,9 +53,10 @@ static double true_smoke(const float *depth, const float4 to_grid[3], dvec p)
     return true_grid(depth, at);
 }
 
-/* Returns the optical depth of the smoke that a lamp's light crosses. Reads the lamp's map
- * trilinearly between texels of the cube's face that the place lies in, and between layers
- * (shared/lamp_smoke.h). from: from the lamp to the place, m. */
+/* Returns the optical depth of the smoke that a lamp's light crosses on its way to a position. The
+ * lamp's map of optical depth is a cube map with several layers by distance (shared/lamp_smoke.h);
+ * it is interpolated trilinearly between the texels of one face and between two layers. from:
+ * vector from the lamp to the position, m. */
 static double true_lamp_smoke(const struct kiln_lighting *l, const struct kiln_draw_light *lamp,
                               dvec from)
 {
@@ -94,7 +95,7 @@ static double true_lamp_smoke(const struct kiln_lighting *l, const struct kiln_d
     return sum;
 }
 
-/* Returns the part of lamp i, 0 to 1, that the backdrop does not hide from a particle. */
+/* Returns which part of lamp i, 0 to 1, the backdrop does not hide from the particle in a slot. */
 static double true_lamp_part(const struct kiln_lighting *l, uint32_t i, uint32_t slot)
 {
     if (!l->lamplit)
@@ -103,9 +104,9 @@ static double true_lamp_part(const struct kiln_lighting *l, uint32_t i, uint32_t
     return (l->lamplit[i / 4 * plane + slot] >> (8 * (i % 4)) & 255) / 255.0;
 }
 
-/* Returns how fast light that smoke scatters falls off, as a part of how fast straight light does
- * (smoke_diffusion in shared/smoke_grid.h). reflected: the part of the light that the smoke
- * reflects. */
+/* Returns the attenuation coefficient of scattered light in smoke relative to the coefficient of
+ * direct light, 0 to 1, as smoke_diffusion of shared/smoke_grid.h does. reflected: the part of the
+ * light that thick smoke reflects, 0 to 1. */
 static double true_diffusion(double reflected)
 {
     const double g = 0.4, part = fmin(fmax(reflected, 0), 1);
@@ -114,9 +115,9 @@ static double true_diffusion(double reflected)
     return fmin(sqrt(3 * (1 - albedo) * (1 - albedo * g)), 1);
 }
 
-/* Adds a light of a colour to a sprite. all, straight: the parts of it that arrive from all sides
- * and straight from its direction, of which half each counts; axes: those of the billboard, view
- * space. */
+/* Adds a light to a sprite: half of it from all sides, half by Lambert's law. all, straight:
+ * factors on `color` for the two halves, after attenuation; direction: unit vector to the light,
+ * world space; axes: the billboard's right, up and normal, view space. */
 static void true_add_light(const struct true_scene *t, struct true_sprite *s, float4 color,
                            double all, double straight, dvec direction, const dvec axes[3])
 {
@@ -129,7 +130,9 @@ static void true_add_light(const struct true_scene *t, struct true_sprite *s, fl
     }
 }
 
-/* Sums up the light of sky, sun and lamps on a sprite. cover: its row KILN_LOOK_COVER. */
+/* Computes s->light, the light of sky, sun and lamps on a sprite. cover: row KILN_LOOK_COVER, whose
+ * last value, `lit`, is the weight of this light, 0 to 1; the rest is constant light 1; axes:
+ * right, up and normal, view space. */
 static void true_light(const struct true_scene *t, struct true_sprite *s, const double cover[4],
                        uint32_t slot, dvec position, const dvec axes[3])
 {
@@ -165,8 +168,9 @@ static void true_light(const struct true_scene *t, struct true_sprite *s, const 
 
 /* ---- form ------------------------------------------------------------------------------------ */
 
-/* Computes the axes of a billboard's plane: right, up and towards the viewer (Heinz 2019, 2.1.1).
- * facing: LOOK_*; axis: of an axial billboard, or the world's up, in the world. */
+/* Computes the unit axes of a billboard's plane in view space: right, up and towards the viewer
+ * (Heinz 2019, 2.1.1). facing: LOOK_*; axis: the axis of an axial billboard, otherwise the world's
+ * up, in world space; center: view space. */
 static void true_plane(const struct true_scene *t, uint32_t facing, dvec axis, dvec center,
                        dvec axes[3])
 {
@@ -182,9 +186,9 @@ static void true_plane(const struct true_scene *t, uint32_t facing, dvec axis, d
     axes[2] = facing == LOOK_AXIAL ? dvec_cross(axes[0], upward) : normal;
 }
 
-/* Computes the unit direction of a billboard's upward edge, along right and up of its plane.
- * Returns the length by which a stretch, s, extends half of that edge, m. moving: velocity along
- * right and up, m/s. */
+/* Computes `up`, the unit direction of a billboard's length along right and up of its plane.
+ * Returns by how much stretching extends half of the length, m. angle: rad; stretch: s; moving:
+ * velocity along right and up, m/s. */
 static double true_up(double angle, double stretch, const double moving[2], uint32_t facing,
                       double up[2])
 {
@@ -208,8 +212,9 @@ static double true_up(double angle, double stretch, const double moving[2], uint
     return 0.5 * speed * stretch;
 }
 
-/* Chooses the texture, two adjacent cells of it and their mix (Heinz 2019, equation 3.2), and the
- * level of detail. passes: how often the particle has gone through its cells until now. */
+/* Chooses the texture, two adjacent cells of its flipbook with their weights for frame blending
+ * (Heinz 2019, equation 3.2), and the level of detail. passes: how often the flipbook has been
+ * played since birth, with a fraction. */
 static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
                               const struct kiln_draw_look *look, uint32_t stream, float passes,
                               double width_px, double length_px)
@@ -234,7 +239,7 @@ static void true_choose_cells(const struct true_scene *t, struct true_sprite *s,
     s->motion = t->atlas->moves ? (double)BITS_FLOAT(texture.w) : 0;
 }
 
-/* Projects a position in view space to the picture, px from the top left. */
+/* Projects a position in view space to the picture. Sets `pixel` to x, y, px from the top left. */
 static void true_pixel(const struct true_scene *t, dvec v, double pixel[2])
 {
     const float4 f = t->view->frustum;
@@ -242,8 +247,9 @@ static void true_pixel(const struct true_scene *t, dvec v, double pixel[2])
     pixel[1] = 0.5 * (double)f.w * (1 - v.y / (double)f.y / -v.z);
 }
 
-/* Makes the sprite a point or a line, which is a rectangle of the picture. width: px; way_m: from
- * the head of a line, which is the centre, to its tail, view space. */
+/* Turns a sprite into a point or a line, a rectangle in the picture. width: of the line, or
+ * diameter of the point, px; way_m: vector from the line's head, which is the sprite's centre, to
+ * its tail, view space, m. */
 static void true_make_plain(const struct true_scene *t, struct true_sprite *s,
                             const struct kiln_draw_look *look, double width, dvec way_m)
 {
@@ -269,15 +275,16 @@ static void true_make_plain(const struct true_scene *t, struct true_sprite *s,
     s->disc = !line && look->form.z != 0;
 }
 
-/* Returns corner i of a billboard, in order around it, view space. */
+/* Returns the position of corner i of a billboard, counted around its edge, in view space. */
 static dvec true_corner(const struct true_sprite *s, int i)
 {
     double across = i == 1 || i == 2 ? 1 : -1, along = i < 2 ? 1 : -1;
     return dvec_add(dvec_add(s->center, s->right, across), s->up, along);
 }
 
-/* Finds where the ray through a place of the picture (x, y), px, meets a billboard's plane. Returns
- * the view depth, m, and sets `place` in half edges along right and up from the centre. */
+/* Intersects the ray through the place (x, y) of the picture, px, with a billboard's plane. Returns
+ * the view depth, m. Sets `place` to coordinates along right and up, in which the edges are at -1
+ * and 1. */
 static double true_meet(const struct true_scene *t, const struct true_sprite *s, double x, double y,
                         double place[2])
 {
@@ -292,9 +299,10 @@ static double true_meet(const struct true_scene *t, const struct true_sprite *s,
     return depth;
 }
 
-/* Draws a billboard that is thinner than a pixel a pixel wide and fainter by the same factor, and
- * filters the edges of one that is narrower than BILLBOARD_RIM_MOST (billboard_rim_of in
- * shared/billboard_place.h). Its widths, px, follow from the slopes of true_meet at its centre. */
+/* Prepares filtered edges, as billboard_rim_of in shared/billboard_place.h does. Widens a billboard
+ * of less than one pixel to one pixel, and makes it fainter by the same factor. Filters the edges
+ * if its width or length is below BILLBOARD_RIM_MOST, px. Both follow from how true_meet's
+ * coordinates change around its centre. */
 static void true_widen(const struct true_scene *t, struct true_sprite *s)
 {
     const double step = 1e-4;
@@ -318,8 +326,8 @@ static void true_widen(const struct true_scene *t, struct true_sprite *s)
     }
 }
 
-/* Computes the box of pixels that a sprite may touch: around its corners, with a margin for the
- * rim, or the whole picture if a corner of a billboard is behind the eye. */
+/* Computes the bounding box of the pixels that a sprite may touch: that of its corners, with a
+ * margin for filtered edges, or the whole picture if a corner of a billboard is behind the eye. */
 static void true_bound(const struct true_scene *t, struct true_sprite *s)
 {
     const double size[2] = {(double)t->view->frustum.z, (double)t->view->frustum.w};
@@ -350,25 +358,26 @@ static void true_bound(const struct true_scene *t, struct true_sprite *s)
 
 /* ---- whole sprites --------------------------------------------------------------------------- */
 
-/* Values of a particle from which its sprite is made. row: of its look at its age; position: world,
- * m; moving: velocity in view space, m/s; axes: of its billboard, view space. */
+/* Values of a particle from which its sprite is made. age: seconds since birth; row: the rows
+ * KILN_LOOK_* at this age; scale: random factor on the size; half_size: m; position: world, m;
+ * moving: velocity in view space, m/s; axes: right, up and normal of the billboard, view space. */
 struct true_subject {
     const struct kiln_draw_look *look;
     uint32_t stream;
-    float life; /* part of the life that has passed */
+    float life; /* part of its life that has passed, 0 to 1 */
     double age, row[KILN_LOOK_ROWS][4];
     double scale, half_size, diameter_px;
     dvec position, moving, axes[3];
 };
 
-/* Returns the particle's random number for a purpose (RANDOM_*), from `least` to `most`. */
+/* Returns the particle's random number for a purpose (RANDOM_*), between `least` and `most`. */
 static double true_between(const struct true_subject *p, uint32_t purpose, double least,
                            double most)
 {
     return least + (most - least) * (double)random_unit(p->stream, purpose);
 }
 
-/* Computes the axes and half edges of a billboard from rotation, spin and stretch. */
+/* Computes a billboard's axes and half edges from its facing, rotation, spin and stretch. */
 static void true_turn(const struct true_scene *t, struct true_subject *p, struct true_sprite *s)
 {
     const double *turn = p->row[KILN_LOOK_TURN], *axis = p->row[KILN_LOOK_AXIS];
@@ -485,8 +494,8 @@ bool true_place_of(const struct true_scene *t, const struct true_sprite *s, doub
     return inside;
 }
 
-/* Reads channel c of a texture of bytes bilinearly at (u, v), clamped at the texture's edges.
- * has_sign: the bytes are signed and stand for -1 to 1; otherwise they stand for 0 to 1. */
+/* Samples channel c of a texture of bytes bilinearly at (u, v), clamped at its edges. The bytes
+ * stand for -1 to 1 if has_sign is set, otherwise for 0 to 1. */
 static double true_bilinear(const uint8_t *texels, int columns, int rows, int channels, int c,
                             double u, double v, bool has_sign)
 {
@@ -505,8 +514,8 @@ static double true_bilinear(const uint8_t *texels, int columns, int rows, int ch
     return upper + (lower - upper) * part_y;
 }
 
-/* Mixes the two cells of a sprite at a place. Follows the motion vectors back and forth, so that a
- * detail of both cells meets itself. */
+/* Blends two adjacent flipbook cells at a place of a sprite. Displaces each cell along the motion
+ * vectors, so that a detail which moves between the cells is seen once and not twice. */
 static void true_cell(const struct true_scene *t, const struct true_sprite *s,
                       const struct true_place *at, double cell[4])
 {
@@ -528,8 +537,8 @@ static void true_cell(const struct true_scene *t, const struct true_sprite *s,
     }
 }
 
-/* Returns the factor on opacity where a sprite comes near the scene (Heinz 2019, equation 3.3).
- * depth, scene: view depths of the sprite and of the scene, m. */
+/* Returns the soft-particle fade: the factor on a sprite's opacity close to a surface of the scene
+ * (Heinz 2019, equation 3.3). depth, scene: view depths of the sprite and of the scene, m. */
 static double true_soft(const struct true_sprite *s, double depth, double scene)
 {
     if (s->soft <= 0)
@@ -539,7 +548,7 @@ static double true_soft(const struct true_sprite *s, double depth, double scene)
     return fmin(fmax((scene - depth) * s->soft, 0), 1);
 }
 
-/* Returns the part of a pixel that lies within a billboard's filtered edges. */
+/* Returns which part of a pixel, 0 to 1, lies within the filtered edges of a billboard. */
 static double true_rim(const struct true_sprite *s, const struct true_place *at)
 {
     if (s->plain || !(s->rim[0] > 0))
@@ -548,7 +557,7 @@ static double true_rim(const struct true_sprite *s, const struct true_place *at)
            fmin(fmax((0.5 - fabs(at->v - 0.5)) * s->rim[1] + 0.5, 0), 1);
 }
 
-/* Returns the part of a pixel that a point or a line covers. */
+/* Returns which part of a pixel, 0 to 1, a point or a line covers. */
 static double true_coverage(const struct true_sprite *s, const struct true_place *at)
 {
     if (s->disc)

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Checks that `kiln help environment` has a row for each environment variable that kiln reads, and
-# no row for any other: environment.sh SOURCE KILN. If this fails, users cannot know of a variable
-# that changes kiln's behaviour, or set one that does nothing. A getenv whose argument is not a
-# literal takes its name from a table; only the files listed below may have tables and such calls.
+# no other rows: environment.sh SOURCE KILN. If this fails, users do not learn of a variable that
+# changes kiln's behaviour, or read of one that does nothing. The names are found as string literals
+# in calls of getenv, and in the tables of a few files. Only the files that are listed below may
+# have such tables or call getenv with another argument than a literal.
 set -euo pipefail
 cd "$1"
 kiln=$2
@@ -12,7 +13,8 @@ failed=0
 
 sources() { find cmd lib decode -name '*.[ch]' -not -path cmd/environment.c; }
 
-# read_names: prints the variables that are literals in calls of getenv, and the names in tables.
+# read_names: prints the names of the variables that kiln reads: literals in calls of getenv, and
+# entries of the tables.
 read_names()
 {
     sources | xargs grep -ohE '\b(secure_)?getenv\("[^"]*"\)' | sed 's/.*("//; s/").*//'

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Checks that an installed kiln works without its source and build folders: install.sh BUILD CC. If
 # this fails, kiln works for developers but not for users. The script installs kiln to a temporary
-# prefix, runs the program from /, builds programs with the library by pkg-config and by CMake,
-# builds and runs the examples, reads the manual pages and completes command lines. It also checks
-# that an installation with DESTDIR, as packagers use it, has the same files.
+# prefix and runs the program from the folder /. It builds programs with the library by means of
+# pkg-config and of CMake, builds and runs the examples, reads the manual pages, and completes
+# command lines. It also checks that an installation with DESTDIR, which packagers use, has the same
+# files.
 set -euo pipefail
 build=$1 cc=$2
 prefix=$(mktemp -d)
@@ -26,7 +27,8 @@ diff <(cd "$prefix" && find bin include share -type f | sort) \
 
 (cd / && "$prefix/bin/kiln" help >"$prefix/help.txt")
 grep -q render "$prefix/help.txt" || { echo "kiln help says nothing of render"; exit 1; }
-# campfire has pictures and pot has a mesh; kiln-decode reads both.
+# The scene campfire names pictures and the scene pot a mesh; the separate program kiln-decode must
+# be found to read them.
 for scene in fire_beam campfire pot; do
     (cd / && "$prefix/bin/kiln" check "$prefix/share/kiln/scenes/$scene.yaml" >/dev/null)
 done
@@ -51,7 +53,8 @@ int main(void)
 C
 export PKG_CONFIG_PATH=$libdir
 version=$(pkg-config --modversion kiln)
-# check_user HOW PROGRAM: checks that the library that a program uses has the version of kiln.pc.
+# check_user HOW PROGRAM: checks that a program which was built in the way HOW prints the library
+# version that kiln.pc has.
 check_user() {
     said=$("$2")
     [[ $said == "kiln $version, "* ]] ||
@@ -79,12 +82,13 @@ cmake -S "$prefix/project" -B "$prefix/built" -DCMAKE_PREFIX_PATH="$prefix" >/de
 cmake --build "$prefix/built" >/dev/null
 check_user "find_package, static" "$prefix/built/with_static"
 
-# The examples are built and run as a user would.
+# The examples are built and run from their installed sources, as a user would do.
 examples=$prefix/share/kiln/examples
 cmake -S "$examples" -B "$prefix/examples" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS=-Werror >/dev/null
 cmake --build "$prefix/examples" >/dev/null
-# expect CODE PATTERN COMMAND...: checks the exit code of a command and its last line of output.
+# expect CODE PATTERN COMMAND...: checks the exit code of a command, and the last line of its output
+# by a regular expression.
 expect() {
     local code=0 text
     text=$(cd "$prefix/examples" && "${@:3}" 2>&1 | tr '\r' '\n' | tail -n 1; exit "${PIPESTATUS[0]}") || code=$?
@@ -102,8 +106,8 @@ expect 0 '^they look the same$' ./compare loop.mp4 film.mp4
 expect 0 '^5 frames in ' ./film small.yaml other.mp4 systems.a.emit.rate=900 systems.a.look.size=1
 expect 1 '^they look different$' ./compare loop.mp4 other.mp4
 
-# The Python module is checked if it was built: its files are installed, the example that uses it
-# runs, and pytest finds its plugin.
+# The Python module is checked only if it was built: its files must be installed, the example that
+# uses it must run, and pytest must find its plugin.
 if [[ -f $build/python/kiln/_abi.py ]] && /usr/bin/python3 -c "import numpy, pytest" 2>/dev/null; then
     module=$(sed -n 's/^KILN_PYTHON_DIR:STRING=//p' "$build/CMakeCache.txt")
     diff <(cd "$prefix/$module" && find . -type f | sort) <(cd "$prefix/package/usr/$module" && find . -type f | sort)

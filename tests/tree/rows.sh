@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Checks that the rows of option tables take their offsets from the macros of lib/option/rows.h, which
-# compare the C type of the field: rows.sh SOURCE. If this fails, a row has an offset of its own, and
-# a value may be written over a field of another type.
+# Checks that every row of an option table gets the offset of its field from the macros of
+# lib/option/rows.h, which check the field's C type at compile time: rows.sh SOURCE. If this fails,
+# a row sets an offset without this check, and reading a scene may write a value over a field of
+# another type.
 set -euo pipefail
 cd "$1"
 if grep -rnE --include='*.[ch]' --exclude=rows.h '\.(offset|count_offset|kind_offset) *= *[^= ]' lib cmd decode tests; then

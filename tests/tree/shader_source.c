@@ -1,6 +1,6 @@
 /* Prints a shader as kiln gives it to a driver, with its includes resolved: shader_source FILE
- * [NAME=VALUE]... FILE is a path under shaders/; each NAME=VALUE becomes a define. shader.sh gives
- * the text to glslangValidator. */
+ * [NAME=VALUE]... FILE is a path under shaders/, and each NAME=VALUE becomes a #define. shader.sh
+ * passes the text to glslangValidator, to check that drivers accept kiln's shaders. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

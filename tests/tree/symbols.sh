@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Checks that no room (folder) of lib/ uses a symbol that a later room defines: symbols.sh BUILD. If
-# this fails, the layers of the library depend on each other in a circle. includes.sh cannot find
-# such a use when the function is declared in kiln.h, which every room may include.
+# Checks the order of the rooms (folders) of lib/ in the compiled objects: no room may use a symbol
+# that a later room defines: symbols.sh BUILD. If this fails, the layers of the library depend on
+# each other in a circle. includes.sh checks the same for headers, but does not see the use of a
+# function that is declared in kiln.h, which every room may include.
 set -euo pipefail
 rooms=$(dirname "$(realpath "$0")")/rooms.awk
 cd "$1"
@@ -11,7 +12,7 @@ if ((${#objects[@]} == 0)); then
     exit 2
 fi
 nm --print-file-name --extern-only "${objects[@]}" | awk -f "$rooms" -f <(cat <<'AWK'
-# A line of nm is "FILE:VALUE TYPE NAME". The value is blank where the symbol is undefined.
+# A line of nm is "FILE:VALUE TYPE NAME". The value is blank if the symbol is undefined (type U).
 {
     file = $1
     sub(/:.*/, "", file)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Checks that KILN_UNCONFINED of base/confine.h is 1 exactly when clang builds with a sanitizer:
-# unconfined.sh SOURCE. If this fails, a sanitized kiln-decode is killed for the system calls of its
-# sanitizer, or an ordinary one is not confined. Without clang the test is skipped (77).
+# Checks that the macro KILN_UNCONFINED of base/confine.h, which turns sandboxing off, is 1 exactly
+# when clang builds with a sanitizer: unconfined.sh SOURCE. If this fails, a kiln-decode with a
+# sanitizer is killed for the sanitizer's system calls, or an ordinary kiln-decode decodes untrusted
+# files without a sandbox. Without clang the test is skipped (77).
 set -euo pipefail
 command -v clang >/dev/null || exit 77
 for sanitizer in none address thread memory; do
