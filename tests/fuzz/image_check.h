@@ -1,5 +1,4 @@
-/* Checks the result of a decoder of pictures, for the fuzz targets that decode pictures and videos.
- */
+/* Checks the result of a decoder, for the fuzz targets that decode pictures and videos. */
 #ifndef KILN_FUZZ_IMAGE_CHECK_H
 #define KILN_FUZZ_IMAGE_CHECK_H
 

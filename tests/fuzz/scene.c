@@ -1,8 +1,7 @@
 /* Fuzzes the loader of scenes. For any input it must return a scene or an error, and never crash. A
  * scene that loads is printed, and the printed text must load to the same scene. If this fails, a
- * mistake in a scene file crashes kiln, or the scene that a manifest records is not the scene that
- * was rendered. Lines "#set key=value" at the start of an input are overrides of keys of the scene.
- */
+ * mistake in a scene file crashes kiln, or the scene in a manifest is not the scene that was
+ * rendered. Lines "#set key=value" at the start of an input are overrides of keys of the scene. */
 
 #include <stdlib.h>
 #include <string.h>

@@ -125,8 +125,7 @@ static void planes_hide_the_sun(void **state)
 {
     static const struct {
         const char *direction;
-        double light; /* expected light of the floor: albedo 0.6 * cosine * visible part of the disc
-                       */
+        double light; /* expected: albedo 0.6 * cosine * visible part of the disc */
     } suns[] = {{"[0, 1, 0]", 0.6}, {"[0, 1, -0.5]", 0.268328}, {"[0, 1, -1]", 0}};
     for (int i = 0; i < 3; i++) {
         char text[512];

@@ -42,8 +42,7 @@ static void pixels_return_as_they_were(void **state)
         assert_non_null(host);
         assert_int_equal((uintptr_t)host % 64, 0);
         for (size_t i = 0; i < count; i++)
-            host[i] = (float)i * 0.5f; /* a half float represents it exactly, as it is a multiple of
-                                        * 0.5 below 1024 */
+            host[i] = (float)i * 0.5f; /* exact in half floats: a multiple of 0.5 below 1024 */
         assert_true(kiln_image_gl(&image, KILN_READ_WRITE, &error) != 0);
         memset(host, 0, count * sizeof *host);
         assert_false(image.host_valid);

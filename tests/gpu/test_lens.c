@@ -151,9 +151,9 @@ static double spread(const struct kiln_asset_image *image)
 }
 
 /* A disc in focus is as wide as through a pinhole. A disc at the distance d, half of the focus
- * distance, is blurred over its circle of confusion. The diameter of this circle in the plane of
- * focus is aperture * |d - focus| / d. An evenly filled circle of radius r has the variance r^2 /
- * 2. */
+ * distance, is blurred over its circle of confusion, whose diameter in the plane of focus is
+ * aperture * |d - focus| / d. The variance of an evenly filled circle is half of the square of its
+ * radius. */
 static void the_circle_of_confusion_is_that_of_a_thin_lens(void **state)
 {
     static const char *const WAYS[] = {"raster=cpu", "raster=geometry"};
@@ -175,8 +175,8 @@ static void the_circle_of_confusion_is_that_of_a_thin_lens(void **state)
     }
 }
 
-/* A scene with a lens but only one moment, an instant that is drawn, per frame is an error, since
- * depth of field is a mean over several moments. */
+/* Depth of field is a mean over several moments of a frame, which are the instants that are drawn.
+ * So a scene with a lens but only one moment a frame is an error. */
 static void a_lens_needs_moments(void **state)
 {
     (void)state;

@@ -48,10 +48,8 @@ struct pass {
     bool over;        /* true: the picture is also compared after blending over the backdrop */
 };
 
-enum {
-    MOST_STEPS = 200
-}; /* largest number of steps before the drawn instant; every scene has
-    * particles by then */
+/* Most steps from the start to the drawn instant. Every scene has particles by then. */
+enum { MOST_STEPS = 200 };
 
 /* A scene whose text is in this file and not in scenes/. */
 struct text {
@@ -166,8 +164,7 @@ static uint32_t systems_of(const struct kiln_scene *scene, enum kiln_blend blend
 }
 
 /* Lists the particles of a pass from the farthest to the nearest, or by serial number if all are
- * blended additively, for which the order does not matter. Returns the parameters for drawing them.
- */
+ * blended additively, so that order does not matter. Returns the parameters for drawing them. */
 static struct kiln_particles_draw list_pass(struct subject *s, const struct pass *pass)
 {
     struct kiln_error error = {0};

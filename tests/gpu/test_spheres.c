@@ -137,8 +137,7 @@ static void silhouettes_are_smooth(void **state)
             double seen = (double)f.bloom.host[4 * p] / ALBEDO[0];
             assert_true(fabs(seen - part) < 0.3);
             bool is_sphere = f.depth.host[p] < f.drawing.backdrop_depth.host[p];
-            assert_true(is_sphere == (seen > 0.4)); /* a pixel takes the depth of the sphere if at
-                                                     * least two of its four samples hit it */
+            assert_true(is_sphere == (seen > 0.4)); /* at least two of a pixel's four samples hit */
             drawn += seen;
             expected += part;
             partly += seen > 0.1 && seen < 0.9;
@@ -150,8 +149,8 @@ static void silhouettes_are_smooth(void **state)
 }
 
 /* A sphere with a diameter of a fifth of a pixel adds light in proportion to its area, on average
- * over its positions in the pixel. It hides no particles behind it: the depth stays the backdrop's.
- */
+ * over its positions in the pixel. It hides no particles behind it: the depth is that of the
+ * backdrop. */
 static void spheres_below_a_pixel_are_fainter(void **state)
 {
     enum { PLACES = 8 };
@@ -301,8 +300,7 @@ static void hot_spheres_shine(void **state)
         opaque_draw(&f[i], COUNT);
         for (int p = 0; p < PIXELS; p++) {
             if (f[i].bloom.host[4 * p + 3] < 1.0f)
-                continue; /* pixels at edges are left out, since bright samples have smaller weights
-                           * there */
+                continue; /* edges, where bright samples weigh less, are left out */
             red[i] += (double)f[i].color.host[4 * p];
             bloom[i] += (double)f[i].bloom.host[4 * p];
         }

@@ -24,8 +24,7 @@ bool is_error_decoding(const struct kiln_error *error, enum kiln_code code, cons
     __attribute__((format(printf, 3, 4)));
 
 /* Returns whether an error says that the environment variable KILN_SIMD has the value `value`,
- * which names no SIMD level of this machine. If not, prints what was found and what was expected.
- */
+ * which names no SIMD level of this machine. If not, prints both texts. */
 bool is_error_simd(const struct kiln_error *error, const char *value);
 
 /* Does what is_error does for a text that has no error code, such as a warning or a summary. */
