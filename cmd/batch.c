@@ -352,7 +352,8 @@ static struct kiln_batch *read_file(const char *path, struct kiln_error *error)
     char *text = read_input(&size);
     if (!text) {
         error->code = KILN_DEVICE_FAILED;
-        snprintf(error->message, sizeof error->message, "standard input: out of memory for jobs");
+        snprintf(error->message, sizeof error->message,
+                 "out of memory for the jobs of standard input");
         return NULL;
     }
     struct kiln_batch *batch =

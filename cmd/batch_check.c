@@ -12,7 +12,7 @@
 static bool out_of_memory(struct kiln_error *error)
 {
     *error = (struct kiln_error){.code = KILN_DEVICE_FAILED,
-                                 .message = "out of memory while checking jobs"};
+                                 .message = "out of memory for checking jobs"};
     return false;
 }
 

@@ -121,7 +121,7 @@ static int reserve_stack(void)
                       (uintmax_t)limit.rlim_cur >> 10, STACK_LIMIT >> 10);
     void *room = mmap(NULL, STACK_SIZE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (room == MAP_FAILED)
-        return report(KILN_DEVICE_FAILED, "no memory for a stack of %d KiB", STACK_SIZE >> 10);
+        return report(KILN_DEVICE_FAILED, "out of memory for a stack of %d KiB", STACK_SIZE >> 10);
     munmap(room, STACK_SIZE);
     extend_stack();
     return 0;

@@ -191,7 +191,8 @@ bool pool_run(const struct pool *pool, struct kiln_error *error)
     struct run run = {.pool = pool, .refusal_start_s = -1};
     run.children = calloc(pool->jobs, sizeof *run.children);
     if (!run.children) {
-        *error = (struct kiln_error){.code = KILN_DEVICE_FAILED, .message = "out of memory"};
+        *error =
+            (struct kiln_error){.code = KILN_DEVICE_FAILED, .message = "out of memory for a job"};
         return false;
     }
     /* Some programs start kiln with SIGCHLD ignored. The status of children would then be lost. */

@@ -86,7 +86,7 @@ static struct kiln_scene *load(const char *path, const struct kiln_scene_params 
     char *text = malloc(KILN_MAX_SCENE_SIZE + 1);
     if (!text) {
         error->code = KILN_DEVICE_FAILED;
-        snprintf(error->message, sizeof error->message, "%s: out of memory while reading", name);
+        snprintf(error->message, sizeof error->message, "out of memory for reading %s", name);
     } else if (!read_all(file, text, &size, params)) {
         error->code = errno == EINTR ? KILN_INTERRUPTED : KILN_IO;
         snprintf(error->message, sizeof error->message, "%s: the scene cannot be read: %s", name,

@@ -70,7 +70,7 @@ static enum kiln_code convert_integer(struct conversion *conversion)
         width, height, frame->format, width, height, format,
         SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, NULL, NULL, NULL);
     if (!scaler && kiln_ff.sws_isSupportedInput(frame->format))
-        return fail(conversion, KILN_DEVICE_FAILED, "out of memory while decoding the image");
+        return fail(conversion, KILN_DEVICE_FAILED, "out of memory for decoding the image");
     if (!scaler)
         return fail(conversion, KILN_INVALID_INPUT, "the image's pixel format cannot be read");
     set_colors(scaler, frame);
@@ -105,7 +105,7 @@ static enum kiln_code convert(struct conversion *conversion)
     struct kiln_asset_image *image = calloc(1, sizeof *image);
     conversion->image = image;
     if (!layout || !image)
-        return fail(conversion, KILN_DEVICE_FAILED, "out of memory while decoding the image");
+        return fail(conversion, KILN_DEVICE_FAILED, "out of memory for decoding the image");
     bool is_float = frame->format == AV_PIX_FMT_GBRPF32 || frame->format == AV_PIX_FMT_GBRAPF32 ||
                     frame->format == AV_PIX_FMT_GRAYF32;
     image->width = (uint32_t)frame->width;
@@ -119,7 +119,7 @@ static enum kiln_code convert(struct conversion *conversion)
     enum { SLACK = 64 };
     image->pixels = malloc(kiln_asset_image_bytes(image) + SLACK);
     if (!image->pixels)
-        return fail(conversion, KILN_DEVICE_FAILED, "out of memory while decoding the image");
+        return fail(conversion, KILN_DEVICE_FAILED, "out of memory for decoding the image");
     enum kiln_code code = is_float ? interleave_float(conversion) : convert_integer(conversion);
     if (code == KILN_OK)
         image->channels = count_channels(layout, image);

@@ -433,7 +433,7 @@ size_t kiln_device_list(struct kiln_device_info *infos, size_t stride, size_t ca
                         char advice[256])
 {
     if (advice)
-        snprintf(advice, 256, "no memory for the list of devices");
+        snprintf(advice, 256, "out of memory for the list of devices");
     struct kiln_device_info all[1 + KILN_MAX_EGL_SOURCES];
     struct device_list *device_list = calloc(1, sizeof *device_list);
     if (!device_list)

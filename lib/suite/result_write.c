@@ -156,7 +156,7 @@ bool kiln_result_write(const struct kiln_result *result, const char *folder,
     struct kiln_text text = {0};
     bool written = kiln_result_print(result, &text)
                        ? kiln_temporary_write_file(path, text.data, text.length, error)
-                       : kiln_error_set(error, KILN_IO, "%s: no memory to write it", path);
+                       : kiln_error_no_memory(error, "%s", path);
     kiln_text_free(&text);
     return written;
 }

@@ -38,7 +38,7 @@ for ((limit = (first - 2) << 10; limit < first << 10; limit += 64)); do
     message=$(prlimit --as=$((limit << 10)) "$kiln" help exit-codes 2>&1 >/dev/null) || code=$?
     case $code in
     0 | 127) ;; # 127: the dynamic loader fails
-    5) [[ $message != 'kiln: no memory for a stack of '* ]] || said=yes ;;
+    5) [[ $message != 'kiln: out of memory for a stack of '* ]] || said=yes ;;
     *) problem "$limit KiB: exit code $code: $message" ;;
     esac
 done

@@ -199,14 +199,14 @@ int kiln_loader_file_of(const void *bytes, size_t size, const char *name, struct
         if (written < 0 && errno == EINTR)
             continue;
         if (written <= 0) {
-            kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "%s: no memory for it", name);
+            kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "out of memory for %s", name);
             close(file);
             return -1;
         }
         done += (size_t)written;
     }
     if (file < 0)
-        kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "%s: no memory for it", name);
+        kiln_error_set_errno(error, KILN_DEVICE_FAILED, errno, "out of memory for %s", name);
     return file;
 }
 
