@@ -312,10 +312,11 @@ static void broken_results_are_refused_with_their_place(void **state)
             expect_error(&error, KILN_INVALID_INPUT,
                          "r.json: the file is empty; expected a result");
         } else { /* libfyaml says where and why */
-            unsigned int line = 0, column = 0;
-            sscanf(error.message, "r.json:%u:%u", &line, &column);
+            char *end;
+            const unsigned long line = strtoul(error.message + strlen("r.json:"), &end, 10);
+            const unsigned long column = *end ? strtoul(end + 1, NULL, 10) : 0;
             expect_error_around(&error, KILN_INVALID_INPUT, "",
-                                "r.json:%u:%u: not valid YAML: ", line, column);
+                                "r.json:%lu:%lu: not valid YAML: ", line, column);
         }
         free(text);
     }
