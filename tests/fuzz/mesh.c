@@ -1,7 +1,8 @@
-/* Fuzzes the mesh loader: any bytes must give a mesh and a skinned mesh within the limits, at any
- * time of its animation clip, or an error. If this fails, a damaged OBJ or glTF file crashes kiln.
- * The importer may crash, since it runs in kiln-decode, the separate process that decodes
- * strangers' files; kiln must then report an error. */
+/* Fuzzes the mesh loader. For any bytes, kiln must load a mesh or report an error, and for glTF
+ * also a skinned mesh or an error. The numbers of vertices and triangles must stay within
+ * KILN_MAX_MESH_*, and every vertex must be finite, also in every pose of the animation clip. If
+ * this fails, a damaged OBJ or glTF file crashes kiln. The importer runs in a process of its own,
+ * kiln-decode, and may crash there; kiln must report that as an error. */
 #include <string.h>
 
 #include "fuzz.h"

@@ -1,6 +1,7 @@
 /* Runs a fuzz target without libFuzzer, as the test fuzz.TARGET: `replay MUTATIONS FOLDER...` gives
  * the target every file of the folders, and MUTATIONS mutations of each file. The mutations are the
- * same in every run, so that a failure can be repeated. */
+ * same in every run, so that a failure can be repeated. If this fails, an input crashes one of
+ * kiln's readers, or a reader refuses a valid file, which lies in a folder named "good". */
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,8 @@
 /* Checks the composite stage (lib/post/composite*.c), which makes the final picture, by GL and by
- * the CPU: how it composes scene, particles and fire, exposure and tone mapping against formulas in
- * double precision, dither, and pictures with alpha. If this fails, pictures have wrong colours,
- * bands or holes, or lose light over another background. */
+ * the CPU. Composition of scene, particles and fire, exposure, and ACES tone mapping are compared
+ * with formulas in double precision. AgX tone mapping, dither and alpha are checked for the
+ * properties that they must have. If this fails, pictures have wrong colours, banding or black
+ * pixels, or transparent pictures lose light when they are put over another background. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>

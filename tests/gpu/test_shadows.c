@@ -1,6 +1,7 @@
 /* Checks the shadows that spheres, meshes and objects cast in sunlight on the floor, on spheres and
  * on smoke, against rays or projected corners. If this fails, shadows lie in wrong places, or are
- * cut off, too dark or too hard. Each technique of the backdrop runs all tests. */
+ * cut off, too dark or too hard. `tools/test --all` runs the tests with each technique of the
+ * backdrop, `tools/test` with `cpu` alone. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>

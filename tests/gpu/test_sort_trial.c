@@ -1,6 +1,6 @@
-/* Checks that every sort that the benchmark of sorts times (lib/bench/sort_timer.c) lists the keys'
- * places in the order of the keys. If this fails, the benchmark compares the time of a sort that
- * does not sort. */
+/* Checks each sorting algorithm that kiln's benchmark of sorts measures (lib/bench/sort_timer.c):
+ * its result must be the indices of the keys in ascending order of the keys. If this fails, the
+ * benchmark reports the time of an algorithm that does not sort. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>

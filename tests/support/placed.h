@@ -5,7 +5,10 @@
 
 #include "draw/moment/moment.h"
 
-enum { PLACED_MOST = 4096 /* slots a system */, PLACED_STEP = 30 /* drawn at this step's end */ };
+enum {
+    PLACED_MOST = 4096 /* particle slots of each system */,
+    PLACED_STEP = 30 /* drawn at this step's end */
+};
 
 /* A scene with its particles, at the end of step PLACED_STEP. */
 struct placed {

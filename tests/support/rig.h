@@ -31,7 +31,7 @@ struct variant {
 };
 
 /* The JSON of channels and samplers that rotate the joints 0, `node` and 2, and move joint 0.
- * `node` is a string, "1" in a sound file. */
+ * `node` is a string, "1" in a file without faults. */
 #define CHANNELS(node)                                                                             \
     "\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 0, \"path\": \"rotation\"}},"          \
     " {\"sampler\": 1, \"target\": {\"node\": " node ", \"path\": \"rotation\"}},"                 \
@@ -40,7 +40,7 @@ struct variant {
     " \"samplers\": [{\"input\": 3, \"output\": 4}, {\"input\": 3, \"output\": 5},"                \
     " {\"input\": 3, \"interpolation\" : \"%s\", \"output\": 6}, {\"input\": 3, \"output\": 7}]"
 
-/* The JSON of the skin and of the animation of a sound file. */
+/* The JSON of the skin and of the animation of a file without faults. */
 #define SKIN ", \"skin\": 0"
 #define WAVE "\"animations\": [{\"name\": \"wave\", " CHANNELS("1") "}],"
 
