@@ -68,7 +68,7 @@ SIMD struct ray_place sample_place(const struct kiln_ray_frame *frame, const str
 void KILN_SIMD_NAME(kiln_rays_trace)(const struct kiln_ray_frame *frame,
                                      const struct kiln_ray_objects *objects, const struct ray *ray,
                                      const vf *floor, const struct ray_place *place,
-                                     struct ray_hit *nearest);
+                                     struct ray_hit *found);
 
 SIMD struct ray_hit trace(const struct kiln_ray_frame *frame,
                           const struct kiln_ray_objects *objects, const struct ray *ray, vf floor,
