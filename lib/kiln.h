@@ -92,8 +92,8 @@ struct kiln_error {
     size_t size; /* sizeof the caller's struct; 0 stands for that of this version */
     enum kiln_code code;
     char message[KILN_MESSAGE_SIZE];
-    /* Where kiln's source detected the error, for people who change kiln: a path in the tree, which
-     * nobody frees, or NULL. */
+    /* The place in kiln's source that detected the error, for people who change kiln: a path in the
+     * tree, which nobody frees, or NULL. */
     const char *file;
     int line;
 };

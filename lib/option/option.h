@@ -88,7 +88,6 @@ struct kiln_option_kind {
 };
 
 enum {
-    KILN_KIND_NONE = -1, /* kind_offset of items that have no enum, since all are of one kind */
     KILN_ALLOW_TIME = 1 << KILN_CLOCK_TIME,
     KILN_ALLOW_LIFE = 1 << KILN_CLOCK_LIFE,
     KILN_ALLOW_BOTH = KILN_ALLOW_TIME | KILN_ALLOW_LIFE,
@@ -115,7 +114,7 @@ struct kiln_option {
     const struct kiln_option *members;
     const struct kiln_option_kind *kinds;
     const struct kiln_option *item; /* for a list: the row that describes an item */
-    int kind_offset;                /* offset of the item's enum; KILN_KIND_NONE: it has none */
+    int kind_offset;                /* offset of the item's enum */
     /* for arrays: size of an item, and offset of the count in the struct of the table */
     size_t item_size, count_offset;
     size_t max_count;

@@ -81,7 +81,7 @@
 /* part, name, type, field, default, help */
 #define ROW(part_, name_, type_, field_, fallback_, help_)                                         \
     ROW_AT(part_, name_, type_, OFFSET_IN(FILLS, field_, type_), fallback_, help_)
-/* The same for a type that fills FILLS itself and chooses the fields. */
+/* This row is of a type that fills FILLS itself and chooses the fields. */
 #define ROW_OF_ALL(part_, name_, type_, fallback_, help_)                                          \
     ROW_AT(part_, name_, type_,                                                                    \
            KILN_FIELD_ASSERT(KILN_FIELD_IS((FILLS *)NULL, kiln_fills_##type_ *),                   \
@@ -138,7 +138,7 @@
     {                                                                                              \
         ROW_AT(part, n, group, 0, "{}", h), MEMBERS(rows)                                          \
     }
-/* The same for members of a field, which is a struct. */
+/* GROUP_AT is a group whose members are those of a field, which is a struct. */
 #define GROUP_AT(part, n, f, rows, h)                                                              \
     {                                                                                              \
         ROW_AT(part, n, group, OFFSET_OF_ROWS(f, rows), "{}", h), .members = rows                  \
@@ -149,7 +149,7 @@
         ROW_AT(part, n, switch, 0, def, h), MEMBERS(rows),                                         \
             .count_offset = OFFSET_IN(FILLS, enabled, boolean)                                     \
     }
-/* The same for members of a field, which is a struct. */
+/* SWITCH_AT is a switch whose members are those of a field, which is a struct. */
 #define SWITCH_AT(part, n, f, rows, enabled, def, h)                                               \
     {                                                                                              \
         ROW_AT(part, n, switch, OFFSET_OF_ROWS(f, rows), def, h),                                  \
@@ -167,7 +167,7 @@
         ROW_AT(part, n, list, OFFSET_OF_ARRAY(f, item_), def, h),                                  \
             .item = &(item_), .item_size = sizeof(item_##_fills), COUNTED(f, count)                \
     }
-/* The same for a mapping of names, with members instead of an item. The struct of an entry begins
+/* MAP is a mapping of names, with members instead of an item. The struct of an entry begins
  * with `const char *name`. */
 #define MAP(part, n, f, rows, count, def, h)                                                       \
     {                                                                                              \

@@ -124,8 +124,7 @@ static bool read_kind(struct kiln_reader *reader, const struct kiln_option *opti
     const struct kiln_option_kind *kind = find_kind(reader, option, value);
     if (!kind)
         return false;
-    if (option->kind_offset != KILN_KIND_NONE)
-        memcpy((char *)field + option->kind_offset, &kind->value, sizeof kind->value);
+    memcpy((char *)field + option->kind_offset, &kind->value, sizeof kind->value);
     size_t before = kiln_reader_enter(reader, kind->name);
     if (kind->shortcut && (value->kind != KILN_NODE_MAP || kiln_node_is_animated(value)))
         value = expand_shortcut(reader, value, kind->shortcut);
@@ -140,8 +139,6 @@ static bool read_kind(struct kiln_reader *reader, const struct kiln_option *opti
 static const struct kiln_option_kind *kind_of(const struct kiln_option *option, const void *field)
 {
     const struct kiln_option_kind *kind = option->kinds;
-    if (option->kind_offset == KILN_KIND_NONE)
-        return kind;
     int value;
     memcpy(&value, (const char *)field + option->kind_offset, sizeof value);
     while (kind->value != value)

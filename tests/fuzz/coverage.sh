@@ -7,9 +7,9 @@ set -euo pipefail
 source=$1 build=$2 found=${3:-}
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Debug \
     -DCMAKE_C_FLAGS="--coverage -fprofile-update=atomic" -DKILN_TESTS=ON -DKILN_SIMD_LEVELS=plain >/dev/null
-mapfile -t names < <(sed -n '/^foreach(target/,/)$/p' "$source/tests/fuzz/CMakeLists.txt" | tr '() ' '\n\n\n' |
-    grep -vxE 'foreach|target|' | sort -u)
-cmake --build "$build" --target "${names[@]/#/replay_}" >/dev/null
+cmake --build "$build" --target replays >/dev/null
+mapfile -t names < <(find "$build/tests/fuzz" -maxdepth 1 -name 'replay_*' -type f -executable -printf '%f\n' |
+    sed 's/^replay_//' | sort)
 find "$build" -name '*.gcda' -delete
 for name in "${names[@]}"; do
     folders=("$source/tests/fuzz/corpus/$name"/*)

@@ -115,9 +115,9 @@ static void near_full_resolution(void **state)
     }
 }
 
-/* Where a near object hides the smoke at full resolution, there is no smoke (alpha below 0.02) at
- * lower resolutions either. Of the pixels with dense smoke at full resolution (alpha above 0.5), at
- * most one in fifty loses it (alpha below 0.25). */
+/* Pixels in which a near object hides the smoke at full resolution have no smoke (alpha below 0.02)
+ * at lower resolutions either. Of the pixels with dense smoke at full resolution (alpha above 0.5),
+ * at most one in fifty loses it (alpha below 0.25). */
 static void smoke_does_not_bleed_over_edges(void **state)
 {
     const struct frame_setting full = {{NULL}, 0, FRAME_CPU, 0};

@@ -338,7 +338,7 @@ static void the_soft_shadow_of_a_mesh_is_whole(void **state)
     free(alone);
 }
 
-/* Where meshes are too many for silhouettes, each must cast the shadow of a sphere whose cross
+/* Each of too many meshes for silhouettes must cast the shadow of a sphere whose cross
  * section is the mesh's mean projected area over all poses: a quarter of its surface. */
 static void meshes_that_are_too_many_have_round_shadows(void **state)
 {

@@ -408,8 +408,8 @@ static void other_techniques_and_missing_states_are_noted(void **state)
     assert_int_equal(spark_expect(NULL, KILN_TEST_PASS, KILN_JUDGED_BY_PIXELS), 0);
 }
 
-/* Of several goldens of a frame, `--update failed` must replace the one that is nearest to the
- * picture, which judged the picture. */
+/* `--update failed` must replace, of several goldens of a frame, the one nearest to the picture,
+ * which judged the picture. */
 static void update_failed_replaces_the_nearest_golden(void **state)
 {
     (void)state;

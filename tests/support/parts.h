@@ -16,7 +16,7 @@ enum { TEST_LIST_SIZE = 256 };
  * in each run. */
 bool test_is_full(void);
 
-/* What a test finds in *state if it runs once for each scene file. */
+/* A test that runs once for each scene file finds this struct in *state. */
 struct test_scene {
     const char *path;
     size_t number; /* index among all scene files, sorted by name */

@@ -32,9 +32,9 @@ struct true_sprite {
      * received from all sides, and the parts along right, up and towards the viewer; bloom: factors
      * on the light that goes to the bloom; bulge: half of the sprite's thickness, m. */
     double hot[3], cool[3], color[3], light[4][3], bloom[3], bulge;
-    /* Of a billboard's width along right and along up. narrowed: the true width divided by the
-     * drawn width, below 1 for a width of less than a pixel; rim: the drawn width, px, if the edges
-     * are filtered, or 0 for hard edges. */
+    /* Index 0 is for a billboard's width along right, index 1 along up. narrowed: the true width
+     * divided by the drawn width, below 1 for a width of less than a pixel; rim: the drawn width,
+     * px, if the edges are filtered, or 0 for hard edges. */
     double narrowed[2], rim[2];
     uint32_t layers[2], level; /* layers of the atlas with two adjacent cells; level of detail */
     int columns, rows;         /* texels of a cell at that level */

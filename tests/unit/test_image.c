@@ -164,8 +164,8 @@ static void every_format_is_decoded(void **state)
     }
 }
 
-/* Where a file ends within its header, it is not known as an image, or FFmpeg says why it cannot
- * read it. */
+/* A file that ends within its header is not known as an image, or FFmpeg says why it cannot read
+ * the file. */
 static void expect_cut(const struct source *source, size_t size, const struct kiln_error *error)
 {
     enum { WEBP_SIGNATURE = 12, EXR_HEADER = 500 };
