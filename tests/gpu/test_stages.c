@@ -123,8 +123,8 @@ static void layers_hold_what_they_say(void **state)
     frame_finish(&f);
 }
 
-/* Smoke in front of fire must cover the fire and its bloom with post.compose=merged, with
- * post.compose=separate fire must shine through (Heinz 2019, figure 4.3). */
+/* Smoke in front of fire must cover the fire and its bloom with post.compose=merged, and
+ * with post.compose=separate fire must shine through (Heinz 2019, figure 4.3). */
 static void fire_shines_through_only_when_separate(void **state)
 {
     struct frame merged, separate;
