@@ -33,10 +33,26 @@ FN uint random_mix(uint x)
     return x;
 }
 
-/* Returns the key of a system in a run. */
-FN uint random_key(uint seed, uint system)
+/* The number among those of the systems that belongs to the noise that all systems share. States
+ * depend on it, so it must not change. */
+#define RANDOM_NOISE_NUMBER 16u
+
+/* Returns the key of a number in a run. */
+FN uint random_key(uint seed, uint number)
 {
-    return random_mix(random_mix(seed) + system * 0x9e3779b9u);
+    return random_mix(random_mix(seed) + number * 0x9e3779b9u);
+}
+
+/* Returns the key of a system of particles. */
+FN uint random_system_key(uint seed, uint system)
+{
+    return random_key(seed, system < RANDOM_NOISE_NUMBER ? system : system + 1u);
+}
+
+/* Returns the key of the noise that all systems share. */
+FN uint random_noise_key(uint seed)
+{
+    return random_key(seed, RANDOM_NOISE_NUMBER);
 }
 
 /* Returns the stream of a particle; no two particles of a system share one. */

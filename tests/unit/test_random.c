@@ -52,6 +52,21 @@ static void the_mix_changes_half_of_the_bits(void **state)
     }
 }
 
+/* The numbers of states of 0.1: a noise with the number 16, and systems before it. Later systems
+ * have other numbers than the noise. */
+static void systems_and_the_noise_have_their_own_keys(void **state)
+{
+    (void)state;
+    uint32_t keys[65] = {random_noise_key(7)};
+    assert_int_equal(keys[0], random_key(7, 16));
+    for (uint32_t i = 0; i < 64; i++) {
+        keys[i + 1] = random_system_key(7, i);
+        assert_int_equal(keys[i + 1], random_key(7, i < 16 ? i : i + 1));
+        for (uint32_t k = 0; k <= i; k++)
+            assert_int_not_equal(keys[k], keys[i + 1]);
+    }
+}
+
 static void units_lie_in_0_to_1(void **state)
 {
     (void)state;
@@ -128,6 +143,7 @@ int main(void)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_are_uniform_for_every_argument),
         cmocka_unit_test(the_mix_changes_half_of_the_bits),
+        cmocka_unit_test(systems_and_the_noise_have_their_own_keys),
         cmocka_unit_test(units_lie_in_0_to_1),
         cmocka_unit_test(directions_fill_their_cone_evenly),
         cmocka_unit_test(frames_are_orthonormal),

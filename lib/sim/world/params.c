@@ -56,10 +56,6 @@ static_assert(ALIGN_WORLD == (uint)KILN_ALIGN_WORLD &&
                   ALIGN_NORMAL == (uint)KILN_ALIGN_NORMAL,
               "the shaders' names of enum kiln_align");
 
-/* The random key of the noise that all systems share. It differs from the number of every
- * system. */
-enum { NOISE_SYSTEM = KILN_MAX_SYSTEMS };
-
 static float4 to_float4(const float v[3])
 {
     return FLOAT4(exact_canon(v[0]), exact_canon(v[1]), exact_canon(v[2]), 0.0f);
@@ -150,7 +146,7 @@ static void fill_system(struct kiln_step_params *params, const struct kiln_scene
         .collide = collide_kind(&system->collide),
         .demitter_count = system->demitter_count,
         .bounded = system->bounds.enabled,
-        .noise_seed = random_key(scene->seed, NOISE_SYSTEM),
+        .noise_seed = random_noise_key(scene->seed),
         .bounds_min = to_float4(system->bounds.min),
         .bounds_max = to_float4(system->bounds.max),
         .rubs = rubs(scene, &system->collide),
