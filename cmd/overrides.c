@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "report.h"
 #include "signals.h"
 
 /* Returns the override "key=value" that a use of an option stands for, in new memory; NULL when
@@ -64,5 +65,6 @@ struct kiln_scene_params overrides_scene_params(const struct overrides *override
     params.override_count = overrides->count;
     params.stop = signals_wants_stop;
     params.budget = arguments->budget;
+    params.log = report_log();
     return params;
 }

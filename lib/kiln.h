@@ -137,6 +137,7 @@ struct kiln_scene_params {
     void *user;
     const struct kiln_cancel *cancel; /* NULL: nobody cancels */
     struct kiln_budget *budget;       /* the job's; must outlive the scene; NULL: no limits */
+    struct kiln_log log; /* gets warnings, which begin with the scene's file and line */
 };
 KILN_EMPTY(kiln_scene_params, kiln_scene_defaults)
 

@@ -1,5 +1,5 @@
 /* Reads and documents the limits of a job. Each limit has a row with its value in the preset
- * `service` and its help. */
+ * `service` and its help. The help also has the sizes that no scene may go over. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "kiln_program.h"
 #include "option/unit.h"
+#include "scene/small_steps.h"
 
 static const struct row {
     const char *service; /* the limit in the preset `service` */
@@ -147,6 +148,57 @@ bool kiln_limits_parse(struct kiln_limits *limits, const char *text, struct kiln
     return ok;
 }
 
+/* ---- sizes of a scene ------------------------------------------------------------------------ */
+
+static const struct size {
+    const char *name;
+    unsigned long long most;
+    const char *help;
+} sizes[] = {
+    {"systems", KILN_MAX_SYSTEMS, "Particle systems."},
+    {"particles", KILN_MAX_PARTICLES, "Particles that may live at once, of all systems."},
+    {"forces", KILN_MAX_FORCES, "Forces of a system."},
+    {"bursts", KILN_MAX_BURSTS, "Bursts of a system."},
+    {"demitters", KILN_MAX_DEMITTERS, "Boxes of a system in which particles die."},
+    {"generations", KILN_MAX_GENERATIONS, "Generations of systems, parents to last descendants."},
+    {"textures", KILN_MAX_TEXTURES, "Textures of a system."},
+    {"cells", KILN_MAX_CELLS, "Cells of all textures."},
+    {"keys", KILN_MAX_VALUE_KEYS, "Keys of all values that vary."},
+    {"objects", KILN_MAX_OBJECTS, "Objects of the backdrop, meshes and terrain included."},
+    {"meshes", KILN_MAX_MESHES, "Meshes and terrains of the backdrop."},
+    {"lights", KILN_MAX_LIGHTS, "Lights of the backdrop."},
+    {"winds", KILN_MAX_WINDS, "Files of wind."},
+    {"steps", KILN_MAX_STEPS, "Steps of a run, warm-up included."},
+};
+
+static void write_sizes(FILE *out)
+{
+    fputs("\nA scene has at most these, whatever the limits:\n\n", out);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        fprintf(out, "%-14s%-12llu%s\n", sizes[i].name, sizes[i].most, sizes[i].help);
+}
+
+/* Writes the least speeds that are true to 1 %, for some distances from the origin and rates. */
+static void write_speeds(FILE *out)
+{
+    static const float places[] = {10.0f, 100.0f, 1000.0f, 10000.0f, 100000.0f};
+    static const int rates[] = {60, 240, 1000};
+    fputs("\nPositions are 32-bit floats, so small steps far from the origin are rounded. Speeds "
+          "are true to\n"
+          "1 % from these on; kiln warns of systems whose particles are slower:\n"
+          "\n"
+          "FROM THE ORIGIN",
+          out);
+    for (size_t k = 0; k < sizeof rates / sizeof *rates; k++)
+        fprintf(out, "  %4d steps/s", rates[k]);
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        fprintf(out, "\n%13.0f m", (double)places[i]);
+        for (size_t k = 0; k < sizeof rates / sizeof *rates; k++)
+            fprintf(out, "  %8.3g m/s", kiln_small_steps_true_speed(places[i], rates[k]));
+    }
+    fputc('\n', out);
+}
+
 /* ---- help and listing ------------------------------------------------------------------------ */
 
 bool kiln_write_limits(FILE *out)
@@ -166,5 +218,7 @@ bool kiln_write_limits(FILE *out)
     for (size_t i = 0; i < KILN_LIMIT_COUNT; i++)
         fprintf(out, "%-14s%-12s%s\n", kiln_limit_name((enum kiln_limit)i), rows[i].service,
                 rows[i].help);
+    write_sizes(out);
+    write_speeds(out);
     return !ferror(out);
 }

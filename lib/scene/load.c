@@ -12,6 +12,7 @@
 #include "base/sized.h"
 #include "option/override.h"
 #include "scene/asset_path.h"
+#include "scene/small_steps.h"
 #include "scene/validate.h"
 
 /* The limits whose counts start at 0 again with each scene of a job. */
@@ -107,8 +108,11 @@ static bool build(struct kiln_reader *reader, const char *text, size_t size,
         kiln_budget_reset(scene->budget, OF_A_SCENE[i]);
     if (!kiln_read_members(reader, kiln_options_root, root, scene) || !keep_keys(reader, scene))
         return false;
-    return kiln_validate(reader, root) && take_hash(scene, reader->error) &&
-           kiln_budget_is_kept(scene->budget, reader->error);
+    if (!kiln_validate(reader, root) || !take_hash(scene, reader->error) ||
+        !kiln_budget_is_kept(scene->budget, reader->error))
+        return false;
+    kiln_small_steps_warn(reader, root, &params->log);
+    return true;
 }
 
 /* Says that a limit of the whole job was reached, if one was: the line that was read at that time,

@@ -105,3 +105,43 @@ $ ls -d out*
 1|out
 1|out.gif.journal
 1|out.gif.parts
+
+Every scene has limits, and far from the origin steps may be too small for positions of 32 bits.
+
+$ kiln help limits | sed -n '20,$p'
+1|A scene has at most these, whatever the limits:
+1|
+1|systems       16          Particle systems.
+1|particles     16777216    Particles that may live at once, of all systems.
+1|forces        16          Forces of a system.
+1|bursts        64          Bursts of a system.
+1|demitters     8           Boxes of a system in which particles die.
+1|generations   4           Generations of systems, parents to last descendants.
+1|textures      8           Textures of a system.
+1|cells         2048        Cells of all textures.
+1|keys          1024        Keys of all values that vary.
+1|objects       32          Objects of the backdrop, meshes and terrain included.
+1|meshes        8           Meshes and terrains of the backdrop.
+1|lights        16          Lights of the backdrop.
+1|winds         8           Files of wind.
+1|steps         4194303     Steps of a run, warm-up included.
+1|
+1|Positions are 32-bit floats, so small steps far from the origin are rounded. Speeds are true to
+1|1 % from these on; kiln warns of systems whose particles are slower:
+1|
+1|FROM THE ORIGIN    60 steps/s   240 steps/s  1000 steps/s
+1|           10 m   0.00286 m/s    0.0114 m/s    0.0477 m/s
+1|          100 m    0.0229 m/s    0.0916 m/s     0.381 m/s
+1|         1000 m     0.183 m/s     0.732 m/s      3.05 m/s
+1|        10000 m      2.93 m/s      11.7 m/s      48.8 m/s
+1|       100000 m      23.4 m/s      93.8 m/s       391 m/s
+$ cat >far.yaml <<END
+> kiln: 1
+> output: {size: [32, 32], fps: 50, frames: 3}
+> simulation: {rate: 1000}
+> systems:
+>   slow: {emit: {rate: 9, speed: 0.01, from: {point: {origin: [100, 0, 0], direction: [1, 0, 0]}}}}
+> END
+$ kiln check -q far.yaml && kiln render far.yaml -q -o none && kiln check -q far.yaml --set systems.slow.emit.speed=0.5
+2|kiln: warning: far.yaml:5:33: systems.slow.emit.speed: a step of particles at 0.01 m/s is 1e-05 m, and positions 100 m from the origin are multiples of 7.6e-06 m, so that their speed is up to 38 % off; at 1000 steps a second, speeds from 0.381 m/s on are true to 1 % there: lower simulation.rate, or move the scene to the origin
+2|kiln: warning: far.yaml:5:33: systems.slow.emit.speed: a step of particles at 0.01 m/s is 1e-05 m, and positions 100 m from the origin are multiples of 7.6e-06 m, so that their speed is up to 38 % off; at 1000 steps a second, speeds from 0.381 m/s on are true to 1 % there: lower simulation.rate, or move the scene to the origin
