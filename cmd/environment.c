@@ -18,9 +18,11 @@ const struct variable variables[] = {
     {"KILN_BATCH_PROCESS", "Set by 'kiln render --batch' for its jobs: the process ID of the "
                            "batch, with which a job ends."},
     {"XDG_CACHE_HOME",
-     "The folder in which a folder kiln keeps results that take long to make (flipbooks, distance "
-     "fields of meshes) for later jobs, instead of ~/.cache. /dev/null keeps nothing."},
-    {"HOME", "The home folder, whose .cache/kiln keeps results where XDG_CACHE_HOME is not set. "
+     "The folder in which kiln keeps results that take long to make for later jobs, instead of "
+     "~/.cache: flipbooks and distance fields of meshes in a folder kiln, built programs of OpenGL "
+     "in a folder kiln-programs. The second is used only where nobody but this user has rights to "
+     "it. /dev/null keeps nothing."},
+    {"HOME", "The home folder, whose .cache keeps results where XDG_CACHE_HOME is not set. "
              "Without both variables, nothing is kept from run to run."},
     {"TMPDIR", "The folder in which 'kiln bench' and 'kiln test calibrate' write temporary "
                "pictures, instead of /tmp."},

@@ -1,10 +1,11 @@
-/* This file reads and writes the cache of flipbooks and of the distance fields of meshes. Each file
- * of the cache is a line with a checksum, followed by the data. The checksum finds accidental
- * damage only: a user who may write into the folder can forge any file. So it is Adler-32 and not
- * SHA-256, which took a sixth of the time of a small frame. */
+/* This file reads and writes the cache of flipbooks, of the distance fields of meshes and of
+ * programs of GL. Each file of the cache is a line with a checksum, followed by the data. The
+ * checksum finds accidental damage only: a user who may write into the folder can forge any file.
+ * So it is Adler-32 and not SHA-256, which took a sixth of the time of a small frame. */
 #include "base/cache.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,16 +21,34 @@
 
 enum { HEADER = sizeof MAGIC - 1 + 8 + 1 };
 
-bool kiln_cache_folder(char folder[KILN_PATH_SIZE])
+/* Writes the path of a folder of the cache. */
+static bool find_folder(char folder[KILN_PATH_SIZE], const char *name)
 {
     const char *cache = getenv("XDG_CACHE_HOME"); /* NOLINT(concurrency-mt-unsafe): only read */
     const char *home = getenv("HOME");            /* NOLINT(concurrency-mt-unsafe): only read */
     int length = -1;
     if (cache && cache[0] == '/')
-        length = snprintf(folder, KILN_PATH_SIZE, "%s/kiln", cache);
+        length = snprintf(folder, KILN_PATH_SIZE, "%s/%s", cache, name);
     else if (home && home[0] == '/')
-        length = snprintf(folder, KILN_PATH_SIZE, "%s/.cache/kiln", home);
+        length = snprintf(folder, KILN_PATH_SIZE, "%s/.cache/%s", home, name);
     return length > 0 && length < KILN_PATH_SIZE - 80; /* 80: a slash and a file's name */
+}
+
+bool kiln_cache_folder(char folder[KILN_PATH_SIZE])
+{
+    return find_folder(folder, "kiln");
+}
+
+bool kiln_cache_private_folder(char folder[KILN_PATH_SIZE])
+{
+    struct kiln_error ignored = {0};
+    struct stat status;
+    if (!find_folder(folder, "kiln-programs") || !kiln_make_parent_folders(folder, &ignored))
+        return false;
+    if (mkdir(folder, 0700) != 0 && errno != EEXIST)
+        return false;
+    return lstat(folder, &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == geteuid() &&
+           (status.st_mode & (S_IRWXG | S_IRWXO)) == 0;
 }
 
 static void compose_header(char header[HEADER + 1], const void *bytes, size_t size)
@@ -50,7 +69,8 @@ static bool read_bytes(FILE *in, void *bytes, size_t size)
     return memcmp(found, expected, sizeof found) == 0;
 }
 
-bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, size_t size)
+/* Opens the file of a name, and finds how many bytes follow its header. */
+static FILE *open_file(const char *folder, const char *name, size_t *size)
 {
     char path[KILN_PATH_SIZE];
     struct kiln_error ignored = {0};
@@ -58,15 +78,34 @@ bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, siz
     const int file = kiln_path_join(path, folder, name, &ignored)
                          ? kiln_file_open(path, "cache", "", &file_size, &ignored)
                          : -1;
-    FILE *in = file >= 0 && file_size == HEADER + size ? fdopen(file, "rb") : NULL;
-    if (!in) {
-        if (file >= 0)
-            close(file);
-        return false;
-    }
-    const bool is_undamaged = read_bytes(in, bytes, size);
-    fclose(in);
+    FILE *in = file >= 0 && file_size >= HEADER ? fdopen(file, "rb") : NULL;
+    if (!in && file >= 0)
+        close(file);
+    *size = in ? file_size - HEADER : 0;
+    return in;
+}
+
+bool kiln_cache_read_into(const char *folder, const char *name, void *bytes, size_t size)
+{
+    size_t found;
+    FILE *in = open_file(folder, name, &found);
+    const bool is_undamaged = in && found == size && read_bytes(in, bytes, size);
+    if (in)
+        fclose(in);
     return is_undamaged;
+}
+
+void *kiln_cache_read_any(const char *folder, const char *name, size_t most, size_t *size)
+{
+    FILE *in = open_file(folder, name, size);
+    void *bytes = in && *size <= most ? malloc(*size > 0 ? *size : 1) : NULL;
+    if (bytes && !read_bytes(in, bytes, *size)) {
+        free(bytes);
+        bytes = NULL;
+    }
+    if (in)
+        fclose(in);
+    return bytes;
 }
 
 void *kiln_cache_read(const char *folder, const char *name, size_t size)

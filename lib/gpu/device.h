@@ -19,16 +19,23 @@ struct kiln_traffic {
     uint64_t to_device, to_host;
 };
 
+/* Counts the programs that were made since the device was opened. */
+struct kiln_program_counts {
+    uint32_t built;  /* compiled and linked */
+    uint32_t loaded; /* taken from the cache (gpu/program_cache.h) */
+};
+
 struct kiln_device {
     struct kiln_handle handle;
     struct kiln_device_info info;
     struct kiln_log log;
     struct kiln_traffic traffic; /* contents of buffers, images and textures since the device was
                                   * opened */
-    uint32_t work_group_size;    /* for programs created from now on; 0: each kernel's own
-                                  * default */
-    void *display, *context;     /* EGL; NULL without GL */
-    pthread_t thread;            /* the one that opened it */
+    struct kiln_program_counts programs;
+    uint32_t work_group_size; /* for programs created from now on; 0: each kernel's own
+                               * default */
+    void *display, *context;  /* EGL; NULL without GL */
+    pthread_t thread;         /* the one that opened it */
     bool debug;
     bool gl_failed;       /* the debug callback received an error since the last
                            * kiln_device_check */

@@ -1,23 +1,34 @@
 /* This file compiles and links GLSL programs. The error of a failed build is one line: the driver's
- * first error at its file and line. The driver's whole message goes to the log. */
+ * first error at its file and line. The driver's whole message goes to the log. A program that was
+ * built before is taken from the cache instead (program_cache.c). */
 #include "gpu/program.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "gpu/program_cache.h"
 #include "gpu/source.h"
 
 enum { MAX_STAGES = 4 };
+
+/* One stage of a program while it is built. */
+struct stage {
+    GLenum kind;
+    const char *file;
+    struct kiln_source source;
+    GLuint shader;
+};
 
 /* Holds a program while it is built: its GL objects and its name. */
 struct build {
     struct kiln_device *device;
     GLuint program;
-    GLuint shaders[MAX_STAGES];
-    size_t shader_count;
+    struct stage stages[MAX_STAGES];
+    size_t stage_count;
     struct kiln_text name; /* the files, for messages and labels */
 };
 
@@ -69,28 +80,17 @@ static void report(struct build *build, char *log, const struct kiln_source *sou
     free(log);
 }
 
-static bool compile(struct build *build, GLenum stage, const char *file, const char *defines,
-                    struct kiln_error *error)
+static bool compile(struct build *build, struct stage *stage, struct kiln_error *error)
 {
-    struct kiln_source *source = calloc(1, sizeof *source);
-    if (!source)
-        return kiln_error_no_memory(error, "shader %s", file);
-    bool ok = kiln_source_load(source, file, defines, error);
-    if (ok) {
-        GLuint shader = glCreateShader(stage);
-        build->shaders[build->shader_count++] = shader;
-        kiln_device_label(build->device, GL_SHADER, shader, file);
-        glShaderSource(shader, 1, (const GLchar *const *)&source->text.data, NULL);
-        glCompileShader(shader);
-        GLint compiled = GL_FALSE;
-        glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-        ok = compiled == GL_TRUE;
-        report(build, get_log(shader, true), source, !ok, error);
-        glAttachShader(build->program, shader);
-    }
-    kiln_source_finish(source);
-    free(source);
-    return ok;
+    stage->shader = glCreateShader(stage->kind);
+    kiln_device_label(build->device, GL_SHADER, stage->shader, stage->file);
+    glShaderSource(stage->shader, 1, (const GLchar *const *)&stage->source.text.data, NULL);
+    glCompileShader(stage->shader);
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(stage->shader, GL_COMPILE_STATUS, &compiled);
+    report(build, get_log(stage->shader, true), &stage->source, compiled != GL_TRUE, error);
+    glAttachShader(build->program, stage->shader);
+    return compiled == GL_TRUE;
 }
 
 static bool link_program(struct build *build, struct kiln_error *error)
@@ -102,11 +102,98 @@ static bool link_program(struct build *build, struct kiln_error *error)
     return linked == GL_TRUE && kiln_device_check(build->device, build->name.data, error);
 }
 
+/* Makes an empty program object. */
+static void create_object(struct build *build)
+{
+    build->program = glCreateProgram();
+    kiln_device_label(build->device, GL_PROGRAM, build->program, build->name.data);
+}
+
+/* Compiles and links a program; `retrievable` says that its binary will be asked for. */
+static bool build_program(struct build *build, const struct kiln_program_params *params,
+                          bool retrievable, struct kiln_error *error)
+{
+    bool ok = true;
+    create_object(build);
+    if (retrievable)
+        glProgramParameteri(build->program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    for (size_t i = 0; ok && i < build->stage_count; i++)
+        ok = compile(build, &build->stages[i], error);
+    if (params->captured_count > 0)
+        glTransformFeedbackVaryings(build->program, (GLsizei)params->captured_count,
+                                    params->captured, GL_INTERLEAVED_ATTRIBS);
+    ok = ok && link_program(build, error);
+    for (size_t i = 0; i < build->stage_count; i++) {
+        if (build->stages[i].shader) {
+            glDetachShader(build->program, build->stages[i].shader);
+            glDeleteShader(build->stages[i].shader);
+        }
+    }
+    if (!ok)
+        glDeleteProgram(build->program);
+    return ok;
+}
+
+/* Takes a program from the cache, or builds it and writes it there. */
+static bool find_or_build(struct build *build, const struct kiln_program_params *params,
+                          struct kiln_error *error)
+{
+    char name[KILN_PROGRAM_NAME_SIZE];
+    struct kiln_program_stage stages[MAX_STAGES];
+    const double start_s = kiln_clock_seconds();
+    for (size_t i = 0; i < build->stage_count; i++)
+        stages[i] = (struct kiln_program_stage){.kind = build->stages[i].kind,
+                                                .text = build->stages[i].source.text.data};
+    struct kiln_program_key key = {.stages = stages,
+                                   .stage_count = build->stage_count,
+                                   .captured = params->captured,
+                                   .captured_count = params->captured_count};
+    const bool cached =
+        kiln_program_cache_ask_driver(&key, build->device) && kiln_program_cache_name(name, &key);
+    bool loaded = false;
+    if (cached) {
+        create_object(build);
+        loaded = kiln_program_cache_load(build->device, name, build->program);
+        if (!loaded)
+            glDeleteProgram(build->program);
+    }
+    if (!loaded && !build_program(build, params, cached, error))
+        return false;
+    if (cached && !loaded)
+        kiln_program_cache_save(build->device, name, build->program);
+    if (loaded)
+        build->device->programs.loaded++;
+    else
+        build->device->programs.built++;
+    kiln_log_write(&build->device->log, KILN_LOG_DEBUG, "shaders %s: %s in %.0f ms",
+                   build->name.data, loaded ? "loaded from the cache" : "built",
+                   (kiln_clock_seconds() - start_s) * 1000);
+    return true;
+}
+
+static bool load_sources(struct build *build, const char *defines, struct kiln_error *error)
+{
+    for (size_t i = 0; i < build->stage_count; i++) {
+        struct stage *stage = &build->stages[i];
+        if (!kiln_source_load(&stage->source, stage->file, defines, error))
+            return false;
+    }
+    return true;
+}
+
+static void finish(struct build *build)
+{
+    for (size_t i = 0; i < build->stage_count; i++)
+        kiln_source_finish(&build->stages[i].source);
+    kiln_text_free(&build->name);
+    free(build);
+}
+
 GLuint kiln_program_create(struct kiln_device *device, const struct kiln_program_params *params,
                            struct kiln_error *error)
 {
     const struct {
-        GLenum stage;
+        GLenum kind;
         const char *file;
     } stages[MAX_STAGES] = {
         {GL_COMPUTE_SHADER, params->compute},
@@ -114,35 +201,26 @@ GLuint kiln_program_create(struct kiln_device *device, const struct kiln_program
         {GL_GEOMETRY_SHADER, params->geometry},
         {GL_FRAGMENT_SHADER, params->fragment},
     };
-    struct build build = {.device = device};
-    for (size_t i = 0; i < MAX_STAGES; i++)
-        if (stages[i].file)
-            kiln_text_add(&build.name, "%s%s", build.name.length ? " + " : "", stages[i].file);
-    if (build.name.length == 0 || build.name.failed) {
-        kiln_error_no_memory(error, "the name of a program of shaders");
-        kiln_text_free(&build.name);
+    struct build *build = calloc(1, sizeof *build); /* the sources are too large for a stack */
+    if (!build) {
+        kiln_error_no_memory(error, "a program of shaders");
         return 0;
     }
-    build.program = glCreateProgram();
-    kiln_device_label(device, GL_PROGRAM, build.program, build.name.data);
-
-    bool ok = true;
-    for (size_t i = 0; ok && i < MAX_STAGES; i++)
-        if (stages[i].file)
-            ok = compile(&build, stages[i].stage, stages[i].file, params->defines, error);
-    if (params->captured_count > 0)
-        glTransformFeedbackVaryings(build.program, (GLsizei)params->captured_count,
-                                    params->captured, GL_INTERLEAVED_ATTRIBS);
-    ok = ok && link_program(&build, error);
-
-    for (size_t i = 0; i < build.shader_count; i++) {
-        glDetachShader(build.program, build.shaders[i]);
-        glDeleteShader(build.shaders[i]);
+    build->device = device;
+    for (size_t i = 0; i < MAX_STAGES; i++) {
+        if (!stages[i].file)
+            continue;
+        build->stages[build->stage_count++] =
+            (struct stage){.kind = stages[i].kind, .file = stages[i].file};
+        kiln_text_add(&build->name, "%s%s", build->name.length ? " + " : "", stages[i].file);
     }
+    bool ok = build->name.length > 0 && !build->name.failed;
     if (!ok)
-        glDeleteProgram(build.program);
-    kiln_text_free(&build.name);
-    return ok ? build.program : 0;
+        kiln_error_no_memory(error, "the name of a program of shaders");
+    ok = ok && load_sources(build, params->defines, error) && find_or_build(build, params, error);
+    const GLuint program = ok ? build->program : 0;
+    finish(build);
+    return program;
 }
 
 char *kiln_program_source(const char *file, const char *defines, struct kiln_error *error)

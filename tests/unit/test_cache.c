@@ -27,6 +27,33 @@ static void the_environment_says_where_it_is(void **state)
     assert_false(kiln_cache_folder(folder));
 }
 
+/* The folder of what a driver trusts is made for this user alone, and refused otherwise. */
+static void one_folder_is_private(void **state)
+{
+    (void)state;
+    char folder[KILN_PATH_SIZE], here[256], cache[300];
+    struct stat status;
+    assert_non_null(getcwd(here, sizeof here));
+    snprintf(cache, sizeof cache, "%s/cache", here);
+    setenv("XDG_CACHE_HOME", cache, 1);
+    const mode_t before = umask(0002);
+    assert_true(kiln_cache_private_folder(folder));
+    umask(before);
+    assert_int_equal(stat("cache/kiln-programs", &status), 0);
+    assert_int_equal(status.st_mode & 0777, 0700);
+    assert_true(kiln_cache_private_folder(folder));
+    assert_string_equal(strrchr(folder, '/'), "/kiln-programs");
+    for (int i = 0; i < 6; i++) {
+        assert_int_equal(chmod("cache/kiln-programs", (mode_t)(0700 | 1 << i)), 0);
+        assert_false(kiln_cache_private_folder(folder));
+    }
+    assert_int_equal(rmdir("cache/kiln-programs"), 0);
+    test_write_file("cache/kiln-programs", "");
+    assert_false(kiln_cache_private_folder(folder));
+    setenv("XDG_CACHE_HOME", "/dev/null", 1);
+    assert_false(kiln_cache_private_folder(folder));
+}
+
 static const char bytes[] = "what took long to make";
 
 static bool is_there(const char *folder, const char *name)
@@ -65,6 +92,16 @@ static void what_is_spoiled_counts_for_nothing(void **state)
         kiln_cache_write("a/b", "x", bytes, sizeof bytes);
         assert_true(is_there("a/b", "x"));
     }
+    size_t size = 0;
+    char *any = kiln_cache_read_any("a/b", "x", sizeof bytes, &size);
+    assert_true(any && size == sizeof bytes && memcmp(any, bytes, size) == 0);
+    free(any);
+    assert_null(kiln_cache_read_any("a/b", "x", sizeof bytes - 1, &size));
+    assert_null(kiln_cache_read_any("a/b", "y", sizeof bytes, &size));
+    spoil("a/b/x", 30);
+    assert_null(kiln_cache_read_any("a/b", "x", sizeof bytes, &size));
+    assert_int_equal(truncate("a/b/x", 3), 0);
+    assert_null(kiln_cache_read_any("a/b", "x", sizeof bytes, &size));
     assert_int_equal(mkfifo("a/b/fifo", 0600), 0);
     assert_false(is_there("a/b", "fifo"));
 }
@@ -122,6 +159,7 @@ int main(void)
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, test_enter_folder, test_leave_folder)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_environment_says_where_it_is),
+        IN_FOLDER(one_folder_is_private),
         IN_FOLDER(what_is_spoiled_counts_for_nothing),
         IN_FOLDER(where_nothing_can_be_written_nothing_happens),
         IN_FOLDER(the_oldest_make_room),

@@ -87,6 +87,21 @@ static bool change_outside(void)
            symlink("../secret", "in/soft") == 0;
 }
 
+/* Writes or reads the cache of programs, which a driver of a job outside would trust. */
+static bool reach_programs(void)
+{
+    return opens("cache/kiln-programs/a", O_RDONLY) ||
+           opens("cache/kiln-programs/b", O_WRONLY | O_CREAT) ||
+           rename("cache/kiln", "cache/kiln-programs2") == 0 ||
+           rename("cache/kiln-programs", "cache/kiln/programs") == 0;
+}
+
+/* Writes the cache of flipbooks. */
+static bool write_to_cache(void)
+{
+    return opens("cache/kiln/a", O_WRONLY | O_CREAT);
+}
+
 static bool open_sockets(void)
 {
     return socket(AF_INET, SOCK_STREAM, 0) >= 0 || socket(AF_INET6, SOCK_DGRAM, 0) >= 0 ||
@@ -173,6 +188,12 @@ static int set_up(void **state)
     test_enter_folder(state);
     test_write_file("in/a", "a");
     test_write_file("secret", "s");
+    test_write_file("cache/kiln-programs/a", "a");
+    test_write_file("cache/kiln/old", "o");
+    char folder[256], cache[300];
+    assert_non_null(getcwd(folder, sizeof folder));
+    snprintf(cache, sizeof cache, "%s/cache", folder);
+    assert_int_equal(setenv("XDG_CACHE_HOME", cache, 1), 0);
     const int linked = symlink("../secret", "in/link");
     other = fork();
     if (other == 0) {
@@ -203,6 +224,7 @@ static void a_job_can_work(void **state)
         skip();
     assert_true(succeeds(read_inside));
     assert_true(succeeds(write_to_output));
+    assert_true(succeeds(write_to_cache));
     assert_true(succeeds(start_threads));
     assert_true(succeeds(decode_a_picture));
 }
@@ -215,6 +237,7 @@ static void nothing_else_can_be_done(void **state)
     assert_false(succeeds(read_outside));
     assert_false(succeeds(write_outside));
     assert_false(succeeds(change_outside));
+    assert_false(succeeds(reach_programs));
     assert_false(succeeds(open_sockets));
     assert_false(succeeds(start_programs));
     assert_false(succeeds(reach_processes));
@@ -226,8 +249,8 @@ static void nothing_else_can_be_done(void **state)
 static void all_of_it_works_outside(void **state)
 {
     (void)state;
-    assert_true(read_outside() && write_outside() && change_outside() && open_sockets() &&
-                start_programs());
+    assert_true(read_outside() && write_outside() && change_outside() && reach_programs() &&
+                write_to_cache() && open_sockets() && start_programs());
     unlink("/tmp/kiln-sandbox");
 }
 
